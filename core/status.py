@@ -1,0 +1,12 @@
+"""What a scene has to report: one small set of bit flags, 0 where there is nothing to say."""
+
+from typing import Final
+
+NO_VALUE: Final = 64
+"""A parameter is not a number or outside its range, or the scene cannot be resolved: the values are NaN."""
+
+FLAGS: Final = {"no_value": NO_VALUE}
+"""Name of every flag in use, with its bit."""
+
+FAILED: Final = NO_VALUE
+"""The bits that mean that a scene has failed (the others only inform)."""
