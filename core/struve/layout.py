@@ -1,0 +1,53 @@
+"""What a table holds: one record of constants and coefficients that depend on the gradient exponent k alone.
+
+With z = 2 pi a/lambda and alpha_j = (k-1)/2 + j, the universal pair is
+
+    S_j(k, z) = int_0^1 (1 - t^2)^alpha_j sin(z t) dt,    j = 0, 1
+
+Below z = 40 it is kept as polynomials in bins of width 1/2. From there on it is the sum of two parts that vary slowly,
+each a polynomial in (40/z)^2: the contributions of the ends t = 0 and t = 1 of the path of steepest descent.
+"""
+
+from typing import Final
+
+import numpy as np
+
+SWITCH: Final = 40.0
+"""z from which the expansion at large z serves."""
+BIN_WIDTH: Final = 0.5
+BINS: Final = 80
+BIN_TERMS: Final = 11
+"""Coefficients a bin; 10 would give 7e-16, 11 give 3e-16."""
+TAIL_TERMS: Final = 8
+MANTISSA_BITS: Final = 6
+"""The power z^(-(1+k)/2) has one polynomial for each of 2^6 slices of the mantissa."""
+POWER_TERMS: Final = 7
+EXPONENT_SPAN: Final = 512
+"""The power is tabulated for z from 2^-512 up to 2^512."""
+MOMENT_START: Final = 2.0
+"""z below which the moments of S0 come from their power series."""
+MOMENT_SERIES_TERMS: Final = 14
+MOMENT_BINS: Final = 76
+MOMENT_TERMS: Final = 14
+MOMENT_TAIL_TERMS: Final = 24
+
+TABLE: Final = np.dtype(
+    [
+        ("k", "f8"),
+        ("amplitude", "f8"),  # C = 2^((k-1)/2) G((1+k)/2), the amplitude of z^((1+k)/2) S0
+        ("phase", "f8"),  # phi = (1+k) pi/4
+        ("cos_phase", "f8"),  # C cos phi
+        ("sin_phase", "f8"),  # C sin phi
+        ("bins", "f8", (BINS, BIN_TERMS, 4)),  # S0/z, S1/z, S0', S1' in t = 4 z - (2 bin + 1)
+        ("tail", "f8", (TAIL_TERMS, 8)),  # Re P0, z Im P0, Re P1, z Im P1, z G0, z G1, z^2 G0', z^2 G1'
+        ("power_mantissa", "f8", (2**MANTISSA_BITS, POWER_TERMS)),
+        ("power_exponent", "f8", (2 * EXPONENT_SPAN,)),
+        ("moment_series", "f8", (MOMENT_SERIES_TERMS, 2)),  # E2/z^(5+k), W/z^(5+k) in z^2
+        ("moment_bins", "f8", (MOMENT_BINS, MOMENT_TERMS, 2)),  # the same in t
+        ("moment_tail", "f8", (MOMENT_TAIL_TERMS, 5)),  # see moments.py
+        ("moment_constant", "f8"),
+        ("moment_logarithm", "f8"),
+    ],
+    align=True,
+)
+"""The record; `build_table` in table.py fills it, pair.py and moments.py read it."""

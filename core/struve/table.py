@@ -1,0 +1,73 @@
+"""From a gradient exponent to its table, and the universal pair for arrays.
+
+Accuracy: on 7,676 reference points of twelve k (0, 1e-8, ..., 1 - 1e-8, 1; a/lambda from 1e-100 to 1e6) the error of
+each of the four functions is at most 1.0e-15 of the larger of the function and its local amplitude.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.struve import bins, large, moments
+from gradhesion.core.struve.layout import TABLE
+from gradhesion.core.struve.pair import pair
+from gradhesion.core.struve.power import build_power
+
+
+@kernel()
+def _fill(table: Any, k: float, economisation: Any, nodes: Any, fit: Any, moment_economisation: Any) -> None:
+    table.k = k
+    amplitude = 2.0 ** (0.5 * (k - 1.0)) * math.gamma(0.5 * (k + 1.0))
+    table.amplitude = amplitude
+    table.phase = 0.25 * math.pi * (1.0 + k)
+    # cos(phi) and sin(phi) through cos and sin of k pi/4: no rounding of 1 + k
+    cosine, sine = math.cos(0.25 * math.pi * k), math.sin(0.25 * math.pi * k)
+    table.cos_phase = math.sqrt(0.5) * amplitude * (cosine - sine)
+    table.sin_phase = math.sqrt(0.5) * amplitude * (cosine + sine)
+    bins.build_bins(k, table.bins, economisation)
+    large.build_tail(k, table.tail, nodes, fit)
+    build_power(k, table.power_mantissa, table.power_exponent)
+    moments.build_moments(table, moment_economisation)
+
+
+def build_table(k: float) -> Any:
+    """Return the table of the gradient exponent 0 <= k <= 1, one record of layout.TABLE."""
+    table = np.zeros(1, dtype=TABLE)[0]
+    _fill(table, float(k), bins.ECONOMISATION, large.NODES, large.FIT, moments.ECONOMISATION)
+    return table
+
+
+@kernel()
+def _pairs(table: Any, x: Any, out: Any) -> None:
+    for i in range(x.size):
+        out[0, i], out[1, i], out[2, i], out[3, i] = pair(table, x[i])
+
+
+def struve_pair(k: float, x: ArrayLike) -> NDArray[np.float64]:
+    """Return S0, S1, dS0/dz and dS1/dz at z = 2 pi x.
+
+    Parameters
+    ----------
+    k
+        Gradient exponent, 0 to 1.
+    x
+        Contact radius over wavelength, 0 <= x < 2**49, any shape.
+
+    Returns
+    -------
+    Array of shape (4, *x.shape).
+
+    Examples
+    --------
+    At k = 1 the first function is (1 - cos z)/z:
+
+    >>> struve_pair(1.0, 0.25).round(6).tolist()
+    [0.63662, 0.342075, 0.231335, 0.157255]
+    """
+    points = np.ascontiguousarray(x, dtype=float)
+    out = np.empty((4, points.size))
+    _pairs(build_table(k), points.ravel(), out)
+    return out.reshape(4, *points.shape)
