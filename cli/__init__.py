@@ -1,0 +1,1 @@
+"""From a study in TOML to its dataset in NetCDF: the command line, and its parts for notebooks."""

@@ -1,0 +1,88 @@
+"""How the scenes of a study are cut into blocks, and the blocks solved one ahead of whoever takes them."""
+
+import math
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from itertools import product
+from typing import Any, Final
+
+from numpy.typing import NDArray
+
+from gradhesion.cli.study import Study
+from gradhesion.core import solve
+
+CHUNK: Final = 131_072
+"""Cells of a chunk in the file: one MiB of float64."""
+
+CHUNKS_OF_BLOCK: Final = 2
+"""Chunks of a block: a second or so of the slowest work, so that progress shows and an interrupt is heard."""
+
+Block = tuple[slice, ...]
+
+
+def tile(shape: tuple[int, ...], cells: int) -> tuple[int, ...]:
+    """
+    Cut a shape into even tiles of at most `cells` cells, the trailing axes whole as long as they fit.
+
+    Leading axes are cut first, since all a_max (the last axis) of one curve share its trace.
+
+    >>> tile((19, 4, 60, 5, 6), 131_072)
+    (10, 4, 60, 5, 6)
+    """
+    size = []
+    for length in reversed(shape):
+        parts = -(-length // max(1, min(length, cells)))
+        size.append(-(-length // parts))
+        cells = cells // length if parts == 1 else 1
+    return tuple(reversed(size))
+
+
+def chunk_shape(shape: tuple[int, ...]) -> tuple[int, ...]:
+    """Choose the chunks of a variable in the file."""
+    return tile(shape, CHUNK)
+
+
+def blocks(shape: tuple[int, ...]) -> Iterator[Block]:
+    """
+    Cut a shape into blocks of whole chunks, so that no chunk is written twice.
+
+    >>> [block[0] for block in blocks((5, 131_072))]
+    [slice(0, 2, None), slice(2, 4, None), slice(4, 5, None)]
+    """
+    chunk = chunk_shape(shape)
+    counts = tuple(-(-length // part) for length, part in zip(shape, chunk, strict=True))
+    steps = [n * part for n, part in zip(tile(counts, CHUNKS_OF_BLOCK), chunk, strict=True)]
+    cuts = [
+        [slice(start, min(start + step, length)) for start in range(0, length, step)]
+        for length, step in zip(shape, steps, strict=True)
+    ]
+    yield from product(*cuts)
+
+
+def size_of(block: Block) -> int:
+    """Count the cells of a block."""
+    return math.prod(part.stop - part.start for part in block)
+
+
+def solved(study: Study, threads: int | None = None) -> Iterator[tuple[Block, dict[str, NDArray[Any]]]]:
+    """
+    Solve a study block by block: the values of each block and its `status`.
+
+    The next block is solved in a thread of its own while the caller deals with this one; two blocks are in memory.
+    """
+
+    def work(block: Block) -> dict[str, NDArray[Any]]:
+        return solve(study.parameters_of(block), study.outputs, solver=study.method.solver, threads=threads)
+
+    worker = ThreadPoolExecutor(1, thread_name_prefix="solve")
+    try:
+        ahead = None
+        for block in blocks(study.shape):
+            future = worker.submit(work, block)
+            if ahead is not None:
+                yield ahead[0], ahead[1].result()
+            ahead = block, future
+        if ahead is not None:
+            yield ahead[0], ahead[1].result()
+    finally:
+        worker.shutdown(wait=False, cancel_futures=True)

@@ -1,0 +1,44 @@
+"""The ways to fail: one exception and one exit code each; every message tells what to do next."""
+
+from collections.abc import Sequence
+from typing import IO, Any
+
+import click
+
+
+class GradhesionError(click.ClickException):
+    """A failure that the user can mend; `str()` of it is the message, `exit_code` what the command returns."""
+
+    exit_code = 1
+
+    def show(self, file: IO[Any] | None = None) -> None:
+        """Print the message to `file` (stderr if None)."""
+        click.echo(self.message, file=file, err=file is None)
+
+
+class StudyError(GradhesionError):
+    """The study is wrong: `mistakes` has a sentence for each of its mistakes."""
+
+    exit_code = 2
+
+    def __init__(self, mistakes: Sequence[str]) -> None:
+        super().__init__("\n".join(mistakes))
+        self.mistakes = tuple(mistakes)
+
+
+class DatasetError(GradhesionError):
+    """A dataset cannot be read, or has not what was asked for."""
+
+    exit_code = 2
+
+
+class ScenesFailedError(GradhesionError):
+    """The dataset is written, but some of its scenes have no value."""
+
+    exit_code = 3
+
+
+class OutputError(GradhesionError):
+    """The output cannot be written."""
+
+    exit_code = 4

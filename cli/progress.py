@@ -1,0 +1,79 @@
+"""What a long run tells on stderr: a bar on a terminal, a plain line every now and then elsewhere."""
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Final
+
+import click
+
+PERIOD: Final = 10.0
+"""Seconds between two plain lines."""
+
+
+@contextmanager
+def progress(total: int, *, quiet: bool) -> Iterator[Callable[[int], None]]:
+    """Show how many of `total` scenes are done: call what is given with the number of newly done ones."""
+    if quiet:
+        yield lambda _: None
+    elif sys.stderr.isatty():
+        with _bar(total) as advance:
+            yield advance
+    else:
+        yield _lines(total, time.monotonic)
+
+
+@contextmanager
+def _bar(total: int) -> Iterator[Callable[[int], None]]:
+    """Draw a bar with rate and time left."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+
+    columns = (
+        BarColumn(),
+        TaskProgressColumn(),
+        TextColumn("{task.completed:,.0f} of {task.total:,.0f} scenes"),
+        TextColumn("{task.fields[rate]}"),
+        TimeRemainingColumn(),
+    )
+    start = time.monotonic()
+    done = 0
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("scenes", total=total, rate="")
+
+        def advance(scenes: int) -> None:
+            nonlocal done
+            done += scenes
+            bar.update(task, advance=scenes, rate=f"{rate(done, time.monotonic() - start)} per s")
+
+        yield advance
+
+
+def _lines(total: int, clock: Callable[[], float]) -> Callable[[int], None]:
+    """Print a plain line when the last one is `PERIOD` seconds old."""
+    start = last = clock()
+    done = 0
+
+    def advance(scenes: int) -> None:
+        nonlocal done, last
+        done += scenes
+        now = clock()
+        if now - last >= PERIOD and done < total:
+            last = now
+            left = (now - start) * (total - done) / done
+            speed = rate(done, now - start)
+            click.echo(f"{done:,} of {total:,} scenes ({done / total:.0%}), {speed} per s, {left:.0f} s left", err=True)
+
+    return advance
+
+
+def rate(scenes: int, seconds: float) -> str:
+    """
+    Write a number of scenes per second with two significant digits or so.
+
+    >>> rate(123_456, 1.0), rate(30, 10.0)
+    ('120,000', '3')
+    """
+    speed = scenes / max(seconds, 1e-9)
+    return f"{float(f'{speed:.2g}'):,.0f}" if speed >= 1 else f"{speed:.2g}"

@@ -1,0 +1,162 @@
+"""What the keys of a study have to do with each other, and the values that a parameter expands to."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli.names import PARAMETERS
+from gradhesion.cli.places import Path
+from gradhesion.cli.schema import COMING, KINDS, LAYOUTS, Mistake, did_you_mean, nearest, shown
+
+Values = float | NDArray[np.float64]
+"""The values of a parameter: a float is fixed, an array is an axis."""
+
+MOST_VALUES: Final = 10_000_000
+"""Values of one axis: it is held in memory, and so are its kin."""
+
+MOST_SCENES: Final = 2**31
+"""Scenes of one study: beyond it a dataset can no longer be handled as one file."""
+
+
+def expanded(entry: Any) -> Values:
+    """
+    Expand a valid parameter of a study; a range begins and ends at exactly its `start` and `stop`.
+
+    >>> expanded(0.3)
+    0.3
+    >>> expanded({"start": 0.01, "stop": 1.0, "num": 3, "spacing": "log"})
+    array([0.01, 0.1 , 1.  ])
+    """
+    if isinstance(entry, Mapping):
+        start, stop = float(entry["start"]), float(entry["stop"])
+        space = np.geomspace if entry.get("spacing") == "log" else np.linspace
+        values = np.clip(space(start, stop, entry["num"]), min(start, stop), max(start, stop))
+        values[0], values[-1] = start, stop
+        return values + 0.0  # no negative zeros
+    if isinstance(entry, list):
+        return np.array(entry, dtype=np.float64) + 0.0
+    return float(entry) + 0.0
+
+
+def mistakes_between_keys(
+    data: Mapping[str, Any], wrong: Sequence[Path], outputs: Sequence[str], solvers: Sequence[str]
+) -> Iterator[Mistake]:
+    """List what is wrong between the keys of a study, leaving out those whose form is `wrong` already."""
+    named = {path[:2] for path in wrong}
+    yield from _mistakes_of_choice(data, named, outputs, solvers)
+    if ("parameters",) in named:
+        return
+    entries = {
+        name: data["parameters"][name]
+        for name in PARAMETERS
+        if name in data["parameters"] and ("parameters", name) not in named
+    }
+    sound = {}
+    for name, entry in entries.items():
+        mistake = _mistake_of_range(name, entry)
+        if mistake:
+            yield mistake
+        else:
+            sound[name] = expanded(entry)
+    meant = nearest(str(data.get("layout", "grid")), LAYOUTS)
+    yield from _mistakes_of_points(sound) if meant == "points" else _mistakes_of_grid(sound)
+
+
+def _mistakes_of_choice(
+    data: Mapping[str, Any], named: set[Path], outputs: Sequence[str], solvers: Sequence[str]
+) -> Iterator[Mistake]:
+    """Check the keys whose value is one of a few words, and the title."""
+    method = data.get("method", {})
+    choices: list[tuple[Path, Any, Sequence[str]]] = [
+        (("kind",), data.get("kind", "map"), KINDS),
+        (("layout",), data.get("layout", "grid"), LAYOUTS),
+    ]
+    if ("method",) not in named and ("method", "solver") not in named:
+        choices.append((("method", "solver"), method.get("solver", "exact"), solvers))
+    for path, value, known in choices:
+        if path not in named and value not in known:
+            if value in COMING.get(path, ()):
+                yield Mistake(path, value, f'not available in this version; use "{known[0]}"')
+            else:
+                yield Mistake(path, value, f"not a {path[-1]}; {did_you_mean(value, known)}")
+    if ("outputs",) not in {path[:1] for path in named}:
+        asked = data["outputs"]
+        for i, name in enumerate(asked):
+            if name not in outputs:
+                yield Mistake(("outputs", i), name, f"not an output; {did_you_mean(name, outputs)}")
+            elif name in asked[:i]:
+                yield Mistake(("outputs", i), name, "this output is asked for twice; remove one of the two")
+    title = data.get("title", "")
+    if ("title",) not in named and not title.isprintable():
+        yield Mistake(("title",), title, "a title is one line of printable characters; remove the others")
+
+
+def _mistake_of_range(name: str, entry: Any) -> Mistake | None:
+    """Check that a range makes sense as a whole, and that an axis can be held in memory."""
+    path = ("parameters", name)
+    if isinstance(entry, list) and len(entry) > MOST_VALUES:
+        return Mistake(path, entry, f"more than {MOST_VALUES:,} values in one list; split the study")
+    if not isinstance(entry, Mapping):
+        return None
+    start, stop, num = entry["start"], entry["stop"], entry["num"]
+    if num > MOST_VALUES:
+        return Mistake((*path, "num"), num, f"more than {MOST_VALUES:,} values in one axis; split the study")
+    if num == 1 and start != stop:
+        sentence = "one value cannot be at both start and stop; use num = 2 or more, or a list of one value"
+        return Mistake((*path, "num"), num, sentence)
+    if num > 1 and start == stop:
+        sentence = f"start and stop are the same, so the value {start} repeats; write [{start}] or another stop"
+        return Mistake(path, entry, sentence)
+    if entry.get("spacing") == "log" and min(start, stop) <= 0:
+        end = "start" if start <= 0 else "stop"
+        return Mistake((*path, end), entry[end], 'log spacing needs values > 0; raise it, or use spacing = "linear"')
+    return None
+
+
+def _mistakes_of_grid(axes: Mapping[str, Values]) -> Iterator[Mistake]:
+    """Check the axes of a grid: no value twice, no impossible material, and a size that can be done."""
+    for name, values in axes.items():
+        if isinstance(values, np.ndarray):
+            unique, counts = np.unique(values, return_counts=True)
+            if np.any(counts > 1):
+                value = float(unique[np.argmax(counts > 1)])
+                places = np.flatnonzero(values == value)[:2].tolist()
+                sentence = f"the axis repeats the value {shown(value)} (items {places[0]} and {places[1]}); remove one"
+                yield Mistake(("parameters", name), values.tolist()[:9], sentence)
+    if {"k", "nu"} <= axes.keys() and np.any(axes["k"] == 1.0):
+        others = np.atleast_1d(axes["nu"])
+        others = others[others != 0.5]
+        if others.size:
+            sentence = f"with k = 1 and nu = {others[0]} the surface has no stiffness; use nu = 0.5, or k below 1"
+            yield Mistake(("parameters", "k"), 1.0, sentence)
+    scenes = math.prod(np.size(values) for values in axes.values())
+    if scenes > MOST_SCENES:
+        sentence = f"the axes make {scenes:,} scenes, more than {MOST_SCENES:,}; use fewer values, or split the study"
+        yield Mistake(("parameters",), None, sentence)
+
+
+def _mistakes_of_points(lists: Mapping[str, Values]) -> Iterator[Mistake]:
+    """Check the lists of points: one length, and no impossible material in any scene."""
+    lengths = {name: values.size for name, values in lists.items() if isinstance(values, np.ndarray)}
+    first = next(iter(lengths), "")
+    for name, length in lengths.items():
+        if length != lengths[first]:
+            sentence = (
+                f"it has {length} values, but {first} has {lengths[first]}; "
+                'with layout = "points" all lists have one length (a single number serves all scenes)'
+            )
+            yield Mistake(("parameters", name), np.asarray(lists[name]).tolist()[:9], sentence)
+    if {"k", "nu"} <= lists.keys() and len({lengths[name] for name in ("k", "nu") if name in lengths}) <= 1:
+        k, nu = np.broadcast_arrays(np.atleast_1d(lists["k"]), np.atleast_1d(lists["nu"]))
+        scenes = np.flatnonzero((k == 1.0) & (nu != 0.5))
+        if scenes.size:
+            scene = int(scenes[0])
+            more = f" (and {scenes.size - 1} more)" if scenes.size > 1 else ""
+            sentence = (
+                f"with k = 1 and nu = {nu[scene]} in scene {scene}{more}, counted from 0, the surface has no "
+                "stiffness; use nu = 0.5 there, or k below 1"
+            )
+            yield Mistake(("parameters", "k"), 1.0, sentence)

@@ -1,0 +1,249 @@
+"""The form of a study: which keys there are, and which values each of them takes.
+
+pydantic checks the form of the whole study at once and gives its JSON Schema; what two keys have to do with each
+other is in `gradhesion.cli.rules`. Here its findings become sentences that say what to write instead.
+"""
+
+import difflib
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Annotated, Any, Final, Literal, Union
+
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, create_model
+from pydantic_core import ErrorDetails
+
+from gradhesion.cli.names import OUTPUTS, PARAMETERS
+from gradhesion.cli.places import Path, dotted
+
+LAYOUTS: Final = ("grid", "points")
+KINDS: Final = ("map",)
+COMING: Final[dict[Path, tuple[str, ...]]] = {("kind",): ("curve",), ("method", "solver"): ("asymptotic", "envelope")}
+"""Values that belong to the format and are not available yet."""
+
+_BOUNDS: Final[dict[str, tuple[dict[str, float], str]]] = {
+    "k": ({"ge": 0.0, "le": 1.0}, "0 <= k <= 1"),
+    "nu": ({"gt": -1.0, "le": 0.5}, "-1 < nu <= 0.5"),
+    "modulus": ({"gt": 0.0}, "modulus > 0, and finite"),
+    "c0_over_R": ({"gt": 0.0}, "c0_over_R > 0, and finite"),
+    "lambda_over_R": ({"gt": 0.0}, "lambda_over_R > 0, and finite"),
+    "A": ({"ge": 0.0}, "A >= 0, and finite"),
+    "a_max_over_R": ({"gt": 0.0}, "a_max_over_R > 0 (inf: an unbounded punch)"),
+}
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """What is wrong at a key, and what to do about it."""
+
+    path: Path
+    value: Any
+    sentence: str
+
+
+class _Table(BaseModel):
+    """A table of a study: no unknown keys, no silent conversions."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+
+class _Method(_Table):
+    """How the scenes are solved."""
+
+    solver: str = "exact"
+
+
+def _form(value: object) -> str:
+    """Tell which of the three forms of a parameter is meant."""
+    return "range" if isinstance(value, Mapping) else "list" if isinstance(value, list) else "number"
+
+
+def _parameter(name: str) -> Any:
+    """Make the type of a parameter: a number, a list of them, or a range table."""
+    bounds: dict[str, Any] = dict(_BOUNDS[name][0])
+    finite: Any = Annotated[float, Field(strict=True, allow_inf_nan=False, **bounds)]
+    number: Any = Annotated[float, Field(strict=True, **bounds)] if name == "a_max_over_R" else finite
+    spacing: Any = Literal["linear", "log"]
+    range_table: Any = create_model(
+        f"Range_{name}",
+        __base__=_Table,
+        start=(finite, ...),
+        stop=(finite, ...),
+        num=(Annotated[int, Field(ge=1)], ...),
+        spacing=(spacing, "linear"),
+    )
+    forms: Any = Union[  # noqa: UP007 (made at run time)
+        Annotated[number, Tag("number")],
+        Annotated[list[number], Field(min_length=1), Tag("list")],
+        Annotated[range_table, Tag("range")],
+    ]
+    return Annotated[forms, Discriminator(_form), Field(description=PARAMETERS[name])]
+
+
+@cache
+def study_model() -> type[BaseModel]:
+    """Make the model of a whole study."""
+    parameters: dict[str, Any] = {name: (_parameter(name), ...) for name in PARAMETERS}
+    return create_model(
+        "Study",
+        __base__=_Table,
+        title=(str, ""),
+        kind=(str, "map"),
+        layout=(str, "grid"),
+        outputs=(Annotated[list[str], Field(min_length=1)], ...),
+        parameters=(create_model("Parameters", __base__=_Table, **parameters), ...),
+        method=(_Method, _Method()),
+    )
+
+
+def mistakes_of_form(data: Mapping[str, Any]) -> list[Mistake]:
+    """List what is wrong with the form of a study, each key for itself."""
+    try:
+        study_model().model_validate(data)
+    except ValidationError as error:
+        details = error.errors(include_url=False, include_context=True)
+    else:
+        return []
+    mistakes = []
+    excused = set()
+    for detail in details:
+        path = _path(detail)
+        if detail["type"] == "extra_forbidden":
+            meant, sentence = _unknown_key(path)
+            excused.add(meant)
+            mistakes.append(Mistake(path, detail["input"], sentence))
+    for detail in details:
+        path = _path(detail)
+        if detail["type"] != "extra_forbidden" and path not in excused:
+            value = None if detail["type"] == "missing" else detail["input"]
+            mistakes.append(Mistake(path, value, _sentence(detail, path)))
+    return mistakes
+
+
+def did_you_mean(word: str, known: Sequence[str]) -> str:
+    """
+    Suggest the nearest of the known words, or list them all.
+
+    >>> did_you_mean("pull_of_force", ["pull_off_force", "delta_max"])
+    'did you mean "pull_off_force"?'
+    >>> did_you_mean("speed", ["pull_off_force", "delta_max"])
+    'choose from "pull_off_force", "delta_max"'
+    """
+    near = nearest(word, known)
+    return f'did you mean "{near}"?' if near else "choose from " + ", ".join(f'"{name}"' for name in known)
+
+
+def nearest(word: str, known: Sequence[str]) -> str | None:
+    """Find the known word that is most like this one, if any is."""
+    lower = {name.lower(): name for name in known}
+    near = difflib.get_close_matches(word.lower(), lower, n=1, cutoff=0.6)
+    return lower[near[0]] if near else None
+
+
+def shown(value: object) -> str:
+    """
+    Write a value as TOML would, cut short where it is long.
+
+    >>> shown(True), shown("a"), shown([1.0, float("inf")])
+    ('true', '"a"', '[1.0, inf]')
+    """
+    if isinstance(value, bool):
+        text = str(value).lower()
+    elif isinstance(value, str):
+        text = json.dumps(value[:80], ensure_ascii=False)
+    elif isinstance(value, list):
+        text = "[" + ", ".join(shown(item) for item in value[:8]) + (", ...]" if len(value) > 8 else "]")
+    elif isinstance(value, Mapping):
+        text = "{ " + ", ".join(f"{key} = {shown(item)}" for key, item in list(value.items())[:8]) + " }"
+    elif isinstance(value, int):
+        text = str(value) if abs(value) < 10**40 else "an integer of more than 40 digits"
+    else:
+        text = str(value)
+    return text if len(text) <= 80 else text[:76] + " ..."
+
+
+def _path(detail: ErrorDetails) -> Path:
+    """Take the tag of the form (number, list, range) out of pydantic's path of a parameter."""
+    steps = detail["loc"]
+    return (*steps[:2], *steps[3:]) if steps[0] == "parameters" else steps
+
+
+def _unknown_key(path: Path) -> tuple[Path, str]:
+    """Tell which key was meant, and say so."""
+    tables: dict[Path, tuple[str, ...]] = {
+        (): ("title", "kind", "layout", "outputs", "parameters", "method"),
+        ("parameters",): tuple(PARAMETERS),
+        ("method",): ("solver",),
+    }
+    table, key = path[:-1], str(path[-1])
+    known = tables.get(table, ("start", "stop", "num", "spacing"))
+    for other, keys in tables.items():
+        if other != table and key in keys:
+            home = f"under [{dotted(other)}]" if other else "at the top, before the first [table]"
+            return (*other, key), f"this key belongs {home}; move it there"
+    near = nearest(key, known)
+    return (*table, near or ""), f"unknown key; {did_you_mean(key, known)}"
+
+
+def _sentence(detail: ErrorDetails, path: Path) -> str:
+    """Say what pydantic found in the words of a study."""
+    kind = detail["type"]
+    value = detail["input"]
+    last = path[-1]
+    if path[0] == "parameters" and len(path) > 1 and last not in ("num", "spacing"):
+        return _parameter_sentence(kind, value, path)
+    if kind == "missing":
+        return f"this key is required; {_example(path)}"
+    if kind == "too_short":
+        return f"the list is empty; {_example(path)}"
+    if last == "num":
+        return "num is the number of values, an integer of 1 or more; write for example num = 50"
+    if last == "spacing":
+        return 'spacing is "linear" or "log"; ' + did_you_mean(str(value), ("linear", "log"))
+    wanted = {"string_type": "a string in quotes", "list_type": "a list in brackets"}.get(kind, "a table")
+    return f"this must be {wanted}; {_example(path)}"
+
+
+def _parameter_sentence(kind: str, value: object, path: Path) -> str:
+    """Say what is wrong with a parameter, an item of its list or an end of its range."""
+    name, last = str(path[1]), path[-1]
+    if kind == "missing":
+        if len(path) > 2:
+            return f"a range needs this key; {_example(path)}"
+        return f"this parameter is required; {_example(path)}"
+    if kind == "too_short":
+        return "an axis needs at least one value; put values into the list, or write a single number to fix it"
+    allowed = _BOUNDS[name][1]
+    if kind == "float_type" and not (isinstance(value, int) and not isinstance(value, bool)):
+        forms = "" if len(path) > 2 else ", a list of numbers or a range table"
+        return f"this must be a number{forms}, with {allowed}; {_example(path[:2])}"
+    if last in ("start", "stop") and isinstance(value, float) and math.isinf(value):
+        return "a range must end at finite values; write a list where inf is one of the values"
+    return f"out of range; choose a value with {allowed}"
+
+
+def _example(path: Path) -> str:
+    """Show a line that would do."""
+    examples: dict[str, str] = {
+        "title": 'title = "Pull-off force against wavelength"',
+        "kind": 'kind = "map"',
+        "layout": 'layout = "grid"',
+        "outputs": f"outputs = {json.dumps(list(OUTPUTS)[::2][:2])}",
+        "parameters": "a table [parameters] with " + ", ".join(PARAMETERS),
+        "method": 'a table [method] with solver = "exact"',
+        "solver": 'solver = "exact"',
+        "k": "k = 0.5 or k = [0.0, 0.5]",
+        "nu": "nu = 0.3",
+        "modulus": "modulus = 500.0",
+        "c0_over_R": "c0_over_R = 0.01",
+        "lambda_over_R": 'lambda_over_R = { start = 0.02, stop = 1.0, num = 200, spacing = "log" }',
+        "A": "A = 0.1",
+        "a_max_over_R": "a_max_over_R = inf",
+        "start": "start = 0.1",
+        "stop": "stop = 1.0",
+        "num": "num = 50",
+    }
+    named = [step for step in path if isinstance(step, str)]
+    return f"write for example {examples[named[-1]]}"

@@ -1,0 +1,115 @@
+"""A dataset told in words: its axes, its extremes and where they are, its failures, its origin."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+import xarray
+from numpy.typing import NDArray
+
+from gradhesion.cli.blocks import blocks
+from gradhesion.cli.names import PARAMETERS, SCENE
+from gradhesion.cli.scales import spacing
+from gradhesion.core import FAILED, FLAGS
+
+FEW: Final = 8
+"""Values of an axis that are listed one by one."""
+
+
+def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
+    """Tell what a dataset holds, line by line."""
+    yield dataset.attrs["title"]
+    yield f"{file}: {dataset['status'].size:,} scenes, {file.stat().st_size / 1e6:.1f} MB"
+    yield from _parameters(dataset)
+    yield from _outputs(dataset)
+    yield from _status(dataset)
+    yield from _origin(dataset)
+
+
+def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
+    """Tell the values of the parameters: axes first, then fixed ones."""
+    points = SCENE in dataset.dims
+    varying = [name for name in PARAMETERS if dataset[name].ndim]
+    yield ""
+    yield "points: one scene for each item of" if points else "axes"
+    for name in varying:
+        values = dataset[name].values
+        if values.size <= FEW:
+            told = ", ".join(f"{value:g}" for value in values)
+        else:
+            told = f"{values.size:,} values from {np.min(values):g} to {np.max(values):g}"
+            told += "" if points else f", {spacing(values)}"
+        yield f"  {name:<17} {told}"
+    if not varying:
+        yield "  none: a single scene"
+    fixed = [name for name in PARAMETERS if name not in varying]
+    if fixed:
+        yield ""
+        yield "fixed"
+        yield from (f"  {name:<17} {dataset[name].item():g}" for name in fixed)
+
+
+def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
+    """Tell the extremes of each output, and where they are."""
+    for name in dataset.data_vars:
+        if name == "status":
+            continue
+        yield ""
+        yield f"{name}: {dataset[name].attrs['long_name']}"
+        extremes = _extremes(dataset[name])
+        if not extremes:
+            yield "  no value in any scene"
+        for word, (value, place) in zip(("least", "greatest"), extremes, strict=False):
+            where = ", ".join(f"{key} = {number:g}" for key, number in place.items())
+            yield f"  {word:<9} {value:<12.7g}" + (f" at {where}" if where else "")
+
+
+def _extremes(variable: xarray.DataArray) -> list[tuple[float, dict[str, float]]]:
+    """Find the least and the greatest value of a variable with their places, a block at a time."""
+    found: list[tuple[float, dict[str, float]]] = []
+    for block in blocks(variable.shape):
+        part = variable[block].load()
+        values = np.asarray(part.values, dtype=float)
+        if not np.any(np.isfinite(values)):
+            continue
+        for i, (position, better) in enumerate(((np.nanargmin(values), np.less), (np.nanargmax(values), np.greater))):
+            index = np.unravel_index(position, values.shape)
+            value = float(values[index])
+            if len(found) < 2 or better(value, found[i][0]):
+                found[i : i + 1] = [(value, _place(part, index))]
+    return found
+
+
+def _place(part: xarray.DataArray, index: tuple[Any, ...]) -> dict[str, float]:
+    """Tell the varying parameters of a cell."""
+    cell = part[index]
+    return {name: cell[name].item() for name in PARAMETERS if part[name].ndim}
+
+
+def _status(dataset: xarray.Dataset) -> Iterator[str]:
+    """Tell how many scenes have failed, and what the others report."""
+    counts = dict.fromkeys(FLAGS, 0)
+    failed = 0
+    for block in blocks(dataset["status"].shape):
+        status: NDArray[np.int8] = dataset["status"][block].values
+        failed += int(np.count_nonzero(status & FAILED))
+        for name, bit in FLAGS.items():
+            counts[name] += int(np.count_nonzero(status & bit))
+    scenes = dataset["status"].size
+    yield ""
+    yield f"status: {scenes - failed:,} of {scenes:,} scenes ({(scenes - failed) / scenes:.1%}) have values"
+    for name, count in counts.items():
+        if count:
+            yield f"  {name:<17} {count:,} scenes ({count / scenes:.2g} of all)"
+
+
+def _origin(dataset: xarray.Dataset) -> Iterator[str]:
+    """Tell where a dataset comes from."""
+    attributes = dataset.attrs
+    versions = ", ".join(f"{name} {attributes[f'{name}_version']}" for name in ("python", "numpy", "numba", "scipy"))
+    yield ""
+    yield "origin"
+    yield f"  {attributes['source']} ({versions})"
+    yield from (f"  {line}" for line in str(attributes["history"]).splitlines())
+    yield f"  study with sha256 {attributes['study_sha256']}"

@@ -1,0 +1,143 @@
+"""Files that appear whole or not at all, and the dataset of a study written block by block."""
+
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import closing, contextmanager, suppress
+from pathlib import Path
+from typing import Any, Final
+
+import netCDF4
+import numpy as np
+
+from gradhesion.cli import dataset
+from gradhesion.cli.blocks import chunk_shape, size_of, solved
+from gradhesion.cli.errors import OutputError
+from gradhesion.cli.study import Study
+from gradhesion.core import FAILED
+
+LEAST_SHARE: Final = 0.5
+"""Values compress to no less than about half in practice: what certainly does not fit is refused before it is begun."""
+
+
+@contextmanager
+def replacement(path: Path, *, overwrite: bool) -> Iterator[Path]:
+    """
+    Give a temporary file beside `path` that takes its place, complete and on disk, when the body ends.
+
+    If the body fails, or is interrupted, the temporary file goes and what stood at `path` is as it was.
+
+    Raises
+    ------
+    OutputError
+        At once, if `path` exists and may not be replaced or its folder cannot be written; later, if writing fails.
+    """
+    target = Path(os.path.realpath(path))
+    if target.exists():
+        if not target.is_file():
+            raise OutputError(f"{path}: is not a file, so it cannot be replaced; name another output with -o")
+        if not overwrite:
+            raise OutputError(f"{path}: exists already; add --overwrite to replace it, or name another output with -o")
+    temporary = None
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(prefix=f".{target.name[:100]}.", suffix=".part", dir=target.parent)
+        temporary = Path(name)
+        mask = os.umask(0)
+        os.umask(mask)
+        os.fchmod(handle, 0o666 & ~mask)
+        os.close(handle)
+        yield temporary
+        _to_disk(temporary)
+        temporary.replace(target)
+        with suppress(OSError):  # some file systems cannot sync a folder
+            _to_disk(target.parent)
+    except (OSError, RuntimeError) as error:
+        raise OutputError(_reason(path, target, error)) from error
+    finally:
+        if temporary is not None:
+            with suppress(OSError):
+                temporary.unlink(missing_ok=True)
+
+
+def write(
+    study: Study,
+    path: Path,
+    *,
+    history: str,
+    overwrite: bool = False,
+    threads: int | None = None,
+    advance: Callable[[int], None] = lambda _: None,
+) -> int:
+    """
+    Compute a study into a file; `advance` is told the scenes of each block when they are written.
+
+    Returns
+    -------
+    The number of scenes that have failed.
+    """
+    failed = 0
+    with replacement(path, overwrite=overwrite) as temporary:
+        _check_space(study, path, temporary)
+        with closing(netCDF4.Dataset(temporary, "w", format="NETCDF4")) as file:
+            _define(file, study, history)
+            for block, values in solved(study, threads):
+                for name, part in values.items():
+                    file[name][block or ...] = part
+                failed += int(np.count_nonzero(values["status"] & FAILED))
+                advance(size_of(block))
+    return failed
+
+
+def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
+    """Write all of a dataset but the values of its outputs."""
+    file.set_fill_off()  # every cell is written
+    file.setncatts(dataset.attributes(study, history))
+    for name, size in study.sizes.items():
+        file.createDimension(name, size)
+    for name, described in dataset.variables(study).items():
+        settings: dict[str, Any] = {}
+        if described.dimensions:
+            settings |= {"compression": "zlib", "complevel": 1, "shuffle": True}
+            lengths = tuple(study.sizes[dimension] for dimension in described.dimensions)
+            settings["chunksizes"] = chunk_shape(lengths)
+        if described.values is None and described.dtype == "f8":
+            settings["fill_value"] = np.nan
+        variable = file.createVariable(name, described.dtype, described.dimensions, **settings)
+        variable.setncatts(described.attributes)
+        if described.values is not None:
+            variable[...] = described.values
+
+
+def _check_space(study: Study, path: Path, temporary: Path) -> None:
+    """Refuse a dataset that cannot fit on its disk."""
+    least = study.scenes * LEAST_SHARE * sum(8 for output in study.outputs if not output.endswith("_jumps"))
+    free = shutil.disk_usage(temporary.parent).free
+    if least > free:
+        raise OutputError(
+            f"{path}: {study.scenes:,} scenes need about {least / 1e9:,.1f} GB or more, and {free / 1e9:,.1f} GB are "
+            "free there; use fewer scenes, or name an output on a larger disk with -o"
+        )
+
+
+def _to_disk(path: Path) -> None:
+    """Wait until a file or folder is on disk."""
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
+
+
+def _reason(path: Path, target: Path, error: Exception) -> str:
+    """Say why an output could not be written."""
+    reason = getattr(error, "strerror", None) or str(error)
+    with suppress(OSError):
+        free = shutil.disk_usage(target.parent).free
+        if free < 2**20:
+            reason = f"{reason}; {free / 2**10:,.0f} KiB are free on its disk"
+    return (
+        f"{path}: cannot be written ({reason}); what stood there before is untouched; "
+        "make room or get the right to write, or name another output with -o"
+    )
