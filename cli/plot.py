@@ -1,11 +1,28 @@
-"""`gradhesion plot`: a picture of a dataset."""
+"""`gradhesion plot`: the right picture for the shape of a dataset."""
 
 from pathlib import Path
+from typing import Final
 
 import click
+
+FORMS: Final = ("png", "svg", "pdf")
 
 
 @click.command()
 @click.argument("file", type=click.Path(path_type=Path))
-def plot(file: Path) -> None:
-    """Draw the dataset FILE."""
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="Picture: .png, .svg or .pdf [FILE.png].")
+@click.option("--variable", "variables", multiple=True, metavar="NAME", help="What to draw; repeat it for several.")
+@click.option("--overwrite", is_flag=True, help="Replace an existing picture.")
+def plot(file: Path, output: Path | None, variables: tuple[str, ...], overwrite: bool) -> None:
+    """Draw the dataset FILE: lines over one axis, a map over two, panels of maps over more."""
+    path = output or file.with_suffix(".png")
+    form = path.suffix[1:].lower()
+    if form not in FORMS:
+        raise click.UsageError(f"{path}: the name of a picture ends in .png, .svg or .pdf; name another with -o")
+
+    from gradhesion.cli.picture import draw
+    from gradhesion.cli.reader import opened
+    from gradhesion.cli.writer import replacement, writing
+
+    with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary, writing(path):
+        draw(dataset, variables, temporary, form)

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.blocks import blocks
 from gradhesion.cli.names import PARAMETERS, SCENE
-from gradhesion.cli.scales import spacing
 from gradhesion.core import FAILED, FLAGS
 
 FEW: Final = 8
@@ -39,7 +38,7 @@ def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
             told = ", ".join(f"{value:g}" for value in values)
         else:
             told = f"{values.size:,} values from {np.min(values):g} to {np.max(values):g}"
-            told += "" if points else f", {spacing(values)}"
+            told += "" if points else f", {_spacing(values)}"
         yield f"  {name:<17} {told}"
     if not varying:
         yield "  none: a single scene"
@@ -48,6 +47,26 @@ def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
         yield ""
         yield "fixed"
         yield from (f"  {name:<17} {dataset[name].item():g}" for name in fixed)
+
+
+def _spacing(values: NDArray[np.float64]) -> str:
+    """
+    Tell how the values of an axis are spaced, inf apart.
+
+    >>> _spacing(np.array([0.01, 0.1, 1.0, np.inf]))
+    'log-spaced'
+    >>> _spacing(np.array([0.0, 0.1, 0.2]))
+    'evenly spaced'
+    """
+    finite = np.sort(values[np.isfinite(values)])
+    if finite.size < 3:
+        return "listed"
+    steps = np.diff(finite)
+    if np.ptp(steps) <= 1e-6 * np.max(steps):
+        return "evenly spaced"
+    if finite[0] > 0 and np.ptp(np.diff(np.log(finite))) <= 1e-6 * np.log(finite[-1] / finite[0]):
+        return "log-spaced"
+    return "listed"
 
 
 def _outputs(dataset: xarray.Dataset) -> Iterator[str]:

@@ -4,7 +4,7 @@ import os
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator
-from contextlib import closing, contextmanager, suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, Final
 
@@ -17,8 +17,17 @@ from gradhesion.cli.errors import OutputError
 from gradhesion.cli.study import Study
 from gradhesion.core import FAILED
 
-LEAST_SHARE: Final = 0.5
-"""Values compress to no less than about half in practice: what certainly does not fit is refused before it is begun."""
+LEAST_SHARE: Final = 0.1
+"""Values hardly compress to less than this share: what cannot fit is refused before it is begun."""
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Turn a failure to write into a sentence about `path`."""
+    try:
+        yield
+    except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError where HDF5 cannot write
+        raise OutputError(_reason(path, error)) from error
 
 
 @contextmanager
@@ -31,7 +40,8 @@ def replacement(path: Path, *, overwrite: bool) -> Iterator[Path]:
     Raises
     ------
     OutputError
-        At once, if `path` exists and may not be replaced or its folder cannot be written; later, if writing fails.
+        At once, if `path` exists and may not be replaced or its folder cannot be written; later, if it cannot be
+        finished.
     """
     target = Path(os.path.realpath(path))
     if target.exists():
@@ -41,20 +51,22 @@ def replacement(path: Path, *, overwrite: bool) -> Iterator[Path]:
             raise OutputError(f"{path}: exists already; add --overwrite to replace it, or name another output with -o")
     temporary = None
     try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(prefix=f".{target.name[:100]}.", suffix=".part", dir=target.parent)
-        temporary = Path(name)
-        mask = os.umask(0)
-        os.umask(mask)
-        os.fchmod(handle, 0o666 & ~mask)
-        os.close(handle)
+        with writing(path):
+            target.parent.mkdir(parents=True, exist_ok=True)
+            handle, name = tempfile.mkstemp(
+                prefix=f".{target.name[:100]}.", suffix=f".part{target.suffix}", dir=target.parent
+            )
+            temporary = Path(name)
+            mask = os.umask(0)
+            os.umask(mask)
+            os.fchmod(handle, 0o666 & ~mask)
+            os.close(handle)
         yield temporary
-        _to_disk(temporary)
-        temporary.replace(target)
+        with writing(path):
+            _to_disk(temporary)
+            temporary.replace(target)
         with suppress(OSError):  # some file systems cannot sync a folder
             _to_disk(target.parent)
-    except (OSError, RuntimeError) as error:
-        raise OutputError(_reason(path, target, error)) from error
     finally:
         if temporary is not None:
             with suppress(OSError):
@@ -80,13 +92,23 @@ def write(
     failed = 0
     with replacement(path, overwrite=overwrite) as temporary:
         _check_space(study, path, temporary)
-        with closing(netCDF4.Dataset(temporary, "w", format="NETCDF4")) as file:
-            _define(file, study, history)
+        with writing(path):
+            file = netCDF4.Dataset(temporary, "w", format="NETCDF4")
+        try:
+            with writing(path):
+                _define(file, study, history)
             for block, values in solved(study, threads):
-                for name, part in values.items():
-                    file[name][block or ...] = part
+                with writing(path):
+                    for name, part in values.items():
+                        file[name][block or ...] = part
                 failed += int(np.count_nonzero(values["status"] & FAILED))
                 advance(size_of(block))
+        except BaseException:
+            with suppress(OSError, RuntimeError):  # what went wrong first counts
+                file.close()
+            raise
+        with writing(path):
+            file.close()
     return failed
 
 
@@ -116,8 +138,8 @@ def _check_space(study: Study, path: Path, temporary: Path) -> None:
     free = shutil.disk_usage(temporary.parent).free
     if least > free:
         raise OutputError(
-            f"{path}: {study.scenes:,} scenes need about {least / 1e9:,.1f} GB or more, and {free / 1e9:,.1f} GB are "
-            "free there; use fewer scenes, or name an output on a larger disk with -o"
+            f"{path}: {study.scenes:,} scenes need {_bytes(least)} or more, and {_bytes(free)} are free there; "
+            "use fewer scenes, or name an output on a larger disk with -o"
         )
 
 
@@ -130,14 +152,25 @@ def _to_disk(path: Path) -> None:
         os.close(handle)
 
 
-def _reason(path: Path, target: Path, error: Exception) -> str:
+def _reason(path: Path, error: Exception) -> str:
     """Say why an output could not be written."""
     reason = getattr(error, "strerror", None) or str(error)
     with suppress(OSError):
-        free = shutil.disk_usage(target.parent).free
+        free = shutil.disk_usage(path.resolve().parent).free
         if free < 2**20:
-            reason = f"{reason}; {free / 2**10:,.0f} KiB are free on its disk"
+            reason = f"{reason}; {_bytes(free)} are free on its disk"
     return (
         f"{path}: cannot be written ({reason}); what stood there before is untouched; "
         "make room or get the right to write, or name another output with -o"
     )
+
+
+def _bytes(number: float) -> str:
+    """
+    Write a number of bytes in the unit that fits.
+
+    >>> _bytes(2.5e9), _bytes(300)
+    ('2.5 GB', '0.3 kB')
+    """
+    unit, size = next((pair for pair in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6)) if number >= pair[1]), ("kB", 1e3))
+    return f"{number / size:,.1f} {unit}"

@@ -1,0 +1,251 @@
+"""The picture of a dataset: which axes go where, and the figure around the panels."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+import matplotlib as mpl
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.figure import Figure, SubFigure
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from gradhesion.cli import panels
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.names import PARAMETERS, SCENE
+from gradhesion.cli.scales import number, scale
+from gradhesion.cli.schema import did_you_mean
+
+SYMBOLS: Final = {
+    "k": "$k$",
+    "nu": r"$\nu$",
+    "modulus": r"$E^{\ast}R/\Delta\gamma$",
+    "c0_over_R": "$c_0/R$",
+    "lambda_over_R": r"$\lambda/R$",
+    "A": "$A$",
+    "a_max_over_R": r"$a_{\max}/R$",
+    "pull_off_force": r"pull-off force $F\,/\,\frac{3}{2}\pi R\Delta\gamma$",
+    "pull_off_radius": "radius at pull-off $a/R$",
+    "dissipated_energy": r"dissipated energy $H/R^2\Delta\gamma$",
+    "loading_jumps": "jumps on loading",
+    "unloading_jumps": "jumps on unloading",
+    "delta_max": r"greatest depth $\delta_{\max}/R$",
+    "delta_jump_out": r"depth at jump-out $\delta/R$",
+    "status": "status",
+}
+"""Names as a reader of the field knows them."""
+
+STYLE: Final[dict[Any, Any]] = {
+    "font.family": "STIXGeneral",
+    "mathtext.fontset": "stix",
+    "font.size": 9,
+    "axes.titlesize": 9,
+    "axes.linewidth": 0.6,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "xtick.major.width": 0.5,
+    "ytick.major.width": 0.5,
+    "hatch.linewidth": 0.4,
+    "svg.hashsalt": "gradhesion",  # the same picture for the same dataset
+    "savefig.dpi": 200,
+}
+
+PANELS: Final = 3
+"""Panels along a row or a column: the ends of an axis and its middle."""
+
+LINES: Final = 5
+"""An axis of no more values than this is a set of lines rather than a side of a map."""
+
+
+def draw(dataset: xarray.Dataset, asked: Sequence[str], file: Path, form: str) -> None:
+    """
+    Draw variables of a dataset side by side into a file of a form ("png", "svg" or "pdf").
+
+    Raises
+    ------
+    DatasetError
+        A variable is not there or has no value, or nothing varies that it could be drawn over.
+    """
+    known = [str(name) for name in dataset.data_vars]
+    for name in asked:
+        if name not in known:
+            raise DatasetError(f"--variable {name}: not in this dataset; {did_you_mean(name, known)}")
+    with mpl.rc_context(STYLE):
+        figure = Figure(layout="constrained")
+        chosen = list(asked) or [name for name in ("pull_off_force", "dissipated_energy") if name in known] or known[:1]
+        parts = figure.subfigures(1, len(chosen), squeeze=False)[0]
+        width = height = 0.0
+        for part, name in zip(parts, chosen, strict=True):
+            width, height = _draw_variable(part, dataset, name)
+        figure.set_size_inches(width * len(chosen), height + 0.5)
+        title = figure.suptitle(dataset.attrs["title"], fontsize=10, wrap=True)
+        title.set_in_layout(True)
+        figure.savefig(file, format=form, metadata={"Date": None} if form == "svg" else None)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """Which axis of a dataset goes where in its picture."""
+
+    x: str
+    second: str | None
+    """The other side of a map, or what tells the lines of a panel apart."""
+    is_map: bool
+    columns: str | None
+    rows: str | None
+    middle: tuple[str, ...]
+    """Axes with no place of their own: they stay at their middle value."""
+
+
+def plan_of(sizes: Mapping[str, int]) -> Plan | None:
+    """
+    Give the finest axes to the panels, the next two to columns and rows; None if nothing varies.
+
+    >>> plan_of({"k": 6, "A": 1, "lambda_over_R": 200})
+    Plan(x='lambda_over_R', second='k', is_map=True, columns=None, rows=None, middle=())
+    """
+    free = sorted((name for name, size in sizes.items() if size > 1), key=lambda name: -sizes[name])
+    if not free:
+        return None
+    places: list[str | None] = [*free, None, None, None]
+    x, second, columns, rows = free[0], *places[1:4]
+    is_map = second is not None and sizes[second] > LINES
+    return Plan(x=x, second=second, is_map=is_map, columns=columns, rows=rows, middle=tuple(free[4:]))
+
+
+def _draw_variable(part: SubFigure, dataset: xarray.Dataset, name: str) -> tuple[float, float]:
+    """Draw one variable; tell the width and height it wants, in inches."""
+    variable = dataset[name]
+    if SCENE in dataset.dims:
+        return _draw_scenes(part, variable)
+    plan = plan_of({str(axis): size for axis, size in variable.sizes.items()})
+    if plan is None:
+        raise DatasetError(
+            f"{name}: nothing varies, so there is nothing to draw it over; `gradhesion info` tells its value"
+        )
+    cut = variable.isel({axis: variable.sizes[axis] // 2 for axis in plan.middle})
+    cut = cut.squeeze([axis for axis in cut.dims if cut.sizes[axis] == 1])
+    columns, rows = _representatives(cut, plan.columns), _representatives(cut, plan.rows)
+    cut = cut.isel({**_chosen(plan.columns, columns), **_chosen(plan.rows, rows)}).load()
+    finite = cut.values[np.isfinite(cut.values)]
+    if not finite.size:
+        raise DatasetError(f"{name}: no value in any scene drawn; `gradhesion info` tells why")
+    grid = part.subplots(len(rows), len(columns), sharex=True, sharey=True, squeeze=False)
+    levels = panels.levels_of(float(finite.min()), float(finite.max()))
+    for i, line in enumerate(grid):
+        for j, axes in enumerate(line):
+            panel = cut.isel({**_chosen(plan.columns, j), **_chosen(plan.rows, i)})
+            _draw_panel(axes, panel, plan, levels)
+            if plan.columns and i == 0:
+                axes.set_title(_told(cut, plan.columns, j))
+            if plan.rows and j == len(columns) - 1:
+                axes.annotate(
+                    _told(cut, plan.rows, i), (1.03, 0.5), xycoords="axes fraction", rotation=-90, va="center"
+                )
+            axes.label_outer()
+    _dress(part, grid, plan, variable, finite.size < cut.size, levels)
+    width, height = (2.1, 1.8) if len(columns) > 1 else (3.6, 2.9)
+    return width * len(columns) + 1.2, height * len(rows) + 0.6
+
+
+def _draw_panel(axes: Axes, panel: xarray.DataArray, plan: Plan, levels: panels.Levels) -> None:
+    """Draw one panel of a variable."""
+    x = scale(panel[plan.x].values)
+    if plan.second is None:
+        panels.draw_lines(axes, x, {"": panel.values[x.order]})
+        return
+    second = scale(panel[plan.second].values)
+    values = panel.transpose(plan.second, plan.x).values.astype(float)[np.ix_(second.order, x.order)]
+    if plan.is_map:
+        panels.draw_map(axes, x, second, values, levels)
+        return
+    items = np.sort(panel[plan.second].values)
+    labels = [f"{SYMBOLS[plan.second]} = {number(item)}" for item in items]
+    panels.draw_lines(axes, x, dict(zip(labels, values, strict=True)))
+
+
+def _dress(
+    part: SubFigure,
+    grid: NDArray[Any],
+    plan: Plan,
+    variable: xarray.DataArray,
+    gaps: bool,  # noqa: FBT001 (one call)
+    levels: panels.Levels,
+) -> None:
+    """Put labels, the colour bar or legend, and the fixed values around the panels of a variable."""
+    name = str(variable.name)
+    for axes in grid[-1]:
+        axes.set_xlabel(SYMBOLS[plan.x])
+    for axes in grid[:, 0]:
+        axes.set_ylabel(SYMBOLS[plan.second] if plan.is_map and plan.second else SYMBOLS[name])
+    if plan.is_map:
+        filled = ScalarMappable(norm=levels.norm, cmap=panels.COLOURS)
+        bar = part.colorbar(filled, ax=grid, label=SYMBOLS[name], boundaries=levels.levels, fraction=0.06, aspect=30)
+        bar.ax.minorticks_off()
+        bar.ax.set_yticks(levels.levels, [number(level) for level in levels.levels])
+        if gaps:
+            hatched = Patch(facecolor="0.92", edgecolor="0.6", hatch="////", label="no value (see status)")
+            grid[0, 0].legend(handles=[hatched], fontsize=7, loc="best", framealpha=0.9)
+    elif plan.second:
+        grid[0, -1].legend(fontsize=7, framealpha=0.9)
+    part.suptitle(_caption(variable, plan), fontsize=8)
+
+
+def _caption(variable: xarray.DataArray, plan: Plan) -> str:
+    """Tell the parameters that are not drawn."""
+    told = []
+    for parameter in PARAMETERS:
+        values = np.atleast_1d(variable[parameter].values)
+        if values.size == 1:
+            told.append(f"{SYMBOLS[parameter]} = {number(values[0])}")
+        elif parameter in plan.middle:
+            value = number(values[values.size // 2])
+            told.append(f"{SYMBOLS[parameter]} = {value} (one of {values.size})")
+    return ",  ".join(told)
+
+
+def _draw_scenes(part: SubFigure, variable: xarray.DataArray) -> tuple[float, float]:
+    """Draw a variable of a dataset of points over the first parameter that varies."""
+    varying = [name for name in PARAMETERS if np.unique(variable[name].values).size > 1]
+    if not varying:
+        raise DatasetError(
+            f"{variable.name}: no parameter varies, so there is nothing to draw over; `gradhesion info` tells its value"
+        )
+    values = variable.values.astype(float)
+    if not np.isfinite(values).any():
+        raise DatasetError(f"{variable.name}: no value in any scene; `gradhesion info` tells why")
+    x = scale(variable[varying[0]].values)
+    axes = part.subplots()
+    panels.draw_points(axes, x, values[x.order])
+    axes.set_xlabel(SYMBOLS[varying[0]])
+    axes.set_ylabel(SYMBOLS[str(variable.name)])
+    fixed = [name for name in PARAMETERS if name not in varying]
+    told = [f"{SYMBOLS[name]} = {number(variable[name].values[0])}" for name in fixed]
+    if varying[1:]:
+        told.append("varying too: " + ", ".join(SYMBOLS[name] for name in varying[1:]))
+    part.suptitle(",  ".join(told), fontsize=8)
+    return 4.2, 3.1
+
+
+def _representatives(variable: xarray.DataArray, axis: str | None) -> list[int]:
+    """Choose the items of an axis to make panels of: its ends and its middle."""
+    if axis is None:
+        return [0]
+    size = variable.sizes[axis]
+    return sorted({round(item) for item in np.linspace(0, size - 1, min(size, PANELS))})
+
+
+def _chosen(axis: str | None, items: Any) -> dict[str, Any]:
+    """Choose items of an axis, if there is that axis."""
+    return {} if axis is None else {axis: items}
+
+
+def _told(variable: xarray.DataArray, axis: str, item: int) -> str:
+    """Tell the value of an axis at an item."""
+    return f"{SYMBOLS[axis]} = {number(variable[axis].values[item])}"
