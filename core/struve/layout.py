@@ -30,6 +30,8 @@ MOMENT_SERIES_TERMS: Final = 14
 MOMENT_BINS: Final = 76
 MOMENT_TERMS: Final = 14
 MOMENT_TAIL_TERMS: Final = 24
+ARCHES: Final = 256
+"""Arches of the fold function that are tabulated, two a wave; those further out are found when asked for."""
 
 TABLE: Final = np.dtype(
     [
@@ -47,6 +49,7 @@ TABLE: Final = np.dtype(
         ("moment_tail", "f8", (MOMENT_TAIL_TERMS, 5)),  # see moments.py
         ("moment_constant", "f8"),
         ("moment_logarithm", "f8"),
+        ("arches", "f8", (ARCHES + 1, 6)),  # x, X, Q at the inner edge, then at the summit; see arches.py
     ],
     align=True,
 )

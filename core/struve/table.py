@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.struve import bins, large, moments
+from gradhesion.core.struve import arches, bins, large, moments
 from gradhesion.core.struve.layout import TABLE
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.power import build_power
@@ -31,6 +31,7 @@ def _fill(table: Any, k: float, economisation: Any, nodes: Any, fit: Any, moment
     large.build_tail(k, table.tail, nodes, fit)
     build_power(k, table.power_mantissa, table.power_exponent)
     moments.build_moments(table, moment_economisation)
+    arches.build_arches(table)
 
 
 def build_table(k: float) -> Any:
@@ -67,7 +68,7 @@ def struve_pair(k: float, x: ArrayLike) -> NDArray[np.float64]:
     >>> struve_pair(1.0, 0.25).round(6).tolist()
     [0.63662, 0.342075, 0.231335, 0.157255]
     """
-    points = np.ascontiguousarray(x, dtype=float)
+    points = np.asarray(x, dtype=float)
     out = np.empty((4, points.size))
     _pairs(build_table(k), points.ravel(), out)
     return out.reshape(4, *points.shape)

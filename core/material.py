@@ -1,0 +1,98 @@
+"""The graded half-space: one number for stiffness.
+
+    beta  = sqrt((1+k) (1 - k nu/(1-nu)))
+    theta = pi (1+k) G(1+k/2) G(2+k) / (sqrt(pi) G((1+k)/2) G((3+k+beta)/2) G((3+k-beta)/2)) cos(k pi/2)/(beta sin(beta pi/2))
+    M     = theta E*/c0^k
+
+(3.3) and (4.6) of Jin, Guo & Wan (2013). As k -> 1 at nu = 1/2 the last quotient is 0/0; it is evaluated as a whole.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gradhesion.core._jit import kernel
+
+
+@kernel()
+def _sinc(x: float) -> float:
+    """Return sin(pi x)/(pi x)."""
+    return math.sin(math.pi * x) / (math.pi * x) if x != 0.0 else 1.0
+
+
+@kernel()
+def theta_of(k: float, nu: float) -> float:
+    """Return theta, NaN outside 0 <= k <= 1, -1 < nu <= 1/2 and where the surface has no stiffness (k = 1, nu < 1/2)."""
+    if not (0.0 <= k <= 1.0 and -1.0 < nu <= 0.5) or (k == 1.0 and nu < 0.5):
+        return math.nan
+    rest = 1.0 - k  # exact near k = 1
+    square = (1.0 + k) * (rest * nu + (1.0 - 2.0 * nu)) / (1.0 - nu)  # beta^2 without cancellation at k = 1, nu = 1/2
+    beta = math.sqrt(square)
+    # cos(k pi/2)/(beta sin(beta pi/2)) = (1-k)/beta^2 sinc((1-k)/2)/sinc(beta/2)
+    quotient = (1.0 - nu) / ((1.0 + k) * (nu + (1.0 - 2.0 * nu) / rest)) if rest > 0.0 else 0.5
+    quotient *= _sinc(0.5 * rest) / _sinc(0.5 * beta)
+    gammas = math.gamma(1.0 + 0.5 * k) / math.gamma(0.5 * (1.0 + k)) * math.gamma(2.0 + k)
+    gammas /= math.gamma(0.5 * (3.0 + k + beta)) * math.gamma(0.5 * (3.0 + k - beta))
+    return math.sqrt(math.pi) * (1.0 + k) * gammas * quotient
+
+
+@kernel()
+def _thetas(k: Any, nu: Any, out: Any) -> None:
+    for i in range(k.size):
+        out[i] = theta_of(k[i], nu[i])
+
+
+def theta(k: ArrayLike, nu: ArrayLike) -> NDArray[np.float64]:
+    """Return theta(k, nu), the stiffness of the graded half-space relative to E*/c0^k (3.3).
+
+    Parameters
+    ----------
+    k
+        Gradient exponent, 0 to 1.
+    nu
+        Poisson's ratio, -1 < nu <= 0.5; 0.5 where k = 1.
+
+    Returns
+    -------
+    Array of the broadcast shape; NaN outside the ranges. Accurate to a few units in the last place.
+
+    Examples
+    --------
+    >>> theta([0.0, 1.0], [0.3, 0.5]).tolist()
+    [1.0, 3.141592653589793]
+    """
+    exponents, ratios = np.broadcast_arrays(np.asarray(k, dtype=float), np.asarray(nu, dtype=float))
+    out = np.empty(exponents.size)
+    _thetas(np.ascontiguousarray(exponents).ravel(), np.ascontiguousarray(ratios).ravel(), out)
+    return out.reshape(exponents.shape)
+
+
+def stiffness(k: ArrayLike, nu: ArrayLike, modulus: ArrayLike, c0_over_R: ArrayLike) -> NDArray[np.float64]:
+    """Return M R^(1+k)/dgamma = theta (E* R/dgamma)/(c0/R)^k (4.6), the one number through which the material acts.
+
+    Parameters
+    ----------
+    k, nu
+        As in `theta`.
+    modulus
+        E* R/dgamma > 0.
+    c0_over_R
+        Reference depth of the gradient over the punch radius, > 0.
+
+    Returns
+    -------
+    Array of the broadcast shape; NaN outside the ranges.
+
+    Examples
+    --------
+    >>> float(stiffness(0.5, 0.5, 100.0, 0.25).round(12))
+    467.404910820325
+    """
+    exponents = np.asarray(k, dtype=float)
+    depths = np.asarray(c0_over_R, dtype=float)
+    moduli = np.asarray(modulus, dtype=float)
+    with np.errstate(all="ignore"):
+        result = theta(exponents, nu) * moduli / np.power(depths, exponents)
+    return np.where((moduli > 0.0) & (depths > 0.0) & (result < np.inf), result, np.nan)

@@ -1,0 +1,79 @@
+"""The pull-off force: the lowest load over all contact radii up to the rim.
+
+Since -z (S0 - S1) <= C z^c (1 + 2.1/z^2) for every k, the load nowhere lies below a parabola in X = z^((3+k)/2),
+
+    load >= X [ b X/(3+k) - 1 - C g (1 + 2.1/z^2) ]
+
+So the search starts at the parabola's lowest point and goes outwards, arch by arch, until the parabola is higher than the
+best trough found: two or three troughs of a thousand are ever looked at.
+"""
+
+import math
+from typing import Any
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.curve import load, slope, wave
+from gradhesion.core.folds import fold_of_arch, survey_arch
+from gradhesion.core.struve.arches import inner_edge
+from gradhesion.core.struve.circle import TWO_PI
+
+
+@kernel(contract=True)
+def _floor(b: float, chi: float, k: float, abscissa: float, z: float) -> float:
+    """Return the parabola below the load."""
+    return abscissa * (b * abscissa / (3.0 + k) - 1.0 - chi * (1.0 + 2.1 / (z * z)))
+
+
+@kernel()
+def _trough(table: Any, b: float, g: float, i: int) -> float:
+    """Return x of the local minimum of the load on arch i, 0 where there is none."""
+    level = 0.5 * (3.0 + table.k)
+    kind, low, peak, high = survey_arch(table, b, g, level, i)
+    if kind <= 0:
+        return 0.0
+    return fold_of_arch(table, b, g, level, i, kind, low, peak, high, True)  # type: ignore[no-any-return]
+
+
+@kernel(contract=True)
+def load_at_rim(table: Any, b: float, g: float, x: float, x_low: float) -> float:
+    """Return the load at x + x_low, where x_low is the rounding error of x."""
+    d, _, _ = slope(table, b, g, 0.5 * (3.0 + table.k), x)
+    z, power, s0, s1, _, _, _ = wave(table, x)
+    front = z / (power * power)
+    return front * (b * z / (3.0 + table.k) + g * (s0 - s1) - power) + front / z * d * (TWO_PI * x_low)
+
+
+@kernel()
+def lowest_load(table: Any, b: float, g: float, x_rim: float, x_rim_low: float) -> tuple[float, float]:
+    """Return the lowest reduced load over (0, x_rim] and the x where it is met."""
+    k = table.k
+    chi = g * table.amplitude
+    z = (0.5 * (3.0 + k) * (1.0 + chi) / b) ** (2.0 / (3.0 + k))
+    z_rim = TWO_PI * x_rim
+    start = max(0, int((min(z, z_rim) - table.phase) / math.pi + 0.5))
+    best, best_x = 0.0, 0.0
+    if x_rim < math.inf:
+        best, best_x = load_at_rim(table, b, g, x_rim, x_rim_low), x_rim
+    i = start
+    while True:
+        x, abscissa, _ = inner_edge(table, i)
+        if x >= x_rim or (i > start and _floor(b, chi, k, abscissa, TWO_PI * x) >= best):
+            break
+        x = _trough(table, b, g, i)
+        if 0.0 < x < x_rim:
+            value = load(table, b, g, x)
+            if value < best:
+                best, best_x = value, x
+        i += 1
+    i = start - 1
+    while i >= 0:
+        x, abscissa, _ = inner_edge(table, i + 1)
+        if _floor(b, chi, k, abscissa, TWO_PI * x) >= best:
+            break
+        x = _trough(table, b, g, i)
+        if 0.0 < x < x_rim:
+            value = load(table, b, g, x)
+            if value < best:
+                best, best_x = value, x
+        i -= 1
+    return best, best_x
