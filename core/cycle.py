@@ -80,6 +80,7 @@ def trace_branches(table: Any, b: float, g: float, furthest: float, scratch: Any
     inside = False
     if level == 0.0:  # k = 1: the first branch starts at zero contact, at the depth -1
         trace[START, 0], trace[START_DEPTH, 0] = 0.0, -1.0
+        trace[UNLOADING_JUMPS, 0] = -1.0
         inside = True
     i = 0
     while i <= final:
@@ -91,6 +92,7 @@ def trace_branches(table: Any, b: float, g: float, furthest: float, scratch: Any
                 return count, trace
             if rising:
                 trace[START, count], trace[START_DEPTH, count] = x, depth(table, b, g, x)
+                trace[UNLOADING_JUMPS, count] = -1.0  # not known yet
             else:
                 trace[END, count], trace[END_DEPTH, count] = x, depth(table, b, g, x)
                 count += 1
@@ -108,7 +110,7 @@ def trace_branches(table: Any, b: float, g: float, furthest: float, scratch: Any
 
 
 @kernel()
-def load_up(table: Any, b: float, g: float, count: int, trace: Any, furthest: float) -> None:
+def load_up(table: Any, b: float, g: float, count: int, trace: Any, furthest: float, losses: bool) -> None:
     """Follow loading from branch to branch; keep where it arrives on each (inf: never) and what was lost by then."""
     trace[ARRIVAL, :count] = math.inf
     now = 0
@@ -117,7 +119,7 @@ def load_up(table: Any, b: float, g: float, count: int, trace: Any, furthest: fl
     if now == count or trace[START, now] > furthest:
         return
     x = find_depth(table, b, g, 0.0, trace[:, now])
-    loss, jumps = energy_from_zero(table, b, g, x, 0.0), 1.0
+    loss, jumps = energy_from_zero(table, b, g, x, 0.0) if losses else 0.0, 1.0
     while True:
         trace[ARRIVAL, now], trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now] = x, loss, jumps
         left, level = trace[END, now], trace[END_DEPTH, now]
@@ -129,22 +131,26 @@ def load_up(table: Any, b: float, g: float, count: int, trace: Any, furthest: fl
         if now == count or trace[START, now] > furthest:
             return
         x = find_depth(table, b, g, level, trace[:, now])
-        loss += jump_energy(table, b, g, left, x)
+        if losses:
+            loss += jump_energy(table, b, g, left, x)
         jumps += 1.0
 
 
 @kernel()
-def loading_to(table: Any, b: float, g: float, count: int, trace: Any, rim: float) -> tuple[float, float]:
+def loading_to(
+    table: Any, b: float, g: float, count: int, trace: Any, rim: float, losses: bool
+) -> tuple[float, float]:
     """Return what loading up to the rim loses, and its jumps."""
     now = count - 1
     while now >= 0 and not trace[ARRIVAL, now] <= rim:
         now -= 1
     if now < 0:  # from zero contact to the rim at once
-        return energy_from_zero(table, b, g, rim, 0.0), 1.0
+        return energy_from_zero(table, b, g, rim, 0.0) if losses else 0.0, 1.0
     loss, jumps = trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]
     left = trace[END, now]
     if left < rim:
-        loss += jump_energy(table, b, g, left, rim)
+        if losses:
+            loss += jump_energy(table, b, g, left, rim)
         jumps += 1.0
     return loss, jumps
 
@@ -158,7 +164,7 @@ def _lower_branch(trace: Any, now: int, level: float) -> int:
 
 
 @kernel()
-def unload_from(table: Any, b: float, g: float, trace: Any, branch: int) -> None:
+def unload_from(table: Any, b: float, g: float, trace: Any, branch: int, losses: bool) -> None:
     """Complete what unloading loses from the start of a branch to the end of contact, on it and all that it visits."""
     # outwards to inwards until a branch is known, then back
     now = branch
@@ -169,7 +175,7 @@ def unload_from(table: Any, b: float, g: float, trace: Any, branch: int) -> None
         start, level = trace[START, now], trace[START_DEPTH, now]
         lower = _lower_branch(trace, now - 1, level)
         if lower < 0:
-            trace[UNLOADING_LOSS, now] = -energy_from_zero(table, b, g, start, level)
+            trace[UNLOADING_LOSS, now] = -energy_from_zero(table, b, g, start, level) if losses else 0.0
             trace[UNLOADING_JUMPS, now], trace[LAST_DEPTH, now] = 1.0, level
             break
         now = lower
@@ -182,8 +188,10 @@ def unload_from(table: Any, b: float, g: float, trace: Any, branch: int) -> None
         while lower > inner:
             outer = lower
             lower = _lower_branch(trace, outer - 1, trace[START_DEPTH, outer])
-        landing = find_depth(table, b, g, trace[START_DEPTH, outer], trace[:, lower])
-        loss = jump_energy(table, b, g, trace[START, outer], landing)
+        loss = 0.0
+        if losses:
+            landing = find_depth(table, b, g, trace[START_DEPTH, outer], trace[:, lower])
+            loss = jump_energy(table, b, g, trace[START, outer], landing)
         trace[UNLOADING_LOSS, outer] = loss + trace[UNLOADING_LOSS, lower]
         trace[UNLOADING_JUMPS, outer] = 1.0 + trace[UNLOADING_JUMPS, lower]
         trace[LAST_DEPTH, outer] = trace[LAST_DEPTH, lower]
@@ -192,7 +200,7 @@ def unload_from(table: Any, b: float, g: float, trace: Any, branch: int) -> None
 
 @kernel()
 def unloading_from(
-    table: Any, b: float, g: float, count: int, trace: Any, rim: float, rim_depth: float
+    table: Any, b: float, g: float, count: int, trace: Any, rim: float, rim_depth: float, losses: bool
 ) -> tuple[float, float, float]:
     """Return what unloading from the rim loses, its jumps, and the depth at which contact ends."""
     now = count - 1
@@ -202,10 +210,12 @@ def unloading_from(
     if now < 0 or trace[END, now] < rim:  # the rim is on a falling part: unloading leaves it by a jump
         now = _lower_branch(trace, now, rim_depth)
         if now < 0:
-            return -energy_from_zero(table, b, g, rim, rim_depth), 1.0, rim_depth
-        landing = find_depth(table, b, g, rim_depth, trace[:, now])
-        loss, jumps = jump_energy(table, b, g, rim, landing), 1.0
-    unload_from(table, b, g, trace, now)
+            return -energy_from_zero(table, b, g, rim, rim_depth) if losses else 0.0, 1.0, rim_depth
+        if losses:
+            landing = find_depth(table, b, g, rim_depth, trace[:, now])
+            loss = jump_energy(table, b, g, rim, landing)
+        jumps = 1.0
+    unload_from(table, b, g, trace, now, losses)
     return loss + trace[UNLOADING_LOSS, now], jumps + trace[UNLOADING_JUMPS, now], trace[LAST_DEPTH, now]
 
 

@@ -1,12 +1,26 @@
-"""Arrays of scenes, solved in groups that share what they can."""
+"""Arrays of scenes, solved in groups that share what they can.
 
+Scenes of one gradient exponent share its table; all a_max of one curve share its trace. What is asked for decides what is
+computed. The work is cut into tasks of a fixed size, so that results do not depend on the number of threads.
+"""
+
+import math
+import os
 from collections.abc import Mapping, Sequence
-from typing import Final
+from concurrent.futures import ThreadPoolExecutor
+from functools import lru_cache
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gradhesion.core import _jit, cycle
+from gradhesion.core.material import stiffness
+from gradhesion.core.scene import solve_curves
+from gradhesion.core.struve.table import build_table
+
 PARAMETERS: Final = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
+"""The seven parameters of a scene, in the order of a dataset's dimensions."""
 OUTPUTS: Final = (
     "pull_off_force",
     "pull_off_radius",
@@ -16,12 +30,33 @@ OUTPUTS: Final = (
     "delta_max",
     "delta_jump_out",
 )
+"""All results of a scene, in the order of the rows of scene.py."""
 SOLVERS: Final = ("exact",)
+_INTEGERS: Final = ("loading_jumps", "unloading_jumps")
+_TASK: Final = 2048
+"""Scenes a task: some milliseconds, a thousand times the cost of handing it to a thread."""
+_BRANCHES: Final = 64
+"""Branches of a curve that a task has room for; longer curves make room for themselves."""
+
+table_of = lru_cache(maxsize=128)(build_table)
+"""The table of an exponent, kept for the next call (56 kB each)."""
 
 
 def compiled_before() -> bool:
-    """Whether the kernels of this version were compiled before on this machine (else the first call takes longer)."""
-    return True
+    """Return whether the kernels of this version were compiled before on this machine (else the first call is slow)."""
+    return _jit.CACHE_FOLDER.is_dir() and any(_jit.CACHE_FOLDER.rglob("scene.solve_curves*.nbc"))
+
+
+def _shared_axes(shapes: Sequence[tuple[int, ...]], dimensions: int) -> int:
+    """Return how many of the last axes only a_max varies along."""
+    for axis in range(dimensions):
+        if any(shape[dimensions - 1 - axis] > 1 for shape in shapes):
+            return axis
+    return dimensions
+
+
+def _flat(array: NDArray[np.float64], shape: tuple[int, ...]) -> NDArray[np.float64]:
+    return np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(math.prod(shape))
 
 
 def solve(
@@ -30,12 +65,98 @@ def solve(
     *,
     solver: str = "exact",
     threads: int | None = None,
-) -> dict[str, NDArray[np.generic]]:
-    """Solve all scenes of the broadcast parameters: an array per output, and `status` (int8)."""
-    arrays = np.broadcast_arrays(*[np.asarray(parameters[name], dtype=float) for name in PARAMETERS])
-    result: dict[str, NDArray[np.generic]] = {}
-    for name in outputs:
-        integer = name.endswith("_jumps")
-        result[name] = np.ones_like(arrays[0], dtype=np.int32 if integer else np.float64) * (1 if integer else (3 + arrays[0]) / 3)
-    result["status"] = np.zeros(arrays[0].shape, dtype=np.int8)
+) -> dict[str, NDArray[Any]]:
+    """Solve all scenes of the broadcast parameters.
+
+    Parameters
+    ----------
+    parameters
+        An array for each name of `PARAMETERS`, all broadcastable: k in [0, 1], nu in (-1, 0.5] (0.5 where k = 1), modulus
+        E* R/dgamma > 0, c0/R > 0, lambda/R > 0, A = amplitude/lambda >= 0, a_max/R > 0 or inf. Scenes that differ along the
+        last axes in a_max alone are solved on one trace.
+    outputs
+        Names out of `OUTPUTS`: pull_off_force in 1.5 pi R dgamma, pull_off_radius in R, dissipated_energy of one cycle of
+        displacement-controlled loading to full contact and unloading in R^2 dgamma, loading_jumps and unloading_jumps
+        (jump-in and jump-out counted), delta_max and delta_jump_out in R.
+    solver
+        One of `SOLVERS`.
+    threads
+        Number of threads; all processors if not given. Results do not depend on it.
+
+    Returns
+    -------
+    An array of the broadcast shape for each output (float64; int32 for jumps) and `status` (int8, bits of status.FLAGS).
+    A scene outside the ranges has NaN (-1 jumps) and the bit no_value; delta_max of an unbounded punch is inf.
+
+    Raises
+    ------
+    ValueError
+        For an unknown output or solver, or parameters that are missing or do not broadcast.
+
+    Notes
+    -----
+    Sections 2-5 of Jin, Guo & Wan (2013) as corrected in docs/theory.md. On 60 reference scenes of 15 digits the force is
+    right to 3e-15, the energy to the 12 digits of the reference.
+
+    Examples
+    --------
+    The smooth punch on a homogeneous half-space (Johnson, Kendall & Roberts 1971), and one with waviness:
+
+    >>> scene = dict(k=0.0, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.1, a_max_over_R=np.inf)
+    >>> solve(scene | {"A": [0.0, 0.02]})["pull_off_force"].round(6).tolist()
+    [1.0, 1.342098]
+    """
+    unknown = [name for name in outputs if name not in OUTPUTS]
+    missing = [name for name in PARAMETERS if name not in parameters]
+    if unknown or missing or solver not in SOLVERS:
+        raise ValueError(f"unknown outputs {unknown}, missing parameters {missing}, solver {solver!r}")
+    arrays = [np.asarray(parameters[name], dtype=float) for name in PARAMETERS]
+    shape = np.broadcast_shapes(*(array.shape for array in arrays))
+    arrays = [array.reshape((1,) * (len(shape) - array.ndim) + array.shape) for array in arrays]
+    shared = _shared_axes([array.shape for array in arrays[:-1]], len(shape))
+    curve_shape, rim_shape = shape[: len(shape) - shared], shape[len(shape) - shared :]
+    lead = (slice(None),) * len(curve_shape) + (0,) * shared
+    k, nu, modulus, c0, wavelength, amplitude = (array[lead] for array in arrays[:-1])
+    a_max = arrays[-1]
+    own_rims = any(length > 1 for length in a_max.shape[: len(curve_shape)])
+    rims = _flat(a_max, (curve_shape if own_rims else (1,) * len(curve_shape)) + rim_shape).reshape(-1, math.prod(rim_shape))
+
+    curves = math.prod(curve_shape)
+    slots = np.array([outputs.index(name) if name in outputs else -1 for name in OUTPUTS])
+    out = np.empty((len(outputs), curves, rims.shape[1]))
+    status = np.zeros((curves, rims.shape[1]), dtype=np.int8)
+    stiffnesses = _flat(stiffness(k, nu, modulus, c0), curve_shape)
+    wavelengths, amplitudes = _flat(wavelength, curve_shape), _flat(amplitude, curve_shape)
+
+    def work(task: tuple[float, NDArray[np.int64]]) -> None:
+        scratch = np.empty((cycle.ROWS, _BRANCHES))
+        table = table_of(min(max(task[0], 0.0), 1.0) if task[0] == task[0] else 0.0)
+        solve_curves(table, task[1], stiffnesses, wavelengths, amplitudes, rims, slots, out, status, scratch)
+
+    tasks = list(_tasks(_flat(k, curve_shape), max(1, _TASK // max(1, rims.shape[1]))))
+    workers = min(threads or os.cpu_count() or 1, len(tasks))
+    if workers > 1:
+        with ThreadPoolExecutor(workers) as pool:
+            list(pool.map(work, tasks))
+    else:
+        for task in tasks:
+            work(task)
+
+    result: dict[str, NDArray[Any]] = {}
+    for slot, name in enumerate(outputs):
+        values = out[slot]
+        if name in _INTEGERS:
+            values = np.where(np.isnan(values), -1.0, values).astype(np.int32)
+        result[name] = values.reshape(shape)
+    result["status"] = status.reshape(shape)
     return result
+
+
+def _tasks(k: NDArray[np.float64], size: int) -> list[tuple[float, NDArray[np.int64]]]:
+    """Cut the curves into tasks of one exponent each."""
+    order = np.argsort(k, kind="stable")
+    exponents, first = np.unique(k[order], return_index=True)
+    tasks = []
+    for exponent, group in zip(exponents.tolist(), np.split(order, first[1:]), strict=True):
+        tasks += [(exponent, group[i : i + size]) for i in range(0, group.size, size)]
+    return tasks

@@ -1,0 +1,171 @@
+"""From the numbers of a scene to its results: the kernel that a single scene and a sweep of millions share.
+
+A scene is reduced to its curve (curve.py) and its rim. Lengths are in R, energies in R^2 dgamma, M in dgamma/R^(1+k).
+
+Results go to `out[slots[row], curve, rim]`, where `slots` holds -1 for what nobody asked for; nothing is computed that only
+such a row needs.
+"""
+
+import math
+from typing import Any
+
+from gradhesion.core import cycle, smooth
+from gradhesion.core._jit import kernel
+from gradhesion.core.curve import depth
+from gradhesion.core.pull_off import lowest_load
+from gradhesion.core.status import NO_VALUE
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.intrinsics import fma
+
+FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST = 0, 1, 2, 3, 4, 5, 6
+"""Rows of the results, in the order of sweep.OUTPUTS."""
+
+
+@kernel()
+def _put(out: Any, slots: Any, row: int, curve: int, rim: int, value: float) -> None:
+    if slots[row] >= 0:
+        out[slots[row], curve, rim] = value
+
+
+@kernel()
+def _stretch(k: float, stiffness: float) -> float:
+    """Return s = sqrt(2^(1+k) pi dgamma/M)."""
+    return math.sqrt(2.0 ** (1.0 + k) * math.pi / stiffness)
+
+
+@kernel()
+def _wants_force(slots: Any) -> bool:
+    return slots[FORCE] >= 0 or slots[RADIUS] >= 0  # type: ignore[no-any-return]
+
+
+@kernel()
+def _wants_cycle(slots: Any) -> bool:
+    return slots[ENERGY] >= 0 or slots[LOADING] >= 0 or slots[UNLOADING] >= 0 or slots[LAST] >= 0  # type: ignore[no-any-return]
+
+
+@kernel()
+def _solve_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: Any, out: Any, curve: int) -> None:
+    """Solve a smooth punch for all its rims."""
+    length = smooth.smooth_length(k, stretch)
+    depth_scale = 2.0 * length * length / (1.0 + k)
+    for i in range(rims.size):
+        z_rim = rims[i] / length
+        if _wants_force(slots):
+            force, z = smooth.smooth_force(k, z_rim)
+            _put(out, slots, FORCE, curve, i, force)
+            _put(out, slots, RADIUS, curve, i, z * length)
+        if _wants_cycle(slots) or slots[DEEPEST] >= 0:
+            loss, loading, unloading, deepest, last = smooth.smooth_cycle(k, constants, z_rim)
+            _put(out, slots, ENERGY, curve, i, TWO_PI * length * length * loss)
+            _put(out, slots, LOADING, curve, i, loading)
+            _put(out, slots, UNLOADING, curve, i, unloading)
+            _put(out, slots, DEEPEST, curve, i, depth_scale * deepest)
+            _put(out, slots, LAST, curve, i, depth_scale * last)
+
+
+@kernel()
+def _solve_force(
+    table: Any, b: float, g: float, scale: float, wavelength: float, rims: Any, slots: Any, out: Any, curve: int
+) -> None:
+    """Find the pull-off of a wavy punch for all its rims: one search serves all rims beyond the place it finds."""
+    free_load, free_x = 0.0, math.inf
+    for i in range(rims.size):
+        x = rims[i] / wavelength
+        if free_load < 0.0 and x >= free_x:
+            lowest, place = free_load, free_x
+        else:
+            x_low = fma(-x, wavelength, rims[i]) / wavelength if x < math.inf else 0.0
+            lowest, place = lowest_load(table, b, g, x, x_low)
+            if place < x:
+                free_load, free_x = lowest, place
+        _put(out, slots, FORCE, curve, i, -scale * lowest)
+        _put(out, slots, RADIUS, curve, i, place * wavelength)
+
+
+@kernel()
+def _solve_cycle(
+    table: Any, b: float, g: float, scales: Any, wavelength: float, rims: Any, slots: Any, out: Any, curve: int, scratch: Any
+) -> None:
+    """Follow the cycle of a wavy punch for all its rims, on one trace."""
+    energy_scale, depth_scale = scales
+    furthest = 0.0
+    for i in range(rims.size):
+        furthest = max(furthest, rims[i] / wavelength)
+    count, trace = cycle.trace_branches(table, b, g, furthest, scratch)
+    losses = slots[ENERGY] >= 0
+    if _wants_cycle(slots):
+        cycle.load_up(table, b, g, count, trace, furthest, losses)
+    for i in range(rims.size):
+        x = rims[i] / wavelength
+        rim_depth = depth(table, b, g, x) if x < math.inf else math.inf
+        if _wants_cycle(slots):
+            loading_loss, loading_jumps = cycle.loading_to(table, b, g, count, trace, x, losses)
+            unloading_loss, unloading_jumps, last = cycle.unloading_from(table, b, g, count, trace, x, rim_depth, losses)
+            _put(out, slots, ENERGY, curve, i, energy_scale * (loading_loss + unloading_loss))
+            _put(out, slots, LOADING, curve, i, loading_jumps)
+            _put(out, slots, UNLOADING, curve, i, unloading_jumps)
+            _put(out, slots, LAST, curve, i, depth_scale * last)
+        _put(out, slots, DEEPEST, curve, i, depth_scale * cycle.highest_depth(count, trace, x, rim_depth))
+
+
+@kernel()
+def solve_curve(
+    table: Any,
+    constants: Any,
+    stiffness: float,
+    wavelength: float,
+    amplitude: float,
+    rims: Any,
+    slots: Any,
+    out: Any,
+    status: Any,
+    curve: int,
+    scratch: Any,
+) -> None:
+    """Solve one curve (k, M, lambda, A) for all its rims a_max."""
+    k = table.k
+    valid = stiffness > 0.0 and 0.0 < wavelength < math.inf and 0.0 <= amplitude < math.inf
+    for i in range(rims.size):
+        valid = valid and rims[i] > 0.0
+    if not valid:
+        out[:, curve, :] = math.nan
+        status[curve, :] = NO_VALUE
+        return
+    stretch = _stretch(k, stiffness)
+    if amplitude == 0.0:
+        _solve_smooth(k, constants, stretch, rims, slots, out, curve)
+        return
+    length = wavelength / TWO_PI
+    depth_scale = stretch * length ** (0.5 * (1.0 - k))
+    b = 2.0 * length * length / ((1.0 + k) * depth_scale)
+    g = amplitude * wavelength / depth_scale
+    if _wants_force(slots):
+        # K l^(1+k) s l^c/(1.5 pi R dgamma) = K s^2 l^2/(s l^c)/1.5 pi, and K s^2 = 4 pi R dgamma/(1+k)
+        scale = 8.0 / (3.0 * (1.0 + k)) * length * length / depth_scale
+        _solve_force(table, b, g, scale, wavelength, rims, slots, out, curve)
+    if _wants_cycle(slots) or slots[DEEPEST] >= 0:
+        scales = (TWO_PI * length * length, depth_scale)
+        _solve_cycle(table, b, g, scales, wavelength, rims, slots, out, curve, scratch)
+
+
+@kernel()
+def solve_curves(
+    table: Any,
+    index: Any,
+    stiffness: Any,
+    wavelength: Any,
+    amplitude: Any,
+    rims: Any,
+    slots: Any,
+    out: Any,
+    status: Any,
+    scratch: Any,
+) -> None:
+    """Solve the curves `index` of one gradient exponent; `rims` has one row, or one a curve."""
+    constants = smooth.smooth_cycle_constants(table.k)
+    for j in range(index.size):
+        i = index[j]
+        row = rims[i if rims.shape[0] > 1 else 0]
+        solve_curve(
+            table, constants, stiffness[i], wavelength[i], amplitude[i], row, slots, out, status, i, scratch
+        )

@@ -1,0 +1,78 @@
+"""The smooth punch (A = 0): everything in closed form.
+
+With z = a/l and the length l chosen so that the bend b of curve.py is 1, and with X = z^((3+k)/2),
+
+    depth = z^2/2 - z^((1-k)/2),   load = X [X/(3+k) - 1]
+
+so the first fold, the radius of the jump-in and that of the pull-off are constants of k: z^((3+k)/2) = (1-k)/2, 2, (3+k)/2.
+The pull-off force is (3+k)/3 in units of 1.5 pi R dgamma, whatever the stiffness. (2.2)-(4.8) of Jin, Guo & Wan (2013).
+"""
+
+import math
+from typing import Final
+
+from gradhesion.core._jit import kernel
+
+FORCE_SCALE: Final = 4.0 / 3.0
+"""Reduced load at b = 1 to units of 1.5 pi R dgamma, for every k."""
+
+
+@kernel()
+def smooth_length(k: float, stretch: float) -> float:
+    """Return the length l over R at which b = 1, from s R^(-(1+k)/2)."""
+    return (0.5 * (1.0 + k) * stretch) ** (2.0 / (3.0 + k))
+
+
+@kernel()
+def smooth_force(k: float, z_rim: float) -> tuple[float, float]:
+    """Return the pull-off force over 1.5 pi R dgamma and the z where it is met."""
+    power = 0.5 * (3.0 + k)
+    z = power ** (1.0 / power)
+    if z_rim >= z:
+        return (3.0 + k) / 3.0, z
+    abscissa = z_rim**power
+    return FORCE_SCALE * abscissa * (1.0 - abscissa / (3.0 + k)), z_rim
+
+
+@kernel()
+def smooth_depth(k: float, z: float) -> float:
+    """Return the reduced depth."""
+    return 0.5 * z * z - z ** (0.5 * (1.0 - k))
+
+
+@kernel()
+def _energy_from_zero(k: float, z: float, depth: float) -> float:
+    """Return the energy of a jump from zero contact to z (jump_energy.py with g = 0)."""
+    front = z ** (1.0 + k)
+    square = z * z
+    quadratic = 0.25 * front * square * square / (5.0 + k)
+    return 0.5 * square - quadratic + depth * front * (square / (3.0 + k) - depth / (1.0 + k))
+
+
+@kernel()
+def smooth_cycle_constants(k: float) -> tuple[float, float, float, float, float]:
+    """Return z and loss of the jump-in, and z, depth and loss of the jump-out, of a punch that reaches beyond both."""
+    z_in = 2.0 ** (2.0 / (3.0 + k))
+    if k == 1.0:  # the contact shrinks to a point at the depth -1
+        return z_in, _energy_from_zero(k, z_in, 0.0), 0.0, -1.0, 0.0
+    z_out = (0.5 * (1.0 - k)) ** (2.0 / (3.0 + k))
+    depth = smooth_depth(k, z_out)
+    return z_in, _energy_from_zero(k, z_in, 0.0), z_out, depth, -_energy_from_zero(k, z_out, depth)
+
+
+@kernel()
+def smooth_cycle(
+    k: float, constants: tuple[float, float, float, float, float], z_rim: float
+) -> tuple[float, float, float, float, float]:
+    """Return the reduced loss of a cycle, its loading and unloading jumps, the largest and the last depth."""
+    z_in, loss_in, z_out, last_depth, loss_out = constants
+    rim_depth = smooth_depth(k, z_rim) if z_rim < math.inf else math.inf
+    loss, out_jumps = loss_in, 1.0 if z_out > 0.0 else 0.0
+    if z_rim < z_in:
+        loss = _energy_from_zero(k, z_rim, 0.0)
+    if z_rim < z_out:
+        loss -= _energy_from_zero(k, z_rim, rim_depth)
+        last_depth = rim_depth
+    else:
+        loss += loss_out
+    return loss, 1.0, out_jumps, max(0.0, rim_depth), last_depth
