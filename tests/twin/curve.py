@@ -1,0 +1,86 @@
+"""The equilibrium curve of one scene, in units R = dgamma = 1, by the phase z = 2 pi a/lambda of the contact radius a.
+
+    delta(z) = a^2/(1+k) + 2 pi A a S0(z) - Delta,      Delta = s a^((1-k)/2),   s = sqrt(2^(1+k) pi/M)
+    P(z)     = K [ a^(1+k) delta_H - a^(3+k)/(3+k) - 2 pi A a^(2+k) S1(z) - a^(1+k) Delta ]
+
+Both have their extrema where  tilt(z) = 2/(1+k) + g V(z) - c z^(-(3+k)/2)  vanishes, V = (z S0)'/z and
+g = (2 pi)^2 A/lambda, with c = `fold` for delta and c = `trough` for P; each grows with a exactly where its tilt is
+positive.
+"""
+
+from collections.abc import Mapping
+from functools import lru_cache
+
+from flint import arb
+
+from .special import Sine, theta
+
+
+@lru_cache(maxsize=4)
+def sine_of(k: float) -> Sine:
+    """The universal functions of k, shared by the scenes that have it."""
+    return Sine(arb(k))
+
+
+class Curve:
+    """delta, P and the tilt of one scene; parameters are exact doubles under the keys of a study."""
+
+    def __init__(self, parameters: Mapping[str, float]) -> None:
+        """Derive M and the coefficients of the curve."""
+        k, nu = arb(parameters["k"]), arb(parameters["nu"])
+        pi = arb.pi()
+        self.k, self.sine = k, sine_of(parameters["k"])
+        self.wavelength, self.amplitude = arb(parameters["lambda_over_R"]), arb(parameters["A"])
+        self.theta = theta(k, nu)
+        self.modulus = self.theta * arb(parameters["modulus"]) / arb(parameters["c0_over_R"]) ** k
+        self.stiffness = 2 ** (1 - k) * self.modulus / (1 + k)
+        self.adhesion = (2 ** (1 + k) * pi / self.modulus).sqrt()
+        self.waviness = 4 * pi * pi * self.amplitude / self.wavelength
+        unit = self.adhesion * (2 * pi / self.wavelength) ** ((3 + k) / 2)
+        self.fold = unit * (1 - k) / 2
+        self.trough = unit * (3 + k) / 2
+        rim = parameters["a_max_over_R"]
+        self.rim = self.phase(arb(rim)).mid() if rim != float("inf") else None
+
+    def phase(self, a: arb) -> arb:
+        """The phase z of the radius a."""
+        return 2 * arb.pi() * a / self.wavelength
+
+    def radius(self, z: arb) -> arb:
+        """The radius a at the phase z."""
+        return z * self.wavelength / (2 * arb.pi())
+
+    def hertz(self, z: arb) -> arb:
+        """delta_H, the indentation without adhesion."""
+        a = self.radius(z)
+        return a * a / (1 + self.k) + 2 * arb.pi() * self.amplitude * a * self.sine.s0(z)
+
+    def gap(self, z: arb) -> arb:
+        """Delta, the part of adhesion in delta."""
+        return self.adhesion * self.radius(z) ** ((1 - self.k) / 2)
+
+    def delta(self, z: arb) -> arb:
+        """Indentation in equilibrium."""
+        return self.hertz(z) - self.gap(z)
+
+    def force(self, z: arb) -> arb:
+        """Load P in equilibrium."""
+        k, a = self.k, self.radius(z)
+        s0, s1 = self.sine.pair(z)
+        smooth = 2 * a * a / ((1 + k) * (3 + k))
+        return self.stiffness * a ** (1 + k) * (smooth + 2 * arb.pi() * self.amplitude * a * (s0 - s1) - self.gap(z))
+
+    def tilt(self, z: arb, c: arb) -> tuple[arb, arb]:
+        """The tilt with the coefficient c and its derivative in z (enclosures when z is a ball)."""
+        v, slope = self.sine.v(z)
+        b = 2 / (1 + self.k)
+        if c == 0:
+            return b + self.waviness * v, self.waviness * slope
+        p = (3 + self.k) / 2
+        pull = c * z**-p
+        return b + self.waviness * v - pull, self.waviness * slope + p * pull / z
+
+    def slope(self, z: arb) -> arb:
+        """The derivative of delta in z: a^2/z (tilt with c = fold)."""
+        a = self.radius(z)
+        return a * a / z * self.tilt(z, self.fold)[0]
