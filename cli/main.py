@@ -1,13 +1,12 @@
 """The command `gradhesion`: its sub-commands, and how it ends."""
 
 import os
-import signal
 import sys
-from types import FrameType
 from typing import NoReturn
 
 import click
 
+from gradhesion.cli import interrupts
 from gradhesion.cli.info import info
 from gradhesion.cli.plot import plot
 from gradhesion.cli.run import run
@@ -34,8 +33,7 @@ cli.add_command(plot)
 
 def main() -> NoReturn:
     """Run the command line, and leave with the exit code of how it went."""
-    signal.signal(signal.SIGINT, _interrupt)
-    signal.signal(signal.SIGTERM, _interrupt)
+    interrupts.listen()
     try:
         code = cli.main(prog_name="gradhesion", standalone_mode=False)
     except click.ClickException as error:
@@ -50,10 +48,3 @@ def main() -> NoReturn:
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(code)
-
-
-def _interrupt(_number: int, _frame: FrameType | None) -> None:
-    """Take the first signal, and let nothing disturb the tidying up after it."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, signal.SIG_IGN)
-    raise KeyboardInterrupt

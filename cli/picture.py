@@ -63,9 +63,9 @@ LINES: Final = 5
 """An axis of no more values than this is a set of lines rather than a side of a map."""
 
 
-def draw(dataset: xarray.Dataset, asked: Sequence[str], file: Path, form: str) -> None:
+def drawn(dataset: xarray.Dataset, asked: Sequence[str]) -> Figure:
     """
-    Draw variables of a dataset side by side into a file of a form ("png", "svg" or "pdf").
+    Draw variables of a dataset side by side; without any asked for, the force and the energy.
 
     Raises
     ------
@@ -76,17 +76,23 @@ def draw(dataset: xarray.Dataset, asked: Sequence[str], file: Path, form: str) -
     for name in asked:
         if name not in known:
             raise DatasetError(f"--variable {name}: not in this dataset; {did_you_mean(name, known)}")
+    chosen = list(asked) or [name for name in ("pull_off_force", "dissipated_energy") if name in known] or known[:1]
     with mpl.rc_context(STYLE):
         figure = Figure(layout="constrained")
-        chosen = list(asked) or [name for name in ("pull_off_force", "dissipated_energy") if name in known] or known[:1]
         parts = figure.subfigures(1, len(chosen), squeeze=False)[0]
         width = height = 0.0
         for part, name in zip(parts, chosen, strict=True):
             width, height = _draw_variable(part, dataset, name)
         figure.set_size_inches(width * len(chosen), height + 0.5)
-        title = figure.suptitle(dataset.attrs["title"], fontsize=10, wrap=True)
-        title.set_in_layout(True)
-        figure.savefig(file, format=form, metadata={"Date": None} if form == "svg" else None)
+        figure.suptitle(dataset.attrs["title"], fontsize=10, wrap=True)
+    return figure
+
+
+def save(figure: Figure, file: Path, form: str) -> None:
+    """Save a picture as "png", "svg" or "pdf"; the same picture gives the same file."""
+    undated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
+    with mpl.rc_context(STYLE):
+        figure.savefig(file, format=form, metadata=undated.get(form))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,6 +139,7 @@ def _draw_variable(part: SubFigure, dataset: xarray.Dataset, name: str) -> tuple
     cut = cut.squeeze([axis for axis in cut.dims if cut.sizes[axis] == 1])
     columns, rows = _representatives(cut, plan.columns), _representatives(cut, plan.rows)
     cut = cut.isel({**_chosen(plan.columns, columns), **_chosen(plan.rows, rows)}).load()
+    cut = cut.where(np.isfinite(cut))
     finite = cut.values[np.isfinite(cut.values)]
     if not finite.size:
         raise DatasetError(f"{name}: no value in any scene drawn; `gradhesion info` tells why")
@@ -190,7 +197,7 @@ def _dress(
         bar.ax.minorticks_off()
         bar.ax.set_yticks(levels.levels, [number(level) for level in levels.levels])
         if gaps:
-            hatched = Patch(facecolor="0.92", edgecolor="0.6", hatch="////", label="no value (see status)")
+            hatched = Patch(facecolor="0.92", edgecolor="0.6", hatch="////", label="no finite value")
             grid[0, 0].legend(handles=[hatched], fontsize=7, loc="best", framealpha=0.9)
     elif plan.second:
         grid[0, -1].legend(fontsize=7, framealpha=0.9)

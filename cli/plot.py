@@ -20,9 +20,11 @@ def plot(file: Path, output: Path | None, variables: tuple[str, ...], overwrite:
     if form not in FORMS:
         raise click.UsageError(f"{path}: the name of a picture ends in .png, .svg or .pdf; name another with -o")
 
-    from gradhesion.cli.picture import draw
+    from gradhesion.cli.picture import drawn, save
     from gradhesion.cli.reader import opened
     from gradhesion.cli.writer import replacement, writing
 
-    with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary, writing(path):
-        draw(dataset, variables, temporary, form)
+    with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
+        figure = drawn(dataset, variables)
+        with writing(path):
+            save(figure, temporary, form)

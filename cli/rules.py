@@ -7,7 +7,6 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import PARAMETERS
 from gradhesion.cli.places import Path
 from gradhesion.cli.schema import COMING, KINDS, LAYOUTS, Mistake, did_you_mean, nearest, shown
 
@@ -45,22 +44,17 @@ def mistakes_between_keys(
     data: Mapping[str, Any], wrong: Sequence[Path], outputs: Sequence[str], solvers: Sequence[str]
 ) -> Iterator[Mistake]:
     """List what is wrong between the keys of a study, leaving out those whose form is `wrong` already."""
+    sound_tables = {key: table for key, table in data.items() if (key,) not in wrong}
     named = {path[:2] for path in wrong}
-    yield from _mistakes_of_choice(data, named, outputs, solvers)
-    if ("parameters",) in named:
-        return
-    entries = {
-        name: data["parameters"][name]
-        for name in PARAMETERS
-        if name in data["parameters"] and ("parameters", name) not in named
-    }
+    yield from _mistakes_of_choice(sound_tables, named, outputs, solvers)
     sound = {}
-    for name, entry in entries.items():
-        mistake = _mistake_of_range(name, entry)
-        if mistake:
-            yield mistake
-        else:
-            sound[name] = expanded(entry)
+    for name, entry in sound_tables.get("parameters", {}).items():
+        if ("parameters", name) not in named:
+            mistake = _mistake_of_range(name, entry)
+            if mistake:
+                yield mistake
+            else:
+                sound[name] = expanded(entry)
     meant = nearest(str(data.get("layout", "grid")), LAYOUTS)
     yield from _mistakes_of_points(sound) if meant == "points" else _mistakes_of_grid(sound)
 
@@ -69,29 +63,27 @@ def _mistakes_of_choice(
     data: Mapping[str, Any], named: set[Path], outputs: Sequence[str], solvers: Sequence[str]
 ) -> Iterator[Mistake]:
     """Check the keys whose value is one of a few words, and the title."""
-    method = data.get("method", {})
     choices: list[tuple[Path, Any, Sequence[str]]] = [
         (("kind",), data.get("kind", "map"), KINDS),
         (("layout",), data.get("layout", "grid"), LAYOUTS),
+        (("method", "solver"), data.get("method", {}).get("solver", "exact"), solvers),
     ]
-    if ("method",) not in named and ("method", "solver") not in named:
-        choices.append((("method", "solver"), method.get("solver", "exact"), solvers))
     for path, value, known in choices:
         if path not in named and value not in known:
             if value in COMING.get(path, ()):
                 yield Mistake(path, value, f'not available in this version; use "{known[0]}"')
             else:
                 yield Mistake(path, value, f"not a {path[-1]}; {did_you_mean(value, known)}")
-    if ("outputs",) not in {path[:1] for path in named}:
-        asked = data["outputs"]
-        for i, name in enumerate(asked):
-            if name not in outputs:
-                yield Mistake(("outputs", i), name, f"not an output; {did_you_mean(name, outputs)}")
-            elif name in asked[:i]:
-                yield Mistake(("outputs", i), name, "this output is asked for twice; remove one of the two")
-    title = data.get("title", "")
-    if ("title",) not in named and not title.isprintable():
-        yield Mistake(("title",), title, "a title is one line of printable characters; remove the others")
+    asked = data.get("outputs", [])
+    for i, name in enumerate(asked):
+        if ("outputs", i) in named:
+            continue
+        if name not in outputs:
+            yield Mistake(("outputs", i), name, f"not an output; {did_you_mean(name, outputs)}")
+        elif name in asked[:i]:
+            yield Mistake(("outputs", i), name, "this output is asked for twice; remove one of the two")
+    if not data.get("title", "").isprintable():
+        yield Mistake(("title",), data["title"], "a title is one line of printable characters; remove the others")
 
 
 def _mistake_of_range(name: str, entry: Any) -> Mistake | None:

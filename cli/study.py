@@ -123,7 +123,8 @@ def load_study(path: str | Path, overrides: Iterable[str] = ()) -> Study:
                 return f"--set {sources[key[:depth]]}"
             if key[:depth] in lines():
                 return f"{path}:{lines()[key[:depth]]}"
-        return str(path)
+        made = next((source for steps, source in sources.items() if steps[: len(key)] == key), None)
+        return f"--set {made}" if made else str(path)
 
     return _study(data, path.stem, "" if sources else text, place, mistakes)
 

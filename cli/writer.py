@@ -11,7 +11,7 @@ from typing import Any, Final
 import netCDF4
 import numpy as np
 
-from gradhesion.cli import dataset
+from gradhesion.cli import dataset, interrupts
 from gradhesion.cli.blocks import chunk_shape, size_of, solved
 from gradhesion.cli.errors import OutputError
 from gradhesion.cli.study import Study
@@ -44,11 +44,12 @@ def replacement(path: Path, *, overwrite: bool) -> Iterator[Path]:
         finished.
     """
     target = Path(os.path.realpath(path))
-    if target.exists():
-        if not target.is_file():
-            raise OutputError(f"{path}: is not a file, so it cannot be replaced; name another output with -o")
-        if not overwrite:
-            raise OutputError(f"{path}: exists already; add --overwrite to replace it, or name another output with -o")
+    with writing(path):
+        exists, is_file = target.exists(), target.is_file()
+    if exists and not is_file:
+        raise OutputError(f"{path}: is not a file, so it cannot be replaced; name another output with -o")
+    if exists and not overwrite:
+        raise OutputError(f"{path}: exists already; add --overwrite to replace it, or name another output with -o")
     temporary = None
     try:
         with writing(path):
@@ -103,6 +104,7 @@ def write(
                         file[name][block or ...] = part
                 failed += int(np.count_nonzero(values["status"] & FAILED))
                 advance(size_of(block))
+                interrupts.check()
         except BaseException:
             with suppress(OSError, RuntimeError):  # what went wrong first counts
                 file.close()
@@ -155,7 +157,7 @@ def _to_disk(path: Path) -> None:
 def _reason(path: Path, error: Exception) -> str:
     """Say why an output could not be written."""
     reason = getattr(error, "strerror", None) or str(error)
-    with suppress(OSError):
+    with suppress(OSError, RuntimeError):
         free = shutil.disk_usage(path.resolve().parent).free
         if free < 2**20:
             reason = f"{reason}; {_bytes(free)} are free on its disk"

@@ -1,0 +1,34 @@
+"""Ctrl-C and its kin: heard at once, not lost where a library swallows it, and quiet while the work is tidied up."""
+
+import signal
+import time
+from types import FrameType
+from typing import Final
+
+BURST: Final = 1.0
+"""Seconds in which further signals are taken for the first one, so that they do not disturb the tidying up."""
+
+_heard: list[float] = []
+
+
+def listen() -> None:
+    """Turn the signals that ask a program to end into KeyboardInterrupt."""
+    signal.signal(signal.SIGINT, _hear)
+    signal.signal(signal.SIGTERM, _hear)
+    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # nohup stays in force
+        signal.signal(signal.SIGHUP, _hear)
+
+
+def check() -> None:
+    """Raise KeyboardInterrupt if one was heard: a callback out of a library may have swallowed it."""
+    if _heard:
+        raise KeyboardInterrupt
+
+
+def _hear(_number: int, _frame: FrameType | None) -> None:
+    """Raise KeyboardInterrupt, once in a burst."""
+    now = time.monotonic()
+    if _heard and now - _heard[-1] < BURST:
+        return
+    _heard.append(now)
+    raise KeyboardInterrupt

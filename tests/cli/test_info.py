@@ -1,0 +1,121 @@
+"""`gradhesion info` tells what a dataset holds, and says what is wrong with a file that is not one."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import pytest
+from click.testing import Result
+
+Call = Callable[..., Result]
+
+
+@pytest.fixture
+def dataset_file(gradhesion: Call, study_file: Path, tmp_path: Path) -> Path:
+    path = tmp_path / "out.nc"
+    assert gradhesion("run", study_file, "-o", path, "--quiet").exit_code == 0
+    return path
+
+
+def test_it_tells_axes_fixed_values_extremes_status_and_origin(gradhesion: Call, dataset_file: Path) -> None:
+    result = gradhesion("info", dataset_file)
+    assert result.exit_code == 0
+    told = " ".join(result.stdout.split())
+    for words in (
+        "A small study",
+        "24 scenes",
+        "axes k 0, 0.31 lambda_over_R 0.11, 0.227376, 0.47 A 0, 0.023 a_max_over_R 1.7, inf",
+        "fixed nu 0.27 modulus 430 c0_over_R 0.013",
+        "pull_off_force: pull-off force F/(1.5 pi R dgamma) least ",
+        "status: 24 of 24 scenes (100.0%) have values",
+        "origin gradhesion",
+    ):
+        assert words in told
+
+
+def test_long_axes_are_told_by_their_ends_and_spacing(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
+    path = tmp_path / "long.nc"
+    longer = ["--set=parameters.lambda_over_R.num=20", "--set=parameters.A={start=0, stop=0.1, num=11}"]
+    gradhesion("run", study_file, "-o", path, "--quiet", *longer)
+    told = gradhesion("info", path).stdout
+    assert "20 values from 0.11 to 0.47, log-spaced" in told
+    assert "11 values from 0 to 0.1, evenly spaced" in told
+
+
+def test_extremes_are_found_across_blocks(
+    gradhesion: Call, dataset_file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("gradhesion.cli.blocks.CHUNK", 1)
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        values = np.ones((2, 3, 2, 2))
+        values[1, 2, 0, 1], values[0, 1, 1, 0], values[0, 0, 0, 0] = 9.0, -2.0, np.nan
+        file["pull_off_force"][:] = values
+    told = gradhesion("info", dataset_file).stdout
+    assert "least     -2           at k = 0, lambda_over_R = 0.227376, A = 0.023, a_max_over_R = 1.7" in told
+    assert "greatest  9            at k = 0.31, lambda_over_R = 0.47, A = 0, a_max_over_R = inf" in told
+
+
+def test_points_and_single_scenes(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
+    single = [f"--set=parameters.{name}=0.2" for name in ("k", "lambda_over_R", "A", "a_max_over_R")]
+    gradhesion("run", study_file, "-o", tmp_path / "1.nc", *single)
+    assert "none: a single scene" in gradhesion("info", tmp_path / "1.nc").stdout
+    gradhesion("run", study_file, "-o", tmp_path / "2.nc", *single, "--set=layout='points'")
+    assert "points: one scene for each item of" in gradhesion("info", tmp_path / "2.nc").stdout
+
+
+def damaged_values(content: bytes, path: Path) -> bytes:
+    """Damage a compressed chunk so that the file opens and its values cannot be read."""
+    start = content.find(b"x\x01")
+    while start >= 0:
+        damaged = content[: start + 2] + b"\xff" * 6 + content[start + 8 :]
+        path.write_bytes(damaged)
+        try:
+            with netCDF4.Dataset(path) as file:
+                try:
+                    file["pull_off_force"][:]
+                except RuntimeError:
+                    return damaged
+        except (OSError, RuntimeError):
+            pass
+        start = content.find(b"x\x01", start + 2)
+    pytest.fail("there is no such chunk")
+
+
+@pytest.mark.parametrize("command", ["info", "plot"])
+@pytest.mark.parametrize(
+    ("damage", "message"),
+    [
+        ("missing", "does not exist"),
+        ("folder", "is not a file"),
+        ("text", "cannot be read as NetCDF"),
+        ("empty", "cannot be read as NetCDF"),
+        ("truncated", "cannot be read as NetCDF"),
+        ("flipped", "is damaged"),
+        ("foreign", "is not a dataset of gradhesion"),
+    ],
+)
+def test_a_file_that_is_no_dataset_of_ours(
+    command: str, damage: str, message: str, gradhesion: Call, dataset_file: Path, tmp_path: Path
+) -> None:
+    path = tmp_path / "bad.nc"
+    content = dataset_file.read_bytes()
+    if damage == "folder":
+        path.mkdir()
+    elif damage == "text":
+        path.write_text("title = 1")
+    elif damage == "empty":
+        path.touch()
+    elif damage == "truncated":
+        path.write_bytes(content[: len(content) * 2 // 3])
+    elif damage == "flipped":
+        path.write_bytes(damaged_values(content, path))
+    elif damage == "foreign":
+        with netCDF4.Dataset(path, "w") as file:
+            file.title = "something else"
+    result = gradhesion(command, path)
+    assert result.exit_code == 2
+    assert result.stderr.startswith(f"{path}: ")
+    assert message in result.stderr
+    assert "gradhesion run" in result.stderr, "it tells what to do"
+    assert result.stdout == "" or damage == "flipped"

@@ -1,0 +1,61 @@
+"""An interrupted run leaves with 130, no file behind, and the old output intact."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+HUGE = """\
+outputs = ["pull_off_force", "dissipated_energy"]
+[parameters]
+k = { start = 0.0, stop = 0.95, num = 200 }
+nu = 0.27
+modulus = { start = 100.0, stop = 1e4, num = 100 }
+c0_over_R = { start = 0.01, stop = 1.0, num = 50, spacing = "log" }
+lambda_over_R = { start = 0.05, stop = 1.0, num = 100, spacing = "log" }
+A = { start = 0.01, stop = 0.2, num = 10 }
+a_max_over_R = inf
+"""
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("delay", [0.0, 0.3])
+def test_an_interrupt_leaves_nothing_behind(number: signal.Signals, delay: float, tmp_path: Path) -> None:
+    study, folder = tmp_path / "huge.toml", tmp_path / "data"
+    study.write_text(HUGE)
+    folder.mkdir()
+    old = folder / "huge.nc"
+    old.write_text("precious")
+    command = [sys.executable, "-m", "gradhesion.cli", "run", study, "-o", old, "--overwrite"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        deadline = time.monotonic() + 120
+        while len(os.listdir(folder)) < 2 and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
+        time.sleep(delay)
+        process.send_signal(number)
+        stdout, stderr = process.communicate(timeout=60)
+    assert process.returncode == 130, stderr
+    assert stdout == ""
+    assert stderr.endswith("interrupted; nothing was replaced, and nothing is left behind\n")
+    assert "Traceback" not in stderr
+    assert old.read_text() == "precious"
+    assert os.listdir(folder) == ["huge.nc"]
+
+
+def test_a_second_interrupt_does_not_disturb_the_tidying_up(tmp_path: Path) -> None:
+    study = tmp_path / "huge.toml"
+    study.write_text(HUGE)
+    command = [sys.executable, "-m", "gradhesion.cli", "run", study, "-o", tmp_path / "out" / "huge.nc"]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+        deadline = time.monotonic() + 120
+        while not list(tmp_path.glob("out/.*")) and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
+        for _ in range(20):
+            process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert os.listdir(tmp_path / "out") == []

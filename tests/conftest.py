@@ -1,0 +1,72 @@
+"""What the tests of the command line share."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner, Result
+from hypothesis import settings
+
+settings.register_profile("no clock", deadline=None)
+settings.load_profile("no clock")
+
+ROOT = Path(__file__).parents[1]
+
+
+@pytest.fixture
+def root() -> Path:
+    """The repository."""
+    return ROOT
+
+
+@pytest.fixture
+def data() -> dict[str, Any]:
+    """A small valid study, off every round number."""
+    return {
+        "title": "A small study",
+        "outputs": ["pull_off_force", "dissipated_energy", "loading_jumps"],
+        "parameters": {
+            "k": [0.0, 0.31],
+            "nu": 0.27,
+            "modulus": 430.0,
+            "c0_over_R": 0.013,
+            "lambda_over_R": {"start": 0.11, "stop": 0.47, "num": 3, "spacing": "log"},
+            "A": [0.0, 0.023],
+            "a_max_over_R": [1.7, float("inf")],
+        },
+    }
+
+
+@pytest.fixture
+def write_study(tmp_path: Path) -> Callable[[str], Path]:
+    """Write the text of a study into a file."""
+
+    def write(text: str) -> Path:
+        path = tmp_path / "study.toml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+@pytest.fixture
+def study_file(data: dict[str, Any], write_study: Callable[[str], Path]) -> Path:
+    """The small study as a file."""
+    from gradhesion.cli.study import study_from
+
+    return write_study(study_from(data).text)
+
+
+@pytest.fixture
+def gradhesion() -> Callable[..., Result]:
+    """The command line, called in this process."""
+    from gradhesion.cli.main import cli
+
+    def call(*arguments: str | Path) -> Result:
+        result = CliRunner().invoke(cli, [str(argument) for argument in arguments])
+        if result.exception is not None and not isinstance(result.exception, SystemExit):
+            raise result.exception
+        return result
+
+    return call
