@@ -7,16 +7,19 @@ s = sqrt(2^(1+k) pi dgamma/M), depths in units of s l^c and loads in units of K 
     load(z)  = z^(1+k) [b z^2/(3+k) + g z (S0 - S1) - z^c]
     b = 2 l^(2-c)/((1+k) R s),     g = A lambda/(s l^c)
 
-so that besides k a curve has two numbers: b, the *bend* of the paraboloid, and g, the *gain* of the waviness (chi = r/s of
-the asymptotic theory is C g). Both slopes have one form,
+so that besides k a curve has two numbers: b, the *bend* of the paraboloid, and g, the *gain* of the waviness (chi = r/s
+of the asymptotic theory is C g). Both slopes have one form,
 
     d depth/dz = D(z; (1-k)/2),    d load/dz = z^(1+k) D(z; (3+k)/2),    D(z; level) = b z + g V - level z^(-n)
 
 with V = S0 + z S0', and machines of finite stiffness have levels in between. The unknown is x = a/lambda, never z: the
 phase of the wave is exact at any x.
+
+A third number is zero for every real curve: the *lag*, in turns, by which the waves of large z are shifted against the
+punch. With it the wave number becomes continuous (regular.py).
 """
 
-from typing import Any
+from typing import Any, TypeAlias
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.struve.circle import TWO_PI
@@ -25,13 +28,17 @@ from gradhesion.core.struve.pair import pair_above, pair_below
 from gradhesion.core.struve.power import amplitude_power
 
 
+Curve: TypeAlias = tuple[float, float, float]
+"""Bend, gain and lag."""
+
+
 @kernel(contract=True)
-def wave(table: Any, x: float) -> tuple[float, float, float, float, float, float, float]:
+def wave(table: Any, lag: float, x: float) -> tuple[float, float, float, float, float, float, float]:
     """Return z, z^(-n), S0, S1, V, V', V'' at x > 0."""
     k = table.k
     z = TWO_PI * x
     power = amplitude_power(table, z)
-    s0, s1, d0, _ = pair_below(table, x, z) if z < SWITCH else pair_above(table, x, z, power)
+    s0, s1, d0, _ = pair_below(table, x, z) if z < SWITCH else pair_above(table, x - lag, z, power)
     v = s0 + z * d0
     v1 = 2.0 * d0 + z * (s1 - s0)
     v2 = (1.0 - k) * s1 - (2.0 - k) * s0 - z * d0
@@ -39,24 +46,27 @@ def wave(table: Any, x: float) -> tuple[float, float, float, float, float, float
 
 
 @kernel(contract=True)
-def depth(table: Any, b: float, g: float, x: float) -> float:
+def depth(table: Any, curve: Curve, x: float) -> float:
     """Return the reduced depth at x > 0."""
-    z, power, s0, _, _, _, _ = wave(table, x)
+    b, g, lag = curve
+    z, power, s0, _, _, _, _ = wave(table, lag, x)
     return z * (0.5 * b * z + g * s0 - power)
 
 
 @kernel(contract=True)
-def load(table: Any, b: float, g: float, x: float) -> float:
+def load(table: Any, curve: Curve, x: float) -> float:
     """Return the reduced load at x > 0."""
-    z, power, s0, s1, _, _, _ = wave(table, x)
+    b, g, lag = curve
+    z, power, s0, s1, _, _, _ = wave(table, lag, x)
     return z / (power * power) * (b * z / (3.0 + table.k) + g * (s0 - s1) - power)
 
 
 @kernel(contract=True)
-def slope(table: Any, b: float, g: float, level: float, x: float) -> tuple[float, float, float]:
-    """Return D and its first two derivatives with respect to z at x > 0."""
+def slope(table: Any, curve: Curve, level: float, x: float) -> tuple[float, float, float, float]:
+    """Return D, its first two derivatives with respect to z, and the depth, at x > 0."""
+    b, g, lag = curve
     n = 0.5 * (1.0 + table.k)
-    z, power, _, _, v, v1, v2 = wave(table, x)
+    z, power, s0, _, v, v1, v2 = wave(table, lag, x)
     pull = level * power
     bend = n * pull / z
-    return b * z + g * v - pull, b + g * v1 + bend, g * v2 - (n + 1.0) * bend / z
+    return b * z + g * v - pull, b + g * v1 + bend, g * v2 - (n + 1.0) * bend / z, z * (0.5 * b * z + g * s0 - power)

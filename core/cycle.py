@@ -6,7 +6,7 @@ inwards to the next branch that reaches lower. Where unloading goes from the sta
 came from, so that the loss from there to the end is kept with the branch; nor does loading depend on the rim until it
 gets there. All rims of one curve therefore share one trace.
 
-The trace is an array of one column a branch, rows as named below; `rims` cut it.
+The trace is an array of one column a branch, rows as named below, with one row more for the work of jump_energy.py.
 """
 
 import math
@@ -15,7 +15,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.curve import depth, slope
+from gradhesion.core.curve import Curve, depth, slope
 from gradhesion.core.folds import fold_of_arch, last_arch, survey_arch
 from gradhesion.core.jump_energy import energy_from_zero, jump_energy
 from gradhesion.core.struve.circle import TWO_PI
@@ -23,23 +23,25 @@ from gradhesion.core.struve.circle import TWO_PI
 START, START_DEPTH, END, END_DEPTH = 0, 1, 2, 3
 ARRIVAL, LOADING_LOSS, LOADING_JUMPS = 4, 5, 6
 UNLOADING_LOSS, UNLOADING_JUMPS, LAST_DEPTH = 7, 8, 9
-ROWS: Final = 10
+WORK: Final = 10
+ROWS: Final = 11
 _STEPS: Final = 100
 
 
 @kernel()
-def find_depth(table: Any, b: float, g: float, target: float, branch: Any) -> float:
+def find_depth(table: Any, curve: Curve, target: float, branch: Any) -> float:
     """Return where a rising branch meets a depth between those of its two ends (Newton, kept in the bracket)."""
+    level = 0.5 * (1.0 - table.k)
     low, low_depth, high, high_depth = branch[START], branch[START_DEPTH], branch[END], branch[END_DEPTH]
     if high == math.inf:
         step = 0.25 + 0.25 * low
         high = low + step
-        high_depth = depth(table, b, g, high)
+        high_depth = depth(table, curve, high)
         while high_depth <= target:
             low, low_depth = high, high_depth
             step *= 2.0
             high += step
-            high_depth = depth(table, b, g, high)
+            high_depth = depth(table, curve, high)
     # a half wave of a cosine has both its ends level, as the branch has
     share = (target - low_depth) / (high_depth - low_depth)
     x = low + (high - low) * math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * share))) / math.pi
@@ -48,8 +50,8 @@ def find_depth(table: Any, b: float, g: float, target: float, branch: Any) -> fl
             x = 0.5 * (low + high)
             if x <= low or x >= high:
                 return x
-        rest = depth(table, b, g, x) - target
-        d, d1, _ = slope(table, b, g, 0.5 * (1.0 - table.k), x)
+        d, d1, _, rest = slope(table, curve, level, x)
+        rest -= target
         if rest == 0.0:
             return x
         if rest < 0.0:
@@ -65,13 +67,13 @@ def find_depth(table: Any, b: float, g: float, target: float, branch: Any) -> fl
 
 
 @kernel()
-def trace_branches(table: Any, b: float, g: float, furthest: float, scratch: Any) -> tuple[int, Any]:
+def trace_branches(table: Any, curve: Curve, furthest: float, scratch: Any) -> tuple[int, Any]:
     """Fill the branches that begin within `furthest` (inf: all); return their number and the trace.
 
     The trace is `scratch` where that is long enough. The last branch ends at infinity or at its true fold.
     """
     level = 0.5 * (1.0 - table.k)
-    final = last_arch(table, b, g, level)
+    final = last_arch(table, curve, level)
     wanted = min(final, (TWO_PI * furthest - table.phase) / math.pi + 3.5)
     trace = scratch
     if wanted + 4.0 > scratch.shape[1]:
@@ -84,17 +86,17 @@ def trace_branches(table: Any, b: float, g: float, furthest: float, scratch: Any
         inside = True
     i = 0
     while i <= final:
-        kind, low, peak, high = survey_arch(table, b, g, level, i)
+        kind, low, peak, high = survey_arch(table, curve, level, i)
         rising = kind == 1 or (kind == 2 and i % 2 == 0)
         for _ in range(abs(kind)):
-            x = fold_of_arch(table, b, g, level, i, kind, low, peak, high, rising)
+            x, bottom = fold_of_arch(table, curve, level, i, kind, low, peak, high, rising)
             if rising and x > furthest:
                 return count, trace
             if rising:
-                trace[START, count], trace[START_DEPTH, count] = x, depth(table, b, g, x)
+                trace[START, count], trace[START_DEPTH, count] = x, bottom
                 trace[UNLOADING_JUMPS, count] = -1.0  # not known yet
             else:
-                trace[END, count], trace[END_DEPTH, count] = x, depth(table, b, g, x)
+                trace[END, count], trace[END_DEPTH, count] = x, bottom
                 count += 1
                 if x > furthest:
                     return count, trace
@@ -110,7 +112,7 @@ def trace_branches(table: Any, b: float, g: float, furthest: float, scratch: Any
 
 
 @kernel()
-def load_up(table: Any, b: float, g: float, count: int, trace: Any, furthest: float, losses: bool) -> None:
+def load_up(table: Any, curve: Curve, count: int, trace: Any, furthest: float, losses: bool) -> None:
     """Follow loading from branch to branch; keep where it arrives on each (inf: never) and what was lost by then."""
     trace[ARRIVAL, :count] = math.inf
     now = 0
@@ -118,8 +120,8 @@ def load_up(table: Any, b: float, g: float, count: int, trace: Any, furthest: fl
         now += 1
     if now == count or trace[START, now] > furthest:
         return
-    x = find_depth(table, b, g, 0.0, trace[:, now])
-    loss, jumps = energy_from_zero(table, b, g, x, 0.0) if losses else 0.0, 1.0
+    x = find_depth(table, curve, 0.0, trace[:, now])
+    loss, jumps = energy_from_zero(table, curve, x, 0.0) if losses else 0.0, 1.0
     while True:
         trace[ARRIVAL, now], trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now] = x, loss, jumps
         left, level = trace[END, now], trace[END_DEPTH, now]
@@ -130,27 +132,25 @@ def load_up(table: Any, b: float, g: float, count: int, trace: Any, furthest: fl
             now += 1
         if now == count or trace[START, now] > furthest:
             return
-        x = find_depth(table, b, g, level, trace[:, now])
+        x = find_depth(table, curve, level, trace[:, now])
         if losses:
-            loss += jump_energy(table, b, g, left, x)
+            loss += jump_energy(table, curve, left, x, trace[WORK])
         jumps += 1.0
 
 
 @kernel()
-def loading_to(
-    table: Any, b: float, g: float, count: int, trace: Any, rim: float, losses: bool
-) -> tuple[float, float]:
+def loading_to(table: Any, curve: Curve, count: int, trace: Any, rim: float, losses: bool) -> tuple[float, float]:
     """Return what loading up to the rim loses, and its jumps."""
     now = count - 1
     while now >= 0 and not trace[ARRIVAL, now] <= rim:
         now -= 1
     if now < 0:  # from zero contact to the rim at once
-        return energy_from_zero(table, b, g, rim, 0.0) if losses else 0.0, 1.0
+        return energy_from_zero(table, curve, rim, 0.0) if losses else 0.0, 1.0
     loss, jumps = trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]
     left = trace[END, now]
     if left < rim:
         if losses:
-            loss += jump_energy(table, b, g, left, rim)
+            loss += jump_energy(table, curve, left, rim, trace[WORK])
         jumps += 1.0
     return loss, jumps
 
@@ -164,7 +164,7 @@ def _lower_branch(trace: Any, now: int, level: float) -> int:
 
 
 @kernel()
-def unload_from(table: Any, b: float, g: float, trace: Any, branch: int, losses: bool) -> None:
+def unload_from(table: Any, curve: Curve, trace: Any, branch: int, losses: bool) -> None:
     """Complete what unloading loses from the start of a branch to the end of contact, on it and all that it visits."""
     # outwards to inwards until a branch is known, then back
     now = branch
@@ -175,7 +175,7 @@ def unload_from(table: Any, b: float, g: float, trace: Any, branch: int, losses:
         start, level = trace[START, now], trace[START_DEPTH, now]
         lower = _lower_branch(trace, now - 1, level)
         if lower < 0:
-            trace[UNLOADING_LOSS, now] = -energy_from_zero(table, b, g, start, level) if losses else 0.0
+            trace[UNLOADING_LOSS, now] = -energy_from_zero(table, curve, start, level) if losses else 0.0
             trace[UNLOADING_JUMPS, now], trace[LAST_DEPTH, now] = 1.0, level
             break
         now = lower
@@ -190,8 +190,8 @@ def unload_from(table: Any, b: float, g: float, trace: Any, branch: int, losses:
             lower = _lower_branch(trace, outer - 1, trace[START_DEPTH, outer])
         loss = 0.0
         if losses:
-            landing = find_depth(table, b, g, trace[START_DEPTH, outer], trace[:, lower])
-            loss = jump_energy(table, b, g, trace[START, outer], landing)
+            landing = find_depth(table, curve, trace[START_DEPTH, outer], trace[:, lower])
+            loss = jump_energy(table, curve, trace[START, outer], landing, trace[WORK])
         trace[UNLOADING_LOSS, outer] = loss + trace[UNLOADING_LOSS, lower]
         trace[UNLOADING_JUMPS, outer] = 1.0 + trace[UNLOADING_JUMPS, lower]
         trace[LAST_DEPTH, outer] = trace[LAST_DEPTH, lower]
@@ -200,7 +200,7 @@ def unload_from(table: Any, b: float, g: float, trace: Any, branch: int, losses:
 
 @kernel()
 def unloading_from(
-    table: Any, b: float, g: float, count: int, trace: Any, rim: float, rim_depth: float, losses: bool
+    table: Any, curve: Curve, count: int, trace: Any, rim: float, rim_depth: float, losses: bool
 ) -> tuple[float, float, float]:
     """Return what unloading from the rim loses, its jumps, and the depth at which contact ends."""
     now = count - 1
@@ -210,12 +210,12 @@ def unloading_from(
     if now < 0 or trace[END, now] < rim:  # the rim is on a falling part: unloading leaves it by a jump
         now = _lower_branch(trace, now, rim_depth)
         if now < 0:
-            return -energy_from_zero(table, b, g, rim, rim_depth) if losses else 0.0, 1.0, rim_depth
+            return -energy_from_zero(table, curve, rim, rim_depth) if losses else 0.0, 1.0, rim_depth
         if losses:
-            landing = find_depth(table, b, g, rim_depth, trace[:, now])
-            loss = jump_energy(table, b, g, rim, landing)
+            landing = find_depth(table, curve, rim_depth, trace[:, now])
+            loss = jump_energy(table, curve, rim, landing, trace[WORK])
         jumps = 1.0
-    unload_from(table, b, g, trace, now, losses)
+    unload_from(table, curve, trace, now, losses)
     return loss + trace[UNLOADING_LOSS, now], jumps + trace[UNLOADING_JUMPS, now], trace[LAST_DEPTH, now]
 
 

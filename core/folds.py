@@ -9,7 +9,7 @@ import math
 from typing import Any
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.curve import slope
+from gradhesion.core.curve import Curve, slope
 from gradhesion.core.struve.arches import inner_edge, summit
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
@@ -22,32 +22,38 @@ stationary at a fold: their error is the square of that."""
 
 
 @kernel(contract=True)
-def find_zero(table: Any, b: float, g: float, level: float, low: float, high: float, rising: bool, guess: float) -> float:
-    """Return the only zero of D between low and high, where D rises or falls through it (Halley, kept in the bracket)."""
+def find_zero(
+    table: Any, curve: Curve, level: float, low: float, high: float, rising: bool, guess: float
+) -> tuple[float, float]:
+    """Return the only zero of D between low and high, where D rises or falls through it, and the depth there.
+
+    Halley's iteration, kept in the bracket. The depth is continued to the zero from the last point but one, to the fourth
+    order of the last step; it is that of the fold only if the level is that of the depth.
+    """
     x = guess if low < guess < high else 0.5 * (low + high)
+    d, d1, d2, depth = slope(table, curve, level, x)
     for _ in range(_STEPS):
-        d, d1, d2 = slope(table, b, g, level, x)
         if d == 0.0:
-            return x
+            break
         if (d < 0.0) == rising:
             low = x
         else:
             high = x
-        step = -d * d1 / (d1 * d1 - 0.5 * d * d2) / TWO_PI
-        new = x + step
+        step = -d * d1 / (d1 * d1 - 0.5 * d * d2)
+        new = x + step / TWO_PI
         if not low < new < high:
             new = 0.5 * (low + high)
-            step = new - x
             if new <= low or new >= high:
-                return x
-        elif abs(step * TWO_PI) * (abs(d2) + abs(d1)) < _LAST_STEP * abs(d1) * min(1.0, TWO_PI * x):
-            return new
+                break
+        elif abs(step) * (abs(d2) + abs(d1)) < _LAST_STEP * abs(d1) * min(1.0, TWO_PI * x):
+            return new, depth + step * (d + step * (0.5 * d1 + step * d2 / 6.0))
         x = new
-    return x
+        d, d1, d2, depth = slope(table, curve, level, x)
+    return x, depth
 
 
 @kernel()
-def find_extremum(table: Any, b: float, g: float, level: float, low: float, high: float, concave: bool) -> float:
+def find_extremum(table: Any, curve: Curve, level: float, low: float, high: float, concave: bool) -> float:
     """Return where F has its extremum on an arch: the zero of R + (1+n) b/g, R monotone (Newton, kept in the bracket).
 
     In terms of D this is n D/z + D' + n level z^(-n)/z - n level z^(-n)/z = 0, that is (z^n D)' = 0.
@@ -56,7 +62,7 @@ def find_extremum(table: Any, b: float, g: float, level: float, low: float, high
     x = 0.5 * (low + high)
     for _ in range(_STEPS):
         z = TWO_PI * x
-        d, d1, d2 = slope(table, b, g, level, x)
+        d, d1, d2, _ = slope(table, curve, level, x)
         value = n * d + z * d1
         rate = (n + 1.0) * d1 + z * d2
         if value == 0.0:
@@ -77,34 +83,39 @@ def find_extremum(table: Any, b: float, g: float, level: float, low: float, high
 
 
 @kernel(contract=True)
-def guess_zero(table: Any, b: float, g: float, level: float, i: int, place: float, outer: bool) -> float:
+def guess_zero(table: Any, curve: Curve, level: float, i: int, place: float, outer: bool) -> float:
     """Return about where D = 0 on arch i, inside or outside its summit.
 
     At large z, D z^(n-1) = g C cos(z - phi) + b z^n - level/z: the cosine is known where the slow part is, for which
-    `place` serves first and the first guess then. The first fold of all may lie at a tiny z, where V = 2 z/(1+k).
+    `place` serves first and the first guess then; the next term of the expansion turns the phase by shift/z. The first
+    fold of all may lie at a tiny z, where V = 2 z/(1+k).
     """
+    b, g, lag = curve
+    k = table.k
     if i == 0 and not outer:
-        z = (level / (b + 2.0 * g / (1.0 + table.k))) ** (2.0 / (3.0 + table.k))
+        z = (level / (b + 2.0 * g / (1.0 + k))) ** (2.0 / (3.0 + k))
         if z < 1.0:
             return z / TWO_PI
     sign = 1.0 if i % 2 == 0 else -1.0
-    centre = table.phase + i * math.pi
+    centre = table.phase + i * math.pi + TWO_PI * lag
+    shift = 0.5 * (1.0 - k) + 0.125 * (1.0 - k * k)
     z = TWO_PI * place
     for _ in range(2):
         cosine = sign * (level / z - b / amplitude_power(table, z)) / (g * table.amplitude)
         angle = math.acos(max(-1.0, min(1.0, cosine)))
-        z = centre + (angle if outer else -angle)
+        z = centre + (angle if outer else -angle) + shift / z
         if not z > 0.0:
             return place
     return z / TWO_PI
 
 
 @kernel()
-def survey_arch(table: Any, b: float, g: float, level: float, i: int) -> tuple[int, float, float, float]:
+def survey_arch(table: Any, curve: Curve, level: float, i: int) -> tuple[int, float, float, float]:
     """Return what stands on arch i: 0, 1 (F rises through 0), -1 (falls) or 2 folds, and where to look for them.
 
     The places are the inner edge, a point at which F has the other sign (2 folds only), and the outer edge.
     """
+    b, g, _ = curve
     low, low_abscissa, height = inner_edge(table, i)
     first = b * low_abscissa + g * height - level
     high, high_abscissa, height = inner_edge(table, i + 1)
@@ -124,8 +135,8 @@ def survey_arch(table: Any, b: float, g: float, level: float, i: int) -> tuple[i
     if sign * (b * (high_abscissa if concave else low_abscissa) + g * height - level) <= 0.0:
         return 0, low, high, high
     if sign * (b * peak_abscissa + g * height - level) <= 0.0:
-        peak = find_extremum(table, b, g, level, low, high, concave)
-        value, _, _ = slope(table, b, g, level, peak)
+        peak = find_extremum(table, curve, level, low, high, concave)
+        value, _, _, _ = slope(table, curve, level, peak)
         if sign * value <= 0.0:
             return 0, low, high, high
     return 2, low, peak, high
@@ -133,26 +144,27 @@ def survey_arch(table: Any, b: float, g: float, level: float, i: int) -> tuple[i
 
 @kernel()
 def fold_of_arch(
-    table: Any, b: float, g: float, level: float, i: int, kind: int, low: float, peak: float, high: float, rising: bool
-) -> float:
-    """Return where D rises (or falls) through zero on an arch, of which `survey_arch` told that it does."""
+    table: Any, curve: Curve, level: float, i: int, kind: int, low: float, peak: float, high: float, rising: bool
+) -> tuple[float, float]:
+    """Return where D rises (or falls) through zero on an arch, as `survey_arch` told, and the depth there."""
     concave = i % 2 == 0
     outer = rising != concave
-    guess = guess_zero(table, b, g, level, i, peak, outer)
+    guess = guess_zero(table, curve, level, i, peak, outer)
     if kind != 2:
-        return find_zero(table, b, g, level, low, high, rising, guess)  # type: ignore[no-any-return]
+        return find_zero(table, curve, level, low, high, rising, guess)
     if outer:
-        return find_zero(table, b, g, level, peak, high, rising, guess)  # type: ignore[no-any-return]
-    return find_zero(table, b, g, level, low, peak, rising, guess)  # type: ignore[no-any-return]
+        return find_zero(table, curve, level, peak, high, rising, guess)
+    return find_zero(table, curve, level, low, peak, rising, guess)
 
 
 @kernel(contract=True)
-def last_arch(table: Any, b: float, g: float, level: float) -> float:
+def last_arch(table: Any, curve: Curve, level: float) -> float:
     """Return the index of an arch beyond which no fold can stand: b z^n > g C (1 + 0.35/z^2) + level/z from there on.
 
     |V| <= C z^(1-n) (1 + 0.35/z^2) holds for every k. One iteration from an upper bound gives a lower one and a second
     an upper one again.
     """
+    b, g, _ = curve
     inverse_n = 2.0 / (1.0 + table.k)
     chi = g * table.amplitude
     z = ((1.35 * chi + level) / b) ** inverse_n

@@ -3,63 +3,133 @@
     e = int_{z1}^{z2} z [1 - rho^2] dz,   rho = (depth_H - depth_j)/z^c,   depth_H = b z^2/2 + g z S0
 
 in units of 2 pi l^2 dgamma, from the radius that is left to the one that is reached, where depth_j is the depth of the
-jump and rho = 1 on the equilibrium curve. The sign matters: unloading always loses energy, and so does loading as long as
-rho > -1 on the way, but a jump outwards over a deep groove passes states of rho < -1 (the edge pressed shut, where the
-contact is no longer one disc) and may gain some. The sum over a cycle is the loop integral of P d(depth) all the same.
+jump and rho = 1 on the equilibrium curve. The sign matters: unloading always loses energy, and so does loading as long
+as rho > -1 on the way, but a jump outwards over a deep groove passes states of rho < -1 (the edge pressed shut, where
+the contact is no longer one disc) and may gain some. The sum over a cycle is the loop integral of P d(depth) all the
+same.
 
-Between two radii the integrand is smooth and Gauss's rule takes it. From or to zero contact it has a branch point z^k at 0,
-and an antiderivative serves, in which E1 = int y^(k+1) S0 = z^(k+2) S1/(k+1) and the moments E2 and W of moments.py enter:
+Between two radii the integrand is smooth and Gauss's rule takes it. From or to zero contact it has a branch point z^k at
+0, and an antiderivative serves, in which E1 = int y^(k+1) S0 = z^(k+2) S1/(k+1) and the moments E2 and W of moments.py
+enter:
 
     z^2/2 - [ b^2/4 z^(5+k)/(5+k) + b g E2 + g^2 W ] + d [ b z^(3+k)/(3+k) + 2 g E1 ] - d^2 z^(1+k)/(1+k)
 
 All its terms are of the size of the result there, so nothing cancels.
 """
 
-import math
 from typing import Any, Final
 
 import numpy as np
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.curve import wave
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.curve import Curve, wave
+from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
+from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS
 from gradhesion.core.struve.moments import moments
+from gradhesion.core.struve.power import amplitude_power
 
-_LONGEST_PANEL: Final = 1.25
-"""In waves: 16 nodes leave 1e-17 of a term cos 2 z, the fastest of the integrand, on one wave, 1e-14 on this length."""
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
-NODES: Final = 0.5 * (1.0 + _NODES)
-WEIGHTS: Final = 0.5 * _WEIGHTS
+_PANELS: Final = {12: 0.8, 16: 1.25}
+"""Gauss nodes, and the longest panel in waves for which they leave 1e-14 of a term cos 2 z, the fastest there is."""
+
+
+def _rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return Gauss's rule on [0, 1]."""
+    places, weights = np.polynomial.legendre.leggauss(nodes)
+    return 0.5 * (1.0 + places), 0.5 * weights
+
+
+SHORT, LONG = _PANELS.values()
+SHORT_NODES, SHORT_WEIGHTS = _rule(12)
+NODES, WEIGHTS = _rule(16)
+_POWER_TERMS: Final = 13
+"""Terms of (1 + eta)^(-n) for |eta| <= 0.1, the half of a panel over its z."""
 
 
 @kernel(contract=True)
-def jump_energy(table: Any, b: float, g: float, start: float, end: float) -> float:
-    """Return e for a jump that leaves the curve at x = start and ends at x = end."""
-    z1, power, s0, _, _, _, _ = wave(table, start)
-    wave1 = z1 * s0
-    stretch1 = z1 * power
+def _panel_below(
+    table: Any, curve: Curve, start: float, left: Any, begin: float, width: float, nodes: Any, weights: Any
+) -> float:
+    """Integrate z (1 - rho^2) over one panel of the x axis, per unit of x."""
+    b, g, lag = curve
+    z1, wave1, stretch1 = left
+    total = 0.0
+    for i in range(nodes.size):
+        x = begin + width * nodes[i]
+        z, power, s0, _, _, _, _ = wave(table, lag, x)
+        # differences first: each is of the size of the stretch, however large the depths are
+        rise = 0.5 * b * (z + z1) * (TWO_PI * (x - start)) + g * (z * s0 - wave1)
+        rho = (rise + stretch1) / (z * power)
+        total += weights[i] * z * ((1.0 - rho) * (1.0 + rho))
+    return total * width
+
+
+@kernel(contract=True)
+def _panel_above(table: Any, curve: Curve, start: float, left: Any, begin: float, width: float, work: Any) -> float:
+    """Do the same where all z >= 40: pair.py's expansion, written so that all nodes are worked on at once."""
+    b, g, lag = curve
+    z1, wave1, stretch1 = left
+    n = 0.5 * (1.0 + table.k)
+    middle = TWO_PI * (begin + 0.5 * width)
+    ratio = TWO_PI * 0.5 * width / middle
+    power_middle = amplitude_power(table, middle)
+    tail = table.tail
+    cos_phase, sin_phase = table.cos_phase, table.sin_phase
+    for i in range(16):
+        x = begin + width * NODES[i]
+        z = TWO_PI * x
+        inverse = 1.0 / z
+        w = SWITCH * inverse
+        t = 2.0 * (w * w) - 1.0
+        p, q, height = tail[TAIL_TERMS - 1, 0], tail[TAIL_TERMS - 1, 1], tail[TAIL_TERMS - 1, 4]
+        for j in range(TAIL_TERMS - 2, -1, -1):
+            p = p * t + tail[j, 0]
+            q = q * t + tail[j, 1]
+            height = height * t + tail[j, 4]
+        eta = ratio * (2.0 * NODES[i] - 1.0)
+        power = 1.0
+        for j in range(_POWER_TERMS, 0, -1):
+            power = 1.0 - power * eta * ((n + (j - 1.0)) / j)
+        power *= power_middle
+        sine, cosine = sine_cosine_of_turns(x - lag)
+        s = sine * cos_phase - cosine * sin_phase
+        c = cosine * cos_phase + sine * sin_phase
+        wave_z = height + z * power * (p * s + q * inverse * c)
+        rise = 0.5 * b * (z + z1) * (TWO_PI * (x - start)) + g * (wave_z - wave1)
+        rho = (rise + stretch1) / (z * power)
+        work[i] = WEIGHTS[i] * z * ((1.0 - rho) * (1.0 + rho))
+    total = 0.0
+    for i in range(16):
+        total += work[i]
+    return total * width
+
+
+@kernel(contract=True)
+def jump_energy(table: Any, curve: Curve, start: float, end: float, work: Any) -> float:
+    """Return e for a jump that leaves the curve at x = start and ends at x = end; `work` has room for 16 floats."""
+    _, _, lag = curve
+    z1, power, s0, _, _, _, _ = wave(table, lag, start)
+    left = (z1, z1 * s0, z1 * power)
     length = end - start
-    panels = int(abs(length) / _LONGEST_PANEL) + 1
+    panels = int(abs(length) / LONG) + 1
+    width = length / panels
     total = 0.0
     for panel in range(panels):
-        panel_start = start + length * panel / panels
-        part = 0.0
-        for i in range(NODES.size):
-            x = panel_start + length / panels * NODES[i]
-            z, power, s0, _, _, _, _ = wave(table, x)
-            # differences first: each is of the size of the stretch, however large the depths are
-            rise = 0.5 * b * (z + z1) * (TWO_PI * (x - start)) + g * (z * s0 - wave1)
-            rho = (rise + stretch1) / (z * power)
-            part += WEIGHTS[i] * z * ((1.0 - rho) * (1.0 + rho))
-        total += part
-    return total * (TWO_PI * length / panels)
+        begin = start + length * panel / panels
+        if TWO_PI * min(begin, begin + width) >= SWITCH:
+            total += _panel_above(table, curve, start, left, begin, width, work)
+        elif abs(width) <= SHORT:
+            total += _panel_below(table, curve, start, left, begin, width, SHORT_NODES, SHORT_WEIGHTS)
+        else:
+            total += _panel_below(table, curve, start, left, begin, width, NODES, WEIGHTS)
+    return total * TWO_PI
 
 
 @kernel(contract=True)
-def energy_from_zero(table: Any, b: float, g: float, x: float, depth: float) -> float:
+def energy_from_zero(table: Any, curve: Curve, x: float, depth: float) -> float:
     """Return e for a jump at the given depth from zero contact to x; the way back has the other sign."""
+    b, g, lag = curve
     k = table.k
-    z, power, _, s1, _, _, _ = wave(table, x)
+    z, power, _, s1, _, _, _ = wave(table, lag, x)
     e2, w = moments(table, x, power)
     front = 1.0 / (power * power)  # z^(1+k)
     square = z * z

@@ -12,7 +12,7 @@ import math
 from typing import Any
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.curve import load, slope, wave
+from gradhesion.core.curve import Curve, load, slope, wave
 from gradhesion.core.folds import fold_of_arch, survey_arch
 from gradhesion.core.struve.arches import inner_edge
 from gradhesion.core.struve.circle import TWO_PI
@@ -25,27 +25,30 @@ def _floor(b: float, chi: float, k: float, abscissa: float, z: float) -> float:
 
 
 @kernel()
-def _trough(table: Any, b: float, g: float, i: int) -> float:
+def _trough(table: Any, curve: Curve, i: int) -> float:
     """Return x of the local minimum of the load on arch i, 0 where there is none."""
     level = 0.5 * (3.0 + table.k)
-    kind, low, peak, high = survey_arch(table, b, g, level, i)
+    kind, low, peak, high = survey_arch(table, curve, level, i)
     if kind <= 0:
         return 0.0
-    return fold_of_arch(table, b, g, level, i, kind, low, peak, high, True)  # type: ignore[no-any-return]
+    x, _ = fold_of_arch(table, curve, level, i, kind, low, peak, high, True)
+    return x
 
 
 @kernel(contract=True)
-def load_at_rim(table: Any, b: float, g: float, x: float, x_low: float) -> float:
+def load_at_rim(table: Any, curve: Curve, x: float, x_low: float) -> float:
     """Return the load at x + x_low, where x_low is the rounding error of x."""
-    d, _, _ = slope(table, b, g, 0.5 * (3.0 + table.k), x)
-    z, power, s0, s1, _, _, _ = wave(table, x)
+    d, _, _, _ = slope(table, curve, 0.5 * (3.0 + table.k), x)
+    b, g, lag = curve
+    z, power, s0, s1, _, _, _ = wave(table, lag, x)
     front = z / (power * power)
     return front * (b * z / (3.0 + table.k) + g * (s0 - s1) - power) + front / z * d * (TWO_PI * x_low)
 
 
 @kernel()
-def lowest_load(table: Any, b: float, g: float, x_rim: float, x_rim_low: float) -> tuple[float, float]:
+def lowest_load(table: Any, curve: Curve, x_rim: float, x_rim_low: float) -> tuple[float, float]:
     """Return the lowest reduced load over (0, x_rim] and the x where it is met."""
+    b, g, _ = curve
     k = table.k
     chi = g * table.amplitude
     z = (0.5 * (3.0 + k) * (1.0 + chi) / b) ** (2.0 / (3.0 + k))
@@ -53,15 +56,15 @@ def lowest_load(table: Any, b: float, g: float, x_rim: float, x_rim_low: float) 
     start = max(0, int((min(z, z_rim) - table.phase) / math.pi + 0.5))
     best, best_x = 0.0, 0.0
     if x_rim < math.inf:
-        best, best_x = load_at_rim(table, b, g, x_rim, x_rim_low), x_rim
+        best, best_x = load_at_rim(table, curve, x_rim, x_rim_low), x_rim
     i = start
     while True:
         x, abscissa, _ = inner_edge(table, i)
         if x >= x_rim or (i > start and _floor(b, chi, k, abscissa, TWO_PI * x) >= best):
             break
-        x = _trough(table, b, g, i)
+        x = _trough(table, curve, i)
         if 0.0 < x < x_rim:
-            value = load(table, b, g, x)
+            value = load(table, curve, x)
             if value < best:
                 best, best_x = value, x
         i += 1
@@ -70,9 +73,9 @@ def lowest_load(table: Any, b: float, g: float, x_rim: float, x_rim_low: float) 
         x, abscissa, _ = inner_edge(table, i + 1)
         if _floor(b, chi, k, abscissa, TWO_PI * x) >= best:
             break
-        x = _trough(table, b, g, i)
+        x = _trough(table, curve, i)
         if 0.0 < x < x_rim:
-            value = load(table, b, g, x)
+            value = load(table, curve, x)
             if value < best:
                 best, best_x = value, x
         i -= 1

@@ -2,8 +2,8 @@
 
 A scene is reduced to its curve (curve.py) and its rim. Lengths are in R, energies in R^2 dgamma, M in dgamma/R^(1+k).
 
-Results go to `out[slots[row], curve, rim]`, where `slots` holds -1 for what nobody asked for; nothing is computed that only
-such a row needs.
+Results go to `out[slots[row], rim]`, where `slots` holds -1 for what nobody asked for; nothing is computed that only such
+a row needs.
 """
 
 import math
@@ -11,7 +11,7 @@ from typing import Any
 
 from gradhesion.core import cycle, smooth
 from gradhesion.core._jit import kernel
-from gradhesion.core.curve import depth
+from gradhesion.core.curve import Curve, depth
 from gradhesion.core.pull_off import lowest_load
 from gradhesion.core.status import NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
@@ -22,9 +22,9 @@ FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST = 0, 1, 2, 3, 4, 5, 6
 
 
 @kernel()
-def _put(out: Any, slots: Any, row: int, curve: int, rim: int, value: float) -> None:
+def _put(out: Any, slots: Any, row: int, rim: int, value: float) -> None:
     if slots[row] >= 0:
-        out[slots[row], curve, rim] = value
+        out[slots[row], rim] = value
 
 
 @kernel()
@@ -35,16 +35,16 @@ def _stretch(k: float, stiffness: float) -> float:
 
 @kernel()
 def _wants_force(slots: Any) -> bool:
-    return slots[FORCE] >= 0 or slots[RADIUS] >= 0  # type: ignore[no-any-return]
+    return slots[FORCE] >= 0 or slots[RADIUS] >= 0
 
 
 @kernel()
 def _wants_cycle(slots: Any) -> bool:
-    return slots[ENERGY] >= 0 or slots[LOADING] >= 0 or slots[UNLOADING] >= 0 or slots[LAST] >= 0  # type: ignore[no-any-return]
+    return slots[ENERGY] >= 0 or slots[LOADING] >= 0 or slots[UNLOADING] >= 0 or slots[LAST] >= 0
 
 
 @kernel()
-def _solve_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: Any, out: Any, curve: int) -> None:
+def _solve_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: Any, out: Any) -> None:
     """Solve a smooth punch for all its rims."""
     length = smooth.smooth_length(k, stretch)
     depth_scale = 2.0 * length * length / (1.0 + k)
@@ -52,21 +52,19 @@ def _solve_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: An
         z_rim = rims[i] / length
         if _wants_force(slots):
             force, z = smooth.smooth_force(k, z_rim)
-            _put(out, slots, FORCE, curve, i, force)
-            _put(out, slots, RADIUS, curve, i, z * length)
+            _put(out, slots, FORCE, i, force)
+            _put(out, slots, RADIUS, i, z * length)
         if _wants_cycle(slots) or slots[DEEPEST] >= 0:
             loss, loading, unloading, deepest, last = smooth.smooth_cycle(k, constants, z_rim)
-            _put(out, slots, ENERGY, curve, i, TWO_PI * length * length * loss)
-            _put(out, slots, LOADING, curve, i, loading)
-            _put(out, slots, UNLOADING, curve, i, unloading)
-            _put(out, slots, DEEPEST, curve, i, depth_scale * deepest)
-            _put(out, slots, LAST, curve, i, depth_scale * last)
+            _put(out, slots, ENERGY, i, TWO_PI * length * length * loss)
+            _put(out, slots, LOADING, i, loading)
+            _put(out, slots, UNLOADING, i, unloading)
+            _put(out, slots, DEEPEST, i, depth_scale * deepest)
+            _put(out, slots, LAST, i, depth_scale * last)
 
 
 @kernel()
-def _solve_force(
-    table: Any, b: float, g: float, scale: float, wavelength: float, rims: Any, slots: Any, out: Any, curve: int
-) -> None:
+def _solve_force(table: Any, curve: Curve, scale: float, wavelength: float, rims: Any, slots: Any, out: Any) -> None:
     """Find the pull-off of a wavy punch for all its rims: one search serves all rims beyond the place it finds."""
     free_load, free_x = 0.0, math.inf
     for i in range(rims.size):
@@ -75,37 +73,39 @@ def _solve_force(
             lowest, place = free_load, free_x
         else:
             x_low = fma(-x, wavelength, rims[i]) / wavelength if x < math.inf else 0.0
-            lowest, place = lowest_load(table, b, g, x, x_low)
+            lowest, place = lowest_load(table, curve, x, x_low)
             if place < x:
                 free_load, free_x = lowest, place
-        _put(out, slots, FORCE, curve, i, -scale * lowest)
-        _put(out, slots, RADIUS, curve, i, place * wavelength)
+        _put(out, slots, FORCE, i, -scale * lowest)
+        _put(out, slots, RADIUS, i, place * wavelength)
 
 
 @kernel()
 def _solve_cycle(
-    table: Any, b: float, g: float, scales: Any, wavelength: float, rims: Any, slots: Any, out: Any, curve: int, scratch: Any
+    table: Any, curve: Curve, scales: Any, wavelength: float, rims: Any, slots: Any, out: Any, scratch: Any
 ) -> None:
     """Follow the cycle of a wavy punch for all its rims, on one trace."""
     energy_scale, depth_scale = scales
     furthest = 0.0
     for i in range(rims.size):
         furthest = max(furthest, rims[i] / wavelength)
-    count, trace = cycle.trace_branches(table, b, g, furthest, scratch)
+    count, trace = cycle.trace_branches(table, curve, furthest, scratch)
     losses = slots[ENERGY] >= 0
     if _wants_cycle(slots):
-        cycle.load_up(table, b, g, count, trace, furthest, losses)
+        cycle.load_up(table, curve, count, trace, furthest, losses)
     for i in range(rims.size):
         x = rims[i] / wavelength
-        rim_depth = depth(table, b, g, x) if x < math.inf else math.inf
+        rim_depth = depth(table, curve, x) if x < math.inf else math.inf
         if _wants_cycle(slots):
-            loading_loss, loading_jumps = cycle.loading_to(table, b, g, count, trace, x, losses)
-            unloading_loss, unloading_jumps, last = cycle.unloading_from(table, b, g, count, trace, x, rim_depth, losses)
-            _put(out, slots, ENERGY, curve, i, energy_scale * (loading_loss + unloading_loss))
-            _put(out, slots, LOADING, curve, i, loading_jumps)
-            _put(out, slots, UNLOADING, curve, i, unloading_jumps)
-            _put(out, slots, LAST, curve, i, depth_scale * last)
-        _put(out, slots, DEEPEST, curve, i, depth_scale * cycle.highest_depth(count, trace, x, rim_depth))
+            loading_loss, loading_jumps = cycle.loading_to(table, curve, count, trace, x, losses)
+            unloading_loss, unloading_jumps, last = cycle.unloading_from(
+                table, curve, count, trace, x, rim_depth, losses
+            )
+            _put(out, slots, ENERGY, i, energy_scale * (loading_loss + unloading_loss))
+            _put(out, slots, LOADING, i, loading_jumps)
+            _put(out, slots, UNLOADING, i, unloading_jumps)
+            _put(out, slots, LAST, i, depth_scale * last)
+        _put(out, slots, DEEPEST, i, depth_scale * cycle.highest_depth(count, trace, x, rim_depth))
 
 
 @kernel()
@@ -118,34 +118,31 @@ def solve_curve(
     rims: Any,
     slots: Any,
     out: Any,
-    status: Any,
-    curve: int,
     scratch: Any,
-) -> None:
-    """Solve one curve (k, M, lambda, A) for all its rims a_max."""
+) -> int:
+    """Solve one curve (k, M, lambda, A) for all its rims a_max; return its status."""
     k = table.k
     valid = stiffness > 0.0 and 0.0 < wavelength < math.inf and 0.0 <= amplitude < math.inf
     for i in range(rims.size):
         valid = valid and rims[i] > 0.0
     if not valid:
-        out[:, curve, :] = math.nan
-        status[curve, :] = NO_VALUE
-        return
+        out[:, :] = math.nan
+        return NO_VALUE
     stretch = _stretch(k, stiffness)
     if amplitude == 0.0:
-        _solve_smooth(k, constants, stretch, rims, slots, out, curve)
-        return
+        _solve_smooth(k, constants, stretch, rims, slots, out)
+        return 0
     length = wavelength / TWO_PI
     depth_scale = stretch * length ** (0.5 * (1.0 - k))
-    b = 2.0 * length * length / ((1.0 + k) * depth_scale)
-    g = amplitude * wavelength / depth_scale
+    curve = (2.0 * length * length / ((1.0 + k) * depth_scale), amplitude * wavelength / depth_scale, 0.0)
     if _wants_force(slots):
         # K l^(1+k) s l^c/(1.5 pi R dgamma) = K s^2 l^2/(s l^c)/1.5 pi, and K s^2 = 4 pi R dgamma/(1+k)
         scale = 8.0 / (3.0 * (1.0 + k)) * length * length / depth_scale
-        _solve_force(table, b, g, scale, wavelength, rims, slots, out, curve)
+        _solve_force(table, curve, scale, wavelength, rims, slots, out)
     if _wants_cycle(slots) or slots[DEEPEST] >= 0:
         scales = (TWO_PI * length * length, depth_scale)
-        _solve_cycle(table, b, g, scales, wavelength, rims, slots, out, curve, scratch)
+        _solve_cycle(table, curve, scales, wavelength, rims, slots, out, scratch)
+    return 0
 
 
 @kernel()
@@ -166,6 +163,6 @@ def solve_curves(
     for j in range(index.size):
         i = index[j]
         row = rims[i if rims.shape[0] > 1 else 0]
-        solve_curve(
-            table, constants, stiffness[i], wavelength[i], amplitude[i], row, slots, out, status, i, scratch
+        status[i, :] = solve_curve(
+            table, constants, stiffness[i], wavelength[i], amplitude[i], row, slots, out[:, i], scratch
         )

@@ -119,7 +119,9 @@ def solve(
     k, nu, modulus, c0, wavelength, amplitude = (array[lead] for array in arrays[:-1])
     a_max = arrays[-1]
     own_rims = any(length > 1 for length in a_max.shape[: len(curve_shape)])
-    rims = _flat(a_max, (curve_shape if own_rims else (1,) * len(curve_shape)) + rim_shape).reshape(-1, math.prod(rim_shape))
+    rims = _flat(a_max, (curve_shape if own_rims else (1,) * len(curve_shape)) + rim_shape).reshape(
+        -1, math.prod(rim_shape)
+    )
 
     curves = math.prod(curve_shape)
     slots = np.array([outputs.index(name) if name in outputs else -1 for name in OUTPUTS])

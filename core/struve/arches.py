@@ -97,7 +97,7 @@ def inner_edge(table: Any, i: int) -> tuple[float, float, float]:
     if i <= ARCHES:
         row = table.arches[i]
         return row[0], row[1], row[2]
-    return find_inflection(table, i)  # type: ignore[no-any-return]
+    return find_inflection(table, i)
 
 
 @kernel()
@@ -106,4 +106,4 @@ def summit(table: Any, i: int) -> tuple[float, float, float]:
     if i <= ARCHES:
         row = table.arches[i]
         return row[3], row[4], row[5]
-    return find_summit(table, i)  # type: ignore[no-any-return]
+    return find_summit(table, i)

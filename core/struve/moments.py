@@ -194,14 +194,16 @@ def moments(table: Any, x: float, power: float) -> tuple[float, float]:
     """Return E2/z^(k+5) and W/z^(k+5) at z = 2 pi x, with power = z^(-(1+k)/2) (used from z = 40 on)."""
     z = TWO_PI * x
     if z < MOMENT_START:
-        return _series(table.moment_series, z * z)  # type: ignore[no-any-return]
+        return _series(table.moment_series, z * z)
     if z < SWITCH:
         i = int(2.0 * z)
         t = fma(4.0 * TWO_PI, x, -(2.0 * i + 1.0)) + 4.0 * TWO_PI_LOW * x
-        return _bins(table.moment_bins[i - 4], t)  # type: ignore[no-any-return]
+        return _bins(table.moment_bins[i - 4], t)
     k = table.k
     s0, s1, _, _ = pair(table, x)
     inverse = 1.0 / z
-    e2 = ((s1 - 2.0 * inverse / (k + 3.0)) / (k + 1.0) + 2.0 * inverse * inverse * (s0 - (k + 2.0) / (k + 1.0) * s1)) * inverse
+    e2 = (
+        (s1 - 2.0 * inverse / (k + 3.0)) / (k + 1.0) + 2.0 * inverse * inverse * (s0 - (k + 2.0) / (k + 1.0) * s1)
+    ) * inverse
     square = table.moment_constant + _second_moment_of_square(table, x, z, power)
     return e2, square * (power * power) * (inverse * inverse) ** 2
