@@ -62,10 +62,11 @@ def draw_map(axes: Axes, x: Scale, y: Scale, values: Values, levels: Levels) -> 
     )
     filled.set_edgecolor("face")  # no white seams between the bands
     inner = levels.levels[1:-1]
-    if inner.size and np.isfinite(values).sum() > 3:
+    inner = inner[1::2] if inner.size > 5 else inner  # the others show as edges of the bands
+    if inner.size and np.isfinite(values).any():
         shades = ["white" if levels.norm(level) < 0.6 else "black" for level in inner]
-        lines = axes.contour(x.positions, y.positions, values, levels=inner, colors=shades, linewidths=0.5)
-        axes.clabel(lines, inner[::2] if inner.size > 5 else inner, fmt="%g", fontsize=6, inline_spacing=2)
+        lines = axes.contour(x.positions, y.positions, values, levels=inner, colors=shades, linewidths=0.4)
+        axes.clabel(lines, inner, fmt="%g", fontsize=6, inline_spacing=2)
     x.dress(axes, "x")
     y.dress(axes, "y")
     return filled

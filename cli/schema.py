@@ -8,7 +8,7 @@ import difflib
 import json
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Annotated, Any, Final, Literal, Union
 
@@ -106,20 +106,21 @@ def mistakes_of_form(data: Mapping[str, Any]) -> list[Mistake]:
         details = error.errors(include_url=False, include_context=True)
     else:
         return []
-    mistakes = []
-    excused = set()
+    mistakes: list[tuple[str, Mistake]] = []
+    excused: set[Path] = set()
     for detail in details:
         path = _path(detail)
         if detail["type"] == "extra_forbidden":
             meant, sentence = _unknown_key(path)
-            excused.add(meant)
-            mistakes.append(Mistake(path, detail["input"], sentence))
-    for detail in details:
-        path = _path(detail)
-        if detail["type"] != "extra_forbidden" and path not in excused:
-            value = None if detail["type"] == "missing" else detail["input"]
-            mistakes.append(Mistake(path, value, _sentence(detail, path)))
-    return mistakes
+            excused.add(meant)  # it is not missing, but misspelt or misplaced
+        else:
+            sentence = _sentence(detail, path)
+        mistakes.append((detail["type"], Mistake(path, detail["input"], sentence)))
+    return [
+        replace(mistake, value=None) if kind == "missing" else mistake
+        for kind, mistake in mistakes
+        if not (kind == "missing" and mistake.path in excused)
+    ]
 
 
 def did_you_mean(word: str, known: Sequence[str]) -> str:

@@ -203,6 +203,11 @@ def test_all_mistakes_are_told_at_once_in_the_order_of_their_lines(refused: Call
     assert numbers == [2, 3, 4, 7, 7, 8, 11, 12, 16]
 
 
+def test_a_misplaced_key_does_not_excuse_a_wrong_one(refused: Callable[..., list[str]]) -> None:
+    lines = refused(GOOD.replace('title = "Good"', "title = nan").replace("[method]", 'title = "Good"\n[method]'))
+    assert ["title = nan: this must be a string" in lines[0], "belongs at the top" in lines[1]] == [True, True]
+
+
 def test_a_thousand_mistakes_do_not_flood_the_screen(refused: Callable[..., list[str]]) -> None:
     lines = refused(GOOD.replace("[0.0, 0.5]", str([-1.0 - i for i in range(1000)])))
     assert len(lines) == 31

@@ -1,0 +1,67 @@
+"""Whatever a study file holds, it is a study or its mistakes are told; never anything else."""
+
+import tempfile
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gradhesion.cli.errors import StudyError
+from gradhesion.cli.study import load_study
+
+LINES = [
+    'title = "Good"', 'layout = "grid"', 'layout = "points"', 'kind = "map"', 'outputs = ["pull_off_force"]', "[parameters]",
+    "k = [0.0, 0.5]", "k = 1", "nu = 0.3", "nu = [0.5, 0.4]", "modulus = 500.0", "c0_over_R = 0.01", "A = 0.1",
+    'lambda_over_R = { start = 0.1, stop = 0.5, num = 3, spacing = "log" }', "lambda_over_R = [0.1, 0.2]",
+    "a_max_over_R = inf", "[method]", 'solver = "exact"', "[parameters.k]", "start = 0.1", "[[outputs]]", "outputs = []",
+]  # fmt: skip
+PIECES = [
+    "nan", "-inf", "inf", "true", '"x"', "[", "]", "{", "}", "=", ".", ",", "#", "\n", "'", '"""', "1e999", "-0.0", "0x1F",
+    "1979-05-27", "[[1], [2]]", "{}", "[{}]", "{a = {b = 1}}", "99999999999999999999", "\\", "\u00e9", "\u2028", "\x0b",
+]  # fmt: skip
+pieces = st.one_of(st.sampled_from(PIECES), st.text(max_size=4))
+
+
+def read(content: bytes, overrides: list[str]) -> None:
+    """Read a study, and check that mistakes are told as they should be."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "study.toml"
+        path.write_bytes(content)
+        mistakes: tuple[str, ...] = ()
+        try:
+            assert load_study(path, overrides).scenes >= 1
+        except StudyError as error:
+            mistakes = error.mistakes
+        assert all(one.startswith((str(path), "--set ", "... and ")) for one in mistakes)
+        assert len(mistakes) == len(set(mistakes))
+
+
+@given(
+    lines=st.lists(st.sampled_from(LINES), min_size=8, max_size=20),
+    cuts=st.lists(st.tuples(st.integers(0, 600), st.integers(0, 12), pieces), max_size=4),
+    overrides=st.lists(
+        st.builds(
+            "{}={}".format, st.sampled_from(["parameters.k", "parameters.k.num", "title", "a.b", "", "."]), pieces
+        ),
+        max_size=2,
+        unique=True,
+    ),
+)
+@settings(max_examples=400)
+def test_mutated_studies(lines: list[str], cuts: list[tuple[int, int, str]], overrides: list[str]) -> None:
+    text = "\n".join(lines)
+    for start, length, piece in cuts:
+        start %= len(text) + 1
+        text = text[:start] + piece + text[start + length :]
+    read(text.encode("utf-8", "replace"), overrides)
+
+
+@given(content=st.binary(max_size=200))
+def test_random_bytes(content: bytes) -> None:
+    read(content, [])
+
+
+@pytest.mark.parametrize("value", ["[" * 2000, "{a=" * 500, "1" * 5000, "-" * 50, '"' * 3, "0" * 50, "\x00", "'\ud800"])
+def test_hostile_values(value: str) -> None:
+    read(f"outputs = {value}\n[parameters]\nk = {value}".encode("utf-8", "replace"), [f"title={value}", f"{value}=1"])

@@ -1,0 +1,159 @@
+"""What the repository promises about itself: examples run, commands are told, studies work, packages are whole."""
+
+import doctest
+import importlib
+import math
+import pkgutil
+import re
+import subprocess
+import sys
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+
+import click
+import numpy as np
+import pytest
+import xarray
+from click.testing import Result
+
+import gradhesion.cli
+import gradhesion.core
+from gradhesion.cli.main import cli
+
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text()
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
+MODULES = sorted(
+    module.name
+    for package in (gradhesion.cli, gradhesion.core)
+    for module in pkgutil.walk_packages(package.__path__, package.__name__ + ".")
+    if not module.name.endswith("__main__")
+)
+HEAVY = ("numpy", "numba", "scipy", "xarray", "netCDF4", "matplotlib", "pandas", "pydantic", "rich", "gradhesion.core")
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_the_examples_of_docstrings_run(name: str) -> None:
+    assert doctest.testmod(importlib.import_module(name)).failed == 0
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_every_module_says_what_it_is_for(name: str) -> None:
+    assert importlib.import_module(name).__doc__
+
+
+@pytest.mark.parametrize("name", sorted(cli.commands))
+def test_every_command_has_help_and_stands_in_the_readme(name: str, gradhesion: Callable[..., Result]) -> None:
+    result = gradhesion(name, "--help")
+    assert result.exit_code == 0
+    assert cli.commands[name].help
+    for option in cli.commands[name].params:
+        if isinstance(option, click.Option):
+            assert option.help, option.name
+            assert option.opts[-1] in README, f"{name} {option.opts[-1]}"
+    assert f"gradhesion {name}" in README
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["run", "--help"], ["--version"]])
+def test_help_imports_nothing_heavy(arguments: list[str]) -> None:
+    code = (
+        "import sys; from gradhesion.cli.main import cli; "
+        f"cli.main({arguments!r}, standalone_mode=False); "
+        f"print([name for name in {HEAVY!r} if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_run_imports_neither_xarray_nor_matplotlib(tmp_path: Path) -> None:
+    code = (
+        "import sys; from gradhesion.cli.main import cli; "
+        f"cli.main(['run', {str(ROOT / 'configs' / 'smoke.toml')!r}, '-o', {str(tmp_path / 'x.nc')!r}], standalone_mode=False); "
+        "print([name for name in ('xarray', 'pandas', 'matplotlib') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
+
+
+@pytest.mark.parametrize("config", sorted((ROOT / "configs").glob("*.toml")), ids=lambda path: path.stem)
+def test_every_study_works_small_and_its_smooth_scenes_are_known(
+    config: Path, gradhesion: Callable[..., Result], tmp_path: Path
+) -> None:
+    small = {"k": "[0.0, 0.37]", "lambda_over_R": "[0.3]", "A": "[0.0, 0.01]", "a_max_over_R": "[inf]"}
+    sets = [f"--set=parameters.{name}={values}" for name, values in small.items()]
+    result = gradhesion("run", config, "-o", tmp_path / "small.nc", "--quiet", *sets)
+    assert result.exit_code == 0, result.stderr
+    with xarray.open_dataset(tmp_path / "small.nc") as dataset:
+        smooth = dataset["pull_off_force"].sel(A=0.0)
+        expected = (3 + dataset["k"]) / 3
+        assert float(abs(smooth / expected - 1).max()) <= 1e-13
+        assert set(dataset.data_vars) > {"pull_off_force", "dissipated_energy"}
+
+
+def test_the_maps_are_a_real_study_over_all_five_axes() -> None:
+    from gradhesion.cli.study import load_study
+
+    study = load_study(ROOT / "configs" / "maps.toml")
+    assert study.scenes >= 100_000
+    assert list(study.sizes) == ["k", "c0_over_R", "lambda_over_R", "A", "a_max_over_R"]
+    assert min(study.shape) >= 4
+    assert np.isinf(np.max(study.parameters["a_max_over_R"]))
+
+
+def test_every_folder_of_modules_is_packaged() -> None:
+    listed = PROJECT["tool"]["setuptools"]["package-dir"]
+    folders = {path.parent.relative_to(ROOT) for top in ("cli", "core") for path in (ROOT / top).rglob("*.py")}
+    assert {Path(folder) for folder in listed.values()} == folders
+    assert sorted(listed) == sorted(PROJECT["tool"]["setuptools"]["packages"])
+    assert all(name == "gradhesion." + folder.replace("/", ".") for name, folder in listed.items())
+    assert all((ROOT / folder / "__init__.py").exists() for folder in listed.values())
+    assert all((ROOT / top / "py.typed").exists() for top in ("cli", "core"))
+
+
+def test_every_dependency_is_pinned_and_none_by_an_address() -> None:
+    pins = (ROOT / "constraints.txt").read_text()
+    assert "://" not in pins
+    pinned = {line.split("==")[0].lower() for line in pins.splitlines()}
+    extras = PROJECT["project"]["optional-dependencies"]
+    wanted = [*PROJECT["project"]["dependencies"], *(name for extra in extras.values() for name in extra)]
+    assert {re.split("[<>=]", name)[0].lower() for name in wanted} <= pinned
+
+
+def test_the_study_of_the_readme_works(
+    gradhesion: Callable[..., Result], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (study,) = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
+    assert len([line for line in study.splitlines() if line.strip()]) <= 12
+    monkeypatch.chdir(tmp_path)
+    Path("fig4a.toml").write_text(study)
+    assert gradhesion("run", "fig4a.toml").exit_code == 0
+    assert gradhesion("info", "outputs/fig4a.nc").exit_code == 0
+    assert gradhesion("plot", "outputs/fig4a.nc", "-o", "fig4a.pdf").exit_code == 0
+
+
+def test_the_python_of_the_readme_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (study,) = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
+    (code,) = re.findall(r"```python\n(.*?)```", README, flags=re.DOTALL)
+    monkeypatch.chdir(tmp_path)
+    Path("fig4a.toml").write_text(study)
+    found: dict[str, object] = {}
+    exec(code, found)  # noqa: S102 (our own text)
+    assert isinstance(found["dataset"], xarray.Dataset)
+    assert math.isclose(float(found["force"]), 1.0, rel_tol=1e-13)  # type: ignore[arg-type]
+
+
+def test_the_exit_codes_of_the_readme_are_those_of_the_errors() -> None:
+    from gradhesion.cli import errors, main
+
+    told = {int(code) for code in re.findall(r"^\| (\d+) \|", README, flags=re.MULTILINE)}
+    classes = [one for one in vars(errors).values() if isinstance(one, type) and one is not errors.GradhesionError]
+    codes = {one.exit_code for one in classes if issubclass(one, errors.GradhesionError)}
+    assert told == codes | {0, main.INTERRUPTED}
+
+
+def test_make_alone_prints_the_targets() -> None:
+    done = subprocess.run(["make", "-C", ROOT], capture_output=True, text=True, check=True)
+    for target in ("maps", "test"):
+        assert re.search(rf"^{target}\t", done.stdout, flags=re.MULTILINE)
+        assert f"make {target}" in README
