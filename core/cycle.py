@@ -61,7 +61,7 @@ def find_depth(table: Any, curve: Curve, target: float, branch: Any) -> float:
         step = -rest * d / (d * d - 0.5 * rest * d1)
         x += step / TWO_PI
         # the loss is stationary at the place of landing: its error is the square of what is left here
-        if low < x < high and abs(step * d1) < 1e-3 * abs(d):
+        if low < x < high and abs(step) * (abs(d1) + abs(d)) < 1e-3 * abs(d):
             return x
     return x
 

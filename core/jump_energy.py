@@ -41,6 +41,8 @@ def _rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
 SHORT, LONG = _PANELS.values()
 SHORT_NODES, SHORT_WEIGHTS = _rule(12)
 NODES, WEIGHTS = _rule(16)
+NEAR_ZERO: Final = 0.6
+"""In waves: panels that begin beyond leave 1e-15 of the branch point at 0."""
 _POWER_TERMS: Final = 13
 """Terms of (1 + eta)^(-n) for |eta| <= 0.1, the half of a panel over its z."""
 
@@ -104,27 +106,6 @@ def _panel_above(table: Any, curve: Curve, start: float, left: Any, begin: float
 
 
 @kernel(contract=True)
-def jump_energy(table: Any, curve: Curve, start: float, end: float, work: Any) -> float:
-    """Return e for a jump that leaves the curve at x = start and ends at x = end; `work` has room for 16 floats."""
-    _, _, lag = curve
-    z1, power, s0, _, _, _, _ = wave(table, lag, start)
-    left = (z1, z1 * s0, z1 * power)
-    length = end - start
-    panels = int(abs(length) / LONG) + 1
-    width = length / panels
-    total = 0.0
-    for panel in range(panels):
-        begin = start + length * panel / panels
-        if TWO_PI * min(begin, begin + width) >= SWITCH:
-            total += _panel_above(table, curve, start, left, begin, width, work)
-        elif abs(width) <= SHORT:
-            total += _panel_below(table, curve, start, left, begin, width, SHORT_NODES, SHORT_WEIGHTS)
-        else:
-            total += _panel_below(table, curve, start, left, begin, width, NODES, WEIGHTS)
-    return total * TWO_PI
-
-
-@kernel(contract=True)
 def energy_from_zero(table: Any, curve: Curve, x: float, depth: float) -> float:
     """Return e for a jump at the given depth from zero contact to x; the way back has the other sign."""
     b, g, lag = curve
@@ -136,3 +117,36 @@ def energy_from_zero(table: Any, curve: Curve, x: float, depth: float) -> float:
     quadratic = front * square * square * (0.25 * b * b / (5.0 + k) + b * g * e2 + g * g * w)
     linear = front * square * (b / (3.0 + k) + 2.0 * g * s1 / (z * (k + 1.0)))
     return 0.5 * square - quadratic + depth * (linear - depth * front / (1.0 + k))
+
+
+@kernel(contract=True)
+def jump_energy(table: Any, curve: Curve, start: float, end: float, work: Any) -> float:
+    """Return e for a jump that leaves the curve at x = start and ends at x = end; `work` has room for 16 floats."""
+    b, g, lag = curve
+    z1, power, s0, _, _, _, _ = wave(table, lag, start)
+    left = (z1, z1 * s0, z1 * power)
+    total = 0.0
+    if min(start, end) < NEAR_ZERO:
+        # Gauss's rule feels the branch point: up to there the antiderivative serves
+        depth = z1 * (0.5 * b * z1 + g * s0 - power)
+        edge = min(max(start, end), NEAR_ZERO)
+        inner = energy_from_zero(table, curve, edge, depth) - energy_from_zero(table, curve, min(start, end), depth)
+        total = (inner if end > start else -inner) / TWO_PI
+        if start < end:
+            origin, goal = edge, end
+        else:
+            origin, goal = start, edge
+    else:
+        origin, goal = start, end
+    length = goal - origin
+    panels = int(abs(length) / LONG) + 1
+    width = length / panels
+    for panel in range(panels):
+        begin = origin + length * panel / panels
+        if TWO_PI * min(begin, begin + width) >= SWITCH:
+            total += _panel_above(table, curve, start, left, begin, width, work)
+        elif abs(width) <= SHORT:
+            total += _panel_below(table, curve, start, left, begin, width, SHORT_NODES, SHORT_WEIGHTS)
+        elif width != 0.0:
+            total += _panel_below(table, curve, start, left, begin, width, NODES, WEIGHTS)
+    return total * TWO_PI
