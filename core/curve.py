@@ -27,7 +27,6 @@ from gradhesion.core.struve.layout import SWITCH
 from gradhesion.core.struve.pair import pair_above, pair_below
 from gradhesion.core.struve.power import amplitude_power
 
-
 Curve: TypeAlias = tuple[float, float, float]
 """Bend, gain and lag."""
 

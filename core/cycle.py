@@ -1,10 +1,10 @@
 """A cycle of loading and unloading under displacement control: its jumps and the energy that they cost.
 
-The curve's folds bound its *branches*, on which depth rises with the radius (the contact is stable). Loading climbs a branch
-to its end and jumps outwards to the next branch that reaches higher; unloading descends to the branch's start and jumps
-inwards to the next branch that reaches lower. Where unloading goes from the start of a branch does not depend on where it
-came from, so that the loss from there to the end is kept with the branch; nor does loading depend on the rim until it
-gets there. All rims of one curve therefore share one trace.
+The curve's folds bound its *branches*, on which depth rises with the radius (the contact is stable). Loading climbs a
+branch to its end and jumps outwards to the next branch that reaches higher; unloading descends to the branch's start
+and jumps inwards to the next branch that reaches lower. Where unloading goes from the start of a branch does not
+depend on where it came from, so that the loss from there to the end is kept with the branch; nor does loading depend
+on the rim until it gets there. All rims of one curve therefore share one trace.
 
 The trace is an array of one column a branch, rows as named below, with one row more for the work of jump_energy.py.
 """

@@ -1,8 +1,8 @@
 """Where a curve folds: the zeros of D(z; level), arch by arch, none missed.
 
-On an arch (struve/arches.py) the fold function F = b X + g Q - level is concave or convex in X. Its signs at the two edges,
-known from the table without any evaluation, leave three cases: different signs, one fold; equal signs on the far side
-of the arch's curvature, none; equal signs on the near side, two or none, as the extremum between them tells.
+On an arch (struve/arches.py) the fold function F = b X + g Q - level is concave or convex in X. Its signs at the two
+edges, known from the table without any evaluation, leave three cases: different signs, one fold; equal signs on the
+far side of the arch's curvature, none; equal signs on the near side, two or none, as the extremum between them tells.
 """
 
 import math
@@ -17,8 +17,8 @@ from gradhesion.core.struve.power import amplitude_power
 _STEPS = 100
 """Halving alone ends after 60 steps; 3 is the rule."""
 _LAST_STEP = 1e-4
-"""A cubically convergent step of this size (relative to a curvature length) leaves 1e-12, and depth, load and energy are
-stationary at a fold: their error is the square of that."""
+"""A cubically convergent step of this size (relative to a curvature length) leaves 1e-12, and
+depth, load and energy are stationary at a fold: their error is the square of that."""
 
 
 @kernel(contract=True)
@@ -27,8 +27,8 @@ def find_zero(
 ) -> tuple[float, float]:
     """Return the only zero of D between low and high, where D rises or falls through it, and the depth there.
 
-    Halley's iteration, kept in the bracket. The depth is continued to the zero from the last point but one, to the fourth
-    order of the last step; it is that of the fold only if the level is that of the depth.
+    Halley's iteration, kept in the bracket. The depth is continued to the zero from the last point but one, to the
+    fourth order of the last step; it is that of the fold only if the level is that of the depth.
     """
     x = guess if low < guess < high else 0.5 * (low + high)
     d, d1, d2, depth = slope(table, curve, level, x)

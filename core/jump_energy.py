@@ -8,9 +8,9 @@ as rho > -1 on the way, but a jump outwards over a deep groove passes states of 
 the contact is no longer one disc) and may gain some. The sum over a cycle is the loop integral of P d(depth) all the
 same.
 
-Between two radii the integrand is smooth and Gauss's rule takes it. From or to zero contact it has a branch point z^k at
-0, and an antiderivative serves, in which E1 = int y^(k+1) S0 = z^(k+2) S1/(k+1) and the moments E2 and W of moments.py
-enter:
+Between two radii the integrand is smooth and Gauss's rule takes it. From or to zero contact it has a branch point z^k
+at 0, and an antiderivative serves, in which E1 = int y^(k+1) S0 = z^(k+2) S1/(k+1) and the moments E2 and W of
+moments.py enter:
 
     z^2/2 - [ b^2/4 z^(5+k)/(5+k) + b g E2 + g^2 W ] + d [ b z^(3+k)/(3+k) + 2 g E1 ] - d^2 z^(1+k)/(1+k)
 

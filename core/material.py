@@ -1,7 +1,8 @@
 """The graded half-space: one number for stiffness.
 
     beta  = sqrt((1+k) (1 - k nu/(1-nu)))
-    theta = pi (1+k) G(1+k/2) G(2+k) / (sqrt(pi) G((1+k)/2) G((3+k+beta)/2) G((3+k-beta)/2)) cos(k pi/2)/(beta sin(beta pi/2))
+    theta = sqrt(pi) (1+k) G(1+k/2) G(2+k) / [G((1+k)/2) G((3+k+beta)/2) G((3+k-beta)/2)]
+            cos(k pi/2)/(beta sin(beta pi/2))
     M     = theta E*/c0^k
 
 (3.3) and (4.6) of Jin, Guo & Wan (2013). As k -> 1 at nu = 1/2 the last quotient is 0/0; it is evaluated as a whole.
@@ -24,7 +25,7 @@ def _sinc(x: float) -> float:
 
 @kernel()
 def theta_of(k: float, nu: float) -> float:
-    """Return theta, NaN outside 0 <= k <= 1, -1 < nu <= 1/2 and where the surface has no stiffness (k = 1, nu < 1/2)."""
+    """Return theta, NaN outside 0 <= k <= 1, -1 < nu <= 1/2 and at k = 1, nu < 1/2 (no stiffness)."""
     if not (0.0 <= k <= 1.0 and -1.0 < nu <= 0.5) or (k == 1.0 and nu < 0.5):
         return math.nan
     rest = 1.0 - k  # exact near k = 1

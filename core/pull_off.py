@@ -4,8 +4,8 @@ Since -z (S0 - S1) <= C z^c (1 + 2.1/z^2) for every k, the load nowhere lies bel
 
     load >= X [ b X/(3+k) - 1 - C g (1 + 2.1/z^2) ]
 
-So the search starts at the parabola's lowest point and goes outwards, arch by arch, until the parabola is higher than the
-best trough found: two or three troughs of a thousand are ever looked at.
+So the search starts at the parabola's lowest point and goes outwards, arch by arch, until the parabola is higher than
+the best trough found: two or three troughs of a thousand are ever looked at.
 """
 
 import math

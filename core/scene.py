@@ -2,8 +2,8 @@
 
 A scene is reduced to its curve (curve.py) and its rim. Lengths are in R, energies in R^2 dgamma, M in dgamma/R^(1+k).
 
-Results go to `out[slots[row], rim]`, where `slots` holds -1 for what nobody asked for; nothing is computed that only such
-a row needs.
+Results go to `out[slots[row], rim]`, where `slots` holds -1 for what nobody asked for; nothing is computed that only
+such a row needs.
 """
 
 import math

@@ -4,8 +4,9 @@ With z = a/l and the length l chosen so that the bend b of curve.py is 1, and wi
 
     depth = z^2/2 - z^((1-k)/2),   load = X [X/(3+k) - 1]
 
-so the first fold, the radius of the jump-in and that of the pull-off are constants of k: z^((3+k)/2) = (1-k)/2, 2, (3+k)/2.
-The pull-off force is (3+k)/3 in units of 1.5 pi R dgamma, whatever the stiffness. (2.2)-(4.8) of Jin, Guo & Wan (2013).
+so the first fold, the radius of the jump-in and that of the pull-off are constants of k: z^((3+k)/2) = (1-k)/2, 2,
+(3+k)/2. The pull-off force is (3+k)/3 in units of 1.5 pi R dgamma, whatever the stiffness. (2.2)-(4.8) of Jin, Guo &
+Wan (2013).
 """
 
 import math

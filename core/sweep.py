@@ -1,7 +1,7 @@
 """Arrays of scenes, solved in groups that share what they can.
 
-Scenes of one gradient exponent share its table; all a_max of one curve share its trace. What is asked for decides what is
-computed. The work is cut into tasks of a fixed size, so that results do not depend on the number of threads.
+Scenes of one gradient exponent share its table; all a_max of one curve share its trace. What is asked for decides
+what is computed. The work is cut into tasks of a fixed size, so that results do not depend on the number of threads.
 """
 
 import math
@@ -71,13 +71,13 @@ def solve(
     Parameters
     ----------
     parameters
-        An array for each name of `PARAMETERS`, all broadcastable: k in [0, 1], nu in (-1, 0.5] (0.5 where k = 1), modulus
-        E* R/dgamma > 0, c0/R > 0, lambda/R > 0, A = amplitude/lambda >= 0, a_max/R > 0 or inf. Scenes that differ along the
-        last axes in a_max alone are solved on one trace.
+        An array for each name of `PARAMETERS`, all broadcastable: k in [0, 1], nu in (-1, 0.5] (0.5 where k = 1),
+        modulus E* R/dgamma > 0, c0/R > 0, lambda/R > 0, A = amplitude/lambda >= 0, a_max/R > 0 or inf. Scenes that
+        differ along the last axes in a_max alone are solved on one trace.
     outputs
-        Names out of `OUTPUTS`: pull_off_force in 1.5 pi R dgamma, pull_off_radius in R, dissipated_energy of one cycle of
-        displacement-controlled loading to full contact and unloading in R^2 dgamma, loading_jumps and unloading_jumps
-        (jump-in and jump-out counted), delta_max and delta_jump_out in R.
+        Names out of `OUTPUTS`: pull_off_force in 1.5 pi R dgamma, pull_off_radius in R, dissipated_energy of one
+        cycle of displacement-controlled loading to full contact and unloading in R^2 dgamma, loading_jumps and
+        unloading_jumps (jump-in and jump-out counted), delta_max and delta_jump_out in R.
     solver
         One of `SOLVERS`.
     threads
@@ -85,8 +85,9 @@ def solve(
 
     Returns
     -------
-    An array of the broadcast shape for each output (float64; int32 for jumps) and `status` (int8, bits of status.FLAGS).
-    A scene outside the ranges has NaN (-1 jumps) and the bit no_value; delta_max of an unbounded punch is inf.
+    An array of the broadcast shape for each output (float64; int32 for jumps) and `status` (int8, bits of
+    status.FLAGS). A scene outside the ranges has NaN (-1 jumps) and the bit no_value; delta_max of an unbounded punch
+    is inf.
 
     Raises
     ------
@@ -95,8 +96,8 @@ def solve(
 
     Notes
     -----
-    Sections 2-5 of Jin, Guo & Wan (2013) as corrected in docs/theory.md. On 60 reference scenes of 15 digits the force is
-    right to 3e-15, the energy to the 12 digits of the reference.
+    Sections 2-5 of Jin, Guo & Wan (2013) as corrected in docs/theory.md. On 2,184 scenes solved to 30 digits by another
+    method (tests/twin) the force and the energy are right to 3e-15, and all jumps are counted right.
 
     Examples
     --------

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.struve import double_double as dd
-from gradhesion.core.struve.layout import BIN_TERMS, BIN_WIDTH, BINS
+from gradhesion.core.struve.layout import BIN_TERMS, BIN_WIDTH
 
 _TAYLOR: Final = 20
 """Taylor coefficients a bin: h^20/20! and the smallness of S0 leave nothing above 1e-20."""

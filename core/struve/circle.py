@@ -1,7 +1,7 @@
 """Sine and cosine of 2 pi x, exact in the phase at any x.
 
-The sine of a rounded 2 pi x is wrong by 1e-14 at x = 10 and by 1e-9 at x = 1e6. Here x is reduced to the nearest quarter
-turn first, which is exact in floating point.
+The sine of a rounded 2 pi x is wrong by 1e-14 at x = 10 and by 1e-9 at x = 1e6. Here x is reduced to the nearest
+quarter turn first, which is exact in floating point.
 """
 
 from typing import Final

@@ -1,6 +1,6 @@
-"""The four machine operations that numba does not offer: a fused multiply-add, the bits of a float, and Horner's
-rule on several polynomials at once.
+"""Machine operations that numba does not offer.
 
+A fused multiply-add, the bits of a float and back, and Horner's rule on several polynomials at once.
 Several polynomials of one argument cost as little as one when each step is a single vector operation; that is what
 makes the four functions S0, S1, S0', S1' as cheap as one of them.
 """

@@ -6,8 +6,9 @@ With alpha_j = (k-1)/2 + j, phi_j = (1+k) pi/4 + j pi/2 and C_j = 2^alpha_j G(1 
     G_j = int_0^inf (1+u^2)^alpha_j e^(-z u) du
     P_j = 1/G(1+alpha_j) int_0^inf v^alpha_j e^(-v) (1 + i v/(2 z))^alpha_j dv
 
-Re P, z Im P, z G and z^2 G' are even in z and vary slowly: each is one polynomial in 2 (40/z)^2 - 1, fitted at Chebyshev
-nodes to the asymptotic series, which is cut at its smallest term (without that it is wrong by 1e-12 at z = 40).
+Re P, z Im P, z G and z^2 G' are even in z and vary slowly: each is one polynomial in 2 (40/z)^2 - 1, fitted at
+Chebyshev nodes to the asymptotic series, which is cut at its smallest term (without that it is wrong by 1e-12 at z =
+40).
 """
 
 import math
