@@ -1,229 +1,181 @@
 """A cycle of loading and unloading under displacement control: its jumps and the energy that they cost.
 
-The curve's folds bound its *branches*, on which depth rises with the radius (the contact is stable). Loading climbs a
-branch to its end and jumps outwards to the next branch that reaches higher; unloading descends to the branch's start
-and jumps inwards to the next branch that reaches lower. Where unloading goes from the start of a branch does not
-depend on where it came from, so that the loss from there to the end is kept with the branch; nor does loading depend
-on the rim until it gets there. All rims of one curve therefore share one trace.
-
-The trace is an array of one column a branch, rows as named below, with one row more for the work of jump_energy.py.
+A curve of moderate length is walked branch by branch, once for all its rims: loading does not depend on the rim until it
+gets there, and unloading does not depend on where it came from. On a long one only the branches near its beginning and
+near the rim are walked; the run of waves between them is regular (regular.py) and summed. The two pieces stand in one
+trace, and what passes the gap enters as what loading has lost where it arrives beyond it, and as what unloading still
+has to lose.
 """
 
 import math
 from typing import Any, Final
 
-import numpy as np
-
 from gradhesion.core._jit import kernel
-from gradhesion.core.curve import Curve, depth, slope
-from gradhesion.core.folds import fold_of_arch, last_arch, survey_arch
+from gradhesion.core.branches import (
+    ARRIVAL,
+    END,
+    END_DEPTH,
+    LAST_DEPTH,
+    LOADING_JUMPS,
+    LOADING_LOSS,
+    START,
+    START_DEPTH,
+    UNLOADING_JUMPS,
+    UNLOADING_LOSS,
+    WORK,
+    append_branches,
+    ends,
+    find_depth,
+    room_for,
+)
+from gradhesion.core.curve import Curve
+from gradhesion.core.folds import first_arch, last_arch
 from gradhesion.core.jump_energy import energy_from_zero, jump_energy
+from gradhesion.core.loading import arrive, climb, load_up
+from gradhesion.core.regular import jump_of_wave, regular_branch, sum_of_waves
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.unloading import descend, leave, next_lower
 
-START, START_DEPTH, END, END_DEPTH = 0, 1, 2, 3
-ARRIVAL, LOADING_LOSS, LOADING_JUMPS = 4, 5, 6
-UNLOADING_LOSS, UNLOADING_JUMPS, LAST_DEPTH = 7, 8, 9
-WORK: Final = 10
-ROWS: Final = 11
-_STEPS: Final = 100
-
-
-@kernel()
-def find_depth(table: Any, curve: Curve, target: float, branch: Any) -> float:
-    """Return where a rising branch meets a depth between those of its two ends (Newton, kept in the bracket)."""
-    level = 0.5 * (1.0 - table.k)
-    low, low_depth, high, high_depth = branch[START], branch[START_DEPTH], branch[END], branch[END_DEPTH]
-    if high == math.inf:
-        step = 0.25 + 0.25 * low
-        high = low + step
-        high_depth = depth(table, curve, high)
-        while high_depth <= target:
-            low, low_depth = high, high_depth
-            step *= 2.0
-            high += step
-            high_depth = depth(table, curve, high)
-    # a half wave of a cosine has both its ends level, as the branch has
-    share = (target - low_depth) / (high_depth - low_depth)
-    x = low + (high - low) * math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * share))) / math.pi
-    for _ in range(_STEPS):
-        if not low < x < high:
-            x = 0.5 * (low + high)
-            if x <= low or x >= high:
-                return x
-        d, d1, _, rest = slope(table, curve, level, x)
-        rest -= target
-        if rest == 0.0:
-            return x
-        if rest < 0.0:
-            low = x
-        else:
-            high = x
-        step = -rest * d / (d * d - 0.5 * rest * d1)
-        x += step / TWO_PI
-        # the loss is stationary at the place of landing: its error is the square of what is left here
-        if low < x < high and abs(step) * (abs(d1) + abs(d)) < 1e-3 * abs(d):
-            return x
-    return x
+LONGEST_WALK: Final = 160.0
+"""Arches, two a wave, up to which a curve is walked."""
+BEGINNING: Final = 24.0
+"""Waves walked at the beginning of a long curve; z > 150 there."""
+NEAR_RIM: Final = 16.0
+"""Waves walked before the rim, or before the folds end."""
 
 
 @kernel()
-def trace_branches(table: Any, curve: Curve, furthest: float, scratch: Any) -> tuple[int, Any]:
-    """Fill the branches that begin within `furthest` (inf: all); return their number and the trace.
-
-    The trace is `scratch` where that is long enough. The last branch ends at infinity or at its true fold.
-    """
+def extent(table: Any, curve: Curve) -> tuple[int, float]:
+    """Return the first and the last arch on which the curve can fold."""
     level = 0.5 * (1.0 - table.k)
-    final = last_arch(table, curve, level)
-    wanted = min(final, (TWO_PI * furthest - table.phase) / math.pi + 3.5)
-    trace = scratch
-    if wanted + 4.0 > scratch.shape[1]:
-        trace = np.empty((ROWS, int(wanted) + 4))
-    count = 0
-    inside = False
-    if level == 0.0:  # k = 1: the first branch starts at zero contact, at the depth -1
-        trace[START, 0], trace[START_DEPTH, 0] = 0.0, -1.0
-        trace[UNLOADING_JUMPS, 0] = -1.0
-        inside = True
-    i = 0
-    while i <= final:
-        kind, low, peak, high = survey_arch(table, curve, level, i)
-        rising = kind == 1 or (kind == 2 and i % 2 == 0)
-        for _ in range(abs(kind)):
-            x, bottom = fold_of_arch(table, curve, level, i, kind, low, peak, high, rising)
-            if rising and x > furthest:
-                return count, trace
-            if rising:
-                trace[START, count], trace[START_DEPTH, count] = x, bottom
-                trace[UNLOADING_JUMPS, count] = -1.0  # not known yet
-            else:
-                trace[END, count], trace[END_DEPTH, count] = x, bottom
-                count += 1
-                if x > furthest:
-                    return count, trace
-            inside = rising
-            rising = not rising
-        if not inside and high > furthest:
-            break
-        i += 1
-    if inside:
-        trace[END, count] = trace[END_DEPTH, count] = math.inf
-        count += 1
+    return first_arch(table, curve, level), last_arch(table, curve, level)
+
+
+@kernel()
+def is_long(table: Any, arches: tuple[int, float], rim: float) -> bool:
+    """Return whether a rim is too far out to walk there."""
+    return min(arches[1], 2.0 * rim - table.phase / math.pi) - arches[0] > LONGEST_WALK
+
+
+@kernel()
+def walk(
+    table: Any, curve: Curve, arches: tuple[int, float], furthest: float, trace: Any, losses: bool
+) -> tuple[int, Any]:
+    """Walk a curve of moderate length outwards to `furthest`; return the number of its branches and the trace."""
+    first, final = arches
+    trace = room_for(trace, min(final, 2.0 * furthest) - first + 8.0)
+    count = append_branches(table, curve, first, final, furthest, trace, 0)
+    load_up(table, curve, count, trace, furthest, losses)
     return count, trace
 
 
 @kernel()
-def load_up(table: Any, curve: Curve, count: int, trace: Any, furthest: float, losses: bool) -> None:
-    """Follow loading from branch to branch; keep where it arrives on each (inf: never) and what was lost by then."""
-    trace[ARRIVAL, :count] = math.inf
-    now = 0
-    while now < count and trace[END_DEPTH, now] <= 0.0:
-        now += 1
-    if now == count or trace[START, now] > furthest:
+def _wave_of(table: Any, start: float) -> float:
+    """Return the number of the wave whose branch starts at x: half a wave to none before its centre."""
+    return math.floor(start - table.phase / TWO_PI + 0.75)
+
+
+@kernel()
+def _first_wave_above(table: Any, curve: Curve, low: float, high: float, level: float) -> float:
+    """Return the first wave after `low`, which ends below a depth, that ends above it; `high` does."""
+    while high - low > 1.0:
+        middle = math.floor(0.5 * (low + high))
+        _, _, _, end_depth = regular_branch(table, curve, middle)
+        if end_depth > level:
+            high = middle
+        else:
+            low = middle
+    return high
+
+
+@kernel()
+def _lowest_wave(table: Any, curve: Curve, low: float, high: float) -> float:
+    """Return the wave between two others whose branch starts lowest; the starts fall up to it and rise from it on."""
+    while high - low > 1.0:
+        middle = math.floor(0.5 * (low + high))
+        _, here, _, _ = regular_branch(table, curve, middle)
+        _, next_one, _, _ = regular_branch(table, curve, middle + 1.0)
+        if next_one < here:
+            low = middle
+        else:
+            high = middle
+    _, at_low, _, _ = regular_branch(table, curve, low)
+    _, at_high, _, _ = regular_branch(table, curve, high)
+    return low if at_low < at_high else high
+
+
+@kernel()
+def _load_through(
+    table: Any, curve: Curve, near: int, count: int, waves: Any, trace: Any, rim: float, losses: bool
+) -> None:
+    """Follow loading from the `near` branches of the beginning through the gap to those near the rim."""
+    before, after, final = waves  # numbers of the last wave before the gap, and of the first one after it
+    trace[ARRIVAL, near:count] = math.inf
+    now = load_up(table, curve, near, trace, math.inf, losses)
+    left, level = (trace[END, now], trace[END_DEPTH, now]) if now >= 0 else (0.0, 0.0)
+    if trace[END_DEPTH, near] > level:
+        wave, x, loss, jumps = before, 0.0, 0.0, 0.0
+        if now == near - 1:
+            loss, jumps = trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]
+        else:  # into the gap, by one long jump
+            wave = _first_wave_above(table, curve, before, after, level)
+            x = find_depth(table, curve, level, regular_branch(table, curve, wave))
+            if now >= 0:
+                loss, jumps = trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]
+            if losses and now >= 0:
+                loss += jump_energy(table, curve, left, x, trace[WORK])
+            elif losses:
+                loss = energy_from_zero(table, curve, x, 0.0)
+            jumps += 1.0
+        if wave < after:
+            if losses:
+                loss += sum_of_waves(table, curve, wave, after - 1.0, True, final, trace)
+            x, _ = jump_of_wave(table, curve, after - 1.0, True, trace)
+            jumps += after - wave
+        arrive(trace, near, x, loss, jumps)
+        now = near
+    climb(table, curve, now, count, trace, rim, losses)
+
+
+@kernel()
+def _unload_through(table: Any, curve: Curve, near: int, waves: Any, trace: Any, losses: bool) -> None:
+    """Give the first branch after the gap what unloading loses from there, if it goes on into the gap."""
+    before, after, final = waves
+    lowest = _lowest_wave(table, curve, before, after)
+    if lowest == after:  # nothing in the gap is lower
         return
-    x = find_depth(table, curve, 0.0, trace[:, now])
-    loss, jumps = energy_from_zero(table, curve, x, 0.0) if losses else 0.0, 1.0
-    while True:
-        trace[ARRIVAL, now], trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now] = x, loss, jumps
-        left, level = trace[END, now], trace[END_DEPTH, now]
-        if left >= furthest:
-            return
-        now += 1
-        while now < count and trace[END_DEPTH, now] <= level:
-            now += 1
-        if now == count or trace[START, now] > furthest:
-            return
-        x = find_depth(table, curve, level, trace[:, now])
-        if losses:
-            loss += jump_energy(table, curve, left, x, trace[WORK])
-        jumps += 1.0
+    loss, jumps, last = 0.0, 1.0, 0.0
+    if lowest == before:
+        descend(table, curve, trace, near - 1, losses)
+        loss, jumps, last = trace[UNLOADING_LOSS, near - 1], trace[UNLOADING_JUMPS, near - 1], trace[LAST_DEPTH, near - 1]
+    else:
+        start, level, _, _ = regular_branch(table, curve, lowest)
+        lower = next_lower(trace, near - 1, level)
+        if lower >= 0:
+            descend(table, curve, trace, lower, losses)
+            landing = find_depth(table, curve, level, ends(trace, lower))
+            loss = jump_energy(table, curve, start, landing, trace[WORK]) if losses else 0.0
+            loss, jumps, last = loss + trace[UNLOADING_LOSS, lower], 1.0 + trace[UNLOADING_JUMPS, lower], trace[LAST_DEPTH, lower]
+        else:
+            loss, last = -energy_from_zero(table, curve, start, level) if losses else 0.0, level
+    if losses:
+        loss += sum_of_waves(table, curve, lowest + 1.0, after, False, final, trace)
+    leave(trace, near, loss, jumps + after - lowest, last)
 
 
 @kernel()
-def loading_to(table: Any, curve: Curve, count: int, trace: Any, rim: float, losses: bool) -> tuple[float, float]:
-    """Return what loading up to the rim loses, and its jumps."""
-    now = count - 1
-    while now >= 0 and not trace[ARRIVAL, now] <= rim:
-        now -= 1
-    if now < 0:  # from zero contact to the rim at once
-        return energy_from_zero(table, curve, rim, 0.0) if losses else 0.0, 1.0
-    loss, jumps = trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]
-    left = trace[END, now]
-    if left < rim:
-        if losses:
-            loss += jump_energy(table, curve, left, rim, trace[WORK])
-        jumps += 1.0
-    return loss, jumps
-
-
-@kernel()
-def _lower_branch(trace: Any, now: int, level: float) -> int:
-    """Return the next branch inwards from `now` that reaches below a depth, -1 if none does."""
-    while now >= 0 and trace[START_DEPTH, now] >= level:
-        now -= 1
-    return now
-
-
-@kernel()
-def unload_from(table: Any, curve: Curve, trace: Any, branch: int, losses: bool) -> None:
-    """Complete what unloading loses from the start of a branch to the end of contact, on it and all that it visits."""
-    # outwards to inwards until a branch is known, then back
-    now = branch
-    while trace[UNLOADING_JUMPS, now] < 0.0:
-        if now == 0 and trace[START, 0] == 0.0:  # k = 1: the contact shrinks to a point
-            trace[UNLOADING_LOSS, 0], trace[UNLOADING_JUMPS, 0], trace[LAST_DEPTH, 0] = 0.0, 0.0, -1.0
-            break
-        start, level = trace[START, now], trace[START_DEPTH, now]
-        lower = _lower_branch(trace, now - 1, level)
-        if lower < 0:
-            trace[UNLOADING_LOSS, now] = -energy_from_zero(table, curve, start, level) if losses else 0.0
-            trace[UNLOADING_JUMPS, now], trace[LAST_DEPTH, now] = 1.0, level
-            break
-        now = lower
-    inner = now
-    now = branch
-    while now > inner:
-        # the way back is the way in: fill from the innermost unknown branch outwards
-        outer = now
-        lower = _lower_branch(trace, outer - 1, trace[START_DEPTH, outer])
-        while lower > inner:
-            outer = lower
-            lower = _lower_branch(trace, outer - 1, trace[START_DEPTH, outer])
-        loss = 0.0
-        if losses:
-            landing = find_depth(table, curve, trace[START_DEPTH, outer], trace[:, lower])
-            loss = jump_energy(table, curve, trace[START, outer], landing, trace[WORK])
-        trace[UNLOADING_LOSS, outer] = loss + trace[UNLOADING_LOSS, lower]
-        trace[UNLOADING_JUMPS, outer] = 1.0 + trace[UNLOADING_JUMPS, lower]
-        trace[LAST_DEPTH, outer] = trace[LAST_DEPTH, lower]
-        inner = outer
-
-
-@kernel()
-def unloading_from(
-    table: Any, curve: Curve, count: int, trace: Any, rim: float, rim_depth: float, losses: bool
-) -> tuple[float, float, float]:
-    """Return what unloading from the rim loses, its jumps, and the depth at which contact ends."""
-    now = count - 1
-    while now >= 0 and trace[START, now] > rim:
-        now -= 1
-    loss, jumps = 0.0, 0.0
-    if now < 0 or trace[END, now] < rim:  # the rim is on a falling part: unloading leaves it by a jump
-        now = _lower_branch(trace, now, rim_depth)
-        if now < 0:
-            return -energy_from_zero(table, curve, rim, rim_depth) if losses else 0.0, 1.0, rim_depth
-        if losses:
-            landing = find_depth(table, curve, rim_depth, trace[:, now])
-            loss = jump_energy(table, curve, rim, landing, trace[WORK])
-        jumps = 1.0
-    unload_from(table, curve, trace, now, losses)
-    return loss + trace[UNLOADING_LOSS, now], jumps + trace[UNLOADING_JUMPS, now], trace[LAST_DEPTH, now]
-
-
-@kernel()
-def highest_depth(count: int, trace: Any, rim: float, rim_depth: float) -> float:
-    """Return the largest depth on the way to the rim, 0 if all are negative."""
-    highest = max(0.0, rim_depth)
-    for now in range(count):
-        if trace[END, now] < rim:
-            highest = max(highest, trace[END_DEPTH, now])
-    return highest
+def stride(
+    table: Any, curve: Curve, arches: tuple[int, float], rim: float, trace: Any, losses: bool
+) -> tuple[int, Any]:
+    """Do what `walk` does for one rim of a long curve, leaving out the regular waves in the middle."""
+    first, final = arches
+    trace = room_for(trace, 4.0 * (BEGINNING + NEAR_RIM))
+    beginning = (0.5 * first + BEGINNING) + table.phase / TWO_PI
+    near = append_branches(table, curve, first, final, beginning, trace, 0)
+    last = min(final, 2.0 * rim - table.phase / math.pi + 3.0)
+    resume = 2 * int(0.5 * last - NEAR_RIM) - 1
+    count = append_branches(table, curve, resume, final, rim, trace, near)
+    waves = (_wave_of(table, trace[START, near - 1]), _wave_of(table, trace[START, near]), 0.5 * final + 1.0)
+    _load_through(table, curve, near, count, waves, trace, rim, losses)
+    _unload_through(table, curve, near, waves, trace, losses)
+    return count, trace

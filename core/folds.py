@@ -6,7 +6,7 @@ far side of the arch's curvature, none; equal signs on the near side, two or non
 """
 
 import math
-from typing import Any
+from typing import Any, Final
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve import Curve, slope
@@ -19,6 +19,8 @@ _STEPS = 100
 _LAST_STEP = 1e-4
 """A cubically convergent step of this size (relative to a curvature length) leaves 1e-12, and
 depth, load and energy are stationary at a fold: their error is the square of that."""
+FEW: Final = 20.0
+"""z up to which a curve is walked from the start."""
 
 
 @kernel(contract=True)
@@ -174,3 +176,24 @@ def last_arch(table: Any, curve: Curve, level: float) -> float:
     z = max(1.0, z)
     z = ((chi * (1.0 + 0.35 / (z * z)) + level / z) / b) ** inverse_n
     return (z - table.phase) / math.pi + 1.5
+
+
+@kernel(contract=True)
+def first_arch(table: Any, curve: Curve, level: float) -> int:
+    """Return the index of an arch before which no fold can stand: level/z - b z^n > g C (1 + 0.35/z^2) up to there.
+
+    The left side less a constant is convex and falls, so that Newton's iteration from the left stays left of its zero.
+    """
+    b, g, _ = curve
+    n = 0.5 * (1.0 + table.k)
+    chi = 1.001 * g * table.amplitude  # 0.35/z^2 < 0.001 from z = 20 on
+    z = 0.5 * level / chi
+    if not z > FEW:
+        return 0
+    z = min(z, (0.5 * level / b) ** (1.0 / (1.0 + n)))
+    for _ in range(6):
+        if not z > FEW:
+            return 0
+        slow = b / amplitude_power(table, z)
+        z += (level / z - slow - chi) / (level / (z * z) + n * slow / z)
+    return int((z - table.phase) / math.pi - 1.0)

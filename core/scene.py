@@ -9,13 +9,16 @@ such a row needs.
 import math
 from typing import Any
 
-from gradhesion.core import cycle, smooth
+from gradhesion.core import smooth
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve import Curve, depth
+from gradhesion.core.cycle import extent, is_long, stride, walk
+from gradhesion.core.loading import highest_depth, loading_to
 from gradhesion.core.pull_off import lowest_load
 from gradhesion.core.status import NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
+from gradhesion.core.unloading import unloading_from
 
 FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST = 0, 1, 2, 3, 4, 5, 6
 """Rows of the results, in the order of sweep.OUTPUTS."""
@@ -81,31 +84,46 @@ def _solve_force(table: Any, curve: Curve, scale: float, wavelength: float, rims
 
 
 @kernel()
+def _cycle_at_rim(
+    table: Any, curve: Curve, scales: Any, count: int, trace: Any, x: float, slots: Any, out: Any, i: int
+) -> None:
+    """Read the cycle of one rim off a trace."""
+    energy_scale, depth_scale = scales
+    losses = slots[ENERGY] >= 0
+    rim_depth = depth(table, curve, x) if x < math.inf else math.inf
+    if _wants_cycle(slots):
+        loading_loss, loading_jumps = loading_to(table, curve, count, trace, x, losses)
+        unloading_loss, unloading_jumps, last = unloading_from(table, curve, count, trace, x, rim_depth, losses)
+        _put(out, slots, ENERGY, i, energy_scale * (loading_loss + unloading_loss))
+        _put(out, slots, LOADING, i, loading_jumps)
+        _put(out, slots, UNLOADING, i, unloading_jumps)
+        _put(out, slots, LAST, i, depth_scale * last)
+    _put(out, slots, DEEPEST, i, depth_scale * highest_depth(count, trace, x, rim_depth))
+
+
+@kernel()
 def _solve_cycle(
     table: Any, curve: Curve, scales: Any, wavelength: float, rims: Any, slots: Any, out: Any, scratch: Any
 ) -> None:
-    """Follow the cycle of a wavy punch for all its rims, on one trace."""
-    energy_scale, depth_scale = scales
+    """Follow the cycle of a wavy punch for all its rims: those within a walk share one trace."""
+    losses = slots[ENERGY] >= 0
+    arches = extent(table, curve)
     furthest = 0.0
     for i in range(rims.size):
-        furthest = max(furthest, rims[i] / wavelength)
-    count, trace = cycle.trace_branches(table, curve, furthest, scratch)
-    losses = slots[ENERGY] >= 0
-    if _wants_cycle(slots):
-        cycle.load_up(table, curve, count, trace, furthest, losses)
+        x = rims[i] / wavelength
+        if not is_long(table, arches, x):
+            furthest = max(furthest, x)
+    if furthest > 0.0:
+        count, trace = walk(table, curve, arches, furthest, scratch, losses)
     for i in range(rims.size):
         x = rims[i] / wavelength
-        rim_depth = depth(table, curve, x) if x < math.inf else math.inf
-        if _wants_cycle(slots):
-            loading_loss, loading_jumps = cycle.loading_to(table, curve, count, trace, x, losses)
-            unloading_loss, unloading_jumps, last = cycle.unloading_from(
-                table, curve, count, trace, x, rim_depth, losses
-            )
-            _put(out, slots, ENERGY, i, energy_scale * (loading_loss + unloading_loss))
-            _put(out, slots, LOADING, i, loading_jumps)
-            _put(out, slots, UNLOADING, i, unloading_jumps)
-            _put(out, slots, LAST, i, depth_scale * last)
-        _put(out, slots, DEEPEST, i, depth_scale * cycle.highest_depth(count, trace, x, rim_depth))
+        if not is_long(table, arches, x):
+            _cycle_at_rim(table, curve, scales, count, trace, x, slots, out, i)
+    for i in range(rims.size):
+        x = rims[i] / wavelength
+        if is_long(table, arches, x):
+            count, trace = stride(table, curve, arches, x, scratch, losses)
+            _cycle_at_rim(table, curve, scales, count, trace, x, slots, out, i)
 
 
 @kernel()

@@ -14,7 +14,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core import _jit, cycle
+from gradhesion.core import _jit
+from gradhesion.core.branches import ROWS
 from gradhesion.core.material import stiffness
 from gradhesion.core.scene import solve_curves
 from gradhesion.core.struve.table import build_table
@@ -35,8 +36,8 @@ SOLVERS: Final = ("exact",)
 _INTEGERS: Final = ("loading_jumps", "unloading_jumps")
 _TASK: Final = 2048
 """Scenes a task: some milliseconds, a thousand times the cost of handing it to a thread."""
-_BRANCHES: Final = 64
-"""Branches of a curve that a task has room for; longer curves make room for themselves."""
+_BRANCHES: Final = 192
+"""Branches of a curve that a task has room for."""
 
 table_of = lru_cache(maxsize=128)(build_table)
 """The table of an exponent, kept for the next call (56 kB each)."""
@@ -132,7 +133,7 @@ def solve(
     wavelengths, amplitudes = _flat(wavelength, curve_shape), _flat(amplitude, curve_shape)
 
     def work(task: tuple[float, NDArray[np.int64]]) -> None:
-        scratch = np.empty((cycle.ROWS, _BRANCHES))
+        scratch = np.empty((ROWS, _BRANCHES))
         table = table_of(min(max(task[0], 0.0), 1.0) if task[0] == task[0] else 0.0)
         solve_curves(table, task[1], stiffnesses, wavelengths, amplitudes, rims, slots, out, status, scratch)
 

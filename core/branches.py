@@ -1,0 +1,116 @@
+"""The branches of a curve: the parts on which depth rises with the radius, where the contact is stable.
+
+They are kept in a *trace*, an array of one column a branch with the rows named here: the two folds that bound the branch,
+how loading arrives on it, and what unloading loses from its start to the end of contact. Two rows more are room for the
+nodes of jump_energy.py and the waves of regular.py.
+"""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.curve import Curve, depth, slope
+from gradhesion.core.folds import fold_of_arch, survey_arch
+from gradhesion.core.struve.circle import TWO_PI
+
+START, START_DEPTH, END, END_DEPTH = 0, 1, 2, 3
+ARRIVAL, LOADING_LOSS, LOADING_JUMPS = 4, 5, 6
+UNLOADING_LOSS, UNLOADING_JUMPS, LAST_DEPTH, CALLER = 7, 8, 9, 10
+WORK, VALUES = 11, 12
+ROWS: Final = 13
+UNKNOWN: Final = -1.0
+"""Unloading jumps of a branch that unloading has not visited yet."""
+_STEPS: Final = 100
+
+
+@kernel()
+def ends(trace: Any, branch: int) -> tuple[float, float, float, float]:
+    """Return the place and depth of a branch's start, and those of its end."""
+    return trace[START, branch], trace[START_DEPTH, branch], trace[END, branch], trace[END_DEPTH, branch]
+
+
+@kernel()
+def find_depth(table: Any, curve: Curve, target: float, branch: tuple[float, float, float, float]) -> float:
+    """Return where a branch meets a depth between those of its two ends (Halley, kept in the bracket)."""
+    level = 0.5 * (1.0 - table.k)
+    low, low_depth, high, high_depth = branch
+    if high == math.inf:
+        step = 0.25 + 0.25 * low
+        high = low + step
+        high_depth = depth(table, curve, high)
+        while high_depth <= target:
+            low, low_depth = high, high_depth
+            step *= 2.0
+            high += step
+            high_depth = depth(table, curve, high)
+    # a half wave of a cosine has both its ends level, as the branch has
+    share = (target - low_depth) / (high_depth - low_depth)
+    x = low + (high - low) * math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * share))) / math.pi
+    for _ in range(_STEPS):
+        if not low < x < high:
+            x = 0.5 * (low + high)
+            if x <= low or x >= high:
+                return x
+        d, d1, _, rest = slope(table, curve, level, x)
+        rest -= target
+        if rest == 0.0:
+            return x
+        if rest < 0.0:
+            low = x
+        else:
+            high = x
+        step = -rest * d / (d * d - 0.5 * rest * d1)
+        x += step / TWO_PI
+        # the loss is stationary at the place of landing: its error is the square of what is left here
+        if low < x < high and abs(step) * (abs(d1) + abs(d)) < 1e-3 * abs(d):
+            return x
+    return x
+
+
+@kernel()
+def room_for(trace: Any, columns: float) -> Any:
+    """Return the trace, or a larger one that is still empty."""
+    if columns <= trace.shape[1]:
+        return trace
+    return np.empty((ROWS, int(columns)))
+
+
+@kernel()
+def append_branches(table: Any, curve: Curve, first: int, final: float, furthest: float, trace: Any, count: int) -> int:
+    """Append the branches that start on arch `first` or later and within `furthest`; return the new count.
+
+    The last branch is complete: it ends at its true fold, or at infinity where no arch up to `final` ends it.
+    """
+    level = 0.5 * (1.0 - table.k)
+    inside = False
+    if level == 0.0 and first == 0:  # k = 1: the first branch starts at zero contact, at the depth -1
+        trace[START, count], trace[START_DEPTH, count], trace[UNLOADING_JUMPS, count] = 0.0, -1.0, UNKNOWN
+        inside = True
+    i = first
+    while i <= final:
+        kind, low, peak, high = survey_arch(table, curve, level, i)
+        rising = kind == 1 or (kind == 2 and i % 2 == 0)
+        for _ in range(abs(kind)):
+            if rising or inside:
+                x, bottom = fold_of_arch(table, curve, level, i, kind, low, peak, high, rising)
+                if rising:
+                    if x > furthest:
+                        return count
+                    trace[START, count], trace[START_DEPTH, count] = x, bottom
+                    trace[UNLOADING_JUMPS, count] = UNKNOWN
+                else:
+                    trace[END, count], trace[END_DEPTH, count] = x, bottom
+                    count += 1
+                    if x > furthest:
+                        return count
+            inside = rising
+            rising = not rising
+        if not inside and high > furthest:
+            return count
+        i += 1
+    if inside:
+        trace[END, count] = trace[END_DEPTH, count] = math.inf
+        count += 1
+    return count

@@ -1,0 +1,89 @@
+"""Loading: up a branch to its end, then outwards at that depth to the next branch that reaches higher."""
+
+import math
+from typing import Any
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.branches import (
+    ARRIVAL,
+    END,
+    END_DEPTH,
+    LOADING_JUMPS,
+    LOADING_LOSS,
+    START,
+    WORK,
+    ends,
+    find_depth,
+)
+from gradhesion.core.curve import Curve
+from gradhesion.core.jump_energy import energy_from_zero, jump_energy
+
+
+@kernel()
+def arrive(trace: Any, branch: int, x: float, loss: float, jumps: float) -> None:
+    """Keep where loading arrives on a branch, what it has lost by then, and in how many jumps."""
+    trace[ARRIVAL, branch], trace[LOADING_LOSS, branch], trace[LOADING_JUMPS, branch] = x, loss, jumps
+
+
+@kernel()
+def next_higher(trace: Any, branch: int, count: int, level: float) -> int:
+    """Return the first branch from `branch` on that ends above a depth, `count` if none does."""
+    while branch < count and trace[END_DEPTH, branch] <= level:
+        branch += 1
+    return branch
+
+
+@kernel()
+def climb(table: Any, curve: Curve, now: int, count: int, trace: Any, furthest: float, losses: bool) -> int:
+    """Follow loading from branch `now` on, outwards to `furthest`; return the last branch that it arrives on.
+
+    now = -1 stands for no contact: the first jump is that from zero contact, at the depth 0.
+    """
+    loss, jumps = (trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]) if now >= 0 else (0.0, 0.0)
+    while True:
+        left, level = (trace[END, now], trace[END_DEPTH, now]) if now >= 0 else (0.0, 0.0)
+        higher = next_higher(trace, now + 1, count, level)
+        if left >= furthest or higher == count or trace[START, higher] > furthest:
+            return now
+        x = find_depth(table, curve, level, ends(trace, higher))
+        if losses and now < 0:
+            loss += energy_from_zero(table, curve, x, 0.0)
+        elif losses:
+            loss += jump_energy(table, curve, left, x, trace[WORK])
+        jumps += 1.0
+        arrive(trace, higher, x, loss, jumps)
+        now = higher
+
+
+@kernel()
+def load_up(table: Any, curve: Curve, count: int, trace: Any, furthest: float, losses: bool) -> int:
+    """Follow loading from zero contact; return the last branch that it arrives on, -1 if none."""
+    trace[ARRIVAL, :count] = math.inf
+    return climb(table, curve, -1, count, trace, furthest, losses)
+
+
+@kernel()
+def loading_to(table: Any, curve: Curve, count: int, trace: Any, rim: float, losses: bool) -> tuple[float, float]:
+    """Return what loading up to the rim loses, and its jumps."""
+    now = count - 1
+    while now >= 0 and not trace[ARRIVAL, now] <= rim:
+        now -= 1
+    if now < 0:  # from zero contact to the rim at once
+        return energy_from_zero(table, curve, rim, 0.0) if losses else 0.0, 1.0
+    loss, jumps = trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]
+    left = trace[END, now]
+    if left < rim:
+        if losses:
+            loss += jump_energy(table, curve, left, rim, trace[WORK])
+        jumps += 1.0
+    return loss, jumps
+
+
+@kernel()
+def highest_depth(count: int, trace: Any, rim: float, rim_depth: float) -> float:
+    """Return the largest depth on the way to the rim, 0 if all are negative."""
+    highest = max(0.0, rim_depth)
+    for branch in range(count):
+        if trace[END, branch] < rim:
+            highest = max(highest, trace[END_DEPTH, branch])
+    return highest

@@ -1,0 +1,129 @@
+"""Long runs of waves, far from zero contact: no need to walk them one by one.
+
+From z ~ 100 on every wave within the window of folds has one branch, loading goes from each to the next, and so does
+unloading. What a jump loses is then a smooth function of the number of the wave, and with the lag of curve.py that number
+may be any real: wave j of the curve whose waves lag by a part of a turn is wave j + lag. So the sum over millions of waves
+is an integral, and Euler and Maclaurin tell the rest from a few single waves at both ends:
+
+    sum_{j=p}^{q} e_j = int_{p-1/2}^{q+1/2} e dj - [e'/24 - 7 e'''/5760 + 31 e^(5)/967680] between the two limits
+
+The integral is taken by Gauss's rule in y with j = s (1 - y^2)^4, s the wave at which folds end: e is a power of j times an
+analytic function of sqrt(j/s) near 0, and of sqrt(1 - j/s) near the end of the folds.
+"""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.branches import VALUES, WORK, find_depth
+from gradhesion.core.curve import Curve
+from gradhesion.core.folds import find_zero
+from gradhesion.core.jump_energy import jump_energy
+from gradhesion.core.struve.circle import TWO_PI
+
+_GAUSS: Final = 16
+_PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(_GAUSS)
+NODES: Final = 0.5 * (1.0 + _PLACES)
+WEIGHTS: Final = 0.5 * _WEIGHTS
+EDGE: Final = 3
+"""Waves on either side of a limit of the integral from which its derivatives there are taken."""
+FAR: Final = 4.0e6
+"""Waves from which on z e_j is taken for its limit: the phase of a float would fade, and 1/z is below 1e-7."""
+
+
+@kernel()
+def window(table: Any, curve: Curve, level: float, z: float) -> float:
+    """Return the cosine of z - phi at the folds near z: beyond 1 no fold yet, below -1 none any more."""
+    b, g, _ = curve
+    return (level / z - b * z ** (0.5 * (1.0 + table.k))) / (g * table.amplitude)
+
+
+@kernel()
+def _fold(table: Any, curve: Curve, wave: float, rising: bool) -> tuple[float, float]:
+    """Return the start (rising) or the end of the branch of a wave, and the depth there."""
+    _, _, lag = curve
+    k = table.k
+    level = 0.5 * (1.0 - k)
+    centre = table.phase / TWO_PI + wave + lag
+    z = TWO_PI * centre
+    angle = math.acos(max(-1.0, min(1.0, window(table, curve, level, z))))
+    z += -angle if rising else angle
+    angle = math.acos(max(-1.0, min(1.0, window(table, curve, level, z)))) / TWO_PI
+    shift = (0.5 * (1.0 - k) + 0.125 * (1.0 - k * k)) / (TWO_PI * z)
+    if rising:
+        return find_zero(table, curve, level, centre - 0.5, centre, True, centre - angle + shift)
+    return find_zero(table, curve, level, centre, centre + 0.5, False, centre + angle + shift)
+
+
+@kernel()
+def regular_branch(table: Any, curve: Curve, wave: float) -> tuple[float, float, float, float]:
+    """Return place and depth of the start, and of the end, of the branch of a wave."""
+    start, start_depth = _fold(table, curve, wave, True)
+    end, end_depth = _fold(table, curve, wave, False)
+    return start, start_depth, end, end_depth
+
+
+@kernel()
+def jump_of_wave(table: Any, curve: Curve, wave: float, outwards: bool, trace: Any) -> tuple[float, float]:
+    """Return where the jump from a wave to the next one lands, and what it loses; `wave` is any real number."""
+    b, g, _ = curve
+    scale = 1.0
+    whole = math.floor(wave)
+    lag = wave - whole
+    if whole > FAR:  # the same cosine at the folds, nearer to zero
+        scale = wave / (FAR + lag)
+        b *= scale ** (0.5 * (1.0 + table.k))
+        whole = FAR
+    shifted = (b, g, lag)
+    if outwards:
+        left, depth = _fold(table, shifted, whole, False)
+        landing = find_depth(table, shifted, depth, regular_branch(table, shifted, whole + 1.0))
+    else:
+        left, depth = _fold(table, shifted, whole, True)
+        landing = find_depth(table, shifted, depth, regular_branch(table, shifted, whole - 1.0))
+    return landing * scale, jump_energy(table, shifted, left, landing, trace[WORK]) * scale
+
+
+@kernel()
+def _limit_terms(values: Any) -> float:
+    """Return e'/24 - 7 e'''/5760 + 31 e^(5)/967680 in the middle of six values."""
+    first = values[3] - values[2]
+    third = values[4] - values[1] - 3.0 * first
+    fifth = values[5] - values[0] - 5.0 * (values[4] - values[1]) + 10.0 * first
+    slope = first - third / 24.0 + 3.0 * fifth / 640.0
+    return slope / 24.0 - 7.0 / 5760.0 * (third - fifth / 8.0) + 31.0 / 967680.0 * fifth
+
+
+@kernel()
+def sum_of_waves(
+    table: Any, curve: Curve, first: float, last: float, outwards: bool, final: float, trace: Any
+) -> float:
+    """Return the sum of what the jumps from the waves `first` to `last` lose, folds ending at wave `final`."""
+    total = 0.0
+    if last - first < 2 * EDGE + _GAUSS:
+        wave = first
+        while wave <= last:
+            _, loss = jump_of_wave(table, curve, wave, outwards, trace)
+            total += loss
+            wave += 1.0
+        return total
+    values = trace[VALUES]
+    corrections = 0.0
+    for side in range(2):
+        edge = first if side == 0 else last - (2 * EDGE - 1)
+        for i in range(2 * EDGE):
+            _, values[i] = jump_of_wave(table, curve, edge + i, outwards, trace)
+        for i in range(EDGE):
+            total += values[i] if side == 0 else values[EDGE + i]
+        corrections += -_limit_terms(values) if side == 0 else _limit_terms(values)
+    low = math.sqrt(1.0 - ((last - EDGE + 0.5) / final) ** 0.25)
+    high = math.sqrt(1.0 - ((first + EDGE - 0.5) / final) ** 0.25)
+    integral = 0.0
+    for i in range(_GAUSS):
+        y = low + (high - low) * NODES[i]
+        rest = 1.0 - y * y
+        _, loss = jump_of_wave(table, curve, final * rest**4, outwards, trace)
+        integral += WEIGHTS[i] * loss * 8.0 * final * y * rest**3
+    return total + integral * (high - low) - corrections

@@ -1,0 +1,82 @@
+"""Unloading: down a branch to its start, then inwards at that depth to the next branch that reaches lower.
+
+Where unloading goes from the start of a branch does not depend on where it came from, so that the loss from there to the
+end of contact is kept with the branch.
+"""
+
+from typing import Any
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.branches import (
+    CALLER,
+    END,
+    LAST_DEPTH,
+    START,
+    START_DEPTH,
+    UNLOADING_JUMPS,
+    UNLOADING_LOSS,
+    WORK,
+    ends,
+    find_depth,
+)
+from gradhesion.core.curve import Curve
+from gradhesion.core.jump_energy import energy_from_zero, jump_energy
+
+
+@kernel()
+def leave(trace: Any, branch: int, loss: float, jumps: float, last_depth: float) -> None:
+    """Keep what unloading loses from the start of a branch to the end of contact, its jumps, and the depth there."""
+    trace[UNLOADING_LOSS, branch], trace[UNLOADING_JUMPS, branch], trace[LAST_DEPTH, branch] = loss, jumps, last_depth
+
+
+@kernel()
+def next_lower(trace: Any, branch: int, level: float) -> int:
+    """Return the first branch from `branch` inwards that starts below a depth, -1 if none does."""
+    while branch >= 0 and trace[START_DEPTH, branch] >= level:
+        branch -= 1
+    return branch
+
+
+@kernel()
+def descend(table: Any, curve: Curve, trace: Any, branch: int, losses: bool) -> None:
+    """Complete what unloading loses from the start of a branch on, for it and for all that it visits."""
+    now = branch
+    while trace[UNLOADING_JUMPS, now] < 0.0:  # inwards to where it is known, or to the end of contact
+        start, level = trace[START, now], trace[START_DEPTH, now]
+        lower = next_lower(trace, now - 1, level)
+        if start == 0.0:  # k = 1: the contact shrinks to a point
+            leave(trace, now, 0.0, 0.0, level)
+        elif lower < 0:
+            leave(trace, now, -energy_from_zero(table, curve, start, level) if losses else 0.0, 1.0, level)
+        else:
+            trace[CALLER, lower] = now
+            now = lower
+    while now != branch:  # and back
+        outer = int(trace[CALLER, now])
+        loss = trace[UNLOADING_LOSS, now]
+        if losses:
+            landing = find_depth(table, curve, trace[START_DEPTH, outer], ends(trace, now))
+            loss += jump_energy(table, curve, trace[START, outer], landing, trace[WORK])
+        leave(trace, outer, loss, trace[UNLOADING_JUMPS, now] + 1.0, trace[LAST_DEPTH, now])
+        now = outer
+
+
+@kernel()
+def unloading_from(
+    table: Any, curve: Curve, count: int, trace: Any, rim: float, rim_depth: float, losses: bool
+) -> tuple[float, float, float]:
+    """Return what unloading from the rim loses, its jumps, and the depth at which contact ends."""
+    now = count - 1
+    while now >= 0 and trace[START, now] > rim:
+        now -= 1
+    loss, jumps = 0.0, 0.0
+    if now < 0 or trace[END, now] < rim:  # the rim is on a falling part: unloading leaves it by a jump
+        now = next_lower(trace, now, rim_depth)
+        if now < 0:
+            return -energy_from_zero(table, curve, rim, rim_depth) if losses else 0.0, 1.0, rim_depth
+        if losses:
+            landing = find_depth(table, curve, rim_depth, ends(trace, now))
+            loss = jump_energy(table, curve, rim, landing, trace[WORK])
+        jumps = 1.0
+    descend(table, curve, trace, now, losses)
+    return loss + trace[UNLOADING_LOSS, now], jumps + trace[UNLOADING_JUMPS, now], trace[LAST_DEPTH, now]
