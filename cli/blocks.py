@@ -2,12 +2,13 @@
 
 import math
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from itertools import product
-from typing import Any, Final
+from typing import Any, Final, TypeVar
 
 from numpy.typing import NDArray
 
+from gradhesion.cli import interrupts
 from gradhesion.cli.study import Study
 from gradhesion.core import solve
 
@@ -18,6 +19,7 @@ CHUNKS_OF_BLOCK: Final = 2
 """Chunks of a block: a second or so of the slowest work, so that progress shows and an interrupt is heard."""
 
 Block = tuple[slice, ...]
+_T = TypeVar("_T")
 
 
 def tile(shape: tuple[int, ...], cells: int) -> tuple[int, ...]:
@@ -80,9 +82,17 @@ def solved(study: Study, threads: int | None = None) -> Iterator[tuple[Block, di
         for block in blocks(study.shape):
             future = worker.submit(work, block)
             if ahead is not None:
-                yield ahead[0], ahead[1].result()
+                yield ahead[0], _awaited(ahead[1])
             ahead = block, future
         if ahead is not None:
-            yield ahead[0], ahead[1].result()
+            yield ahead[0], _awaited(ahead[1])
     finally:
         worker.shutdown(wait=False, cancel_futures=True)
+
+
+def _awaited(future: Future[_T]) -> _T:
+    """Wait for a result without being deaf to an interrupt that a library swallowed."""
+    while not future.done():
+        wait([future], timeout=0.2)
+        interrupts.check()
+    return future.result()

@@ -19,9 +19,14 @@ def listen() -> None:
         signal.signal(signal.SIGHUP, _hear)
 
 
+def heard() -> bool:
+    """Tell whether a signal has come: a library may have swallowed it, or made another error of it."""
+    return bool(_heard)
+
+
 def check() -> None:
-    """Raise KeyboardInterrupt if one was heard: a callback out of a library may have swallowed it."""
-    if _heard:
+    """Raise KeyboardInterrupt if a signal has come."""
+    if heard():
         raise KeyboardInterrupt
 
 

@@ -35,16 +35,24 @@ def main() -> NoReturn:
     """Run the command line, and leave with the exit code of how it went."""
     interrupts.listen()
     try:
-        code = cli.main(prog_name="gradhesion", standalone_mode=False)
-    except click.ClickException as error:
-        error.show()
-        code = error.exit_code
-    except (click.Abort, KeyboardInterrupt):
-        click.echo("interrupted; nothing was replaced, and nothing is left behind", err=True)
-        code = INTERRUPTED
-    if code in (0, None):
+        code = cli.main(prog_name="gradhesion", standalone_mode=False) or 0
+    except (Exception, KeyboardInterrupt) as error:
+        code = _code_of(error)
+    if code == 0:
         sys.exit(0)
     # A failed or interrupted run may leave a block in work and a file that HDF5 cannot flush: wait for neither.
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(code)
+
+
+def _code_of(error: BaseException) -> int:
+    """Tell the user what has ended the command, and the shell by a code; what is no-one's mistake stays an error."""
+    # What an interrupt breaks can look like anything, an ImportError for one.
+    if interrupts.heard() or isinstance(error, KeyboardInterrupt | click.Abort):
+        click.echo("interrupted; no output is left half-written", err=True)
+        return INTERRUPTED
+    if isinstance(error, click.ClickException):
+        error.show()
+        return error.exit_code
+    raise error

@@ -11,7 +11,7 @@ from typing import Any, Final
 import netCDF4
 import numpy as np
 
-from gradhesion.cli import dataset, interrupts
+from gradhesion.cli import dataset
 from gradhesion.cli.blocks import chunk_shape, size_of, solved
 from gradhesion.cli.errors import OutputError
 from gradhesion.cli.study import Study
@@ -104,7 +104,6 @@ def write(
                         file[name][block or ...] = part
                 failed += int(np.count_nonzero(values["status"] & FAILED))
                 advance(size_of(block))
-                interrupts.check()
         except BaseException:
             with suppress(OSError, RuntimeError):  # what went wrong first counts
                 file.close()

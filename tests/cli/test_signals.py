@@ -40,7 +40,7 @@ def test_an_interrupt_leaves_nothing_behind(number: signal.Signals, delay: float
         stdout, stderr = process.communicate(timeout=60)
     assert process.returncode == 130, stderr
     assert stdout == ""
-    assert stderr.endswith("interrupted; nothing was replaced, and nothing is left behind\n")
+    assert stderr.endswith("interrupted; no output is left half-written\n")
     assert "Traceback" not in stderr
     assert old.read_text() == "precious"
     assert os.listdir(folder) == ["huge.nc"]
@@ -58,4 +58,18 @@ def test_a_second_interrupt_does_not_disturb_the_tidying_up(tmp_path: Path) -> N
             process.send_signal(signal.SIGINT)
         process.communicate(timeout=60)
     assert process.returncode == 130
+    assert os.listdir(tmp_path / "out") == []
+
+
+def test_an_interrupt_that_a_library_swallows_is_heard_all_the_same(
+    study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from gradhesion.cli import interrupts
+    from gradhesion.cli.study import load_study
+    from gradhesion.cli.writer import write
+
+    monkeypatch.setattr(interrupts, "_heard", [0.0])
+    monkeypatch.setattr("gradhesion.cli.blocks.solve", lambda *_, **__: time.sleep(0.5))
+    with pytest.raises(KeyboardInterrupt):
+        write(load_study(study_file), tmp_path / "out" / "out.nc", history="")
     assert os.listdir(tmp_path / "out") == []
