@@ -85,7 +85,7 @@ def solve_rim(
     depth_scale = 2.0 * length * length / (1.0 + k)
     return (
         force,
-        z * length,
+        z * length if z < z_rim else rim,
         TWO_PI * length * length * loss,
         jumps_in,
         jumps_out,

@@ -16,8 +16,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core import _jit
 from gradhesion.core.branches import ROWS
+from gradhesion.core.envelope import solve_curves as solve_envelope
 from gradhesion.core.material import stiffness
-from gradhesion.core.scene import solve_curves
+from gradhesion.core.scene import solve_curves as solve_exact
 from gradhesion.core.struve.table import build_table
 
 PARAMETERS: Final = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
@@ -32,7 +33,9 @@ OUTPUTS: Final = (
     "delta_jump_out",
 )
 """All results of a scene, in the order of the rows of scene.py."""
-SOLVERS: Final = ("exact",)
+_KERNELS: Final = {"exact": solve_exact, "envelope": solve_envelope}
+SOLVERS: Final = tuple(_KERNELS)
+"""exact; envelope: closed forms for wavelengths far below the contact radius (envelope.py)."""
 _INTEGERS: Final = ("loading_jumps", "unloading_jumps")
 _TASK: Final = 2048
 """Scenes a task: some milliseconds, a thousand times the cost of handing it to a thread."""
@@ -131,6 +134,8 @@ def solve(
     status = np.zeros((curves, rims.shape[1]), dtype=np.int8)
     stiffnesses = _flat(stiffness(k, nu, modulus, c0), curve_shape)
     wavelengths, amplitudes = _flat(wavelength, curve_shape), _flat(amplitude, curve_shape)
+
+    solve_curves = _KERNELS[solver]
 
     def work(task: tuple[float, NDArray[np.int64]]) -> None:
         scratch = np.empty((ROWS, _BRANCHES))
