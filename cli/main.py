@@ -36,7 +36,7 @@ def main() -> NoReturn:
     interrupts.listen()
     try:
         code = cli.main(prog_name="gradhesion", standalone_mode=False) or 0
-    except (Exception, KeyboardInterrupt) as error:
+    except (Exception, KeyboardInterrupt) as error:  # noqa: BLE001 (raised again where no user can mend it)
         code = _code_of(error)
     if code == 0:
         sys.exit(0)

@@ -158,15 +158,19 @@ def _study(
         mistakes = [*mistakes[:MOST_MISTAKES], more]
     if mistakes:
         raise StudyError(mistakes)
+    layout = data.get("layout", "grid")
     parameters = {key: rules.expanded(data["parameters"][key]) for key in PARAMETERS}
     for values in parameters.values():
         if isinstance(values, np.ndarray):
+            steps = np.diff(values)
+            if layout == "grid" and not (np.all(steps > 0) or np.all(steps < 0)):
+                values.sort()  # CF wants coordinates that rise or fall
             values.flags.writeable = False
     return Study(
         name=name,
         title=data.get("title", "") or name,
         kind=data.get("kind", "map"),
-        layout=data.get("layout", "grid"),
+        layout=layout,
         outputs=tuple(output for output in OUTPUTS if output in data["outputs"]),
         parameters=parameters,
         method=Method(**data.get("method", {})),

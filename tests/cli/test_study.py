@@ -62,6 +62,14 @@ def test_the_text_of_an_overridden_study_gives_the_same_study(
     assert same(study, load_study(write_study(study.text)))
 
 
+def test_an_axis_rises_or_falls(data: dict[str, Any]) -> None:
+    data["parameters"] |= {"k": [0.5, 0.1, 0.3], "A": [0.3, 0.2], "a_max_over_R": [float("inf"), 1.0, 2.0]}
+    study = study_from(data)
+    assert study.parameters["k"].tolist() == [0.1, 0.3, 0.5]
+    assert study.parameters["A"].tolist() == [0.3, 0.2]
+    assert study.parameters["a_max_over_R"].tolist() == [1.0, 2.0, float("inf")]
+
+
 def test_windows_text_is_text(study_file: Path) -> None:
     plain = load_study(study_file)
     study_file.write_bytes(b"\xef\xbb\xbf" + study_file.read_bytes().replace(b"\n", b"\r\n"))
