@@ -27,6 +27,25 @@ OUTPUTS: Final = {
 STATUS: Final = "what there is to report of a scene (0: nothing)"
 """The `long_name` of `status`."""
 
+SYMBOLS: Final = {
+    "k": "$k$",
+    "nu": r"$\nu$",
+    "modulus": r"$E^{\ast}R/\Delta\gamma$",
+    "c0_over_R": "$c_0/R$",
+    "lambda_over_R": r"$\lambda/R$",
+    "A": "$A$",
+    "a_max_over_R": r"$a_{\max}/R$",
+    "pull_off_force": r"pull-off force $F\,/\,\frac{3}{2}\pi R\Delta\gamma$",
+    "pull_off_radius": "radius at pull-off $a/R$",
+    "dissipated_energy": r"dissipated energy $H/R^2\Delta\gamma$",
+    "loading_jumps": "jumps on loading",
+    "unloading_jumps": "jumps on unloading",
+    "delta_max": r"greatest depth $\delta_{\max}/R$",
+    "delta_jump_out": r"depth at jump-out $\delta/R$",
+    "status": "status",
+}
+"""Every variable as a picture names it."""
+
 SCENE: Final = "scene"
 """The one dimension of a dataset with `layout = "points"`."""
 

@@ -16,28 +16,9 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import panels
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import PARAMETERS, SCENE
+from gradhesion.cli.names import PARAMETERS, SCENE, SYMBOLS
 from gradhesion.cli.scales import number, scale
 from gradhesion.cli.schema import did_you_mean
-
-SYMBOLS: Final = {
-    "k": "$k$",
-    "nu": r"$\nu$",
-    "modulus": r"$E^{\ast}R/\Delta\gamma$",
-    "c0_over_R": "$c_0/R$",
-    "lambda_over_R": r"$\lambda/R$",
-    "A": "$A$",
-    "a_max_over_R": r"$a_{\max}/R$",
-    "pull_off_force": r"pull-off force $F\,/\,\frac{3}{2}\pi R\Delta\gamma$",
-    "pull_off_radius": "radius at pull-off $a/R$",
-    "dissipated_energy": r"dissipated energy $H/R^2\Delta\gamma$",
-    "loading_jumps": "jumps on loading",
-    "unloading_jumps": "jumps on unloading",
-    "delta_max": r"greatest depth $\delta_{\max}/R$",
-    "delta_jump_out": r"depth at jump-out $\delta/R$",
-    "status": "status",
-}
-"""Names as a reader of the field knows them."""
 
 STYLE: Final[dict[Any, Any]] = {
     "font.family": "STIXGeneral",

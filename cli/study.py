@@ -4,10 +4,8 @@ import hashlib
 import json
 import math
 import re
-import tomllib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
@@ -17,10 +15,8 @@ from numpy.typing import NDArray
 from gradhesion.cli import places, rules, schema
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.names import PARAMETERS, SCENE
+from gradhesion.cli.source import Source, read_source
 from gradhesion.core import OUTPUTS, SOLVERS
-
-MOST_BYTES: Final = 2**28
-"""The longest study that is read: far above any that is meant as one."""
 
 MOST_MISTAKES: Final = 30
 """Mistakes to print: whoever has more is served by the first."""
@@ -106,27 +102,7 @@ def load_study(path: str | Path, overrides: Iterable[str] = ()) -> Study:
     StudyError
         The file cannot be read, or the study is wrong; the error has all mistakes.
     """
-    path = Path(path)
-    text = _text(path)
-    try:
-        data = tomllib.loads(text)
-    except RecursionError:
-        raise StudyError([f"{path}: not valid TOML, brackets are nested too deeply; remove some"]) from None
-    except ValueError as error:
-        raise StudyError([_syntax_sentence(path, text, str(error))]) from None
-    sources, mistakes = _override(data, overrides)
-    lines = cache(lambda: places.lines_of(text))
-
-    def place(key: places.Path) -> str:
-        for depth in range(len(key), 0, -1):
-            if key[:depth] in sources:
-                return f"--set {sources[key[:depth]]}"
-            if key[:depth] in lines():
-                return f"{path}:{lines()[key[:depth]]}"
-        made = next((source for steps, source in sources.items() if steps[: len(key)] == key), None)
-        return f"--set {made}" if made else str(path)
-
-    return _study(data, path.stem, "" if sources else text, place, mistakes)
+    return _study(read_source(Path(path), overrides))
 
 
 def study_from(data: Mapping[str, Any], name: str = "study") -> Study:
@@ -138,21 +114,20 @@ def study_from(data: Mapping[str, Any], name: str = "study") -> Study:
     StudyError
         The study is wrong; the error has all mistakes.
     """
-    return _study(_plain(data), name, "", lambda _: name, [])
+    return _study(Source(name=name, data=_plain(data), text="", place=lambda _: name))
 
 
-def _study(
-    data: dict[str, Any], name: str, text: str, place: Callable[[places.Path], str], mistakes: list[str]
-) -> Study:
+def _study(source: Source) -> Study:
     """Check a study as a whole and expand it."""
+    data = source.data
     found = schema.mistakes_of_form(data)
     found += rules.mistakes_between_keys(data, [mistake.path for mistake in found], OUTPUTS, SOLVERS)
     sentences = []
     for mistake in found:
         value = "" if mistake.value is None else f" = {schema.shown(mistake.value)}"
-        sentences.append(f"{place(mistake.path)}: {places.dotted(mistake.path)}{value}: {mistake.sentence}")
+        sentences.append(f"{source.place(mistake.path)}: {places.dotted(mistake.path)}{value}: {mistake.sentence}")
     sentences.sort(key=_line)
-    mistakes = mistakes + sentences
+    mistakes = [*source.mistakes, *sentences]
     if len(mistakes) > MOST_MISTAKES:
         more = f"... and {len(mistakes) - MOST_MISTAKES} more mistakes; mend these first"
         mistakes = [*mistakes[:MOST_MISTAKES], more]
@@ -162,80 +137,19 @@ def _study(
     parameters = {key: rules.expanded(data["parameters"][key]) for key in PARAMETERS}
     for values in parameters.values():
         if isinstance(values, np.ndarray):
-            steps = np.diff(values)
-            if layout == "grid" and not (np.all(steps > 0) or np.all(steps < 0)):
+            if layout == "grid" and not (np.all(np.diff(values) > 0) or np.all(np.diff(values) < 0)):
                 values.sort()  # CF wants coordinates that rise or fall
             values.flags.writeable = False
     return Study(
-        name=name,
-        title=data.get("title", "") or name,
+        name=source.name,
+        title=data.get("title", "") or source.name,
         kind=data.get("kind", "map"),
         layout=layout,
         outputs=tuple(output for output in OUTPUTS if output in data["outputs"]),
         parameters=parameters,
         method=Method(**data.get("method", {})),
-        text=text or _toml(data),
+        text=source.text or _toml(data),
     )
-
-
-def _text(path: Path) -> str:
-    """Read the text of a study file."""
-    try:
-        with path.open("rb") as file:
-            content = file.read(MOST_BYTES + 1)
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise StudyError([f"{path}: cannot be read ({reason}); name a study in TOML"]) from None
-    if len(content) > MOST_BYTES:
-        raise StudyError([f"{path}: larger than {MOST_BYTES >> 20} MiB, so hardly a study; name a study in TOML"])
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = content[: error.start].count(b"\n") + 1
-        raise StudyError([f"{path}:{line}: not text in UTF-8; name a study in TOML, saved as UTF-8"]) from None
-
-
-def _syntax_sentence(path: Path, text: str, problem: str) -> str:
-    """Say where a text is not TOML, and show the line."""
-    at = re.search(r" ?\(at (?:line (\d+), column (\d+)|end of document)\)", problem)
-    if not at:
-        return f"{path}: not valid TOML, {problem}; see toml.io for the format"
-    line = int(at[1]) if at[1] else max(1, len(text.splitlines()))
-    lines = text.splitlines() or [""]
-    shown = schema.shown(lines[min(line, len(lines)) - 1].strip())
-    column = f" (column {at[2]})" if at[2] else ""
-    return f"{path}:{line}: not valid TOML, {problem[: at.start()].lower()}{column} in {shown}; mend this line"
-
-
-def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[places.Path, str], list[str]]:
-    """Set keys by their dotted paths in place; tell which text set each, and what was wrong."""
-    sources: dict[places.Path, str] = {}
-    mistakes = []
-    for override in overrides:
-        key, equals, value = override.partition("=")
-        steps = tuple(step.strip() for step in key.split("."))
-        try:
-            parsed = tomllib.loads(f"value = {value.strip()}")
-        except (ValueError, RecursionError):
-            parsed = {}
-        if not equals or not all(steps):
-            mistakes.append(f"--set {override}: not of the form KEY=VALUE; write for example --set parameters.A=0.02")
-            continue
-        if parsed.keys() != {"value"}:
-            quoted = json.dumps(value.strip(), ensure_ascii=False)
-            mistakes.append(f"--set {override}: the value is not TOML; quote strings, as in --set '{key}={quoted}'")
-            continue
-        table: Any = data
-        for depth, step in enumerate(steps[:-1]):
-            table = table.setdefault(step, {})
-            if not isinstance(table, dict):
-                parent = ".".join(steps[: depth + 1])
-                mistakes.append(f"--set {override}: {parent} is not a table; set it as a whole, --set '{parent}=...'")
-                break
-        else:
-            table[steps[-1]] = parsed["value"]
-            sources[steps] = override
-    return sources, mistakes
 
 
 def _line(sentence: str) -> tuple[str, int]:

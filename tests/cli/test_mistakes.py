@@ -233,6 +233,7 @@ def test_points_name_the_scene_without_stiffness(refused: Callable[..., list[str
         ("title.x=3", "title is not a table; set it as a whole"),
         ("parameters.kk=0.1", 'parameters.kk = 0.1: unknown key; did you mean "k"?'),
         ("parameters.k=2", "parameters.k = 2: out of range"),
+        ("parameters.lambda_over_R={start=1, stop=2, num=0}", "parameters.lambda_over_R.num = 0: num is"),
         ("parameters.lambda_over_R.num=0", "parameters.lambda_over_R.num = 0: num is"),
         ("nothing.at.all=1", "nothing = { at = { all = 1 } }: unknown key"),
     ],
@@ -272,7 +273,7 @@ def test_a_file_that_is_no_study(
 def test_an_endless_file_is_not_read_for_ever(
     gradhesion: Callable[..., Result], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gradhesion.cli.study.MOST_BYTES", 2**20)
+    monkeypatch.setattr("gradhesion.cli.source.MOST_BYTES", 2**20)
     result = gradhesion("run", "/dev/zero")
     assert result.exit_code == 2
     assert "larger than 1 MiB" in result.stderr
