@@ -47,12 +47,10 @@ def find_depth(table: Any, curve: Curve, target: float, branch: tuple[float, flo
             high_depth = depth(table, curve, high)
     # a half wave of a cosine has both its ends level, as the branch has
     share = (target - low_depth) / (high_depth - low_depth)
-    x = low + (high - low) * math.acos(max(-1.0, min(1.0, 1.0 - 2.0 * share))) / math.pi
+    if not 0.0 < share < 1.0:
+        return low if share <= 0.0 else high
+    x = low + (high - low) * math.acos(1.0 - 2.0 * share) / math.pi
     for _ in range(_STEPS):
-        if not low < x < high:
-            x = 0.5 * (low + high)
-            if x <= low or x >= high:
-                return x
         d, d1, _, rest = slope(table, curve, level, x)
         rest -= target
         if rest == 0.0:
@@ -64,8 +62,12 @@ def find_depth(table: Any, curve: Curve, target: float, branch: tuple[float, flo
         step = -rest * d / (d * d - 0.5 * rest * d1)
         x += step / TWO_PI
         # the loss is stationary at the place of landing: its error is the square of what is left here
-        if low < x < high and abs(step) * (abs(d1) + abs(d)) < 1e-3 * abs(d):
+        if low <= x <= high and abs(step) * (abs(d1) + abs(d)) < 1e-3 * abs(d):
             return x
+        if not low < x < high:
+            x = 0.5 * (low + high)
+            if x <= low or x >= high:
+                return x
     return x
 
 
