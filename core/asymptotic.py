@@ -1,7 +1,7 @@
 """The leading asymptotic form of a short wave, lambda << a: its curve, folds and pull-off.
 
-In the units of curve.py, with z = 2 pi a/lambda, c = (1-k)/2, n = (1+k)/2, phi = (1+k) pi/4, X = z^((3+k)/2) and chi = r/s,
-(5.15)-(5.20) of Jin, Guo & Wan (2013) become
+In the units of curve.py, with z = 2 pi a/lambda, c = (1-k)/2, n = (1+k)/2, phi = (1+k) pi/4, X = z^((3+k)/2) and
+chi = r/s, (5.15)-(5.20) of Jin, Guo & Wan (2013) become
 
     depth = b z^2/2 + g - z^c [1 - chi sin(z - phi)]
     load  = X { b X/(3+k) - 1 + chi sin(z - phi) }
@@ -13,12 +13,12 @@ Both slopes vanish where F = 0, at the levels c and (3+k)/2 of curve.py:
 
     F(z) = chi cos theta - u,   theta = z - phi - atan(level/z),   u = (level - b z^(1+n))/sqrt(z^2 + level^2)
 
-u falls steadily, so that folds stand only where |u| <= chi, and where cos theta rises F rises through zero once at most.
-Half wave i has theta between (i-1) pi and i pi: cos theta rises if i is even.
+u falls steadily, so that folds stand only where |u| <= chi, and where cos theta rises F rises through zero once at
+most. Half wave i has theta between (i-1) pi and i pi: cos theta rises if i is even.
 """
 
 import math
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.envelope import envelope_force

@@ -1,10 +1,10 @@
 """The leading asymptotic form of a short wave: a cycle of loading and unloading, and all results of a curve.
 
 The path is that of branches.py, loading.py and unloading.py, each wave walked, each rim by itself. The energy of a jump
-at the depth d from one contact radius to another is, with rho = (b z^2/2 + g - d)/z^c + chi sin(z - phi),
+at the depth d from one contact radius to another is, with D = d - g and rho = (b z^2/2 - D)/z^c + chi sin(z - phi),
 
     e = int z [1 - rho^2] dz = z^2/2 - b^2 z^(5+k)/(4 (5+k)) + b D z^(3+k)/(3+k) - D^2 z^(1+k)/(1+k)
-                               - 2 chi int z^n (b z^2/2 - D) sin(z - phi) dz - chi^2 int z sin^2(z - phi) dz,   D = d - g
+                               - 2 chi int z^n (b z^2/2 - D) sin(z - phi) dz - chi^2 int z sin^2(z - phi) dz
 """
 
 import math
@@ -262,7 +262,8 @@ def solve_curve(
                 deepest = max(deepest, depth(wave, z_rim))
             else:
                 deepest = math.inf
-        status[i] = NO_VALUE if (wants_cycle and not loss == loss) or (wants_force and not lowest < 0.0) else 0
+        fine = (loss >= 0.0 or not wants_cycle) and (lowest < 0.0 or not wants_force)
+        status[i] = 0 if fine else NO_VALUE
         values = (
             -force_scale * lowest,
             place * length if place < z_rim else rims[i],

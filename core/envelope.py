@@ -16,7 +16,8 @@ fits of (5.43) are not needed. It grows by 2 chi z_rim^2 without end: the envelo
 the folds end and hysteresis saturates, so that the energy of an unbounded punch is inf.
 
 The printed formulae leave out the mean height lambda A of the wave. It is added to delta_max and delta_jump_out; in the
-energy loading starts at the mean surface, as printed.
+energy loading starts at the mean surface, as printed, which makes an error of the order (lambda/a)^((1-k)/2) beside the
+lambda/a of all else. The force has an error of the order (lambda/a)^2, one wave not being at its lowest point.
 """
 
 import math

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core import _jit
 from gradhesion.core.branches import ROWS
+from gradhesion.core.asymptotic_cycle import solve_curves as solve_asymptotic
 from gradhesion.core.envelope import solve_curves as solve_envelope
 from gradhesion.core.material import stiffness
 from gradhesion.core.scene import solve_curves as solve_exact
@@ -33,9 +34,9 @@ OUTPUTS: Final = (
     "delta_jump_out",
 )
 """All results of a scene, in the order of the rows of scene.py."""
-_KERNELS: Final = {"exact": solve_exact, "envelope": solve_envelope}
+_KERNELS: Final = {"exact": solve_exact, "asymptotic": solve_asymptotic, "envelope": solve_envelope}
 SOLVERS: Final = tuple(_KERNELS)
-"""exact; envelope: closed forms for wavelengths far below the contact radius (envelope.py)."""
+"""For wavelengths far below the contact radius: the leading term (asymptotic.py), and closed forms (envelope.py)."""
 _INTEGERS: Final = ("loading_jumps", "unloading_jumps")
 _TASK: Final = 2048
 """Scenes a task: some milliseconds, a thousand times the cost of handing it to a thread."""
