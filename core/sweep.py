@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core import _jit
-from gradhesion.core.branches import ROWS
 from gradhesion.core.asymptotic_cycle import solve_curves as solve_asymptotic
+from gradhesion.core.branches import ROWS
 from gradhesion.core.envelope import solve_curves as solve_envelope
 from gradhesion.core.material import stiffness
 from gradhesion.core.scene import solve_curves as solve_exact
