@@ -32,8 +32,9 @@ from gradhesion.core.curve import Curve
 from gradhesion.core.folds import first_arch, last_arch
 from gradhesion.core.jump_energy import energy_from_zero, jump_energy
 from gradhesion.core.loading import arrive, climb, load_up
-from gradhesion.core.regular import jump_of_wave, regular_branch, sum_of_waves
+from gradhesion.core.regular import branch_of_wave, fold_of_wave, jump_of_wave, sum_of_waves
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.unloading import descend, leave, next_lower
 
 LONGEST_WALK: Final = 160.0
@@ -77,31 +78,55 @@ def _wave_of(table: Any, start: float) -> float:
 
 @kernel()
 def _first_wave_above(table: Any, curve: Curve, low: float, high: float, level: float) -> float:
-    """Return the first wave after `low`, which ends below a depth, that ends above it; `high` does."""
+    """Return the first wave after `low`, which ends below a depth, that ends above it; `high` does.
+
+    It is where the upper envelope b z^2/2 - (1 - C g) z^c + g passes the depth, or next to it.
+    """
+    b, g, _ = curve
+    stretch = 1.0 - g * table.amplitude
+    z = math.sqrt(2.0 * (max(level - g, 0.0) + max(stretch, 0.0)) / b) + TWO_PI * low
+    for _ in range(8):
+        pull = stretch * z * amplitude_power(table, z)
+        z -= (0.5 * b * z * z - pull + g - level) / (b * z - 0.5 * (1.0 - table.k) * pull / z)
+        z = max(z, TWO_PI * low)
+    middle = math.floor(z / TWO_PI - table.phase / TWO_PI)
+    step = 1.0
     while high - low > 1.0:
-        middle = math.floor(0.5 * (low + high))
-        _, _, _, end_depth = regular_branch(table, curve, middle)
+        middle = max(low + 1.0, min(high - 1.0, middle))
+        _, end_depth = fold_of_wave(table, curve, middle, False)
         if end_depth > level:
-            high = middle
+            high, middle = middle, middle - step
         else:
-            low = middle
+            low, middle = middle, middle + step
+        step *= 2.0
+        if not low < middle < high:
+            middle = math.floor(0.5 * (low + high))
     return high
 
 
 @kernel()
 def _lowest_wave(table: Any, curve: Curve, low: float, high: float) -> float:
-    """Return the wave between two others whose branch starts lowest; the starts fall up to it and rise from it on."""
-    while high - low > 1.0:
-        middle = math.floor(0.5 * (low + high))
-        _, here, _, _ = regular_branch(table, curve, middle)
-        _, next_one, _, _ = regular_branch(table, curve, middle + 1.0)
-        if next_one < here:
-            low = middle
+    """Return the wave between two others whose branch starts lowest; the starts fall up to it and rise from it on.
+
+    It is where the lower envelope b z^2/2 - (1 + C g) z^c is lowest, or next to it.
+    """
+    b, g, _ = curve
+    k = table.k
+    z = (0.5 * (1.0 - k) * (1.0 + g * table.amplitude) / b) ** (2.0 / (3.0 + k))
+    middle = math.floor(z / TWO_PI - table.phase / TWO_PI)
+    step = 1.0
+    while high > low:  # the lowest is one of low .. high
+        middle = max(low, min(high - 1.0, middle))
+        _, here = fold_of_wave(table, curve, middle, True)
+        _, beyond = fold_of_wave(table, curve, middle + 1.0, True)
+        if beyond < here:
+            low, middle = middle + 1.0, middle + step
         else:
-            high = middle
-    _, at_low, _, _ = regular_branch(table, curve, low)
-    _, at_high, _, _ = regular_branch(table, curve, high)
-    return low if at_low < at_high else high
+            high, middle = middle, middle - step
+        step *= 2.0
+        if not low <= middle < high:
+            middle = math.floor(0.5 * (low + high))
+    return low
 
 
 @kernel()
@@ -119,7 +144,7 @@ def _load_through(
             loss, jumps = trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]
         else:  # into the gap, by one long jump
             wave = _first_wave_above(table, curve, before, after, level)
-            x = find_depth(table, curve, level, regular_branch(table, curve, wave))
+            x = find_depth(table, curve, level, branch_of_wave(table, curve, wave))
             if now >= 0:
                 loss, jumps = trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]
             if losses and now >= 0:
@@ -149,7 +174,7 @@ def _unload_through(table: Any, curve: Curve, near: int, waves: Any, trace: Any,
         descend(table, curve, trace, near - 1, losses)
         loss, jumps, last = trace[UNLOADING_LOSS, near - 1], trace[UNLOADING_JUMPS, near - 1], trace[LAST_DEPTH, near - 1]
     else:
-        start, level, _, _ = regular_branch(table, curve, lowest)
+        start, level, _, _ = branch_of_wave(table, curve, lowest)
         lower = next_lower(trace, near - 1, level)
         if lower >= 0:
             descend(table, curve, trace, lower, losses)

@@ -22,6 +22,7 @@ from gradhesion.core.curve import Curve
 from gradhesion.core.folds import find_zero
 from gradhesion.core.jump_energy import jump_energy
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.power import amplitude_power
 
 _GAUSS: Final = 16
 _PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(_GAUSS)
@@ -33,35 +34,53 @@ FAR: Final = 4.0e6
 """Waves from which on z e_j is taken for its limit: the phase of a float would fade, and 1/z is below 1e-7."""
 
 
-@kernel()
-def window(table: Any, curve: Curve, level: float, z: float) -> float:
-    """Return the cosine of z - phi at the folds near z: beyond 1 no fold yet, below -1 none any more."""
+@kernel(contract=True)
+def _angle(table: Any, curve: Curve, z: float) -> float:
+    """Return the distance of a fold near z from the centre of its wave, in z: cos = (level/z - b z^n)/(g C)."""
     b, g, _ = curve
-    return (level / z - b * z ** (0.5 * (1.0 + table.k))) / (g * table.amplitude)
+    cosine = (0.5 * (1.0 - table.k) / z - b / amplitude_power(table, z)) / (g * table.amplitude)
+    return math.acos(max(-1.0, min(1.0, cosine)))
 
 
-@kernel()
-def _fold(table: Any, curve: Curve, wave: float, rising: bool) -> tuple[float, float]:
+@kernel(contract=True)
+def fold_of_wave(table: Any, curve: Curve, wave: float, rising: bool) -> tuple[float, float]:
     """Return the start (rising) or the end of the branch of a wave, and the depth there."""
     _, _, lag = curve
     k = table.k
-    level = 0.5 * (1.0 - k)
     centre = table.phase / TWO_PI + wave + lag
     z = TWO_PI * centre
-    angle = math.acos(max(-1.0, min(1.0, window(table, curve, level, z))))
-    z += -angle if rising else angle
-    angle = math.acos(max(-1.0, min(1.0, window(table, curve, level, z)))) / TWO_PI
+    angle = _angle(table, curve, z)
+    angle = _angle(table, curve, z - angle if rising else z + angle) / TWO_PI
     shift = (0.5 * (1.0 - k) + 0.125 * (1.0 - k * k)) / (TWO_PI * z)
     if rising:
-        return find_zero(table, curve, level, centre - 0.5, centre, True, centre - angle + shift)
-    return find_zero(table, curve, level, centre, centre + 0.5, False, centre + angle + shift)
+        return find_zero(table, curve, 0.5 * (1.0 - k), centre - 0.5, centre, True, centre - angle + shift)
+    return find_zero(table, curve, 0.5 * (1.0 - k), centre, centre + 0.5, False, centre + angle + shift)
+
+
+@kernel(contract=True)
+def _landing(table: Any, curve: Curve, depth: float, fold: tuple[float, float], wave: float, outwards: bool) -> float:
+    """Return where a wave's branch meets a depth, one of its folds being known: its end, or its start.
+
+    The other fold only bounds the search, and is estimated: it stands at the other side of the centre, and depth rises
+    by g C z^c (2 sin u - 2 u cos u) between two folds at the angles -u and u.
+    """
+    _, g, lag = curve
+    x, known = fold
+    centre = table.phase / TWO_PI + wave + lag
+    z = TWO_PI * centre
+    angle = _angle(table, curve, z)
+    span = 2.0 * g * table.amplitude * z * amplitude_power(table, z) * (math.sin(angle) - angle * math.cos(angle))
+    other = 2.0 * centre - x
+    if outwards:
+        return find_depth(table, curve, depth, (other, known - span, x, known))
+    return find_depth(table, curve, depth, (x, known, other, known + span))
 
 
 @kernel()
-def regular_branch(table: Any, curve: Curve, wave: float) -> tuple[float, float, float, float]:
+def branch_of_wave(table: Any, curve: Curve, wave: float) -> tuple[float, float, float, float]:
     """Return place and depth of the start, and of the end, of the branch of a wave."""
-    start, start_depth = _fold(table, curve, wave, True)
-    end, end_depth = _fold(table, curve, wave, False)
+    start, start_depth = fold_of_wave(table, curve, wave, True)
+    end, end_depth = fold_of_wave(table, curve, wave, False)
     return start, start_depth, end, end_depth
 
 
@@ -77,12 +96,9 @@ def jump_of_wave(table: Any, curve: Curve, wave: float, outwards: bool, trace: A
         b *= scale ** (0.5 * (1.0 + table.k))
         whole = FAR
     shifted = (b, g, lag)
-    if outwards:
-        left, depth = _fold(table, shifted, whole, False)
-        landing = find_depth(table, shifted, depth, regular_branch(table, shifted, whole + 1.0))
-    else:
-        left, depth = _fold(table, shifted, whole, True)
-        landing = find_depth(table, shifted, depth, regular_branch(table, shifted, whole - 1.0))
+    left, depth = fold_of_wave(table, shifted, whole, not outwards)
+    target = whole + 1.0 if outwards else whole - 1.0
+    landing = _landing(table, shifted, depth, fold_of_wave(table, shifted, target, not outwards), target, outwards)
     return landing * scale, jump_energy(table, shifted, left, landing, trace[WORK]) * scale
 
 

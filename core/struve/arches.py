@@ -45,6 +45,8 @@ def find_inflection(table: Any, i: int) -> tuple[float, float, float]:
     k = table.k
     n = 0.5 * (1.0 + k)
     place = table.phase + (i - 0.5) * math.pi
+    if i > ARCHES:  # the next term of the expansion leaves 1e-8
+        return _abscissa_and_height(table, (place + (2.125 - k - 0.125 * k * k) / place) / TWO_PI)
     x = (place + 0.9 * (2.0 - k) / (place + 1.0)) / TWO_PI
     for _ in range(_STEPS):
         z = TWO_PI * x
@@ -68,6 +70,8 @@ def find_summit(table: Any, i: int) -> tuple[float, float, float]:
     k = table.k
     n = 0.5 * (1.0 + k)
     place = table.phase + i * math.pi
+    if i > ARCHES:
+        return _abscissa_and_height(table, (place + (1.625 - 0.5 * k - 0.125 * k * k) / place) / TWO_PI)
     x = (place + 1.2 / (place + 0.5)) / TWO_PI
     for _ in range(_STEPS):
         z = TWO_PI * x
