@@ -39,9 +39,9 @@ from gradhesion.core.unloading import descend, leave, next_lower
 
 LONGEST_WALK: Final = 160.0
 """Arches, two a wave, up to which a curve is walked."""
-BEGINNING: Final = 24.0
+BEGINNING: Final = 16.0
 """Waves walked at the beginning of a long curve; z > 150 there."""
-NEAR_RIM: Final = 16.0
+NEAR_RIM: Final = 10.0
 """Waves walked before the rim, or before the folds end."""
 
 

@@ -30,6 +30,8 @@ NODES: Final = 0.5 * (1.0 + _PLACES)
 WEIGHTS: Final = 0.5 * _WEIGHTS
 EDGE: Final = 3
 """Waves on either side of a limit of the integral from which its derivatives there are taken."""
+_WIDE: Final = 2.2
+"""Half the width of a branch, in radians, from which on both its folds are found."""
 FAR: Final = 4.0e6
 """Waves from which on z e_j is taken for its limit: the phase of a float would fade, and 1/z is below 1e-7."""
 
@@ -43,6 +45,17 @@ def _angle(table: Any, curve: Curve, z: float) -> float:
 
 
 @kernel(contract=True)
+def _fold_near(table: Any, curve: Curve, wave: float, rising: bool, guess: float) -> tuple[float, float]:
+    """Return the start (rising) or the end of the branch of a wave, and the depth there, from a guess."""
+    _, _, lag = curve
+    level = 0.5 * (1.0 - table.k)
+    centre = table.phase / TWO_PI + wave + lag
+    if rising:
+        return find_zero(table, curve, level, centre - 0.5, centre, True, guess)
+    return find_zero(table, curve, level, centre, centre + 0.5, False, guess)
+
+
+@kernel(contract=True)
 def fold_of_wave(table: Any, curve: Curve, wave: float, rising: bool) -> tuple[float, float]:
     """Return the start (rising) or the end of the branch of a wave, and the depth there."""
     _, _, lag = curve
@@ -52,28 +65,32 @@ def fold_of_wave(table: Any, curve: Curve, wave: float, rising: bool) -> tuple[f
     angle = _angle(table, curve, z)
     angle = _angle(table, curve, z - angle if rising else z + angle) / TWO_PI
     shift = (0.5 * (1.0 - k) + 0.125 * (1.0 - k * k)) / (TWO_PI * z)
-    if rising:
-        return find_zero(table, curve, 0.5 * (1.0 - k), centre - 0.5, centre, True, centre - angle + shift)
-    return find_zero(table, curve, 0.5 * (1.0 - k), centre, centre + 0.5, False, centre + angle + shift)
+    return _fold_near(table, curve, wave, rising, centre + shift - (angle if rising else -angle))
 
 
 @kernel(contract=True)
-def _landing(table: Any, curve: Curve, depth: float, fold: tuple[float, float], wave: float, outwards: bool) -> float:
-    """Return where a wave's branch meets a depth, one of its folds being known: its end, or its start.
+def _landing(table: Any, curve: Curve, depth: float, fold: tuple[float, float], wave: float) -> float:
+    """Return where a wave's branch meets a depth, one of its folds being known.
 
-    The other fold only bounds the search, and is estimated: it stands at the other side of the centre, and depth rises
-    by g C z^c (2 sin u - 2 u cos u) between two folds at the angles -u and u.
+    The other fold stands about at the other side of the centre. Where folds are about to end, landing is close to it, and
+    it must be found; before that it only bounds the search, and is estimated: depth rises by
+    g C z^c (2 sin u - 2 u cos u) between two folds at the angles -u and u.
     """
     _, g, lag = curve
     x, known = fold
     centre = table.phase / TWO_PI + wave + lag
     z = TWO_PI * centre
-    angle = _angle(table, curve, z)
-    span = 2.0 * g * table.amplitude * z * amplitude_power(table, z) * (math.sin(angle) - angle * math.cos(angle))
+    angle = TWO_PI * (x - centre)
     other = 2.0 * centre - x
-    if outwards:
-        return find_depth(table, curve, depth, (other, known - span, x, known))
-    return find_depth(table, curve, depth, (x, known, other, known + span))
+    rising = x > centre
+    if abs(angle) > _WIDE:
+        other, other_depth = _fold_near(table, curve, wave, rising, other)
+    else:
+        scale = 2.0 * g * table.amplitude * z * amplitude_power(table, z)
+        other_depth = known - scale * (math.sin(angle) - angle * math.cos(angle))
+    if rising:
+        return find_depth(table, curve, depth, (other, other_depth, x, known))
+    return find_depth(table, curve, depth, (x, known, other, other_depth))
 
 
 @kernel()
@@ -98,7 +115,8 @@ def jump_of_wave(table: Any, curve: Curve, wave: float, outwards: bool, trace: A
     shifted = (b, g, lag)
     left, depth = fold_of_wave(table, shifted, whole, not outwards)
     target = whole + 1.0 if outwards else whole - 1.0
-    landing = _landing(table, shifted, depth, fold_of_wave(table, shifted, target, not outwards), target, outwards)
+    fold = _fold_near(table, shifted, target, not outwards, left + (target - whole))
+    landing = _landing(table, shifted, depth, fold, target)
     return landing * scale, jump_energy(table, shifted, left, landing, trace[WORK]) * scale
 
 
