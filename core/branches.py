@@ -92,11 +92,14 @@ def append_branches(table: Any, curve: Curve, first: int, final: float, furthest
         inside = True
     i = first
     while i <= final:
-        kind, low, peak, high = survey_arch(table, curve, level, i)
+        survey = survey_arch(table, curve, level, i)
+        kind, _, _, high = survey
         rising = kind == 1 or (kind == 2 and i % 2 == 0)
         for _ in range(abs(kind)):
             if rising or inside:
-                x, bottom = fold_of_arch(table, curve, level, i, kind, low, peak, high, rising)
+                row = START if rising else END
+                guess = 2.0 * trace[row, count - 1] - trace[row, count - 2] if count > 1 else 0.0
+                x, bottom = fold_of_arch(table, curve, level, i, survey, rising, guess)
                 if rising:
                     if x > furthest:
                         return count

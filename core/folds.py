@@ -147,17 +147,27 @@ def survey_arch(table: Any, curve: Curve, level: float, i: int) -> tuple[int, fl
 
 @kernel()
 def fold_of_arch(
-    table: Any, curve: Curve, level: float, i: int, kind: int, low: float, peak: float, high: float, rising: bool
+    table: Any,
+    curve: Curve,
+    level: float,
+    i: int,
+    survey: tuple[int, float, float, float],
+    rising: bool,
+    guess: float,
 ) -> tuple[float, float]:
-    """Return where D rises (or falls) through zero on an arch, as `survey_arch` told, and the depth there."""
-    concave = i % 2 == 0
-    outer = rising != concave
-    guess = guess_zero(table, curve, level, i, peak, outer)
-    if kind != 2:
-        return find_zero(table, curve, level, low, high, rising, guess)
-    if outer:
-        return find_zero(table, curve, level, peak, high, rising, guess)
-    return find_zero(table, curve, level, low, peak, rising, guess)
+    """Return where D rises (or falls) through zero on an arch, as its survey told, and the depth there.
+
+    A `guess` that cannot be right is replaced by a better one.
+    """
+    kind, low, peak, high = survey
+    outer = rising != (i % 2 == 0)
+    if kind == 2 and outer:
+        low = peak
+    elif kind == 2:
+        high = peak
+    if not low < guess < high:
+        guess = guess_zero(table, curve, level, i, peak, outer)
+    return find_zero(table, curve, level, low, high, rising, guess)
 
 
 @kernel(contract=True)

@@ -28,10 +28,10 @@ def _floor(b: float, chi: float, k: float, abscissa: float, z: float) -> float:
 def _trough(table: Any, curve: Curve, i: int) -> float:
     """Return x of the local minimum of the load on arch i, 0 where there is none."""
     level = 0.5 * (3.0 + table.k)
-    kind, low, peak, high = survey_arch(table, curve, level, i)
-    if kind <= 0:
+    survey = survey_arch(table, curve, level, i)
+    if survey[0] <= 0:
         return 0.0
-    x, _ = fold_of_arch(table, curve, level, i, kind, low, peak, high, True)
+    x, _ = fold_of_arch(table, curve, level, i, survey, True, 0.0)
     return x
 
 
