@@ -1,7 +1,8 @@
 """The one decorator of every kernel, and the one place that knows where compiled code is kept.
 
 Numba notices an edit in the file of a kernel, but not in the files of the kernels that it calls. The folder of the
-compiled code is therefore named after a digest of all sources of the core: an edit anywhere compiles all of it anew.
+compiled code is therefore named after a digest of all sources of the core and of where they stand (numba keeps code of
+one place for that place alone): an edit anywhere compiles all of it anew.
 """
 
 import hashlib
@@ -18,7 +19,7 @@ _CORE: Final = Path(__file__).parent
 
 
 def _digest_of_sources() -> str:
-    digest = hashlib.sha256()
+    digest = hashlib.sha256(str(_CORE).encode())
     for source in sorted(_CORE.rglob("*.py")):
         digest.update(source.relative_to(_CORE).as_posix().encode())
         digest.update(source.read_bytes())

@@ -1,8 +1,8 @@
 """The branches of a curve: the parts on which depth rises with the radius, where the contact is stable.
 
-They are kept in a *trace*, an array of one column a branch with the rows named here: the two folds that bound the branch,
-how loading arrives on it, and what unloading loses from its start to the end of contact. Two rows more are room for the
-nodes of jump_energy.py and the waves of regular.py.
+They are kept in a *trace*, an array of one column a branch with the rows named here: the two folds that bound the
+branch, how loading arrives on it, and what unloading loses from its start to the end of contact. Two rows more are
+room for the nodes of jump_energy.py and the waves of regular.py.
 """
 
 import math

@@ -1,10 +1,10 @@
 """A cycle of loading and unloading under displacement control: its jumps and the energy that they cost.
 
-A curve of moderate length is walked branch by branch, once for all its rims: loading does not depend on the rim until it
-gets there, and unloading does not depend on where it came from. On a long one only the branches near its beginning and
-near the rim are walked; the run of waves between them is regular (regular.py) and summed. The two pieces stand in one
-trace, and what passes the gap enters as what loading has lost where it arrives beyond it, and as what unloading still
-has to lose.
+A curve of moderate length is walked branch by branch, once for all its rims: loading does not depend on the rim until
+it gets there, and unloading does not depend on where it came from. On a long one only the branches near its beginning
+and near the rim are walked; the run of waves between them is regular (regular.py) and summed. The two pieces stand in
+one trace, and what passes the gap enters as what loading has lost where it arrives beyond it, and as what unloading
+still has to lose.
 """
 
 import math
@@ -19,7 +19,6 @@ from gradhesion.core.branches import (
     LOADING_JUMPS,
     LOADING_LOSS,
     START,
-    START_DEPTH,
     UNLOADING_JUMPS,
     UNLOADING_LOSS,
     WORK,
@@ -172,7 +171,11 @@ def _unload_through(table: Any, curve: Curve, near: int, waves: Any, trace: Any,
     loss, jumps, last = 0.0, 1.0, 0.0
     if lowest == before:
         descend(table, curve, trace, near - 1, losses)
-        loss, jumps, last = trace[UNLOADING_LOSS, near - 1], trace[UNLOADING_JUMPS, near - 1], trace[LAST_DEPTH, near - 1]
+        loss, jumps, last = (
+            trace[UNLOADING_LOSS, near - 1],
+            trace[UNLOADING_JUMPS, near - 1],
+            trace[LAST_DEPTH, near - 1],
+        )
     else:
         start, level, _, _ = branch_of_wave(table, curve, lowest)
         lower = next_lower(trace, near - 1, level)
@@ -180,7 +183,11 @@ def _unload_through(table: Any, curve: Curve, near: int, waves: Any, trace: Any,
             descend(table, curve, trace, lower, losses)
             landing = find_depth(table, curve, level, ends(trace, lower))
             loss = jump_energy(table, curve, start, landing, trace[WORK]) if losses else 0.0
-            loss, jumps, last = loss + trace[UNLOADING_LOSS, lower], 1.0 + trace[UNLOADING_JUMPS, lower], trace[LAST_DEPTH, lower]
+            loss, jumps, last = (
+                loss + trace[UNLOADING_LOSS, lower],
+                1.0 + trace[UNLOADING_JUMPS, lower],
+                trace[LAST_DEPTH, lower],
+            )
         else:
             loss, last = -energy_from_zero(table, curve, start, level) if losses else 0.0, level
     if losses:

@@ -43,9 +43,9 @@ def find_zero(
             high = x
         step = -d * d1 / (d1 * d1 - 0.5 * d * d2)
         new = x + step / TWO_PI
-        if abs(step) * (abs(d2) + abs(d1)) < _LAST_STEP * abs(d1) * min(1.0, TWO_PI * x):
-            if low <= new <= high:
-                return new, depth + step * (d + step * (0.5 * d1 + step * d2 / 6.0))
+        small = abs(step) * (abs(d2) + abs(d1)) < _LAST_STEP * abs(d1) * min(1.0, TWO_PI * x)
+        if small and low <= new <= high:
+            return new, depth + step * (d + step * (0.5 * d1 + step * d2 / 6.0))
         if not low < new < high:
             new = 0.5 * (low + high)
             if new <= low or new >= high:

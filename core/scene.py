@@ -31,12 +31,6 @@ def _put(out: Any, slots: Any, row: int, rim: int, value: float) -> None:
 
 
 @kernel()
-def _stretch(k: float, stiffness: float) -> float:
-    """Return s = sqrt(2^(1+k) pi dgamma/M)."""
-    return math.sqrt(2.0 ** (1.0 + k) * math.pi / stiffness)
-
-
-@kernel()
 def _wants_force(slots: Any) -> bool:
     return slots[FORCE] >= 0 or slots[RADIUS] >= 0
 
@@ -54,16 +48,18 @@ def _solve_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: An
     for i in range(rims.size):
         z_rim = rims[i] / length
         if _wants_force(slots):
-            force, z = smooth.smooth_force(k, z_rim)
+            force, z = smooth.smooth_force(k, constants[0], z_rim)
             _put(out, slots, FORCE, i, force)
             _put(out, slots, RADIUS, i, z * length)
-        if _wants_cycle(slots) or slots[DEEPEST] >= 0:
-            loss, loading, unloading, deepest, last = smooth.smooth_cycle(k, constants, z_rim)
+        if _wants_cycle(slots):
+            loss, unloading_jumps, last = smooth.smooth_cycle(k, constants, z_rim)
             _put(out, slots, ENERGY, i, TWO_PI * length * length * loss)
-            _put(out, slots, LOADING, i, loading)
-            _put(out, slots, UNLOADING, i, unloading)
-            _put(out, slots, DEEPEST, i, depth_scale * deepest)
+            _put(out, slots, LOADING, i, 1.0)
+            _put(out, slots, UNLOADING, i, unloading_jumps)
             _put(out, slots, LAST, i, depth_scale * last)
+        if slots[DEEPEST] >= 0:
+            deepest = max(0.0, smooth.smooth_depth(k, z_rim)) if z_rim < math.inf else math.inf
+            _put(out, slots, DEEPEST, i, depth_scale * deepest)
 
 
 @kernel()
@@ -130,7 +126,7 @@ def _solve_cycle(
 def solve_curve(
     table: Any,
     constants: Any,
-    stiffness: float,
+    stretch: float,
     wavelength: float,
     amplitude: float,
     rims: Any,
@@ -138,15 +134,14 @@ def solve_curve(
     out: Any,
     scratch: Any,
 ) -> int:
-    """Solve one curve (k, M, lambda, A) for all its rims a_max; return its status."""
+    """Solve one curve (k, s, lambda, A) for all its rims a_max; return its status."""
     k = table.k
-    valid = stiffness > 0.0 and 0.0 < wavelength < math.inf and 0.0 <= amplitude < math.inf
+    valid = 0.0 < stretch < math.inf and 0.0 < wavelength < math.inf and 0.0 <= amplitude < math.inf
     for i in range(rims.size):
         valid = valid and rims[i] > 0.0
     if not valid:
         out[:, :] = math.nan
         return NO_VALUE
-    stretch = _stretch(k, stiffness)
     if amplitude == 0.0:
         _solve_smooth(k, constants, stretch, rims, slots, out)
         return 0
@@ -177,10 +172,12 @@ def solve_curves(
     scratch: Any,
 ) -> None:
     """Solve the curves `index` of one gradient exponent; `rims` has one row, or one a curve."""
-    constants = smooth.smooth_cycle_constants(table.k)
+    constants = smooth.smooth_constants(table.k)
+    front = 2.0 ** (1.0 + table.k) * math.pi
     for j in range(index.size):
         i = index[j]
+        stretch = math.sqrt(front / stiffness[i])  # s = sqrt(2^(1+k) pi dgamma/M)
         row = rims[i if rims.shape[0] > 1 else 0]
         status[i, :] = solve_curve(
-            table, constants, stiffness[i], wavelength[i], amplitude[i], row, slots, out[:, i], scratch
+            table, constants, stretch, wavelength[i], amplitude[i], row, slots, out[:, i], scratch
         )

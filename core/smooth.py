@@ -9,7 +9,6 @@ so the first fold, the radius of the jump-in and that of the pull-off are consta
 Wan (2013).
 """
 
-import math
 from typing import Final
 
 from gradhesion.core._jit import kernel
@@ -25,13 +24,11 @@ def smooth_length(k: float, stretch: float) -> float:
 
 
 @kernel()
-def smooth_force(k: float, z_rim: float) -> tuple[float, float]:
-    """Return the pull-off force over 1.5 pi R dgamma and the z where it is met."""
-    power = 0.5 * (3.0 + k)
-    z = power ** (1.0 / power)
-    if z_rim >= z:
-        return (3.0 + k) / 3.0, z
-    abscissa = z_rim**power
+def smooth_force(k: float, z_pull: float, z_rim: float) -> tuple[float, float]:
+    """Return the pull-off force over 1.5 pi R dgamma and the z where it is met: z_pull, or the rim before that."""
+    if z_rim >= z_pull:
+        return (3.0 + k) / 3.0, z_pull
+    abscissa = z_rim ** (0.5 * (3.0 + k))
     return FORCE_SCALE * abscissa * (1.0 - abscissa / (3.0 + k)), z_rim
 
 
@@ -51,29 +48,30 @@ def _energy_from_zero(k: float, z: float, depth: float) -> float:
 
 
 @kernel()
-def smooth_cycle_constants(k: float) -> tuple[float, float, float, float, float]:
-    """Return z and loss of the jump-in, and z, depth and loss of the jump-out, of a punch that reaches beyond both."""
-    z_in = 2.0 ** (2.0 / (3.0 + k))
+def smooth_constants(k: float) -> tuple[float, float, float, float, float, float]:
+    """Return the z of the pull-off, then z and loss of the jump-in, and z, depth and loss of the jump-out.
+
+    They are those of a punch that reaches beyond all three places.
+    """
+    power = 2.0 / (3.0 + k)
+    z_pull, z_in = (1.0 / power) ** power, 2.0**power
+    loss_in = _energy_from_zero(k, z_in, 0.0)
     if k == 1.0:  # the contact shrinks to a point at the depth -1
-        return z_in, _energy_from_zero(k, z_in, 0.0), 0.0, -1.0, 0.0
-    z_out = (0.5 * (1.0 - k)) ** (2.0 / (3.0 + k))
+        return z_pull, z_in, loss_in, 0.0, -1.0, 0.0
+    z_out = (0.5 * (1.0 - k)) ** power
     depth = smooth_depth(k, z_out)
-    return z_in, _energy_from_zero(k, z_in, 0.0), z_out, depth, -_energy_from_zero(k, z_out, depth)
+    return z_pull, z_in, loss_in, z_out, depth, -_energy_from_zero(k, z_out, depth)
 
 
 @kernel()
 def smooth_cycle(
-    k: float, constants: tuple[float, float, float, float, float], z_rim: float
-) -> tuple[float, float, float, float, float]:
-    """Return the reduced loss of a cycle, its loading and unloading jumps, the largest and the last depth."""
-    z_in, loss_in, z_out, last_depth, loss_out = constants
-    rim_depth = smooth_depth(k, z_rim) if z_rim < math.inf else math.inf
-    loss, out_jumps = loss_in, 1.0 if z_out > 0.0 else 0.0
+    k: float, constants: tuple[float, float, float, float, float, float], z_rim: float
+) -> tuple[float, float, float]:
+    """Return the reduced loss of a cycle, its unloading jumps, and the depth at which contact ends."""
+    _, z_in, loss, z_out, last_depth, loss_out = constants
     if z_rim < z_in:
         loss = _energy_from_zero(k, z_rim, 0.0)
     if z_rim < z_out:
-        loss -= _energy_from_zero(k, z_rim, rim_depth)
-        last_depth = rim_depth
-    else:
-        loss += loss_out
-    return loss, 1.0, out_jumps, max(0.0, rim_depth), last_depth
+        last_depth = smooth_depth(k, z_rim)
+        loss_out = -_energy_from_zero(k, z_rim, last_depth)
+    return loss + loss_out, 1.0 if z_out > 0.0 else 0.0, last_depth

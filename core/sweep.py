@@ -18,7 +18,7 @@ from gradhesion.core import _jit
 from gradhesion.core.asymptotic_cycle import solve_curves as solve_asymptotic
 from gradhesion.core.branches import ROWS
 from gradhesion.core.envelope import solve_curves as solve_envelope
-from gradhesion.core.material import stiffness
+from gradhesion.core.material import fill_stiffness
 from gradhesion.core.scene import solve_curves as solve_exact
 from gradhesion.core.struve.table import build_table
 
@@ -133,17 +133,22 @@ def solve(
     slots = np.array([outputs.index(name) if name in outputs else -1 for name in OUTPUTS])
     out = np.empty((len(outputs), curves, rims.shape[1]))
     status = np.zeros((curves, rims.shape[1]), dtype=np.int8)
-    stiffnesses = _flat(stiffness(k, nu, modulus, c0), curve_shape)
-    wavelengths, amplitudes = _flat(wavelength, curve_shape), _flat(amplitude, curve_shape)
-
+    exponents = _flat(k, curve_shape)
+    nus, moduli, depths, wavelengths, amplitudes = (
+        _flat(each, curve_shape) for each in (nu, modulus, c0, wavelength, amplitude)
+    )
+    stiffnesses = np.empty(curves)
     solve_curves = _KERNELS[solver]
 
     def work(task: tuple[float, NDArray[np.int64]]) -> None:
-        scratch = np.empty((ROWS, _BRANCHES))
-        table = table_of(min(max(task[0], 0.0), 1.0) if task[0] == task[0] else 0.0)
-        solve_curves(table, task[1], stiffnesses, wavelengths, amplitudes, rims, slots, out, status, scratch)
+        exponent, index = task
+        fill_stiffness(exponent, index, nus, moduli, depths, stiffnesses)
+        table = table_of(exponent if 0.0 <= exponent <= 1.0 else 0.0)  # beyond, the stiffness has no value
+        solve_curves(
+            table, index, stiffnesses, wavelengths, amplitudes, rims, slots, out, status, np.empty((ROWS, _BRANCHES))
+        )
 
-    tasks = list(_tasks(_flat(k, curve_shape), max(1, _TASK // max(1, rims.shape[1]))))
+    tasks = list(_tasks(exponents, max(1, _TASK // max(1, rims.shape[1]))))
     workers = min(threads or os.cpu_count() or 1, len(tasks))
     if workers > 1:
         with ThreadPoolExecutor(workers) as pool:
@@ -164,9 +169,10 @@ def solve(
 
 def _tasks(k: NDArray[np.float64], size: int) -> list[tuple[float, NDArray[np.int64]]]:
     """Cut the curves into tasks of one exponent each."""
-    order = np.argsort(k, kind="stable")
-    exponents, first = np.unique(k[order], return_index=True)
+    order = np.arange(k.size) if np.all(k[1:] >= k[:-1]) else np.argsort(k, kind="stable")
+    ordered = k[order]
+    first = np.flatnonzero(np.concatenate([[k.size > 0], ordered[1:] != ordered[:-1]]))
     tasks = []
-    for exponent, group in zip(exponents.tolist(), np.split(order, first[1:]), strict=True):
+    for exponent, group in zip(ordered[first].tolist(), np.split(order, first[1:]), strict=True):
         tasks += [(exponent, group[i : i + size]) for i in range(0, group.size, size)]
     return tasks

@@ -1,7 +1,7 @@
 """Unloading: down a branch to its start, then inwards at that depth to the next branch that reaches lower.
 
-Where unloading goes from the start of a branch does not depend on where it came from, so that the loss from there to the
-end of contact is kept with the branch.
+Where unloading goes from the start of a branch does not depend on where it came from, so that the loss from there to
+the end of contact is kept with the branch.
 """
 
 from typing import Any
