@@ -19,6 +19,8 @@ from gradhesion.core.branches import (
     LOADING_JUMPS,
     LOADING_LOSS,
     START,
+    START_DEPTH,
+    UNKNOWN,
     UNLOADING_JUMPS,
     UNLOADING_LOSS,
     WORK,
@@ -40,31 +42,40 @@ LONGEST_WALK: Final = 160.0
 """Arches, two a wave, up to which a curve is walked."""
 BEGINNING: Final = 16.0
 """Waves walked at the beginning of a long curve; z > 150 there."""
+_HALVINGS: Final = 200
+MOST_ARCHES: Final = 2.0e9
+"""Arches up to which the phase of a radius is told well enough to walk there."""
 NEAR_RIM: Final = 10.0
 """Waves walked before the rim, or before the folds end."""
 
 
 @kernel()
-def extent(table: Any, curve: Curve) -> tuple[int, float]:
+def extent(table: Any, curve: Curve) -> tuple[float, float]:
     """Return the first and the last arch on which the curve can fold."""
     level = 0.5 * (1.0 - table.k)
     return first_arch(table, curve, level), last_arch(table, curve, level)
 
 
 @kernel()
-def is_long(table: Any, arches: tuple[int, float], rim: float) -> bool:
+def is_long(table: Any, arches: tuple[float, float], rim: float) -> bool:
     """Return whether a rim is too far out to walk there."""
     return min(arches[1], 2.0 * rim - table.phase / math.pi) - arches[0] > LONGEST_WALK
 
 
 @kernel()
+def is_smooth(arches: tuple[float, float]) -> bool:
+    """Return whether folds could stand only so far out, and on so few waves, that they are of the size of rounding."""
+    return arches[0] > MOST_ARCHES and arches[1] - arches[0] <= LONGEST_WALK
+
+
+@kernel()
 def walk(
-    table: Any, curve: Curve, arches: tuple[int, float], furthest: float, trace: Any, losses: bool
+    table: Any, curve: Curve, arches: tuple[float, float], furthest: float, trace: Any, losses: bool
 ) -> tuple[int, Any]:
     """Walk a curve of moderate length outwards to `furthest`; return the number of its branches and the trace."""
     first, final = arches
     trace = room_for(trace, min(final, 2.0 * furthest) - first + 8.0)
-    count = append_branches(table, curve, first, final, furthest, trace, 0)
+    count = append_branches(table, curve, int(first), final, furthest, trace, 0)
     load_up(table, curve, count, trace, furthest, losses)
     return count, trace
 
@@ -90,7 +101,9 @@ def _first_wave_above(table: Any, curve: Curve, low: float, high: float, level: 
         z = max(z, TWO_PI * low)
     middle = math.floor(z / TWO_PI - table.phase / TWO_PI)
     step = 1.0
-    while high - low > 1.0:
+    for _ in range(_HALVINGS):
+        if high - low <= 1.0:
+            break
         middle = max(low + 1.0, min(high - 1.0, middle))
         _, end_depth = fold_of_wave(table, curve, middle, False)
         if end_depth > level:
@@ -114,7 +127,9 @@ def _lowest_wave(table: Any, curve: Curve, low: float, high: float) -> float:
     z = (0.5 * (1.0 - k) * (1.0 + g * table.amplitude) / b) ** (2.0 / (3.0 + k))
     middle = math.floor(z / TWO_PI - table.phase / TWO_PI)
     step = 1.0
-    while high > low:  # the lowest is one of low .. high
+    for _ in range(_HALVINGS):  # the lowest is one of low .. high
+        if high <= low:
+            break
         middle = max(low, min(high - 1.0, middle))
         _, here = fold_of_wave(table, curve, middle, True)
         _, beyond = fold_of_wave(table, curve, middle + 1.0, True)
@@ -169,7 +184,7 @@ def _unload_through(table: Any, curve: Curve, near: int, waves: Any, trace: Any,
     if lowest == after:  # nothing in the gap is lower
         return
     loss, jumps, last = 0.0, 1.0, 0.0
-    if lowest == before:
+    if lowest == before and near > 0:
         descend(table, curve, trace, near - 1, losses)
         loss, jumps, last = (
             trace[UNLOADING_LOSS, near - 1],
@@ -196,18 +211,37 @@ def _unload_through(table: Any, curve: Curve, near: int, waves: Any, trace: Any,
 
 
 @kernel()
+def _nominal_branch(table: Any, curve: Curve, rim: float, trace: Any, near: int) -> float:
+    """Put the branch of a rim whose phase no float tells into the trace, by the envelopes; return its wave."""
+    b, g, _ = curve
+    z = TWO_PI * rim
+    pull, chi = z * amplitude_power(table, z), g * table.amplitude
+    trace[START, near], trace[START_DEPTH, near] = rim, 0.5 * b * z * z - (1.0 + chi) * pull + g
+    trace[END, near], trace[END_DEPTH, near] = math.inf, 0.5 * b * z * z - (1.0 - chi) * pull + g
+    trace[UNLOADING_JUMPS, near] = UNKNOWN
+    return rim - table.phase / TWO_PI
+
+
+@kernel()
 def stride(
-    table: Any, curve: Curve, arches: tuple[int, float], rim: float, trace: Any, losses: bool
+    table: Any, curve: Curve, arches: tuple[float, float], rim: float, trace: Any, losses: bool
 ) -> tuple[int, Any]:
     """Do what `walk` does for one rim of a long curve, leaving out the regular waves in the middle."""
     first, final = arches
     trace = room_for(trace, 4.0 * (BEGINNING + NEAR_RIM))
-    beginning = (0.5 * first + BEGINNING) + table.phase / TWO_PI
-    near = append_branches(table, curve, first, final, beginning, trace, 0)
     last = min(final, 2.0 * rim - table.phase / math.pi + 3.0)
-    resume = 2 * int(0.5 * last - NEAR_RIM) - 1
-    count = append_branches(table, curve, resume, final, rim, trace, near)
-    waves = (_wave_of(table, trace[START, near - 1]), _wave_of(table, trace[START, near]), 0.5 * final + 1.0)
+    near, before = 0, 0.5 * first
+    if first < MOST_ARCHES:
+        beginning = (0.5 * first + BEGINNING) + table.phase / TWO_PI
+        near = append_branches(table, curve, int(first), final, beginning, trace, 0)
+        before = _wave_of(table, trace[START, near - 1])
+    if last < MOST_ARCHES:
+        count = append_branches(table, curve, 2 * int(0.5 * last - NEAR_RIM) - 1, final, rim, trace, near)
+        after = _wave_of(table, trace[START, near])
+    else:
+        after = math.floor(_nominal_branch(table, curve, min(rim, 0.5 * final), trace, near))
+        count = near + 1
+    waves = (before, after, 0.5 * final + 1.0)
     _load_through(table, curve, near, count, waves, trace, rim, losses)
     _unload_through(table, curve, near, waves, trace, losses)
     return count, trace

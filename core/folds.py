@@ -174,23 +174,26 @@ def fold_of_arch(
 def last_arch(table: Any, curve: Curve, level: float) -> float:
     """Return the index of an arch beyond which no fold can stand: b z^n > g C (1 + 0.35/z^2) + level/z from there on.
 
-    |V| <= C z^(1-n) (1 + 0.35/z^2) holds for every k. One iteration from an upper bound gives a lower one and a second
-    an upper one again.
+    |V| <= C z^(1-n) (1 + 0.35/z^2) holds for every k. The left side less the right is concave and rises, so that
+    Newton's iteration from the left climbs to its zero from below; one arch and a half more make up for what is left.
     """
     b, g, _ = curve
-    inverse_n = 2.0 / (1.0 + table.k)
+    n = 0.5 * (1.0 + table.k)
     chi = g * table.amplitude
-    z = ((1.35 * chi + level) / b) ** inverse_n
-    if z < 1.0:
-        return 1.0
-    z = ((chi * (1.0 + 0.35 / (z * z)) + level / z) / b) ** inverse_n
-    z = max(1.0, z)
-    z = ((chi * (1.0 + 0.35 / (z * z)) + level / z) / b) ** inverse_n
+    z = max((chi / b) ** (1.0 / n), (level / b) ** (1.0 / (1.0 + n)))
+    for _ in range(7):
+        if not z > 1.0:
+            return 1.0
+        slow, pull, wave = b / amplitude_power(table, z), level / z, 0.35 * chi / (z * z)
+        step = (slow - pull - chi - wave) / (n * slow + pull + 2.0 * wave)
+        z -= step * z
+        if step > -1e-9:
+            break
     return (z - table.phase) / math.pi + 1.5
 
 
 @kernel(contract=True)
-def first_arch(table: Any, curve: Curve, level: float) -> int:
+def first_arch(table: Any, curve: Curve, level: float) -> float:
     """Return the index of an arch before which no fold can stand: level/z - b z^n > g C (1 + 0.35/z^2) up to there.
 
     The left side less a constant is convex and falls, so that Newton's iteration from the left stays left of its zero.
@@ -200,11 +203,11 @@ def first_arch(table: Any, curve: Curve, level: float) -> int:
     chi = 1.001 * g * table.amplitude  # 0.35/z^2 < 0.001 from z = 20 on
     z = 0.5 * level / chi
     if not z > FEW:
-        return 0
+        return 0.0
     z = min(z, (0.5 * level / b) ** (1.0 / (1.0 + n)))
     for _ in range(6):
         if not z > FEW:
-            return 0
+            return 0.0
         slow = b / amplitude_power(table, z)
         z += (level / z - slow - chi) / (level / (z * z) + n * slow / z)
-    return int((z - table.phase) / math.pi - 1.0)
+    return float(math.floor((z - table.phase) / math.pi - 1.0))

@@ -41,8 +41,8 @@ def _rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
 SHORT, LONG = _PANELS.values()
 SHORT_NODES, SHORT_WEIGHTS = _rule(12)
 NODES, WEIGHTS = _rule(16)
-NEAR_ZERO: Final = 0.6
-"""In waves: panels that begin beyond leave 1e-15 of the branch point at 0."""
+_FURTHEST: Final = 64.0
+"""In waves: over longer jumps the antiderivative loses less to cancellation than the sum of panels costs."""
 _POWER_TERMS: Final = 13
 """Terms of (1 + eta)^(-n) for |eta| <= 0.1, the half of a panel over its z."""
 
@@ -125,28 +125,24 @@ def jump_energy(table: Any, curve: Curve, start: float, end: float, work: Any) -
     b, g, lag = curve
     z1, power, s0, _, _, _, _ = wave(table, lag, start)
     left = (z1, z1 * s0, z1 * power)
-    total = 0.0
-    if min(start, end) < NEAR_ZERO:
-        # Gauss's rule feels the branch point: up to there the antiderivative serves
+    if abs(end - start) > _FURTHEST:
         depth = z1 * (0.5 * b * z1 + g * s0 - power)
-        edge = min(max(start, end), NEAR_ZERO)
-        inner = energy_from_zero(table, curve, edge, depth) - energy_from_zero(table, curve, min(start, end), depth)
-        total = (inner if end > start else -inner) / TWO_PI
-        if start < end:
-            origin, goal = edge, end
-        else:
-            origin, goal = start, edge
-    else:
-        origin, goal = start, end
-    length = goal - origin
-    panels = int(abs(length) / LONG) + 1
-    width = length / panels
-    for panel in range(panels):
-        begin = origin + length * panel / panels
-        if TWO_PI * min(begin, begin + width) >= SWITCH:
+        return energy_from_zero(table, curve, end, depth) - energy_from_zero(table, curve, start, depth)
+    begin, high = min(start, end), max(start, end)
+    total = 0.0
+    while (
+        high - begin > 2.0 * begin and begin < 0.5 * LONG
+    ):  # panels grow with their distance from the branch point at 0
+        total += _panel_below(table, curve, start, left, begin, 2.0 * begin, NODES, WEIGHTS)
+        begin *= 3.0
+    panels = int((high - begin) / LONG) + 1
+    width = (high - begin) / panels
+    for _ in range(panels):
+        if TWO_PI * begin >= SWITCH:
             total += _panel_above(table, curve, start, left, begin, width, work)
-        elif abs(width) <= SHORT:
+        elif width <= min(SHORT, begin):
             total += _panel_below(table, curve, start, left, begin, width, SHORT_NODES, SHORT_WEIGHTS)
-        elif width != 0.0:
+        else:
             total += _panel_below(table, curve, start, left, begin, width, NODES, WEIGHTS)
-    return total * TWO_PI
+        begin += width
+    return total * (TWO_PI if end > start else -TWO_PI)

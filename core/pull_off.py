@@ -9,13 +9,19 @@ the best trough found: two or three troughs of a thousand are ever looked at.
 """
 
 import math
-from typing import Any
+from typing import Any, Final
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve import Curve, load, slope, wave
 from gradhesion.core.folds import fold_of_arch, survey_arch
 from gradhesion.core.struve.arches import inner_edge
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.power import amplitude_power
+
+PHASELESS: Final = 1e12
+"""z from which on the parabola itself is the answer, to 1e-12: a float tells its phase no longer well."""
+_WORTH: Final = 1.0 + 4.0 * 2.0**-52
+"""A trough that is not deeper by this factor is none: two floats cannot tell them apart."""
 
 
 @kernel(contract=True)
@@ -53,6 +59,9 @@ def lowest_load(table: Any, curve: Curve, x_rim: float, x_rim_low: float) -> tup
     chi = g * table.amplitude
     z = (0.5 * (3.0 + k) * (1.0 + chi) / b) ** (2.0 / (3.0 + k))
     z_rim = TWO_PI * x_rim
+    if min(z, z_rim) > PHASELESS:
+        abscissa = 0.5 * (3.0 + k) * (1.0 + chi) / b if z <= z_rim else z_rim / amplitude_power(table, z_rim)
+        return _floor(b, chi, k, abscissa, z), min(z, z_rim) / TWO_PI
     start = max(0, int((min(z, z_rim) - table.phase) / math.pi + 0.5))
     best, best_x = 0.0, 0.0
     if x_rim < math.inf:
@@ -60,7 +69,7 @@ def lowest_load(table: Any, curve: Curve, x_rim: float, x_rim_low: float) -> tup
     i = start
     while True:
         x, abscissa, _ = inner_edge(table, i)
-        if x >= x_rim or (i > start and _floor(b, chi, k, abscissa, TWO_PI * x) >= best):
+        if x >= x_rim or (i > start and _floor(b, chi, k, abscissa, TWO_PI * x) >= best * _WORTH):
             break
         x = _trough(table, curve, i)
         if 0.0 < x < x_rim:
@@ -71,7 +80,7 @@ def lowest_load(table: Any, curve: Curve, x_rim: float, x_rim_low: float) -> tup
     i = start - 1
     while i >= 0:
         x, abscissa, _ = inner_edge(table, i + 1)
-        if _floor(b, chi, k, abscissa, TWO_PI * x) >= best:
+        if _floor(b, chi, k, abscissa, TWO_PI * x) >= best * _WORTH:
             break
         x = _trough(table, curve, i)
         if 0.0 < x < x_rim:

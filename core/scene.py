@@ -12,7 +12,7 @@ from typing import Any
 from gradhesion.core import smooth
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve import Curve, depth
-from gradhesion.core.cycle import extent, is_long, stride, walk
+from gradhesion.core.cycle import extent, is_long, is_smooth, stride, walk
 from gradhesion.core.loading import highest_depth, loading_to
 from gradhesion.core.pull_off import lowest_load
 from gradhesion.core.status import NO_VALUE
@@ -64,17 +64,16 @@ def _solve_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: An
 
 @kernel()
 def _solve_force(table: Any, curve: Curve, scale: float, wavelength: float, rims: Any, slots: Any, out: Any) -> None:
-    """Find the pull-off of a wavy punch for all its rims: one search serves all rims beyond the place it finds."""
+    """Find the pull-off of a wavy punch for all its rims; that without a rim serves all rims beyond its place."""
     free_load, free_x = 0.0, math.inf
+    if rims.size > 1:
+        free_load, free_x = lowest_load(table, curve, math.inf, 0.0)
     for i in range(rims.size):
         x = rims[i] / wavelength
-        if free_load < 0.0 and x >= free_x:
-            lowest, place = free_load, free_x
-        else:
+        lowest, place = free_load, free_x
+        if not (free_load < 0.0 and free_x <= x):
             x_low = fma(-x, wavelength, rims[i]) / wavelength if x < math.inf else 0.0
             lowest, place = lowest_load(table, curve, x, x_low)
-            if place < x:
-                free_load, free_x = lowest, place
         _put(out, slots, FORCE, i, -scale * lowest)
         _put(out, slots, RADIUS, i, place * wavelength)
 
@@ -99,11 +98,18 @@ def _cycle_at_rim(
 
 @kernel()
 def _solve_cycle(
-    table: Any, curve: Curve, scales: Any, wavelength: float, rims: Any, slots: Any, out: Any, scratch: Any
+    table: Any,
+    curve: Curve,
+    arches: tuple[float, float],
+    scales: Any,
+    wavelength: float,
+    rims: Any,
+    slots: Any,
+    out: Any,
+    scratch: Any,
 ) -> None:
     """Follow the cycle of a wavy punch for all its rims: those within a walk share one trace."""
     losses = slots[ENERGY] >= 0
-    arches = extent(table, curve)
     furthest = 0.0
     for i in range(rims.size):
         x = rims[i] / wavelength
@@ -136,10 +142,7 @@ def solve_curve(
 ) -> int:
     """Solve one curve (k, s, lambda, A) for all its rims a_max; return its status."""
     k = table.k
-    valid = 0.0 < stretch < math.inf and 0.0 < wavelength < math.inf and 0.0 <= amplitude < math.inf
-    for i in range(rims.size):
-        valid = valid and rims[i] > 0.0
-    if not valid:
+    if not (0.0 < stretch < math.inf and 0.0 < wavelength < math.inf and 0.0 <= amplitude < math.inf):
         out[:, :] = math.nan
         return NO_VALUE
     if amplitude == 0.0:
@@ -154,7 +157,11 @@ def solve_curve(
         _solve_force(table, curve, scale, wavelength, rims, slots, out)
     if _wants_cycle(slots) or slots[DEEPEST] >= 0:
         scales = (TWO_PI * length * length, depth_scale)
-        _solve_cycle(table, curve, scales, wavelength, rims, slots, out, scratch)
+        arches = extent(table, curve)
+        if is_smooth(arches):
+            _solve_smooth(k, constants, stretch, rims, slots, out)
+        else:
+            _solve_cycle(table, curve, arches, scales, wavelength, rims, slots, out, scratch)
     return 0
 
 

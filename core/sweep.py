@@ -20,6 +20,7 @@ from gradhesion.core.branches import ROWS
 from gradhesion.core.envelope import solve_curves as solve_envelope
 from gradhesion.core.material import fill_stiffness
 from gradhesion.core.scene import solve_curves as solve_exact
+from gradhesion.core.status import NO_VALUE
 from gradhesion.core.struve.table import build_table
 
 PARAMETERS: Final = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
@@ -61,7 +62,7 @@ def _shared_axes(shapes: Sequence[tuple[int, ...]], dimensions: int) -> int:
 
 
 def _flat(array: NDArray[np.float64], shape: tuple[int, ...]) -> NDArray[np.float64]:
-    return np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(math.prod(shape))
+    return np.array(np.broadcast_to(array, shape), order="C").reshape(math.prod(shape))
 
 
 def solve(
@@ -90,7 +91,7 @@ def solve(
 
     Returns
     -------
-    An array of the broadcast shape for each output (float64; int32 for jumps) and `status` (int8, bits of
+    An array of the broadcast shape for each output (float64; int32 for jumps, 2^31 - 1 for more) and `status` (int8, bits of
     status.FLAGS). A scene outside the ranges has NaN (-1 jumps) and the bit no_value; delta_max of an unbounded punch
     is inf.
 
@@ -129,6 +130,9 @@ def solve(
         -1, math.prod(rim_shape)
     )
 
+    without_rim = ~(rims > 0.0)
+    rims[without_rim] = math.inf
+
     curves = math.prod(curve_shape)
     slots = np.array([outputs.index(name) if name in outputs else -1 for name in OUTPUTS])
     out = np.empty((len(outputs), curves, rims.shape[1]))
@@ -157,11 +161,14 @@ def solve(
         for task in tasks:
             work(task)
 
+    if without_rim.any():
+        out[:, np.broadcast_to(without_rim, status.shape)] = math.nan
+        status[np.broadcast_to(without_rim, status.shape)] = NO_VALUE
     result: dict[str, NDArray[Any]] = {}
     for slot, name in enumerate(outputs):
         values = out[slot]
         if name in _INTEGERS:
-            values = np.where(np.isnan(values), -1.0, values).astype(np.int32)
+            values = np.where(np.isnan(values), -1.0, np.minimum(values, np.iinfo(np.int32).max)).astype(np.int32)
         result[name] = values.reshape(shape)
     result["status"] = status.reshape(shape)
     return result
@@ -169,9 +176,11 @@ def solve(
 
 def _tasks(k: NDArray[np.float64], size: int) -> list[tuple[float, NDArray[np.int64]]]:
     """Cut the curves into tasks of one exponent each."""
+    if k.size == 0:
+        return []
     order = np.arange(k.size) if np.all(k[1:] >= k[:-1]) else np.argsort(k, kind="stable")
     ordered = k[order]
-    first = np.flatnonzero(np.concatenate([[k.size > 0], ordered[1:] != ordered[:-1]]))
+    first = np.flatnonzero(np.concatenate([[True], ordered[1:] != ordered[:-1]]))
     tasks = []
     for exponent, group in zip(ordered[first].tolist(), np.split(order, first[1:]), strict=True):
         tasks += [(exponent, group[i : i + size]) for i in range(0, group.size, size)]

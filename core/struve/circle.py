@@ -12,6 +12,7 @@ from gradhesion.core.struve.intrinsics import bits_of, float_of, fma
 TWO_PI: Final = 6.283185307179586
 TWO_PI_LOW: Final = 2.4492935982947064e-16
 """2 pi = TWO_PI + TWO_PI_LOW to 33 digits."""
+_PHASELESS: Final = 2.0**49
 _ROUND: Final = 6755399441055744.0
 """1.5 2^52: adding it rounds to an integer, which then stands in the last bits."""
 
@@ -37,7 +38,8 @@ def _sine_cosine(r: float) -> tuple[float, float]:
 
 @kernel(contract=True)
 def sine_cosine_of_turns(x: float) -> tuple[float, float]:
-    """Return sin(2 pi x) and cos(2 pi x) for 0 <= x < 2^49; beyond that x no longer tells a phase."""
+    """Return sin(2 pi x) and cos(2 pi x) for 0 <= x < 2^49; beyond, x tells no phase, and 0 stands for it."""
+    x = x if x < _PHASELESS else 0.0
     quarters = 4.0 * x + _ROUND
     n = bits_of(quarters)
     rest = fma(-0.25, quarters - _ROUND, x)  # exact
