@@ -25,10 +25,11 @@ def _folds(table: Any, curve: Any, level: float) -> list[tuple[float, float, boo
     i = first_arch(table, curve, level)
     final = last_arch(table, curve, level)
     while i <= final:
-        kind, low, peak, high = survey_arch(table, curve, level, i)
+        survey = survey_arch(table, curve, level, i)
+        kind, low, _, high = survey
         rising = kind == 1 or (kind == 2 and i % 2 == 0)
         for _ in range(abs(kind)):
-            place, bottom = fold_of_arch(table, curve, level, i, kind, low, peak, high, rising)
+            place, bottom = fold_of_arch(table, curve, level, i, survey, rising, math.nan)
             assert low <= place <= high
             found.append((place, bottom, rising))
             rising = not rising

@@ -108,7 +108,9 @@ def test_edges_and_summits_are_zeros(k: float, table_of: Callable[[float], Any])
             v, v1, v2 = s0 + z * d0, 2 * d0 + z * (s1 - s0), (1 - k) * s1 - (2 - k) * s0 - z * d0
             value = n * v1 - n * v / z + z * v2 if of_bend else n * v / z + v1
             # Newton stops at a step of 1e-12 x, after which the next would be of its square
-            assert abs(value) <= 1e-11 * z * z ** (0.5 * (1 - k)) * (z if of_bend else 1)
+            # beyond the table two terms of the expansion leave 1e-8
+            miss = 1e-11 if i <= ARCHES else 1e-7
+            assert abs(value) <= miss * z * z ** (0.5 * (1 - k)) * (z if of_bend else 1)
             assert math.isclose(abscissa, z ** (1 + n), rel_tol=1e-14)
             assert math.isclose(height, z**n * v, rel_tol=1e-13, abs_tol=1e-13 * z)
 
