@@ -243,15 +243,17 @@ def solve_curve(
     energy_scale = TWO_PI * length * length
     wants_force = slots[0] >= 0 or slots[1] >= 0
     wants_cycle = slots[2:].max() >= 0
-    furthest = rims.max() / length
     count, trace = -1, np.empty((4, 0))
-    if wants_cycle and wave[1] > 0.0:
-        count, trace = trace_branches(wave, furthest)
+    if wants_cycle:
+        count, trace = trace_branches(wave, rims.max() / length)
+    shared = count >= 0 or rims.size == 1  # else a rim with fewer waves may still have its own
     for i in range(rims.size):
         z_rim = rims[i] / length
         lowest = place = loss = loading = unloading = deepest = last = math.nan
         if wants_force:
             lowest, place = lowest_load(wave, z_rim)
+        if wants_cycle and not shared:
+            count, trace = trace_branches(wave, z_rim)
         if wants_cycle and count >= 0:
             loss, loading, deepest = load_to(wave, count, trace, z_rim)
             loss_back, unloading, last = unload_from(wave, count, trace, z_rim)
