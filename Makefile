@@ -9,6 +9,9 @@ maps: outputs/maps.png ## compute configs/maps.toml into outputs/maps.nc, and dr
 
 test: build/tested ## lint, types and tests
 
+bench: .venv/installed ## measure time and error (minutes), and write docs/benchmarks.md and its figures
+	.venv/bin/python -m benchmarks
+
 clean: ## remove the virtual environment and what was built (outputs stay)
 	rm -rf .venv build .mypy_cache .ruff_cache .pytest_cache
 
@@ -34,4 +37,4 @@ build/tested: $(checked) .venv/installed | build/types/gradhesion
 	.venv/bin/pytest
 	touch $@
 
-.PHONY: help maps test clean
+.PHONY: help maps test bench clean

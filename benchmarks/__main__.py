@@ -1,0 +1,90 @@
+"""All benchmarks: prints them, and writes docs/benchmarks.md and its two figures."""
+
+import argparse
+from collections.abc import Iterator
+from datetime import UTC, datetime
+
+from benchmarks import draw, error, functions, scenes, start_up, study
+from benchmarks.clock import ROOT, machine
+
+REPORT = ROOT / "docs" / "benchmarks.md"
+
+
+def sections(*, quick: bool) -> Iterator[str]:
+    """Yield the report, section by section."""
+    yield f"""# Benchmarks
+
+Written by `make bench` on {datetime.now(UTC):%Y-%m-%d}, all numbers from one run: {machine()}
+Times are medians of several samples, on one thread unless said.
+"""
+    points = error.measure(8 if quick else 24, error.SIZES[:6] if quick else error.SIZES)
+    error.picture(*points)
+    yield f"""## Run time against error
+
+The solvers and a dense grid (`benchmarks/dense_grid.py`: two SciPy Struve functions on a grid of radii, running maximum
+and minimum of the depth, trapezoids) on the same random scenes, whose values are known to 30 digits (`tests/twin`).
+Each solver takes copies of the scenes in one array, shuffled, each solved for itself. Errors are relative: those that a
+half and nine tenths of the scenes keep; the time of the grid at a given error is read between two sizes. The
+asymptotic and envelope solvers are approximations for short waves; the scenes have waves of all lengths, so that their
+errors are large here.
+
+Aims: 10^6 times faster than the grid for the force at 1e-7, 10^4 times for the energy at 1e-4.
+
+{error.tables(*points)}
+![Run time against error](figures/time_against_error.png)
+"""
+    yield f"""## The universal pair
+
+The four functions S0, S1, S0', S1' in a loop over an array, against S0 and S1 alone elsewhere. Aims: 10 ns below
+z = 40, 18 ns above, 0.3 ms for a table.
+
+{functions.time_table()}
+Largest (mean) error of the points of `tests/reference/struve.npz`, in units of eps = 2^-52: of the function below
+z = 1.5, of it or its local amplitude, the larger, beyond. Zeros of the functions are among the points. SciPy is given
+z = 2 pi x rounded, from which most of its error beyond z = 1000 comes; its NaNs are counted apart.
+
+{functions.error_table()}"""
+    yield f"""## Scenes
+
+Random scenes, each on a curve of its own, in one call of `gradhesion.core.solve`: lambda/L from 0.06 to 2, r/s from 0
+to 1.5, a_max/L from 1 to 4, k one of {", ".join(map(str, draw.EXPONENTS))}. L = (R^2 dgamma/M)^(1/(3+k)) is the
+length of the contact, r/s the share of the adhesion that short waves take or add (`core/envelope.py`).
+
+Aims: 0.6 us for the force, 5 us for both, 0.05 us where the punch is smooth.
+
+{scenes.mixture_table(100_000 if quick else 1_000_000)}"""
+    by_waves, waves = scenes.waves_table()
+    yield f"""### Growth with the number of waves
+
+k = 0.3, nu = 0.3, E* R/dgamma = 500, c0/R = 0.01, a_max = R, the wavelength alone varied: once at fixed A, once at
+fixed r/s. The folds of these scenes persist to the rim, so that the jumps grow with the waves. Aim: 3 times at most.
+
+{by_waves}"""
+    by_rims, rims = scenes.rims_table()
+    yield f"""### Many rims on one curve
+
+The same scene with lambda/R = 0.02, r/s = 0.8. Aim: 100 rims cost 1.5 times one at most.
+
+{by_rims}"""
+    scenes.picture(waves, rims, scenes.numbers())
+    yield "![Cost against the number of waves, of scenes and of rims](figures/cost.png)\n"
+    if not quick:
+        yield f"### A large study\n\nAims: 20 s, 1 GiB.\n\n{study.study_sentence()}"
+    yield f"## Start-up\n\nAims: 0.15 s, 1.5 s, 30 s.\n\n{start_up.start_up_table()}"
+
+
+def main() -> None:
+    """Run all; a quick run prints the report and does not write it."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
+    parser.add_argument("--quick", action="store_true", help="fewer scenes, no large study, and no report written")
+    arguments = parser.parse_args()
+    written = []
+    for section in sections(quick=arguments.quick):
+        print(section, flush=True)
+        written.append(section)
+    if not arguments.quick:
+        REPORT.write_text("\n".join(written))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,59 @@
+"""What the benchmarks share: a clock, the machine, and tables in Markdown."""
+
+import importlib.metadata
+import math
+import os
+import platform
+import statistics
+import time
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).parents[1]
+FIGURES = ROOT / "docs" / "figures"
+
+
+def seconds_of(function: Callable[[], Any], *, repeat: int = 7, at_least: float = 0.01) -> float:
+    """Return the median time of one call, the calls of one sample filling `at_least` seconds."""
+    start = time.perf_counter()
+    function()
+    once = time.perf_counter() - start
+    calls = max(1, math.ceil(at_least / max(once, 1e-7)))
+    samples = []
+    for _ in range(repeat):
+        start = time.perf_counter()
+        for _ in range(calls):
+            function()
+        samples.append((time.perf_counter() - start) / calls)
+    return statistics.median(samples)
+
+
+def table(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
+    """Return a table in Markdown; floats get two digits, or all before the point."""
+    lines = [header, ["---"] * len(header), *rows]
+    return "\n".join("| " + " | ".join(cell(value) for value in line) + " |" for line in lines) + "\n"
+
+
+def cell(value: Any) -> str:
+    """Return a value as it stands in a table."""
+    if isinstance(value, float):
+        if math.isnan(value):
+            return "-"
+        return f"{value:.1e}" if value >= 1e5 else f"{value:,.0f}" if value >= 10 else f"{value:.2g}"
+    return f"{value:,}" if isinstance(value, int) else str(value)
+
+
+def machine() -> str:
+    """Return the machine and the versions in one sentence."""
+    processor = platform.processor() or platform.machine()
+    info = Path("/proc/cpuinfo")
+    if info.exists():
+        names = [
+            line.split(":", 1)[1].strip() for line in info.read_text().splitlines() if line.startswith("model name")
+        ]
+        processor = names[0] if names else processor
+    packages = ("gradhesion", "numpy", "numba", "llvmlite", "scipy", "mpmath", "netCDF4")
+    versions = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in packages)
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    return f"{processor}, {cores} cores, {platform.system()}; Python {platform.python_version()}, {versions}."

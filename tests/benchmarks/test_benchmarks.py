@@ -1,0 +1,30 @@
+"""The benchmarks run; what they measure is never asserted."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+
+def python(root: Path, *arguments: str) -> str:
+    return subprocess.run([sys.executable, *arguments], cwd=root, capture_output=True, text=True, check=True).stdout
+
+
+@pytest.mark.parametrize("name", ["", ".dense_grid", ".error", ".functions", ".scenes", ".start_up", ".study"])
+def test_every_script_has_help(root: Path, name: str) -> None:
+    assert "usage" in python(root, "-m", f"benchmarks{name}", "--help")
+
+
+def test_the_dense_grid_tends_to_the_exact_values(root: Path) -> None:
+    code = (
+        "from benchmarks import dense_grid as d, error as e\n"
+        "for scene in e.scenes_of_twin(3):\n"
+        "    for points in (3000, 30000):\n"
+        "        force, energy = d.solve_on_grid(scene, points)\n"
+        "        print(force / scene['pull_off_force'] - 1, energy / scene['dissipated_energy'] - 1)\n"
+    )
+    lines = [[abs(float(number)) for number in line.split()] for line in python(root, "-c", code).splitlines()]
+    for coarse, fine in zip(lines[::2], lines[1::2], strict=True):
+        assert max(fine) < 1e-4
+        assert max(fine) < max(coarse)
