@@ -37,7 +37,8 @@ def find_depth(table: Any, curve: Curve, target: float, branch: tuple[float, flo
     level = 0.5 * (1.0 - table.k)
     low, low_depth, high, high_depth = branch
     if high == math.inf:
-        step = 0.25 + 0.25 * low
+        b, _, _ = curve
+        step = min(0.25 + 0.25 * low, 1e-9 * low + math.sqrt(2.0 * max(0.0, target - low_depth) / b) / TWO_PI)
         high = low + step
         high_depth = depth(table, curve, high)
         while high_depth <= target:
@@ -50,6 +51,7 @@ def find_depth(table: Any, curve: Curve, target: float, branch: tuple[float, flo
     if not 0.0 < share < 1.0:
         return low if share <= 0.0 else high
     x = low + (high - low) * math.acos(1.0 - 2.0 * share) / math.pi
+    x = x if low < x < high else 0.5 * (low + high)
     for _ in range(_STEPS):
         d, d1, _, rest = slope(table, curve, level, x)
         rest -= target

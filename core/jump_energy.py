@@ -125,8 +125,10 @@ def jump_energy(table: Any, curve: Curve, start: float, end: float, work: Any) -
     b, g, lag = curve
     z1, power, s0, _, _, _, _ = wave(table, lag, start)
     left = (z1, z1 * s0, z1 * power)
+    depth = z1 * (0.5 * b * z1 + g * s0 - power)
+    if end == 0.0:  # k = 1: the contact shrinks to a point
+        return -energy_from_zero(table, curve, start, depth)
     if abs(end - start) > _FURTHEST:
-        depth = z1 * (0.5 * b * z1 + g * s0 - power)
         return energy_from_zero(table, curve, end, depth) - energy_from_zero(table, curve, start, depth)
     begin, high = min(start, end), max(start, end)
     total = 0.0

@@ -65,7 +65,9 @@ def lowest_load(table: Any, curve: Curve, x_rim: float, x_rim_low: float) -> tup
     start = max(0, int((min(z, z_rim) - table.phase) / math.pi + 0.5))
     best, best_x = 0.0, 0.0
     if x_rim < math.inf:
-        best, best_x = load_at_rim(table, curve, x_rim, x_rim_low), x_rim
+        at_rim = load_at_rim(table, curve, x_rim, x_rim_low)
+        if at_rim < 0.0:
+            best, best_x = at_rim, x_rim
     i = start
     while True:
         x, abscissa, _ = inner_edge(table, i)

@@ -15,7 +15,7 @@ from gradhesion.core.curve import Curve, depth
 from gradhesion.core.cycle import extent, is_long, is_smooth, stride, walk
 from gradhesion.core.loading import highest_depth, loading_to
 from gradhesion.core.pull_off import lowest_load
-from gradhesion.core.status import NO_VALUE
+from gradhesion.core.status import LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.unloading import unloading_from
@@ -80,7 +80,7 @@ def _solve_force(table: Any, curve: Curve, scale: float, wavelength: float, rims
 
 @kernel()
 def _cycle_at_rim(
-    table: Any, curve: Curve, scales: Any, count: int, trace: Any, x: float, slots: Any, out: Any, i: int
+    table: Any, curve: Curve, scales: Any, count: int, trace: Any, x: float, slots: Any, out: Any, status: Any, i: int
 ) -> None:
     """Read the cycle of one rim off a trace."""
     energy_scale, depth_scale = scales
@@ -89,7 +89,12 @@ def _cycle_at_rim(
     if _wants_cycle(slots):
         loading_loss, loading_jumps = loading_to(table, curve, count, trace, x, losses)
         unloading_loss, unloading_jumps, last = unloading_from(table, curve, count, trace, x, rim_depth, losses)
-        _put(out, slots, ENERGY, i, energy_scale * (loading_loss + unloading_loss))
+        energy = energy_scale * (loading_loss + unloading_loss)
+        if not abs(energy) < math.inf:  # an overflow
+            energy, status[i] = math.nan, NO_VALUE
+        elif loading_loss < 0.0:
+            status[i] = LOADING_NOT_ONE_DISC
+        _put(out, slots, ENERGY, i, energy)
         _put(out, slots, LOADING, i, loading_jumps)
         _put(out, slots, UNLOADING, i, unloading_jumps)
         _put(out, slots, LAST, i, depth_scale * last)
@@ -106,6 +111,7 @@ def _solve_cycle(
     rims: Any,
     slots: Any,
     out: Any,
+    status: Any,
     scratch: Any,
 ) -> None:
     """Follow the cycle of a wavy punch for all its rims: those within a walk share one trace."""
@@ -120,12 +126,12 @@ def _solve_cycle(
     for i in range(rims.size):
         x = rims[i] / wavelength
         if not is_long(table, arches, x):
-            _cycle_at_rim(table, curve, scales, count, trace, x, slots, out, i)
+            _cycle_at_rim(table, curve, scales, count, trace, x, slots, out, status, i)
     for i in range(rims.size):
         x = rims[i] / wavelength
         if is_long(table, arches, x):
             count, trace = stride(table, curve, arches, x, scratch, losses)
-            _cycle_at_rim(table, curve, scales, count, trace, x, slots, out, i)
+            _cycle_at_rim(table, curve, scales, count, trace, x, slots, out, status, i)
 
 
 @kernel()
@@ -138,16 +144,19 @@ def solve_curve(
     rims: Any,
     slots: Any,
     out: Any,
+    status: Any,
     scratch: Any,
-) -> int:
-    """Solve one curve (k, s, lambda, A) for all its rims a_max; return its status."""
+) -> None:
+    """Solve one curve (k, s, lambda, A) for all its rims a_max."""
+    status[:] = 0
     k = table.k
     if not (0.0 < stretch < math.inf and 0.0 < wavelength < math.inf and 0.0 <= amplitude < math.inf):
         out[:, :] = math.nan
-        return NO_VALUE
+        status[:] = NO_VALUE
+        return
     if amplitude == 0.0:
         _solve_smooth(k, constants, stretch, rims, slots, out)
-        return 0
+        return
     length = wavelength / TWO_PI
     depth_scale = stretch * length ** (0.5 * (1.0 - k))
     curve = (2.0 * length * length / ((1.0 + k) * depth_scale), amplitude * wavelength / depth_scale, 0.0)
@@ -161,8 +170,7 @@ def solve_curve(
         if is_smooth(arches):
             _solve_smooth(k, constants, stretch, rims, slots, out)
         else:
-            _solve_cycle(table, curve, arches, scales, wavelength, rims, slots, out, scratch)
-    return 0
+            _solve_cycle(table, curve, arches, scales, wavelength, rims, slots, out, status, scratch)
 
 
 @kernel()
@@ -185,6 +193,4 @@ def solve_curves(
         i = index[j]
         stretch = math.sqrt(front / stiffness[i])  # s = sqrt(2^(1+k) pi dgamma/M)
         row = rims[i if rims.shape[0] > 1 else 0]
-        status[i, :] = solve_curve(
-            table, constants, stretch, wavelength[i], amplitude[i], row, slots, out[:, i], scratch
-        )
+        solve_curve(table, constants, stretch, wavelength[i], amplitude[i], row, slots, out[:, i], status[i], scratch)

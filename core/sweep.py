@@ -91,9 +91,9 @@ def solve(
 
     Returns
     -------
-    An array of the broadcast shape for each output (float64; int32 for jumps, 2^31 - 1 for more) and `status` (int8, bits of
-    status.FLAGS). A scene outside the ranges has NaN (-1 jumps) and the bit no_value; delta_max of an unbounded punch
-    is inf.
+    An array of the broadcast shape for each output (float64; int32 for jumps, 2^31 - 1 for more) and `status` (int8,
+    bits of status.FLAGS). A scene outside the ranges has NaN (-1 jumps) and the bit no_value; delta_max of an
+    unbounded punch is inf.
 
     Raises
     ------
