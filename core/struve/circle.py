@@ -39,7 +39,7 @@ def _sine_cosine(r: float) -> tuple[float, float]:
 @kernel(contract=True)
 def sine_cosine_of_turns(x: float) -> tuple[float, float]:
     """Return sin(2 pi x) and cos(2 pi x) for 0 <= x < 2^49; beyond, x tells no phase, and 0 stands for it."""
-    x = x if x < _PHASELESS else 0.0
+    x = x - x if x >= _PHASELESS else x
     quarters = 4.0 * x + _ROUND
     n = bits_of(quarters)
     rest = fma(-0.25, quarters - _ROUND, x)  # exact
