@@ -15,7 +15,7 @@ def sections(*, quick: bool) -> Iterator[str]:
     yield f"""# Benchmarks
 
 Written by `make bench` on {datetime.now(UTC):%Y-%m-%d}, all numbers from one run: {machine()}
-Times are medians of several samples, on one thread unless said.
+Times are the least of several samples, on one thread unless said.
 """
     points = error.measure(8 if quick else 24, error.SIZES[:6] if quick else error.SIZES)
     error.picture(*points)
@@ -70,7 +70,7 @@ The same scene with lambda/R = 0.02, r/s = 0.8. Aim: 100 rims cost 1.5 times one
     yield "![Cost against the number of waves, of scenes and of rims](figures/cost.png)\n"
     if not quick:
         yield f"### A large study\n\nAims: 20 s, 1 GiB.\n\n{study.study_sentence()}"
-    yield f"## Start-up\n\nAims: 0.15 s, 1.5 s, 30 s.\n\n{start_up.start_up_table()}"
+    yield f"## Start-up\n\nMedians, the first run apart. Aims: 0.15 s, 1.5 s, 30 s.\n\n{start_up.start_up_table()}"
 
 
 def main() -> None:
