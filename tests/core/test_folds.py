@@ -22,7 +22,7 @@ EXPONENTS = [0.0, 1e-12, 0.29, 0.64, 1 - 1e-9, 1 - 1e-12, 1.0]
 def _folds(table: Any, curve: Any, level: float) -> list[tuple[float, float, bool]]:
     """Give all folds: place, depth and whether D rises."""
     found = []
-    i = first_arch(table, curve, level)
+    i = int(first_arch(table, curve, level))
     final = last_arch(table, curve, level)
     while i <= final:
         survey = survey_arch(table, curve, level, i)
@@ -195,7 +195,7 @@ def test_no_fold_beyond_the_last_arch_or_before_the_first(k: float, table_of: Ca
         outside = inner_edge(table, int(final) + 1)[0] + np.arange(1, 4000) * 0.0125
         if final < 4000.0:
             assert (_tilt(k, curve, level, outside) > 0.0).all()
-        first = first_arch(table, curve, level)
+        first = int(first_arch(table, curve, level))
         if first > 0:
             before = np.linspace(1e-3, inner_edge(table, first)[0], 20_000)
             assert (_tilt(k, curve, level, before) < 0.0).all()

@@ -12,8 +12,9 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from gradhesion.core import OUTPUTS, PARAMETERS, solve
+from gradhesion.core import FAILED, OUTPUTS, PARAMETERS, solve
 from gradhesion.core.material import stiffness
+from gradhesion.core.status import LOADING_NOT_ONE_DISC
 
 TESTS = Path(__file__).parents[1]
 EPS = 2.0**-52
@@ -61,7 +62,15 @@ def _worst(values: np.ndarray, expected: np.ndarray) -> Any:
 
 
 def test_status(solved: Any) -> None:
-    assert not solved[0]["status"].any()
+    assert not (solved[0]["status"] & FAILED).any()
+
+
+def test_a_cycle_that_gains_is_flagged() -> None:
+    """Weak adhesion: a state on the way of a jump is pressed shut at its edge, and the contact no single disc."""
+    scene = {"k": 1.0, "nu": 0.5, "modulus": 900.0, "c0_over_R": 0.1, "lambda_over_R": 0.11, "a_max_over_R": 0.16}
+    values = solve(scene | {"A": [0.0, 0.1, 2.3]})
+    assert values["status"].tolist() == [0, 0, LOADING_NOT_ONE_DISC]
+    assert values["dissipated_energy"][2] < 0.0 < values["dissipated_energy"][1]
 
 
 def test_pull_off_force(solved: Any) -> None:

@@ -1,0 +1,55 @@
+"""The short form of the stress suite: some thousand scenes of each draw against every check."""
+
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from .checks import CHECKS
+from .draw import eventful, hostile
+
+ROOT = Path(__file__).parents[2]
+SIZE = 1500
+WALKED = 70.0
+"""Waves of a curve that is walked one by one; the checks of longer ones stand in the second half of the draws."""
+DRAWS = {
+    "hostile": hostile(1, 2 * SIZE, WALKED),
+    "eventful": eventful(1, 2 * SIZE, WALKED),
+    "hostile, any waves": hostile(1, SIZE),
+    "eventful, any waves": eventful(1, SIZE),
+}
+LONG = pytest.mark.xfail(strict=False, reason="sums over millions of waves, and those of tiny amplitudes")
+
+
+@pytest.mark.parametrize(
+    "draw", [pytest.param(draw, marks=LONG if draw.endswith("any waves") else ()) for draw in DRAWS]
+)
+@pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.__name__)
+def test_it_holds(check: Callable[[Any], Any], draw: str) -> None:
+    scenes = DRAWS[draw]
+    excess = check(scenes)
+    wrong = np.flatnonzero(~(excess <= 1.0))
+    first = {name: float(values[wrong[0]]) for name, values in scenes.items()} if wrong.size else {}
+    assert wrong.size == 0, f"{wrong.size} of {excess.size}, the first by {excess[wrong[0]]:.3g}: {first}"
+
+
+def test_cost_and_memory_are_bounded() -> None:
+    """No scene hangs or asks for memory without bound: the limits are wide, and a wall that is hit is a failure."""
+    script = (
+        "import resource, numpy as np\n"
+        "from gradhesion.core import solve, OUTPUTS\n"
+        "from tests.stress.draw import hostile, eventful\n"
+        "solve(hostile(3, 50), OUTPUTS, threads=1)\n"
+        "before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss\n"
+        "for draw in (hostile, eventful):\n"
+        "    solve(draw(2, 1500), OUTPUTS, threads=1)\n"
+        "print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, timeout=300, check=True
+    )
+    assert float(done.stdout) < 64.0, f"{done.stdout} MiB for 3,000 scenes"
