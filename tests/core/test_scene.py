@@ -139,7 +139,7 @@ class TestSmooth:
         np.testing.assert_allclose(values["pull_off_radius"] ** 3, 9 * math.pi / (8 * 73.0), rtol=16 * EPS)
 
     def test_energy_of_the_homogeneous_cycle(self) -> None:
-        """7.0922 (dgamma^5 R^4/E*^2)^(1/3): the closed form of section 10 with k = 0, q = 1/4."""
+        """7.0922 (dgamma^5 R^4/E*^2)^(1/3): the closed form of section 11 with k = 0, q = 1/4."""
 
         def part(q: Any) -> Any:
             return mpmath.mpf(16) * q**2 / 15 - 8 * q / 3 + 1
