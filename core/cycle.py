@@ -234,11 +234,12 @@ def stride(
     if first < MOST_ARCHES:
         beginning = (0.5 * first + BEGINNING) + table.phase / TWO_PI
         near = append_branches(table, curve, int(first), final, beginning, trace, 0)
-        before = _wave_of(table, trace[START, near - 1])
+        before = _wave_of(table, trace[START, near - 1]) if near > 0 else before
+    count = near
     if last < MOST_ARCHES:
         count = append_branches(table, curve, 2 * int(0.5 * last - NEAR_RIM) - 1, final, rim, trace, near)
-        after = _wave_of(table, trace[START, near])
-    else:
+        after = _wave_of(table, trace[START, near]) if count > near else 0.0
+    if count == near:
         after = math.floor(_nominal_branch(table, curve, min(rim, 0.5 * final), trace, near))
         count = near + 1
     waves = (before, after, 0.5 * final + 1.0)

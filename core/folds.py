@@ -200,7 +200,7 @@ def first_arch(table: Any, curve: Curve, level: float) -> float:
     """
     b, g, _ = curve
     n = 0.5 * (1.0 + table.k)
-    chi = 1.001 * g * table.amplitude  # 0.35/z^2 < 0.001 from z = 20 on
+    chi = g * table.amplitude
     z = 0.5 * level / chi
     if not z > FEW:
         return 0.0
@@ -209,5 +209,6 @@ def first_arch(table: Any, curve: Curve, level: float) -> float:
         if not z > FEW:
             return 0.0
         slow = b / amplitude_power(table, z)
-        z += (level / z - slow - chi) / (level / (z * z) + n * slow / z)
+        most = chi * (1.0 + 0.35 / (z * z))  # it falls as z grows: a bound for all that is to come
+        z += max(0.0, (level / z - slow - most) / (level / (z * z) + n * slow / z))
     return float(math.floor((z - table.phase) / math.pi - 1.0))

@@ -32,6 +32,8 @@ NODES: Final = 0.5 * (1.0 + _PLACES)
 WEIGHTS: Final = 0.5 * _WEIGHTS
 EDGE: Final = 3
 """Waves on either side of a limit of the integral from which its derivatives there are taken."""
+_WEAK: Final = 0.2
+"""C g below which the integral is taken in two pieces: the folds begin at z ~ level/(C g), and e varies fast there."""
 _WIDE: Final = 2.2
 """Half the width of a branch, in radians, from which on both its folds are found."""
 FAR: Final = 4.0e6
@@ -133,10 +135,25 @@ def _limit_terms(values: Any) -> float:
 
 
 @kernel()
+def _integral(table: Any, curve: Curve, begin: float, end: float, outwards: bool, final: float, trace: Any) -> float:
+    """Return the integral of what a jump loses over the number of its wave."""
+    low = math.sqrt(1.0 - (end / final) ** 0.25)
+    high = math.sqrt(1.0 - (begin / final) ** 0.25)
+    total = 0.0
+    for i in range(_GAUSS):
+        y = low + (high - low) * NODES[i]
+        rest = 1.0 - y * y
+        _, loss = jump_of_wave(table, curve, final * rest**4, outwards, trace)
+        total += WEIGHTS[i] * loss * 8.0 * final * y * rest**3
+    return total * (high - low)
+
+
+@kernel()
 def sum_of_waves(
     table: Any, curve: Curve, first: float, last: float, outwards: bool, final: float, trace: Any
 ) -> float:
     """Return the sum of what the jumps from the waves `first` to `last` lose, folds ending at wave `final`."""
+    _, g, _ = curve
     total = 0.0
     if last - first < 2 * EDGE + _GAUSS:
         wave = first
@@ -154,12 +171,9 @@ def sum_of_waves(
         for i in range(EDGE):
             total += values[i] if side == 0 else values[EDGE + i]
         corrections += -_limit_terms(values) if side == 0 else _limit_terms(values)
-    low = math.sqrt(1.0 - ((last - EDGE + 0.5) / final) ** 0.25)
-    high = math.sqrt(1.0 - ((first + EDGE - 0.5) / final) ** 0.25)
-    integral = 0.0
-    for i in range(_GAUSS):
-        y = low + (high - low) * NODES[i]
-        rest = 1.0 - y * y
-        _, loss = jump_of_wave(table, curve, final * rest**4, outwards, trace)
-        integral += WEIGHTS[i] * loss * 8.0 * final * y * rest**3
-    return total + integral * (high - low) - corrections
+    begin, end = first + EDGE - 0.5, last - EDGE + 0.5
+    middle = math.sqrt(begin * end) if g * table.amplitude < _WEAK else end
+    integral = _integral(table, curve, begin, middle, outwards, final, trace)
+    if middle < end:
+        integral += _integral(table, curve, middle, end, outwards, final, trace)
+    return total + integral - corrections
