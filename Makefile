@@ -9,6 +9,9 @@ maps: outputs/maps.png ## compute configs/maps.toml into outputs/maps.nc, and dr
 
 test: build/tested ## lint, types and tests
 
+stress: .venv/installed ## the long form of the stress suite (minutes)
+	.venv/bin/python -m tests.stress.long
+
 bench: .venv/installed ## measure time and error (minutes), and write docs/benchmarks.md and its figures
 	.venv/bin/python -m benchmarks
 
@@ -37,4 +40,4 @@ build/tested: $(checked) .venv/installed | build/types/gradhesion
 	.venv/bin/pytest
 	touch $@
 
-.PHONY: help maps test bench clean
+.PHONY: help maps test stress bench clean

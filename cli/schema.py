@@ -20,7 +20,7 @@ from gradhesion.cli.places import Path, dotted
 
 LAYOUTS: Final = ("grid", "points")
 KINDS: Final = ("map",)
-COMING: Final[dict[Path, tuple[str, ...]]] = {("kind",): ("curve",), ("method", "solver"): ("asymptotic", "envelope")}
+COMING: Final[dict[Path, tuple[str, ...]]] = {("kind",): ("curve",)}
 """Values that belong to the format and are not available yet."""
 
 _BOUNDS: Final[dict[str, tuple[dict[str, float], str]]] = {
@@ -233,8 +233,8 @@ def _example(path: Path) -> str:
         "layout": 'layout = "grid"',
         "outputs": f"outputs = {json.dumps(list(OUTPUTS)[::2][:2])}",
         "parameters": "a table [parameters] with " + ", ".join(PARAMETERS),
-        "method": 'a table [method] with solver = "exact"',
-        "solver": 'solver = "exact"',
+        "method": 'a table [method] with solver = "exact", "asymptotic" or "envelope"',
+        "solver": 'solver = "exact", "asymptotic" or "envelope"',
         "k": "k = 0.5 or k = [0.0, 0.5]",
         "nu": "nu = 0.3",
         "modulus": "modulus = 500.0",

@@ -42,6 +42,7 @@ LONGEST_WALK: Final = 160.0
 """Arches, two a wave, up to which a curve is walked."""
 BEGINNING: Final = 16.0
 """Waves walked at the beginning of a long curve; z > 150 there."""
+COUNTABLE: Final = 2.0**53
 _HALVINGS: Final = 200
 MOST_ARCHES: Final = 2.0e9
 """Arches up to which the phase of a radius is told well enough to walk there."""
@@ -60,6 +61,12 @@ def extent(table: Any, curve: Curve) -> tuple[float, float]:
 def is_long(table: Any, arches: tuple[float, float], rim: float) -> bool:
     """Return whether a rim is too far out to walk there."""
     return min(arches[1], 2.0 * rim - table.phase / math.pi) - arches[0] > LONGEST_WALK
+
+
+@kernel()
+def is_endless(arches: tuple[float, float], rim: float) -> bool:
+    """Return whether a curve folds so often up to a rim that not even the number of its waves is a float."""
+    return min(arches[1], 2.0 * rim) > COUNTABLE
 
 
 @kernel()
@@ -154,11 +161,12 @@ def _load_through(
     left, level = (trace[END, now], trace[END_DEPTH, now]) if now >= 0 else (0.0, 0.0)
     if trace[END_DEPTH, near] > level:
         wave, x, loss, jumps = before, 0.0, 0.0, 0.0
-        if now == near - 1:
+        if 0 <= now == near - 1:
             loss, jumps = trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]
         else:  # into the gap, by one long jump
             wave = _first_wave_above(table, curve, before, after, level)
-            x = find_depth(table, curve, level, branch_of_wave(table, curve, wave))
+            beyond = ends(trace, near) if wave == after else branch_of_wave(table, curve, wave)
+            x = find_depth(table, curve, level, beyond)
             if now >= 0:
                 loss, jumps = trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]
             if losses and now >= 0:
@@ -211,15 +219,21 @@ def _unload_through(table: Any, curve: Curve, near: int, waves: Any, trace: Any,
 
 
 @kernel()
-def _nominal_branch(table: Any, curve: Curve, rim: float, trace: Any, near: int) -> float:
-    """Put the branch of a rim whose phase no float tells into the trace, by the envelopes; return its wave."""
+def _nominal_branch(table: Any, curve: Curve, rim: float, final: float, trace: Any, near: int) -> float:
+    """Put the branch of a rim whose phase no float tells into the trace, by the envelopes; return its wave.
+
+    Beyond the end of the folds at wave `final` it is the last one, which has no end.
+    """
     b, g, _ = curve
-    z = TWO_PI * rim
+    place = min(rim, final)
+    z = TWO_PI * place
     pull, chi = z * amplitude_power(table, z), g * table.amplitude
-    trace[START, near], trace[START_DEPTH, near] = rim, 0.5 * b * z * z - (1.0 + chi) * pull + g
+    trace[START, near], trace[START_DEPTH, near] = place, 0.5 * b * z * z - (1.0 + chi) * pull + g
     trace[END, near], trace[END_DEPTH, near] = math.inf, 0.5 * b * z * z - (1.0 - chi) * pull + g
+    if rim > final:
+        trace[END_DEPTH, near] = math.inf
     trace[UNLOADING_JUMPS, near] = UNKNOWN
-    return rim - table.phase / TWO_PI
+    return float(math.floor(place - table.phase / TWO_PI))
 
 
 @kernel()
@@ -239,10 +253,13 @@ def stride(
     if last < MOST_ARCHES:
         count = append_branches(table, curve, 2 * int(0.5 * last - NEAR_RIM) - 1, final, rim, trace, near)
         after = _wave_of(table, trace[START, near]) if count > near else 0.0
-    if count == near:
-        after = math.floor(_nominal_branch(table, curve, min(rim, 0.5 * final), trace, near))
+    nominal = count == near
+    if nominal:
+        after = _nominal_branch(table, curve, rim, 0.5 * final, trace, near)
         count = near + 1
     waves = (before, after, 0.5 * final + 1.0)
     _load_through(table, curve, near, count, waves, trace, rim, losses)
+    if nominal and trace[ARRIVAL, near] < math.inf and rim <= 0.5 * final:
+        trace[ARRIVAL, near] = trace[START, near]
     _unload_through(table, curve, near, waves, trace, losses)
     return count, trace

@@ -12,7 +12,7 @@ from typing import Any
 from gradhesion.core import smooth
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve import Curve, depth
-from gradhesion.core.cycle import extent, is_long, is_smooth, stride, walk
+from gradhesion.core.cycle import extent, is_endless, is_long, is_smooth, stride, walk
 from gradhesion.core.loading import highest_depth, loading_to
 from gradhesion.core.pull_off import lowest_load
 from gradhesion.core.status import LOADING_NOT_ONE_DISC, NO_VALUE
@@ -129,7 +129,10 @@ def _solve_cycle(
             _cycle_at_rim(table, curve, scales, count, trace, x, slots, out, status, i)
     for i in range(rims.size):
         x = rims[i] / wavelength
-        if is_long(table, arches, x):
+        if is_endless(arches, x):
+            out[:, i] = math.nan
+            status[i] = NO_VALUE
+        elif is_long(table, arches, x):
             count, trace = stride(table, curve, arches, x, scratch, losses)
             _cycle_at_rim(table, curve, scales, count, trace, x, slots, out, status, i)
 

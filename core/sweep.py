@@ -50,7 +50,7 @@ table_of = lru_cache(maxsize=128)(build_table)
 
 def compiled_before() -> bool:
     """Return whether the kernels of this version were compiled before on this machine (else the first call is slow)."""
-    return _jit.CACHE_FOLDER.is_dir() and any(_jit.CACHE_FOLDER.rglob("scene.solve_curves*.nbc"))
+    return _jit.CACHE_FOLDER.is_dir() and any(_jit.CACHE_FOLDER.rglob("*.solve_curves*.nbc"))
 
 
 def _shared_axes(shapes: Sequence[tuple[int, ...]], dimensions: int) -> int:
