@@ -12,7 +12,7 @@ import math
 from typing import Any, Final
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.curve import Curve, load, slope, wave
+from gradhesion.core.curve import Curve, load, wave
 from gradhesion.core.folds import fold_of_arch, survey_arch
 from gradhesion.core.struve.arches import inner_edge
 from gradhesion.core.struve.circle import TWO_PI
@@ -44,11 +44,23 @@ def _trough(table: Any, curve: Curve, i: int) -> float:
 @kernel(contract=True)
 def load_at_rim(table: Any, curve: Curve, x: float, x_low: float) -> float:
     """Return the load at x + x_low, where x_low is the rounding error of x."""
-    d, _, _, _ = slope(table, curve, 0.5 * (3.0 + table.k), x)
     b, g, lag = curve
-    z, power, s0, s1, _, _, _ = wave(table, lag, x)
+    z, power, s0, s1, v, _, _ = wave(table, lag, x)
     front = z / (power * power)
-    return front * (b * z / (3.0 + table.k) + g * (s0 - s1) - power) + front / z * d * (TWO_PI * x_low)
+    value = front * (b * z / (3.0 + table.k) + g * (s0 - s1) - power)
+    slope = front / z * (b * z + g * v - 0.5 * (3.0 + table.k) * power)
+    return value + slope * (TWO_PI * x_low)
+
+
+@kernel()
+def _better(table: Any, curve: Curve, i: int, x_rim: float, best: tuple[float, float]) -> tuple[float, float]:
+    """Return the lowest load so far and its place, arch i taken in."""
+    x = _trough(table, curve, i)
+    if 0.0 < x < x_rim:
+        value = load(table, curve, x)
+        if value < best[0]:
+            return value, x
+    return best
 
 
 @kernel()
@@ -57,37 +69,31 @@ def lowest_load(table: Any, curve: Curve, x_rim: float, x_rim_low: float) -> tup
     b, g, _ = curve
     k = table.k
     chi = g * table.amplitude
-    z = (0.5 * (3.0 + k) * (1.0 + chi) / b) ** (2.0 / (3.0 + k))
+    lowest = 0.5 * (3.0 + k) * (1.0 + chi) / b  # X and z where the parabola is lowest
+    z = lowest ** (2.0 / (3.0 + k))
     z_rim = TWO_PI * x_rim
     if min(z, z_rim) > PHASELESS:
-        abscissa = 0.5 * (3.0 + k) * (1.0 + chi) / b if z <= z_rim else z_rim / amplitude_power(table, z_rim)
+        abscissa = lowest if z <= z_rim else z_rim / amplitude_power(table, z_rim)
         return _floor(b, chi, k, abscissa, z), min(z, z_rim) / TWO_PI
     start = max(0, int((min(z, z_rim) - table.phase) / math.pi + 0.5))
-    best, best_x = 0.0, 0.0
+    best = (0.0, 0.0)
     if x_rim < math.inf:
         at_rim = load_at_rim(table, curve, x_rim, x_rim_low)
         if at_rim < 0.0:
-            best, best_x = at_rim, x_rim
+            best = (at_rim, x_rim)
+    # an arch holds nothing lower than the parabola's lowest point over it: at the near edge, or between the edges
     i = start
     while True:
         x, abscissa, _ = inner_edge(table, i)
-        if x >= x_rim or (i > start and _floor(b, chi, k, abscissa, TWO_PI * x) >= best * _WORTH):
+        if x >= x_rim or (i > start and _floor(b, chi, k, max(abscissa, lowest), TWO_PI * x) >= best[0] * _WORTH):
             break
-        x = _trough(table, curve, i)
-        if 0.0 < x < x_rim:
-            value = load(table, curve, x)
-            if value < best:
-                best, best_x = value, x
+        best = _better(table, curve, i, x_rim, best)
         i += 1
     i = start - 1
     while i >= 0:
         x, abscissa, _ = inner_edge(table, i + 1)
-        if _floor(b, chi, k, abscissa, TWO_PI * x) >= best * _WORTH:
+        if _floor(b, chi, k, min(abscissa, lowest), TWO_PI * x) >= best[0] * _WORTH:
             break
-        x = _trough(table, curve, i)
-        if 0.0 < x < x_rim:
-            value = load(table, curve, x)
-            if value < best:
-                best, best_x = value, x
+        best = _better(table, curve, i, x_rim, best)
         i -= 1
-    return best, best_x
+    return best
