@@ -36,7 +36,8 @@ def find_depth(table: Any, curve: Curve, target: float, branch: tuple[float, flo
     """Return where a branch meets a depth between those of its two ends (Halley, kept in the bracket)."""
     level = 0.5 * (1.0 - table.k)
     low, low_depth, high, high_depth = branch
-    if high == math.inf:
+    endless = high == math.inf
+    if endless:
         b, _, _ = curve
         step = min(0.25 + 0.25 * low, 1e-9 * low + math.sqrt(2.0 * max(0.0, target - low_depth) / b) / TWO_PI)
         high = low + step
@@ -61,7 +62,10 @@ def find_depth(table: Any, curve: Curve, target: float, branch: tuple[float, flo
             low = x
         else:
             high = x
-        step = -rest * d / (d * d - 0.5 * rest * d1)
+        bend = 0.5 * rest * d1
+        if endless and abs(bend) > 0.5 * d * d:  # that of the last waves, which says nothing of a place far beyond them
+            bend = 0.0
+        step = -rest * d / (d * d - bend)
         x += step / TWO_PI
         # the loss is stationary at the place of landing: its error is the square of what is left here
         if low <= x <= high and abs(step) * (abs(d1) + abs(d)) < 1e-3 * abs(d):

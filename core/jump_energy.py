@@ -71,14 +71,20 @@ def _panel_above(table: Any, curve: Curve, start: float, left: Any, begin: float
     b, g, lag = curve
     z1, wave1, stretch1 = left
     n = 0.5 * (1.0 + table.k)
-    middle = TWO_PI * (begin + 0.5 * width)
+    # whole waves apart: beyond 10^6 of them a node rounded as a whole would miss its phase by 10^-9
+    whole = float(int(begin))
+    begin -= whole
+    start -= whole
+    turns = begin - lag
+    middle = TWO_PI * (whole + (begin + 0.5 * width))
     ratio = TWO_PI * 0.5 * width / middle
     power_middle = amplitude_power(table, middle)
     tail = table.tail
     cos_phase, sin_phase = table.cos_phase, table.sin_phase
     for i in range(16):
-        x = begin + width * NODES[i]
-        z = TWO_PI * x
+        step = width * NODES[i]
+        x = begin + step
+        z = TWO_PI * (whole + x)
         inverse = 1.0 / z
         w = SWITCH * inverse
         t = 2.0 * (w * w) - 1.0
@@ -92,7 +98,7 @@ def _panel_above(table: Any, curve: Curve, start: float, left: Any, begin: float
         for j in range(_POWER_TERMS, 0, -1):
             power = 1.0 - power * eta * ((n + (j - 1.0)) / j)
         power *= power_middle
-        sine, cosine = sine_cosine_of_turns(x - lag)
+        sine, cosine = sine_cosine_of_turns(turns + step)
         s = sine * cos_phase - cosine * sin_phase
         c = cosine * cos_phase + sine * sin_phase
         wave_z = height + z * power * (p * s + q * inverse * c)

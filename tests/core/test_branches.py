@@ -111,3 +111,12 @@ def test_depth_of_an_infinite_end_is_found_far_out(table_of: Callable[[float], A
         for target in (1.0, 1e4, 1e9):
             x = find_depth(table_of(k), curve, target, ends(trace, trace.shape[1] - 1))
             assert math.isclose(depth(table_of(k), curve, x), target, rel_tol=1e-6)
+
+
+def test_far_beyond_the_last_fold_the_waves_say_nothing(table_of: Callable[[float], Any]) -> None:
+    """k = 1: the bend of the paraboloid is 10^13 times weaker than that of the waves, and the zero 10^5 times further."""
+    b, g = 1e-32, 2e-19
+    start = 3.53e10
+    branch = (start, 0.5 * b * (2 * math.pi * start) ** 2 - 1.0, math.inf, math.inf)
+    x = find_depth(table_of(1.0), (b, g, 0.0), 0.0, branch)
+    assert math.isclose(x, math.sqrt(2 / b) / (2 * math.pi), rel_tol=1e-9)

@@ -13,6 +13,7 @@ from gradhesion.core.curve import slope
 from gradhesion.core.folds import last_arch
 from gradhesion.core.regular import branch_of_wave, jump_of_wave, sum_of_waves
 
+EPS = 2.0**-52
 EXPONENTS = [0.0, 0.37, 0.8, 1 - 1e-12, 1.0]
 SCRATCH = np.zeros((ROWS, 400))
 
@@ -101,3 +102,14 @@ def test_landings_are_on_the_curve(table_of: Callable[[float], Any]) -> None:
                 # of the size of the stretch; the loss is stationary there
                 assert abs(found - level) <= 1e-6 * z ** (0.5 * (1 - k))
                 assert (x > end) if outwards else (x < start)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.5, 0.99])
+def test_neighbouring_waves_lose_evenly(k: float, table_of: Callable[[float], Any]) -> None:
+    """At three million waves the phase of a float is told to 10^-9; what a jump loses must not show it."""
+    wave = 3.0e6
+    curve = (0.4 / (2 * math.pi * wave) ** (0.5 * (1 + k)), 1.0, 0.0)
+    trace = np.empty((ROWS, 64))
+    losses = [jump_of_wave(table_of(k), curve, wave + i, True, trace)[1] for i in range(40)]
+    noise = np.diff(losses, 3)
+    assert np.abs(noise).max() <= 64 * EPS * abs(losses[0])
