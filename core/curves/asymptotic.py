@@ -1,0 +1,47 @@
+"""The asymptotic curve of short waves, (5.15)-(5.20)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.core.curves.equilibrium import draw_through
+from gradhesion.core.curves.forms import SHORT
+from gradhesion.core.curves.knots import folds_of_wave
+from gradhesion.core.curves.smooth import smooth_places
+from gradhesion.core.curves.subject import Form, Subject, wavy_form
+from gradhesion.core.struve.circle import TWO_PI
+
+VARIABLES = ("asymptotic_contact_radius", "asymptotic_indentation", "asymptotic_load")
+
+
+def draw_asymptotic(subject: Subject) -> dict[str, NDArray[np.float64]] | None:
+    """Return the asymptotic curve from zero contact to the end of the drawn range, None if it folds too often.
+
+    Parameters
+    ----------
+    subject
+        Any scene. With A = 0 the curve is that of the smooth punch.
+
+    Returns
+    -------
+    The variables `asymptotic_...` (draw.CURVES). Depth holds the mean height lambda A that the printed form drops.
+    Nothing is claimed where the contact is no larger than a wave.
+    """
+    k = subject.k
+    if subject.chi == 0.0:
+        form: Form = subject.plain(1.0)
+        end = subject.end / form.radius_scale
+        points, _ = draw_through(form, smooth_places(k, (1.0,), end), end)
+    else:
+        form = wavy_form(subject.table, subject.stretch, subject.wavelength, subject.mean_height)
+        bend, gain, _, _, _ = form.numbers
+        wave = (k, bend, subject.chi, gain, float(subject.table["phase"]))
+        form = Form(SHORT, subject.table, wave, subject.wavelength / TWO_PI, form.depth_scale, form.load_scale)
+        end = subject.end / form.radius_scale
+        few, folds = folds_of_wave(wave, 0.5 * (1.0 - k), end)
+        few_too, load_folds = folds_of_wave(wave, 0.5 * (3.0 + k), end)
+        if not (few and few_too):
+            return None
+        points, _ = draw_through(form, np.union1d(folds, load_folds), end)
+    radius, depth, load = form.scaled(points)
+    radius[-1] = subject.end
+    return dict(zip(VARIABLES, (radius, depth, load), strict=True))

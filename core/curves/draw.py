@@ -1,0 +1,135 @@
+"""Curves of one scene, by name."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.core.curves.asymptotic import draw_asymptotic
+from gradhesion.core.curves.effective import draw_effective
+from gradhesion.core.curves.envelope import draw_envelope
+from gradhesion.core.curves.equilibrium import draw_equilibrium
+from gradhesion.core.curves.path import draw_path
+from gradhesion.core.curves.smooth import draw_smooth
+from gradhesion.core.curves.subject import Subject, subject_of
+from gradhesion.core.status import LOADING_NOT_ONE_DISC, NO_VALUE
+from gradhesion.core.sweep import PARAMETERS, solve
+
+CURVES: Final[dict[str, tuple[str, ...]]] = {
+    "equilibrium": ("contact_radius", "indentation", "load", "stable"),
+    "path": (
+        "path_contact_radius",
+        "path_indentation",
+        "path_load",
+        "path_branch",
+        "path_jump",
+        "path_unloading",
+    ),
+    "asymptotic": ("asymptotic_contact_radius", "asymptotic_indentation", "asymptotic_load"),
+    "envelope": (
+        "envelope_contact_radius",
+        "loading_envelope_indentation",
+        "loading_envelope_load",
+        "unloading_envelope_indentation",
+        "unloading_envelope_load",
+    ),
+    "effective": ("effective_contact_radius", "effective_indentation", "effective_load", "effective_jump"),
+    "smooth": ("smooth_contact_radius", "smooth_indentation", "smooth_load"),
+}
+"""The variables of every curve, in order."""
+_TYPES: Final[dict[str, type[np.signedinteger[Any]]]] = {
+    "stable": np.int8,
+    "path_branch": np.int32,
+    "path_jump": np.int8,
+    "path_unloading": np.int8,
+    "effective_jump": np.int8,
+}
+INTEGERS: Final = frozenset(_TYPES)
+"""The variables that are integers; the others are float64."""
+_EXACT: Final = {"equilibrium": draw_equilibrium, "path": draw_path}
+_CLOSED: Final = {
+    "asymptotic": draw_asymptotic,
+    "envelope": draw_envelope,
+    "effective": draw_effective,
+    "smooth": draw_smooth,
+}
+
+
+def _draw(subject: Subject | None, curve: str) -> dict[str, NDArray[Any]] | None:
+    """Return the variables of a curve, None where it has no value."""
+    if subject is None or (curve in _EXACT and subject.trace is None):
+        return None
+    with np.errstate(all="ignore"):
+        variables = (_EXACT[curve] if curve in _EXACT else _CLOSED[curve])(subject)
+    if variables is None or not all(np.isfinite(values).all() for values in variables.values()):
+        return None
+    return variables
+
+
+def draw_curves(scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict[str, NDArray[Any]], int]:
+    """Return curves of one scene at points that adapt to them.
+
+    Parameters
+    ----------
+    scene
+        A number for each name of `PARAMETERS`, in the ranges of `solve`; a_max/R may be inf.
+    curves
+        Names out of `CURVES`: "equilibrium", the whole equilibrium curve, stable and unstable; "path", the cycle of
+        loading and unloading under controlled displacement; "asymptotic", the curve for short waves (5.15)-(5.20);
+        "envelope", its two envelopes (5.21)-(5.27); "effective", the path along them (5.28)-(5.35); "smooth", the curve
+        of A = 0.
+
+    Returns
+    -------
+    variables
+        All variables of each curve, one-dimensional, of one length a curve: radii a/R, depths delta/R and loads
+        P/(1.5 pi R dgamma), negative where the punch pulls. Those of `INTEGERS` are integers. A curve that has no value
+        is one point, NaN (-1 for integers).
+    status
+        Bits of status.FLAGS: no_value where a parameter is outside its range or a curve that was asked for can fold
+        more than 100,000 times within the range; loading_contact_not_one_disc with the path, as in `solve`.
+
+    Raises
+    ------
+    ValueError
+        For an unknown curve or parameters that are missing.
+
+    Notes
+    -----
+    Curves reach from zero contact to the rim. Those of an unbounded punch end at 1.5 times the radius where the smooth
+    curve crosses zero depth, or 5 % beyond the last fold of depth, extremum of load or jump of loading. Folds of depth,
+    extrema of load, jumps, start and rim are points of their own, exact to rounding. Between them chords stay within
+    2e-4 of the drawn span in each of the planes of load and depth, depth and radius, load and radius, measured across
+    the chord. Most curves have some hundred points; waves far narrower than the picture take six to eight points each.
+
+    Examples
+    --------
+    The smooth punch jumps in at depth zero and lets go at the fold of its depth:
+
+    >>> scene = dict(k=0.0, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.1, A=0.0, a_max_over_R=np.inf)
+    >>> variables, status = draw_curves(scene, ["path"])
+    >>> variables["path_load"].min().round(6).item(), status
+    (-1.0, 0)
+    >>> variables["path_contact_radius"][variables["path_jump"] == 1].round(4).tolist()
+    [0.2325, 0.0]
+    """
+    unknown = [name for name in curves if name not in CURVES]
+    missing = [name for name in PARAMETERS if name not in scene]
+    if unknown or missing:
+        raise ValueError(f"unknown curves {unknown}, missing parameters {missing}")
+    subject = subject_of(scene)
+    result: dict[str, NDArray[Any]] = {}
+    status = 0
+    for curve in curves:
+        variables = _draw(subject, curve)
+        if variables is None:
+            status |= NO_VALUE
+            result |= {
+                name: np.full(1, -1, _TYPES[name]) if name in _TYPES else np.full(1, np.nan) for name in CURVES[curve]
+            }
+        else:
+            result |= variables
+            if curve == "path":
+                status |= int(solve(scene, ["dissipated_energy"], threads=1)["status"]) & LOADING_NOT_ONE_DISC
+    return result, status

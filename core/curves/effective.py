@@ -1,0 +1,99 @@
+"""The effective path of a cycle, without the single waves: envelopes and the line between them, (5.28)-(5.35).
+
+In the units of smooth.py, with chi = r/s, depth counted from the mean surface and X = z^((3+k)/2),
+
+    jump-in            at depth 0 to z_2, X = 2 (1-chi)                            (5.34)
+    loading            along the envelope of the pull 1 - chi to z_max
+    early unloading    load = z_max^(1+k) depth - X^2 (1+k)/(2 (3+k)),   over a depth 2 chi z_max^((1-k)/2)   (5.32)
+    unloading          along the envelope of the pull 1 + chi to z_4, X = (1-k)/2 (1+chi)      (5.35)
+    jump-out           at that depth
+"""
+
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.core.curves.equilibrium import scales_of
+from gradhesion.core.curves.forms import pinned_load, point
+from gradhesion.core.curves.sampling import sample
+from gradhesion.core.curves.smooth import smooth_places
+from gradhesion.core.curves.subject import Subject
+
+REACH: Final = 2.0
+"""Radius at which the path of an unbounded punch turns, in a_2 (as in Fig. 9)."""
+
+
+def turning_place(subject: Subject) -> float:
+    """Return z_max: that of the rim; of an unbounded punch 2 z_2, or that of the pull-off if it lies further out."""
+    k, chi = subject.k, subject.chi
+    power = 2.0 / (3.0 + k)
+    if subject.bounded:
+        return subject.rim / subject.plain(1.0).radius_scale
+    return float(max(REACH * (2.0 * max(0.0, 1.0 - chi)) ** power, (0.5 * (3.0 + k) * (1.0 + chi)) ** power))
+
+
+def draw_effective(subject: Subject) -> dict[str, NDArray[Any]]:
+    """Return the effective path of a cycle.
+
+    Parameters
+    ----------
+    subject
+        Any scene.
+
+    Returns
+    -------
+    The variables `effective_...` (draw.CURVES); `effective_jump` is 1 at a point that is reached by a jump. Depths
+    hold the mean height lambda A. Loading starts without contact at depth 0, touches the mean surface at lambda A and
+    jumps in there, to the a_2 of (5.34). For r >= s the radius a_2 does not exist: contact grows from a point, without
+    a jump. A rim within a_2 is reached by the jump-in, and unloading starts from there along the line (5.32). At k = 1
+    contact ends by shrinking to a point. An unbounded punch is loaded up to 2 a_2, or to the pull-off radius of the
+    unloading envelope if that is larger.
+
+    Notes
+    -----
+    The sum of P d(delta) over its lines is the energy of `solver = "envelope"` with the rim at the turn, chords apart.
+    """
+    k, chi = subject.k, subject.chi
+    power = 2.0 / (3.0 + k)
+    turn = turning_place(subject)
+    up, down = (subject.plain(pull, subject.mean_height) for pull in (1.0 - chi, 1.0 + chi))
+    height = up.numbers[2]
+    start, stop = (2.0 * max(0.0, 1.0 - chi)) ** power, min(turn, (0.5 * (1.0 - k) * (1.0 + chi)) ** power)
+
+    def way(form: Any, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        values = [point(form.kind, form.table, form.numbers, place) for place in places]
+        return np.array([[place, *value] for place, value in zip(places, values, strict=True)]).T
+
+    last_depth, last_load = point(down.kind, down.table, down.numbers, turn)
+    if start < turn:
+        turns = smooth_places(k, (1.0 - chi,), turn)
+        loading = way(up, np.concatenate([[start], turns[turns > start], [turn]]))
+        if start == 0.0:
+            loading[1, 0] = height
+    else:  # the rim is reached by the jump-in
+        loading = np.array([[turn], [height], [pinned_load(down.kind, k, turn, last_depth, last_load, height)]])
+    turns = smooth_places(k, (1.0 + chi,), turn)[::-1]
+    unloading = way(down, np.concatenate([[turn], turns[turns > stop], [stop] if stop < turn else []]))
+    before = np.array([[0.0, 0.0], [0.0, height], [0.0, 0.0]])[:, : 2 if height > 0.0 else 1]
+    out = np.array([[0.0], [unloading[1, -1]], [0.0]])[:, : 1 if stop > 0.0 else 0]
+    scales = scales_of(np.concatenate([before, loading, unloading, out], axis=1))
+
+    pieces = [before]
+    for form, corners in ((up, loading), (down, unloading)):
+        joined = np.arange(corners.shape[1]) > 0
+        pieces.append(sample(form.kind, form.table, form.numbers, np.ascontiguousarray(corners), joined, scales)[0])
+    pieces.append(out)
+    points = np.concatenate(pieces, axis=1)
+    jump = np.zeros(points.shape[1], dtype=np.int8)
+    jump[before.shape[1]] = 1 if start > 0.0 else 0
+    jump[-1] = out.shape[1]
+    radius, depth, load = up.scaled(points)
+    if subject.bounded:
+        radius[points[0] == turn] = subject.rim
+    return {
+        "effective_contact_radius": radius,
+        "effective_indentation": depth,
+        "effective_load": load,
+        "effective_jump": jump,
+    }

@@ -1,0 +1,70 @@
+"""The curves that can be drawn, in reduced form: depth and load at a place.
+
+EXACT      the curve of one wave (curve.py); a place is x = a/lambda, `numbers` are its bend and gain
+SHORT      its leading asymptotic form (asymptotic.py); a place is z = 2 pi a/lambda, `numbers` are the wave's five
+PLAIN      a smooth punch of any pull (smooth.py, envelope.py), z^2/2 - pull z^((1-k)/2) and X [X/(3+k) - pull] with
+           X = z^((3+k)/2); a place is z = a/l with the bend 1, `numbers` are k, the pull and a height that depth gains
+
+All numbers are padded to five, so that one compiled sampler serves all forms.
+"""
+
+from typing import Any, Final, TypeAlias
+
+from gradhesion.core import asymptotic
+from gradhesion.core._jit import kernel
+from gradhesion.core.curve import wave
+from gradhesion.core.struve.circle import TWO_PI
+
+Numbers: TypeAlias = tuple[float, float, float, float, float]
+
+EXACT: Final = 0
+SHORT: Final = 1
+PLAIN: Final = 2
+
+
+@kernel(contract=True)
+def _exact_point(table: Any, numbers: Numbers, x: float) -> tuple[float, float]:
+    """Return depth and load of curve.py."""
+    if x == 0.0:
+        return (-1.0 if table.k == 1.0 else 0.0), 0.0
+    b, g, _, _, _ = numbers
+    z, power, s0, s1, _, _, _ = wave(table, 0.0, x)
+    return (
+        z * (0.5 * b * z + g * s0 - power),
+        z / (power * power) * (b * z / (3.0 + table.k) + g * (s0 - s1) - power),
+    )
+
+
+@kernel()
+def _plain_point(numbers: Numbers, z: float) -> tuple[float, float]:
+    """Return depth and load of a smooth punch."""
+    k, pull, height, _, _ = numbers
+    abscissa = z ** (0.5 * (3.0 + k))
+    return 0.5 * z * z - pull * z ** (0.5 * (1.0 - k)) + height, abscissa * (abscissa / (3.0 + k) - pull)
+
+
+@kernel()
+def point(kind: int, table: Any, numbers: Numbers, place: float) -> tuple[float, float]:
+    """Return the reduced depth and load of a form at a place >= 0."""
+    if kind == EXACT:
+        return _exact_point(table, numbers, place)
+    if kind == SHORT:
+        return asymptotic.depth(numbers, place), asymptotic.load(numbers, place)
+    return _plain_point(numbers, place)
+
+
+@kernel()
+def pinned_load(kind: int, k: float, place: float, depth: float, load: float, other: float) -> float:
+    """Return the load at the depth `other` of a contact that is pinned where depth and load of equilibrium are known.
+
+    P - P0 = K a^(1+k) (delta - delta0): the punch is a flat one there.
+    """
+    z = TWO_PI * place if kind == EXACT else place
+    return load + z ** (1.0 + k) * (other - depth)
+
+
+@kernel()
+def fill_points(kind: int, table: Any, numbers: Numbers, knots: Any) -> None:
+    """Put depth and load in the second and third row of `knots`, whose first row holds places."""
+    for i in range(knots.shape[1]):
+        knots[1, i], knots[2, i] = point(kind, table, numbers, knots[0, i])

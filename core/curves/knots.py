@@ -1,0 +1,96 @@
+"""Where a drawn curve turns: its folds of depth and its extrema of load, met to rounding."""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.asymptotic import Wave, folds_of_half, half_at, window_end
+from gradhesion.core.branches import END, START
+from gradhesion.core.curve import Curve, slope
+from gradhesion.core.folds import first_arch, fold_of_arch, last_arch, survey_arch
+from gradhesion.core.struve.circle import TWO_PI
+
+MOST_FOLDS: Final = 100_000
+"""Folds up to which a curve is drawn."""
+
+
+@kernel()
+def polished(table: Any, curve: Curve, level: float, x: float) -> float:
+    """Return a zero of D to rounding from one of some twelve digits (two steps of Newton's)."""
+    for _ in range(2):
+        d, d1, _, _ = slope(table, curve, level, x)
+        step = d / d1 / TWO_PI
+        if not abs(step) < 1e-6 * min(1.0, x):  # two folds about to merge: where the slope is zero to rounding anyway
+            break
+        x -= step
+    return x
+
+
+@kernel()
+def folds_too_often(table: Any, curve: Curve, furthest: float) -> bool:
+    """Return whether depth or load may have more than `MOST_FOLDS` extrema up to a place."""
+    for level in (0.5 * (1.0 - table.k), 0.5 * (3.0 + table.k)):
+        if min(last_arch(table, curve, level), 2.0 * furthest) - first_arch(table, curve, level) > MOST_FOLDS:
+            return True
+    return False
+
+
+@kernel()
+def polish_branches(table: Any, curve: Curve, count: int, trace: Any) -> None:
+    """Move the ends of the branches of a trace to where the slope is zero to rounding."""
+    level = 0.5 * (1.0 - table.k)
+    for row in (START, END):
+        for i in range(count):
+            if 0.0 < trace[row, i] < math.inf:
+                trace[row, i] = polished(table, curve, level, trace[row, i])
+
+
+@kernel()
+def folds_of_load(table: Any, curve: Curve, furthest: float) -> Any:
+    """Return where the load of an exact curve is extremal, from inside outwards, up to a place."""
+    level = 0.5 * (3.0 + table.k)
+    first, final = first_arch(table, curve, level), last_arch(table, curve, level)
+    places = np.empty(max(8, int(min(final, 2.0 * furthest) - first) + 16))
+    count = 0
+    i = int(first)
+    while i <= final:
+        survey = survey_arch(table, curve, level, i)
+        kind, _, _, high = survey
+        rising = kind == 1 or (kind == 2 and i % 2 == 0)
+        for _ in range(abs(kind)):
+            x, _ = fold_of_arch(table, curve, level, i, survey, rising, 0.0)
+            x = polished(table, curve, level, x)
+            if x >= furthest:
+                return places[:count]
+            places[count] = x
+            count += 1
+            rising = not rising
+        if high > furthest:
+            break
+        i += 1
+    return places[:count]
+
+
+@kernel()
+def folds_of_wave(wave: Wave, level: float, furthest: float) -> tuple[bool, Any]:
+    """Return whether there are few enough folds of the asymptotic form up to a place, and where they are."""
+    chi = wave[2]
+    begin = 0.0 if chi >= 1.0 else window_end(wave, level, chi)
+    end = min(furthest, window_end(wave, level, -chi))
+    i = max(0.0, half_at(wave, level, begin) - 2.0)
+    last = half_at(wave, level, end) + 2.0
+    if not last - i <= MOST_FOLDS:
+        return False, np.empty(0)
+    places = np.empty(2 * int(max(0.0, last - i)) + 4)
+    count = 0
+    while i <= last:
+        folds, inner, outer, _ = folds_of_half(wave, level, i)
+        for j in range(folds):
+            place = inner if j == 0 else outer
+            if 0.0 < place < furthest:
+                places[count] = place
+                count += 1
+        i += 1.0
+    return True, places[:count]

@@ -1,0 +1,97 @@
+"""Points of a curve between exact knots: as few as a smooth picture needs.
+
+Between two knots the radius, the depth and the load are each monotone. A piece is halved until the curve stays within
+`TOLERANCE` of its chord in all three planes, each axis in units of the drawn span, at the middle and at both quarters
+(the middle of an S lies on its chord). Distances are taken across the chord: a wave that is as high as the picture but
+narrower than a line needs no more than its folds.
+"""
+
+from typing import Any, Final
+
+import numpy as np
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.curves.forms import Numbers, point
+
+TOLERANCE: Final = 1.5e-4
+"""Of the drawn span: a fifth of a pixel in a picture of 1,500."""
+_HALVINGS: Final = 30
+"""A piece of 2^-30 of the distance of two knots is a point."""
+
+
+@kernel()
+def _near_chord(start: Any, end: Any, place: float, values: tuple[float, float], scales: Any) -> bool:
+    """Return whether a point is within the tolerance of the chord from start to end, in all three planes."""
+    r1, d1, p1 = (end[0] - start[0]) * scales[0], (end[1] - start[1]) * scales[1], (end[2] - start[2]) * scales[2]
+    r, d, p = (place - start[0]) * scales[0], (values[0] - start[1]) * scales[1], (values[1] - start[2]) * scales[2]
+    r1_squared, d1_squared, p1_squared = r1 * r1, d1 * d1, p1 * p1
+    least = TOLERANCE * TOLERANCE
+    return (
+        (r * d1 - d * r1) ** 2 <= least * (r1_squared + d1_squared)
+        and (r * p1 - p * r1) ** 2 <= least * (r1_squared + p1_squared)
+        and (d * p1 - p * d1) ** 2 <= least * (d1_squared + p1_squared)
+    )
+
+
+@kernel()
+def _grown(points: Any, owners: Any) -> tuple[Any, Any]:
+    """Return twice the room."""
+    room = owners.size
+    more_points, more_owners = np.empty((3, 2 * room)), np.empty(2 * room, np.int64)
+    more_points[:, :room], more_owners[:room] = points, owners
+    return more_points, more_owners
+
+
+@kernel()
+def sample(kind: int, table: Any, numbers: Numbers, knots: Any, joined: Any, scales: Any) -> tuple[Any, Any]:
+    """Return points of a form through knots, with the index of the knot that each leads up to.
+
+    Parameters
+    ----------
+    kind, table, numbers
+        The form (forms.py).
+    knots
+        Rows of place, depth and load, in the order of the path, which may go in- or outwards.
+    joined
+        Whether the path comes to a knot along the curve (else by a straight line).
+    scales
+        One over the drawn span of place, depth and load.
+    """
+    count = knots.shape[1]
+    room = 4 * count + 64
+    points, owners = np.empty((3, room)), np.empty(room, np.int64)
+    ends, levels = np.empty((3, _HALVINGS + 2)), np.empty(_HALVINGS + 2, np.int64)
+    start = np.empty(3)
+    size = 0
+    for i in range(count):
+        top = 0
+        if joined[i]:
+            start[:] = knots[:, i - 1]
+            ends[:, 0], levels[0] = knots[:, i], 0
+            top = 1
+        while top > 0:  # the ends on the stack go towards the start
+            end, level = ends[:, top - 1], levels[top - 1]
+            middle = 0.5 * (start[0] + end[0])
+            values = point(kind, table, numbers, middle)
+            straight = level == _HALVINGS or _near_chord(start, end, middle, values, scales)
+            for share in (0.25, 0.75):
+                if straight and level < _HALVINGS:
+                    place = start[0] + share * (end[0] - start[0])
+                    straight = _near_chord(start, end, place, point(kind, table, numbers, place), scales)
+            if straight:
+                top -= 1
+                if top > 0:  # the last end is the knot itself
+                    if size == owners.size:
+                        points, owners = _grown(points, owners)
+                    points[:, size], owners[size] = end, i
+                    size += 1
+                    start[:] = end
+            else:
+                levels[top - 1] = level + 1
+                ends[0, top], ends[1, top], ends[2, top], levels[top] = middle, values[0], values[1], level + 1
+                top += 1
+        if size == owners.size:
+            points, owners = _grown(points, owners)
+        points[:, size], owners[size] = knots[:, i], i
+        size += 1
+    return points[:, :size], owners[:size]

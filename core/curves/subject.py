@@ -1,0 +1,163 @@
+"""A scene made ready for drawing: its scales, its reduced forms, its branches, and how far it is drawn."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.core import smooth
+from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, ROWS, START, START_DEPTH
+from gradhesion.core.curves import knots
+from gradhesion.core.curves.forms import EXACT, PLAIN, Numbers
+from gradhesion.core.cycle import extent, is_smooth, walk
+from gradhesion.core.material import stiffness
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.sweep import PARAMETERS, table_of
+
+BEYOND: Final = 1.05
+"""How far an unbounded punch is drawn beyond the last that happens to it."""
+BEYOND_SMOOTH: Final = 1.5
+"""How far an unbounded punch is drawn at least, in radii where the smooth curve is at zero depth."""
+_SMALLEST: Final = 1e-140
+"""a/lambda from which on the tables reach."""
+
+
+@dataclass(frozen=True)
+class Form:
+    """A reduced form with its scales: the radius (in R) of a place, the depth (in R) and the load of a unit."""
+
+    kind: int
+    table: Any
+    numbers: Numbers
+    radius_scale: float
+    depth_scale: float
+    load_scale: float
+
+    def scaled(
+        self, points: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Return radius, depth and load of reduced points, of shape (3, n)."""
+        return points[0] * self.radius_scale, points[1] * self.depth_scale, points[2] * self.load_scale
+
+
+@dataclass(frozen=True)
+class Subject:
+    """What all curves of a scene are drawn from.
+
+    Lengths are in R. `trace` holds the branches of the exact curve (branches.py) and `load_folds` the places where its
+    load is extremal, both in places of the form `exact`; it is None where the curve folds too often to be drawn.
+    """
+
+    table: Any
+    stretch: float
+    wavelength: float
+    chi: float
+    mean_height: float
+    rim: float
+    end: float
+    exact: Form
+    trace: NDArray[np.float64] | None
+    load_folds: NDArray[np.float64]
+
+    @property
+    def k(self) -> float:
+        """The gradient exponent."""
+        return float(self.table["k"])
+
+    @property
+    def bounded(self) -> bool:
+        """Whether the punch has a rim."""
+        return self.rim < math.inf
+
+    def plain(self, pull: float, height: float = 0.0) -> Form:
+        """Return the form of a smooth punch with a pull for its adhesion, its depth raised by a height (in R)."""
+        return plain_form(self.table, self.stretch, pull, height)
+
+
+def plain_form(table: Any, stretch: float, pull: float, height: float = 0.0) -> Form:
+    """Return the form of a smooth punch (smooth.py)."""
+    k = float(table["k"])
+    length = smooth.smooth_length(k, stretch)
+    depth_scale = 2.0 * length * length / (1.0 + k)
+    return Form(PLAIN, table, (k, pull, height / depth_scale, 0.0, 0.0), length, depth_scale, smooth.FORCE_SCALE)
+
+
+def wavy_form(table: Any, stretch: float, wavelength: float, mean_height: float) -> Form:
+    """Return the exact form of one wave, in the scales of scene.py."""
+    k = float(table["k"])
+    length = wavelength / TWO_PI
+    depth_scale = stretch * length ** (0.5 * (1.0 - k))
+    bend, gain = 2.0 * length * length / ((1.0 + k) * depth_scale), mean_height / depth_scale
+    load_scale = 8.0 / (3.0 * (1.0 + k)) * length * length / depth_scale
+    return Form(EXACT, table, (bend, gain, 0.0, 0.0, 0.0), wavelength, depth_scale, load_scale)
+
+
+def _smooth_trace(k: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the one branch of a smooth punch, and where its load is least."""
+    z_pull, z_in, _, z_out, last_depth, _ = smooth.smooth_constants(k)
+    trace = np.full((ROWS, 1), math.nan)
+    trace[START], trace[START_DEPTH] = z_out, last_depth
+    trace[END] = trace[END_DEPTH] = math.inf
+    trace[ARRIVAL] = z_in
+    return trace, np.array([z_pull])
+
+
+def _wavy_trace(form: Form, arches: tuple[float, float], furthest: float) -> tuple[NDArray[np.float64], Any]:
+    """Return the branches of a wavy punch up to a place, and where its load is extremal."""
+    curve = (form.numbers[0], form.numbers[1], 0.0)
+    count, trace = walk(form.table, curve, arches, furthest, np.empty((ROWS, 64)), False)
+    knots.polish_branches(form.table, curve, count, trace)
+    return trace[:, :count], knots.folds_of_load(form.table, curve, furthest)
+
+
+def subject_of(scene: Mapping[str, float]) -> Subject | None:
+    """Return a scene ready for drawing, None where a parameter is outside its range.
+
+    Parameters
+    ----------
+    scene
+        The seven parameters (sweep.PARAMETERS).
+
+    Returns
+    -------
+    The subject, drawn up to the rim. An unbounded punch is drawn up to the largest of 1.5 times the radius where the
+    smooth curve crosses zero depth and 1.05 times the last fold of depth, extremum of load and jump of loading; where
+    the curve cannot be drawn, 1.05 times the pull-off of the unloading envelope stands in for the latter.
+    """
+    k, nu, modulus, c0, wavelength, amplitude, rim = (float(scene[name]) for name in PARAMETERS)
+    with np.errstate(all="ignore"):
+        material = float(stiffness(k, nu, modulus, c0))
+    if not (0.0 < material < math.inf and 0.0 < wavelength < math.inf and 0.0 <= amplitude < math.inf and rim > 0.0):
+        return None
+    table = table_of(k)
+    stretch = math.sqrt(2.0 ** (1.0 + k) * math.pi / material)
+    smooth_form = plain_form(table, stretch, 1.0)
+    least = BEYOND_SMOOTH * smooth_form.radius_scale * 2.0 ** (2.0 / (3.0 + k))
+    form, chi = smooth_form, 0.0
+    if amplitude > 0.0:
+        wavy = wavy_form(table, stretch, wavelength, amplitude * wavelength)
+        chi = float(table["amplitude"]) * wavy.numbers[1]
+        curve = (wavy.numbers[0], wavy.numbers[1], 0.0)
+        if not (0.0 < curve[0] < math.inf and chi < math.inf and min(rim, least) > _SMALLEST * wavelength):
+            return None
+        arches = extent(table, curve)
+        if not is_smooth(arches):
+            form = wavy
+    furthest = rim / form.radius_scale
+    trace, load_folds = None, np.empty(0)
+    if form is smooth_form:
+        trace, load_folds = _smooth_trace(k)
+        load_folds = load_folds[load_folds < furthest]
+    elif not knots.folds_too_often(table, curve, furthest):
+        trace, load_folds = _wavy_trace(form, arches, furthest)
+    end = rim
+    if not rim < math.inf:
+        envelope_pull = (0.5 * (3.0 + k) * (1.0 + chi)) ** (2.0 / (3.0 + k))
+        last = envelope_pull * smooth_form.radius_scale
+        if trace is not None:
+            last = form.radius_scale * max(trace[START, -1], trace[ARRIVAL, -1], load_folds[-1])
+        end = max(least, BEYOND * last)
+    return Subject(table, stretch, wavelength, chi, amplitude * wavelength, rim, end, form, trace, load_folds)

@@ -1,0 +1,124 @@
+"""Curves of a scene by name: what comes back, and what has no value."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gradhesion.core import draw_curves, solve
+from gradhesion.core.curves import CURVES, INTEGERS
+from gradhesion.core.status import LOADING_NOT_ONE_DISC, NO_VALUE
+
+SCENES: dict[str, dict[str, float]] = {
+    "wavy": {},
+    "homogeneous": {"k": 0.0},
+    "half": {"k": 0.5},
+    "linear": {"k": 1.0, "nu": 0.5},
+    "nearly linear": {"k": 1.0 - 1e-9, "nu": 0.5},
+    "smooth": {"A": 0.0},
+    "unbounded": {"a_max_over_R": math.inf},
+    "unbounded smooth": {"a_max_over_R": math.inf, "A": 0.0},
+    "short waves": {"lambda_over_R": 7e-4},
+    "one long wave": {"lambda_over_R": 3e4},
+    "endlessly long wave": {"lambda_over_R": 1e60},
+    "r > s": {"A": 0.21},
+    "r > s, unbounded": {"A": 0.21, "a_max_over_R": math.inf},
+    "r > s, linear": {"k": 1.0, "nu": 0.5, "A": 0.4},
+    "small rim": {"a_max_over_R": 0.01},
+    "smooth with a small rim": {"a_max_over_R": 0.03, "A": 0.0},
+    "hardly wavy": {"A": 1e-14},
+    "large rim": {"a_max_over_R": 300.0},
+}
+
+
+@pytest.fixture(params=SCENES, ids=str)
+def any_scene(request: pytest.FixtureRequest, scene: dict[str, float]) -> dict[str, float]:
+    return scene | SCENES[request.param]
+
+
+def test_every_curve_has_its_variables_of_one_length_and_type(any_scene: dict[str, float]) -> None:
+    variables, status = draw_curves(any_scene, list(CURVES))
+    assert status & NO_VALUE == 0
+    assert list(variables) == [name for curve in CURVES.values() for name in curve]
+    for names in CURVES.values():
+        assert len({variables[name].shape for name in names}) == 1
+    for name, values in variables.items():
+        assert values.ndim == 1
+        assert (values.dtype.kind == "i") == (name in INTEGERS)
+        assert np.isfinite(values).all()
+
+
+def test_a_curve_does_not_depend_on_what_else_is_drawn(scene: dict[str, float]) -> None:
+    together, _ = draw_curves(scene, list(CURVES))
+    for curve, names in CURVES.items():
+        alone, _ = draw_curves(scene, [curve])
+        assert list(alone) == list(names)
+        assert all(np.array_equal(alone[name], together[name]) for name in names)
+
+
+def test_curves_end_at_the_rim_exactly(any_scene: dict[str, float]) -> None:
+    variables, _ = draw_curves(any_scene, list(CURVES))
+    ends = {name: values.max() for name, values in variables.items() if name.endswith("contact_radius")}
+    del ends["effective_contact_radius"]  # it turns earlier if there is no rim
+    assert len(set(ends.values())) == 1
+    if any_scene["a_max_over_R"] < math.inf:
+        assert ends["contact_radius"] == any_scene["a_max_over_R"]
+        assert variables["effective_contact_radius"].max() == any_scene["a_max_over_R"]
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"k": -0.1},
+        {"k": 1.1},
+        {"k": 1.0, "nu": 0.3},
+        {"nu": 0.6},
+        {"modulus": 0.0},
+        {"c0_over_R": -1.0},
+        {"lambda_over_R": 0.0},
+        {"lambda_over_R": math.nan},
+        {"A": -0.1},
+        {"A": math.inf},
+        {"a_max_over_R": 0.0},
+        {"a_max_over_R": math.nan},
+    ],
+    ids=str,
+)
+def test_beyond_its_range_a_parameter_gives_no_value(wrong: dict[str, float], scene: dict[str, float]) -> None:
+    variables, status = draw_curves(scene | wrong, list(CURVES))
+    assert status == NO_VALUE
+    for name, values in variables.items():
+        assert values.shape == (1,)
+        assert values[0] == -1 if name in INTEGERS else math.isnan(values[0])
+
+
+def test_more_folds_than_can_be_drawn_leave_what_has_a_closed_form(scene: dict[str, float]) -> None:
+    scene["lambda_over_R"] = 8e-6
+    variables, status = draw_curves(scene, list(CURVES))
+    assert status == NO_VALUE
+    without = {name for name, values in variables.items() if values.size == 1}
+    assert without == {*CURVES["equilibrium"], *CURVES["path"], *CURVES["asymptotic"]}
+    assert draw_curves(scene, ["smooth", "envelope", "effective"])[1] == 0
+
+
+def test_loading_that_gains_energy_is_flagged_as_in_a_map() -> None:
+    scene = {
+        "k": 1.0,
+        "nu": 0.5,
+        "modulus": 900.0,
+        "c0_over_R": 0.1,
+        "lambda_over_R": 0.11,
+        "A": 2.3,
+        "a_max_over_R": 0.16,
+    }
+    assert draw_curves(scene, ["path"])[1] == LOADING_NOT_ONE_DISC == solve(scene)["status"]
+    assert draw_curves(scene, ["equilibrium"])[1] == 0
+
+
+def test_mistakes_of_the_caller_are_named(scene: dict[str, float]) -> None:
+    with pytest.raises(ValueError, match="'hysteresis'"):
+        draw_curves(scene, ["hysteresis"])
+    incomplete: dict[str, Any] = {name: value for name, value in scene.items() if name != "nu"}
+    with pytest.raises(ValueError, match="missing parameters \\['nu'\\]"):
+        draw_curves(incomplete, ["smooth"])
