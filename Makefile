@@ -1,5 +1,5 @@
 PYTHON ?= python3
-sources := $(shell find cli core -name '*.py')
+sources := $(shell find cli core twin -name '*.py')
 checked := $(sources) $(shell find tests benchmarks docs configs -type f -not -path '*/__pycache__/*' 2>/dev/null) README.md Makefile
 
 help: ## show the targets
@@ -31,7 +31,7 @@ outputs/maps.png: outputs/maps.nc
 
 build/types/gradhesion:
 	mkdir -p $@
-	ln -s ../../../core ../../../cli $@
+	ln -s ../../../core ../../../cli ../../../twin $@
 
 build/tested: $(checked) .venv/installed | build/types/gradhesion
 	.venv/bin/ruff check

@@ -19,6 +19,7 @@ from click.testing import Result
 
 import gradhesion.cli
 import gradhesion.core
+import gradhesion.twin
 from gradhesion.cli.main import cli
 
 ROOT = Path(__file__).parents[2]
@@ -26,11 +27,24 @@ README = (ROOT / "README.md").read_text()
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 MODULES = sorted(
     module.name
-    for package in (gradhesion.cli, gradhesion.core)
+    for package in (gradhesion.cli, gradhesion.core, gradhesion.twin)
     for module in pkgutil.walk_packages(package.__path__, package.__name__ + ".")
     if not module.name.endswith("__main__")
 )
-HEAVY = ("numpy", "numba", "scipy", "xarray", "netCDF4", "matplotlib", "pandas", "pydantic", "rich", "gradhesion.core")
+HEAVY = (
+    "numpy",
+    "numba",
+    "scipy",
+    "xarray",
+    "netCDF4",
+    "matplotlib",
+    "pandas",
+    "pydantic",
+    "rich",
+    "gradhesion.core",
+    "gradhesion.twin",
+    "flint",
+)
 
 
 @pytest.mark.parametrize("name", MODULES)
@@ -103,12 +117,12 @@ def test_the_maps_are_a_real_study_over_all_five_axes() -> None:
 
 def test_every_folder_of_modules_is_packaged() -> None:
     listed = PROJECT["tool"]["setuptools"]["package-dir"]
-    folders = {path.parent.relative_to(ROOT) for top in ("cli", "core") for path in (ROOT / top).rglob("*.py")}
+    folders = {path.parent.relative_to(ROOT) for top in ("cli", "core", "twin") for path in (ROOT / top).rglob("*.py")}
     assert {Path(folder) for folder in listed.values()} == folders
     assert sorted(listed) == sorted(PROJECT["tool"]["setuptools"]["packages"])
     assert all(name == "gradhesion." + folder.replace("/", ".") for name, folder in listed.items())
     assert all((ROOT / folder / "__init__.py").exists() for folder in listed.values())
-    assert all((ROOT / top / "py.typed").exists() for top in ("cli", "core"))
+    assert all((ROOT / top / "py.typed").exists() for top in ("cli", "core", "twin"))
 
 
 def test_every_dependency_is_pinned_and_none_by_an_address() -> None:

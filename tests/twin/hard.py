@@ -2,10 +2,11 @@
 
 from flint import arb
 
-from .curve import Curve
+from gradhesion.twin.curve import Curve
+from gradhesion.twin.path import branches, cycle
+from gradhesion.twin.roots import extrema, zeros
+
 from .draw import Request, similar
-from .path import branches, cycle
-from .roots import extrema, zeros
 
 
 def _request(parameters: dict[str, float], note: str) -> Request:

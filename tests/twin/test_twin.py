@@ -1,16 +1,18 @@
 """The twin against closed forms, a second quadrature, the reference scenes and its own stored values."""
 
 import json
+import math
 from pathlib import Path
 
 import pytest
 from flint import arb
 
-from .curve import Curve
-from .energy import dissipated, double_exponential, loop
-from .path import cycle
-from .scene import PARAMETERS, solve
-from .special import Sine, s0_series, s1_series, theta
+from gradhesion.twin import stated
+from gradhesion.twin.curve import Curve
+from gradhesion.twin.energy import dissipated, double_exponential, loop
+from gradhesion.twin.path import cycle
+from gradhesion.twin.scene import PARAMETERS, solve
+from gradhesion.twin.special import Sine, s0_series, s1_series, struve_expansion, theta
 
 HERE = Path(__file__).parent
 REFERENCE = HERE.parent / "reference" / "scenes.json"
@@ -83,3 +85,58 @@ def test_stored_values() -> None:
             value = getattr(solution, name)
             assert (None if value is None else float(value)) == row[name], name
         assert [solution.loading_jumps, solution.unloading_jumps] == [row["loading_jumps"], row["unloading_jumps"]]
+
+
+@pytest.mark.parametrize("k", [0.0, 2.0**-53, 1e-9, 0.37, 1 - 1e-12, 1.0])
+def test_far_expansion(k: float) -> None:
+    """Beyond z = 200 Struve's expansion takes over from the series, next to integer orders as well."""
+    exponent = arb(k)
+    for z in (arb(201), arb(877) / 2):
+        assert expected(struve_expansion(exponent / 2, z) - s0_series(exponent, z), 1)
+        assert expected(struve_expansion(1 + exponent / 2, z) - s1_series(exponent, z), 1)
+
+
+@pytest.mark.parametrize(("k", "nu"), [(0.0, 0.3), (0.45, -0.4), (1.0, 0.5)])
+def test_smooth_punch_of_any_wavelength(k: float, nu: float) -> None:
+    """Without amplitude the wavelength is nothing, and rim, modulus and depth may be of any size: closed forms."""
+    for wavelength, rim in ((1e-12, math.inf), (1e6, 1e9), (0.3, 3e-9)):
+        scene = dict(zip(PARAMETERS, (k, nu, 1e9, 1e-7, wavelength, 0.0, rim), strict=True))
+        solution = solve(scene)
+        curve = Curve(scene)
+        s, x = curve.adhesion, arb(k)
+        q, first = (1 - x) / 4, ((1 + x) * curve.adhesion) ** (2 / (3 + x))
+        if rim > first:
+            part = [
+                16 * p * p / ((1 + x) * (3 + x) * (5 + x)) - 8 * p / ((1 + x) * (3 + x)) + 2 / (1 + x) - 1
+                for p in (q, 1)
+            ]
+            last = (q * (1 + x) * s) ** (2 / (3 + x)) if k < 1 else arb(0)
+            energy = arb.pi() * (part[0] * last * last - part[1] * first * first)
+            assert abs(solution.dissipated_energy / energy - 1) < arb("1e-35")
+            assert abs(solution.pull_off_force / ((3 + x) / 3) - 1) < arb("1e-35")
+        else:
+            assert [solution.loading_jumps, solution.unloading_jumps] == [1, 1 if k < 1 else 0]
+            assert float(solution.pull_off_radius) == rim
+
+
+def test_what_is_solved_does_not_depend_on_the_outputs() -> None:
+    """The pull-off alone is that of the whole scene, and each output comes with an error in proportion to its size."""
+    scene = {name: float(str(stored()[5][name])) for name in PARAMETERS}
+    alone = stated.expected(scene, ["pull_off_force"], "exact")
+    everything = stated.expected(scene, sorted(stated.KNOWN), "exact")
+    assert set(everything) == stated.KNOWN
+    assert float(alone.pop("pull_off_force").value) == float(everything["pull_off_force"].value)
+    assert not alone
+    assert (
+        stated.deviation(float(everything["delta_max"].value), everything["delta_max"]) <= everything["delta_max"].error
+    )
+    assert stated.deviation(math.nan, everything["delta_max"]) == math.inf
+    assert stated.deviation(math.inf, stated.Expected(arb("inf"), 0.0)) == 0.0
+
+
+def test_scenes_of_too_many_waves_are_out_of_reach() -> None:
+    """A bound on the time: 1,000 waves."""
+    scene = dict(zip(PARAMETERS, (0.3, 0.3, 500.0, 0.01, 1e-3, 0.2, 0.9), strict=True))
+    assert stated.within_reach(scene, ["dissipated_energy"], "exact")
+    assert not stated.within_reach(scene | {"lambda_over_R": 5e-4}, ["dissipated_energy"], "exact")
+    assert stated.within_reach(scene | {"lambda_over_R": 5e-4}, ["dissipated_energy"], "envelope")

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from flint import arb
 
-from .curve import Curve
-from .roots import refine, zeros
+from gradhesion.twin.curve import Curve
+from gradhesion.twin.roots import refine, zeros
 
 
 @dataclass(frozen=True)
@@ -33,12 +33,14 @@ class Jump:
 
 @dataclass(frozen=True)
 class Path:
-    """One cycle: its jumps, the largest delta, and delta where contact is lost."""
+    """One cycle: its jumps, the largest delta, and delta where contact is lost, each with the phase where it is met."""
 
     loading: list[Jump]
     unloading: list[Jump]
     delta_max: arb
     delta_jump_out: arb
+    deepest: arb
+    last: arb
 
 
 def branches(curve: Curve, folds: list[arb]) -> list[Branch]:
@@ -58,7 +60,7 @@ def ends_at_rim(curve: Curve, made: list[Branch]) -> bool:
 
 
 def crossing(curve: Curve, branch: Branch, level: arb) -> arb:
-    """The phase where a rising branch has delta = level."""
+    """Return the phase where a rising branch has delta = level."""
     hi = branch.hi
     if hi is None:
         hi = 2 * branch.lo + 1
@@ -67,8 +69,8 @@ def crossing(curve: Curve, branch: Branch, level: arb) -> arb:
     return refine(lambda z: (curve.delta(z) - level, curve.slope(z)), branch.lo, hi)
 
 
-def load(curve: Curve, made: list[Branch]) -> tuple[list[Jump], arb]:
-    """The jumps from a = 0, delta = 0 to full contact, and the largest delta on the way."""
+def load(curve: Curve, made: list[Branch]) -> tuple[list[Jump], arb, arb]:
+    """Return the jumps from a = 0, delta = 0 to full contact, the largest delta on the way, and its phase."""
     jumps: list[Jump] = []
     at, level = arb(0), arb(0)
     for branch in made:
@@ -76,16 +78,18 @@ def load(curve: Curve, made: list[Branch]) -> tuple[list[Jump], arb]:
             continue
         jumps.append(Jump(at, crossing(curve, branch, level), level))
         if branch.hi is None or branch.top is None:
-            return jumps, arb("inf")
+            return jumps, arb("inf"), arb("inf")
         at, level = branch.hi, branch.top
     if not ends_at_rim(curve, made) or at != curve.rim:
         assert curve.rim is not None
         jumps.append(Jump(at, curve.rim, level))
-    return jumps, level
+        if level == 0:
+            at = curve.rim
+    return jumps, level, at
 
 
-def unload(curve: Curve, made: list[Branch]) -> tuple[list[Jump], arb]:
-    """The jumps from full contact to a = 0, and delta where contact is lost."""
+def unload(curve: Curve, made: list[Branch]) -> tuple[list[Jump], arb, arb]:
+    """Return the jumps from full contact to a = 0, delta where contact is lost, and its phase."""
     jumps: list[Jump] = []
     inner = list(made)
     if ends_at_rim(curve, made):
@@ -101,19 +105,19 @@ def unload(curve: Curve, made: list[Branch]) -> tuple[list[Jump], arb]:
             at, level = branch.lo, branch.bottom
     if at != 0:  # at k = 1 the contact may have shrunk to a point
         jumps.append(Jump(at, arb(0), level))
-    return jumps, level
+    return jumps, level, at
 
 
 def cycle(curve: Curve) -> tuple[Path, list[Branch]]:
-    """The whole cycle and the branches it rests on."""
+    """Return the whole cycle and the branches it rests on."""
     made = branches(curve, zeros(curve, curve.fold, curve.rim))
-    loading, largest = load(curve, made)
-    unloading, last = unload(curve, made)
-    return Path(loading, unloading, largest, last), made
+    loading, largest, deepest = load(curve, made)
+    unloading, lowest, last = unload(curve, made)
+    return Path(loading, unloading, largest, lowest, deepest, last), made
 
 
 def pull_off(curve: Curve) -> tuple[arb, arb, list[arb]]:
-    """The pull-off force -min P, its phase, and -P at every candidate (the minima of P, and the rim)."""
+    """Return the pull-off force -min P, its phase, and -P at every candidate (the minima of P, and the rim)."""
     found = zeros(curve, curve.trough, curve.rim)[::2]  # P falls at first, so minima come first
     if curve.rim is not None:
         found.append(curve.rim)

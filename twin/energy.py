@@ -14,8 +14,8 @@ from typing import Final
 
 from flint import arb
 
-from .curve import Curve
-from .path import Jump, Path
+from gradhesion.twin.curve import Curve
+from gradhesion.twin.path import Jump, Path
 
 NODES: Final = 28
 """Gauss-Legendre nodes a piece: 30 digits for half a wave, or for a piece as long as its distance from 0."""
@@ -43,7 +43,7 @@ def double_exponential() -> list[tuple[arb, arb]]:
 
 
 def integral(f: Callable[[arb], arb], lo: arb, hi: arb) -> arb:
-    """The integral of f over phases from lo to hi."""
+    """Return the integral of f over phases from lo to hi."""
     total = arb(0)
     if lo == 0:
         width = min(float(hi), 1.5)
@@ -72,7 +72,7 @@ def dissipated(curve: Curve, jump: Jump) -> arb:
 
 
 def loop(curve: Curve, path: Path) -> arb:
-    """The same energy as the loop integral of P d(delta) along the branches and the line at the rim."""
+    """Return the same energy as the loop integral of P d(delta) along the branches and the line at the rim."""
     assert curve.rim is not None
 
     def work(lo: arb, hi: arb) -> arb:

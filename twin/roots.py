@@ -7,14 +7,14 @@ from typing import Final
 
 from flint import arb
 
-from .curve import Curve
+from gradhesion.twin.curve import Curve
 
 NARROW: Final = arb(2) ** -140
 """Relative step at which Newton's iteration ends (42 digits)."""
 
 
 def refine(f: Callable[[arb], tuple[arb, arb]], lo: arb, hi: arb) -> arb:
-    """The one zero of f, given with its derivative, between lo and hi: Newton's iteration kept inside the bracket."""
+    """Return the one zero of f (given with its derivative) between lo and hi: Newton's iteration kept inside them."""
     rising = bool(f(hi)[0] > 0)
     z = ((lo + hi) / 2).mid()
     for _ in range(400):

@@ -3,8 +3,9 @@
     S0(k, z) = int_0^1 (1-t^2)^((k-1)/2) sin(z t) dt = z/(1+k) 1F2(1; 3/2, (3+k)/2; -z^2/4)
     S1(k, z) = int_0^1 (1-t^2)^((k+1)/2) sin(z t) dt = z/(3+k) 1F2(1; 3/2, (5+k)/2; -z^2/4)
 
-S0 is entire in z. `Sine` evaluates the hypergeometric series once at each multiple of 1/2 and goes on from there by
-Taylor's series, whose coefficients follow from  z S0'' + (1+k) S0' + z S0 = 1;  then S1 = S0 + S0''.
+S0 is entire in z. `Sine` evaluates it once at each multiple of 1/2, by the hypergeometric series or, far out, by the
+expansion of Struve's functions, and goes on from there by Taylor's series, whose coefficients follow from
+z S0'' + (1+k) S0' + z S0 = 1;  then S1 = S0 + S0''.
 """
 
 from dataclasses import dataclass
@@ -13,10 +14,13 @@ from typing import Final
 import flint
 from flint import arb, arb_poly
 
-from . import PRECISION
+from gradhesion.twin import PRECISION
 
 DEGREE: Final = 30
 """The n-th Taylor coefficient is below 1.6/n!: at |t| <= 1/4 the rest after degree 30 is below 1e-50, of S0'' 1e-46."""
+
+FAR: Final = 200.0
+"""z beyond which Struve's expansion has a term below 2^-240 (its least is about e^-z)."""
 
 
 def s0_series(k: arb, z: arb) -> arb:
@@ -29,6 +33,22 @@ def s1_series(k: arb, z: arb) -> arb:
     """S1 by its hypergeometric series."""
     with flint.ctx.workprec(PRECISION + 40 + int(1.45 * float(abs(z)))):
         return z / (3 + k) * (-z * z / 4).hypgeom([arb(1)], [arb(3) / 2, (5 + k) / 2])
+
+
+def struve_expansion(order: arb, z: arb) -> arb:
+    """Return sqrt(pi)/2 G(v + 1/2) (z/2)^(-v) H_v(z) of the order v >= 0, for z > FAR.
+
+    It is S0 for v = k/2 and S1 for v = 1 + k/2. H_v - Y_v is an alternating series whose rest is below the first term
+    left out (DLMF 11.6.1); near an integer order Y_v cancels, up to twice the 53 bits of a k next to 0.
+    """
+    with flint.ctx.workprec(PRECISION + 160):
+        total, term, m = arb(0), 1 / z, 0
+        while not abs(term) < arb(2) ** -240:
+            total += term
+            term *= (m + arb(1) / 2) * (order - arb(1) / 2 - m) * 4 / (z * z)
+            m += 1
+        wave = arb.pi().sqrt() / 2 * (order + arb(1) / 2).gamma() * (z / 2) ** -order * z.bessel_y(order)
+        return total + arb(0, abs(term).upper()) + wave
 
 
 @dataclass(frozen=True)
@@ -70,7 +90,11 @@ class Sine:
         if found is not None:
             return found
         k, centre = self.k, arb(index) / 2
-        s = [s0_series(k, centre), (1 - centre * s1_series(k, centre)) / (1 + k)]
+        if centre > FAR:
+            s0, s1 = struve_expansion(k / 2, centre), struve_expansion(1 + k / 2, centre)
+        else:
+            s0, s1 = s0_series(k, centre), s1_series(k, centre)
+        s = [s0, (1 - centre * s1) / (1 + k)]
         for n in range(DEGREE - 1):
             rest = arb(1 if n == 0 else 0) - (n + 1) * (n + 1 + k) * s[n + 1] - centre * s[n]
             s.append((rest - s[n - 1] if n else rest) / (centre * ((n + 1) * (n + 2))))

@@ -8,17 +8,18 @@ g = (2 pi)^2 A/lambda, with c = `fold` for delta and c = `trough` for P; each gr
 positive.
 """
 
+import math
 from collections.abc import Mapping
 from functools import lru_cache
 
 from flint import arb
 
-from .special import Sine, theta
+from gradhesion.twin.special import Sine, theta
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=2)
 def sine_of(k: float) -> Sine:
-    """The universal functions of k, shared by the scenes that have it."""
+    """Return the universal functions of k, shared by the scenes that have it; 140 kB a wave once they are filled."""
     return Sine(arb(k))
 
 
@@ -30,11 +31,12 @@ class Curve:
         k, nu = arb(parameters["k"]), arb(parameters["nu"])
         pi = arb.pi()
         self.k, self.sine = k, sine_of(parameters["k"])
-        self.wavelength, self.amplitude = arb(parameters["lambda_over_R"]), arb(parameters["A"])
+        self.amplitude = arb(parameters["A"])
         self.theta = theta(k, nu)
         self.modulus = self.theta * arb(parameters["modulus"]) / arb(parameters["c0_over_R"]) ** k
         self.stiffness = 2 ** (1 - k) * self.modulus / (1 + k)
         self.adhesion = (2 ** (1 + k) * pi / self.modulus).sqrt()
+        self.wavelength = arb(parameters["lambda_over_R"]) if self.amplitude > 0 else self._natural_wavelength()
         self.waviness = 4 * pi * pi * self.amplitude / self.wavelength
         unit = self.adhesion * (2 * pi / self.wavelength) ** ((3 + k) / 2)
         self.fold = unit * (1 - k) / 2
@@ -42,17 +44,24 @@ class Curve:
         rim = parameters["a_max_over_R"]
         self.rim = self.phase(arb(rim)).mid() if rim != float("inf") else None
 
+    def _natural_wavelength(self) -> arb:
+        """Give a smooth punch, which has none, a wavelength at which the phase of its jump-in is about 1."""
+        jump_in = ((1 + self.k) * self.adhesion) ** (2 / (3 + self.k))
+        return 2 * arb.pi() * arb(2) ** round(math.log2(float(jump_in)))
+
     def phase(self, a: arb) -> arb:
-        """The phase z of the radius a."""
+        """Return the phase z of the radius a."""
         return 2 * arb.pi() * a / self.wavelength
 
     def radius(self, z: arb) -> arb:
-        """The radius a at the phase z."""
+        """Return the radius a at the phase z."""
         return z * self.wavelength / (2 * arb.pi())
 
     def hertz(self, z: arb) -> arb:
         """delta_H, the indentation without adhesion."""
         a = self.radius(z)
+        if self.amplitude == 0:
+            return a * a / (1 + self.k)
         return a * a / (1 + self.k) + 2 * arb.pi() * self.amplitude * a * self.sine.s0(z)
 
     def gap(self, z: arb) -> arb:
@@ -66,13 +75,15 @@ class Curve:
     def force(self, z: arb) -> arb:
         """Load P in equilibrium."""
         k, a = self.k, self.radius(z)
-        s0, s1 = self.sine.pair(z)
-        smooth = 2 * a * a / ((1 + k) * (3 + k))
-        return self.stiffness * a ** (1 + k) * (smooth + 2 * arb.pi() * self.amplitude * a * (s0 - s1) - self.gap(z))
+        height = 2 * a * a / ((1 + k) * (3 + k)) - self.gap(z)
+        if self.amplitude > 0:
+            s0, s1 = self.sine.pair(z)
+            height += 2 * arb.pi() * self.amplitude * a * (s0 - s1)
+        return self.stiffness * a ** (1 + k) * height
 
     def tilt(self, z: arb, c: arb) -> tuple[arb, arb]:
-        """The tilt with the coefficient c and its derivative in z (enclosures when z is a ball)."""
-        v, slope = self.sine.v(z)
+        """Return the tilt with the coefficient c and its derivative in z (enclosures when z is a ball)."""
+        v, slope = self.sine.v(z) if self.amplitude > 0 else (arb(0), arb(0))
         b = 2 / (1 + self.k)
         if c == 0:
             return b + self.waviness * v, self.waviness * slope
@@ -81,6 +92,6 @@ class Curve:
         return b + self.waviness * v - pull, self.waviness * slope + p * pull / z
 
     def slope(self, z: arb) -> arb:
-        """The derivative of delta in z: a^2/z (tilt with c = fold)."""
+        """Return the derivative of delta in z: a^2/z (tilt with c = fold)."""
         a = self.radius(z)
         return a * a / z * self.tilt(z, self.fold)[0]

@@ -1,0 +1,165 @@
+"""One scene solved: the expected values of a study's outputs, and how far it is from where they jump."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from flint import arb
+
+from gradhesion.twin import energy
+from gradhesion.twin.curve import Curve
+from gradhesion.twin.path import Branch, Jump, Path, cycle, pull_off
+from gradhesion.twin.roots import extrema, window
+
+PARAMETERS = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
+
+
+@dataclass(frozen=True)
+class PullOff:
+    """The part of a `Solution` that needs no cycle."""
+
+    pull_off_force: arb
+    pull_off_radius: arb
+    margin_radius: float
+    radius_condition: float
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Outputs in the units of a study; `None` for the unbounded delta_max of an unbounded punch.
+
+    `margin_jumps` is the least relative distance at which a number of jumps changes, `margin_radius` that at which the
+    lowest P moves to another place; force and energy are continuous there. `energy_condition` is the sum of |e_j| over
+    the energy, `radius_condition` the relative change of the radius for a relative change of the terms of dP/da.
+    `delta_max_size` and `delta_jump_out_size` are the sizes of the terms of the two depths; `folded_waves` is how many
+    waves the folds within the rim span.
+    """
+
+    pull_off_force: arb
+    pull_off_radius: arb
+    dissipated_energy: arb
+    loading_jumps: int
+    unloading_jumps: int
+    delta_max: arb | None
+    delta_jump_out: arb
+    margin_jumps: float
+    margin_radius: float
+    energy_condition: float
+    radius_condition: float
+    delta_max_size: float
+    delta_jump_out_size: float
+    folded_waves: float
+
+
+def waves_to_follow(parameters: Mapping[str, float], *, cycle: bool) -> float:
+    """Estimate the waves that `solve` goes through (`solve_pull_off` if not `cycle`): the time is 15 ms for each."""
+    curve = Curve(parameters)
+    furthest = window(curve, curve.trough)[1]
+    if cycle:
+        jump_in = ((1 + curve.k) * curve.adhesion) ** (2 / (3 + curve.k))
+        furthest = max(furthest, window(curve, curve.fold)[1], curve.phase(jump_in))
+    if curve.rim is not None and curve.rim < furthest:
+        furthest = curve.rim
+    return float(furthest) / (2 * math.pi)
+
+
+def solve(parameters: Mapping[str, float]) -> Solution:
+    """Solve one scene."""
+    curve = Curve(parameters)
+    held = _pull_off(curve)
+    path, made = cycle(curve)
+    drops = [energy.dissipated(curve, jump) for jump in path.loading + path.unloading]
+    lost = sum(drops, arb(0))
+    return Solution(
+        pull_off_force=held.pull_off_force,
+        pull_off_radius=held.pull_off_radius,
+        dissipated_energy=lost,
+        loading_jumps=len(path.loading),
+        unloading_jumps=len(path.unloading),
+        delta_max=None if curve.rim is None else path.delta_max,
+        delta_jump_out=path.delta_jump_out,
+        margin_jumps=_margin_jumps(curve, path, made),
+        margin_radius=held.margin_radius,
+        energy_condition=float(sum((abs(drop) for drop in drops), arb(0)) / abs(lost)) if drops else 1.0,
+        radius_condition=held.radius_condition,
+        delta_max_size=_size(curve, path.deepest) if curve.rim is not None else math.inf,
+        delta_jump_out_size=_size(curve, path.last),
+        folded_waves=_folded_waves(made),
+    )
+
+
+def solve_pull_off(parameters: Mapping[str, float]) -> PullOff:
+    """Solve the pull-off of one scene, for which its cycle need not be followed."""
+    return _pull_off(Curve(parameters))
+
+
+def _pull_off(curve: Curve) -> PullOff:
+    force, at, forces = pull_off(curve)
+    return PullOff(
+        pull_off_force=force / (3 * arb.pi() / 2),
+        pull_off_radius=curve.radius(at),
+        margin_radius=_margin_radius(force, forces),
+        radius_condition=_radius_condition(curve, at),
+    )
+
+
+def _size(curve: Curve, z: arb) -> float:
+    """Give the size of the terms of delta at a phase, and of its change with the phase."""
+    a = curve.radius(z)
+    change = z * abs(curve.slope(z)) if z > 0 else arb(0)
+    return float(abs(curve.delta(z)) + a * a / (1 + curve.k) + curve.gap(z) + change)
+
+
+def _folded_waves(made: list[Branch]) -> float:
+    """Give the distance between the first fold and the last one, or the rim, in waves."""
+    folds = [z for branch in made for z in (branch.lo, branch.hi) if z is not None]
+    return float(folds[-1] - folds[0]) / (2 * math.pi) if len(folds) > 1 else 0.0
+
+
+def _margin_radius(force: arb, forces: list[arb]) -> float:
+    others = sorted(float((force - f) / force) for f in forces)
+    return min(1.0, others[1]) if len(others) > 1 else 1.0
+
+
+def _radius_condition(curve: Curve, z: arb) -> float:
+    if curve.rim is not None and z == curve.rim:
+        return 1.0
+    terms = 2 / (1 + curve.k) + curve.trough * z ** (-(3 + curve.k) / 2)
+    return float(terms / (z * abs(curve.tilt(z, curve.trough)[1])))
+
+
+class _Fold:
+    """The depth of a fold, to be compared with the levels of jumps."""
+
+    def __init__(self, curve: Curve, depth: arb, z: arb) -> None:
+        a = curve.radius(z)
+        self.z, self.depth = z, depth
+        self.rough, self.size = float(depth), float(a * a / (1 + curve.k) + curve.gap(z))
+
+    def margin(self, jump: Jump) -> float:
+        """Give the distance of a level from the fold over the sizes of both; precise where it is small."""
+        level = float(jump.level)
+        scale = abs(level) + self.size
+        rough = abs(level - self.rough) / scale
+        return rough if rough > 1e-9 else float(abs(jump.level - self.depth)) / scale
+
+
+def _margin_jumps(curve: Curve, path: Path, made: list[Branch]) -> float:
+    """Least of: fold depths against the levels of jumps; the tilt at its extrema and at the rim (folds about to be)."""
+    margins = [1.0]
+    tops = [(b.top, b.hi) for b in made if b.top is not None and b.hi is not None and b.hi is not curve.rim]
+    outer = [_Fold(curve, top, z) for top, z in tops]
+    inner = [_Fold(curve, b.bottom, b.lo) for b in made if b.lo > 0]
+    margins += [min((fold.margin(jump) for fold in outer if fold.z > jump.start), default=1.0) for jump in path.loading]
+    margins += [
+        min((fold.margin(jump) for fold in inner if fold.z < jump.start), default=1.0) for jump in path.unloading
+    ]
+    points = extrema(curve, curve.fold, curve.rim)
+    if curve.rim is not None:
+        points.append(curve.rim)
+    for z in points:
+        tilt = curve.tilt(z, curve.fold)[0]
+        p = (3 + curve.k) / 2
+        size = 2 / (1 + curve.k) + (curve.fold * z**-p if curve.fold > 0 else 0)
+        margins.append(float(abs(tilt) / (abs(tilt) + size)))
+    return min(margins)

@@ -1,0 +1,154 @@
+"""What a dataset promises of a scene: the value of every output from the twin, and how far from it a solver may be."""
+
+import math
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from typing import Final
+
+from flint import arb
+
+from gradhesion.twin.envelope import solve_envelope
+from gradhesion.twin.scene import PullOff, Solution, solve, solve_pull_off, waves_to_follow
+
+FORCE: Final = 5e-14
+"""Of the force."""
+RADIUS: Final = 1e-9
+"""Of the radius, which is where a function is stationary."""
+RADIUS_OF_CONDITION: Final = 1e-13
+"""Of the radius for each unit of its condition, where that is more."""
+WALKED: Final = 1e-12
+"""Of the sizes of all jumps, where every wave is walked."""
+SUMMED: Final = 1e-9
+"""Of the sizes of all jumps, where the waves in the middle are summed."""
+MOST_WALKED: Final = 64.0
+"""Waves with folds from which on a solver may sum them; those of gradhesion.core walk some 80."""
+DEPTH: Final = 1e-13
+"""Of the sizes of the terms of a depth."""
+NEAR: Final = 1e-12
+"""Least margin of a number of jumps, and of the place of pull-off: nearer, those of a neighbouring double count."""
+MOST_WAVES: Final = 1000.0
+"""Waves, of two folds each, that the twin follows: 15 s, 300 MB."""
+CYCLE: Final = frozenset(("dissipated_energy", "loading_jumps", "unloading_jumps", "delta_max", "delta_jump_out"))
+"""Outputs for which the cycle must be followed."""
+KNOWN: Final = CYCLE | {"pull_off_force", "pull_off_radius"}
+"""Outputs that the twin solves."""
+SOLVERS: Final = ("exact", "envelope")
+"""Solvers of which the twin has an equal."""
+
+
+@dataclass(frozen=True)
+class Expected:
+    """The value of an output, and the error that is stated for it; `near` where it is not promised, and why."""
+
+    value: arb
+    error: float
+    near: str = ""
+
+
+def within_reach(parameters: Mapping[str, float], outputs: Collection[str], solver: str) -> bool:
+    """Tell whether a scene has no more waves than the twin follows."""
+    if solver == "envelope":
+        return True
+    return waves_to_follow(parameters, cycle=not CYCLE.isdisjoint(outputs)) <= MOST_WAVES
+
+
+def expected(parameters: Mapping[str, float], outputs: Collection[str], solver: str) -> dict[str, Expected]:
+    """
+    Solve a scene for the outputs that the twin knows.
+
+    Parameters
+    ----------
+    parameters
+        The seven parameters of a study.
+    outputs
+        Names of outputs; those that are not in `KNOWN` are passed over.
+    solver
+        One of `SOLVERS`.
+
+    Returns
+    -------
+    The values, in the units of a dataset, to 30 digits, with the errors that are stated for the solver, absolute.
+
+    Raises
+    ------
+    ArithmeticError
+        The scene lies where even 51 digits do not tell one fold from two, or too far out.
+
+    Examples
+    --------
+    >>> scene = dict(k=0.0, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.1, A=0.0, a_max_over_R=1.0)
+    >>> force = expected(scene, ["pull_off_force"], "exact")["pull_off_force"]
+    >>> float(force.value), force.error
+    (1.0, 5e-14)
+    """
+    if solver == "envelope":
+        found = _of_envelope(parameters)
+    elif CYCLE.isdisjoint(outputs):
+        found = _of_pull_off(solve_pull_off(parameters))
+    else:
+        solution = solve(parameters)
+        found = _of_pull_off(solution) | _of_cycle(solution)
+    if not all(_is_sure(one) for one in found.values()):
+        raise ArithmeticError(f"too few digits are left: {dict(parameters)}")
+    return {name: found[name] for name in outputs if name in found}
+
+
+def _is_sure(one: Expected) -> bool:
+    """Tell whether the ball of a value is much smaller than the error that it has to show."""
+    return bool(one.value == arb("inf") or (one.value.is_finite() and one.value.rad() <= 1e-3 * one.error))
+
+
+def _of_pull_off(solution: PullOff | Solution) -> dict[str, Expected]:
+    radius = max(RADIUS, RADIUS_OF_CONDITION * solution.radius_condition)
+    return {
+        "pull_off_force": Expected(solution.pull_off_force, _share(FORCE, solution.pull_off_force)),
+        "pull_off_radius": Expected(
+            solution.pull_off_radius,
+            _share(radius, solution.pull_off_radius),
+            "two troughs tie" if solution.margin_radius < NEAR else "",
+        ),
+    }
+
+
+def _of_cycle(solution: Solution) -> dict[str, Expected]:
+    share = WALKED if solution.folded_waves < MOST_WALKED else SUMMED
+    near = "a fold is about to be passed" if solution.margin_jumps < NEAR else ""
+    return {
+        "dissipated_energy": Expected(
+            solution.dissipated_energy, _share(share * solution.energy_condition, solution.dissipated_energy)
+        ),
+        "loading_jumps": Expected(arb(solution.loading_jumps), 0.0, near),
+        "unloading_jumps": Expected(arb(solution.unloading_jumps), 0.0, near),
+        "delta_max": _depth(solution.delta_max, solution.delta_max_size),
+        "delta_jump_out": _depth(solution.delta_jump_out, solution.delta_jump_out_size),
+    }
+
+
+def _of_envelope(parameters: Mapping[str, float]) -> dict[str, Expected]:
+    solution = solve_envelope(parameters)
+    energy = arb("inf") if solution.dissipated_energy is None else solution.dissipated_energy
+    near = "r = s, where jumps into contact end" if solution.margin_jumps < NEAR else ""
+    return {
+        "pull_off_force": Expected(solution.pull_off_force, _share(FORCE, solution.pull_off_force)),
+        "pull_off_radius": Expected(solution.pull_off_radius, _share(RADIUS, solution.pull_off_radius)),
+        "dissipated_energy": Expected(energy, WALKED * solution.energy_size if energy.is_finite() else 0.0),
+        "loading_jumps": Expected(arb(solution.loading_jumps), 0.0, near),
+        "unloading_jumps": Expected(arb(solution.unloading_jumps), 0.0),
+        "delta_max": _depth(solution.delta_max, solution.delta_max_size),
+        "delta_jump_out": _depth(solution.delta_jump_out, solution.delta_jump_out_size),
+    }
+
+
+def _depth(value: arb | None, size: float) -> Expected:
+    return Expected(arb("inf"), 0.0) if value is None else Expected(value, DEPTH * size)
+
+
+def _share(share: float, value: arb) -> float:
+    return share * abs(float(value)) if math.isfinite(share) else math.inf
+
+
+def deviation(value: float, of: Expected) -> float:
+    """Return how far a double is from what is expected of it, rounded once; inf if it is not finite and should be."""
+    if of.value == arb("inf"):
+        return 0.0 if value == math.inf else math.inf
+    return float(abs(arb(value) - of.value)) if math.isfinite(value) else math.inf
