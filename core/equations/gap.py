@@ -1,0 +1,148 @@
+"""The gap between the surfaces outside the contact (2.2), reference quality: one quadrature a point.
+
+    gap(r) = u_z(r) - delta + f(r) = (2/pi) cos(k pi/2) int_a^r s^k (delta_H(s) - delta) (r^2-s^2)^(-(1+k)/2) ds
+
+which is (3.5) with the adhesive part (4.10), in one integral. Contact over one disc asks for gap(r) >= 0 for all
+r > a; delta_H(s) >= delta for all s > a is sufficient. The integral is a sum of Gauss rules: Jacobi's in the last
+panel, which takes the singular end r by its weight, and Legendre's in panels that grow from there by a factor of 2 to
+at most half a wave, and likewise from a, where s^k is not smooth at s = 0. Millions of points ask for a faster way.
+Source: Jin, Guo & Wan (2013), section 12 of docs/theory.md.
+"""
+
+import math
+from typing import Final
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import roots_jacobi, roots_legendre
+
+from gradhesion.core.equations import hertz, profile
+from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
+
+_NODES: Final = 24
+_LEGENDRE: Final = roots_legendre(_NODES)
+
+
+def gap(
+    k: ArrayLike,
+    distance: ArrayLike,
+    radius: ArrayLike,
+    depth: ArrayLike,
+    wavelength: ArrayLike,
+    amplitude: ArrayLike,
+    exponent: ArrayLike = 2.0,
+) -> Array:
+    """Return gap/R at a distance r from the axis, around contact over a disc of radius a at a depth delta (2.2).
+
+    Parameters
+    ----------
+    k
+        Gradient exponent, 0 to 1.
+    distance
+        r/R >= a/R.
+    radius
+        a/R > 0.
+    depth
+        delta/R, as `jkr.indentation` for equilibrium; any other depth is a disc held out of equilibrium.
+    wavelength
+        lambda/R > 0.
+    amplitude
+        A, amplitude over wavelength, >= 0.
+    exponent
+        m >= 1; 2 is a paraboloid.
+
+    Returns
+    -------
+    Array of the broadcast shape; negative where the surfaces would overlap, NaN outside the ranges. Accurate to
+    1e-12 of the largest delta_H between a and r (tests/core/equations/test_gap.py).
+
+    Examples
+    --------
+    A profile that rises everywhere, and yet no contact over one disc:
+
+    >>> from gradhesion.core.equations import jkr
+    >>> depth = jkr.indentation(0.0, 1e7, 0.0511, 0.1, 4.59 * 0.1 / (4 * np.pi**2))
+    >>> float(gap(0.0, 0.0811, 0.0511, depth, 0.1, 4.59 * 0.1 / (4 * np.pi**2)).round(6))
+    -0.00026
+    """
+    numbers = (
+        exponent_of(k),
+        positive(distance),
+        positive(radius),
+        np.asarray(depth, dtype=float),
+        positive(wavelength),
+        not_negative(amplitude),
+        power_of(exponent),
+    )
+    arrays = np.broadcast_arrays(*numbers)
+    out = np.full(arrays[0].shape, np.nan)
+    for place in np.ndindex(out.shape):
+        point = [float(array[place]) for array in arrays]
+        if not any(math.isnan(number) for number in point) and point[1] >= point[2]:
+            out[place] = _gap(*point)
+    return out
+
+
+def surface(
+    k: ArrayLike,
+    distance: ArrayLike,
+    radius: ArrayLike,
+    depth: ArrayLike,
+    wavelength: ArrayLike,
+    amplitude: ArrayLike,
+    exponent: ArrayLike = 2.0,
+) -> Array:
+    """Return u_z/R, how far the surface of the half-space is pressed in at a distance r >= a (3.5), (4.10).
+
+    Parameters
+    ----------
+    k, distance, radius, depth, wavelength, amplitude, exponent
+        As in `gap`.
+
+    Returns
+    -------
+    Array of the broadcast shape; NaN outside the ranges.
+
+    Examples
+    --------
+    Around a flat disc on a homogeneous half-space the depth falls as (2/pi) asin(a/r). Here a paraboloid is pulled out
+    by 1 from its Hertzian depth, and the difference is that of a flat disc:
+
+    >>> shapes = surface(0.0, 0.2, 0.1, [0.01, -0.99], 0.1, 0.0)
+    >>> float((shapes[0] - shapes[1]).round(12))
+    0.333333333333
+    """
+    opening = gap(k, distance, radius, depth, wavelength, amplitude, exponent)
+    return opening + np.asarray(depth, dtype=float) - profile.height(distance, wavelength, amplitude, exponent)
+
+
+def _gap(k: float, r: float, a: float, depth: float, wavelength: float, amplitude: float, m: float) -> float:
+    """Return the gap at one point."""
+
+    def opening(s: Array) -> Array:
+        return hertz.indentation(k, s, wavelength, amplitude, m) - depth
+
+    if k == 1.0:  # the surface gives way where it is pressed alone: the integral's weight is all at r
+        return float(opening(np.asarray(r)))
+    if r == a:
+        return 0.0
+    edges = _panels(a, r, 0.5 * wavelength)
+    centre, half = 0.5 * (edges[1:] + edges[:-1]), 0.5 * (edges[1:] - edges[:-1])
+    nodes, weights = _LEGENDRE
+    s = (centre[:-1, None] + half[:-1, None] * nodes).ravel()
+    total = np.sum((half[:-1, None] * weights).ravel() * s**k * opening(s) * (r * r - s * s) ** (-0.5 * (1.0 + k)))
+    # (r^2-s^2)^(-(1+k)/2) = (r+s)^... half^... (1-t)^..., with s = centre + half t
+    nodes, weights = roots_jacobi(_NODES, -0.5 * (1.0 + k), 0.0)
+    s = centre[-1] + half[-1] * nodes
+    total += half[-1] ** (0.5 * (1.0 - k)) * np.sum(weights * s**k * opening(s) * (r + s) ** (-0.5 * (1.0 + k)))
+    return float(2.0 / math.pi * math.cos(0.5 * math.pi * k) * total)
+
+
+def _panels(a: float, r: float, widest: float) -> Array:
+    """Return the edges of panels from a to r: no wider than `widest`, than their distance from 0, or from r."""
+    last = r - min(0.5 * (r - a), widest)
+    edges = [a]
+    while edges[-1] < last:
+        low = edges[-1]
+        edges.append(min(last, low + min(widest, low, 0.5 * (r - low))))
+    return np.array([*edges, r])

@@ -1,0 +1,233 @@
+"""Contact with adhesion: energy release rate, depth and load in equilibrium, (4.5)-(4.8).
+
+    G(a, delta) = dgamma [(delta_H(a) - delta)/Delta(a)]^2,   Delta(a) = sqrt(2^(1+k) pi dgamma a^(1-k)/M)
+    equilibrium G = dgamma:   delta = delta_H - Delta,   P = P_H - K a^(1+k) Delta
+
+Depth under displacement control folds where q = a delta_H'/Delta meets (1-k)/2, and load where it meets (3+k)/2.
+Lengths are in R, loads in 1.5 pi R dgamma, M in dgamma/R^(1+k) (core/material.py). Source: Jin, Guo & Wan (2013).
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gradhesion.core.equations import hertz
+from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
+from gradhesion.core.equations.pair import sine_integrals
+
+
+def adhesive_depth(k: ArrayLike, stiffness: ArrayLike, radius: ArrayLike) -> Array:
+    """Return Delta/R, by which adhesion pulls the surface out at equilibrium.
+
+    Parameters
+    ----------
+    k
+        Gradient exponent, 0 to 1.
+    stiffness
+        M R^(1+k)/dgamma > 0; inf is contact without adhesion.
+    radius
+        a/R >= 0.
+
+    Returns
+    -------
+    Array of the broadcast shape; NaN outside the ranges.
+
+    Examples
+    --------
+    On a homogeneous half-space sqrt(2 pi dgamma a/E*):
+
+    >>> float(adhesive_depth(0.0, 200.0 * np.pi, 0.25))
+    0.05
+    """
+    exponent = exponent_of(k)
+    square = 2.0 ** (1.0 + exponent) * math.pi / positive(stiffness) * not_negative(radius) ** (1.0 - exponent)
+    return np.sqrt(square)
+
+
+def energy_release_rate(
+    k: ArrayLike,
+    stiffness: ArrayLike,
+    radius: ArrayLike,
+    depth: ArrayLike,
+    wavelength: ArrayLike,
+    amplitude: ArrayLike,
+    exponent: ArrayLike = 2.0,
+) -> Array:
+    """Return G/dgamma at the edge of a disc of radius a when the punch is at any depth (4.5); 1 is equilibrium.
+
+    Parameters
+    ----------
+    k
+        Gradient exponent, 0 to 1.
+    stiffness
+        M R^(1+k)/dgamma > 0.
+    radius
+        a/R > 0.
+    depth
+        delta/R, any; below delta_H the edge is pulled open, above it it is pressed shut.
+    wavelength
+        lambda/R > 0.
+    amplitude
+        A, amplitude over wavelength, >= 0.
+    exponent
+        m >= 1; 2 is a paraboloid.
+
+    Returns
+    -------
+    Array of the broadcast shape; NaN outside the ranges.
+
+    Examples
+    --------
+    >>> depth = indentation(0.3, 500.0, 0.2, 0.1, 0.02)
+    >>> float(energy_release_rate(0.3, 500.0, 0.2, depth, 0.1, 0.02).round(12))
+    1.0
+    """
+    opening = hertz.indentation(k, radius, wavelength, amplitude, exponent) - np.asarray(depth, dtype=float)
+    return (opening / adhesive_depth(k, stiffness, positive(radius))) ** 2
+
+
+def indentation(
+    k: ArrayLike,
+    stiffness: ArrayLike,
+    radius: ArrayLike,
+    wavelength: ArrayLike,
+    amplitude: ArrayLike,
+    exponent: ArrayLike = 2.0,
+) -> Array:
+    """Return the depth delta/R in equilibrium (4.7).
+
+    Parameters
+    ----------
+    k
+        Gradient exponent, 0 to 1.
+    stiffness
+        M R^(1+k)/dgamma > 0; inf is contact without adhesion.
+    radius
+        a/R >= 0.
+    wavelength
+        lambda/R > 0.
+    amplitude
+        A, amplitude over wavelength, >= 0.
+    exponent
+        m >= 1; 2 is a paraboloid.
+
+    Returns
+    -------
+    Array of the broadcast shape; NaN outside the ranges.
+
+    Examples
+    --------
+    >>> indentation(0.0, 200.0 * np.pi, 0.25, 0.1, [0.0, 0.02]).round(6).tolist()
+    [0.0125, 0.021571]
+    """
+    hertzian = hertz.indentation(k, radius, wavelength, amplitude, exponent)
+    return hertzian - adhesive_depth(k, stiffness, radius)
+
+
+def load(
+    k: ArrayLike,
+    stiffness: ArrayLike,
+    radius: ArrayLike,
+    wavelength: ArrayLike,
+    amplitude: ArrayLike,
+    exponent: ArrayLike = 2.0,
+) -> Array:
+    """Return the load P/(1.5 pi R dgamma) in equilibrium (4.8); negative where it pulls.
+
+    Parameters
+    ----------
+    k, radius, wavelength, amplitude, exponent
+        As in `indentation`.
+    stiffness
+        M R^(1+k)/dgamma > 0, finite.
+
+    Returns
+    -------
+    Array of the broadcast shape; NaN outside the ranges.
+
+    Examples
+    --------
+    The pull-off of Johnson, Kendall & Roberts, met at a^3 = 9 pi R^2 dgamma/(8 E*):
+
+    >>> float(load(0.0, 500.0, (9 * np.pi / 4000) ** (1 / 3), 0.1, 0.0).round(12))
+    -1.0
+    """
+    pull = hertz.disc_stiffness(k, stiffness, radius) * adhesive_depth(k, stiffness, radius)
+    return hertz.load(k, stiffness, radius, wavelength, amplitude, exponent) - pull
+
+
+def load_at_depth(
+    k: ArrayLike,
+    stiffness: ArrayLike,
+    radius: ArrayLike,
+    depth: ArrayLike,
+    wavelength: ArrayLike,
+    amplitude: ArrayLike,
+    exponent: ArrayLike = 2.0,
+) -> Array:
+    """Return the load P/(1.5 pi R dgamma) on a disc of fixed radius at any depth, K [a^(1+k) delta - I].
+
+    This is contact pinned at the rim of a finite punch, and the state between two equilibria during a jump.
+
+    Parameters
+    ----------
+    k, radius, wavelength, amplitude, exponent
+        As in `indentation`.
+    stiffness
+        M R^(1+k)/dgamma > 0, finite.
+    depth
+        delta/R, any.
+
+    Returns
+    -------
+    Array of the broadcast shape; NaN outside the ranges.
+
+    Examples
+    --------
+    >>> depth = indentation(0.3, 500.0, 0.2, 0.1, 0.02)
+    >>> pinned, free = load_at_depth(0.3, 500.0, 0.2, depth, 0.1, 0.02), load(0.3, 500.0, 0.2, 0.1, 0.02)
+    >>> bool(abs(pinned - free) < 1e-12)
+    True
+    """
+    raised = np.asarray(depth, dtype=float) - hertz.indentation(k, radius, wavelength, amplitude, exponent)
+    rest = hertz.load(k, stiffness, radius, wavelength, amplitude, exponent)
+    return rest + hertz.disc_stiffness(k, stiffness, radius) * raised
+
+
+def fold_number(
+    k: ArrayLike,
+    stiffness: ArrayLike,
+    radius: ArrayLike,
+    wavelength: ArrayLike,
+    amplitude: ArrayLike,
+    exponent: ArrayLike = 2.0,
+) -> Array:
+    """Return q = a delta_H'(a)/Delta(a), which decides stability.
+
+    Depth rises with the radius, and contact is stable under displacement control, where q > (1-k)/2; load rises, and
+    contact is stable under load control, where q > (3+k)/2.
+
+    Parameters
+    ----------
+    k, stiffness, wavelength, amplitude, exponent
+        As in `indentation`.
+    radius
+        a/R > 0.
+
+    Returns
+    -------
+    Array of the broadcast shape; NaN outside the ranges.
+
+    Examples
+    --------
+    At the pull-off of Johnson, Kendall & Roberts:
+
+    >>> float(fold_number(0.0, 500.0, (9 * np.pi / 4000) ** (1 / 3), 0.1, 0.0).round(12))
+    1.5
+    """
+    a, m = positive(radius), power_of(exponent)
+    s0, _, slope, _ = sine_integrals(k, a / positive(wavelength))
+    z = 2.0 * math.pi * a / positive(wavelength)
+    wave = 2.0 * math.pi * not_negative(amplitude) * a * (s0 + z * slope)
+    return (m * hertz.power_indentation(k, a, m) + wave) / adhesive_depth(k, stiffness, a)

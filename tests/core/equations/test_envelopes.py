@@ -1,0 +1,91 @@
+"""The envelopes against the curve that they hold: short_waves.py, of which they are the bounds."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize_scalar
+
+from gradhesion.core import solve
+from gradhesion.core.equations import envelopes, jkr, short_waves
+from gradhesion.core.material import stiffness
+
+EPS = float(np.finfo(float).eps)
+M, WAVELENGTH, AMPLITUDE = 150.0, 0.003, 0.02
+
+
+def _pulls(k: float) -> tuple[float, float]:
+    s, r = envelopes.adhesion_strength(k, M), envelopes.waviness_strength(k, WAVELENGTH, AMPLITUDE)
+    return float(s - r), float(s + r)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.41, 1.0])
+def test_they_bound_the_leading_term_and_touch_it(k: float) -> None:
+    a = 0.5 + WAVELENGTH * np.linspace(0.0, 1.0, 2001)
+    mean = WAVELENGTH * AMPLITUDE
+    depth = short_waves.indentation(k, M, a, WAVELENGTH, [-AMPLITUDE])
+    load = short_waves.load(k, M, a, WAVELENGTH, [-AMPLITUDE])
+    swing = np.ptp(depth)
+    for sign, pull in zip((1.0, -1.0), _pulls(k), strict=True):
+        space = sign * (envelopes.indentation(k, a, pull, mean) - depth)
+        assert space.min() >= -40 * EPS
+        assert space.min() <= 1e-5 * swing  # (step of phase)^2/8
+        space = sign * (envelopes.load(k, M, a, pull) - load)
+        assert space.min() >= -400 * EPS * M
+        assert space.min() <= 1e-5 * np.ptp(load)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.41, 1.0])
+def test_strength_of_adhesion_is_the_adhesive_depth_at_unit_radius(k: float) -> None:
+    assert envelopes.adhesion_strength(k, M) == pytest.approx(jkr.adhesive_depth(k, M, 1.0), rel=4 * EPS)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.41, 1.0])
+def test_pull_off_of_the_unloading_envelope(k: float) -> None:
+    loading, unloading = _pulls(k)
+    s = 0.5 * (loading + unloading)
+    low = minimize_scalar(
+        lambda a: float(envelopes.load(k, M, a, unloading)), bounds=(0.02, 2.0), options={"xatol": 1e-10}
+    )
+    assert -low.fun == pytest.approx(envelopes.pull_off_force(k, unloading / s - 1), rel=1e-12)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.41, 0.9])
+def test_exact_force_tends_to_that_of_the_envelope(k: float) -> None:
+    material = float(stiffness(k, 0.3, 300.0, 0.2))
+    ratio, errors = 0.4, []
+    for wavelength in (1e-2, 1e-3, 1e-4):
+        unit = float(envelopes.waviness_strength(k, wavelength, 1.0))
+        amplitude = ratio * float(envelopes.adhesion_strength(k, material)) / unit
+        scene = {"k": k, "nu": 0.3, "modulus": 300.0, "c0_over_R": 0.2, "lambda_over_R": wavelength, "A": amplitude}
+        force = float(solve(scene | {"a_max_over_R": math.inf})["pull_off_force"])
+        errors.append(abs(float(envelopes.pull_off_force(k, ratio)) / force - 1))
+    # second order in the wavelength, and where the wave next to the lowest point stands is chance
+    assert (np.array(errors) < 10.0 * np.array([1e-4, 1e-6, 1e-8])).all()
+
+
+def test_one_wave_as_a_series() -> None:
+    k = np.array([0.0, 0.3, 0.7, 1.0])
+    for wave in ([-AMPLITUDE], [AMPLITUDE]):
+        for strength in envelopes.series_strengths(k, WAVELENGTH, wave):
+            np.testing.assert_allclose(strength, envelopes.waviness_strength(k, WAVELENGTH, AMPLITUDE), rtol=1e-9)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.6, 1.0])
+def test_series_are_bounded_and_touched(k: float) -> None:
+    cosines, sines = [-0.02, 0.004], [0.006, 0.0, -0.001]
+    loading, unloading = envelopes.series_strengths(k, WAVELENGTH, cosines, sines)
+    xi = np.linspace(0.0, 1.0, 100_001)
+    size = 2 ** (0.5 * (k - 1)) * math.gamma(0.5 * (1 + k)) * WAVELENGTH ** (0.5 * (1 + k))
+    values = size * short_waves.zeta(k, xi, cosines, sines)
+    assert loading == pytest.approx(values.max(), rel=1e-8)
+    assert unloading == pytest.approx(-values.min(), rel=1e-8)
+    assert abs(loading - unloading) > 1e-3 * loading
+
+
+def test_outside_the_ranges() -> None:
+    assert np.isnan(envelopes.adhesion_strength([-0.1, 0.3, 0.3], [1.0, 0.0, math.nan])).all()
+    assert np.isnan(envelopes.waviness_strength([1.1, 0.3, 0.3], [0.1, 0.0, 0.1], [0.1, 0.1, -0.1])).all()
+    assert np.isnan(envelopes.pull_off_force(0.3, -0.1))
+    assert np.isnan(envelopes.indentation(0.3, -0.1, 0.1))
+    assert np.isnan(envelopes.load(0.3, 0.0, 0.1, 0.1))
