@@ -69,13 +69,13 @@ def draw_effective(subject: Subject) -> dict[str, NDArray[Any]]:
     if start < turn:
         turns = smooth_places(k, (1.0 - chi,), turn)
         loading = way(up, np.concatenate([[start], turns[turns > start], [turn]]))
-        if start == 0.0:
-            loading[1, 0] = height
+        if start > 0.0:
+            loading[1, 0] = height  # to rounding it is that already
     else:  # the rim is reached by the jump-in
         loading = np.array([[turn], [height], [pinned_load(down.kind, k, turn, last_depth, last_load, height)]])
     turns = smooth_places(k, (1.0 + chi,), turn)[::-1]
     unloading = way(down, np.concatenate([[turn], turns[turns > stop], [stop] if stop < turn else []]))
-    before = np.array([[0.0, 0.0], [0.0, height], [0.0, 0.0]])[:, : 2 if height > 0.0 else 1]
+    before = np.array([[0.0, 0.0], [0.0, height], [0.0, 0.0]])[:, : 2 if start > 0.0 and height > 0.0 else 1]
     out = np.array([[0.0], [unloading[1, -1]], [0.0]])[:, : 1 if stop > 0.0 else 0]
     scales = scales_of(np.concatenate([before, loading, unloading, out], axis=1))
 

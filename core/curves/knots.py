@@ -9,6 +9,7 @@ from gradhesion.core._jit import kernel
 from gradhesion.core.asymptotic import Wave, folds_of_half, half_at, window_end
 from gradhesion.core.branches import END, START
 from gradhesion.core.curve import Curve, slope
+from gradhesion.core.cycle import MOST_ARCHES
 from gradhesion.core.folds import first_arch, fold_of_arch, last_arch, survey_arch
 from gradhesion.core.struve.circle import TWO_PI
 
@@ -29,10 +30,23 @@ def polished(table: Any, curve: Curve, level: float, x: float) -> float:
 
 
 @kernel()
+def landed(table: Any, curve: Curve, target: float, x: float) -> float:
+    """Return where a branch meets a depth to rounding from a place of some nine digits (two steps of Newton's)."""
+    for _ in range(2):
+        d, _, _, depth = slope(table, curve, 0.5 * (1.0 - table.k), x)
+        step = (depth - target) / d / TWO_PI
+        if not abs(step) < 1e-6 * min(1.0, x):  # at a fold, where the depth is met to rounding anyway
+            break
+        x -= step
+    return x
+
+
+@kernel()
 def folds_too_often(table: Any, curve: Curve, furthest: float) -> bool:
-    """Return whether depth or load may have more than `MOST_FOLDS` extrema up to a place."""
+    """Return whether depth or load may have more than `MOST_FOLDS` extrema up to a place, or any without a phase."""
     for level in (0.5 * (1.0 - table.k), 0.5 * (3.0 + table.k)):
-        if min(last_arch(table, curve, level), 2.0 * furthest) - first_arch(table, curve, level) > MOST_FOLDS:
+        first, last = first_arch(table, curve, level), min(last_arch(table, curve, level), 2.0 * furthest)
+        if last - first > MOST_FOLDS or last > max(first, MOST_ARCHES):
             return True
     return False
 

@@ -14,7 +14,8 @@ from gradhesion.core._jit import kernel
 from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, START, START_DEPTH, ends, find_depth
 from gradhesion.core.curve import Curve
 from gradhesion.core.curves.equilibrium import scales_of
-from gradhesion.core.curves.forms import Numbers, pinned_load, point
+from gradhesion.core.curves.forms import EXACT, Numbers, pinned_load, point
+from gradhesion.core.curves.knots import landed
 from gradhesion.core.curves.sampling import sample
 from gradhesion.core.curves.subject import Subject
 from gradhesion.core.unloading import next_lower
@@ -66,6 +67,17 @@ def _along(
 
 
 @kernel()
+def _land(
+    kind: int, table: Any, numbers: Numbers, corners: Any, count: int, guess: float, branch: float, unloading: bool
+) -> int:
+    """Append the place of a branch to which the path jumps at the depth of the last corner."""
+    level = corners[DEPTH, count - 1]
+    place = landed(table, (numbers[0], numbers[1], 0.0), level, guess) if kind == EXACT else guess
+    _, load = point(kind, table, numbers, place)
+    return _put(corners, count, place, level, load, (False, branch, True, unloading))
+
+
+@kernel()
 def find_corners(kind: int, table: Any, numbers: Numbers, trace: Any, load_folds: Any, rim: float, pinned: bool) -> Any:
     """Return the corners of the path up to a rim and back, one a column.
 
@@ -86,8 +98,7 @@ def find_corners(kind: int, table: Any, numbers: Numbers, trace: Any, load_folds
         arrival = trace[ARRIVAL, branch]
         if not arrival <= rim:
             continue
-        _, load = point(kind, table, numbers, arrival)
-        count = _put(corners, count, arrival, level, load, (False, branch + 1.0, True, False))
+        count = _land(kind, table, numbers, corners, count, arrival, branch + 1.0, False)
         if trace[END, branch] < rim:
             left, level = trace[END, branch], trace[END_DEPTH, branch]
         else:
@@ -106,16 +117,14 @@ def find_corners(kind: int, table: Any, numbers: Numbers, trace: Any, load_folds
         now = next_lower(trace, now, rim_depth)
         if now >= 0:
             place = find_depth(table, curve, level, ends(trace, now))
-            _, load = point(kind, table, numbers, place)
-            count = _put(corners, count, place, level, load, (False, now + 1.0, True, True))
+            count = _land(kind, table, numbers, corners, count, place, now + 1.0, True)
     while now >= 0:
         place, level = trace[START, now], trace[START_DEPTH, now]
         count = _along(kind, table, numbers, load_folds, corners, count, (place, level), now + 1.0, True)
         now = next_lower(trace, now - 1, level)
         if now >= 0:
             place = find_depth(table, curve, level, ends(trace, now))
-            _, load = point(kind, table, numbers, place)
-            count = _put(corners, count, place, level, load, (False, now + 1.0, True, True))
+            count = _land(kind, table, numbers, corners, count, place, now + 1.0, True)
     if place > 0.0:  # else the contact has shrunk to a point (k = 1)
         count = _put(corners, count, 0.0, level, 0.0, (False, 0.0, True, True))
     return corners[:, :count]
@@ -146,7 +155,6 @@ def draw_path(subject: Subject) -> dict[str, NDArray[Any]]:
     corners = find_corners(form.kind, form.table, form.numbers, trace, subject.load_folds, rim, subject.bounded)
     knots = np.ascontiguousarray(corners[:3])
     points, owners = sample(form.kind, form.table, form.numbers, knots, corners[JOINED] > 0.0, scales_of(knots))
-    is_corner = np.concatenate([owners[1:] != owners[:-1], [True]])
     radius, depth, load = form.scaled(points)
     radius[points[0] == rim] = subject.end
     return {
@@ -154,6 +162,6 @@ def draw_path(subject: Subject) -> dict[str, NDArray[Any]]:
         "path_indentation": depth,
         "path_load": load,
         "path_branch": corners[BRANCH, owners].astype(np.int32),
-        "path_jump": (corners[JUMP, owners] * is_corner).astype(np.int8),
+        "path_jump": corners[JUMP, owners].astype(np.int8),
         "path_unloading": corners[UNLOADING, owners].astype(np.int8),
     }

@@ -110,7 +110,7 @@ def _wavy_trace(form: Form, arches: tuple[float, float], furthest: float) -> tup
     curve = (form.numbers[0], form.numbers[1], 0.0)
     count, trace = walk(form.table, curve, arches, furthest, np.empty((ROWS, 64)), False)
     knots.polish_branches(form.table, curve, count, trace)
-    return trace[:, :count], knots.folds_of_load(form.table, curve, furthest)
+    return np.ascontiguousarray(trace[:, :count]), knots.folds_of_load(form.table, curve, furthest)
 
 
 def subject_of(scene: Mapping[str, float]) -> Subject | None:
@@ -157,7 +157,7 @@ def subject_of(scene: Mapping[str, float]) -> Subject | None:
     if not rim < math.inf:
         envelope_pull = (0.5 * (3.0 + k) * (1.0 + chi)) ** (2.0 / (3.0 + k))
         last = envelope_pull * smooth_form.radius_scale
-        if trace is not None:
+        if trace is not None and trace.size > 0 and load_folds.size > 0:
             last = form.radius_scale * max(trace[START, -1], trace[ARRIVAL, -1], load_folds[-1])
         end = max(least, BEYOND * last)
     return Subject(table, stretch, wavelength, chi, amplitude * wavelength, rim, end, form, trace, load_folds)

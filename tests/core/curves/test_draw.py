@@ -10,32 +10,6 @@ from gradhesion.core import draw_curves, solve
 from gradhesion.core.curves import CURVES, INTEGERS
 from gradhesion.core.status import LOADING_NOT_ONE_DISC, NO_VALUE
 
-SCENES: dict[str, dict[str, float]] = {
-    "wavy": {},
-    "homogeneous": {"k": 0.0},
-    "half": {"k": 0.5},
-    "linear": {"k": 1.0, "nu": 0.5},
-    "nearly linear": {"k": 1.0 - 1e-9, "nu": 0.5},
-    "smooth": {"A": 0.0},
-    "unbounded": {"a_max_over_R": math.inf},
-    "unbounded smooth": {"a_max_over_R": math.inf, "A": 0.0},
-    "short waves": {"lambda_over_R": 7e-4},
-    "one long wave": {"lambda_over_R": 3e4},
-    "endlessly long wave": {"lambda_over_R": 1e60},
-    "r > s": {"A": 0.21},
-    "r > s, unbounded": {"A": 0.21, "a_max_over_R": math.inf},
-    "r > s, linear": {"k": 1.0, "nu": 0.5, "A": 0.4},
-    "small rim": {"a_max_over_R": 0.01},
-    "smooth with a small rim": {"a_max_over_R": 0.03, "A": 0.0},
-    "hardly wavy": {"A": 1e-14},
-    "large rim": {"a_max_over_R": 300.0},
-}
-
-
-@pytest.fixture(params=SCENES, ids=str)
-def any_scene(request: pytest.FixtureRequest, scene: dict[str, float]) -> dict[str, float]:
-    return scene | SCENES[request.param]
-
 
 def test_every_curve_has_its_variables_of_one_length_and_type(any_scene: dict[str, float]) -> None:
     variables, status = draw_curves(any_scene, list(CURVES))

@@ -1,0 +1,121 @@
+"""What the tests of curves share: scenes of every kind, the curve in slow arithmetic, and the error of chords."""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import mpmath
+import numpy as np
+import pytest
+
+from gradhesion.core.curves.forms import fill_points
+from gradhesion.core.curves.subject import Form, Subject, subject_of
+from gradhesion.core.material import stiffness
+
+SCENES: dict[str, dict[str, float]] = {
+    "wavy": {},
+    "homogeneous": {"k": 0.0},
+    "half": {"k": 0.5},
+    "linear": {"k": 1.0, "nu": 0.5},
+    "nearly linear": {"k": 1.0 - 1e-9, "nu": 0.5},
+    "smooth": {"A": 0.0},
+    "unbounded": {"a_max_over_R": math.inf},
+    "unbounded smooth": {"a_max_over_R": math.inf, "A": 0.0},
+    "short waves": {"lambda_over_R": 7e-4},
+    "one long wave": {"lambda_over_R": 3e4},
+    "endlessly long wave": {"lambda_over_R": 1e60},
+    "r > s": {"A": 0.21},
+    "r > s, unbounded": {"A": 0.21, "a_max_over_R": math.inf},
+    "r > s, linear": {"k": 1.0, "nu": 0.5, "A": 0.4},
+    "small rim": {"a_max_over_R": 0.01},
+    "smooth with a small rim": {"a_max_over_R": 0.03, "A": 0.0},
+    "hardly wavy": {"A": 1e-14},
+    "large rim": {"a_max_over_R": 300.0},
+}
+
+
+@pytest.fixture(params=SCENES, ids=str)
+def any_scene(request: pytest.FixtureRequest, scene: dict[str, float]) -> dict[str, float]:
+    return scene | SCENES[request.param]
+
+
+@pytest.fixture
+def any_subject(any_scene: dict[str, float]) -> Subject:
+    subject = subject_of(any_scene)
+    assert subject is not None
+    return subject
+
+
+class SlowCurve:
+    """Depth (in R), load (in 1.5 pi R dgamma) and their slopes over the contact radius, in 30 digits; (4.7), (4.8)."""
+
+    def __init__(self, scene: dict[str, float], pair: Callable[..., Any]) -> None:
+        self.k, self.pair = mpmath.mpf(scene["k"]), pair
+        self.wavelength, self.amplitude = mpmath.mpf(scene["lambda_over_R"]), mpmath.mpf(scene["A"])
+        self.modulus = mpmath.mpf(float(stiffness(*(scene[name] for name in ("k", "nu", "modulus", "c0_over_R")))))
+        self.stretch = mpmath.sqrt(2 ** (1 + self.k) * mpmath.pi / self.modulus)
+        self.front = 2 ** (1 - self.k) * self.modulus / (1 + self.k)
+        self.unit = 3 * mpmath.pi / 2
+
+    def terms(self, a: float) -> tuple[Any, ...]:
+        """The paraboloid, the wave and adhesion in the depth, then the integral in the load."""
+        k = self.k
+        s0, s1 = self.pair(k, 2 * mpmath.pi * a / self.wavelength) if self.amplitude > 0 else (0, 0)
+        wave = 2 * mpmath.pi * self.amplitude * a
+        integral = a ** (3 + k) / (3 + k) + wave * a ** (1 + k) * s1
+        return a * a / (1 + k), wave * s0, self.stretch * a ** ((1 - k) / 2), integral
+
+    def depth(self, a: float) -> Any:
+        paraboloid, wave, pull, _ = self.terms(mpmath.mpf(a))
+        return paraboloid + wave - pull
+
+    def pinned(self, a: float, depth: float) -> Any:
+        """The load at any depth of a contact that is pinned at a."""
+        return self.front * (mpmath.mpf(a) ** (1 + self.k) * depth - self.terms(mpmath.mpf(a))[3]) / self.unit
+
+    def load(self, a: float) -> Any:
+        return self.pinned(a, self.depth(a))
+
+    def turn(self, function: Callable[[Any], Any], a: float) -> Any:
+        """How far from a, relative to a, the slope of a function is zero."""
+        a = mpmath.mpf(a)
+        with mpmath.workdps(40):
+            return mpmath.diff(function, a) / mpmath.diff(function, a, 2) / a
+
+
+@pytest.fixture
+def slow_curve(slow_pair: Callable[..., Any]) -> Callable[[dict[str, float]], SlowCurve]:
+    return lambda scene: SlowCurve(scene, slow_pair)
+
+
+def chord_error(form: Form, points: Any, joined: Any = None, spans: Any = None) -> float:
+    """The largest distance of a form from the chords of its points, in any plane and in spans, on 16 times the points.
+
+    Points are radius, depth and load; `joined` tells which are reached along the curve.
+    """
+    points = np.asarray(points)
+    spans = np.ptp(points, axis=1) if spans is None else np.asarray(spans)
+    scales = np.divide(1.0, spans, out=np.zeros(3), where=spans > 0)
+    steps = np.flatnonzero(np.ones(points.shape[1] - 1, dtype=bool) if joined is None else joined[1:])
+    start, end = points[:, steps], points[:, steps + 1]
+    worst = 0.0
+    if not steps.size:
+        return worst
+    for share in np.arange(1, 16) / 16:
+        between = np.empty((3, steps.size))
+        between[0] = (start[0] + share * (end[0] - start[0])) / form.radius_scale
+        fill_points(form.kind, form.table, form.numbers, between)
+        found = np.array(form.scaled(between))
+        for i, j in ((0, 1), (1, 2), (0, 2)):
+            u, v = (end - start)[i] * scales[i], (end - start)[j] * scales[j]
+            x, y = (found - start)[i] * scales[i], (found - start)[j] * scales[j]
+            length = np.hypot(u, v)
+            # the nearest point of the chord, not of its line
+            along = np.clip((x * u + y * v) / np.where(length > 0, length, 1) ** 2, 0, 1)
+            worst = max(worst, float(np.hypot(x - along * u, y - along * v).max()))
+    return worst
+
+
+@pytest.fixture(scope="session")
+def worst_chord() -> Callable[..., float]:
+    return chord_error
