@@ -2,7 +2,8 @@
 
 They are kept in a *trace*, an array of one column a branch with the rows named here: the two folds that bound the
 branch, how loading arrives on it, and what unloading loses from its start to the end of contact. Two rows more are
-room for the nodes of jump_energy.py and the waves of regular.py.
+room for the nodes of jump_energy.py and the waves of regular.py; the first column of the last one has the innermost
+place at which a pair of folds is about to be born (ties.py).
 """
 
 import math
@@ -12,14 +13,14 @@ import numpy as np
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve import Curve, depth, slope
-from gradhesion.core.folds import fold_of_arch, survey_arch
+from gradhesion.core.folds import CLOSE, fold_of_arch, survey_arch
 from gradhesion.core.struve.circle import TWO_PI
 
 START, START_DEPTH, END, END_DEPTH = 0, 1, 2, 3
 ARRIVAL, LOADING_LOSS, LOADING_JUMPS = 4, 5, 6
 UNLOADING_LOSS, UNLOADING_JUMPS, LAST_DEPTH, CALLER = 7, 8, 9, 10
 WORK, VALUES = 11, 12
-ROWS: Final = 13
+TANGENCY, ROWS = 13, 14
 UNKNOWN: Final = -1.0
 """Unloading jumps of a branch that unloading has not visited yet."""
 _STEPS: Final = 100
@@ -93,13 +94,17 @@ def append_branches(table: Any, curve: Curve, first: int, final: float, furthest
     """
     level = 0.5 * (1.0 - table.k)
     inside = False
+    if count == 0:
+        trace[TANGENCY, 0] = math.inf
     if level == 0.0 and first == 0:  # k = 1: the first branch starts at zero contact, at the depth -1
         trace[START, count], trace[START_DEPTH, count], trace[UNLOADING_JUMPS, count] = 0.0, -1.0, UNKNOWN
         inside = True
     i = first
     while i <= final:
         survey = survey_arch(table, curve, level, i)
-        kind, _, _, high = survey
+        kind, place, missing, high = survey
+        if kind == 0 and missing <= CLOSE:
+            trace[TANGENCY, 0] = min(trace[TANGENCY, 0], place)
         rising = kind == 1 or (kind == 2 and i % 2 == 0)
         for _ in range(abs(kind)):
             if rising or inside:

@@ -20,6 +20,7 @@ from gradhesion.core.branches import (
     LOADING_LOSS,
     START,
     START_DEPTH,
+    TANGENCY,
     UNKNOWN,
     UNLOADING_JUMPS,
     UNLOADING_LOSS,
@@ -243,6 +244,7 @@ def stride(
     """Do what `walk` does for one rim of a long curve, leaving out the regular waves in the middle."""
     first, final = arches
     trace = room_for(trace, 4.0 * (BEGINNING + NEAR_RIM))
+    trace[TANGENCY, 0] = math.inf
     last = min(final, 2.0 * rim - table.phase / math.pi + 3.0)
     near, before = 0, 0.5 * first
     if first < MOST_ARCHES:

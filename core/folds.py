@@ -19,6 +19,8 @@ _STEPS = 100
 _LAST_STEP = 1e-4
 """A cubically convergent step of this size (relative to a curvature length) leaves 1e-12, and
 depth, load and energy are stationary at a fold: their error is the square of that."""
+CLOSE: Final = 4e-12
+"""A part of its terms by which an input error of 1e-12 may move a number."""
 FEW: Final = 20.0
 """z up to which a curve is walked from the start."""
 
@@ -116,7 +118,8 @@ def guess_zero(table: Any, curve: Curve, level: float, i: int, place: float, out
 def survey_arch(table: Any, curve: Curve, level: float, i: int) -> tuple[int, float, float, float]:
     """Return what stands on arch i: 0, 1 (F rises through 0), -1 (falls) or 2 folds, and where to look for them.
 
-    The places are the inner edge, a point at which F has the other sign (2 folds only), and the outer edge.
+    The places are the inner edge, a point at which F has the other sign (2 folds only), and the outer edge. Where there
+    is no fold but nearly a pair, they are that of the extremum and what is missing to it, in parts of the terms of F.
     """
     b, g, _ = curve
     low, low_abscissa, height = inner_edge(table, i)
@@ -131,17 +134,19 @@ def survey_arch(table: Any, curve: Curve, level: float, i: int) -> tuple[int, fl
         return -1, low, high, high
     concave = i % 2 == 0
     if concave != (first < 0.0):
-        return 0, low, high, high
+        return 0, low, 1.0, high
     sign = 1.0 if concave else -1.0
     peak, peak_abscissa, height = summit(table, i)
     # F is nowhere beyond the summit's height on the line's better side
-    if sign * (b * (high_abscissa if concave else low_abscissa) + g * height - level) <= 0.0:
-        return 0, low, high, high
+    terms = b * high_abscissa + level
+    if sign * (b * (high_abscissa if concave else low_abscissa) + g * height - level) <= -CLOSE * terms:
+        return 0, low, 1.0, high
     if sign * (b * peak_abscissa + g * height - level) <= 0.0:
         peak = find_extremum(table, curve, level, low, high, concave)
         value, _, _, _ = slope(table, curve, level, peak)
         if sign * value <= 0.0:
-            return 0, low, high, high
+            missing = abs(value) / (amplitude_power(table, TWO_PI * peak) * terms)
+            return 0, peak, missing, high
     return 2, low, peak, high
 
 

@@ -53,19 +53,23 @@ def load_at_rim(table: Any, curve: Curve, x: float, x_low: float) -> float:
 
 
 @kernel()
-def _better(table: Any, curve: Curve, i: int, x_rim: float, best: tuple[float, float]) -> tuple[float, float]:
-    """Return the lowest load so far and its place, arch i taken in."""
+def _better(
+    table: Any, curve: Curve, i: int, x_rim: float, best: tuple[float, float, float]
+) -> tuple[float, float, float]:
+    """Return the lowest load so far, its place, and the second lowest, arch i taken in."""
     x = _trough(table, curve, i)
+    lowest, place, second = best
     if 0.0 < x < x_rim:
         value = load(table, curve, x)
-        if value < best[0]:
-            return value, x
+        if value < lowest:
+            return value, x, lowest
+        return lowest, place, min(second, value)
     return best
 
 
 @kernel()
-def lowest_load(table: Any, curve: Curve, x_rim: float, x_rim_low: float) -> tuple[float, float]:
-    """Return the lowest reduced load over (0, x_rim] and the x where it is met."""
+def lowest_load(table: Any, curve: Curve, x_rim: float, x_rim_low: float) -> tuple[float, float, float]:
+    """Return the lowest reduced load over (0, x_rim], the x where it is met, and the second lowest trough (or 0)."""
     b, g, _ = curve
     k = table.k
     chi = g * table.amplitude
@@ -74,13 +78,13 @@ def lowest_load(table: Any, curve: Curve, x_rim: float, x_rim_low: float) -> tup
     z_rim = TWO_PI * x_rim
     if min(z, z_rim) > PHASELESS:
         abscissa = lowest if z <= z_rim else z_rim / amplitude_power(table, z_rim)
-        return _floor(b, chi, k, abscissa, z), min(z, z_rim) / TWO_PI
+        return _floor(b, chi, k, abscissa, z), min(z, z_rim) / TWO_PI, 0.0
     start = max(0, int((min(z, z_rim) - table.phase) / math.pi + 0.5))
-    best = (0.0, 0.0)
+    best = (0.0, 0.0, 0.0)
     if x_rim < math.inf:
         at_rim = load_at_rim(table, curve, x_rim, x_rim_low)
         if at_rim < 0.0:
-            best = (at_rim, x_rim)
+            best = (at_rim, x_rim, 0.0)
     # an arch holds nothing lower than the parabola's lowest point over it: at the near edge, or between the edges
     i = start
     while True:

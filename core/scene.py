@@ -13,11 +13,13 @@ from gradhesion.core import smooth
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve import Curve, depth
 from gradhesion.core.cycle import extent, is_endless, is_long, is_smooth, stride, walk
+from gradhesion.core.folds import CLOSE
 from gradhesion.core.loading import highest_depth, loading_to
 from gradhesion.core.pull_off import lowest_load
-from gradhesion.core.status import LOADING_NOT_ONE_DISC, NO_VALUE
+from gradhesion.core.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
+from gradhesion.core.ties import is_close_to_a_jump
 from gradhesion.core.unloading import unloading_from
 
 FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST = 0, 1, 2, 3, 4, 5, 6
@@ -63,17 +65,21 @@ def _solve_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: An
 
 
 @kernel()
-def _solve_force(table: Any, curve: Curve, scale: float, wavelength: float, rims: Any, slots: Any, out: Any) -> None:
+def _solve_force(
+    table: Any, curve: Curve, scale: float, wavelength: float, rims: Any, slots: Any, out: Any, status: Any
+) -> None:
     """Find the pull-off of a wavy punch for all its rims; that without a rim serves all rims beyond its place."""
-    free_load, free_x = 0.0, math.inf
+    free_load, free_x, free_second = 0.0, math.inf, 0.0
     if rims.size > 1:
-        free_load, free_x = lowest_load(table, curve, math.inf, 0.0)
+        free_load, free_x, free_second = lowest_load(table, curve, math.inf, 0.0)
     for i in range(rims.size):
         x = rims[i] / wavelength
-        lowest, place = free_load, free_x
+        lowest, place, second = free_load, free_x, free_second
         if not (free_load < 0.0 and free_x <= x):
             x_low = fma(-x, wavelength, rims[i]) / wavelength if x < math.inf else 0.0
-            lowest, place = lowest_load(table, curve, x, x_low)
+            lowest, place, second = lowest_load(table, curve, x, x_low)
+        if second < lowest * (1.0 - CLOSE):
+            status[i] |= CLOSE_TO_A_JUMP
         _put(out, slots, FORCE, i, -scale * lowest)
         _put(out, slots, RADIUS, i, place * wavelength)
 
@@ -93,7 +99,9 @@ def _cycle_at_rim(
         if not abs(energy) < math.inf:  # an overflow
             energy, status[i] = math.nan, NO_VALUE
         elif loading_loss < 0.0:
-            status[i] = LOADING_NOT_ONE_DISC
+            status[i] |= LOADING_NOT_ONE_DISC
+        if is_close_to_a_jump(table, curve, count, trace, x, rim_depth):
+            status[i] |= CLOSE_TO_A_JUMP
         _put(out, slots, ENERGY, i, energy)
         _put(out, slots, LOADING, i, loading_jumps)
         _put(out, slots, UNLOADING, i, unloading_jumps)
@@ -166,7 +174,7 @@ def solve_curve(
     if _wants_force(slots):
         # K l^(1+k) s l^c/(1.5 pi R dgamma) = K s^2 l^2/(s l^c)/1.5 pi, and K s^2 = 4 pi R dgamma/(1+k)
         scale = 8.0 / (3.0 * (1.0 + k)) * length * length / depth_scale
-        _solve_force(table, curve, scale, wavelength, rims, slots, out)
+        _solve_force(table, curve, scale, wavelength, rims, slots, out, status)
     if _wants_cycle(slots) or slots[DEEPEST] >= 0:
         scales = (TWO_PI * length * length, depth_scale)
         arches = extent(table, curve)

@@ -40,7 +40,7 @@ def _curves(seed: int, count: int, k: float) -> list[tuple[float, float, float]]
 @pytest.mark.parametrize("rim", [0.013, 0.41, 1.83, 7.7, math.inf])
 def test_nothing_is_lower(k: float, rim: float, table_of: Callable[[float], Any]) -> None:
     for curve in _curves(30, 40, k):
-        value, place = lowest_load(table_of(k), curve, rim, 0.0)
+        value, place, _ = lowest_load(table_of(k), curve, rim, 0.0)
         assert 0.0 < place <= rim
         scan = _loads(k, curve, X[rim >= X])
         assert value <= scan.min() + 16 * EPS * abs(scan.min())
@@ -51,7 +51,7 @@ def test_nothing_is_lower(k: float, rim: float, table_of: Callable[[float], Any]
 def test_it_is_a_trough_or_the_rim(k: float, table_of: Callable[[float], Any]) -> None:
     for curve in _curves(31, 40, k):
         for rim in (0.3, 4.4, math.inf):
-            _, place = lowest_load(table_of(k), curve, rim, 0.0)
+            _, place, _ = lowest_load(table_of(k), curve, rim, 0.0)
             d, d1, d2, _ = slope(table_of(k), curve, 0.5 * (3 + k), place)
             if place == rim:
                 assert d <= 0.0 or lowest_load(table_of(k), curve, rim, 0.0)[0] < 0.0
@@ -94,7 +94,7 @@ def test_vanishing_waves_leave_the_smooth_punch(table_of: Callable[[float], Any]
     """The lowest Y (Y/(3+k) - 1)/b is -(3+k)/4b at Y = b z^((3+k)/2) = (3+k)/2."""
     for k in EXPONENTS:
         for b in (0.01, 3.3):
-            value, place = lowest_load(table_of(k), (b, 1e-300, 0.0), math.inf, 0.0)
+            value, place, _ = lowest_load(table_of(k), (b, 1e-300, 0.0), math.inf, 0.0)
             assert math.isclose(value * b, -(3 + k) / 4, rel_tol=8 * EPS)
             assert math.isclose(b * (TWO_PI * place) ** (0.5 * (3 + k)), 0.5 * (3 + k), rel_tol=1e-11)
 
@@ -106,7 +106,7 @@ def test_short_waves_reach_the_envelope(table_of: Callable[[float], Any]) -> Non
         for g in (0.2, 1.1):
             chi = float(table["amplitude"]) * g
             for b in (1e-5, 1e-7):
-                value, place = lowest_load(table, (b, g, 0.0), math.inf, 0.0)
+                value, place, _ = lowest_load(table, (b, g, 0.0), math.inf, 0.0)
                 limit = -(3 + k) / 4 * (1 + chi) ** 2
                 assert abs(value * b / limit - 1) < 3.0 / (TWO_PI * place)
                 assert value * b > limit * (1 + 3.0 / (TWO_PI * place) ** 2)

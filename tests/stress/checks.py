@@ -58,7 +58,7 @@ def energy_not_negative(scenes: Scenes) -> Excess:
     with np.errstate(all="ignore"):
         excess: Excess = -energy / (64 * EPS * _size(scenes))
     excess[(result["status"] & LOADING_NOT_ONE_DISC) != 0] = 0.0
-    flagged = (result["status"] != 0) & _valid(result)
+    flagged = (result["status"] & LOADING_NOT_ONE_DISC) != 0
     excess[flagged & (groups(scenes)["chi"] < 0.5)] = np.inf  # a flag must not be an excuse
     return np.where(np.isnan(energy), 0.0, excess)
 
