@@ -6,6 +6,7 @@ from concurrent.futures import Future, ThreadPoolExecutor, wait
 from itertools import product
 from typing import Any, Final, TypeVar
 
+import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli import interrupts
@@ -66,31 +67,49 @@ def size_of(block: Block) -> int:
     return math.prod(part.stop - part.start for part in block)
 
 
+def scenes_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
+    """Give the parameters of a block of the axes as the core knows them; NaN is an a_max over an a_2 that is none."""
+    parameters = study.parameters_of(block)
+    ratio = parameters.pop("a_max_over_a2", None)
+    if ratio is not None:
+        from gradhesion.core.jump_in_radius import jump_in_radius_of_envelope  # noqa: PLC0415 (300 ms for SciPy)
+
+        with np.errstate(over="ignore", under="ignore"):
+            parameters["a_max_over_R"] = ratio * jump_in_radius_of_envelope(**parameters)
+    return parameters
+
+
+def solve_block(study: Study, block: Block, threads: int | None) -> dict[str, NDArray[Any]]:
+    """Solve a block of a study: the values of its outputs and `status`."""
+    solvers = study.method.solver
+    if isinstance(solvers, str):
+        return solve(scenes_of(study, block), study.outputs, solver=solvers, threads=threads)
+    scenes = scenes_of(study, block[1:])
+    found = [solve(scenes, study.outputs, solver=solver, threads=threads) for solver in solvers[block[0]]]
+    return {name: np.stack([values[name] for values in found]) for name in found[0]}
+
+
 def solved(study: Study, threads: int | None = None) -> Iterator[tuple[Block, dict[str, NDArray[Any]]]]:
     """
     Solve a study block by block: the values of each block and its `status`.
 
     The next block is solved in a thread of its own while the caller deals with this one; two blocks are in memory.
     """
-
-    def work(block: Block) -> dict[str, NDArray[Any]]:
-        return solve(study.parameters_of(block), study.outputs, solver=study.method.solver, threads=threads)
-
     worker = ThreadPoolExecutor(1, thread_name_prefix="solve")
     try:
         ahead = None
         for block in blocks(study.shape):
-            future = worker.submit(work, block)
+            future = worker.submit(solve_block, study, block, threads)
             if ahead is not None:
-                yield ahead[0], _awaited(ahead[1])
+                yield ahead[0], awaited(ahead[1])
             ahead = block, future
         if ahead is not None:
-            yield ahead[0], _awaited(ahead[1])
+            yield ahead[0], awaited(ahead[1])
     finally:
         worker.shutdown(wait=False, cancel_futures=True)
 
 
-def _awaited(future: Future[_T]) -> _T:
+def awaited(future: Future[_T]) -> _T:
     """Wait for a result without being deaf to an interrupt that a library swallowed."""
     while not future.done():
         wait([future], timeout=0.2)

@@ -1,15 +1,17 @@
 """What a study's dataset holds: names, dimensions and attributes by CF-1.11, the same in a file and in xarray."""
 
 import platform
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli import names
-from gradhesion.cli.blocks import solved
+from gradhesion.cli import curves, names
+from gradhesion.cli.blocks import Block, scenes_of, solved
 from gradhesion.cli.study import Study
 from gradhesion.core import FLAGS
 
@@ -19,43 +21,92 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Variable:
-    """A variable of a dataset; a coordinate has its `values`, an output gets them block by block."""
+    """A variable of a dataset; a coordinate knows its values, an output gets them block by block."""
 
     dimensions: tuple[str, ...]
     dtype: str
     attributes: dict[str, Any]
-    values: NDArray[np.float64] | None = None
+    values: NDArray[Any] | None = None
+    made: Callable[[Block], NDArray[np.float64]] | None = None
+    """Makes the values of a block of a coordinate that may be as large as an output."""
+    blank: float | None = None
+    """What stands where there is no value, if that is told by `_FillValue`."""
 
 
 def variables(study: Study) -> dict[str, Variable]:
     """Describe the variables of a study's dataset, coordinates first."""
-    dimensions = tuple(study.sizes)
+    described = _coordinates(study)
+    beside = " ".join(name for name in described if name not in study.sizes)
+    outputs = {name: _output(study, name) for name in study.outputs}
+    outputs["status"] = _status(study)
+    if beside:
+        for variable in outputs.values():
+            variable.attributes["coordinates"] = beside
+    return described | outputs
+
+
+def _coordinates(study: Study) -> dict[str, Variable]:
+    """Describe the solvers, if there are several, and the parameters of the scenes."""
+    axes = tuple(study.axes)
     described = {}
-    for name, long_name in names.PARAMETERS.items():
-        values = np.asarray(study.parameters[name])
-        if study.layout == "points":
-            own, values = dimensions, np.broadcast_to(values, study.shape)
-        else:
-            own = (name,) if name in dimensions else ()
-        described[name] = Variable(
-            dimensions=own, dtype="f8", attributes={"units": "1", "long_name": long_name}, values=values
+    if names.SOLVER in study.sizes:
+        solvers = np.array(study.method.solver, dtype=object)
+        attributes = {"long_name": names.SOLVERS}
+        described[names.SOLVER] = Variable(
+            dimensions=(names.SOLVER,), dtype="str", attributes=attributes, values=solvers
         )
-    beside = " ".join(name for name in names.PARAMETERS if name not in dimensions)
-    for name in study.outputs:
-        attributes = {"units": "1", "long_name": names.OUTPUTS[name], "ancillary_variables": "status"}
-        dtype = "i4" if name.endswith("_jumps") else "f8"
-        described[name] = Variable(dimensions=dimensions, dtype=dtype, attributes=attributes)
-    flags = {
+    for name, long_name in names.KEYS.items():
+        attributes = {"units": "1", "long_name": long_name}
+        if name in study.parameters:
+            values = np.asarray(study.parameters[name])
+            if study.layout == "points":
+                own, values = axes, np.broadcast_to(values, tuple(study.axes.values()))
+            else:
+                own = (name,) if name in axes else ()
+            described[name] = Variable(dimensions=own, dtype="f8", attributes=attributes, values=values)
+        elif name == "a_max_over_R":  # it follows from a_max_over_a2
+            described[name] = Variable(
+                dimensions=axes, dtype="f8", attributes=attributes, made=partial(_radii, study), blank=np.nan
+            )
+    return described
+
+
+def _radii(study: Study, block: Block) -> NDArray[np.float64]:
+    """Compute a_max/R of a block of scenes."""
+    return scenes_of(study, block)["a_max_over_R"]
+
+
+def _output(study: Study, name: str) -> Variable:
+    """Describe a result: one value a scene, or one curve."""
+    dimensions = tuple(study.sizes)
+    attributes: dict[str, Any] = {"units": "1", "ancillary_variables": "status"}
+    if study.kind == "curve":
+        dtype = names.INTEGERS.get(name, "f8")
+        attributes["long_name"] = next(own[name] for own in names.CURVES.values() if name in own)
+        if name in names.MEANINGS:
+            attributes |= {"flag_values": np.array([0, 1], dtype=dtype), "flag_meanings": names.MEANINGS[name]}
+        dimensions = (*dimensions, curves.extent_of(name))
+        return Variable(dimensions=dimensions, dtype=dtype, attributes=attributes, blank=curves.blank_of(name))
+    attributes["long_name"] = names.OUTPUTS[name]
+    if name.endswith("_jumps"):
+        return Variable(dimensions=dimensions, dtype="i4", attributes=attributes)
+    return Variable(dimensions=dimensions, dtype="f8", attributes=attributes, blank=np.nan)
+
+
+def _status(study: Study) -> Variable:
+    """Describe the status of the scenes."""
+    attributes = {
         "units": "1",
         "long_name": names.STATUS,
         "flag_masks": np.array(list(FLAGS.values()), dtype=np.int8),
         "flag_meanings": " ".join(FLAGS),
     }
-    described["status"] = Variable(dimensions=dimensions, dtype="i1", attributes=flags)
-    if beside:
-        for name in (*study.outputs, "status"):
-            described[name].attributes["coordinates"] = beside
-    return described
+    return Variable(dimensions=tuple(study.sizes), dtype="i1", attributes=attributes)
+
+
+def parts(study: Study, threads: int | None = None) -> Iterator[tuple[Block, dict[str, NDArray[Any]]]]:
+    """Compute the results of a study and their `status`, part by part."""
+    return curves.drawn(study, threads) if study.kind == "curve" else solved(study, threads)
 
 
 def attributes(study: Study, history: str) -> dict[str, str]:
@@ -91,20 +142,23 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
     import xarray  # noqa: PLC0415 (450 ms that `run` does not need)
 
     described = variables(study)
-    filled = {
-        name: np.empty(study.shape, variable.dtype) if variable.values is None else variable.values
-        for name, variable in described.items()
-    }
-    for block, values in solved(study, threads):
+    found = curves.gathered(study, threads) if study.kind == "curve" else _joined(study, described, threads)
+    made = {}
+    for name, variable in described.items():
+        if variable.made:
+            values = variable.made(tuple(slice(0, length) for length in study.axes.values()))
+        else:
+            values = found[name] if variable.values is None else variable.values
+        blank = {} if variable.blank is None else {"_FillValue": values.dtype.type(variable.blank)}
+        made[name] = xarray.Variable(variable.dimensions, values, variable.attributes | blank)
+    coded = xarray.Dataset(made, attrs=attributes(study, "computed in memory"))
+    return xarray.decode_cf(coded)
+
+
+def _joined(study: Study, described: Mapping[str, Variable], threads: int | None) -> dict[str, NDArray[Any]]:
+    """Solve a study in memory."""
+    filled = {name: np.empty(study.shape, described[name].dtype) for name in (*study.outputs, "status")}
+    for block, values in parts(study, threads):
         for name, part in values.items():
             filled[name][block] = part
-    made = {
-        name: xarray.Variable(
-            variable.dimensions,
-            filled[name],
-            {key: value for key, value in variable.attributes.items() if key != "coordinates"},
-        )
-        for name, variable in described.items()
-    }
-    coordinates = {name: made.pop(name) for name in names.PARAMETERS}
-    return xarray.Dataset(made, coordinates, attributes(study, "computed in memory"))
+    return filled

@@ -11,7 +11,15 @@ PARAMETERS: Final = {
     "A": "amplitude over wavelength of the waviness",
     "a_max_over_R": "radius a_max/R of the punch (inf: unbounded)",
 }
-"""Every parameter in the order of a dataset's dimensions, with its `long_name`."""
+"""Every parameter of a scene in the order of a dataset's dimensions, with its `long_name`."""
+
+RIM_KEYS: Final = ("a_max_over_R", "a_max_over_a2")
+"""The keys that give the radius of the punch: a study has one of them."""
+
+KEYS: Final = PARAMETERS | {
+    "a_max_over_a2": "radius a_max/a_2 of the punch over the jump-in radius of the loading envelope"
+}
+"""Every key of [parameters], with its `long_name`."""
 
 OUTPUTS: Final = {
     "pull_off_force": "pull-off force F/(1.5 pi R dgamma)",
@@ -24,8 +32,79 @@ OUTPUTS: Final = {
 }
 """Every output, with its `long_name`."""
 
+EXTENTS: Final = {
+    "equilibrium": "point",
+    "path": "path_point",
+    "asymptotic": "asymptotic_point",
+    "envelope": "envelope_point",
+    "effective": "effective_point",
+    "smooth": "smooth_point",
+}
+"""Every curve of a curve study, with the dimension along it."""
+
+CURVES: Final = {
+    "equilibrium": {
+        "contact_radius": "contact radius a/R",
+        "indentation": "indentation depth delta/R in equilibrium",
+        "load": "load P/(1.5 pi R dgamma) in equilibrium, negative if it pulls",
+        "stable": "whether the equilibrium is stable under controlled displacement",
+    },
+    "path": {
+        "path_contact_radius": "contact radius a/R on the path of a loading cycle",
+        "path_indentation": "indentation depth delta/R on the path of a loading cycle",
+        "path_load": "load P/(1.5 pi R dgamma) on the path of a loading cycle",
+        "path_branch": "stable branch that the path is on, from inside outwards (0: out of contact)",
+        "path_jump": "whether the point is reached by a jump",
+        "path_unloading": "whether the path loads or unloads",
+    },
+    "asymptotic": {
+        "asymptotic_contact_radius": "contact radius a/R of the asymptotic curve",
+        "asymptotic_indentation": "indentation depth delta/R of the asymptotic curve",
+        "asymptotic_load": "load P/(1.5 pi R dgamma) of the asymptotic curve",
+    },
+    "envelope": {
+        "envelope_contact_radius": "contact radius a/R of the envelopes",
+        "loading_envelope_indentation": "indentation depth delta/R of the loading envelope",
+        "loading_envelope_load": "load P/(1.5 pi R dgamma) of the loading envelope",
+        "unloading_envelope_indentation": "indentation depth delta/R of the unloading envelope",
+        "unloading_envelope_load": "load P/(1.5 pi R dgamma) of the unloading envelope",
+    },
+    "effective": {
+        "effective_contact_radius": "contact radius a/R on the effective path between the envelopes",
+        "effective_indentation": "indentation depth delta/R on the effective path",
+        "effective_load": "load P/(1.5 pi R dgamma) on the effective path",
+        "effective_jump": "whether the point of the effective path is reached by a jump",
+    },
+    "smooth": {
+        "smooth_contact_radius": "contact radius a/R of the punch without waviness",
+        "smooth_indentation": "indentation depth delta/R of the punch without waviness",
+        "smooth_load": "load P/(1.5 pi R dgamma) of the punch without waviness",
+    },
+}
+"""Every curve of a curve study: its variables, with their `long_name`."""
+
+INTEGERS: Final = {
+    "stable": "i1",
+    "path_branch": "i4",
+    "path_jump": "i1",
+    "path_unloading": "i1",
+    "effective_jump": "i1",
+}
+"""The type of the variables of curves that are integers."""
+
+MEANINGS: Final = {
+    "stable": "unstable stable",
+    "path_jump": "along_a_branch by_a_jump",
+    "path_unloading": "loading unloading",
+    "effective_jump": "along_an_envelope by_a_jump",
+}
+"""What 0 and 1 mean where an integer is a flag."""
+
 STATUS: Final = "what there is to report of a scene (0: nothing)"
 """The `long_name` of `status`."""
+
+SOLVERS: Final = "how the scenes are solved"
+"""The `long_name` of `solver`."""
 
 SYMBOLS: Final = {
     "k": "$k$",
@@ -35,6 +114,7 @@ SYMBOLS: Final = {
     "lambda_over_R": r"$\lambda/R$",
     "A": "$A$",
     "a_max_over_R": r"$a_{\max}/R$",
+    "a_max_over_a2": r"$a_{\max}/a_2$",
     "pull_off_force": r"pull-off force $F\,/\,\frac{3}{2}\pi R\Delta\gamma$",
     "pull_off_radius": "radius at pull-off $a/R$",
     "dissipated_energy": r"dissipated energy $H/R^2\Delta\gamma$",
@@ -43,11 +123,15 @@ SYMBOLS: Final = {
     "delta_max": r"greatest depth $\delta_{\max}/R$",
     "delta_jump_out": r"depth at jump-out $\delta/R$",
     "status": "status",
+    "solver": "solver",
 }
 """Every variable as a picture names it."""
 
 SCENE: Final = "scene"
 """The one dimension of a dataset with `layout = "points"`."""
+
+SOLVER: Final = "solver"
+"""The first dimension of a dataset with several solvers."""
 
 REFERENCES: Final = (
     "Jin, Guo & Wan (2013), Mechanics of axisymmetric adhesive contact of rough surfaces involving power-law graded "

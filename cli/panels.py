@@ -96,8 +96,14 @@ def draw_lines(axes: Axes, x: Scale, curves: dict[str, Values]) -> None:
     axes.margins(x=0.02)
 
 
-def draw_points(axes: Axes, x: Scale, values: Values) -> None:
-    """Draw a dot for each scene."""
-    axes.plot(x.positions, values, "o", color=COLOURS(0.25), ms=3, mec="white", mew=0.3)
+def draw_points(axes: Axes, x: Scale, series: dict[str, Values]) -> None:
+    """Draw a dot for each scene; several series are told apart by shade and by mark."""
+    marks = ("o", "^", "s")
+    for i, (label, values) in enumerate(series.items()):
+        colour = COLOURS(0.25 + 0.6 * i / max(1, len(series) - 1))
+        mark = marks[i % len(marks)]
+        axes.plot(x.positions, values, mark, color=colour, ms=3, mec="white", mew=0.3, label=label)
+    if len(series) > 1:
+        axes.legend(fontsize=7, framealpha=0.9)
     x.dress(axes, "x")
     axes.grid(color="0.9", lw=0.5)

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import panels
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import PARAMETERS, SCENE, SYMBOLS
-from gradhesion.cli.scales import number, scale
+from gradhesion.cli.names import KEYS, SCENE, SOLVER, SYMBOLS
+from gradhesion.cli.scales import equation, number, scale
 from gradhesion.cli.schema import did_you_mean
 
 STYLE: Final[dict[Any, Any]] = {
@@ -94,15 +94,20 @@ def plan_of(sizes: Mapping[str, int]) -> Plan | None:
     """
     Give the finest axes to the panels, the next two to columns and rows; None if nothing varies.
 
+    Solvers are the lines of a panel if nothing else is, and columns otherwise.
+
     >>> plan_of({"k": 6, "A": 1, "lambda_over_R": 200})
     Plan(x='lambda_over_R', second='k', is_map=True, columns=None, rows=None, middle=())
     """
-    free = sorted((name for name, size in sizes.items() if size > 1), key=lambda name: -sizes[name])
+    varying = sorted((name for name, size in sizes.items() if size > 1), key=lambda name: -sizes[name])
+    free = [name for name in varying if name != SOLVER]
     if not free:
         return None
+    if SOLVER in varying:
+        free.insert(2, SOLVER)
     places: list[str | None] = [*free, None, None, None]
     x, second, columns, rows = free[0], *places[1:4]
-    is_map = second is not None and sizes[second] > LINES
+    is_map = second not in (None, SOLVER) and sizes[second] > LINES
     return Plan(x=x, second=second, is_map=is_map, columns=columns, rows=rows, middle=tuple(free[4:]))
 
 
@@ -148,14 +153,14 @@ def _draw_panel(axes: Axes, panel: xarray.DataArray, plan: Plan, levels: panels.
     if plan.second is None:
         panels.draw_lines(axes, x, {"": panel.values[x.order]})
         return
-    second = scale(panel[plan.second].values)
-    values = panel.transpose(plan.second, plan.x).values.astype(float)[np.ix_(second.order, x.order)]
+    items = panel[plan.second].values
+    values = panel.transpose(plan.second, plan.x).values.astype(float)[:, x.order]
     if plan.is_map:
-        panels.draw_map(axes, x, second, values, levels)
+        second = scale(items)
+        panels.draw_map(axes, x, second, values[second.order], levels)
         return
-    items = np.sort(panel[plan.second].values)
-    labels = [f"{SYMBOLS[plan.second]} = {number(item)}" for item in items]
-    panels.draw_lines(axes, x, dict(zip(labels, values, strict=True)))
+    order = range(items.size) if plan.second == SOLVER else np.argsort(items)
+    panels.draw_lines(axes, x, {equation(plan.second, items[i]): values[i] for i in order})
 
 
 def _dress(
@@ -188,19 +193,19 @@ def _dress(
 def _caption(variable: xarray.DataArray, plan: Plan) -> str:
     """Tell the parameters that are not drawn."""
     told = []
-    for parameter in PARAMETERS:
-        values = np.atleast_1d(variable[parameter].values)
+    for name in (SOLVER, *KEYS):
+        values = np.atleast_1d(variable[name].values) if name in variable.coords else np.empty(0)
         if values.size == 1:
-            told.append(f"{SYMBOLS[parameter]} = {number(values[0])}")
-        elif parameter in plan.middle:
-            value = number(values[values.size // 2])
-            told.append(f"{SYMBOLS[parameter]} = {value} (one of {values.size})")
+            told.append(equation(name, values.item()))
+        elif name in plan.middle:
+            told.append(f"{equation(name, values[values.size // 2])} (one of {values.size})")
     return ",  ".join(told)
 
 
 def _draw_scenes(part: SubFigure, variable: xarray.DataArray) -> tuple[float, float]:
     """Draw a variable of a dataset of points over the first parameter that varies."""
-    varying = [name for name in PARAMETERS if np.unique(variable[name].values).size > 1]
+    known = [name for name in KEYS if name in variable.coords]
+    varying = [name for name in known if np.unique(variable[name].values).size > 1]
     if not varying:
         raise DatasetError(
             f"{variable.name}: no parameter varies, so there is nothing to draw over; `gradhesion info` tells its value"
@@ -210,11 +215,11 @@ def _draw_scenes(part: SubFigure, variable: xarray.DataArray) -> tuple[float, fl
         raise DatasetError(f"{variable.name}: no value in any scene; `gradhesion info` tells why")
     x = scale(variable[varying[0]].values)
     axes = part.subplots()
-    panels.draw_points(axes, x, values[x.order])
+    solvers = variable[SOLVER].values if SOLVER in variable.dims else [""]
+    panels.draw_points(axes, x, dict(zip(solvers, np.atleast_2d(values)[:, x.order], strict=True)))
     axes.set_xlabel(SYMBOLS[varying[0]])
     axes.set_ylabel(SYMBOLS[str(variable.name)])
-    fixed = [name for name in PARAMETERS if name not in varying]
-    told = [f"{SYMBOLS[name]} = {number(variable[name].values[0])}" for name in fixed]
+    told = [equation(name, variable[name].values[0]) for name in known if name not in varying]
     if varying[1:]:
         told.append("varying too: " + ", ".join(SYMBOLS[name] for name in varying[1:]))
     part.suptitle(",  ".join(told), fontsize=8)
@@ -236,4 +241,4 @@ def _chosen(axis: str | None, items: Any) -> dict[str, Any]:
 
 def _told(variable: xarray.DataArray, axis: str, item: int) -> str:
     """Tell the value of an axis at an item."""
-    return f"{SYMBOLS[axis]} = {number(variable[axis].values[item])}"
+    return equation(axis, variable[axis].values[item])

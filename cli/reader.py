@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import xarray
 
 from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.names import EXTENTS
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -40,3 +41,8 @@ def opened(path: Path) -> Iterator["Dataset"]:
             yield dataset
         except (OSError, RuntimeError) as error:
             raise DatasetError(f"{path}: is damaged ({error}); write it again with `gradhesion run`") from error
+
+
+def has_curves(dataset: "Dataset") -> bool:
+    """Tell whether a dataset is that of a curve study."""
+    return any(extent in dataset.dims for extent in EXTENTS.values())

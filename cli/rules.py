@@ -7,8 +7,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.cli.names import CURVES
 from gradhesion.cli.places import Path
-from gradhesion.cli.schema import COMING, KINDS, LAYOUTS, Mistake, did_you_mean, nearest, shown
+from gradhesion.cli.schema import KINDS, LAYOUTS, Mistake, did_you_mean, nearest, shown
 
 Values = float | NDArray[np.float64]
 """The values of a parameter: a float is fixed, an array is an axis."""
@@ -18,6 +19,12 @@ MOST_VALUES: Final = 10_000_000
 
 MOST_SCENES: Final = 2**31
 """Scenes of one study: beyond it a dataset can no longer be handled as one file."""
+
+MOST_CURVES: Final = 1_000
+"""Scenes of one curve study: curves are for looking at, and each has thousands of values."""
+
+VARIABLES: Final = tuple(name for variables in CURVES.values() for name in variables)
+"""Every variable of every curve."""
 
 
 def expanded(entry: Any) -> Values:
@@ -55,8 +62,15 @@ def mistakes_between_keys(
                 yield mistake
             else:
                 sound[name] = expanded(entry)
-    meant = nearest(str(data.get("layout", "grid")), LAYOUTS)
-    yield from _mistakes_of_points(sound) if meant == "points" else _mistakes_of_grid(sound)
+    points = nearest(str(data.get("layout", "grid")), LAYOUTS) == "points"
+    yield from _mistakes_of_points(sound) if points else _mistakes_of_grid(sound)
+    if kind_of(sound_tables) == "curve":
+        yield from _mistakes_of_curves(sound_tables, [np.size(values) for values in sound.values()], points=points)
+
+
+def kind_of(data: Mapping[str, Any]) -> str:
+    """Tell which kind of study is meant."""
+    return nearest(str(data.get("kind", "map")), KINDS) or "map"
 
 
 def _mistakes_of_choice(
@@ -66,24 +80,66 @@ def _mistakes_of_choice(
     choices: list[tuple[Path, Any, Sequence[str]]] = [
         (("kind",), data.get("kind", "map"), KINDS),
         (("layout",), data.get("layout", "grid"), LAYOUTS),
-        (("method", "solver"), data.get("method", {}).get("solver", "exact"), solvers),
     ]
     for path, value, known in choices:
         if path not in named and value not in known:
-            if value in COMING.get(path, ()):
-                yield Mistake(path, value, f'not available in this version; use "{known[0]}"')
-            else:
-                yield Mistake(path, value, f"not a {path[-1]}; {did_you_mean(value, known)}")
-    asked = data.get("outputs", [])
-    for i, name in enumerate(asked):
-        if ("outputs", i) in named:
-            continue
-        if name not in outputs:
-            yield Mistake(("outputs", i), name, f"not an output; {did_you_mean(name, outputs)}")
-        elif name in asked[:i]:
-            yield Mistake(("outputs", i), name, "this output is asked for twice; remove one of the two")
+            yield Mistake(path, value, f"not a {path[-1]}; {did_you_mean(value, known)}")
+    yield from _mistakes_of_outputs(kind_of(data), data.get("outputs", []), named, outputs)
+    if ("method", "solver") not in named:
+        yield from _mistakes_of_solver(kind_of(data), data.get("method", {}).get("solver", "exact"), solvers)
     if not data.get("title", "").isprintable():
         yield Mistake(("title",), data["title"], "a title is one line of printable characters; remove the others")
+
+
+def _mistakes_of_outputs(
+    kind: str, asked: Sequence[str], named: set[Path], outputs: Sequence[str]
+) -> Iterator[Mistake]:
+    """Check that each output belongs to the kind of the study, and is asked for once."""
+    curves = (*CURVES, *VARIABLES)
+    known, others = (curves, outputs) if kind == "curve" else (outputs, curves)
+    for i, name in enumerate(asked):
+        path = ("outputs", i)
+        if path in named:
+            continue
+        if name in others:
+            other = "map" if kind == "curve" else "curve"
+            sentence = f'an output of studies of kind "{other}", and this one is of kind "{kind}"; '
+            yield Mistake(path, name, f'{sentence}{did_you_mean(name, known)}, or write kind = "{other}"')
+        elif name not in known:
+            yield Mistake(path, name, f"not an output; {did_you_mean(name, known)}")
+        elif name in asked[:i]:
+            yield Mistake(path, name, "this output is asked for twice; remove one of the two")
+        else:
+            curve = next((one for one, own in CURVES.items() if name in own and one in asked), None)
+            if curve is not None:
+                yield Mistake(
+                    path, name, f'a variable of "{curve}", which is asked for as a whole; remove one of the two'
+                )
+
+
+def _mistakes_of_curves(data: Mapping[str, Any], lengths: Sequence[int], *, points: bool) -> Iterator[Mistake]:
+    """Check that a curve study is not too large."""
+    scenes = max(lengths, default=1) if points else math.prod(lengths)
+    if scenes > MOST_CURVES:
+        sentence = f"a curve study has at most {MOST_CURVES:,} scenes, and this one has {scenes:,}; "
+        yield Mistake(("kind",), data["kind"], sentence + 'use fewer values, split the study, or write kind = "map"')
+
+
+def _mistakes_of_solver(kind: str, solver: str | list[str], solvers: Sequence[str]) -> Iterator[Mistake]:
+    """Check that each solver is known and named once, and that a curve study names none."""
+    path = ("method", "solver")
+    if kind == "curve":
+        if solver != "exact":
+            sentence = "a curve study has no solver, it draws the curves that are asked for; remove this key"
+            yield Mistake(path, solver, f'{sentence}, and add "asymptotic", "envelope" or "effective" to outputs')
+        return
+    asked = [solver] if isinstance(solver, str) else solver
+    for i, one in enumerate(asked):
+        place: Path = path if isinstance(solver, str) else (*path, i)
+        if one not in solvers:
+            yield Mistake(place, one, f"not a solver; {did_you_mean(one, solvers)}")
+        elif one in asked[:i]:
+            yield Mistake(place, one, "this solver is asked for twice; remove one of the two")
 
 
 def _mistake_of_range(name: str, entry: Any) -> Mistake | None:

@@ -29,7 +29,7 @@ def run(
 
     asked = load_study(study, overrides)
     path = output or Path("outputs") / f"{asked.name}.nc"
-    if not quiet and not compiled_before():
+    if not quiet and not compiled_before(curves=asked.kind == "curve"):
         click.echo("compiling the kernels, once per version", err=True)
     start = time.monotonic()
     history = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} gradhesion {shlex.join(sys.argv[1:])}"

@@ -8,6 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
+from gradhesion.cli.names import SYMBOLS
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Scale:
@@ -87,3 +89,13 @@ def number(value: float) -> str:
         digits = digits.rstrip("0").rstrip(".")
         text = f"$10^{{{int(exponent)}}}$" if digits == "1" else rf"${digits}\times10^{{{int(exponent)}}}$"
     return text
+
+
+def equation(name: str, value: float | str) -> str:
+    r"""
+    Say in a picture which value a parameter has.
+
+    >>> equation("A", 0.02), equation("solver", "exact")
+    ('$A$ = 0.02', 'exact')
+    """
+    return value if isinstance(value, str) else f"{SYMBOLS[name]} = {number(value)}"

@@ -15,13 +15,11 @@ from typing import Annotated, Any, Final, Literal, Union
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, create_model
 from pydantic_core import ErrorDetails
 
-from gradhesion.cli.names import OUTPUTS, PARAMETERS
+from gradhesion.cli.names import KEYS, OUTPUTS, PARAMETERS, RIM_KEYS
 from gradhesion.cli.places import Path, dotted
 
 LAYOUTS: Final = ("grid", "points")
-KINDS: Final = ("map",)
-COMING: Final[dict[Path, tuple[str, ...]]] = {("kind",): ("curve",)}
-"""Values that belong to the format and are not available yet."""
+KINDS: Final = ("map", "curve")
 
 _BOUNDS: Final[dict[str, tuple[dict[str, float], str]]] = {
     "k": ({"ge": 0.0, "le": 1.0}, "0 <= k <= 1"),
@@ -31,6 +29,7 @@ _BOUNDS: Final[dict[str, tuple[dict[str, float], str]]] = {
     "lambda_over_R": ({"gt": 0.0}, "lambda_over_R > 0, and finite"),
     "A": ({"ge": 0.0}, "A >= 0, and finite"),
     "a_max_over_R": ({"gt": 0.0}, "a_max_over_R > 0 (inf: an unbounded punch)"),
+    "a_max_over_a2": ({"gt": 0.0}, "a_max_over_a2 > 0 (inf: an unbounded punch)"),
 }
 
 
@@ -52,7 +51,10 @@ class _Table(BaseModel):
 class _Method(_Table):
     """How the scenes are solved."""
 
-    solver: str = "exact"
+    solver: Annotated[
+        Annotated[str, Tag("name")] | Annotated[list[str], Field(min_length=1), Tag("list")],
+        Discriminator(lambda value: "list" if isinstance(value, list) else "name"),
+    ] = "exact"
 
 
 def _form(value: object) -> str:
@@ -64,7 +66,7 @@ def _parameter(name: str) -> Any:
     """Make the type of a parameter: a number, a list of them, or a range table."""
     bounds: dict[str, Any] = dict(_BOUNDS[name][0])
     finite: Any = Annotated[float, Field(strict=True, allow_inf_nan=False, **bounds)]
-    number: Any = Annotated[float, Field(strict=True, **bounds)] if name == "a_max_over_R" else finite
+    number: Any = Annotated[float, Field(strict=True, **bounds)] if name in RIM_KEYS else finite
     spacing: Any = Literal["linear", "log"]
     range_table: Any = create_model(
         f"Range_{name}",
@@ -79,13 +81,13 @@ def _parameter(name: str) -> Any:
         Annotated[list[number], Field(min_length=1), Tag("list")],
         Annotated[range_table, Tag("range")],
     ]
-    return Annotated[forms, Discriminator(_form), Field(description=PARAMETERS[name])]
+    return Annotated[forms, Discriminator(_form), Field(description=KEYS[name])]
 
 
 @cache
 def study_model() -> type[BaseModel]:
     """Make the model of a whole study."""
-    parameters: dict[str, Any] = {name: (_parameter(name), ...) for name in PARAMETERS}
+    parameters: dict[str, Any] = {name: (_parameter(name), None if name in RIM_KEYS else ...) for name in KEYS}
     return create_model(
         "Study",
         __base__=_Table,
@@ -105,7 +107,7 @@ def mistakes_of_form(data: Mapping[str, Any]) -> list[Mistake]:
     except ValidationError as error:
         details = error.errors(include_url=False, include_context=True)
     else:
-        return []
+        details = []
     mistakes: list[tuple[str, Mistake]] = []
     excused: set[Path] = set()
     for detail in details:
@@ -116,11 +118,27 @@ def mistakes_of_form(data: Mapping[str, Any]) -> list[Mistake]:
         else:
             sentence = _sentence(detail, path)
         mistakes.append((detail["type"], Mistake(path, detail["input"], sentence)))
+    mistakes += _mistakes_of_rim(data.get("parameters"), excused)
     return [
         replace(mistake, value=None) if kind == "missing" else mistake
         for kind, mistake in mistakes
         if not (kind == "missing" and mistake.path in excused)
     ]
+
+
+def _mistakes_of_rim(parameters: object, excused: set[Path]) -> list[tuple[str, Mistake]]:
+    """Check that exactly one key gives the radius of the punch."""
+    if not isinstance(parameters, Mapping):
+        return []
+    paths = [("parameters", name) for name in RIM_KEYS]
+    given = [path for path in paths if path[1] in parameters]
+    if len(given) == 2:
+        sentence = f"{RIM_KEYS[0]} gives the radius of the punch already; keep one of the two and remove the other"
+        return [("both", Mistake(paths[1], parameters[RIM_KEYS[1]], sentence))]
+    if not given and not excused & {*paths}:
+        sentence = f"this parameter is required; {_example(paths[0])}, or instead {_example(paths[1])}"
+        return [("missing", Mistake(paths[0], None, sentence))]
+    return []
 
 
 def did_you_mean(word: str, known: Sequence[str]) -> str:
@@ -166,16 +184,16 @@ def shown(value: object) -> str:
 
 
 def _path(detail: ErrorDetails) -> Path:
-    """Take the tag of the form (number, list, range) out of pydantic's path of a parameter."""
+    """Take the tag of the form (number, list, range, name) out of pydantic's path of a parameter or solver."""
     steps = detail["loc"]
-    return (*steps[:2], *steps[3:]) if steps[0] == "parameters" else steps
+    return (*steps[:2], *steps[3:]) if steps[0] in ("parameters", "method") else steps
 
 
 def _unknown_key(path: Path) -> tuple[Path, str]:
     """Tell which key was meant, and say so."""
     tables: dict[Path, tuple[str, ...]] = {
         (): ("title", "kind", "layout", "outputs", "parameters", "method"),
-        ("parameters",): tuple(PARAMETERS),
+        ("parameters",): tuple(KEYS),
         ("method",): ("solver",),
     }
     table, key = path[:-1], str(path[-1])
@@ -199,6 +217,8 @@ def _sentence(detail: ErrorDetails, path: Path) -> str:
         return f"this key is required; {_example(path)}"
     if kind == "too_short":
         return f"the list is empty; {_example(path)}"
+    if last == "solver":
+        return f"this must be a string in quotes or a list of them; {_example(path)}"
     if last == "num":
         return "num is the number of values, an integer of 1 or more; write for example num = 50"
     if last == "spacing":
@@ -234,7 +254,7 @@ def _example(path: Path) -> str:
         "outputs": f"outputs = {json.dumps(list(OUTPUTS)[::2][:2])}",
         "parameters": "a table [parameters] with " + ", ".join(PARAMETERS),
         "method": 'a table [method] with solver = "exact", "asymptotic" or "envelope"',
-        "solver": 'solver = "exact", "asymptotic" or "envelope"',
+        "solver": 'solver = "exact" or solver = ["exact", "envelope"]',
         "k": "k = 0.5 or k = [0.0, 0.5]",
         "nu": "nu = 0.3",
         "modulus": "modulus = 500.0",
@@ -242,6 +262,7 @@ def _example(path: Path) -> str:
         "lambda_over_R": 'lambda_over_R = { start = 0.02, stop = 1.0, num = 200, spacing = "log" }',
         "A": "A = 0.1",
         "a_max_over_R": "a_max_over_R = inf",
+        "a_max_over_a2": "a_max_over_a2 = 2.0",
         "start": "start = 0.1",
         "stop": "stop = 1.0",
         "num": "num = 50",

@@ -4,7 +4,7 @@ import hashlib
 import json
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import places, rules, schema
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.names import PARAMETERS, SCENE
+from gradhesion.cli.names import CURVES, KEYS, SCENE, SOLVER
 from gradhesion.cli.source import Source, read_source
 from gradhesion.core import OUTPUTS, SOLVERS
 
@@ -26,7 +26,8 @@ MOST_MISTAKES: Final = 30
 class Method:
     """How the scenes are solved."""
 
-    solver: str = "exact"
+    solver: str | tuple[str, ...] = "exact"
+    """One solver, or several that stand side by side in the dataset."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -48,14 +49,22 @@ class Study:
     kind: str
     layout: str
     outputs: tuple[str, ...]
+    """The variables of its dataset beside `status`, in the order of the dataset."""
     parameters: Mapping[str, rules.Values]
+    """Seven of the keys of [parameters]: a_max_over_R or a_max_over_a2 is the last."""
     method: Method
     text: str
     """The study as TOML: reading it again gives the same study."""
 
     @property
     def sizes(self) -> dict[str, int]:
-        """The dimensions of its dataset, with their lengths."""
+        """The dimensions of its dataset, with their lengths: that of several solvers, and its axes."""
+        solvers = self.method.solver
+        return self.axes if isinstance(solvers, str) else {SOLVER: len(solvers)} | self.axes
+
+    @property
+    def axes(self) -> dict[str, int]:
+        """The dimensions along which its parameters vary, with their lengths."""
         axes = {name: values.size for name, values in self.parameters.items() if isinstance(values, np.ndarray)}
         if self.layout == "points":
             return {SCENE: next(iter(axes.values()), 1)}
@@ -77,8 +86,8 @@ class Study:
         return hashlib.sha256(self.text.encode()).hexdigest()
 
     def parameters_of(self, block: tuple[slice, ...]) -> dict[str, NDArray[np.float64]]:
-        """Cut a block out of the parameters, as arrays that broadcast to the block's shape."""
-        names = list(self.sizes)
+        """Cut a block out of the axes: the parameters as arrays that broadcast to the block's shape."""
+        names = list(self.axes)
         cut = {}
         for name, values in self.parameters.items():
             if isinstance(values, float):
@@ -134,7 +143,7 @@ def _study(source: Source) -> Study:
     if mistakes:
         raise StudyError(mistakes)
     layout = data.get("layout", "grid")
-    parameters = {key: rules.expanded(data["parameters"][key]) for key in PARAMETERS}
+    parameters = {key: rules.expanded(data["parameters"][key]) for key in KEYS if key in data["parameters"]}
     for values in parameters.values():
         if isinstance(values, np.ndarray):
             if layout == "grid" and not (np.all(np.diff(values) > 0) or np.all(np.diff(values) < 0)):
@@ -145,11 +154,23 @@ def _study(source: Source) -> Study:
         title=data.get("title", "") or source.name,
         kind=data.get("kind", "map"),
         layout=layout,
-        outputs=tuple(output for output in OUTPUTS if output in data["outputs"]),
+        outputs=_outputs(data["outputs"]),
         parameters=parameters,
-        method=Method(**data.get("method", {})),
+        method=_method(data.get("method", {})),
         text=source.text or _toml(data),
     )
+
+
+def _outputs(asked: Sequence[str]) -> tuple[str, ...]:
+    """List the variables that are asked for; a curve stands for all of its own."""
+    of_curves = [name for curve, own in CURVES.items() for name in own if curve in asked or name in asked]
+    return (*(output for output in OUTPUTS if output in asked), *of_curves)
+
+
+def _method(table: Mapping[str, Any]) -> Method:
+    """Make the method of a valid study."""
+    solver = table.get("solver", "exact")
+    return Method(solver=solver if isinstance(solver, str) else tuple(solver))
 
 
 def _line(sentence: str) -> tuple[str, int]:

@@ -9,7 +9,9 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.blocks import blocks
-from gradhesion.cli.names import PARAMETERS, SCENE
+from gradhesion.cli.curve_words import curves_told
+from gradhesion.cli.names import KEYS, SCENE, SOLVER
+from gradhesion.cli.reader import has_curves
 from gradhesion.core import FAILED, FLAGS
 
 FEW: Final = 8
@@ -21,15 +23,24 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
     yield dataset.attrs["title"]
     yield f"{file}: {dataset['status'].size:,} scenes, {file.stat().st_size / 1e6:.1f} MB"
     yield from _parameters(dataset)
-    yield from _outputs(dataset)
+    yield from curves_told(dataset) if has_curves(dataset) else _outputs(dataset)
     yield from _status(dataset)
     yield from _origin(dataset)
 
 
+def _coordinates(dataset: xarray.Dataset | xarray.DataArray) -> list[str]:
+    """List what tells scenes apart: the solver, and the parameters."""
+    return [name for name in (SOLVER, *KEYS) if name in dataset.coords]
+
+
 def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
-    """Tell the values of the parameters: axes first, then fixed ones."""
+    """Tell the values of the parameters: axes first, then fixed ones, then what follows from them."""
     points = SCENE in dataset.dims
-    varying = [name for name in PARAMETERS if dataset[name].ndim]
+    known = [name for name in _coordinates(dataset) if name != SOLVER]
+    varying = [name for name in known if name in dataset.dims or (points and dataset[name].ndim)]
+    if SOLVER in dataset.dims:
+        yield ""
+        yield "solvers, each for all scenes: " + ", ".join(dataset[SOLVER].values)
     yield ""
     yield "points: one scene for each item of" if points else "axes"
     for name in varying:
@@ -37,16 +48,26 @@ def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
         if values.size <= FEW:
             told = ", ".join(f"{value:g}" for value in values)
         else:
-            told = f"{values.size:,} values from {np.min(values):g} to {np.max(values):g}"
+            told = f"{values.size:,} values from {np.nanmin(values):g} to {np.nanmax(values):g}"
             told += "" if points else f", {_spacing(values)}"
         yield f"  {name:<17} {told}"
     if not varying:
         yield "  none: a single scene"
-    fixed = [name for name in PARAMETERS if name not in varying]
+    fixed = [name for name in known if dataset[name].ndim == 0]
     if fixed:
         yield ""
         yield "fixed"
         yield from (f"  {name:<17} {dataset[name].item():g}" for name in fixed)
+    for name in [name for name in known if name not in (*varying, *fixed)]:
+        yield ""
+        yield "following from these"
+        extremes = [f"{value:g}" for value, _ in _extremes(dataset[name])]
+        yield f"  {name:<17} {' to '.join(extremes) or 'no value in any scene'}"
+
+
+def _number(value: float | str) -> str:
+    """Write a value of a coordinate."""
+    return value if isinstance(value, str) else f"{value:g}"
 
 
 def _spacing(values: NDArray[np.float64]) -> str:
@@ -79,14 +100,14 @@ def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
         extremes = _extremes(dataset[name])
         if not extremes:
             yield "  no value in any scene"
-        for word, (value, place) in zip(("least", "greatest"), extremes, strict=False):
-            where = ", ".join(f"{key} = {number:g}" for key, number in place.items())
-            yield f"  {word:<9} {value:<12.7g}" + (f" at {where}" if where else "")
+        for word, (extreme, place) in zip(("least", "greatest"), extremes, strict=False):
+            where = ", ".join(f"{key} = {_number(value)}" for key, value in place.items())
+            yield f"  {word:<9} {extreme:<12.7g}" + (f" at {where}" if where else "")
 
 
-def _extremes(variable: xarray.DataArray) -> list[tuple[float, dict[str, float]]]:
+def _extremes(variable: xarray.DataArray) -> list[tuple[float, dict[str, float | str]]]:
     """Find the least and the greatest value of a variable with their places, a block at a time."""
-    found: list[tuple[float, dict[str, float]]] = []
+    found: list[tuple[float, dict[str, float | str]]] = []
     for block in blocks(variable.shape):
         part = variable[block].load()
         values = np.asarray(part.values, dtype=float)
@@ -100,10 +121,10 @@ def _extremes(variable: xarray.DataArray) -> list[tuple[float, dict[str, float]]
     return found
 
 
-def _place(part: xarray.DataArray, index: tuple[Any, ...]) -> dict[str, float]:
-    """Tell the varying parameters of a cell."""
+def _place(part: xarray.DataArray, index: tuple[Any, ...]) -> dict[str, float | str]:
+    """Tell the solver and the varying parameters of a cell."""
     cell = part[index]
-    return {name: cell[name].item() for name in PARAMETERS if part[name].ndim}
+    return {name: cell[name].item() for name in _coordinates(part) if part[name].ndim}
 
 
 def _status(dataset: xarray.Dataset) -> Iterator[str]:

@@ -12,13 +12,17 @@ import netCDF4
 import numpy as np
 
 from gradhesion.cli import dataset
-from gradhesion.cli.blocks import chunk_shape, size_of, solved
+from gradhesion.cli.blocks import blocks, chunk_shape, size_of
+from gradhesion.cli.curves import within
 from gradhesion.cli.errors import OutputError
 from gradhesion.cli.study import Study
 from gradhesion.core import FAILED
 
 LEAST_SHARE: Final = 0.1
 """Values hardly compress to less than this share: what cannot fit is refused before it is begun."""
+
+POINTS: Final = 1024
+"""Points of a curve in a chunk: most curves have fewer, and unwritten chunks take no room."""
 
 
 @contextmanager
@@ -98,10 +102,10 @@ def write(
         try:
             with writing(path):
                 _define(file, study, history)
-            for block, values in solved(study, threads):
+            for block, values in dataset.parts(study, threads):
                 with writing(path):
                     for name, part in values.items():
-                        file[name][block or ...] = part
+                        file[name][within(block, part) or ...] = part
                 failed += int(np.count_nonzero(values["status"] & FAILED))
                 advance(size_of(block))
         except BaseException:
@@ -115,22 +119,36 @@ def write(
 
 def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
     """Write all of a dataset but the values of its outputs."""
-    file.set_fill_off()  # every cell is written
+    if study.kind == "map":
+        file.set_fill_off()  # every cell is written
     file.setncatts(dataset.attributes(study, history))
     for name, size in study.sizes.items():
         file.createDimension(name, size)
     for name, described in dataset.variables(study).items():
         settings: dict[str, Any] = {}
-        if described.dimensions:
+        if described.dimensions and described.dtype != "str":
+            for dimension in described.dimensions:
+                if dimension not in file.dimensions:
+                    file.createDimension(dimension, None)  # it grows with the longest curve
             settings |= {"compression": "zlib", "complevel": 1, "shuffle": True}
-            lengths = tuple(study.sizes[dimension] for dimension in described.dimensions)
-            settings["chunksizes"] = chunk_shape(lengths)
-        if described.values is None and described.dtype == "f8":
-            settings["fill_value"] = np.nan
-        variable = file.createVariable(name, described.dtype, described.dimensions, **settings)
+            settings["chunksizes"] = _chunks(tuple(file.dimensions[one] for one in described.dimensions))
+        if described.blank is not None:
+            settings["fill_value"] = described.blank
+        dtype = str if described.dtype == "str" else described.dtype
+        variable = file.createVariable(name, dtype, described.dimensions, **settings)
         variable.setncatts(described.attributes)
         if described.values is not None:
             variable[...] = described.values
+        elif described.made:
+            for block in blocks(variable.shape):
+                variable[block or ...] = described.made(block)
+
+
+def _chunks(dimensions: tuple[netCDF4.Dimension, ...]) -> tuple[int, ...]:
+    """Choose the chunks of a variable: of a curve they are its own, of all else those of the blocks."""
+    if dimensions[-1].isunlimited():
+        return (*(1 for _ in dimensions[:-1]), POINTS)
+    return chunk_shape(tuple(map(len, dimensions)))
 
 
 def _check_space(study: Study, path: Path, temporary: Path) -> None:

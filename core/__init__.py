@@ -1,7 +1,17 @@
 """Adhesive contact of a wavy axisymmetric punch on a power-law graded half-space: arrays in, arrays out."""
 
-from gradhesion.core.curves import draw_curves
+from gradhesion.core.curves import CURVES, draw_curves
 from gradhesion.core.status import FAILED, FLAGS
 from gradhesion.core.sweep import OUTPUTS, PARAMETERS, SOLVERS, compiled_before, solve
 
-__all__ = ["FAILED", "FLAGS", "OUTPUTS", "PARAMETERS", "SOLVERS", "compiled_before", "draw_curves", "solve"]
+__all__ = [
+    "CURVES",
+    "FAILED",
+    "FLAGS",
+    "OUTPUTS",
+    "PARAMETERS",
+    "SOLVERS",
+    "compiled_before",
+    "draw_curves",
+    "solve",
+]

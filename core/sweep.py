@@ -48,9 +48,10 @@ table_of = lru_cache(maxsize=128)(build_table)
 """The table of an exponent, kept for the next call (56 kB each)."""
 
 
-def compiled_before() -> bool:
-    """Return whether the kernels of this version were compiled before on this machine (else the first call is slow)."""
-    return _jit.CACHE_FOLDER.is_dir() and any(_jit.CACHE_FOLDER.rglob("*.solve_curves*.nbc"))
+def compiled_before(*, curves: bool = False) -> bool:
+    """Return whether the kernels of `solve` (or of `draw_curves`) were compiled before; if not, a call is slow."""
+    kernel = "sample" if curves else "solve_curves"
+    return _jit.CACHE_FOLDER.is_dir() and any(_jit.CACHE_FOLDER.rglob(f"*.{kernel}-*.nbc"))
 
 
 def _shared_axes(shapes: Sequence[tuple[int, ...]], dimensions: int) -> int:

@@ -26,6 +26,11 @@ a_max_over_R = inf
 solver = "exact"
 """
 
+CURVE = (
+    'kind = "map"\nlayout = "grid"\noutputs = ["pull_off_force"]',
+    'kind = "curve"\nlayout = "grid"\noutputs = ["pull_off_force"]',
+)
+
 # What is replaced, by what, and what the message must say: line, key, value, remedy.
 MISTAKES = {
     "unknown key": ('title = "Good"', 'titel = "x"', r':1: titel = "x": .*did you mean "title"'),
@@ -39,7 +44,71 @@ MISTAKES = {
     "title no string": ('title = "Good"', "title = 3", r":1: title = 3: this must be a string"),
     "title of two lines": ('title = "Good"', r'title = "a\nb"', r":1: title = .*one line"),
     "kind unknown": ('kind = "map"', 'kind = "mop"', r':2: kind = "mop": .*did you mean "map"'),
-    "kind to come": ('kind = "map"', 'kind = "curve"', r':2: kind = "curve": not available in this version; use "map"'),
+    "curve in a map study": (
+        '["pull_off_force"]',
+        '["path"]',
+        r':4: outputs\[0\] = "path": an output of studies of kind "curve", .*or write kind = "curve"',
+    ),
+    "map output in a curve study": (
+        *CURVE,
+        r':4: outputs\[0\] = "pull_off_force": an output of studies of kind "map", .*or write kind = "map"',
+    ),
+    "curve misspelt": (
+        CURVE[0],
+        CURVE[1].replace("pull_off_force", "pth"),
+        r':4: outputs\[0\] = .*did you mean "path"',
+    ),
+    "variable of a curve misspelt": (
+        CURVE[0],
+        CURVE[1].replace("pull_off_force", "path_lod"),
+        r':4: outputs\[0\] = .*did you mean "path_load"',
+    ),
+    "curve and its variable": (
+        CURVE[0],
+        CURVE[1].replace('"pull_off_force"', '"path", "path_load"'),
+        r':4: outputs\[1\] = "path_load": a variable of "path", .*remove one',
+    ),
+    "curve twice": (
+        CURVE[0],
+        CURVE[1].replace('"pull_off_force"', '"path", "path"'),
+        r':4: outputs\[1\] = "path": this output is asked for twice',
+    ),
+    "too many curves": (
+        GOOD[GOOD.index("kind") :],
+        GOOD[GOOD.index("kind") :].replace(*CURVE).replace("pull_off_force", "path").replace("num = 3", "num = 501"),
+        r':2: kind = "curve": a curve study has at most 1,000 scenes, and this one has 1,002; use fewer',
+    ),
+    "solver of a curve study": (
+        GOOD[GOOD.index("kind") :],
+        GOOD[GOOD.index("kind") :].replace(*CURVE).replace("pull_off_force", "path").replace('"exact"', '"envelope"'),
+        r':16: method.solver = "envelope": a curve study has no solver.*remove this key',
+    ),
+    "solver unknown in a curve study": (
+        GOOD[GOOD.index("kind") :],
+        GOOD[GOOD.index("kind") :].replace(*CURVE).replace("pull_off_force", "path").replace('"exact"', '["exakt"]'),
+        r':16: method.solver = \["exakt"\]: a curve study has no solver.*remove this key',
+    ),
+    "radius twice": (
+        "a_max_over_R = inf",
+        "a_max_over_R = inf\na_max_over_a2 = 2.0",
+        r":14: parameters.a_max_over_a2 = 2.0: a_max_over_R gives the radius of the punch already; .*remove the other",
+    ),
+    "no radius": (
+        "a_max_over_R = inf\n",
+        "",
+        r":6: parameters.a_max_over_R: .*required; .* a_max_over_R = inf, or instead .* a_max_over_a2 = 2.0",
+    ),
+    "radius misspelt": (
+        "a_max_over_R",
+        "a_max_over_a_2",
+        r':13: .*a_max_over_a_2 = inf: .*did you mean "a_max_over_a2"',
+    ),
+    "radius out of range": ("a_max_over_R = inf", "a_max_over_a2 = [1.0, 0.0]", r":13: .*a2\[1\] = 0.0: out of range"),
+    "radius to inf": (
+        "a_max_over_R = inf",
+        "a_max_over_a2 = { start = 1.0, stop = inf, num = 2 }",
+        r":13: .*a2.stop = inf: a range must end at finite values",
+    ),
     "layout unknown": ('layout = "grid"', 'layout = "gird"', r':3: layout = "gird": .*did you mean "grid"'),
     "outputs no list": ('["pull_off_force"]', '"pull_off_force"', r':4: outputs = "pull_off_force": .*a list'),
     "outputs empty": ('["pull_off_force"]', "[]", r":4: outputs = \[\]: the list is empty"),
@@ -185,10 +254,27 @@ def test_the_closed_ends_are_allowed(k: str, nu: str, write_study: Callable[[str
     assert study.parameters["k"] == float(k)
 
 
+@pytest.mark.parametrize("layout", ["grid", "points"])
+def test_a_thousand_curves_are_allowed(layout: str, write_study: Callable[[str], Path]) -> None:
+    from gradhesion.cli.study import load_study
+
+    text = GOOD.replace(*CURVE).replace("pull_off_force", "path").replace("[0.0, 0.5]", "0.5").replace("grid", layout)
+    assert load_study(write_study(text.replace("num = 3", "num = 1000"))).scenes == 1000
+
+
+@pytest.mark.parametrize("old", ["num = 3", "num = 1001"])
+def test_points_are_counted_by_their_longest_list(old: str, refused: Callable[..., list[str]]) -> None:
+    text = GOOD.replace(*CURVE).replace("pull_off_force", "path").replace("[0.0, 0.5]", "0.5").replace("grid", "points")
+    text = text.replace("num = 3", "num = 1001").replace(
+        "nu = 0.3", "nu = [0.1, 0.2]" if old == "num = 3" else "nu = 0.3"
+    )
+    assert any("at most 1,000 scenes, and this one has 1,001" in line for line in refused(text))
+
+
 def test_all_mistakes_are_told_at_once_in_the_order_of_their_lines(refused: Callable[..., list[str]]) -> None:
     text = GOOD
     for name in (
-        "kind to come",
+        "kind unknown",
         "layout unknown",
         "output unknown",
         "number as text",

@@ -8,11 +8,14 @@ import numpy as np
 import pytest
 from click.testing import Result
 
+from gradhesion.cli.curve_picture import drawn_curves
 from gradhesion.cli.picture import Plan, plan_of
+from gradhesion.cli.reader import opened
 from gradhesion.cli.scales import scale
 
 Call = Callable[..., Result]
 INF = "a_max_over_R=[0.5, 1.0, 2.0, inf]"
+SOLVERS = "../method.solver=['exact', 'asymptotic', 'envelope']"
 SHAPES = {
     "a line": ["k=0.2", "A=0.1", "a_max_over_R=1.0"],
     "a line to infinity": ["k=0.2", "A=0.1", "lambda_over_R=0.1", INF],
@@ -21,6 +24,9 @@ SHAPES = {
     "a map to infinity": ["A=0.1", "k={start=0, stop=0.9, num=9}", "a_max_over_R=[0.1, 0.2, 0.5, 1, 2, inf]", "lambda_over_R=1.0"],
     "panels of lines": [INF],
     "panels of maps": ["lambda_over_R.num=12", "k={start=0, stop=0.9, num=7}", "c0_over_R=[0.1, 1.0]", INF],
+    "solvers as lines": [SOLVERS, "k=0.2", "A=0.1", "a_max_over_R=1.0"],
+    "solvers beside lines": [SOLVERS, "A=0.1", "lambda_over_R.num=12", "a_max_over_R=1.0"],
+    "solvers beside maps": [SOLVERS, "lambda_over_R.num=12", "k={start=0, stop=0.9, num=7}", "a_max_over_R=1.0"],
     "falling axes": ["lambda_over_R=[0.5, 0.2, 0.1]", "k=[0.3, 0.1]", "A=0.1", "a_max_over_R=1.0"],
 }  # fmt: skip
 
@@ -31,7 +37,7 @@ def dataset_file(gradhesion: Call, study_file: Path, tmp_path: Path) -> Callable
 
     def make(*parameters: str, layout: str = "grid") -> Path:
         path = tmp_path / "out.nc"
-        sets = [f"--set=parameters.{parameter}" for parameter in parameters]
+        sets = [f"--set=parameters.{parameter}".replace("parameters.../", "") for parameter in parameters]
         result = gradhesion("run", study_file, "-o", path, "--quiet", f"--set=layout='{layout}'", *sets)
         assert result.exit_code == 0, result.stderr
         return path
@@ -54,6 +60,75 @@ def test_the_form_follows_the_name(
     picture = tmp_path / f"picture.{form}"
     assert gradhesion("plot", dataset_file(), "-o", picture, "--variable", "loading_jumps").exit_code == 0
     assert picture.read_bytes().startswith(start)
+
+
+@pytest.fixture
+def curve_file(gradhesion: Call, study_file: Path, tmp_path: Path) -> Callable[..., Path]:
+    """Make a dataset of curves."""
+
+    def make(outputs: str, *sets: str) -> Path:
+        path = tmp_path / "curves.nc"
+        parameters = ("k=0.3", "lambda_over_R=0.17", "A=[0.0, 0.023, 0.07]", "a_max_over_R=0.4")
+        study = ["--set=kind='curve'", f"--set=outputs={outputs}", *(f"--set=parameters.{one}" for one in parameters)]
+        result = gradhesion("run", study_file, "-o", path, "--quiet", *study, *(f"--set={one}" for one in sets))
+        assert result.exit_code == 0, result.stderr
+        return path
+
+    return make
+
+
+EVERYTHING = "['equilibrium', 'path', 'asymptotic', 'envelope', 'effective', 'smooth']"
+CURVES = {
+    "everything of one scene": (EVERYTHING, ["parameters.A=0.07"]),
+    "everything of several": (EVERYTHING, ["parameters.k=[0.0, 0.3]"]),
+    "more scenes than colours": ("['path']", ["parameters.A={start=0, stop=0.1, num=8}"]),
+    "points": ("['path']", ["layout='points'", "parameters.k=[0.0, 0.1, 0.2]"]),
+    "an axis of one value": ("['path']", ["parameters.A=[0.07]"]),
+    "load over depth alone": ("['load', 'indentation']", []),
+    "an unbounded punch": (EVERYTHING, ["parameters.a_max_over_R=inf"]),
+}
+
+
+@pytest.mark.parametrize("shape", CURVES)
+def test_curves_are_drawn(shape: str, gradhesion: Call, curve_file: Callable[..., Path]) -> None:
+    outputs, sets = CURVES[shape]
+    path = curve_file(outputs, *sets)
+    result = gradhesion("plot", path)
+    assert result.exit_code == 0, result.stderr
+    assert path.with_suffix(".png").read_bytes()[:4] == b"\x89PNG"
+
+
+def test_a_picture_of_curves_has_three_panels_and_tells_its_scenes(curve_file: Callable[..., Path]) -> None:
+    path = curve_file("['equilibrium', 'path', 'smooth']", "parameters.k=[0.1, 0.3]")
+    with opened(path) as dataset:
+        figure = drawn_curves(dataset, ["path"])
+        labels = [(axes.get_xlabel().split(" $")[0], axes.get_ylabel().split(" $")[0]) for axes in figure.axes]
+        assert labels == [("depth", "load"), ("contact radius", "depth"), ("contact radius", "load")]
+        legend = [text.get_text() for text in figure.legends[0].get_texts()]
+        assert legend == ["$A$ = 0", "$A$ = 0.023", "$A$ = 0.07", "path", "jump"]
+        assert "$k$ = 0.1 (first of 2)" in figure.get_suptitle()
+        # what is drawn is the path: its lines and its jumps reach from the first depth to the last
+        drawn = np.concatenate([line.get_xdata() for line in figure.axes[0].get_lines() if len(line.get_xdata()) > 2])
+        first = dataset["path_indentation"].isel(k=0)
+        assert np.nanmin(drawn) == float(first.min())
+        assert np.nanmax(drawn) == float(first.max())
+        single = drawn_curves(dataset.isel(k=0, A=2), ["equilibrium"])
+        legend = [text.get_text() for text in single.legends[0].get_texts()]
+        assert legend == ["equilibrium, stable", "equilibrium, unstable"]
+
+
+def test_curves_that_cannot_be_drawn_are_said(gradhesion: Call, curve_file: Callable[..., Path]) -> None:
+    path = curve_file("['path', 'load']")
+    for name, message in [
+        ("pth", '--variable pth: not a curve of this dataset; did you mean "path"?'),
+        ("smooth", "--variable smooth: not a curve of this dataset"),
+        ("load", "equilibrium: a picture needs two of contact radius, indentation and load"),
+        ("equilibrium", 'name whole curves in the outputs of the study, as in outputs = ["equilibrium"]'),
+    ]:
+        result = gradhesion("plot", path, "--variable", name)
+        assert result.exit_code == 2
+        assert message in result.stderr
+    assert gradhesion("plot", path, "--variable", "path_load").exit_code == 0
 
 
 def test_points_are_drawn(gradhesion: Call, dataset_file: Callable[..., Path]) -> None:
@@ -118,6 +193,14 @@ def test_every_further_axis_has_its_place() -> None:
         x="lambda_over_R", second="k", is_map=True, columns="a_max_over_R", rows="A", middle=("c0_over_R",)
     )
     assert plan_of({"k": 1}) is None
+
+
+def test_solvers_are_lines_if_nothing_else_is_and_columns_otherwise() -> None:
+    lines = plan_of({"solver": 3, "k": 1, "A": 40})
+    assert lines == Plan(x="A", second="solver", is_map=False, columns=None, rows=None, middle=())
+    maps = plan_of({"solver": 2, "k": 9, "A": 40, "a_max_over_R": 4})
+    assert maps == Plan(x="A", second="k", is_map=True, columns="solver", rows="a_max_over_R", middle=())
+    assert plan_of({"solver": 3, "k": 1}) is None
 
 
 def test_scales_follow_the_spacing() -> None:

@@ -2,6 +2,7 @@
 
 import doctest
 import importlib
+import json
 import math
 import pkgutil
 import re
@@ -90,7 +91,11 @@ def test_run_imports_neither_xarray_nor_matplotlib(tmp_path: Path) -> None:
     assert done.stdout == "[]\n"
 
 
-@pytest.mark.parametrize("config", sorted((ROOT / "configs").glob("*.toml")), ids=lambda path: path.stem)
+CONFIGS = sorted((ROOT / "configs").glob("*.toml"))
+MAPS = [config for config in CONFIGS if tomllib.loads(config.read_text()).get("kind", "map") == "map"]
+
+
+@pytest.mark.parametrize("config", MAPS, ids=lambda path: path.stem)
 def test_every_study_works_small_and_its_smooth_scenes_are_known(
     config: Path, gradhesion: Callable[..., Result], tmp_path: Path
 ) -> None:
@@ -103,6 +108,25 @@ def test_every_study_works_small_and_its_smooth_scenes_are_known(
         expected = (3 + dataset["k"]) / 3
         assert float(abs(smooth / expected - 1).max()) <= 1e-13
         assert set(dataset.data_vars) > {"pull_off_force", "dissipated_energy"}
+
+
+def test_the_curve_is_that_of_a_reference_scene(gradhesion: Callable[..., Result], tmp_path: Path) -> None:
+    config, output = ROOT / "configs" / "curve.toml", tmp_path / "curve.nc"
+    assert [path for path in CONFIGS if path not in MAPS] == [config]
+    assert gradhesion("run", config, "-o", output, "--quiet").exit_code == 0
+    parameters = tomllib.loads(config.read_text())["parameters"]
+    scenes = json.loads((ROOT / "tests" / "reference" / "scenes.json").read_text())["scenes"]
+    (expected,) = [scene["expected"] for scene in scenes if scene["parameters"] == parameters]
+    with xarray.open_dataset(output) as dataset:
+        for load in ("load", "path_load"):
+            assert math.isclose(-float(dataset[load].min()), expected["pull_off_force"], rel_tol=1e-14)
+        assert math.isclose(float(dataset["path_indentation"].max()), expected["delta_max"], rel_tol=1e-12)
+        jumps, unloading = dataset["path_jump"] == 1, dataset["path_unloading"] == 1
+        assert int((jumps & ~unloading).sum()) == expected["loading_jumps"]
+        assert int((jumps & unloading).sum()) == expected["unloading_jumps"]
+        starts = (dataset["stable"] == 1).astype(int).diff("point") == 1
+        assert int(starts.sum()) == 5
+    assert gradhesion("plot", output, "-o", tmp_path / "curve.svg").exit_code == 0
 
 
 def test_the_maps_are_a_real_study_over_all_five_axes() -> None:

@@ -1,0 +1,70 @@
+"""Several solvers side by side: the first dimension of the dataset."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import numpy as np
+import pytest
+import xarray
+from click.testing import Result
+
+from gradhesion.cli.dataset import compute
+from gradhesion.cli.study import load_study, study_from
+
+Call = Callable[..., Result]
+SEVERAL = ["envelope", "exact", "asymptotic"]
+
+
+def test_each_solver_gives_what_it_gives_alone(data: dict[str, Any]) -> None:
+    together = compute(study_from(data | {"method": {"solver": SEVERAL}}))
+    assert next(iter(together["pull_off_force"].dims)) == "solver"
+    assert together["solver"].values.tolist() == SEVERAL, "in the order of the study"
+    for solver in SEVERAL:
+        alone = compute(study_from(data | {"method": {"solver": solver}}))
+        assert "solver" not in alone.variables
+        for name in alone.variables:
+            np.testing.assert_array_equal(
+                together[name].sel(solver=solver) if name in together.data_vars else together[name], alone[name]
+            )
+    exact, envelope = (together["pull_off_force"].sel(solver=one, A=0.023) for one in ("exact", "envelope"))
+    assert (exact != envelope).any(), "the solvers differ"
+
+
+@pytest.mark.parametrize("layout", ["grid", "points"])
+def test_the_file_is_the_same_in_whatever_blocks(
+    layout: str,
+    data: dict[str, Any],
+    gradhesion: Call,
+    write_study: Callable[[str], Path],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    data |= {"layout": layout, "method": {"solver": SEVERAL}}
+    if layout == "points":
+        data["parameters"] |= {"k": [0.0, 0.1, 0.2], "A": [0.1, 0.0, 0.2], "a_max_over_R": [1.0, 2.0, float("inf")]}
+    study = write_study(study_from(data).text)
+    computed = compute(load_study(study))
+    monkeypatch.setattr("gradhesion.cli.blocks.CHUNK", 2)
+    result = gradhesion("run", study, "-o", tmp_path / "x.nc")
+    assert result.exit_code == 0
+    scenes = computed["status"].size
+    assert f"{scenes} scenes in" in result.stderr
+    with xarray.open_dataset(tmp_path / "x.nc") as written:
+        for one in (computed, written):
+            del one.attrs["history"]
+            one["status"].attrs["flag_masks"] = np.atleast_1d(one["status"].attrs["flag_masks"]).tolist()
+        xarray.testing.assert_identical(computed, written)
+    with netCDF4.Dataset(tmp_path / "x.nc") as file:
+        assert file["solver"].dtype is str
+        assert file["solver"].long_name
+        assert file["pull_off_force"].dimensions[0] == "solver"
+    told = gradhesion("info", tmp_path / "x.nc").stdout
+    assert "solvers, each for all scenes: envelope, exact, asymptotic\n" in told
+    assert "at solver = " in told
+    assert gradhesion("plot", tmp_path / "x.nc").exit_code == 0
+
+
+def test_a_list_of_one_solver_stays_a_dimension(data: dict[str, Any]) -> None:
+    assert compute(study_from(data | {"method": {"solver": ["envelope"]}})).sizes["solver"] == 1
