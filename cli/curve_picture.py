@@ -142,6 +142,8 @@ def _caption(dataset: xarray.Dataset, axes: Sequence[str]) -> str:
             told.append(equation(name, values[0]))
         elif name in axes[:-1]:
             told.append(f"{equation(name, dataset[name].values[0])} (first of {values.size})")
+    if axes and dataset.sizes[axes[-1]] > SCENES:
+        told.append(f"{SCENES} of {dataset.sizes[axes[-1]]} scenes")
     return ",  ".join(told)
 
 

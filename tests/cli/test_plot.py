@@ -112,9 +112,18 @@ def test_a_picture_of_curves_has_three_panels_and_tells_its_scenes(curve_file: C
         first = dataset["path_indentation"].isel(k=0)
         assert np.nanmin(drawn) == float(first.min())
         assert np.nanmax(drawn) == float(first.max())
+        assert "scenes" not in figure.get_suptitle(), "all along the last axis are drawn"
         single = drawn_curves(dataset.isel(k=0, A=2), ["equilibrium"])
         legend = [text.get_text() for text in single.legends[0].get_texts()]
         assert legend == ["equilibrium, stable", "equilibrium, unstable"]
+
+
+def test_a_picture_of_some_scenes_says_so(curve_file: Callable[..., Path]) -> None:
+    with opened(curve_file("['path']", "parameters.A={start=0, stop=0.1, num=9}")) as dataset:
+        figure = drawn_curves(dataset, [])
+        assert "5 of 9 scenes" in figure.get_suptitle()
+        legend = [text.get_text() for text in figure.legends[0].get_texts()]
+        assert legend[:5] == [f"$A$ = {value:g}" for value in (0, 0.025, 0.05, 0.075, 0.1)]
 
 
 def test_curves_that_cannot_be_drawn_are_said(gradhesion: Call, curve_file: Callable[..., Path]) -> None:
