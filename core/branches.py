@@ -2,8 +2,8 @@
 
 They are kept in a *trace*, an array of one column a branch with the rows named here: the two folds that bound the
 branch, how loading arrives on it, and what unloading loses from its start to the end of contact. Two rows more are
-room for the nodes of jump_energy.py and the waves of regular.py; the first column of the last one has the innermost
-place at which a pair of folds is about to be born (ties.py).
+room for the nodes of jump_energy.py and gap.py and the waves of regular.py, one tells of waves that are not walked, and
+the first column of the last one has the innermost place at which a pair of folds is about to be born (ties.py).
 """
 
 import math
@@ -19,8 +19,11 @@ from gradhesion.core.struve.circle import TWO_PI
 START, START_DEPTH, END, END_DEPTH = 0, 1, 2, 3
 ARRIVAL, LOADING_LOSS, LOADING_JUMPS = 4, 5, 6
 UNLOADING_LOSS, UNLOADING_JUMPS, LAST_DEPTH, CALLER = 7, 8, 9, 10
-WORK, VALUES = 11, 12
-TANGENCY, ROWS = 13, 14
+WORK, VALUES, RUN = 11, 12, 13
+GAP, RUN_FIRST, RUN_LAST, RUN_LANDING = 0, 1, 2, 3
+"""What the row RUN holds: the first branch beyond waves that were not walked, the first and the last of these waves
+that loading leaves, and where it lands among them (0 if on the way from one wave to the next)."""
+TANGENCY, ROWS = 14, 15
 UNKNOWN: Final = -1.0
 """Unloading jumps of a branch that unloading has not visited yet."""
 _STEPS: Final = 100

@@ -15,9 +15,14 @@ from gradhesion.core.branches import (
     ARRIVAL,
     END,
     END_DEPTH,
+    GAP,
     LAST_DEPTH,
     LOADING_JUMPS,
     LOADING_LOSS,
+    RUN,
+    RUN_FIRST,
+    RUN_LANDING,
+    RUN_LAST,
     START,
     START_DEPTH,
     TANGENCY,
@@ -84,6 +89,7 @@ def walk(
     first, final = arches
     trace = room_for(trace, min(final, 2.0 * furthest) - first + 8.0)
     count = append_branches(table, curve, int(first), final, furthest, trace, 0)
+    trace[RUN, GAP] = math.inf
     load_up(table, curve, count, trace, furthest, losses)
     return count, trace
 
@@ -158,6 +164,7 @@ def _load_through(
     """Follow loading from the `near` branches of the beginning through the gap to those near the rim."""
     before, after, final = waves  # numbers of the last wave before the gap, and of the first one after it
     trace[ARRIVAL, near:count] = math.inf
+    trace[RUN, GAP], trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST] = near, 0.0, -1.0
     now = load_up(table, curve, near, trace, math.inf, losses)
     left, level = (trace[END, now], trace[END_DEPTH, now]) if now >= 0 else (0.0, 0.0)
     if trace[END_DEPTH, near] > level:
@@ -176,6 +183,7 @@ def _load_through(
                 loss = energy_from_zero(table, curve, x, 0.0)
             jumps += 1.0
         if wave < after:
+            trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST], trace[RUN, RUN_LANDING] = wave, after - 1.0, x
             if losses:
                 loss += sum_of_waves(table, curve, wave, after - 1.0, True, final, trace)
             x, _ = jump_of_wave(table, curve, after - 1.0, True, trace)

@@ -80,6 +80,15 @@ def loading_to(table: Any, curve: Curve, count: int, trace: Any, rim: float, los
 
 
 @kernel()
+def jumps_in_to(count: int, trace: Any, rim: float) -> bool:
+    """Return whether loading goes from zero contact to the rim at once."""
+    branch = 0
+    while branch < count and not trace[ARRIVAL, branch] <= rim:
+        branch += 1
+    return branch == count
+
+
+@kernel()
 def highest_depth(count: int, trace: Any, rim: float, rim_depth: float) -> float:
     """Return the largest depth on the way to the rim, 0 if all are negative."""
     highest = max(0.0, rim_depth)

@@ -78,7 +78,7 @@ def lowest_load(table: Any, curve: Curve, x_rim: float, x_rim_low: float) -> tup
     z_rim = TWO_PI * x_rim
     if min(z, z_rim) > PHASELESS:
         abscissa = lowest if z <= z_rim else z_rim / amplitude_power(table, z_rim)
-        return _floor(b, chi, k, abscissa, z), min(z, z_rim) / TWO_PI, 0.0
+        return _floor(b, chi, k, abscissa, z), z / TWO_PI if z < z_rim else x_rim, 0.0
     start = max(0, int((min(z, z_rim) - table.phase) / math.pi + 0.5))
     best = (0.0, 0.0, 0.0)
     if x_rim < math.inf:

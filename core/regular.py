@@ -106,8 +106,8 @@ def branch_of_wave(table: Any, curve: Curve, wave: float) -> tuple[float, float,
 
 
 @kernel()
-def jump_of_wave(table: Any, curve: Curve, wave: float, outwards: bool, trace: Any) -> tuple[float, float]:
-    """Return where the jump from a wave to the next one lands, and what it loses; `wave` is any real number."""
+def _shifted(table: Any, curve: Curve, wave: float) -> tuple[Curve, float, float]:
+    """Return a curve that lags, the number of one of its waves that is like this one, and the scale between the two."""
     b, g, _ = curve
     scale = 1.0
     whole = float(math.floor(wave))
@@ -116,7 +116,21 @@ def jump_of_wave(table: Any, curve: Curve, wave: float, outwards: bool, trace: A
         scale = wave / (FAR + lag)
         b *= scale ** (0.5 * (1.0 + table.k))
         whole = FAR
-    shifted = (b, g, lag)
+    return (b, g, lag), whole, scale
+
+
+@kernel()
+def end_of_wave(table: Any, curve: Curve, wave: float) -> tuple[Curve, float]:
+    """Return where the branch of a wave ends, on a curve that lags; `wave` is any real number."""
+    shifted, whole, _ = _shifted(table, curve, wave)
+    x, _ = fold_of_wave(table, shifted, whole, False)
+    return shifted, x
+
+
+@kernel()
+def jump_of_wave(table: Any, curve: Curve, wave: float, outwards: bool, trace: Any) -> tuple[float, float]:
+    """Return where the jump from a wave to the next one lands, and what it loses; `wave` is any real number."""
+    shifted, whole, scale = _shifted(table, curve, wave)
     left, depth = fold_of_wave(table, shifted, whole, not outwards)
     target = whole + 1.0 if outwards else whole - 1.0
     fold = _fold_near(table, shifted, target, not outwards, left + (target - whole))

@@ -11,12 +11,13 @@ from typing import Any
 
 from gradhesion.core import smooth
 from gradhesion.core._jit import kernel
+from gradhesion.core.contact import disc_limits, is_one_disc
 from gradhesion.core.curve import Curve, depth
 from gradhesion.core.cycle import extent, is_endless, is_long, is_smooth, stride, walk
 from gradhesion.core.folds import CLOSE
-from gradhesion.core.loading import highest_depth, loading_to
+from gradhesion.core.loading import highest_depth, jumps_in_to, loading_to
 from gradhesion.core.pull_off import lowest_load
-from gradhesion.core.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
+from gradhesion.core.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.ties import is_close_to_a_jump
@@ -24,6 +25,8 @@ from gradhesion.core.unloading import unloading_from
 
 FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST = 0, 1, 2, 3, 4, 5, 6
 """Rows of the results, in the order of sweep.OUTPUTS."""
+CONTACT = 7
+"""One more slot, not -1 if the status shall tell where loading does not keep the contact one disc."""
 
 
 @kernel()
@@ -43,7 +46,7 @@ def _wants_cycle(slots: Any) -> bool:
 
 
 @kernel()
-def _solve_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: Any, out: Any) -> None:
+def _solve_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: Any, out: Any, status: Any) -> None:
     """Solve a smooth punch for all its rims."""
     length = smooth.smooth_length(k, stretch)
     depth_scale = 2.0 * length * length / (1.0 + k)
@@ -52,7 +55,9 @@ def _solve_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: An
         if _wants_force(slots):
             force, z = smooth.smooth_force(k, constants[0], z_rim)
             _put(out, slots, FORCE, i, force)
-            _put(out, slots, RADIUS, i, z * length)
+            _put(out, slots, RADIUS, i, z * length if z < z_rim else rims[i])
+            if z == z_rim:
+                status[i] |= PULL_OFF_AT_RIM
         if _wants_cycle(slots):
             loss, unloading_jumps, last = smooth.smooth_cycle(k, constants, z_rim)
             _put(out, slots, ENERGY, i, TWO_PI * length * length * loss)
@@ -62,6 +67,8 @@ def _solve_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: An
         if slots[DEEPEST] >= 0:
             deepest = max(0.0, smooth.smooth_depth(k, z_rim)) if z_rim < math.inf else math.inf
             _put(out, slots, DEEPEST, i, depth_scale * deepest)
+        if (_wants_cycle(slots) or slots[DEEPEST] >= 0) and z_rim < constants[1]:
+            status[i] |= JUMP_IN_TO_RIM
 
 
 @kernel()
@@ -81,14 +88,26 @@ def _solve_force(
         if second < lowest * (1.0 - CLOSE):
             status[i] |= CLOSE_TO_A_JUMP
         _put(out, slots, FORCE, i, -scale * lowest)
-        _put(out, slots, RADIUS, i, place * wavelength)
+        _put(out, slots, RADIUS, i, place * wavelength if place != x else rims[i])
+        if place == x:
+            status[i] |= PULL_OFF_AT_RIM
 
 
 @kernel()
 def _cycle_at_rim(
-    table: Any, curve: Curve, scales: Any, count: int, trace: Any, x: float, slots: Any, out: Any, status: Any, i: int
+    table: Any,
+    curve: Curve,
+    scales: Any,
+    count: int,
+    trace: Any,
+    limits: tuple[float, float],
+    x: float,
+    slots: Any,
+    out: Any,
+    status: Any,
+    i: int,
 ) -> None:
-    """Read the cycle of one rim off a trace."""
+    """Read the cycle of one rim off a trace, and what there is to report."""
     energy_scale, depth_scale = scales
     losses = slots[ENERGY] >= 0
     rim_depth = depth(table, curve, x) if x < math.inf else math.inf
@@ -97,9 +116,8 @@ def _cycle_at_rim(
         unloading_loss, unloading_jumps, last = unloading_from(table, curve, count, trace, x, rim_depth, losses)
         energy = energy_scale * (loading_loss + unloading_loss)
         if not abs(energy) < math.inf:  # an overflow
-            energy, status[i] = math.nan, NO_VALUE
-        elif loading_loss < 0.0:
-            status[i] |= LOADING_NOT_ONE_DISC
+            energy = math.nan
+            status[i] |= NO_VALUE
         if is_close_to_a_jump(table, curve, count, trace, x, rim_depth):
             status[i] |= CLOSE_TO_A_JUMP
         _put(out, slots, ENERGY, i, energy)
@@ -107,6 +125,18 @@ def _cycle_at_rim(
         _put(out, slots, UNLOADING, i, unloading_jumps)
         _put(out, slots, LAST, i, depth_scale * last)
     _put(out, slots, DEEPEST, i, depth_scale * highest_depth(count, trace, x, rim_depth))
+    if jumps_in_to(count, trace, x):
+        status[i] |= JUMP_IN_TO_RIM
+    if not is_one_disc(table, curve, limits, x, trace):
+        status[i] |= LOADING_NOT_ONE_DISC
+
+
+@kernel()
+def _limits(table: Any, curve: Curve, count: int, trace: Any, furthest: float, slots: Any) -> tuple[float, float]:
+    """Return the radii between which loading ceases to keep the contact one disc, if that is asked for."""
+    if slots[CONTACT] < 0:
+        return math.inf, math.inf
+    return disc_limits(table, curve, count, trace, furthest)
 
 
 @kernel()
@@ -131,18 +161,20 @@ def _solve_cycle(
             furthest = max(furthest, x)
     if furthest > 0.0:
         count, trace = walk(table, curve, arches, furthest, scratch, losses)
+        limits = _limits(table, curve, count, trace, furthest, slots)
     for i in range(rims.size):
         x = rims[i] / wavelength
         if not is_long(table, arches, x):
-            _cycle_at_rim(table, curve, scales, count, trace, x, slots, out, status, i)
+            _cycle_at_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i)
     for i in range(rims.size):
         x = rims[i] / wavelength
         if is_endless(arches, x):
             out[:, i] = math.nan
-            status[i] = NO_VALUE
+            status[i] |= NO_VALUE
         elif is_long(table, arches, x):
             count, trace = stride(table, curve, arches, x, scratch, losses)
-            _cycle_at_rim(table, curve, scales, count, trace, x, slots, out, status, i)
+            limits = _limits(table, curve, count, trace, x, slots)
+            _cycle_at_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i)
 
 
 @kernel()
@@ -166,7 +198,7 @@ def solve_curve(
         status[:] = NO_VALUE
         return
     if amplitude == 0.0:
-        _solve_smooth(k, constants, stretch, rims, slots, out)
+        _solve_smooth(k, constants, stretch, rims, slots, out, status)
         return
     length = wavelength / TWO_PI
     depth_scale = stretch * length ** (0.5 * (1.0 - k))
@@ -179,7 +211,7 @@ def solve_curve(
         scales = (TWO_PI * length * length, depth_scale)
         arches = extent(table, curve)
         if is_smooth(arches):
-            _solve_smooth(k, constants, stretch, rims, slots, out)
+            _solve_smooth(k, constants, stretch, rims, slots, out, status)
         else:
             _solve_cycle(table, curve, arches, scales, wavelength, rims, slots, out, status, scratch)
 

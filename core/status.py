@@ -3,18 +3,32 @@
 from typing import Final
 
 LOADING_NOT_ONE_DISC: Final = 1
-"""Loading gains energy: on its way the edge is pressed shut, where the contact is no longer one disc."""
+"""On loading the surfaces would overlap outside the contact, which is no single disc then (contact.py). Told where the
+loading path is followed, that is, where anything but the pull-off is asked for."""
+UNLOADING_NOT_ONE_DISC: Final = 2
+"""The same of unloading. Never so under controlled displacement (docs/theory.md, section 12)."""
+PULL_OFF_AT_RIM: Final = 4
+"""The pull-off force is met at the rim (told where it is asked for)."""
+JUMP_IN_TO_RIM: Final = 8
+"""Full contact at the first touch: the jump at the depth 0 meets no stable contact within the rim. Told where the
+loading path is followed."""
 CLOSE_TO_A_JUMP: Final = 16
 """An error of 1e-12 in an input could change the number of jumps, or move the pull-off to another trough."""
+TOLERANCE_NOT_MET: Final = 32
+"""The accuracy that was asked for is not reached."""
 NO_VALUE: Final = 64
 """A parameter is not a number or outside its range, or the scene cannot be resolved: the values are NaN."""
 
 FLAGS: Final = {
     "loading_contact_not_one_disc": LOADING_NOT_ONE_DISC,
+    "unloading_contact_not_one_disc": UNLOADING_NOT_ONE_DISC,
+    "pull_off_at_rim": PULL_OFF_AT_RIM,
+    "jump_in_to_rim": JUMP_IN_TO_RIM,
     "close_to_a_jump": CLOSE_TO_A_JUMP,
+    "tolerance_not_met": TOLERANCE_NOT_MET,
     "no_value": NO_VALUE,
 }
-"""Name of every flag in use, with its bit."""
+"""Name of every flag, with its bit; not every solver sets every one."""
 
-FAILED: Final = NO_VALUE
+FAILED: Final = TOLERANCE_NOT_MET | NO_VALUE
 """The bits that mean that a scene has failed (the others only inform)."""

@@ -32,6 +32,8 @@ MOMENT_TERMS: Final = 14
 MOMENT_TAIL_TERMS: Final = 24
 ARCHES: Final = 256
 """Arches of the fold function that are tabulated, two a wave; those further out are found when asked for."""
+FRACTIONAL_NODES: Final = 16
+"""Nodes of the fractional integral over one wave: its polynomial leaves 1e-10 of a cosine."""
 
 TABLE: Final = np.dtype(
     [
@@ -50,6 +52,7 @@ TABLE: Final = np.dtype(
         ("moment_constant", "f8"),
         ("moment_logarithm", "f8"),
         ("arches", "f8", (ARCHES + 1, 6)),  # x, X, Q at the inner edge, then at the summit; see arches.py
+        ("fractional", "f8", (FRACTIONAL_NODES, FRACTIONAL_NODES + 1)),  # see fractional.py
     ],
     align=True,
 )

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.struve import arches, bins, large, moments
+from gradhesion.core.struve import arches, bins, fractional, large, moments
 from gradhesion.core.struve.layout import TABLE
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.power import build_power
@@ -32,6 +32,7 @@ def _fill(table: Any, k: float, economisation: Any, nodes: Any, fit: Any, moment
     build_power(k, table.power_mantissa, table.power_exponent)
     moments.build_moments(table, moment_economisation)
     arches.build_arches(table)
+    fractional.build_fractional(k, table.fractional)
 
 
 def build_table(k: float) -> Any:

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 from gradhesion.core import FAILED, OUTPUTS, PARAMETERS, solve
 from gradhesion.core.material import stiffness
-from gradhesion.core.status import LOADING_NOT_ONE_DISC
+from gradhesion.core.status import JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, PULL_OFF_AT_RIM
 
 TESTS = Path(__file__).parents[1]
 EPS = 2.0**-52
@@ -69,8 +69,30 @@ def test_a_cycle_that_gains_is_flagged() -> None:
     """Weak adhesion: a state on the way of a jump is pressed shut at its edge, and the contact no single disc."""
     scene = {"k": 1.0, "nu": 0.5, "modulus": 900.0, "c0_over_R": 0.1, "lambda_over_R": 0.11, "a_max_over_R": 0.16}
     values = solve(scene | {"A": [0.0, 0.1, 2.3]})
-    assert values["status"].tolist() == [0, 0, LOADING_NOT_ONE_DISC]
+    assert (values["status"] & LOADING_NOT_ONE_DISC).tolist() == [0, 0, LOADING_NOT_ONE_DISC]
     assert values["dissipated_energy"][2] < 0.0 < values["dissipated_energy"][1]
+
+
+@pytest.mark.parametrize("A", [0.0, 1e-9, 0.02])
+def test_what_the_rim_decides(A: float) -> None:
+    """Smooth contact has its pull-off at X = (3+k)/2 and lands at X = 2, in units of section 11 of docs/theory.md."""
+    k = 0.31
+    scene = {"k": k, "nu": 0.27, "modulus": 173.0, "c0_over_R": 0.37, "lambda_over_R": 0.043, "A": A}
+    stretch = math.sqrt(2 ** (1 + k) * math.pi / float(stiffness(k, 0.27, 173.0, 0.37)))
+    radii = (np.array([(3 + k) / 2, 2.0]) * 0.5 * (1 + k) * stretch) ** (2 / (3 + k))
+    rims = np.array([0.5 * radii[0], 0.999 * radii[0], 1.001 * radii[0], 0.999 * radii[1], 1.001 * radii[1]])
+    values = solve(scene | {"a_max_over_R": rims}, OUTPUTS)
+    at_rim = (values["status"] & PULL_OFF_AT_RIM) != 0
+    to_rim = (values["status"] & JUMP_IN_TO_RIM) != 0
+    assert (at_rim == (values["pull_off_radius"] == rims)).all()
+    if A < 0.01:
+        assert at_rim.tolist() == [True, True, False, False, False]
+        assert to_rim.tolist() == [True, True, True, True, False]
+    else:
+        assert (to_rim <= (values["delta_max"] == 0.0)).all()
+    assert (values["loading_jumps"][to_rim] == 1).all()
+    only_force = solve(scene | {"a_max_over_R": rims}, ("pull_off_force",))
+    assert (only_force["status"] == np.where(at_rim, PULL_OFF_AT_RIM, 0)).all()
 
 
 def test_pull_off_force(solved: Any) -> None:

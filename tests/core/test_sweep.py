@@ -134,7 +134,7 @@ def test_order_of_rims_does_not_matter(scene: dict[str, float]) -> None:
 def test_what_is_asked_for_changes_no_bit(asked: tuple[str, ...], mixture: dict[str, np.ndarray]) -> None:
     everything, some = solve(mixture, OUTPUTS), solve(mixture, asked)
     assert set(some) == {*asked, "status"}
-    # what the status tells of the energy it tells only where that is asked for
+    # what the status tells of the path it tells only where that is followed
     for result in (everything, some):
         result["status"] = result["status"] & FAILED
     _same({name: everything[name] for name in some}, some)
@@ -227,7 +227,7 @@ def test_a_wrong_rim_on_a_shared_trace_disturbs_nobody(value: float, scene: dict
 )
 def test_edges_of_the_ranges_are_scenes(name: str, value: float, scene: dict[str, float]) -> None:
     values = solve(scene | {name: value}, OUTPUTS)
-    assert values["status"] == 0
+    assert not values["status"] & FAILED
     assert all(np.isfinite(values[output]).all() for output in OUTPUTS)
 
 
