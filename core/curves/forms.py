@@ -8,12 +8,14 @@ PLAIN      a smooth punch of any pull (smooth.py, envelope.py), z^2/2 - pull z^(
 All numbers are padded to five, so that one compiled sampler serves all forms.
 """
 
+import math
 from typing import Any, Final, TypeAlias
 
 from gradhesion.core import asymptotic
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve import wave
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.power import amplitude_power
 
 Numbers: TypeAlias = tuple[float, float, float, float, float]
 
@@ -51,6 +53,20 @@ def point(kind: int, table: Any, numbers: Numbers, place: float) -> tuple[float,
     if kind == SHORT:
         return asymptotic.depth(numbers, place), asymptotic.load(numbers, place)
     return _plain_point(numbers, place)
+
+
+@kernel()
+def ripple(kind: int, table: Any, numbers: Numbers, place: float) -> tuple[float, float, float]:
+    """Return the length of a half wave, and the amplitude of the waves in depth and in load at a place."""
+    if kind == EXACT:
+        z = TWO_PI * place
+        power = amplitude_power(table, z)
+        height = table.amplitude * numbers[1]
+        return 0.5, height * z * power, height * z / power
+    if kind == SHORT:
+        k, _, chi, _, _ = numbers
+        return 0.5 * TWO_PI, chi * place ** (0.5 * (1.0 - k)), chi * place ** (0.5 * (3.0 + k))
+    return math.inf, 0.0, 0.0
 
 
 @kernel()

@@ -2,8 +2,9 @@
 
 Between two knots the radius, the depth and the load are each monotone. A piece is halved until the curve stays within
 `TOLERANCE` of its chord in all three planes, each axis in units of the drawn span, at the middle and at both quarters
-(the middle of an S lies on its chord). Distances are taken across the chord: a wave that is as high as the picture but
-narrower than a line needs no more than its folds.
+(the middle of an S lies on its chord). Three places may miss the waves of a piece of more than half a wave, where no fold
+is a knot: there the amplitude of the waves has to be below the tolerance as well. Distances are taken across the chord: a
+wave that is as high as the picture but narrower than a line needs no more than its folds.
 """
 
 from typing import Any, Final
@@ -11,7 +12,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.curves.forms import Numbers, point
+from gradhesion.core.curves.forms import Numbers, point, ripple
 
 TOLERANCE: Final = 1.2e-4
 """Of the drawn span; elsewhere than at the three places an error may be half as large again, 2e-4 at most."""
@@ -20,10 +21,10 @@ _HALVINGS: Final = 30
 
 
 @kernel()
-def _near_chord(start: Any, end: Any, place: float, values: tuple[float, float], scales: Any) -> bool:
-    """Return whether a point is within the tolerance of the chord from start to end, in all three planes."""
+def _across(r: float, d: float, p: float, start: Any, end: Any, scales: Any) -> bool:
+    """Return whether a step is no more than the tolerance across the chord from start to end, in all three planes."""
     r1, d1, p1 = (end[0] - start[0]) * scales[0], (end[1] - start[1]) * scales[1], (end[2] - start[2]) * scales[2]
-    r, d, p = (place - start[0]) * scales[0], (values[0] - start[1]) * scales[1], (values[1] - start[2]) * scales[2]
+    r, d, p = r * scales[0], d * scales[1], p * scales[2]
     r1_squared, d1_squared, p1_squared = r1 * r1, d1 * d1, p1 * p1
     least = TOLERANCE * TOLERANCE
     return (
@@ -31,6 +32,22 @@ def _near_chord(start: Any, end: Any, place: float, values: tuple[float, float],
         and (r * p1 - p * r1) ** 2 <= least * (r1_squared + p1_squared)
         and (d * p1 - p * d1) ** 2 <= least * (d1_squared + p1_squared)
     )
+
+
+@kernel()
+def _is_straight(kind: int, table: Any, numbers: Numbers, start: Any, end: Any, scales: Any) -> bool:
+    """Return whether a piece is near its chord: at three places and, if they may miss its waves, in these."""
+    half_wave, _, _ = ripple(kind, table, numbers, 1.0)
+    if abs(end[0] - start[0]) > half_wave:
+        _, depth, load = ripple(kind, table, numbers, max(start[0], end[0]))
+        if not _across(0.0, depth, load, start, end, scales):
+            return False
+    for share in (0.5, 0.25, 0.75):
+        step = share * (end[0] - start[0])
+        depth, load = point(kind, table, numbers, start[0] + step)
+        if not _across(step, depth - start[1], load - start[2], start, end, scales):
+            return False
+    return True
 
 
 @kernel()
@@ -71,14 +88,7 @@ def sample(kind: int, table: Any, numbers: Numbers, knots: Any, joined: Any, sca
             top = 1
         while top > 0:  # the ends on the stack go towards the start
             end, level = ends[:, top - 1], levels[top - 1]
-            middle = 0.5 * (start[0] + end[0])
-            values = point(kind, table, numbers, middle)
-            straight = level == _HALVINGS or _near_chord(start, end, middle, values, scales)
-            for share in (0.25, 0.75):
-                if straight and level < _HALVINGS:
-                    place = start[0] + share * (end[0] - start[0])
-                    straight = _near_chord(start, end, place, point(kind, table, numbers, place), scales)
-            if straight:
+            if level == _HALVINGS or _is_straight(kind, table, numbers, start, end, scales):
                 top -= 1
                 if top > 0:  # the last end is the knot itself
                     if size == owners.size:
@@ -88,7 +98,9 @@ def sample(kind: int, table: Any, numbers: Numbers, knots: Any, joined: Any, sca
                     start[:] = end
             else:
                 levels[top - 1] = level + 1
-                ends[0, top], ends[1, top], ends[2, top], levels[top] = middle, values[0], values[1], level + 1
+                middle = 0.5 * (start[0] + end[0])
+                ends[0, top], levels[top] = middle, level + 1
+                ends[1, top], ends[2, top] = point(kind, table, numbers, middle)
                 top += 1
         if size == owners.size:
             points, owners = _grown(points, owners)

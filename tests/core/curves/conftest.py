@@ -31,6 +31,16 @@ SCENES: dict[str, dict[str, float]] = {
     "smooth with a small rim": {"a_max_over_R": 0.03, "A": 0.0},
     "hardly wavy": {"A": 1e-14},
     "large rim": {"a_max_over_R": 300.0},
+    "waves beyond the folds": {
+        "k": 0.0164,
+        "nu": -0.09,
+        "modulus": 88.0,
+        "c0_over_R": 0.11,
+        "lambda_over_R": 0.128,
+        "A": 0.167,
+        "a_max_over_R": math.inf,
+    },
+    "waves beyond the folds, finer": {"lambda_over_R": 0.0031, "A": 0.003, "a_max_over_R": 1.9},
 }
 
 
@@ -89,7 +99,7 @@ def slow_curve(slow_pair: Callable[..., Any]) -> Callable[[dict[str, float]], Sl
 
 
 def chord_error(form: Form, points: Any, joined: Any = None, spans: Any = None) -> float:
-    """The largest distance of a form from the chords of its points, in any plane and in spans, on 16 times the points.
+    """The largest distance of a form from the chords of its points, in any plane and in spans, on 48 points a chord.
 
     Points are radius, depth and load; `joined` tells which are reached along the curve.
     """
@@ -101,7 +111,7 @@ def chord_error(form: Form, points: Any, joined: Any = None, spans: Any = None) 
     worst = 0.0
     if not steps.size:
         return worst
-    for share in np.arange(1, 16) / 16:
+    for share in np.arange(1, 48) * 0.6180339887498949 % 1.0:
         between = np.empty((3, steps.size))
         between[0] = (start[0] + share * (end[0] - start[0])) / form.radius_scale
         fill_points(form.kind, form.table, form.numbers, between)
