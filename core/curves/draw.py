@@ -13,7 +13,7 @@ from gradhesion.core.curves.equilibrium import draw_equilibrium
 from gradhesion.core.curves.path import draw_path
 from gradhesion.core.curves.smooth import draw_smooth
 from gradhesion.core.curves.subject import Subject, subject_of
-from gradhesion.core.status import LOADING_NOT_ONE_DISC, NO_VALUE
+from gradhesion.core.status import NO_VALUE
 from gradhesion.core.sweep import PARAMETERS, solve
 
 CURVES: Final[dict[str, tuple[str, ...]]] = {
@@ -88,7 +88,7 @@ def draw_curves(scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict
         is one point, NaN (-1 for integers).
     status
         Bits of status.FLAGS: no_value where a parameter is outside its range or a curve that was asked for can fold
-        more than 100,000 times within the range; loading_contact_not_one_disc with the path, as in `solve`.
+        more than 100,000 times within the range; with the path, what `solve` reports of its jumps and energy.
 
     Raises
     ------
@@ -131,5 +131,6 @@ def draw_curves(scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict
         else:
             result |= variables
             if curve == "path":
-                status |= int(solve(scene, ["dissipated_energy"], threads=1)["status"]) & LOADING_NOT_ONE_DISC
+                solved = solve(scene, ["dissipated_energy", "loading_jumps", "unloading_jumps"], threads=1)
+                status |= int(solved["status"]) & ~NO_VALUE
     return result, status

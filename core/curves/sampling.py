@@ -2,9 +2,9 @@
 
 Between two knots the radius, the depth and the load are each monotone. A piece is halved until the curve stays within
 `TOLERANCE` of its chord in all three planes, each axis in units of the drawn span, at the middle and at both quarters
-(the middle of an S lies on its chord). Three places may miss the waves of a piece of more than half a wave, where no fold
-is a knot: there the amplitude of the waves has to be below the tolerance as well. Distances are taken across the chord: a
-wave that is as high as the picture but narrower than a line needs no more than its folds.
+(the middle of an S lies on its chord). Three places may miss the waves of a piece of more than half a wave, where no
+fold is a knot: there the amplitude of the waves has to be below the tolerance as well. Distances are taken across the
+chord: a wave that is as high as the picture but narrower than a line needs no more than its folds.
 """
 
 from typing import Any, Final

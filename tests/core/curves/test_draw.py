@@ -8,7 +8,7 @@ import pytest
 
 from gradhesion.core import draw_curves, solve
 from gradhesion.core.curves import CURVES, INTEGERS
-from gradhesion.core.status import LOADING_NOT_ONE_DISC, NO_VALUE
+from gradhesion.core.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 
 
 def test_every_curve_has_its_variables_of_one_length_and_type(any_scene: dict[str, float]) -> None:
@@ -87,6 +87,15 @@ def test_loading_that_gains_energy_is_flagged_as_in_a_map() -> None:
         "a_max_over_R": 0.16,
     }
     assert draw_curves(scene, ["path"])[1] == LOADING_NOT_ONE_DISC == solve(scene)["status"]
+    assert draw_curves(scene, ["equilibrium"])[1] == 0
+
+
+def test_a_path_that_rounding_could_change_is_flagged_as_in_a_map(scene: dict[str, float]) -> None:
+    """A rim at the end of a branch: an ulp further, and there is one more jump."""
+    path, _ = draw_curves(scene | {"A": 0.1}, ["path"])
+    third = int(np.flatnonzero(path["path_jump"])[3]) - 1
+    scene |= {"A": 0.1, "a_max_over_R": float(path["path_contact_radius"][third])}
+    assert draw_curves(scene, ["path"])[1] == CLOSE_TO_A_JUMP
     assert draw_curves(scene, ["equilibrium"])[1] == 0
 
 

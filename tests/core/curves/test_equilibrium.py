@@ -24,6 +24,21 @@ def test_chords_are_within_the_contract(any_subject: Subject, worst_chord: Calla
     assert worst_chord(any_subject.exact, (radius, depth, load)) <= 2e-4
 
 
+@pytest.mark.parametrize("whole", [4, 8, 16])
+@pytest.mark.parametrize(("wavelength", "amplitude"), [(0.002, 0.01), (0.008, 0.02), (0.008, 0.03)])
+def test_whole_waves_without_folds_are_seen(
+    wavelength: float, amplitude: float, whole: int, scene: dict[str, float], worst_chord: Callable[..., float]
+) -> None:
+    """From the last extremum to a rim some whole waves further, middle and quarters are in one phase: on one line."""
+    scene |= {"lambda_over_R": wavelength, "A": amplitude}
+    unbounded = subject_of(scene | {"a_max_over_R": math.inf})
+    assert unbounded is not None
+    subject = subject_of(scene | {"a_max_over_R": (unbounded.load_folds[-1] + whole) * wavelength})
+    assert subject is not None
+    radius, depth, load, _ = _arrays(subject)
+    assert worst_chord(subject.exact, (radius, depth, load)) <= 2e-4
+
+
 def test_points_are_modest(any_subject: Subject) -> None:
     """Smooth parts have some hundred; the width of a wave in the picture does the rest, eight points at least."""
     radius, _, _, _ = _arrays(any_subject)
