@@ -169,7 +169,7 @@ def fitted_smooth_coefficient(k: ArrayLike) -> Array:
 
     Returns
     -------
-    Array of the shape of `k`; NaN outside the range. Within 0.34 % of `smooth_coefficient`.
+    Array of the shape of `k`; NaN outside the range. Within 0.33 % of `smooth_coefficient`.
 
     Examples
     --------
@@ -190,7 +190,7 @@ def fitted_waviness_coefficient(k: ArrayLike) -> Array:
 
     Returns
     -------
-    Array of the shape of `k`; NaN outside the range. Within 0.54 % of `waviness_coefficient`.
+    Array of the shape of `k`; NaN outside the range. Within 0.53 % of `waviness_coefficient`.
 
     Examples
     --------
