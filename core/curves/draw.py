@@ -13,7 +13,7 @@ from gradhesion.core.curves.equilibrium import draw_equilibrium
 from gradhesion.core.curves.path import draw_path
 from gradhesion.core.curves.smooth import draw_smooth
 from gradhesion.core.curves.subject import Subject, subject_of
-from gradhesion.core.status import NO_VALUE
+from gradhesion.core.status import FAILED, NO_VALUE
 from gradhesion.core.sweep import PARAMETERS, solve
 
 CURVES: Final[dict[str, tuple[str, ...]]] = {
@@ -132,5 +132,5 @@ def draw_curves(scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict
             result |= variables
             if curve == "path":
                 solved = solve(scene, ["dissipated_energy", "loading_jumps", "unloading_jumps"], threads=1)
-                status |= int(solved["status"]) & ~NO_VALUE
+                status |= int(solved["status"]) & ~FAILED
     return result, status

@@ -95,7 +95,8 @@ def test_a_path_that_rounding_could_change_is_flagged_as_in_a_map(scene: dict[st
     path, _ = draw_curves(scene | {"A": 0.1}, ["path"])
     third = int(np.flatnonzero(path["path_jump"])[3]) - 1
     scene |= {"A": 0.1, "a_max_over_R": float(path["path_contact_radius"][third])}
-    assert draw_curves(scene, ["path"])[1] == CLOSE_TO_A_JUMP
+    assert draw_curves(scene, ["path"])[1] & CLOSE_TO_A_JUMP
+    assert not draw_curves(scene | {"A": 0.1, "a_max_over_R": 0.47}, ["path"])[1] & CLOSE_TO_A_JUMP
     assert draw_curves(scene, ["equilibrium"])[1] == 0
 
 
