@@ -81,11 +81,15 @@ def scenes_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
 
 def solve_block(study: Study, block: Block, threads: int | None) -> dict[str, NDArray[Any]]:
     """Solve a block of a study: the values of its outputs and `status`."""
-    solvers = study.method.solver
+    solvers, check = study.method.solver, study.method.check_contact
     if isinstance(solvers, str):
-        return solve(scenes_of(study, block), study.outputs, solver=solvers, threads=threads)
+        scenes = scenes_of(study, block)
+        return solve(scenes, study.outputs, solver=solvers, check_contact=check, threads=threads)
     scenes = scenes_of(study, block[1:])
-    found = [solve(scenes, study.outputs, solver=solver, threads=threads) for solver in solvers[block[0]]]
+    found = [
+        solve(scenes, study.outputs, solver=solver, check_contact=check, threads=threads)
+        for solver in solvers[block[0]]
+    ]
     return {name: np.stack([values[name] for values in found]) for name in found[0]}
 
 

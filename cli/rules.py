@@ -87,6 +87,11 @@ def _mistakes_of_choice(
     yield from _mistakes_of_outputs(kind_of(data), data.get("outputs", []), named, outputs)
     if ("method", "solver") not in named:
         yield from _mistakes_of_solver(kind_of(data), data.get("method", {}).get("solver", "exact"), solvers)
+    if ("method", "check_contact") not in named and kind_of(data) == "curve":
+        checked = data.get("method", {}).get("check_contact", True)
+        if not checked:
+            sentence = "the path of a curve study is always checked; remove this key"
+            yield Mistake(("method", "check_contact"), checked, sentence)
     if not data.get("title", "").isprintable():
         yield Mistake(("title",), data["title"], "a title is one line of printable characters; remove the others")
 

@@ -55,6 +55,7 @@ class _Method(_Table):
         Annotated[str, Tag("name")] | Annotated[list[str], Field(min_length=1), Tag("list")],
         Discriminator(lambda value: "list" if isinstance(value, list) else "name"),
     ] = "exact"
+    check_contact: bool = True
 
 
 def _form(value: object) -> str:
@@ -194,7 +195,7 @@ def _unknown_key(path: Path) -> tuple[Path, str]:
     tables: dict[Path, tuple[str, ...]] = {
         (): ("title", "kind", "layout", "outputs", "parameters", "method"),
         ("parameters",): tuple(KEYS),
-        ("method",): ("solver",),
+        ("method",): ("solver", "check_contact"),
     }
     table, key = path[:-1], str(path[-1])
     known = tables.get(table, ("start", "stop", "num", "spacing"))
@@ -219,6 +220,8 @@ def _sentence(detail: ErrorDetails, path: Path) -> str:
         return f"the list is empty; {_example(path)}"
     if last == "solver":
         return f"this must be a string in quotes or a list of them; {_example(path)}"
+    if last == "check_contact":
+        return f"this must be true or false; {_example(path)}"
     if last == "num":
         return "num is the number of values, an integer of 1 or more; write for example num = 50"
     if last == "spacing":
@@ -255,6 +258,7 @@ def _example(path: Path) -> str:
         "parameters": "a table [parameters] with " + ", ".join(PARAMETERS),
         "method": 'a table [method] with solver = "exact", "asymptotic" or "envelope"',
         "solver": 'solver = "exact" or solver = ["exact", "envelope"]',
+        "check_contact": "check_contact = false",
         "k": "k = 0.5 or k = [0.0, 0.5]",
         "nu": "nu = 0.3",
         "modulus": "modulus = 500.0",

@@ -28,6 +28,8 @@ class Method:
 
     solver: str | tuple[str, ...] = "exact"
     """One solver, or several that stand side by side in the dataset."""
+    check_contact: bool = True
+    """Whether `status` shall tell where loading does not keep the contact one disc."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -170,7 +172,9 @@ def _outputs(asked: Sequence[str]) -> tuple[str, ...]:
 def _method(table: Mapping[str, Any]) -> Method:
     """Make the method of a valid study."""
     solver = table.get("solver", "exact")
-    return Method(solver=solver if isinstance(solver, str) else tuple(solver))
+    return Method(
+        solver=solver if isinstance(solver, str) else tuple(solver), check_contact=table.get("check_contact", True)
+    )
 
 
 def _line(sentence: str) -> tuple[str, int]:

@@ -141,7 +141,7 @@ def _status(dataset: xarray.Dataset) -> Iterator[str]:
     yield f"status: {scenes - failed:,} of {scenes:,} scenes ({(scenes - failed) / scenes:.1%}) have values"
     for name, count in counts.items():
         if count:
-            yield f"  {name:<17} {count:,} scenes ({count / scenes:.2g} of all)"
+            yield f"  {name:<30} {count:,} scenes ({count / scenes:.2g} of all)"
 
 
 def _origin(dataset: xarray.Dataset) -> Iterator[str]:

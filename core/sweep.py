@@ -89,8 +89,8 @@ def solve(
     solver
         One of `SOLVERS`.
     check_contact
-        Tell in `status` where loading does not keep the contact one disc (a tenth to a third of the time of a cycle).
-        It is told where any output but the two of the pull-off is asked for, and by the exact solver only.
+        Tell in `status` where loading does not keep the contact one disc (a tenth of the time of a cycle). It needs the
+        loading path: it is told where any output but the two of the pull-off is asked for, by the exact solver only.
     threads
         Number of threads; all processors if not given. Results do not depend on it.
 
@@ -140,7 +140,9 @@ def solve(
     rims[without_rim] = math.inf
 
     curves = math.prod(curve_shape)
-    slots = np.array([*(outputs.index(name) if name in outputs else -1 for name in OUTPUTS), int(check_contact) - 1])
+    slots = np.array([outputs.index(name) if name in outputs else -1 for name in OUTPUTS])
+    if solver == "exact":
+        slots = np.append(slots, int(check_contact) - 1)  # scene.CONTACT
     out = np.empty((len(outputs), curves, rims.shape[1]))
     status = np.zeros((curves, rims.shape[1]), dtype=np.int8)
     exponents = _flat(k, curve_shape)

@@ -83,6 +83,14 @@ MISTAKES = {
         GOOD[GOOD.index("kind") :].replace(*CURVE).replace("pull_off_force", "path").replace('"exact"', '"envelope"'),
         r':16: method.solver = "envelope": a curve study has no solver.*remove this key',
     ),
+    "contact of a curve study": (
+        GOOD[GOOD.index("kind") :],
+        GOOD[GOOD.index("kind") :]
+        .replace(*CURVE)
+        .replace("pull_off_force", "path")
+        .replace('solver = "exact"', "check_contact = false"),
+        r":16: method.check_contact = false: the path of a curve study is always checked; remove this key",
+    ),
     "solver unknown in a curve study": (
         GOOD[GOOD.index("kind") :],
         GOOD[GOOD.index("kind") :].replace(*CURVE).replace("pull_off_force", "path").replace('"exact"', '["exakt"]'),
@@ -120,6 +128,11 @@ MISTAKES = {
     "output no string": ('["pull_off_force"]', "[3]", r":4: outputs\[0\] = 3: this must be a string"),
     "output twice": ('["pull_off_force"]', '["delta_max", "delta_max"]', r":4: outputs\[1\] = .*twice; remove"),
     "solver unknown": ('"exact"', '"exakt"', r':16: method.solver = "exakt": .*did you mean "exact"'),
+    "check no truth": (
+        'solver = "exact"',
+        "check_contact = 0",
+        r":16: method.check_contact = 0: this must be true or false",
+    ),
     "solver no string": ('"exact"', "1", r":16: method.solver = 1: this must be a string"),
     "method no table": ('layout = "grid"', "method = 3", r":3: method = 3: this must be a table"),
     "outputs misspelt": ("outputs =", "output =", r':4: output = .*did you mean "outputs"'),

@@ -68,3 +68,21 @@ def test_the_file_is_the_same_in_whatever_blocks(
 
 def test_a_list_of_one_solver_stays_a_dimension(data: dict[str, Any]) -> None:
     assert compute(study_from(data | {"method": {"solver": ["envelope"]}})).sizes["solver"] == 1
+
+
+def test_the_contact_is_checked_unless_the_study_says_no(
+    data: dict[str, Any], write_study: Callable[[str], Path]
+) -> None:
+    """Only the exact solver checks it; the values are the same without."""
+    data["parameters"] |= {"A": [0.0, 0.9]}
+    data |= {"outputs": ["dissipated_energy"], "method": {"solver": ["exact", "envelope"]}}
+    checked = compute(study_from(data))
+    no_disc = checked["status"] & 1
+    assert no_disc.sel(solver="exact", A=0.9).any()
+    assert not no_disc.sel(solver="exact", A=0.0).any()
+    assert not no_disc.sel(solver="envelope").any()
+    data["method"] |= {"check_contact": False}
+    unchecked = compute(load_study(write_study(study_from(data).text)))
+    assert not (unchecked["status"] & 1).any()
+    xarray.testing.assert_equal(checked["status"] & ~1, unchecked["status"])
+    xarray.testing.assert_equal(checked["dissipated_energy"], unchecked["dissipated_energy"])
