@@ -202,7 +202,7 @@ def _toml(data: Mapping[str, Any]) -> str:
             return "[" + ", ".join(map(written, value)) + "]"
         if isinstance(value, Mapping):
             return "{ " + ", ".join(f"{key} = {written(item)}" for key, item in value.items()) + " }"
-        return str(value)
+        return str(value).lower() if isinstance(value, bool) else str(value)
 
     tables = {key: value for key, value in data.items() if isinstance(value, Mapping)}
     lines = [f"{key} = {written(value)}" for key, value in data.items() if key not in tables]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gradhesion.core import OUTPUTS, solve
+from gradhesion.core import FAILED, OUTPUTS, solve
 from gradhesion.core.material import stiffness
 
 EPS = float(np.finfo(float).eps)
@@ -86,6 +86,7 @@ def test_the_energy_is_the_loop_integral_of_load_over_depth(k: float, chi: float
 def test_without_waviness_it_is_the_smooth_punch(k: float, reach: float) -> None:
     scene = scene_of(k, 51.0, 0.017, 0.0, reach * length_of(k, 51.0))
     exact = solve(scene, OUTPUTS)
+    exact["status"] &= FAILED  # what the rim decides the exact solver alone tells
     for name, value in envelope(scene).items():
         assert value == pytest.approx(exact[name], rel=50 * EPS, abs=1e-17), name
 
