@@ -2,6 +2,7 @@
 
 import os
 import sys
+from contextlib import suppress
 from typing import NoReturn
 
 import click
@@ -12,6 +13,8 @@ from gradhesion.cli.plot import plot
 from gradhesion.cli.run import run
 
 INTERRUPTED = 130
+UNHEARD = 141
+"""As of a program that SIGPIPE ends."""
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
@@ -22,7 +25,7 @@ def cli() -> None:
     A study in TOML goes in, a dataset in NetCDF comes out, and a picture of it.
 
     Exit codes: 0 fine; 2 the command or the study is wrong; 3 written, but some scenes have failed; 4 the output
-    cannot be written; 130 interrupted.
+    cannot be written; 130 interrupted; 141 nobody reads the output on (as with `| head`).
     """
 
 
@@ -36,13 +39,16 @@ def main() -> NoReturn:
     interrupts.listen()
     try:
         code = cli.main(prog_name="gradhesion", standalone_mode=False) or 0
+    except SystemExit:  # so click leaves where the reader of its output has gone, as `| head` does; it is told nothing
+        code = UNHEARD
     except (Exception, KeyboardInterrupt) as error:  # noqa: BLE001 (raised again where no user can mend it)
         code = _code_of(error)
     if code == 0:
         sys.exit(0)
     # A failed or interrupted run may leave a block in work and a file that HDF5 cannot flush: wait for neither.
-    sys.stdout.flush()
-    sys.stderr.flush()
+    with suppress(BrokenPipeError):
+        sys.stdout.flush()
+        sys.stderr.flush()
     os._exit(code)
 
 
@@ -50,9 +56,11 @@ def _code_of(error: BaseException) -> int:
     """Tell the user what has ended the command, and the shell by a code; what is no-one's mistake stays an error."""
     # What an interrupt breaks can look like anything, an ImportError for one.
     if interrupts.heard() or isinstance(error, KeyboardInterrupt | click.Abort):
-        click.echo("interrupted; no output is left half-written", err=True)
+        with suppress(BrokenPipeError):
+            click.echo("interrupted; no output is left half-written", err=True)
         return INTERRUPTED
     if isinstance(error, click.ClickException):
-        error.show()
+        with suppress(BrokenPipeError):
+            error.show()
         return error.exit_code
     raise error

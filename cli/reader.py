@@ -39,6 +39,8 @@ def opened(path: Path) -> Iterator["Dataset"]:
             raise DatasetError(f"{path}: is not a dataset of gradhesion; name one that `gradhesion run` wrote")
         try:
             yield dataset
+        except BrokenPipeError:  # of what is told about it
+            raise
         except (OSError, RuntimeError) as error:
             raise DatasetError(f"{path}: is damaged ({error}); write it again with `gradhesion run`") from error
 

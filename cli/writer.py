@@ -1,8 +1,8 @@
 """Files that appear whole or not at all, and the dataset of a study written block by block."""
 
 import os
+import secrets
 import shutil
-import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -54,18 +54,12 @@ def replacement(path: Path, *, overwrite: bool) -> Iterator[Path]:
         raise OutputError(f"{path}: is not a file, so it cannot be replaced; name another output with -o")
     if exists and not overwrite:
         raise OutputError(f"{path}: exists already; add --overwrite to replace it, or name another output with -o")
-    temporary = None
+    # Its name is known before it is made, so that no interrupt comes between the two and leaves it behind.
+    temporary = target.with_name(f".{target.name[:100]}.{secrets.token_hex(8)}.part{target.suffix}")
     try:
         with writing(path):
             target.parent.mkdir(parents=True, exist_ok=True)
-            handle, name = tempfile.mkstemp(
-                prefix=f".{target.name[:100]}.", suffix=f".part{target.suffix}", dir=target.parent
-            )
-            temporary = Path(name)
-            mask = os.umask(0)
-            os.umask(mask)
-            os.fchmod(handle, 0o666 & ~mask)
-            os.close(handle)
+            temporary.touch(exist_ok=False)
         yield temporary
         with writing(path):
             _to_disk(temporary)
@@ -73,9 +67,8 @@ def replacement(path: Path, *, overwrite: bool) -> Iterator[Path]:
         with suppress(OSError):  # some file systems cannot sync a folder
             _to_disk(target.parent)
     finally:
-        if temporary is not None:
-            with suppress(OSError):
-                temporary.unlink(missing_ok=True)
+        with suppress(OSError):
+            temporary.unlink(missing_ok=True)
 
 
 def write(

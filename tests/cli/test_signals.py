@@ -1,13 +1,15 @@
-"""An interrupted run leaves with 130, no file behind, and the old output intact."""
+"""An interrupted run leaves with 130, no file behind, and the old output intact; one that nobody reads, quietly."""
 
 import os
 import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from click.testing import Result
 
 HUGE = """\
 outputs = ["pull_off_force", "dissipated_energy"]
@@ -73,3 +75,28 @@ def test_an_interrupt_that_a_library_swallows_is_heard_all_the_same(
     with pytest.raises(KeyboardInterrupt):
         write(load_study(study_file), tmp_path / "out" / "out.nc", history="")
     assert os.listdir(tmp_path / "out") == []
+
+
+@pytest.fixture
+def unread() -> Iterator[int]:
+    """A pipe whose reader has gone."""
+    reader, pipe = os.pipe()
+    os.close(reader)
+    yield pipe
+    os.close(pipe)
+
+
+def test_a_reader_that_has_gone_ends_it_quietly(
+    unread: int, gradhesion: Callable[..., Result], study_file: Path, tmp_path: Path
+) -> None:
+    dataset = tmp_path / "out.nc"
+    assert gradhesion("run", study_file, "-o", dataset, "--quiet").exit_code == 0
+    for arguments in (["info", dataset], ["--help"], ["info", "--help"]):
+        command = [sys.executable, "-m", "gradhesion.cli", *arguments]
+        done = subprocess.run(command, stdout=unread, stderr=subprocess.PIPE, text=True, timeout=60, check=False)
+        assert (done.returncode, done.stderr) == (141, ""), arguments
+
+
+def test_a_mistake_that_nobody_reads_keeps_its_exit_code(unread: int, tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "gradhesion.cli", "info", tmp_path / "none.nc"]
+    assert subprocess.run(command, stdout=unread, stderr=unread, timeout=60, check=False).returncode == 2
