@@ -38,6 +38,18 @@ class ScenesFailedError(GradhesionError):
     exit_code = 3
 
 
+class MissingExtraError(GradhesionError):
+    """A command needs a package that the plain installation leaves out."""
+
+    exit_code = 2
+
+
+class DeviationError(GradhesionError):
+    """Values of a dataset deviate by more than is stated for them."""
+
+    exit_code = 3
+
+
 class OutputError(GradhesionError):
     """The output cannot be written."""
 

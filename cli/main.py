@@ -11,6 +11,7 @@ from gradhesion.cli import interrupts
 from gradhesion.cli.info import info
 from gradhesion.cli.plot import plot
 from gradhesion.cli.run import run
+from gradhesion.cli.verify import verify
 
 INTERRUPTED = 130
 UNHEARD = 141
@@ -24,14 +25,16 @@ def cli() -> None:
 
     A study in TOML goes in, a dataset in NetCDF comes out, and a picture of it.
 
-    Exit codes: 0 fine; 2 the command or the study is wrong; 3 written, but some scenes have failed; 4 the output
-    cannot be written; 130 interrupted; 141 nobody reads the output on (as with `| head`).
+    Exit codes: 0 fine; 2 the command or the study is wrong; 3 written, but some scenes have failed, or values do not
+    stand up to verify; 4 the output cannot be written; 130 interrupted; 141 nobody reads the output on (as with
+    `| head`).
     """
 
 
 cli.add_command(run)
 cli.add_command(info)
 cli.add_command(plot)
+cli.add_command(verify)
 
 
 def main() -> NoReturn:

@@ -81,6 +81,13 @@ class Curve:
             height += 2 * arb.pi() * self.amplitude * a * (s0 - s1)
         return self.stiffness * a ** (1 + k) * height
 
+    def force_size(self, z: arb) -> arb:
+        """Return the sum of the sizes of the three terms of P."""
+        k, a = self.k, self.radius(z)
+        smooth, gap = 2 * a * a / ((1 + k) * (3 + k)), self.gap(z)
+        wave = self.force(z) / (self.stiffness * a ** (1 + k)) - smooth + gap
+        return self.stiffness * a ** (1 + k) * (smooth + gap + abs(wave))
+
     def tilt(self, z: arb, c: arb) -> tuple[arb, arb]:
         """Return the tilt with the coefficient c and its derivative in z (enclosures when z is a ball)."""
         v, slope = self.sine.v(z) if self.amplitude > 0 else (arb(0), arb(0))

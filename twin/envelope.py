@@ -17,6 +17,24 @@ from flint import arb
 from gradhesion.twin.special import theta
 
 
+def strengths(parameters: Mapping[str, float]) -> tuple[arb, arb]:
+    """Return s and r."""
+    k = arb(parameters["k"])
+    modulus = theta(k, arb(parameters["nu"])) * arb(parameters["modulus"]) / arb(parameters["c0_over_R"]) ** k
+    s = (2 ** (1 + k) * arb.pi() / modulus).sqrt()
+    wave = arb(parameters["A"]) * arb(parameters["lambda_over_R"]) ** ((1 + k) / 2)
+    return s, arb.pi() ** ((1 - k) / 2) * ((1 + k) / 2).gamma() * wave
+
+
+def jump_in_radius(parameters: Mapping[str, float]) -> tuple[arb, float]:
+    """Return the radius a_2 of (5.34), and the relative change of it for one of s and r; NaN where r >= s."""
+    k = arb(parameters["k"])
+    s, r = strengths(parameters)
+    if not r < s:
+        return arb("nan"), float("inf")
+    return ((1 + k) * (s - r)) ** (2 / (3 + k)), float((s + r) / (s - r))
+
+
 @dataclass(frozen=True)
 class Envelope:
     """Outputs in the units of a study, `None` where they are infinite, with the sizes of their terms."""
@@ -40,10 +58,8 @@ def solve_envelope(parameters: Mapping[str, float]) -> Envelope:
     unbounded = parameters["a_max_over_R"] == float("inf")
     wavelength, amplitude = arb(parameters["lambda_over_R"]), arb(parameters["A"])
     pi, c, power = arb.pi(), (1 - k) / 2, 2 / (3 + k)
-    modulus = theta(k, arb(parameters["nu"])) * arb(parameters["modulus"]) / arb(parameters["c0_over_R"]) ** k
-    stiffness = 2 ** (1 - k) * modulus / (1 + k)
-    s = (2 ** (1 + k) * pi / modulus).sqrt()
-    r = pi**c * ((1 + k) / 2).gamma() * amplitude * wavelength ** ((1 + k) / 2)
+    s, r = strengths(parameters)
+    stiffness = 4 * pi / ((1 + k) * s * s)
 
     def within(a: arb) -> arb:
         return a if unbounded or not a > rim else rim

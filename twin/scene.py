@@ -22,6 +22,7 @@ class PullOff:
     pull_off_radius: arb
     margin_radius: float
     radius_condition: float
+    force_condition: float
 
 
 @dataclass(frozen=True)
@@ -30,9 +31,9 @@ class Solution:
 
     `margin_jumps` is the least relative distance at which a number of jumps changes, `margin_radius` that at which the
     lowest P moves to another place; force and energy are continuous there. `energy_condition` is the sum of |e_j| over
-    the energy, `radius_condition` the relative change of the radius for a relative change of the terms of dP/da.
-    `delta_max_size` and `delta_jump_out_size` are the sizes of the terms of the two depths; `folded_waves` is how many
-    waves the folds within the rim span.
+    the energy, `radius_condition` the relative change of the radius for a relative change of the terms of dP/da,
+    `force_condition` the sum of the sizes of the terms of P over P. `delta_max_size` and `delta_jump_out_size` are the
+    sizes of the terms of the two depths; `folded_waves` is how many waves the folds within the rim span.
     """
 
     pull_off_force: arb
@@ -46,6 +47,7 @@ class Solution:
     margin_radius: float
     energy_condition: float
     radius_condition: float
+    force_condition: float
     delta_max_size: float
     delta_jump_out_size: float
     folded_waves: float
@@ -82,6 +84,7 @@ def solve(parameters: Mapping[str, float]) -> Solution:
         margin_radius=held.margin_radius,
         energy_condition=float(sum((abs(drop) for drop in drops), arb(0)) / abs(lost)) if drops else 1.0,
         radius_condition=held.radius_condition,
+        force_condition=held.force_condition,
         delta_max_size=_size(curve, path.deepest) if curve.rim is not None else math.inf,
         delta_jump_out_size=_size(curve, path.last),
         folded_waves=_folded_waves(made),
@@ -100,6 +103,7 @@ def _pull_off(curve: Curve) -> PullOff:
         pull_off_radius=curve.radius(at),
         margin_radius=_margin_radius(force, forces),
         radius_condition=_radius_condition(curve, at),
+        force_condition=float(curve.force_size(at) / abs(force)),
     )
 
 

@@ -7,11 +7,13 @@ from typing import Final
 
 from flint import arb
 
-from gradhesion.twin.envelope import solve_envelope
+from gradhesion.twin.envelope import jump_in_radius, solve_envelope
 from gradhesion.twin.scene import PullOff, Solution, solve, solve_pull_off, waves_to_follow
 
 FORCE: Final = 5e-14
 """Of the force."""
+FORCE_OF_TERMS: Final = 1e-14
+"""Of the sizes of the terms of the force, where that is more: on the rim of a small and very wavy punch."""
 RADIUS: Final = 1e-9
 """Of the radius, which is where a function is stationary."""
 RADIUS_OF_CONDITION: Final = 1e-13
@@ -32,6 +34,10 @@ CYCLE: Final = frozenset(("dissipated_energy", "loading_jumps", "unloading_jumps
 """Outputs for which the cycle must be followed."""
 KNOWN: Final = CYCLE | {"pull_off_force", "pull_off_radius"}
 """Outputs that the twin solves."""
+BY_STEPS: Final = frozenset(("loading_jumps", "unloading_jumps", "pull_off_radius"))
+"""Outputs that are not continuous in the parameters."""
+RADIUS_OF_RIM: Final = 2e-14
+"""Of a_max/R given in the jump-in radius, times the condition of that."""
 SOLVERS: Final = ("exact", "envelope")
 """Solvers of which the twin has an equal."""
 
@@ -43,6 +49,12 @@ class Expected:
     value: arb
     error: float
     near: str = ""
+
+    def __str__(self) -> str:
+        """Write the value with its 30 digits."""
+        if not self.value.is_finite():
+            return "inf" if self.value == arb("inf") else "none"
+        return f"{float(self.value):.0f}" if self.value.is_integer() else str(self.value.str(30, radius=False))
 
 
 def within_reach(parameters: Mapping[str, float], outputs: Collection[str], solver: str) -> bool:
@@ -59,7 +71,7 @@ def expected(parameters: Mapping[str, float], outputs: Collection[str], solver: 
     Parameters
     ----------
     parameters
-        The seven parameters of a study.
+        The seven parameters of a scene; and a_max_over_a2 where a_max_over_R is made from it, to be checked as well.
     outputs
         Names of outputs; those that are not in `KNOWN` are passed over.
     solver
@@ -88,20 +100,30 @@ def expected(parameters: Mapping[str, float], outputs: Collection[str], solver: 
     else:
         solution = solve(parameters)
         found = _of_pull_off(solution) | _of_cycle(solution)
+    if "a_max_over_a2" in parameters:
+        found["a_max_over_R"] = _of_rim(parameters)
+        outputs = [*outputs, "a_max_over_R"]
     if not all(_is_sure(one) for one in found.values()):
         raise ArithmeticError(f"too few digits are left: {dict(parameters)}")
     return {name: found[name] for name in outputs if name in found}
 
 
+def _of_rim(parameters: Mapping[str, float]) -> Expected:
+    radius, condition = jump_in_radius(parameters)
+    value = parameters["a_max_over_a2"] * radius
+    return Expected(value, _share(RADIUS_OF_RIM * condition, value) if value.is_finite() else 0.0)
+
+
 def _is_sure(one: Expected) -> bool:
     """Tell whether the ball of a value is much smaller than the error that it has to show."""
-    return bool(one.value == arb("inf") or (one.value.is_finite() and one.value.rad() <= 1e-3 * one.error))
+    return bool(one.value.rad() <= 1e-3 * one.error) if one.value.is_finite() else one.error == 0.0
 
 
 def _of_pull_off(solution: PullOff | Solution) -> dict[str, Expected]:
+    force = max(FORCE, FORCE_OF_TERMS * solution.force_condition)
     radius = max(RADIUS, RADIUS_OF_CONDITION * solution.radius_condition)
     return {
-        "pull_off_force": Expected(solution.pull_off_force, _share(FORCE, solution.pull_off_force)),
+        "pull_off_force": Expected(solution.pull_off_force, _share(force, solution.pull_off_force)),
         "pull_off_radius": Expected(
             solution.pull_off_radius,
             _share(radius, solution.pull_off_radius),
@@ -148,7 +170,7 @@ def _share(share: float, value: arb) -> float:
 
 
 def deviation(value: float, of: Expected) -> float:
-    """Return how far a double is from what is expected of it, rounded once; inf if it is not finite and should be."""
+    """Return how far a double is from what is expected of it, rounded once; inf if only one of them is finite."""
     if of.value == arb("inf"):
         return 0.0 if value == math.inf else math.inf
-    return float(abs(arb(value) - of.value)) if math.isfinite(value) else math.inf
+    return float(abs(arb(value) - of.value)) if math.isfinite(value) and of.value.is_finite() else math.inf

@@ -1,0 +1,332 @@
+"""`gradhesion verify` finds what is wrong with a dataset, and nothing wrong with a good one."""
+
+import hashlib
+import math
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import numpy as np
+import pytest
+from click.testing import Result
+
+Call = Callable[..., Result]
+ALL = ("--sample", "100", "--seed", "1")
+
+
+@pytest.fixture
+def dataset_file(gradhesion: Call, data: dict[str, Any], write_study: Callable[[str], Path], tmp_path: Path) -> Path:
+    """The small study with all outputs: 24 scenes."""
+    from gradhesion.cli.names import OUTPUTS
+    from gradhesion.cli.study import study_from
+
+    path = tmp_path / "out.nc"
+    study = write_study(study_from(data | {"outputs": list(OUTPUTS)}).text)
+    assert gradhesion("run", study, "-o", path, "--quiet").exit_code == 0
+    return path
+
+
+def rows(result: Result) -> list[list[str]]:
+    """Give the lines of the table in words."""
+    lines = result.stdout.split("worst first")[1].splitlines()[1:]
+    return [line.split() for line in lines[: lines.index("")]]
+
+
+def edit_study(path: Path, old: str, new: str, *, seal: bool = False) -> None:
+    """Change the text of a dataset's study, and its sha256 if `seal`."""
+    with netCDF4.Dataset(path, "a") as file:
+        assert old in file.study
+        file.study = file.study.replace(old, new)
+        if seal:
+            file.study_sha256 = hashlib.sha256(file.study.encode()).hexdigest()
+
+
+def test_a_good_dataset_stands_up(gradhesion: Call, dataset_file: Path) -> None:
+    result = gradhesion("verify", dataset_file, *ALL)
+    assert result.exit_code == 0, result.stderr
+    assert "24 of 24 scenes recomputed (--seed 1), 168 values, solver exact" in result.stdout
+    assert "all 168 values are within their stated errors" in result.stdout
+    shares = [float(row[3]) for row in rows(result) if row[0] != "..."]
+    assert len(shares) == 12
+    assert shares == sorted(shares, reverse=True)
+    assert shares[0] > 0.0, "values of 53 bits are not exact"
+    assert result.stderr == ""
+
+
+@pytest.mark.parametrize("output", ["pull_off_force", "dissipated_energy", "loading_jumps", "delta_jump_out"])
+def test_one_changed_value_is_found_and_named_first(output: str, gradhesion: Call, dataset_file: Path) -> None:
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        value = file[output][1, 2, 1, 0]
+        file[output][1, 2, 1, 0] = value + 1 if output.endswith("_jumps") else value * (1 + 1e-11)
+    result = gradhesion("verify", dataset_file, *ALL)
+    assert result.exit_code == 3
+    assert rows(result)[0][0] == output
+    assert " ".join(rows(result)[0][4:]) == "k = 0.31, lambda_over_R = 0.47, A = 0.023, a_max_over_R = 1.7"
+    assert "1 of 168 values deviate by more than their stated errors" in result.stderr
+    assert result.stderr.startswith(f"{dataset_file}: ")
+
+
+def test_the_sample_is_that_of_its_seed(gradhesion: Call, dataset_file: Path) -> None:
+    first, again, other = (
+        gradhesion("verify", dataset_file, "--sample=3", f"--seed={seed}").stdout for seed in (5, 5, 6)
+    )
+    assert first == again != other
+    assert "3 of 24 scenes" in first
+    fresh = gradhesion("verify", dataset_file, "--sample=1").stdout
+    assert re.search(r"--seed \d+", fresh)
+
+
+def test_digits_shows_both_values(gradhesion: Call, dataset_file: Path) -> None:
+    told = gradhesion("verify", dataset_file, "--sample=2", "--seed=3", "--digits").stdout
+    pairs = re.findall(r"  in the dataset   (\S+)\n  recomputed       (\S+)\n", told)
+    assert len(pairs) == 12
+    for here, recomputed in pairs:
+        assert here == "inf" == recomputed or math.isclose(float(here), float(recomputed), rel_tol=1e-11)
+    assert any(len(recomputed) > 30 for _, recomputed in pairs)
+
+
+def test_an_edited_study_is_told(gradhesion: Call, dataset_file: Path) -> None:
+    edit_study(dataset_file, "modulus = 430.0", "modulus = 431.0")
+    result = gradhesion("verify", dataset_file)
+    assert result.exit_code == 2
+    assert "the text of its study was changed" in result.stderr
+    assert result.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("modulus = 430.0", "modulus = 431.0", "modulus is 430.0, in its study 431.0"),
+        ("0.31]", "0.32]", "k[1] is 0.31, in its study 0.32"),
+        ("num = 3", "num = 4", "the axes of pull_off_force are not those of its study"),
+        ('spacing = "log"', 'spacing = "linear"', "lambda_over_R[1] is "),
+        ("stop = 0.47", "stop = 0.48", "lambda_over_R[1] is "),
+        ('"pull_off_radius", ', "", None),
+        ("A = [", "B = [", "its study is none of this version (its study: parameters."),
+        ("[parameters]", "[parameters", "its study is not valid TOML"),
+        ("[parameters]", "[method]\nsolver = 'asymptotic'\n[parameters]", "has no independent twin"),
+        ("[parameters]", "[method]\nsolver = 'envelope'\n[parameters]", 3),
+        ("[parameters]", "[method]\ncheck_contact = false\n[parameters]", None),
+        ("title = ", "kind = 'curve'\ntitle = ", "holds a curve; `gradhesion verify` takes maps"),
+    ],
+)
+def test_a_study_of_another_dataset_is_told(
+    old: str, new: str, message: str | int | None, gradhesion: Call, dataset_file: Path
+) -> None:
+    """The sha256 fits, but not the dataset: by its coordinates, or by its values alone."""
+    edit_study(dataset_file, old, new, seal=True)
+    result = gradhesion("verify", dataset_file, "--sample=8", "--seed=2")
+    if message is None:  # a study may ask for less, or for what changes no value
+        assert result.exit_code == 0
+        assert ("pull_off_radius" in result.stdout) == (old == "[parameters]")
+    elif message == 3:
+        assert result.exit_code == 3
+    else:
+        assert result.exit_code == 2
+        assert str(message) in result.stderr
+        assert result.stderr.startswith(f"{dataset_file}: ")
+        assert result.stderr.count("\n") == 1
+
+
+def test_an_edited_coordinate_is_told(gradhesion: Call, dataset_file: Path) -> None:
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        file["lambda_over_R"][2] = 0.47 * (1 + 1e-13)
+    result = gradhesion("verify", dataset_file)
+    assert result.exit_code == 2
+    assert "lambda_over_R[2] is 0.47000000000004" in result.stderr
+    assert "do not belong together" in result.stderr
+
+
+@pytest.mark.parametrize("damage", ["foreign", "truncated", "text", "missing", "folder"])
+def test_a_file_that_is_no_dataset_of_ours(damage: str, gradhesion: Call, dataset_file: Path, tmp_path: Path) -> None:
+    path = tmp_path / "bad.nc"
+    if damage == "foreign":
+        with netCDF4.Dataset(path, "w") as file:
+            file.title = "something else"
+    elif damage == "truncated":
+        path.write_bytes(dataset_file.read_bytes()[:-5000])
+    elif damage == "text":
+        path.write_text("k = 0.1")
+    elif damage == "folder":
+        path.mkdir()
+    result = gradhesion("verify", path)
+    assert result.exit_code == 2
+    assert result.stderr.startswith(f"{path}: ")
+    assert "gradhesion run" in result.stderr
+    assert result.stderr.count("\n") == 1
+    assert result.stdout == ""
+
+
+def test_without_flint_it_tells_how_to_install_it(
+    gradhesion: Call, dataset_file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in [
+        name for name in sys.modules if name.startswith(("gradhesion.twin", "flint", "gradhesion.cli.recompute"))
+    ]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "flint", None)
+    result = gradhesion("verify", dataset_file)
+    assert result.exit_code == 2
+    assert "pip install 'gradhesion[verify]'" in result.stderr
+    assert result.stderr.count("\n") == 1
+
+
+def test_scenes_without_a_value_must_have_none(gradhesion: Call, dataset_file: Path) -> None:
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        file["status"][0] = 64
+        for name in ("pull_off_force", "pull_off_radius", "dissipated_energy", "delta_max", "delta_jump_out"):
+            file[name][0] = np.nan
+        for name in ("loading_jumps", "unloading_jumps"):
+            file[name][0] = -1
+    result = gradhesion("verify", dataset_file, *ALL)
+    assert result.exit_code == 0
+    assert "12 of 24 scenes recomputed" in result.stdout
+    assert "12 scenes drawn have failed" in result.stdout
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        file["pull_off_radius"][0, 1, 1, 1] = 0.2
+    result = gradhesion("verify", dataset_file, *ALL)
+    assert result.exit_code == 3
+    assert rows(result)[0][:4] == ["pull_off_radius", "inf", "0", "inf"]
+
+
+def test_a_value_that_is_missing_without_a_status_is_found(gradhesion: Call, dataset_file: Path) -> None:
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        file["pull_off_force"][1, 0, 1, 1] = np.nan
+    result = gradhesion("verify", dataset_file, *ALL)
+    assert result.exit_code == 3
+    assert rows(result)[0][:2] == ["pull_off_force", "inf"]
+
+
+def test_scenes_of_too_many_waves_are_left_out_and_others_drawn(
+    gradhesion: Call, study_file: Path, tmp_path: Path
+) -> None:
+    path = tmp_path / "long.nc"
+    some = ["--set=parameters.lambda_over_R=[1e-7, 0.2]", "--set=parameters.A=[0.0, 0.05]"]
+    assert gradhesion("run", study_file, "-o", path, "--quiet", *some).exit_code == 0
+    result = gradhesion("verify", path, *ALL)
+    assert result.exit_code == 0, result.stdout + result.stderr
+    assert "12 of 16 scenes recomputed" in result.stdout  # without amplitude a wavelength of any size is fine
+    assert "4 scenes drawn have more waves than are followed" in result.stdout
+    result = gradhesion(
+        "run",
+        study_file,
+        "-o",
+        path,
+        "--quiet",
+        "--overwrite",
+        *some,
+        "--set=parameters.A=0.05",
+        "--set=parameters.lambda_over_R=1e-7",
+    )
+    result = gradhesion("verify", path)
+    assert result.exit_code == 2
+    assert "none of the scenes drawn can be recomputed (4 have too many waves" in result.stderr
+
+
+def test_errors_that_a_dataset_tells_of_its_values_are_held_against_them(gradhesion: Call, dataset_file: Path) -> None:
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        error = file.createVariable("pull_off_force_error", "f8", file["pull_off_force"].dimensions)
+        error[:] = 1e-10
+        file["pull_off_force"][0, 0, 0, 0] += 9e-11
+        file["pull_off_force"][0, 0, 1, 0] += 2e-10
+    result = gradhesion("verify", dataset_file, *ALL)
+    assert result.exit_code == 3
+    assert "1 of 168 values" in result.stderr
+    assert rows(result)[0][:3] == ["pull_off_force", "2e-10", "1e-10"]
+    assert rows(result)[1][:3] == ["pull_off_force", "9e-11", "1e-10"]
+
+
+def test_points_and_single_scenes_and_envelopes(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
+    single = [f"--set=parameters.{name}=0.2" for name in ("k", "lambda_over_R", "A", "a_max_over_R")]
+    for i, more in enumerate(
+        ([], ["--set=layout='points'"], ["--set=layout='points'", "--set=parameters.k=[0.1, 0.9]"])
+    ):
+        path = tmp_path / f"{i}.nc"
+        assert gradhesion("run", study_file, "-o", path, "--quiet", *single, *more).exit_code == 0
+        result = gradhesion("verify", path)
+        assert result.exit_code == 0, result.stdout + result.stderr
+        assert f"{1 + (i == 2)} of {1 + (i == 2)} scenes" in result.stdout
+    path = tmp_path / "envelope.nc"
+    assert gradhesion("run", study_file, "-o", path, "--quiet", "--set=method.solver='envelope'").exit_code == 0
+    result = gradhesion("verify", path, *ALL)
+    assert result.exit_code == 0, result.stdout + result.stderr
+    assert "24 of 24 scenes recomputed (--seed 1), 72 values, solver envelope" in result.stdout
+    with netCDF4.Dataset(path, "a") as file:
+        file["dissipated_energy"][1, 0, 1, 0] *= 1 + 1e-10
+    assert gradhesion("verify", path, *ALL).exit_code == 3
+
+
+def test_of_several_solvers_those_with_a_twin_are_recomputed(
+    gradhesion: Call, study_file: Path, tmp_path: Path
+) -> None:
+    path = tmp_path / "several.nc"
+    solvers = "--set=method.solver=['asymptotic', 'envelope', 'exact']"
+    assert gradhesion("run", study_file, "-o", path, "--quiet", solvers).exit_code == 0
+    result = gradhesion("verify", path, *ALL)
+    assert result.exit_code == 0, result.stdout + result.stderr
+    assert "48 of 48 scenes recomputed (--seed 1), 144 values, solver envelope and exact" in result.stdout
+    assert "all of the solver asymptotic: there is nothing independent to compare with" in result.stdout
+    with netCDF4.Dataset(path, "a") as file:
+        file["pull_off_force"][0] *= 2.0  # nobody knows
+        file["pull_off_force"][1, 0, 2, 1, 1] *= 1 + 1e-11
+    result = gradhesion("verify", path, *ALL)
+    assert result.exit_code == 3
+    assert "1 of 144 values" in result.stderr
+    assert " ".join(rows(result)[0][4:]).startswith("solver = envelope, k = 0, ")
+    edit_study(path, '"envelope", "exact"', '"exact", "envelope"', seal=True)
+    result = gradhesion("verify", path)
+    assert result.exit_code == 2
+    assert "its solvers are not those of its study" in result.stderr
+
+
+@pytest.mark.parametrize("layout", ["grid", "points"])
+def test_a_rim_given_in_the_jump_in_radius_is_recomputed(
+    layout: str, data: dict[str, Any], gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path
+) -> None:
+    from gradhesion.cli.study import study_from
+
+    path = tmp_path / "ratio.nc"
+    parameters = data["parameters"] | {"A": [0.0, 0.023, 9.0], "a_max_over_a2": [0.7, 1.3, 2.1]}
+    del parameters["a_max_over_R"]
+    if layout == "points":
+        parameters |= {"k": [0.0, 0.31, 0.6], "lambda_over_R": 0.3}
+    study = write_study(study_from(data | {"layout": layout, "parameters": parameters}).text)
+    assert gradhesion("run", study, "-o", path, "--quiet").exit_code == 3  # r > s at A = 9
+    result = gradhesion("verify", path, *ALL)
+    assert result.exit_code == 0, result.stdout + result.stderr
+    assert "a_max_over_R" in result.stdout.split("worst of each")[1]
+    with netCDF4.Dataset(path, "a") as file:
+        rim = file["a_max_over_R"]
+        place = (0,) * rim.ndim
+        rim[place] *= 1 + 1e-12
+    result = gradhesion("verify", path, *ALL)
+    assert result.exit_code == 3
+    assert rows(result)[0][0] == "a_max_over_R"
+    with netCDF4.Dataset(path, "a") as file:
+        file["a_max_over_R"][place] = np.nan
+    assert "1 of" in gradhesion("verify", path, *ALL).stderr
+
+
+def test_a_status_that_warns_of_jumps_excuses_counts_alone(gradhesion: Call, dataset_file: Path) -> None:
+    cell = (1, 2, 1, 0)
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        file["status"][cell] = 16
+        file["loading_jumps"][cell] += 1
+    result = gradhesion("verify", dataset_file, *ALL)
+    assert result.exit_code == 0
+    assert "1 values may be either of two (loading_jumps: its status says so)" in result.stdout
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        file["dissipated_energy"][cell] *= 1 + 1e-11
+    assert gradhesion("verify", dataset_file, *ALL).exit_code == 3
+
+
+def test_a_tolerance_that_is_not_met_is_a_failure_with_values(gradhesion: Call, dataset_file: Path) -> None:
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        file["status"][0] = 32
+        file["pull_off_force"][0] *= 1.5
+    result = gradhesion("verify", dataset_file, *ALL)
+    assert result.exit_code == 0
+    assert "12 scenes drawn have failed, as their status says" in result.stdout

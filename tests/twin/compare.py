@@ -1,0 +1,102 @@
+"""The solver of the core against the twin on the draws of the stress suite, in shares of the stated errors.
+
+python -m tests.twin.compare [--scenes N] [--seed N] [--waves FROM TO], from the repository's root. Prints for each draw and
+output the share of the stated error (gradhesion.twin.stated) that a half and 99 in 100 of the values keep, the worst,
+and the worst error over the value; then the worst scene of each.
+"""
+
+import argparse
+import math
+import sys
+import time
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from gradhesion.core import FAILED, OUTPUTS, solve
+from gradhesion.twin import stated
+from gradhesion.twin.scene import waves_to_follow
+from tests.stress.draw import Scenes, eventful, hostile
+
+
+@dataclass
+class Comparison:
+    """What a draw gave: for each output a list of (share, relative error, scene), and what was not compared."""
+
+    scenes: int = 0
+    beyond: int = 0
+    unsure: int = 0
+    near: int = 0
+    found: dict[str, list[tuple[float, float, int]]] = field(default_factory=lambda: {name: [] for name in OUTPUTS})
+
+    @property
+    def worst(self) -> float:
+        """The greatest share."""
+        return max(share for rows in self.found.values() for share, _, _ in rows)
+
+
+def one(scenes: Scenes, i: int) -> dict[str, float]:
+    """Give a scene of a draw."""
+    return {name: float(values[i]) for name, values in scenes.items()}
+
+
+def compare(
+    scenes: Scenes, waves: tuple[float, float] = (0.0, stated.MOST_WAVES), most: float = math.inf
+) -> Comparison:
+    """Solve the scenes that have that many waves both ways, up to `most` of them."""
+    values = solve(scenes, OUTPUTS)
+    made = Comparison()
+    for i in np.argsort(scenes["k"], kind="stable"):
+        if made.scenes >= most:
+            break
+        scene = one(scenes, i)
+        if values["status"][i] & FAILED or not waves[0] <= waves_to_follow(scene, cycle=True) <= waves[1]:
+            made.beyond += 1
+            continue
+        try:
+            expected = stated.expected(scene, OUTPUTS, "exact")
+        except ArithmeticError:
+            made.unsure += 1
+            continue
+        made.scenes += 1
+        for name, of in expected.items():
+            deviation = stated.deviation(float(values[name][i]), of)
+            if of.near and deviation > of.error:
+                made.near += 1
+                continue
+            share = deviation / of.error if of.error > 0.0 else 0.0 if deviation == 0.0 else math.inf
+            size = abs(float(of.value))
+            made.found[name].append((share, deviation / size if 0.0 < size < math.inf else 0.0, int(i)))
+    return made
+
+
+def main() -> int:
+    """Compare both draws and print what came out."""
+    parser = argparse.ArgumentParser(description="The solver against the twin.")
+    parser.add_argument("--scenes", type=int, default=5000, help="scenes of each draw")
+    parser.add_argument("--seed", type=int, default=2013)
+    parser.add_argument("--waves", type=float, nargs=2, default=(0.0, 60.0), metavar=("FROM", "TO"))
+    arguments = parser.parse_args()
+    worst = 0.0
+    for draw in (hostile, eventful):
+        start = time.perf_counter()
+        scenes = draw(arguments.seed, arguments.scenes)
+        made = compare(scenes, tuple(arguments.waves))
+        print(
+            f"{draw.__name__}: {made.scenes:,} scenes compared in {time.perf_counter() - start:.0f} s, {made.beyond:,} with "
+            f"other numbers of waves, {made.unsure:,} unsure, {made.near} values may be either of two"
+        )
+        print(f"  {'output':<20}{'half':>10}{'99 in 100':>12}{'worst':>10}{'over the value':>16}")
+        for name, rows in made.found.items():
+            shares = np.array([share for share, _, _ in rows])
+            half, most = np.quantile(shares, [0.5, 0.99])
+            print(f"  {name:<20}{half:>10.2g}{most:>12.2g}{shares.max():>10.2g}{max(row[1] for row in rows):>16.2g}")
+        for name, rows in made.found.items():
+            if "jumps" not in name:
+                print(f"  worst {name}: {one(scenes, max(rows)[2])}")
+        worst = max(worst, made.worst)
+    return 1 if worst > 1.0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
