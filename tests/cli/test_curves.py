@@ -14,7 +14,7 @@ from click.testing import Result
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, KEYS, MEANINGS
 from gradhesion.cli.study import load_study, study_from
-from gradhesion.core import FAILED, draw_curves, solve
+from gradhesion.core import FAILED, FLAGS, draw_curves, solve
 from gradhesion.core import curves as core_curves
 
 Call = Callable[..., Result]
@@ -172,7 +172,7 @@ def test_scenes_without_curves_lose_nothing(gradhesion: Call, curve_file: Path, 
     assert result.exit_code == 3
     assert "1 of 2 scenes have failed" in result.stderr
     with xarray.open_dataset(tmp_path / "x.nc") as dataset:
-        assert (dataset["status"].values & FAILED).tolist() == [FAILED, 0]
+        assert (dataset["status"].values & FAILED).tolist() == [FLAGS["no_value"], 0]
         failed, fine = dataset.isel(lambda_over_R=0), dataset.isel(lambda_over_R=1)
         assert failed["path_load"].isnull().all()
         assert failed["path_branch"].isnull().all()
