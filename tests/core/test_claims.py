@@ -257,7 +257,7 @@ class TestOneDisc:
         A = 4.59 * 0.1 / (4 * math.pi**2)
         assert profile.is_monotonic(0.1, A)
         depth = jkr.indentation(0.0, 1e7, 0.0511, 0.1, A)
-        # the state is one that loading visits: the curve rises here above all depths before
+        # the state is one that loading visits, within 2e-6 R: its branch ends at 0.051098 R, above all depths before
         before = jkr.indentation(0.0, 1e7, np.linspace(1e-5, 0.0511, 5001), 0.1, A)
         assert before[-1] == before.max() > 0.0
         opening = gap.gap(0.0, np.linspace(0.052, 0.12, 60), 0.0511, depth, 0.1, A)
