@@ -39,7 +39,7 @@ def smooth_depth(k: float, z: float) -> float:
 
 
 @kernel()
-def _energy_from_zero(k: float, z: float, depth: float) -> float:
+def smooth_energy_from_zero(k: float, z: float, depth: float) -> float:
     """Return the energy of a jump from zero contact to z (jump_energy.py with g = 0)."""
     front = z ** (1.0 + k)
     square = z * z
@@ -55,12 +55,12 @@ def smooth_constants(k: float) -> tuple[float, float, float, float, float, float
     """
     power = 2.0 / (3.0 + k)
     z_pull, z_in = (1.0 / power) ** power, 2.0**power
-    loss_in = _energy_from_zero(k, z_in, 0.0)
+    loss_in = smooth_energy_from_zero(k, z_in, 0.0)
     if k == 1.0:  # the contact shrinks to a point at the depth -1
         return z_pull, z_in, loss_in, 0.0, -1.0, 0.0
     z_out = (0.5 * (1.0 - k)) ** power
     depth = smooth_depth(k, z_out)
-    return z_pull, z_in, loss_in, z_out, depth, -_energy_from_zero(k, z_out, depth)
+    return z_pull, z_in, loss_in, z_out, depth, -smooth_energy_from_zero(k, z_out, depth)
 
 
 @kernel()
@@ -70,8 +70,8 @@ def smooth_cycle(
     """Return the reduced loss of a cycle, its unloading jumps, and the depth at which contact ends."""
     _, z_in, loss, z_out, last_depth, loss_out = constants
     if z_rim < z_in:
-        loss = _energy_from_zero(k, z_rim, 0.0)
+        loss = smooth_energy_from_zero(k, z_rim, 0.0)
     if z_rim < z_out:
         last_depth = smooth_depth(k, z_rim)
-        loss_out = -_energy_from_zero(k, z_rim, last_depth)
+        loss_out = -smooth_energy_from_zero(k, z_rim, last_depth)
     return loss + loss_out, 1.0 if z_out > 0.0 else 0.0, last_depth

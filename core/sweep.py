@@ -50,8 +50,10 @@ table_of = lru_cache(maxsize=128)(build_table)
 
 def compiled_before(*, curves: bool = False) -> bool:
     """Return whether the kernels of `solve` (or of `draw_curves`) were compiled before; if not, a call is slow."""
-    kernel = "sample" if curves else "solve_curves"
-    return _jit.CACHE_FOLDER.is_dir() and any(_jit.CACHE_FOLDER.rglob(f"*.{kernel}-*.nbc"))
+    kernels = ("sample", "find_corners") if curves else ("solve_curves",)
+    return _jit.CACHE_FOLDER.is_dir() and any(
+        next(_jit.CACHE_FOLDER.rglob(f"*.{kernel}-*.nbc"), None) for kernel in kernels
+    )
 
 
 def _shared_axes(shapes: Sequence[tuple[int, ...]], dimensions: int) -> int:

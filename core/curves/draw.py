@@ -10,6 +10,7 @@ from gradhesion.core.curves.asymptotic import draw_asymptotic
 from gradhesion.core.curves.effective import draw_effective
 from gradhesion.core.curves.envelope import draw_envelope
 from gradhesion.core.curves.equilibrium import draw_equilibrium
+from gradhesion.core.curves.jumps import list_jumps
 from gradhesion.core.curves.path import draw_path
 from gradhesion.core.curves.smooth import draw_smooth
 from gradhesion.core.curves.subject import Subject, subject_of
@@ -36,18 +37,30 @@ CURVES: Final[dict[str, tuple[str, ...]]] = {
     ),
     "effective": ("effective_contact_radius", "effective_indentation", "effective_load", "effective_jump"),
     "smooth": ("smooth_contact_radius", "smooth_indentation", "smooth_load"),
+    "jumps": (
+        "jump_indentation",
+        "jump_radius_before",
+        "jump_radius_after",
+        "jump_energy",
+        "jump_load_before",
+        "jump_load_after",
+        "jump_unloading",
+        "jump_at_rim",
+    ),
 }
-"""The variables of every curve, in order."""
+"""The variables of every curve, in order; those of the jumps have an item a jump, the others a point."""
 _TYPES: Final[dict[str, type[np.signedinteger[Any]]]] = {
     "stable": np.int8,
     "path_branch": np.int32,
     "path_jump": np.int8,
     "path_unloading": np.int8,
     "effective_jump": np.int8,
+    "jump_unloading": np.int8,
+    "jump_at_rim": np.int8,
 }
 INTEGERS: Final = frozenset(_TYPES)
 """The variables that are integers; the others are float64."""
-_EXACT: Final = {"equilibrium": draw_equilibrium, "path": draw_path}
+_EXACT: Final = {"equilibrium": draw_equilibrium, "path": draw_path, "jumps": list_jumps}
 _CLOSED: Final = {
     "asymptotic": draw_asymptotic,
     "envelope": draw_envelope,
@@ -78,17 +91,18 @@ def draw_curves(scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict
         Names out of `CURVES`: "equilibrium", the whole equilibrium curve, stable and unstable; "path", the cycle of
         loading and unloading under controlled displacement; "asymptotic", the curve for short waves (5.15)-(5.20);
         "envelope", its two envelopes (5.21)-(5.27); "effective", the path along them (5.28)-(5.35); "smooth", the curve
-        of A = 0.
+        of A = 0; "jumps", the jumps of the cycle, one by one.
 
     Returns
     -------
     variables
         All variables of each curve, one-dimensional, of one length a curve: radii a/R, depths delta/R and loads
-        P/(1.5 pi R dgamma), negative where the punch pulls. Those of `INTEGERS` are integers. A curve that has no value
-        is one point, NaN (-1 for integers).
+        P/(1.5 pi R dgamma), negative where the punch pulls, and energies over R^2 dgamma. Those of `INTEGERS` are
+        integers. A curve that has no value is one point, NaN (-1 for integers); jumps that have none are no item.
     status
         Bits of status.FLAGS: no_value where a parameter is outside its range or a curve that was asked for can fold
-        more than 100,000 times within the range; with the path, what `solve` reports of its jumps and energy.
+        more than 100,000 times within the range; with the path or its jumps, what `solve` reports of
+        them.
 
     Raises
     ------
@@ -120,17 +134,20 @@ def draw_curves(scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict
         raise ValueError(f"unknown curves {unknown}, missing parameters {missing}")
     subject = subject_of(scene)
     result: dict[str, NDArray[Any]] = {}
-    status = 0
+    status, cycle = 0, False
     for curve in curves:
         variables = _draw(subject, curve)
         if variables is None:
             status |= NO_VALUE
+            size = 0 if curve == "jumps" else 1
             result |= {
-                name: np.full(1, -1, _TYPES[name]) if name in _TYPES else np.full(1, np.nan) for name in CURVES[curve]
+                name: np.full(size, -1, _TYPES[name]) if name in _TYPES else np.full(size, np.nan)
+                for name in CURVES[curve]
             }
         else:
             result |= variables
-            if curve == "path":
-                solved = solve(scene, ["dissipated_energy", "loading_jumps", "unloading_jumps"], threads=1)
-                status |= int(solved["status"]) & ~FAILED
+            cycle = cycle or curve in ("path", "jumps")
+    if cycle:
+        solved = solve(scene, ["dissipated_energy", "loading_jumps", "unloading_jumps"], threads=1)
+        status |= int(solved["status"]) & ~FAILED
     return result, status
