@@ -27,7 +27,7 @@ from gradhesion.cli.curve_panels import (
     jumps_of,
 )
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import CURVES, KEYS, SCENE
+from gradhesion.cli.names import CURVES, KEYS, RAGGED, SCENE
 from gradhesion.cli.panels import COLOURS
 from gradhesion.cli.picture import STYLE
 from gradhesion.cli.scales import equation
@@ -101,7 +101,12 @@ def drawn_curves(dataset: xarray.Dataset, asked: Sequence[str]) -> Figure:
 
 def _chosen(dataset: xarray.Dataset, asked: Sequence[str]) -> list[str]:
     """List the curves to draw; a variable stands for its curve."""
-    there = {curve: [name for name in own if name in dataset] for curve, own in CURVES.items()}
+    there = {curve: [name for name in own if name in dataset] for curve, own in CURVES.items() if curve not in RAGGED}
+    if not any(there.values()):
+        raise DatasetError(
+            "jumps are told and not drawn: `gradhesion info --jumps` lists them; "
+            'for a picture of the cycle add "path" to the outputs of the study'
+        )
     known = [word for curve, own in there.items() if own for word in (curve, *own)]
     for name in asked:
         if name not in known:
@@ -150,7 +155,9 @@ def _caption(dataset: xarray.Dataset, axes: Sequence[str]) -> str:
 def _trimmed(scene: xarray.Dataset) -> dict[str, Values]:
     """Take the curves of a scene without their padding."""
     curves: dict[str, Values] = {}
-    for own in CURVES.values():
+    for curve, own in CURVES.items():
+        if curve in RAGGED:
+            continue
         rows = {name: np.asarray(scene[name].values, dtype=float) for name in own if name in scene}
         points = np.flatnonzero(np.any([~np.isnan(row) for row in rows.values()], axis=0)) if rows else np.empty(0)
         curves |= {name: row[: int(points[-1]) + 1 if points.size else 0] for name, row in rows.items()}

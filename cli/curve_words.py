@@ -9,7 +9,8 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.blocks import tile
-from gradhesion.cli.names import CURVES, INTEGERS
+from gradhesion.cli.jump_words import jumps_told
+from gradhesion.cli.names import CURVES, INTEGERS, RAGGED
 
 CELLS: Final = 2**20
 """Values of a variable that are read at a time, unless a single curve has more."""
@@ -21,7 +22,7 @@ def curves_told(dataset: xarray.Dataset) -> Iterator[str]:
     """Tell the curves of a dataset, line by line."""
     for curve, own in CURVES.items():
         names = [name for name in own if name in dataset]
-        if not names:
+        if not names or curve in RAGGED:
             continue
         counts: dict[str, list[int]] = {"points": []}
         ends = {name: (np.inf, -np.inf) for name in names if name not in INTEGERS}
@@ -38,6 +39,7 @@ def curves_told(dataset: xarray.Dataset) -> Iterator[str]:
         for name, (least, greatest) in ends.items():
             told = f"{least + 0.0:.6g} to {greatest + 0.0:.6g}" if least <= greatest else "no value in any scene"
             yield f"  {name:<30} {told:<26} {own[name]}"
+    yield from jumps_told(dataset)
 
 
 def _scenes(dataset: xarray.Dataset, names: Sequence[str]) -> Iterator[Scene]:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.blocks import Block, awaited, scenes_of
-from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS
+from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, RAGGED
 from gradhesion.cli.study import Study
 from gradhesion.core import draw_curves
 
@@ -31,6 +31,16 @@ def extent_of(variable: str) -> str:
     return next(EXTENTS[curve] for curve, own in CURVES.items() if variable in own)
 
 
+def is_ragged(variable: str) -> bool:
+    """
+    Tell whether a variable has the items of one scene after those of the other.
+
+    >>> is_ragged("jump_energy"), is_ragged("jump_count"), is_ragged("path_load")
+    (True, False, False)
+    """
+    return any(variable in CURVES[curve] and variable != count for curve, count in RAGGED.items())
+
+
 def blank_of(variable: str) -> float:
     """Give what stands where a curve has no point."""
     return -1 if variable in INTEGERS else np.nan
@@ -40,7 +50,8 @@ def drawn(study: Study, threads: int | None = None) -> Iterator[Drawing]:
     """
     Draw a study scene by scene: its curves, along one more dimension than its block, and its `status`.
 
-    Scenes are drawn in threads of their own, some ahead of whoever takes them; they come in order.
+    Ragged curves have their own dimension alone. Scenes are drawn in threads of their own, some ahead of whoever takes
+    them; they come in order.
     """
     workers = min(threads or os.cpu_count() or 1, study.scenes)
     pool = ThreadPoolExecutor(workers, thread_name_prefix="draw")
@@ -64,9 +75,19 @@ def _draw(study: Study, block: Block) -> Drawing:
     found, status = draw_curves(scene, curves)
     front = (1,) * len(block)
     parts = {}
+    counts = {
+        count: np.size(found[next(name for name in CURVES[curve] if name in found)])
+        for curve, count in RAGGED.items()
+        if curve in curves
+    }
     for name in study.outputs:
-        values = np.asarray(found[name]) if np.size(found[name]) else np.array([blank_of(name)])
-        parts[name] = values.reshape(*front, -1)
+        if name in counts:
+            parts[name] = np.full(front, counts[name], dtype=INTEGERS[name])
+        elif is_ragged(name):
+            parts[name] = found[name]
+        else:
+            values = np.asarray(found[name]) if np.size(found[name]) else np.array([blank_of(name)])
+            parts[name] = values.reshape(*front, -1)
     parts["status"] = np.full(front, status, dtype=np.int8)
     return block, parts
 
@@ -76,19 +97,28 @@ def gathered(study: Study, threads: int | None = None) -> dict[str, NDArray[Any]
     drawings = list(drawn(study, threads))
     filled: dict[str, NDArray[Any]] = {"status": np.empty(study.shape, np.int8)}
     for name in study.outputs:
-        longest = max(parts[name].shape[-1] for _, parts in drawings)
-        filled[name] = np.full((*study.shape, longest), blank_of(name), INTEGERS.get(name, "f8"))
+        parts_of = [parts[name] for _, parts in drawings]
+        if is_ragged(name):
+            filled[name] = np.concatenate(parts_of)
+            continue
+        further = [max(part.shape[-1] for part in parts_of)] if parts_of[0].ndim > len(study.shape) else []
+        filled[name] = np.full((*study.shape, *further), blank_of(name), INTEGERS.get(name, "f8"))
     for block, parts in drawings:
         for name, part in parts.items():
-            filled[name][within(block, part)] = part
+            if not is_ragged(name):
+                filled[name][within(name, block, part)] = part
     return filled
 
 
-def within(block: Block, part: NDArray[Any]) -> Block:
+def within(name: str, block: Block, part: NDArray[Any], begun: int = 0) -> Block:
     """
-    Tell where a part goes that has further dimensions than its block.
+    Tell where a part goes that has further dimensions than its block, or none of it after `begun` items.
 
-    >>> within((slice(2, 3),), np.zeros((1, 5)))
+    >>> within("path_load", (slice(2, 3),), np.zeros((1, 5)))
     (slice(2, 3, None), slice(0, 5, None))
+    >>> within("jump_energy", (slice(2, 3),), np.zeros(4), 7)
+    (slice(7, 11, None),)
     """
+    if is_ragged(name):
+        return (slice(begun, begun + part.size),)
     return (*block, *(slice(0, length) for length in part.shape[len(block) :]))

@@ -40,8 +40,9 @@ def variables(study: Study) -> dict[str, Variable]:
     outputs = {name: _output(study, name) for name in study.outputs}
     outputs["status"] = _status(study)
     if beside:
-        for variable in outputs.values():
-            variable.attributes["coordinates"] = beside
+        for name, variable in outputs.items():
+            if not curves.is_ragged(name):
+                variable.attributes["coordinates"] = beside
     return described | outputs
 
 
@@ -85,6 +86,14 @@ def _output(study: Study, name: str) -> Variable:
         attributes["long_name"] = next(own[name] for own in names.CURVES.values() if name in own)
         if name in names.MEANINGS:
             attributes |= {"flag_values": np.array([0, 1], dtype=dtype), "flag_meanings": names.MEANINGS[name]}
+        if name in names.RAGGED.values():
+            attributes["sample_dimension"] = next(
+                names.EXTENTS[one] for one in names.RAGGED if name in names.CURVES[one]
+            )
+            return Variable(dimensions=dimensions, dtype=dtype, attributes=attributes)
+        if curves.is_ragged(name):
+            del attributes["ancillary_variables"]  # `status` has other dimensions
+            return Variable(dimensions=(curves.extent_of(name),), dtype=dtype, attributes=attributes)
         dimensions = (*dimensions, curves.extent_of(name))
         return Variable(dimensions=dimensions, dtype=dtype, attributes=attributes, blank=curves.blank_of(name))
     attributes["long_name"] = names.OUTPUTS[name]

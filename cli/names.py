@@ -39,8 +39,12 @@ EXTENTS: Final = {
     "envelope": "envelope_point",
     "effective": "effective_point",
     "smooth": "smooth_point",
+    "jumps": "jump",
 }
 """Every curve of a curve study, with the dimension along it."""
+
+RAGGED: Final = {"jumps": "jump_count"}
+"""Curves kept as contiguous ragged arrays, one scene after the other, with the variable that counts what each has."""
 
 CURVES: Final = {
     "equilibrium": {
@@ -80,6 +84,17 @@ CURVES: Final = {
         "smooth_indentation": "indentation depth delta/R of the punch without waviness",
         "smooth_load": "load P/(1.5 pi R dgamma) of the punch without waviness",
     },
+    "jumps": {
+        "jump_count": "number of jumps of a loading cycle; those of all scenes follow one another",
+        "jump_indentation": "indentation depth delta/R at which the jump happens",
+        "jump_radius_before": "contact radius a/R before the jump (0: no contact)",
+        "jump_radius_after": "contact radius a/R after the jump (0: no contact)",
+        "jump_energy": "energy dissipated by the jump over R^2 dgamma (negative: gained)",
+        "jump_load_before": "load P/(1.5 pi R dgamma) before the jump",
+        "jump_load_after": "load P/(1.5 pi R dgamma) after the jump",
+        "jump_unloading": "whether the jump is on loading or on unloading",
+        "jump_at_rim": "whether the jump starts or ends at the rim",
+    },
 }
 """Every curve of a curve study: its variables, with their `long_name`."""
 
@@ -89,6 +104,9 @@ INTEGERS: Final = {
     "path_jump": "i1",
     "path_unloading": "i1",
     "effective_jump": "i1",
+    "jump_count": "i4",
+    "jump_unloading": "i1",
+    "jump_at_rim": "i1",
 }
 """The type of the variables of curves that are integers."""
 
@@ -97,6 +115,8 @@ MEANINGS: Final = {
     "path_jump": "along_a_branch by_a_jump",
     "path_unloading": "loading unloading",
     "effective_jump": "along_an_envelope by_a_jump",
+    "jump_unloading": "loading unloading",
+    "jump_at_rim": "within_the_rim at_the_rim",
 }
 """What 0 and 1 mean where an integer is a flag."""
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import xarray
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import EXTENTS
+from gradhesion.cli.names import EXTENTS, RAGGED
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -47,4 +47,6 @@ def opened(path: Path) -> Iterator["Dataset"]:
 
 def has_curves(dataset: "Dataset") -> bool:
     """Tell whether a dataset is that of a curve study."""
-    return any(extent in dataset.dims for extent in EXTENTS.values())
+    return any(extent in dataset.dims for extent in EXTENTS.values()) or any(
+        name in dataset for name in RAGGED.values()
+    )

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import places, rules, schema
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.names import CURVES, KEYS, SCENE, SOLVER
+from gradhesion.cli.names import CURVES, KEYS, RAGGED, SCENE, SOLVER
 from gradhesion.cli.source import Source, read_source
 from gradhesion.core import OUTPUTS, SOLVERS
 
@@ -164,8 +164,9 @@ def _study(source: Source) -> Study:
 
 
 def _outputs(asked: Sequence[str]) -> tuple[str, ...]:
-    """List the variables that are asked for; a curve stands for all of its own."""
-    of_curves = [name for curve, own in CURVES.items() for name in own if curve in asked or name in asked]
+    """List the variables that are asked for; a curve stands for all of its own, and a ragged one needs its count."""
+    named = {*asked} | {RAGGED[curve] for curve, own in CURVES.items() if curve in RAGGED and own.keys() & {*asked}}
+    of_curves = [name for curve, own in CURVES.items() for name in own if curve in asked or name in named]
     return (*(output for output in OUTPUTS if output in asked), *of_curves)
 
 

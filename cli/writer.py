@@ -15,6 +15,7 @@ from gradhesion.cli import dataset
 from gradhesion.cli.blocks import blocks, chunk_shape, size_of
 from gradhesion.cli.curves import within
 from gradhesion.cli.errors import OutputError
+from gradhesion.cli.names import RAGGED
 from gradhesion.cli.study import Study
 from gradhesion.core import FAILED
 
@@ -95,10 +96,12 @@ def write(
         try:
             with writing(path):
                 _define(file, study, history)
+            begun = 0  # items of ragged curves
             for block, values in dataset.parts(study, threads):
                 with writing(path):
                     for name, part in values.items():
-                        file[name][within(block, part) or ...] = part
+                        file[name][within(name, block, part, begun) or ...] = part
+                begun += sum(int(values[count].item()) for count in RAGGED.values() if count in values)
                 failed += int(np.count_nonzero(values["status"] & FAILED))
                 advance(size_of(block))
         except BaseException:

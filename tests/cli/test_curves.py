@@ -12,12 +12,15 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset import compute
-from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, KEYS, MEANINGS
+from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, KEYS, MEANINGS, RAGGED
 from gradhesion.cli.study import load_study, study_from
 from gradhesion.core import FAILED, FLAGS, draw_curves, solve
 from gradhesion.core import curves as core_curves
 
 Call = Callable[..., Result]
+
+
+PADDED = [curve for curve in CURVES if curve not in RAGGED]
 
 
 @pytest.fixture
@@ -41,8 +44,10 @@ def dataset_file(gradhesion: Call, curve_file: Path, tmp_path: Path) -> Path:
 
 
 def test_the_names_are_those_of_the_core() -> None:
-    assert {curve: tuple(own) for curve, own in CURVES.items()} == core_curves.CURVES
-    assert set(INTEGERS) == set(core_curves.INTEGERS)
+    counts = {*RAGGED.values()}
+    of_core = {curve: tuple(name for name in own if name not in counts) for curve, own in CURVES.items()}
+    assert of_core == core_curves.CURVES
+    assert set(INTEGERS) - counts == set(core_curves.INTEGERS)
     assert list(EXTENTS) == list(CURVES)
     assert set(MEANINGS) < set(INTEGERS)
 
@@ -57,8 +62,8 @@ def test_a_curve_stands_for_its_variables(curve_data: dict[str, Any]) -> None:
 def test_the_dataset_keeps_its_contract(dataset_file: Path) -> None:
     with netCDF4.Dataset(dataset_file) as file:
         assert list(file.dimensions) == ["A", "a_max_over_R", *EXTENTS.values()]
-        for curve, own in CURVES.items():
-            for name, long_name in own.items():
+        for curve in PADDED:
+            for name, long_name in CURVES[curve].items():
                 variable = file[name]
                 assert variable.dimensions == ("A", "a_max_over_R", EXTENTS[curve])
                 assert variable.dtype == np.dtype(INTEGERS.get(name, "f8"))
@@ -81,19 +86,19 @@ def test_the_dataset_keeps_its_contract(dataset_file: Path) -> None:
 
 def test_each_scene_is_the_curve_of_the_core_padded_to_the_longest(dataset_file: Path) -> None:
     with xarray.open_dataset(dataset_file, mask_and_scale=False) as dataset:
-        lengths: dict[str, list[int]] = {extent: [] for extent in EXTENTS.values()}
+        lengths: dict[str, list[int]] = {EXTENTS[curve]: [] for curve in PADDED}
         for i in range(3):
             for j in range(2):
                 scene = dataset.isel(A=i, a_max_over_R=j)
-                found, status = draw_curves({name: scene[name].item() for name in KEYS if name in scene}, [*CURVES])
+                found, status = draw_curves({name: scene[name].item() for name in KEYS if name in scene}, PADDED)
                 assert scene["status"] == status
                 for name, values in found.items():
                     row = scene[name].values
                     np.testing.assert_array_equal(row[: values.size], values)
                     rest = row[values.size :]
                     assert (rest == -1).all() if name in INTEGERS else np.isnan(rest).all()
-                for curve, extent in EXTENTS.items():
-                    lengths[extent].append(found[next(iter(CURVES[curve]))].size)
+                for curve in PADDED:
+                    lengths[EXTENTS[curve]].append(found[next(iter(CURVES[curve]))].size)
         assert {extent: dataset.sizes[extent] for extent in lengths} == {
             extent: max(points) for extent, points in lengths.items()
         }

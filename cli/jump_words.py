@@ -1,0 +1,101 @@
+"""The jumps of a curve study: told in words, and listed one by one."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+import xarray
+from numpy.typing import NDArray
+
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, KEYS, RAGGED
+
+ITEMS: Final = 2**16
+"""Jumps that are read at a time."""
+
+COUNT: Final = RAGGED["jumps"]
+JUMP: Final = EXTENTS["jumps"]
+
+Piece = dict[str, NDArray[Any]]
+
+
+def jumps_told(dataset: xarray.Dataset) -> Iterator[str]:
+    """Tell the jumps of a dataset, if it has them: how many, how large, and where the largest is."""
+    if COUNT not in dataset:
+        return
+    counts = dataset[COUNT].values
+    least, greatest = int(counts.min()), int(counts.max())
+    each = f"{least:,}" if least == greatest else f"{least:,} to {greatest:,}"
+    yield ""
+    yield f"jumps: {each} a scene, {int(counts.sum()):,} in all"
+    numbers = dict.fromkeys(("on unloading", "from or to the rim", "that gain energy"), 0)
+    ends: dict[str, tuple[float, float]] = {}
+    largest: dict[str, Any] = {}
+    for piece in _pieces(dataset):
+        if not all(values.size for values in piece.values()):
+            break
+        for word, flags in (
+            ("on unloading", piece.get("jump_unloading", np.empty(0)) == 1),
+            ("from or to the rim", piece.get("jump_at_rim", np.empty(0)) == 1),
+            ("that gain energy", piece.get("jump_energy", np.empty(0)) < 0.0),
+        ):
+            numbers[word] += int(np.count_nonzero(flags))
+        for name in [name for name in CURVES["jumps"] if name in piece and name not in INTEGERS]:
+            low, high = ends.get(name, (np.inf, -np.inf))
+            ends[name] = min(low, float(piece[name].min())), max(high, float(piece[name].max()))
+        if "jump_energy" in piece:
+            item = int(np.argmax(piece["jump_energy"]))
+            if not largest or piece["jump_energy"][item] > largest["jump_energy"]:
+                largest = {name: values[item].item() for name, values in piece.items()}
+    yield from (f"  {word:<30} {number:,}" for word, number in numbers.items() if number)
+    for name, (low, high) in ends.items():
+        yield f"  {name:<30} {f'{low + 0.0:.6g} to {high + 0.0:.6g}':<26} {CURVES['jumps'][name]}"
+    if largest:
+        yield f"  the largest dissipates {largest['jump_energy']:.6g}{_where(largest)}"
+
+
+def jumps_listed(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
+    """List every jump of a dataset as CSV, some lines at a time: the parameters that vary, and what is known of it."""
+    if JUMP not in dataset.dims:
+        raise DatasetError(f'{file}: has no jumps; add "jumps" to the outputs of a study of kind "curve" and run it')
+    for number, piece in enumerate(_pieces(dataset)):
+        if number == 0:
+            yield ",".join(piece)
+        rows = zip(*(values.tolist() for values in piece.values()), strict=True)
+        lines = "\n".join(",".join(map(repr, row)) for row in rows)
+        if lines:
+            yield lines
+
+
+def _pieces(dataset: xarray.Dataset) -> Iterator[Piece]:
+    """Read some jumps at a time, none if there is none: the parameters that vary, and the variables of each jump."""
+    status = dataset["status"]
+    counts = dataset[COUNT].values.ravel()
+    scenes = {
+        name: dataset[name].broadcast_like(status).transpose(*status.dims).values.ravel()
+        for name in KEYS
+        if name in dataset and dataset[name].ndim
+    }
+    own = [name for name in CURVES["jumps"] if name in dataset and name != COUNT]
+    ends = np.cumsum(counts, dtype=np.int64)
+    total = int(ends[-1]) if own else 0
+    for start in range(0, max(1, total), ITEMS):
+        stop = min(start + ITEMS, total)
+        scene = np.searchsorted(ends, np.arange(start, stop), side="right")
+        yield {name: values[scene] for name, values in scenes.items()} | {
+            name: dataset[name][start:stop].values for name in own
+        }
+
+
+def _where(jump: dict[str, Any]) -> str:
+    """Tell what is known of a jump but its energy."""
+    told = []
+    if "jump_unloading" in jump:
+        told.append("on unloading" if jump["jump_unloading"] == 1 else "on loading")
+    if "jump_indentation" in jump:
+        told.append(f"at the depth {jump['jump_indentation'] + 0.0:.6g}")
+    if {"jump_radius_before", "jump_radius_after"} <= jump.keys():
+        told.append(f"from the radius {jump['jump_radius_before']:.6g} to {jump['jump_radius_after']:.6g}")
+    told += [f"{name} = {jump[name]:g}" for name in KEYS if name in jump]
+    return ", " + ", ".join(told) if told else ""
