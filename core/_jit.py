@@ -39,8 +39,7 @@ def kernel(*, contract: bool = False, inline: bool = False) -> Callable[[Kernel]
         Allow `a * b + c` to be rounded once. No other liberty is ever taken: with full fast-math `isnan` is always
         false, and the exact argument reductions of the wave break.
     inline
-        Insert the function into its callers. For a kernel that takes a function as an argument, which numba could not
-        keep on disk otherwise.
+        Insert the function into its callers: for one so short that handing its arrays over is a good part of its cost.
     """
 
     def decorate(function: Kernel) -> Kernel:

@@ -1,10 +1,7 @@
 """The leading asymptotic form of a short wave: a cycle of loading and unloading, and all results of a curve.
 
-The path is that of branches.py, loading.py and unloading.py, each wave walked, each rim by itself. The energy of a jump
-at the depth d from one contact radius to another is, with D = d - g and rho = (b z^2/2 - D)/z^c + chi sin(z - phi),
-
-    e = int z [1 - rho^2] dz = z^2/2 - b^2 z^(5+k)/(4 (5+k)) + b D z^(3+k)/(3+k) - D^2 z^(1+k)/(1+k)
-                               - 2 chi int z^n (b z^2/2 - D) sin(z - phi) dz - chi^2 int z sin^2(z - phi) dz
+The path is that of branches.py, loading.py and unloading.py, each wave walked, each rim by itself: with so few waves
+nothing is shared between rims but the branches.
 """
 
 import math
@@ -25,99 +22,13 @@ from gradhesion.core.asymptotic import (
     lowest_load,
     window_end,
 )
+from gradhesion.core.asymptotic_jump import loss_of_jump
+from gradhesion.core.branches import END, END_DEPTH, START, START_DEPTH
+from gradhesion.core.results import put_all, wants_folds, wants_force
 from gradhesion.core.status import NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
 
-START, START_DEPTH, END, END_DEPTH = 0, 1, 2, 3
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
-_PANEL = 7.8
-"""The longest panel, 1.25 waves (jump_energy.py)."""
-_SMALL = 4.0
-"""z below which the powers of z are felt by Gauss's rule: the variable is z^(1/4) there."""
-_LARGE = 40.0
-"""z from which the integral of a power times a sine is its asymptotic series."""
-_MANY = 512.0
-"""Length of a jump from which the antiderivative is taken."""
 _STEPS = 100
-
-
-@kernel()
-def _integrand(wave: Wave, target: float, z: float) -> float:
-    """Return z (1 - rho^2)."""
-    k, b, chi, g, phi = wave
-    rho = (0.5 * b * z * z + g - target) / z ** (0.5 * (1.0 - k)) + chi * math.sin(z - phi)
-    return z * (1.0 - rho) * (1.0 + rho)
-
-
-@kernel()
-def _by_panels(wave: Wave, target: float, low: float, high: float) -> float:
-    """Integrate by Gauss's rule."""
-    panels = int((high - low) / _PANEL) + 1
-    half = 0.5 * (high - low) / panels
-    total = 0.0
-    for panel in range(panels):
-        centre = low + (2.0 * panel + 1.0) * half
-        for node, weight in zip(_NODES, _WEIGHTS):  # noqa: B905 (numba has no strict)
-            total += weight * _integrand(wave, target, centre + half * node)
-    return total * half
-
-
-@kernel()
-def _near_zero(wave: Wave, target: float, low: float, high: float) -> float:
-    """Integrate by Gauss's rule in t = z^(1/4)."""
-    start, end = low**0.25, high**0.25
-    total = 0.0
-    for node, weight in zip(_NODES, _WEIGHTS):  # noqa: B905
-        t = 0.5 * (start + end + (end - start) * node)
-        total += weight * 4.0 * t**3 * _integrand(wave, target, t**4)
-    return total * 0.5 * (end - start)
-
-
-@kernel()
-def _power_times_sine(power: float, phi: float, z: float) -> float:
-    """Return int z^power sin(z - phi) dz for z >= 40 (by parts; what is left is below 1e-12)."""
-    real, imaginary = 0.0, 1.0  # of the factor of e^(i (z - phi)): the sum of -i (i d/dz)^j
-    term = z**power
-    total = 0.0
-    sine, cosine = math.sin(z - phi), math.cos(z - phi)
-    for j in range(10):
-        total += term * (real * sine - imaginary * cosine)
-        real, imaginary = imaginary, -real
-        term *= (power - j) / z
-    return total
-
-
-@kernel()
-def _antiderivative(wave: Wave, target: float, z: float) -> float:
-    """Return the integral in closed form for z >= 40."""
-    k, b, chi, g, phi = wave
-    n = 0.5 * (1.0 + k)
-    drop = target - g
-    square = z * z
-    quartic = 0.25 * b * b * square * square / (5.0 + k) - b * drop * square / (3.0 + k) + drop * drop / (1.0 + k)
-    linear = 0.5 * b * _power_times_sine(n + 2.0, phi, z) - drop * _power_times_sine(n, phi, z)
-    double = 2.0 * (z - phi)
-    quadratic = 0.25 * square - 0.25 * z * math.sin(double) - 0.125 * math.cos(double)
-    return 0.5 * square - z ** (1.0 + k) * quartic - 2.0 * chi * linear - chi * chi * quadratic
-
-
-@kernel()
-def loss_of_jump(wave: Wave, target: float, start: float, end: float) -> float:
-    """Return e for a jump at the depth `target` from z = start to z = end, either of which may be 0."""
-    low, high = min(start, end), max(start, end)
-    total = 0.0
-    if low < _SMALL:
-        edge = min(_SMALL, high)
-        total += _near_zero(wave, target, low, edge)
-        low = edge
-    if high - low > _MANY:
-        if low < _LARGE:
-            total += _by_panels(wave, target, low, _LARGE)
-            low = _LARGE
-        total += _antiderivative(wave, target, high) - _antiderivative(wave, target, low)
-    elif high > low:
-        total += _by_panels(wave, target, low, high)
-    return total if end > start else -total
 
 
 @kernel()
@@ -230,31 +141,32 @@ def unload_from(wave: Wave, count: int, trace: Any, rim: float) -> tuple[float, 
 
 @kernel()
 def solve_curve(
-    table: Any, stiffness: float, wavelength: float, amplitude: float, rims: Any, slots: Any, out: Any, status: Any
+    table: Any, stretch: float, wavelength: float, amplitude: float, rims: Any, slots: Any, out: Any, status: Any
 ) -> None:
     """Solve one curve for all its rims."""
+    if amplitude == 0.0:
+        envelope.solve_curve(table, stretch, wavelength, amplitude, rims, slots, out)
+        return
     k = table.k
-    stretch = math.sqrt(2.0 ** (1.0 + k) * math.pi / stiffness)
     length = wavelength / TWO_PI
     depth_scale = stretch * length ** (0.5 * (1.0 - k))
     gain = amplitude * wavelength / depth_scale
     wave = (k, 2.0 * length * length / ((1.0 + k) * depth_scale), table.amplitude * gain, gain, table.phase)
     force_scale = 8.0 / (3.0 * (1.0 + k)) * length * length / depth_scale
     energy_scale = TWO_PI * length * length
-    wants_force = slots[0] >= 0 or slots[1] >= 0
-    wants_cycle = slots[2:].max() >= 0
+    force, folds = wants_force(slots), wants_folds(slots)
     count, trace = -1, np.empty((4, 0))
-    if wants_cycle:
+    if folds:
         count, trace = trace_branches(wave, rims.max() / length)
     shared = count >= 0 or rims.size == 1  # else a rim with fewer waves may still have its own
     for i in range(rims.size):
         z_rim = rims[i] / length
         lowest = place = loss = loading = unloading = deepest = last = math.nan
-        if wants_force:
+        if force:
             lowest, place = lowest_load(wave, z_rim)
-        if wants_cycle and not shared:
+        if folds and not shared:
             count, trace = trace_branches(wave, z_rim)
-        if wants_cycle and count >= 0:
+        if folds and count >= 0:
             loss, loading, deepest = load_to(wave, count, trace, z_rim)
             loss_back, unloading, last = unload_from(wave, count, trace, z_rim)
             loss += loss_back
@@ -264,7 +176,7 @@ def solve_curve(
                 deepest = max(deepest, depth(wave, z_rim))
             else:
                 deepest = math.inf
-        fine = (loss >= 0.0 or not wants_cycle) and (lowest < 0.0 or not wants_force)
+        fine = (loss >= 0.0 or not folds) and (lowest < 0.0 or not force)
         status[i] = 0 if fine else NO_VALUE
         values = (
             -force_scale * lowest,
@@ -275,29 +187,4 @@ def solve_curve(
             depth_scale * deepest,
             depth_scale * last,
         )
-        envelope.store(values, slots, out, i)
-
-
-@kernel()
-def solve_curves(
-    table: Any,
-    index: Any,
-    stiffness: Any,
-    wavelength: Any,
-    amplitude: Any,
-    rims: Any,
-    slots: Any,
-    out: Any,
-    status: Any,
-    scratch: Any,
-) -> None:
-    """Solve the curves `index` of one gradient exponent; `rims` has one row, or one a curve (as scene.py)."""
-    for j in range(index.size):
-        i = index[j]
-        row = rims[i if rims.shape[0] > 1 else 0]
-        valid = stiffness[i] > 0.0 and 0.0 < wavelength[i] < math.inf and 0.0 < amplitude[i] < math.inf
-        if valid and row.min() > 0.0:
-            solve_curve(table, stiffness[i], wavelength[i], amplitude[i], row, slots, out[:, i], status[i])
-        else:  # the smooth punch, and what has no value
-            one = index[j : j + 1]
-            envelope.solve_curves(table, one, stiffness, wavelength, amplitude, rims, slots, out, status, scratch)
+        put_all(out, slots, i, values)

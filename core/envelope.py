@@ -15,17 +15,18 @@ and the energy int z [rho_unloading^2 - rho_loading^2] dz, a sum of powers, is t
 fits of (5.43) are not needed. It grows by 2 chi z_rim^2 without end: the envelopes know nothing of the radius at which
 the folds end and hysteresis saturates, so that the energy of an unbounded punch is inf.
 
-The printed formulae leave out the mean height lambda A of the wave. It is added to delta_max and delta_jump_out; in the
-energy loading starts at the mean surface, as printed, which makes an error of the order (lambda/a)^((1-k)/2) beside the
-lambda/a of all else. The force has an error of the order (lambda/a)^2, one wave not being at its lowest point.
+The printed formulae leave out the mean height lambda A of the wave. It is added to delta_max and delta_jump_out. The
+energy leaves it out, as printed: its jump-in is at the mean surface, the depth lambda A, and not at the depth 0 where
+contact begins, which makes an error of the order (lambda/a)^((1-k)/2) beside the lambda/a of all else. The force has an
+error of the order (lambda/a)^2, one wave not being at its lowest point.
 """
 
 import math
 from typing import Any
 
 from gradhesion.core._jit import kernel
+from gradhesion.core.results import put_all
 from gradhesion.core.smooth import FORCE_SCALE, smooth_length
-from gradhesion.core.status import NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
 
 
@@ -78,7 +79,7 @@ def envelope_cycle(k: float, chi: float, z_rim: float) -> tuple[float, float, fl
 def solve_rim(
     k: float, stretch: float, chi: float, mean_height: float, rim: float
 ) -> tuple[float, float, float, float, float, float, float]:
-    """Return the results of one rim, in the order of sweep.OUTPUTS; chi = 0 is the smooth punch."""
+    """Return the results of one rim, in the order of results.OUTPUTS; chi = 0 is the smooth punch."""
     length = smooth_length(k, stretch)
     z_rim = rim / length
     force, z = envelope_force(k, chi, z_rim)
@@ -95,41 +96,14 @@ def solve_rim(
     )
 
 
-@kernel()
-def store(values: Any, slots: Any, out: Any, rim: int) -> None:
-    """Put the results that were asked for in their rows."""
-    for row in range(slots.size):
-        if slots[row] >= 0:
-            out[slots[row], rim] = values[row]
-
-
-@kernel()
-def solve_curves(
-    table: Any,
-    index: Any,
-    stiffness: Any,
-    wavelength: Any,
-    amplitude: Any,
-    rims: Any,
-    slots: Any,
-    out: Any,
-    status: Any,
-    _scratch: Any,
+@kernel(inline=True)
+def solve_curve(
+    table: Any, stretch: float, wavelength: float, amplitude: float, rims: Any, slots: Any, out: Any
 ) -> None:
-    """Solve the curves `index` of one gradient exponent; `rims` has one row, or one a curve (as scene.py)."""
-    k = table.k
-    for j in range(index.size):
-        i = index[j]
-        row = rims[i if rims.shape[0] > 1 else 0]
-        valid = stiffness[i] > 0.0 and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf
-        stretch = math.sqrt(2.0 ** (1.0 + k) * math.pi / stiffness[i])
-        # A lambda/(s l^c) with l = lambda/2 pi is the gain of curve.py
-        gain = amplitude[i] * wavelength[i] / (stretch * (wavelength[i] / TWO_PI) ** (0.5 * (1.0 - k)))
-        for rim in range(row.size):
-            if valid and row[rim] > 0.0:
-                mean_height = amplitude[i] * wavelength[i]
-                store(solve_rim(k, stretch, table.amplitude * gain, mean_height, row[rim]), slots, out[:, i], rim)
-                status[i, rim] = 0
-            else:
-                out[:, i, rim] = math.nan
-                status[i, rim] = NO_VALUE
+    """Solve one curve for all its rims."""
+    mean_height = amplitude * wavelength
+    # A lambda/(s l^c) with l = lambda/2 pi is the gain of curve.py
+    gain = mean_height / (stretch * (wavelength / TWO_PI) ** (0.5 * (1.0 - table.k)))
+    for rim in range(rims.size):
+        values = solve_rim(table.k, stretch, table.amplitude * gain, mean_height, rims[rim])
+        put_all(out, slots, rim, values)

@@ -2,8 +2,7 @@
 
 A scene is reduced to its curve (curve.py) and its rim. Lengths are in R, energies in R^2 dgamma, M in dgamma/R^(1+k).
 
-Results go to `out[slots[row], rim]`, where `slots` holds -1 for what nobody asked for; nothing is computed that only
-such a row needs.
+Nothing is computed that only a result needs for which nobody asked.
 """
 
 import math
@@ -17,32 +16,25 @@ from gradhesion.core.cycle import extent, is_endless, is_long, is_smooth, stride
 from gradhesion.core.folds import CLOSE
 from gradhesion.core.loading import highest_depth, jumps_in_to, loading_to
 from gradhesion.core.pull_off import lowest_load
+from gradhesion.core.results import (
+    CONTACT,
+    DEEPEST,
+    ENERGY,
+    FORCE,
+    LAST,
+    LOADING,
+    RADIUS,
+    UNLOADING,
+    put,
+    wants_cycle,
+    wants_folds,
+    wants_force,
+)
 from gradhesion.core.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.ties import is_close_to_a_jump
 from gradhesion.core.unloading import unloading_from
-
-FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST = 0, 1, 2, 3, 4, 5, 6
-"""Rows of the results, in the order of sweep.OUTPUTS."""
-CONTACT = 7
-"""One more slot, not -1 if the status shall tell where loading does not keep the contact one disc."""
-
-
-@kernel()
-def _put(out: Any, slots: Any, row: int, rim: int, value: float) -> None:
-    if slots[row] >= 0:
-        out[slots[row], rim] = value
-
-
-@kernel()
-def _wants_force(slots: Any) -> bool:
-    return slots[FORCE] >= 0 or slots[RADIUS] >= 0
-
-
-@kernel()
-def _wants_cycle(slots: Any) -> bool:
-    return slots[ENERGY] >= 0 or slots[LOADING] >= 0 or slots[UNLOADING] >= 0 or slots[LAST] >= 0
 
 
 @kernel()
@@ -52,22 +44,22 @@ def _solve_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: An
     depth_scale = 2.0 * length * length / (1.0 + k)
     for i in range(rims.size):
         z_rim = rims[i] / length
-        if _wants_force(slots):
+        if wants_force(slots):
             force, z = smooth.smooth_force(k, constants[0], z_rim)
-            _put(out, slots, FORCE, i, force)
-            _put(out, slots, RADIUS, i, z * length if z < z_rim else rims[i])
+            put(out, slots, FORCE, i, force)
+            put(out, slots, RADIUS, i, z * length if z < z_rim else rims[i])
             if z == z_rim:
                 status[i] |= PULL_OFF_AT_RIM
-        if _wants_cycle(slots):
+        if wants_cycle(slots):
             loss, unloading_jumps, last = smooth.smooth_cycle(k, constants, z_rim)
-            _put(out, slots, ENERGY, i, TWO_PI * length * length * loss)
-            _put(out, slots, LOADING, i, 1.0)
-            _put(out, slots, UNLOADING, i, unloading_jumps)
-            _put(out, slots, LAST, i, depth_scale * last)
+            put(out, slots, ENERGY, i, TWO_PI * length * length * loss)
+            put(out, slots, LOADING, i, 1.0)
+            put(out, slots, UNLOADING, i, unloading_jumps)
+            put(out, slots, LAST, i, depth_scale * last)
         if slots[DEEPEST] >= 0:
             deepest = max(0.0, smooth.smooth_depth(k, z_rim)) if z_rim < math.inf else math.inf
-            _put(out, slots, DEEPEST, i, depth_scale * deepest)
-        if (_wants_cycle(slots) or slots[DEEPEST] >= 0) and z_rim < constants[1]:
+            put(out, slots, DEEPEST, i, depth_scale * deepest)
+        if wants_folds(slots) and z_rim < constants[1]:
             status[i] |= JUMP_IN_TO_RIM
 
 
@@ -87,8 +79,8 @@ def _solve_force(
             lowest, place, second = lowest_load(table, curve, x, x_low)
         if second < lowest * (1.0 - CLOSE):
             status[i] |= CLOSE_TO_A_JUMP
-        _put(out, slots, FORCE, i, -scale * lowest)
-        _put(out, slots, RADIUS, i, place * wavelength if place != x else rims[i])
+        put(out, slots, FORCE, i, -scale * lowest)
+        put(out, slots, RADIUS, i, place * wavelength if place != x else rims[i])
         if place == x:
             status[i] |= PULL_OFF_AT_RIM
 
@@ -111,7 +103,7 @@ def _cycle_at_rim(
     energy_scale, depth_scale = scales
     losses = slots[ENERGY] >= 0
     rim_depth = depth(table, curve, x) if x < math.inf else math.inf
-    if _wants_cycle(slots):
+    if wants_cycle(slots):
         loading_loss, loading_jumps = loading_to(table, curve, count, trace, x, losses)
         unloading_loss, unloading_jumps, last = unloading_from(table, curve, count, trace, x, rim_depth, losses)
         energy = energy_scale * (loading_loss + unloading_loss)
@@ -120,11 +112,11 @@ def _cycle_at_rim(
             status[i] |= NO_VALUE
         if is_close_to_a_jump(table, curve, count, trace, x, rim_depth):
             status[i] |= CLOSE_TO_A_JUMP
-        _put(out, slots, ENERGY, i, energy)
-        _put(out, slots, LOADING, i, loading_jumps)
-        _put(out, slots, UNLOADING, i, unloading_jumps)
-        _put(out, slots, LAST, i, depth_scale * last)
-    _put(out, slots, DEEPEST, i, depth_scale * highest_depth(count, trace, x, rim_depth))
+        put(out, slots, ENERGY, i, energy)
+        put(out, slots, LOADING, i, loading_jumps)
+        put(out, slots, UNLOADING, i, unloading_jumps)
+        put(out, slots, LAST, i, depth_scale * last)
+    put(out, slots, DEEPEST, i, depth_scale * highest_depth(count, trace, x, rim_depth))
     if jumps_in_to(count, trace, x):
         status[i] |= JUMP_IN_TO_RIM
     if not is_one_disc(table, curve, limits, x, trace):
@@ -191,49 +183,22 @@ def solve_curve(
     scratch: Any,
 ) -> None:
     """Solve one curve (k, s, lambda, A) for all its rims a_max."""
-    status[:] = 0
     k = table.k
-    if not (0.0 < stretch < math.inf and 0.0 < wavelength < math.inf and 0.0 <= amplitude < math.inf):
-        out[:, :] = math.nan
-        status[:] = NO_VALUE
-        return
     if amplitude == 0.0:
         _solve_smooth(k, constants, stretch, rims, slots, out, status)
         return
     length = wavelength / TWO_PI
     depth_scale = stretch * length ** (0.5 * (1.0 - k))
     curve = (2.0 * length * length / ((1.0 + k) * depth_scale), amplitude * wavelength / depth_scale, 0.0)
-    if _wants_force(slots):
+    folds = wants_folds(slots)
+    arches = extent(table, curve) if folds else (0.0, 0.0)
+    if folds and is_smooth(arches):
+        _solve_smooth(k, constants, stretch, rims, slots, out, status)
+        return
+    if wants_force(slots):
         # K l^(1+k) s l^c/(1.5 pi R dgamma) = K s^2 l^2/(s l^c)/1.5 pi, and K s^2 = 4 pi R dgamma/(1+k)
         scale = 8.0 / (3.0 * (1.0 + k)) * length * length / depth_scale
         _solve_force(table, curve, scale, wavelength, rims, slots, out, status)
-    if _wants_cycle(slots) or slots[DEEPEST] >= 0:
+    if folds:
         scales = (TWO_PI * length * length, depth_scale)
-        arches = extent(table, curve)
-        if is_smooth(arches):
-            _solve_smooth(k, constants, stretch, rims, slots, out, status)
-        else:
-            _solve_cycle(table, curve, arches, scales, wavelength, rims, slots, out, status, scratch)
-
-
-@kernel()
-def solve_curves(
-    table: Any,
-    index: Any,
-    stiffness: Any,
-    wavelength: Any,
-    amplitude: Any,
-    rims: Any,
-    slots: Any,
-    out: Any,
-    status: Any,
-    scratch: Any,
-) -> None:
-    """Solve the curves `index` of one gradient exponent; `rims` has one row, or one a curve."""
-    constants = smooth.smooth_constants(table.k)
-    front = 2.0 ** (1.0 + table.k) * math.pi
-    for j in range(index.size):
-        i = index[j]
-        stretch = math.sqrt(front / stiffness[i])  # s = sqrt(2^(1+k) pi dgamma/M)
-        row = rims[i if rims.shape[0] > 1 else 0]
-        solve_curve(table, constants, stretch, wavelength[i], amplitude[i], row, slots, out[:, i], status[i], scratch)
+        _solve_cycle(table, curve, arches, scales, wavelength, rims, slots, out, status, scratch)

@@ -15,30 +15,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core import _jit
-from gradhesion.core.asymptotic_cycle import solve_curves as solve_asymptotic
 from gradhesion.core.branches import ROWS
-from gradhesion.core.envelope import solve_curves as solve_envelope
 from gradhesion.core.material import fill_stiffness
-from gradhesion.core.scene import solve_curves as solve_exact
+from gradhesion.core.results import INTEGERS, OUTPUTS
+from gradhesion.core.solvers import LOOPS, SOLVERS
 from gradhesion.core.status import NO_VALUE
 from gradhesion.core.struve.table import build_table
 
 PARAMETERS: Final = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
 """The seven parameters of a scene, in the order of a dataset's dimensions."""
-OUTPUTS: Final = (
-    "pull_off_force",
-    "pull_off_radius",
-    "dissipated_energy",
-    "loading_jumps",
-    "unloading_jumps",
-    "delta_max",
-    "delta_jump_out",
-)
-"""All results of a scene, in the order of the rows of scene.py."""
-_KERNELS: Final = {"exact": solve_exact, "asymptotic": solve_asymptotic, "envelope": solve_envelope}
-SOLVERS: Final = tuple(_KERNELS)
-"""For wavelengths far below the contact radius: the leading term (asymptotic.py), and closed forms (envelope.py)."""
-_INTEGERS: Final = ("loading_jumps", "unloading_jumps")
 _TASK: Final = 2048
 """Scenes a task: some milliseconds, a thousand times the cost of handing it to a thread."""
 _BRANCHES: Final = 192
@@ -142,9 +127,7 @@ def solve(
     rims[without_rim] = math.inf
 
     curves = math.prod(curve_shape)
-    slots = np.array([outputs.index(name) if name in outputs else -1 for name in OUTPUTS])
-    if solver == "exact":
-        slots = np.append(slots, int(check_contact) - 1)  # scene.CONTACT
+    slots = np.array([*(outputs.index(name) if name in outputs else -1 for name in OUTPUTS), int(check_contact) - 1])
     out = np.empty((len(outputs), curves, rims.shape[1]))
     status = np.zeros((curves, rims.shape[1]), dtype=np.int8)
     exponents = _flat(k, curve_shape)
@@ -152,7 +135,7 @@ def solve(
         _flat(each, curve_shape) for each in (nu, modulus, c0, wavelength, amplitude)
     )
     stiffnesses = np.empty(curves)
-    solve_curves = _KERNELS[solver]
+    solve_curves = LOOPS[solver]
 
     def work(task: tuple[float, NDArray[np.int64]]) -> None:
         exponent, index = task
@@ -177,7 +160,7 @@ def solve(
     result: dict[str, NDArray[Any]] = {}
     for slot, name in enumerate(outputs):
         values = out[slot]
-        if name in _INTEGERS:
+        if name in INTEGERS:
             values = np.where(np.isnan(values), -1.0, np.minimum(values, np.iinfo(np.int32).max)).astype(np.int32)
         result[name] = values.reshape(shape)
     result["status"] = status.reshape(shape)

@@ -1,0 +1,57 @@
+"""The results of a scene: their names, their rows, and how a kernel stores those that were asked for.
+
+Results go to `out[slots[row], rim]`, where `slots` holds -1 for what nobody asked for.
+"""
+
+from typing import Any, Final
+
+from gradhesion.core._jit import kernel
+
+OUTPUTS: Final = (
+    "pull_off_force",
+    "pull_off_radius",
+    "dissipated_energy",
+    "loading_jumps",
+    "unloading_jumps",
+    "delta_max",
+    "delta_jump_out",
+)
+"""All results of a scene, in the order of the rows."""
+INTEGERS: Final = ("loading_jumps", "unloading_jumps")
+"""Those that count."""
+FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST = 0, 1, 2, 3, 4, 5, 6
+"""The rows."""
+CONTACT = 7
+"""One more slot, not -1 if the status shall tell where loading does not keep the contact one disc."""
+
+
+@kernel()
+def wants_force(slots: Any) -> bool:
+    """Return whether anything of the pull-off is asked for."""
+    return slots[FORCE] >= 0 or slots[RADIUS] >= 0
+
+
+@kernel()
+def wants_cycle(slots: Any) -> bool:
+    """Return whether anything is asked for that needs the jumps."""
+    return slots[ENERGY] >= 0 or slots[LOADING] >= 0 or slots[UNLOADING] >= 0 or slots[LAST] >= 0
+
+
+@kernel()
+def wants_folds(slots: Any) -> bool:
+    """Return whether anything is asked for that needs the folds: the jumps, or the largest depth."""
+    return wants_cycle(slots) or slots[DEEPEST] >= 0
+
+
+@kernel()
+def put(out: Any, slots: Any, row: int, rim: int, value: float) -> None:
+    """Store one result if it was asked for."""
+    if slots[row] >= 0:
+        out[slots[row], rim] = value
+
+
+@kernel()
+def put_all(out: Any, slots: Any, rim: int, values: Any) -> None:
+    """Store those of all results, in the order of the rows, that were asked for."""
+    for row in range(len(values)):
+        put(out, slots, row, rim, values[row])
