@@ -1,6 +1,7 @@
 """Adhesive contact of a wavy axisymmetric punch on a power-law graded half-space: arrays in, arrays out."""
 
 from gradhesion.core.curves import CURVES, draw_curves
+from gradhesion.core.report import REPORTS
 from gradhesion.core.results import OUTPUTS
 from gradhesion.core.solvers import SOLVERS
 from gradhesion.core.status import FAILED, FLAGS
@@ -12,6 +13,7 @@ __all__ = [
     "FLAGS",
     "OUTPUTS",
     "PARAMETERS",
+    "REPORTS",
     "SOLVERS",
     "compiled_before",
     "draw_curves",

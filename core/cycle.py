@@ -247,21 +247,24 @@ def _nominal_branch(table: Any, curve: Curve, rim: float, final: float, trace: A
 
 @kernel()
 def stride(
-    table: Any, curve: Curve, arches: tuple[float, float], rim: float, trace: Any, losses: bool
+    table: Any, curve: Curve, arches: tuple[float, float], rim: float, trace: Any, losses: bool, reach: float = 1.0
 ) -> tuple[int, Any]:
-    """Do what `walk` does for one rim of a long curve, leaving out the regular waves in the middle."""
+    """Do what `walk` does for one rim of a long curve, leaving out the regular waves in the middle.
+
+    A `reach` of up to 2 walks that many times as many at either end, which tells how good the sum is (report.py).
+    """
     first, final = arches
-    trace = room_for(trace, 4.0 * (BEGINNING + NEAR_RIM))
+    trace = room_for(trace, 4.0 * reach * (BEGINNING + NEAR_RIM))
     trace[TANGENCY, 0] = math.inf
     last = min(final, 2.0 * rim - table.phase / math.pi + 3.0)
     near, before = 0, 0.5 * first
     if first < MOST_ARCHES:
-        beginning = (0.5 * first + BEGINNING) + table.phase / TWO_PI
+        beginning = (0.5 * first + reach * BEGINNING) + table.phase / TWO_PI
         near = append_branches(table, curve, int(first), final, beginning, trace, 0)
         before = _wave_of(table, trace[START, near - 1]) if near > 0 else before
     count = near
     if last < MOST_ARCHES:
-        count = append_branches(table, curve, 2 * int(0.5 * last - NEAR_RIM) - 1, final, rim, trace, near)
+        count = append_branches(table, curve, 2 * int(0.5 * last - reach * NEAR_RIM) - 1, final, rim, trace, near)
         after = _wave_of(table, trace[START, near]) if count > near else 0.0
     nominal = count == near
     if nominal:

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core import _jit
 from gradhesion.core.branches import ROWS
 from gradhesion.core.material import fill_stiffness
+from gradhesion.core.report import NEEDED, REPORTS, report_curves
 from gradhesion.core.results import INTEGERS, OUTPUTS
 from gradhesion.core.solvers import LOOPS, SOLVERS
 from gradhesion.core.status import NO_VALUE
@@ -72,7 +73,11 @@ def solve(
     outputs
         Names out of `OUTPUTS`: pull_off_force in 1.5 pi R dgamma, pull_off_radius in R, dissipated_energy of one
         cycle of displacement-controlled loading to full contact and unloading in R^2 dgamma, loading_jumps and
-        unloading_jumps (jump-in and jump-out counted), delta_max and delta_jump_out in R.
+        unloading_jumps (jump-in and jump-out counted), delta_max and delta_jump_out in R. With the exact solver also
+        those of `REPORTS`: pull_off_force_error and dissipated_energy_error, estimates in the unit of the value (of
+        rounding, and of the sum over waves); energy_residual, the energy less the loop integral of the load, whose own
+        rounding is that of the load (NaN beyond 2,000 waves); roughness_parameter chi = r/s; saturation_radius in R,
+        beyond which there is no fold; adhesion_gain and energy_gain over the smooth punch of the same material and rim.
     solver
         One of `SOLVERS`.
     check_contact
@@ -106,10 +111,14 @@ def solve(
     >>> solve(scene | {"A": [0.0, 0.02]})["pull_off_force"].round(6).tolist()
     [1.0, 1.342098]
     """
-    unknown = [name for name in outputs if name not in OUTPUTS]
+    reports = [name for name in outputs if name in REPORTS]
+    unknown = [name for name in outputs if name not in OUTPUTS and name not in reports]
     missing = [name for name in PARAMETERS if name not in parameters]
     if unknown or missing or solver not in SOLVERS:
         raise ValueError(f"unknown outputs {unknown}, missing parameters {missing}, solver {solver!r}")
+    if reports and solver != "exact":
+        raise ValueError(f"outputs {reports} are known of the exact solver only, not of {solver!r}")
+    rows = list(dict.fromkeys([*outputs, *(NEEDED[name] for name in reports if name in NEEDED)]))
     arrays = [np.asarray(parameters[name], dtype=float) for name in PARAMETERS]
     shape = np.broadcast_shapes(*(array.shape for array in arrays))
     arrays = [array.reshape((1,) * (len(shape) - array.ndim) + array.shape) for array in arrays]
@@ -127,8 +136,9 @@ def solve(
     rims[without_rim] = math.inf
 
     curves = math.prod(curve_shape)
-    slots = np.array([*(outputs.index(name) if name in outputs else -1 for name in OUTPUTS), int(check_contact) - 1])
-    out = np.empty((len(outputs), curves, rims.shape[1]))
+    slots = np.array([*(rows.index(name) if name in rows else -1 for name in OUTPUTS), int(check_contact) - 1])
+    slots_of_reports = np.array([rows.index(name) if name in reports else -1 for name in REPORTS])
+    out = np.empty((len(rows), curves, rims.shape[1]))
     status = np.zeros((curves, rims.shape[1]), dtype=np.int8)
     exponents = _flat(k, curve_shape)
     nus, moduli, depths, wavelengths, amplitudes = (
@@ -141,9 +151,11 @@ def solve(
         exponent, index = task
         fill_stiffness(exponent, index, nus, moduli, depths, stiffnesses)
         table = table_of(exponent if 0.0 <= exponent <= 1.0 else 0.0)  # beyond, the stiffness has no value
-        solve_curves(
-            table, index, stiffnesses, wavelengths, amplitudes, rims, slots, out, status, np.empty((ROWS, _BRANCHES))
-        )
+        scratch = np.empty((ROWS, _BRANCHES))
+        curves_of = (table, index, stiffnesses, wavelengths, amplitudes, rims)
+        solve_curves(*curves_of, slots, out, status, scratch)
+        if reports:
+            report_curves(*curves_of, slots, slots_of_reports, out, scratch)
 
     tasks = list(_tasks(exponents, max(1, _TASK // max(1, rims.shape[1]))))
     workers = min(threads or os.cpu_count() or 1, len(tasks))
@@ -158,8 +170,8 @@ def solve(
         out[:, np.broadcast_to(without_rim, status.shape)] = math.nan
         status[np.broadcast_to(without_rim, status.shape)] = NO_VALUE
     result: dict[str, NDArray[Any]] = {}
-    for slot, name in enumerate(outputs):
-        values = out[slot]
+    for name in outputs:
+        values = out[rows.index(name)]
         if name in INTEGERS:
             values = np.where(np.isnan(values), -1.0, np.minimum(values, np.iinfo(np.int32).max)).astype(np.int32)
         result[name] = values.reshape(shape)
