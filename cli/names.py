@@ -29,8 +29,15 @@ OUTPUTS: Final = {
     "unloading_jumps": "number of jumps on unloading, the jump-out counted",
     "delta_max": "greatest indentation depth delta/R of the cycle",
     "delta_jump_out": "indentation depth delta/R at the jump-out",
+    "pull_off_force_error": "estimate of the error of the pull-off force F/(1.5 pi R dgamma)",
+    "dissipated_energy_error": "estimate of the error of the dissipated energy H/(R^2 dgamma)",
+    "energy_residual": "dissipated energy less the loop integral of the load over the depth, in R^2 dgamma",
+    "roughness_parameter": "roughness parameter chi = r/s of the waviness",
+    "saturation_radius": "contact radius a/R beyond which the curve has no fold",
+    "adhesion_gain": "pull-off force over that of the smooth punch of the same material and radius",
+    "energy_gain": "dissipated energy over that of the smooth punch of the same material and radius",
 }
-"""Every output, with its `long_name`."""
+"""Every output of a map, with its `long_name`; those after the depths come with the exact solver alone."""
 
 EXTENTS: Final = {
     "equilibrium": "point",
@@ -142,6 +149,13 @@ SYMBOLS: Final = {
     "unloading_jumps": "jumps on unloading",
     "delta_max": r"greatest depth $\delta_{\max}/R$",
     "delta_jump_out": r"depth at jump-out $\delta/R$",
+    "pull_off_force_error": r"error of the force $/\,\frac{3}{2}\pi R\Delta\gamma$",
+    "dissipated_energy_error": r"error of the energy $/R^2\Delta\gamma$",
+    "energy_residual": r"residual of the energy $/R^2\Delta\gamma$",
+    "roughness_parameter": r"roughness parameter $\chi$",
+    "saturation_radius": "saturation radius $a/R$",
+    "adhesion_gain": "gain in force $F/F_0$",
+    "energy_gain": "gain in energy $H/H_0$",
     "status": "status",
     "solver": "solver",
 }

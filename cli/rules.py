@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import CURVES
+from gradhesion.cli.names import CURVES, OUTPUTS
 from gradhesion.cli.places import Path
 from gradhesion.cli.schema import KINDS, LAYOUTS, Mistake, did_you_mean, nearest, shown
 
@@ -22,6 +22,9 @@ MOST_SCENES: Final = 2**31
 
 MOST_CURVES: Final = 1_000
 """Scenes of one curve study: curves are for looking at, and each has thousands of values."""
+
+EXACT_ONLY: Final = tuple(OUTPUTS)[7:]
+"""The outputs that come with the exact solver alone."""
 
 VARIABLES: Final = tuple(name for variables in CURVES.values() for name in variables)
 """Every variable of every curve."""
@@ -86,7 +89,9 @@ def _mistakes_of_choice(
             yield Mistake(path, value, f"not a {path[-1]}; {did_you_mean(value, known)}")
     yield from _mistakes_of_outputs(kind_of(data), data.get("outputs", []), named, outputs)
     if ("method", "solver") not in named:
-        yield from _mistakes_of_solver(kind_of(data), data.get("method", {}).get("solver", "exact"), solvers)
+        solver = data.get("method", {}).get("solver", "exact")
+        yield from _mistakes_of_solver(kind_of(data), solver, solvers)
+        yield from _mistakes_of_reports(data.get("outputs", []), solver, solvers)
     if ("method", "check_contact") not in named and kind_of(data) == "curve":
         checked = data.get("method", {}).get("check_contact", True)
         if not checked:
@@ -145,6 +150,15 @@ def _mistakes_of_solver(kind: str, solver: str | list[str], solvers: Sequence[st
             yield Mistake(place, one, f"not a solver; {did_you_mean(one, solvers)}")
         elif one in asked[:i]:
             yield Mistake(place, one, "this solver is asked for twice; remove one of the two")
+
+
+def _mistakes_of_reports(asked: Sequence[str], solver: str | list[str], solvers: Sequence[str]) -> Iterator[Mistake]:
+    """Check that what the exact solver alone can tell is asked of no other."""
+    other = next((one for one in ([solver] if isinstance(solver, str) else solver) if one in solvers[1:]), None)
+    for i, name in enumerate(asked):
+        if other is not None and name in EXACT_ONLY:
+            sentence = f'the solver "{other}" has no such output; remove it, or write solver = "exact"'
+            yield Mistake(("outputs", i), name, sentence)
 
 
 def _mistake_of_range(name: str, entry: Any) -> Mistake | None:

@@ -16,7 +16,7 @@ from gradhesion.cli import places, rules, schema
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.names import CURVES, KEYS, RAGGED, SCENE, SOLVER
 from gradhesion.cli.source import Source, read_source
-from gradhesion.core import OUTPUTS, SOLVERS
+from gradhesion.core import OUTPUTS, REPORTS, SOLVERS
 
 MOST_MISTAKES: Final = 30
 """Mistakes to print: whoever has more is served by the first."""
@@ -132,7 +132,7 @@ def _study(source: Source) -> Study:
     """Check a study as a whole and expand it."""
     data = source.data
     found = schema.mistakes_of_form(data)
-    found += rules.mistakes_between_keys(data, [mistake.path for mistake in found], OUTPUTS, SOLVERS)
+    found += rules.mistakes_between_keys(data, [mistake.path for mistake in found], (*OUTPUTS, *REPORTS), SOLVERS)
     sentences = []
     for mistake in found:
         value = "" if mistake.value is None else f" = {schema.shown(mistake.value)}"
@@ -167,7 +167,7 @@ def _outputs(asked: Sequence[str]) -> tuple[str, ...]:
     """List the variables that are asked for; a curve stands for all of its own, and a ragged one needs its count."""
     named = {*asked} | {RAGGED[curve] for curve, own in CURVES.items() if curve in RAGGED and own.keys() & {*asked}}
     of_curves = [name for curve, own in CURVES.items() for name in own if curve in asked or name in named]
-    return (*(output for output in OUTPUTS if output in asked), *of_curves)
+    return (*(output for output in (*OUTPUTS, *REPORTS) if output in asked), *of_curves)
 
 
 def _method(table: Mapping[str, Any]) -> Method:

@@ -19,6 +19,7 @@ from click.testing import Result
 
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.names import OUTPUTS, PARAMETERS
+from gradhesion.cli.rules import EXACT_ONLY
 from gradhesion.cli.study import load_study, study_from
 from gradhesion.core import FAILED, FLAGS
 from gradhesion.core import solve as real_solve
@@ -38,7 +39,8 @@ def test_the_names_are_those_of_the_core() -> None:
     from gradhesion import core
 
     assert tuple(PARAMETERS) == tuple(core.PARAMETERS)
-    assert tuple(OUTPUTS) == tuple(core.OUTPUTS)
+    assert tuple(OUTPUTS) == (*core.OUTPUTS, *core.REPORTS)
+    assert (*core.REPORTS,) == EXACT_ONLY
 
 
 def test_the_dataset_keeps_its_contract(dataset_file: Path, study_file: Path) -> None:
