@@ -128,9 +128,9 @@ MISTAKES = {
     "output no string": ('["pull_off_force"]', "[3]", r":4: outputs\[0\] = 3: this must be a string"),
     "output twice": ('["pull_off_force"]', '["delta_max", "delta_max"]', r":4: outputs\[1\] = .*twice; remove"),
     "report of another solver": (
-        '"pull_off_force"',
-        '"energy_gain"',
-        r':\d+: outputs\[0\] = "energy_gain": the solver "envelope" has no such output; remove it, or write solver',
+        GOOD[GOOD.index("outputs") :],
+        GOOD[GOOD.index("outputs") :].replace("pull_off_force", "energy_gain").replace("exact", "envelope"),
+        r':4: outputs\[0\] = "energy_gain": the solver "envelope" has no such output; remove it, or write solver',
     ),
     "solver unknown": ('"exact"', '"exakt"', r':16: method.solver = "exakt": .*did you mean "exact"'),
     "check no truth": (
