@@ -1,0 +1,50 @@
+"""Fig. 8: the loop of the effective path and the two parts of its area."""
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+
+from figures.curves import Values, dress, values_of
+from figures.style import INK, shade
+
+
+def parts_of(dataset: xarray.Dataset) -> tuple[Values, Values]:
+    """Return depth and load, shape (2, n), around C1, the loop of a rim at a_2, and around C2, what lies beyond."""
+    names = ("contact_radius", "indentation", "load", "jump")
+    radius, depth, load, jump = values_of(dataset, *(f"effective_{name}" for name in names))
+    entry, turn = int(np.flatnonzero(jump > 0.5)[0]), int(np.argmax(radius))
+    points = np.array([depth, load])
+    before, loading, unloading = points[:, :entry], points[:, entry : turn + 1], points[:, turn + 1 :]
+    way = radius[turn + 1 :]
+    beyond = way > radius[entry]
+    meeting = np.array([np.interp(radius[entry], way[::-1], values[::-1]) for values in unloading])[:, None]
+    first = np.concatenate([before, loading[:, :1], meeting, unloading[:, ~beyond], before[:, :1]], axis=1)
+    second = np.concatenate([loading, unloading[:, beyond], meeting, loading[:, :1]], axis=1)
+    return first, second
+
+
+def centre_of(outline: Values) -> Values:
+    """Return the centroid of the area within a closed outline."""
+    (x, y), (after_x, after_y) = outline[:, :-1], outline[:, 1:]
+    cross = x * after_y - after_x * y
+    return np.array([np.sum((x + after_x) * cross), np.sum((y + after_y) * cross)]) / (3.0 * np.sum(cross))
+
+
+def loop(axes: Axes, dataset: xarray.Dataset) -> None:
+    """Draw the loop, its two parts shaded."""
+    first, second = parts_of(dataset)
+    axes.fill(*first, fc=shade(0.45), alpha=0.55, ec="none")
+    axes.fill(*second, fc=shade(1.0), alpha=0.4, ec="none")
+    axes.plot(*values_of(dataset, "effective_indentation", "effective_load"), color=INK, lw=1.1)
+    axes.plot(*second[:, -2:], color=INK, lw=0.8, ls=(0, (3, 1.5)))
+    for name, part in (("$C_1$", first), ("$C_2$", second)):
+        axes.text(*centre_of(part), name, ha="center", va="center", fontsize=9)
+    entry, turn, leaving = second[:, 0], second[:, np.argmax(second[0])], first[:, -3]
+    corners = (("$a_2$", entry, (8, 5)), (r"$a_{\max}$", turn, (-12, -1)), ("$a_4$", leaving, (8, 1)))
+    for name, corner, place in corners:
+        axes.plot(*corner, "o", ms=2.2, color=INK)
+        axes.annotate(name, corner, place, textcoords="offset points", ha="center", va="center")
+    dress(axes, "a")
+
+
+PICTURES = {"fig8": loop}
