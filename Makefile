@@ -1,11 +1,17 @@
 PYTHON ?= python3
 sources := $(shell find cli core twin -name '*.py')
-checked := $(sources) $(shell find tests benchmarks docs configs -type f -not -path '*/__pycache__/*' 2>/dev/null) README.md Makefile
+drawing := $(wildcard figures/*.py figures/*.mplstyle)
+checked := $(sources) $(drawing) $(shell find tests benchmarks docs configs -type f -not -path '*/__pycache__/*' 2>/dev/null) README.md Makefile
+pictures := $(addprefix fig,2a 2b 3a 3b 3c 4a 4b 4c 5a 5b 5c 6 7a 7b 7c 8 9a 9b)
 
 help: ## show the targets
-	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST)
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST)
 
 maps: outputs/maps.png ## compute configs/maps.toml into outputs/maps.nc, and draw outputs/maps.png
+
+figures: $(foreach form,png pdf,$(pictures:%=outputs/figures/%.$(form))) ## draw the figures of the paper into outputs/figures/, .png and .pdf
+
+docs-figures: $(pictures:%=docs/figures/paper/%.png) ## draw them small for docs/paper.md
 
 test: build/tested ## lint, types and tests
 
@@ -29,6 +35,20 @@ outputs/maps.nc: configs/maps.toml $(sources) .venv/installed
 outputs/maps.png: outputs/maps.nc
 	.venv/bin/gradhesion plot $< -o $@ --overwrite
 
+# The study of a picture: its own, as configs/fig4a.toml, or one of several panels, as configs/fig3.toml for fig3a.
+dataset = outputs/figures/$(notdir $(basename $(or $(wildcard configs/$(1).toml),$(foreach panel,a b c,$(wildcard configs/$(1:%$(panel)=%).toml))))).nc
+
+outputs/figures/%.nc: configs/%.toml $(sources) .venv/installed
+	.venv/bin/gradhesion run $< -o $@ --overwrite --quiet
+
+.SECONDEXPANSION:
+outputs/figures/%.png outputs/figures/%.pdf: $$(call dataset,$$*) $(drawing)
+	.venv/bin/python -m figures $* $< $(basename $@).png $(basename $@).pdf
+
+docs/figures/paper/%.png: $$(call dataset,$$*) $(drawing)
+	.venv/bin/python -m figures $* $< $@ --dpi 120
+
+.PRECIOUS: outputs/figures/%.nc
 build/types/gradhesion:
 	mkdir -p $@
 	ln -s ../../../core ../../../cli ../../../twin $@
@@ -40,4 +60,4 @@ build/tested: $(checked) .venv/installed | build/types/gradhesion
 	.venv/bin/pytest
 	touch $@
 
-.PHONY: help maps test stress bench clean
+.PHONY: help maps figures docs-figures test stress bench clean

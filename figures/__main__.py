@@ -27,6 +27,8 @@ def draw(name: str, dataset: xarray.Dataset, files: list[Path], dpi: float | Non
     with mpl.rc_context(fname=STYLE):
         figure = Figure()
         PICTURES[name](figure.subplots(), dataset)
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")  # all files have the layout of the first
         for file in files:
             file.parent.mkdir(parents=True, exist_ok=True)
             figure.savefig(file, dpi=dpi or "figure", metadata=UNDATED.get(file.suffix))

@@ -48,7 +48,7 @@ def draw_equilibrium(axes: Axes, dataset: xarray.Dataset, plane: str, **looks: A
     """Draw the equilibrium curve: the stable parts as lines, the unstable ones dotted."""
     x, y = plane_of(dataset, "", plane)
     (stable,) = (values > 0.5 for values in values_of(dataset, "stable"))
-    looks = {"color": INK, "lw": 1.0} | looks
+    looks = {"color": INK, "lw": 1.0, **looks}
     kept = stable.copy()
     kept[1:] |= stable[:-1]  # a branch ends at its fold
     kept[:-1] |= stable[1:]

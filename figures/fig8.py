@@ -23,11 +23,12 @@ def parts_of(dataset: xarray.Dataset) -> tuple[Values, Values]:
     return first, second
 
 
-def centre_of(outline: Values) -> Values:
+def centre_of(outline: Values) -> tuple[float, float]:
     """Return the centroid of the area within a closed outline."""
     (x, y), (after_x, after_y) = outline[:, :-1], outline[:, 1:]
     cross = x * after_y - after_x * y
-    return np.array([np.sum((x + after_x) * cross), np.sum((y + after_y) * cross)]) / (3.0 * np.sum(cross))
+    total = 3.0 * np.sum(cross)
+    return float(np.sum((x + after_x) * cross) / total), float(np.sum((y + after_y) * cross) / total)
 
 
 def loop(axes: Axes, dataset: xarray.Dataset) -> None:
@@ -38,12 +39,12 @@ def loop(axes: Axes, dataset: xarray.Dataset) -> None:
     axes.plot(*values_of(dataset, "effective_indentation", "effective_load"), color=INK, lw=1.1)
     axes.plot(*second[:, -2:], color=INK, lw=0.8, ls=(0, (3, 1.5)))
     for name, part in (("$C_1$", first), ("$C_2$", second)):
-        axes.text(*centre_of(part), name, ha="center", va="center", fontsize=9)
+        axes.annotate(name, centre_of(part), ha="center", va="center", fontsize=9)
     entry, turn, leaving = second[:, 0], second[:, np.argmax(second[0])], first[:, -3]
-    corners = (("$a_2$", entry, (8, 5)), (r"$a_{\max}$", turn, (-12, -1)), ("$a_4$", leaving, (8, 1)))
+    corners = (("$a_2$", entry, (10, 8)), (r"$a_{\max}$", turn, (-12, -1)), ("$a_4$", leaving, (8, 1)))
     for name, corner, place in corners:
         axes.plot(*corner, "o", ms=2.2, color=INK)
-        axes.annotate(name, corner, place, textcoords="offset points", ha="center", va="center")
+        axes.annotate(name, (corner[0], corner[1]), place, textcoords="offset points", ha="center", va="center")
     dress(axes, "a")
 
 

@@ -1,0 +1,37 @@
+"""The studies of the figures, computed in memory, and the scripts that draw them."""
+
+import sys
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+import pytest
+import xarray
+
+from gradhesion.cli.dataset import compute
+from gradhesion.cli.study import load_study
+
+ROOT = Path(__file__).parents[2]
+if str(ROOT) not in sys.path:
+    sys.path.append(str(ROOT))  # the scripts that draw are not installed
+
+SMALL = {
+    "fig4a": ("lambda_over_R={ start = 0.1, stop = 0.8, num = 29 }",),
+    "fig4b": ("lambda_over_R={ start = 0.1, stop = 0.8, num = 29 }",),
+    "fig4c": ("a_max_over_R={ start = 0.02, stop = 0.8, num = 40 }",),
+    "fig9a": ("A={ start = 0.0, stop = 0.15, num = 7 }",),
+    "fig9b": ('lambda_over_R={ start = 0.0001, stop = 0.01, num = 7, spacing = "log" }',),
+}
+"""Shorter axes for the studies that are maps."""
+
+
+@cache
+def _computed(name: str, overrides: tuple[str, ...]) -> xarray.Dataset:
+    sets = [f"parameters.{override}" for override in (*SMALL.get(name, ()), *overrides)]
+    return compute(load_study(ROOT / "configs" / f"{name}.toml", sets))
+
+
+@pytest.fixture
+def computed() -> Callable[..., xarray.Dataset]:
+    """A study of configs/ on short axes, with parameters overridden."""
+    return lambda name, *overrides: _computed(name, overrides)

@@ -1,0 +1,102 @@
+"""Every picture is drawn from a small dataset of its study; `make` knows the same pictures and studies."""
+
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import matplotlib as mpl
+import pytest
+import xarray
+from matplotlib.figure import Figure
+from matplotlib.text import Annotation
+
+from figures.__main__ import PICTURES, draw
+from figures.fig3 import corners_of
+from figures.fig4 import threshold_of
+from figures.style import STYLE
+
+Compute = Callable[..., xarray.Dataset]
+ROOT = Path(__file__).parents[2]
+STUDIES = {path.stem for path in (ROOT / "configs").glob("fig*.toml")}
+
+
+def study_of(picture: str) -> str:
+    return picture if picture in STUDIES else picture[:-1]
+
+
+def drawn(name: str, dataset: xarray.Dataset) -> Figure:
+    with mpl.rc_context(fname=STYLE):
+        figure = Figure()
+        PICTURES[name](figure.subplots(), dataset)
+    return figure
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_every_picture_is_drawn_and_its_axes_are_named(name: str, computed: Compute, tmp_path: Path) -> None:
+    dataset = computed(study_of(name))
+    files = [tmp_path / "a.png", tmp_path / "b.pdf", tmp_path / "c.png"]
+    draw(name, dataset, files, dpi=50)
+    assert files[1].read_bytes().startswith(b"%PDF")
+    assert files[0].read_bytes() == files[2].read_bytes()
+    for axes in drawn(name, dataset).axes:
+        assert "$" in axes.get_xlabel()
+        assert "$" in axes.get_ylabel()
+        assert axes.lines
+
+
+def test_every_study_has_a_picture_and_every_picture_a_study() -> None:
+    assert {study_of(name) for name in PICTURES} == STUDIES
+    assert len(STUDIES) == 12
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_make_draws_every_picture_from_its_study(name: str) -> None:
+    made = subprocess.run(
+        ["make", "-nB", f"outputs/figures/{name}.pdf"], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    study = study_of(name)
+    assert f"run configs/{study}.toml -o outputs/figures/{study}.nc" in made.stdout
+    assert (
+        f"-m figures {name} outputs/figures/{study}.nc outputs/figures/{name}.png outputs/figures/{name}.pdf"
+        in made.stdout
+    )
+
+
+def test_make_draws_all() -> None:
+    made = subprocess.run(
+        ["make", "-nB", "figures", "docs-figures"], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    for folder in ("outputs/figures", "docs/figures/paper"):
+        assert set(re.findall(rf" {folder}/(\w+)\.png", made.stdout)) == set(PICTURES)
+    assert {path.stem for path in (ROOT / "docs" / "figures" / "paper").glob("*.png")} == set(PICTURES)
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_the_page_on_the_paper_shows_every_picture_and_its_command(name: str) -> None:
+    page = (ROOT / "docs" / "paper.md").read_text()
+    assert f"(figures/paper/{name}.png)" in page
+    assert f"outputs/figures/{name}.png" in page
+
+
+def test_the_command_line_draws(computed: Compute, tmp_path: Path) -> None:
+    computed("fig8").to_netcdf(tmp_path / "fig8.nc")
+    names = [tmp_path / "fig8.nc", tmp_path / "new" / "fig8.svg"]
+    subprocess.run([sys.executable, "-m", "figures", "fig8", *map(str, names)], cwd=ROOT, check=True)
+    assert b"<svg" in names[1].read_bytes()
+
+
+def test_the_corners_of_the_path_are_named_from_a_to_l(computed: Compute) -> None:
+    dataset = computed("fig3")
+    assert len(corners_of(dataset)) == 12
+    for plane in "abc":
+        (axes,) = drawn(f"fig3{plane}", dataset).axes
+        names = [text.get_text() for text in axes.texts if isinstance(text, Annotation) and text.get_text()]
+        assert "".join(names) == "ABCDEFGHIJKL"
+
+
+def test_the_threshold_is_where_the_last_line_stops_to_change() -> None:
+    lines = [[1.0, 2.0, 3.0, 3.0, 3.0], [1.0, 1.0, 1.0, 1.0, 1.0]]
+    axes = {"lambda_over_R": [0.1, 0.2], "a_max_over_R": [0.1, 0.2, 0.3, 0.4, 0.5]}
+    assert threshold_of(xarray.DataArray(lines, coords=axes, dims=list(axes))) == 0.3
