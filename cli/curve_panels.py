@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
+from gradhesion.cli.doubts import Doubt
 from gradhesion.cli.panels import COLOURS
 
 Values = NDArray[np.float64]
@@ -21,6 +22,9 @@ JUMP: Final[Dash] = (0, (3, 2))
 
 THIN: Final = 0.5
 """The width of a jump over that of its line."""
+
+APART: Final = 0.12
+"""How far apart open markers stand along a line, in diagonals of the panel."""
 
 LIGHT: Final = 0.6
 """How far unstable parts are faded to white."""
@@ -97,6 +101,25 @@ def draw_track(axes: Axes, track: Track, scene: Mapping[str, Values], x: str, y:
     for steps, dash, width, shown in looks:
         if steps.any():
             axes.plot(*_only(steps, along, up), ls=dash, lw=width, color=shown, solid_capstyle="butt")
+
+
+def draw_doubt(
+    axes: Axes, track: Track, scene: Mapping[str, Values], x: str, y: str, colour: Colour, doubt: Doubt
+) -> None:
+    """Put the open markers of a doubt along the loading part of a path, evenly in the panel."""
+    along, up = scene[getattr(track, x)], scene[getattr(track, y)]
+    loading = scene["path_unloading"] == 0.0 if "path_unloading" in scene else np.ones(along.size, bool)
+    axes.plot(
+        along[loading],
+        up[loading],
+        ls="",
+        marker=doubt.mark,
+        ms=doubt.size,
+        mfc="white",
+        mec=colour,
+        mew=0.8,
+        markevery=(0.5 * APART, APART),
+    )
 
 
 def jumps_of(track: Track, scene: Mapping[str, Values]) -> Steps:

@@ -7,6 +7,7 @@ from typing import Final
 import matplotlib as mpl
 import numpy as np
 import xarray
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
@@ -21,11 +22,13 @@ from gradhesion.cli.curve_panels import (
     Dash,
     Track,
     Values,
+    draw_doubt,
     draw_track,
     faded,
     falls_of,
     jumps_of,
 )
+from gradhesion.cli.doubts import CROSS, DOUBTS, Doubt, doubts_in, entries
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import CURVES, KEYS, RAGGED, SCENE
 from gradhesion.cli.panels import COLOURS
@@ -58,6 +61,8 @@ class Scene:
     """The colour of all its lines (None: each line has its own)."""
     values: Mapping[str, Values]
     """Its curves without padding."""
+    doubts: Sequence[Doubt]
+    """What makes its path doubtful."""
 
 
 def drawn_curves(dataset: xarray.Dataset, asked: Sequence[str]) -> Figure:
@@ -91,6 +96,9 @@ def drawn_curves(dataset: xarray.Dataset, asked: Sequence[str]) -> Figure:
             for track in there:
                 for scene in scenes:
                     draw_track(axes, track, scene.values, x, y, scene.colour or track.colour)
+                    if track.curve == "path" and not track.unloading:
+                        for doubt in reversed(scene.doubts):  # the larger ones below
+                            draw_doubt(axes, track, scene.values, x, y, scene.colour or track.colour, doubt)
             _dress(axes, x, y)
         handles = _handles(scenes, tracks)
         columns = min(len(handles), 4 if len(planes) > 1 else 2)
@@ -120,7 +128,7 @@ def _scenes(dataset: xarray.Dataset) -> tuple[list[Scene], str]:
     last = axes[-1] if axes else None
     first = dataset.isel({axis: 0 for axis in dataset["status"].dims if axis != last})
     if last is None:
-        return [Scene(label="", colour=None, values=_trimmed(first))], _caption(dataset, axes)
+        return [_scene(first, "", None)], _caption(dataset, axes)
     size = dataset.sizes[last]
     items = sorted({round(item) for item in np.linspace(0, size - 1, min(size, SCENES))})
     scenes = []
@@ -128,9 +136,16 @@ def _scenes(dataset: xarray.Dataset) -> tuple[list[Scene], str]:
         scene = first.isel({last: item})
         varying = [last] if last != SCENE else _varying(dataset)
         label = ", ".join(equation(name, scene[name].item()) for name in varying[:2]) or f"scene {item}"
-        colour = to_rgb(COLOURS(0.75 * place / (len(items) - 1)))
-        scenes.append(Scene(label=label, colour=colour, values=_trimmed(scene)))
+        scenes.append(_scene(scene, label, to_rgb(COLOURS(0.75 * place / (len(items) - 1)))))
     return scenes, _caption(dataset, axes)
+
+
+def _scene(scene: xarray.Dataset, label: str, colour: Colour | None) -> Scene:
+    """Make a scene; one that has no value is grey and says so."""
+    values = _trimmed(scene)
+    if label and not any(row.size for row in values.values()):
+        label, colour = f"{label} (no value)", to_rgb(CROSS)
+    return Scene(label=label, colour=colour, values=values, doubts=doubts_in(scene["status"].values, "path"))
 
 
 def _varying(dataset: xarray.Dataset) -> list[str]:
@@ -164,13 +179,13 @@ def _trimmed(scene: xarray.Dataset) -> dict[str, Values]:
     return curves
 
 
-def _handles(scenes: Sequence[Scene], tracks: Sequence[Track]) -> list[Line2D]:
+def _handles(scenes: Sequence[Scene], tracks: Sequence[Track]) -> list[Artist]:
     """Make the entries of the legend."""
 
     def entry(label: str, colour: Colour, dash: Dash = "-", width: float = 1.6) -> Line2D:
         return Line2D([], [], color=colour, ls=dash, lw=width, label=label)
 
-    made = [entry(scene.label, scene.colour) for scene in scenes if scene.colour]
+    made: list[Artist] = [entry(scene.label, scene.colour) for scene in scenes if scene.colour]
     inked = bool(made)
     for track in tracks:
         made.append(entry(track.label, INK if inked else track.colour, track.dash, track.width))
@@ -178,6 +193,9 @@ def _handles(scenes: Sequence[Scene], tracks: Sequence[Track]) -> list[Line2D]:
             made.append(entry("equilibrium, unstable", faded(INK if inked else track.colour), track.dash, track.width))
     if any(jumps_of(track, scene.values).any() for track in tracks for scene in scenes):
         made.append(entry("jump", INK, JUMP, THIN * 1.6))
+    if any(track.curve == "path" for track in tracks):
+        found = [doubt for doubt in DOUBTS if any(doubt in scene.doubts for scene in scenes)]
+        made += entries(found, in_map=False, gaps=False)
     return made
 
 

@@ -130,6 +130,17 @@ MEANINGS: Final = {
 STATUS: Final = "what there is to report of a scene (0: nothing)"
 """The `long_name` of `status`."""
 
+FLAGS: Final = {
+    "loading_contact_not_one_disc": "contact on loading is not one disc",
+    "unloading_contact_not_one_disc": "contact on unloading is not one disc",
+    "pull_off_at_rim": "the pull-off force is met at the rim",
+    "jump_in_to_rim": "the jump-in makes full contact at once",
+    "close_to_a_jump": "an input error of 1e-12 could change a number of jumps or the place of the pull-off",
+    "tolerance_not_met": "the accuracy asked for is not reached",
+    "no_value": "a parameter is outside its range, or the scene cannot be resolved",
+}
+"""Every flag of `status`, in words."""
+
 SOLVERS: Final = "how the scenes are solved"
 """The `long_name` of `solver`."""
 

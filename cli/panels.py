@@ -1,6 +1,8 @@
 """The panels of a picture: a map, lines, or points, each drawn into axes that are given."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any, Final
 
 import numpy as np
 from matplotlib import colormaps
@@ -10,11 +12,19 @@ from matplotlib.contour import QuadContourSet
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
+from gradhesion.cli.doubts import CROSS, GREY, INK, Doubt
 from gradhesion.cli.scales import Scale
 
 Values = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 COLOURS = colormaps["viridis"]  # perceptual, and rising in lightness, so that it survives a grey print
+
+MARKS: Final = 40
+"""Markers along a line, about: more would hide it."""
+
+_DARK: Final = 0.35
+"""How far up the colours need white hatches."""
 
 _STEPS = (
     (30, (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)),
@@ -54,9 +64,11 @@ def levels_of(least: float, greatest: float) -> Levels:
     return Levels(levels=levels, norm=(LogNorm if log else Normalize)(levels[0], levels[-1]))
 
 
-def draw_map(axes: Axes, x: Scale, y: Scale, values: Values, levels: Levels) -> QuadContourSet:
-    """Draw values[y, x] as filled contours with labelled lines; what has no value stays hatched."""
-    axes.patch.set(facecolor="0.92", edgecolor="0.6", hatch="////")
+def draw_map(
+    axes: Axes, x: Scale, y: Scale, values: Values, levels: Levels, doubtful: Sequence[tuple[Doubt, Flags]] = ()
+) -> QuadContourSet:
+    """Draw values[y, x] as filled contours with labelled lines; doubtful ones are hatched, what has none is grey."""
+    axes.patch.set_facecolor(GREY)
     filled = axes.contourf(
         x.positions, y.positions, values, levels=levels.levels, norm=levels.norm, cmap=COLOURS, extend="neither"
     )
@@ -67,17 +79,36 @@ def draw_map(axes: Axes, x: Scale, y: Scale, values: Values, levels: Levels) -> 
         shades = ["white" if levels.norm(level) < 0.6 else "black" for level in inner]
         lines = axes.contour(x.positions, y.positions, values, levels=inner, colors=shades, linewidths=0.4)
         axes.clabel(lines, inner, fmt="%g", fontsize=6, inline_spacing=2)
+    dark = np.ma.filled(levels.norm(values), np.nan) < _DARK
+    for doubt, flags in doubtful:
+        for shade, part in (("white", flags & dark), (INK, flags & ~dark)):
+            if part.any():
+                shown = np.where(np.isnan(values), np.nan, part)
+                hatched = axes.contourf(
+                    x.positions, y.positions, shown, levels=(0.5, 1.5), colors="none", hatches=[doubt.hatch]
+                )
+                hatched.set_edgecolor(shade)
+                hatched.set_linewidth(0.0)
+        if flags.any() and not flags.all():
+            shown = np.where(np.isnan(values), np.nan, flags)
+            axes.contour(x.positions, y.positions, shown, levels=(0.5,), colors=INK, linewidths=0.8)
     x.dress(axes, "x")
     y.dress(axes, "y")
     return filled
 
 
-def draw_lines(axes: Axes, x: Scale, curves: dict[str, Values]) -> None:
-    """Draw a line for each curve, told apart by shade and by dash; a value between two gaps shows as a dot."""
+def draw_lines(
+    axes: Axes, x: Scale, curves: dict[str, Values], doubtful: Sequence[tuple[Doubt, dict[str, Flags]]] = ()
+) -> None:
+    """
+    Draw a line for each curve, told apart by shade and by dash; a value between two gaps shows as a dot.
+
+    Doubtful values have open markers, and a cross at the foot of the panel stands where there is none.
+    """
     dashes = ("-", "--", "-.", ":")
     for i, (label, values) in enumerate(curves.items()):
         colour = COLOURS(0.85 * i / max(1, len(curves) - 1))
-        marks = "." if values.size <= 40 else ""
+        marks = "." if values.size <= MARKS else ""
         finite = x.positions[:-1] if x.infinite else x.positions
         axes.plot(
             finite,
@@ -91,19 +122,57 @@ def draw_lines(axes: Axes, x: Scale, curves: dict[str, Values]) -> None:
         )
         if x.infinite:
             axes.plot(x.positions[-1:], values[-1:], "o", color=colour, ms=3)
+        for doubt, flags in reversed(doubtful):  # the larger ones below
+            _draw_marks(axes, doubt, x.positions, values, _some(flags[label]), colour)
+        _draw_gaps(axes, x, values)
     x.dress(axes, "x")
     axes.grid(color="0.9", lw=0.5)
     axes.margins(x=0.02)
 
 
-def draw_points(axes: Axes, x: Scale, series: dict[str, Values]) -> None:
-    """Draw a dot for each scene; several series are told apart by shade and by mark."""
+def draw_points(
+    axes: Axes, x: Scale, series: dict[str, Values], doubtful: Sequence[tuple[Doubt, dict[str, Flags]]] = ()
+) -> None:
+    """
+    Draw a dot for each scene; several series are told apart by shade and by mark.
+
+    Doubtful values have open markers, and a cross at the foot of the panel stands where there is none.
+    """
     marks = ("o", "^", "s")
     for i, (label, values) in enumerate(series.items()):
         colour = COLOURS(0.25 + 0.6 * i / max(1, len(series) - 1))
         mark = marks[i % len(marks)]
         axes.plot(x.positions, values, mark, color=colour, ms=3, mec="white", mew=0.3, label=label)
+        for doubt, flags in reversed(doubtful):  # the larger ones below
+            _draw_marks(axes, doubt, x.positions, values, flags[label], colour)
+        _draw_gaps(axes, x, values)
     if len(series) > 1:
         axes.legend(fontsize=7, framealpha=0.9)
     x.dress(axes, "x")
     axes.grid(color="0.9", lw=0.5)
+
+
+def _draw_marks(axes: Axes, doubt: Doubt, positions: Values, values: Values, flags: Flags, colour: Any) -> None:
+    """Put the open markers of a doubt over some values."""
+    axes.plot(positions[flags], values[flags], doubt.mark, ms=doubt.size, mfc="white", mec=colour, mew=0.9)
+
+
+def _draw_gaps(axes: Axes, x: Scale, values: Values) -> None:
+    """Put a cross at the foot of a panel where there is no value."""
+    places = x.positions[np.isnan(values)]
+    if places.size:  # a line of no points would have no place in the layout
+        foot = np.zeros(places.size)
+        axes.plot(places, foot, "x", ms=4, color=CROSS, transform=axes.get_xaxis_transform(), clip_on=False, zorder=3)
+
+
+def _some(flags: Flags) -> Flags:
+    """
+    Choose about `MARKS` of the flags of a line, the ends of each run among them.
+
+    >>> _some(np.array([True, False, True, True])).tolist()
+    [True, False, True, True]
+    """
+    before, after = np.append(False, flags[:-1]), np.append(flags[1:], False)
+    regular = np.arange(flags.size) % -(-flags.size // MARKS) == 0
+    some: Flags = flags & (regular | ~before | ~after)
+    return some

@@ -11,10 +11,10 @@ import xarray
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure, SubFigure
-from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from gradhesion.cli import panels
+from gradhesion.cli.doubts import ORDER, Doubt, doubts_in, entries
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import KEYS, SCENE, SOLVER, SYMBOLS
 from gradhesion.cli.scales import equation, number, scale
@@ -40,6 +40,9 @@ STYLE: Final[dict[Any, Any]] = {
 PANELS: Final = 3
 """Panels along a row or a column: the ends of an axis and its middle."""
 
+LINE: Final = 0.16
+"""The height of an entry of the legend below the panels, in inches."""
+
 LINES: Final = 5
 """An axis of no more values than this is a set of lines rather than a side of a map."""
 
@@ -62,9 +65,14 @@ def drawn(dataset: xarray.Dataset, asked: Sequence[str]) -> Figure:
         figure = Figure(layout="constrained")
         parts = figure.subfigures(1, len(chosen), squeeze=False)[0]
         width = height = 0.0
+        told: dict[str, Any] = {}
         for part, name in zip(parts, chosen, strict=True):
-            width, height = _draw_variable(part, dataset, name)
-        figure.set_size_inches(width * len(chosen), height + 0.5)
+            width, height, more = _draw_variable(part, dataset, name)
+            told |= {str(entry.get_label()): entry for entry in more}
+        figure.set_size_inches(width * len(chosen), height + 0.5 + LINE * len(told))
+        if told:
+            handles = [told[words] for words in ORDER if words in told]
+            figure.legend(handles=handles, loc="outside lower center", fontsize=7, frameon=False)
         figure.suptitle(dataset.attrs["title"], fontsize=10, wrap=True)
     return figure
 
@@ -111,21 +119,23 @@ def plan_of(sizes: Mapping[str, int]) -> Plan | None:
     return Plan(x=x, second=second, is_map=is_map, columns=columns, rows=rows, middle=tuple(free[4:]))
 
 
-def _draw_variable(part: SubFigure, dataset: xarray.Dataset, name: str) -> tuple[float, float]:
-    """Draw one variable; tell the width and height it wants, in inches."""
+def _draw_variable(part: SubFigure, dataset: xarray.Dataset, name: str) -> tuple[float, float, list[Any]]:
+    """Draw one variable; tell the width and height it wants, in inches, and what the legend shall tell of it."""
     variable = dataset[name]
     if SCENE in dataset.dims:
-        return _draw_scenes(part, variable)
+        return _draw_scenes(part, variable, dataset["status"])
     plan = plan_of({str(axis): size for axis, size in variable.sizes.items()})
     if plan is None:
         raise DatasetError(
             f"{name}: nothing varies, so there is nothing to draw it over; `gradhesion info` tells its value"
         )
-    cut = variable.isel({axis: variable.sizes[axis] // 2 for axis in plan.middle})
-    cut = cut.squeeze([axis for axis in cut.dims if cut.sizes[axis] == 1])
-    columns, rows = _representatives(cut, plan.columns), _representatives(cut, plan.rows)
-    cut = cut.isel({**_chosen(plan.columns, columns), **_chosen(plan.rows, rows)}).load()
+    columns, rows = _representatives(variable, plan.columns), _representatives(variable, plan.rows)
+    places = {axis: variable.sizes[axis] // 2 for axis in plan.middle}
+    places |= {**_chosen(plan.columns, columns), **_chosen(plan.rows, rows)}
+    cut, status = (_cut(one, places) for one in (variable, dataset["status"]))
     cut = cut.where(np.isfinite(cut))
+    status = status.where(np.isfinite(cut), 0)
+    doubts = doubts_in(status.values, name)
     finite = cut.values[np.isfinite(cut.values)]
     if not finite.size:
         raise DatasetError(f"{name}: no value in any scene drawn; `gradhesion info` tells why")
@@ -133,8 +143,8 @@ def _draw_variable(part: SubFigure, dataset: xarray.Dataset, name: str) -> tuple
     levels = panels.levels_of(float(finite.min()), float(finite.max()))
     for i, line in enumerate(grid):
         for j, axes in enumerate(line):
-            panel = cut.isel({**_chosen(plan.columns, j), **_chosen(plan.rows, i)})
-            _draw_panel(axes, panel, plan, levels)
+            place = {**_chosen(plan.columns, j), **_chosen(plan.rows, i)}
+            _draw_panel(axes, cut.isel(place), status.isel(place), plan, levels, doubts)
             if plan.columns and i == 0:
                 axes.set_title(_told(cut, plan.columns, j))
             if plan.rows and j == len(columns) - 1:
@@ -142,25 +152,45 @@ def _draw_variable(part: SubFigure, dataset: xarray.Dataset, name: str) -> tuple
                     _told(cut, plan.rows, i), (1.03, 0.5), xycoords="axes fraction", rotation=-90, va="center"
                 )
             axes.label_outer()
-    _dress(part, grid, plan, variable, finite.size < cut.size, levels)
+    _dress(part, grid, plan, variable, levels)
+    more = entries(doubts, in_map=plan.is_map, gaps=finite.size < cut.size)
     width, height = (2.1, 1.8) if len(columns) > 1 else (3.6, 2.9)
-    return width * len(columns) + 1.2, height * len(rows) + 0.6
+    return width * len(columns) + 1.2, height * len(rows) + 0.6, more
 
 
-def _draw_panel(axes: Axes, panel: xarray.DataArray, plan: Plan, levels: panels.Levels) -> None:
+def _cut(variable: xarray.DataArray, places: Mapping[str, Any]) -> xarray.DataArray:
+    """Load what is drawn of a variable, without axes of a single value."""
+    kept = variable.isel(places)
+    return kept.squeeze([axis for axis in kept.dims if variable.sizes[axis] == 1]).load()
+
+
+def _draw_panel(
+    axes: Axes,
+    panel: xarray.DataArray,
+    status: xarray.DataArray,
+    plan: Plan,
+    levels: panels.Levels,
+    doubts: Sequence[Doubt],
+) -> None:
     """Draw one panel of a variable."""
     x = scale(panel[plan.x].values)
     if plan.second is None:
-        panels.draw_lines(axes, x, {"": panel.values[x.order]})
+        flags = status.values[x.order]
+        doubtful = [(doubt, {"": doubt.marks(flags)}) for doubt in doubts]
+        panels.draw_lines(axes, x, {"": panel.values[x.order].astype(float)}, doubtful)
         return
     items = panel[plan.second].values
     values = panel.transpose(plan.second, plan.x).values.astype(float)[:, x.order]
+    flags = status.transpose(plan.second, plan.x).values[:, x.order]
     if plan.is_map:
         second = scale(items)
-        panels.draw_map(axes, x, second, values[second.order], levels)
+        marked = [(doubt, doubt.marks(flags)[second.order]) for doubt in doubts]
+        panels.draw_map(axes, x, second, values[second.order], levels, marked)
         return
     order = range(items.size) if plan.second == SOLVER else np.argsort(items)
-    panels.draw_lines(axes, x, {equation(plan.second, items[i]): values[i] for i in order})
+    labels = {equation(plan.second, items[i]): i for i in order}
+    doubtful = [(doubt, {label: doubt.marks(flags[i]) for label, i in labels.items()}) for doubt in doubts]
+    panels.draw_lines(axes, x, {label: values[i] for label, i in labels.items()}, doubtful)
 
 
 def _dress(
@@ -168,7 +198,6 @@ def _dress(
     grid: NDArray[Any],
     plan: Plan,
     variable: xarray.DataArray,
-    gaps: bool,  # noqa: FBT001 (one call)
     levels: panels.Levels,
 ) -> None:
     """Put labels, the colour bar or legend, and the fixed values around the panels of a variable."""
@@ -182,9 +211,6 @@ def _dress(
         bar = part.colorbar(filled, ax=grid, label=SYMBOLS[name], boundaries=levels.levels, fraction=0.06, aspect=30)
         bar.ax.minorticks_off()
         bar.ax.set_yticks(levels.levels, [number(level) for level in levels.levels])
-        if gaps:
-            hatched = Patch(facecolor="0.92", edgecolor="0.6", hatch="////", label="no finite value")
-            grid[0, 0].legend(handles=[hatched], fontsize=7, loc="best", framealpha=0.9)
     elif plan.second:
         grid[0, -1].legend(fontsize=7, framealpha=0.9)
     part.suptitle(_caption(variable, plan), fontsize=8)
@@ -202,7 +228,9 @@ def _caption(variable: xarray.DataArray, plan: Plan) -> str:
     return ",  ".join(told)
 
 
-def _draw_scenes(part: SubFigure, variable: xarray.DataArray) -> tuple[float, float]:
+def _draw_scenes(
+    part: SubFigure, variable: xarray.DataArray, status: xarray.DataArray
+) -> tuple[float, float, list[Any]]:
     """Draw a variable of a dataset of points over the first parameter that varies."""
     known = [name for name in KEYS if name in variable.coords]
     varying = [name for name in known if np.unique(variable[name].values).size > 1]
@@ -216,14 +244,18 @@ def _draw_scenes(part: SubFigure, variable: xarray.DataArray) -> tuple[float, fl
     x = scale(variable[varying[0]].values)
     axes = part.subplots()
     solvers = variable[SOLVER].values if SOLVER in variable.dims else [""]
-    panels.draw_points(axes, x, dict(zip(solvers, np.atleast_2d(values)[:, x.order], strict=True)))
+    values = np.where(np.isfinite(values), values, np.nan)
+    flags = np.atleast_2d(np.where(np.isnan(values), 0, status.values))[:, x.order]
+    doubts = doubts_in(flags, str(variable.name))
+    doubtful = [(doubt, dict(zip(solvers, doubt.marks(flags), strict=True))) for doubt in doubts]
+    panels.draw_points(axes, x, dict(zip(solvers, np.atleast_2d(values)[:, x.order], strict=True)), doubtful)
     axes.set_xlabel(SYMBOLS[varying[0]])
     axes.set_ylabel(SYMBOLS[str(variable.name)])
     told = [equation(name, variable[name].values[0]) for name in known if name not in varying]
     if varying[1:]:
         told.append("varying too: " + ", ".join(SYMBOLS[name] for name in varying[1:]))
     part.suptitle(",  ".join(told), fontsize=8)
-    return 4.2, 3.1
+    return 4.2, 3.1, entries(doubts, in_map=False, gaps=bool(np.isnan(values).any()))
 
 
 def _representatives(variable: xarray.DataArray, axis: str | None) -> list[int]:

@@ -8,6 +8,7 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
+from gradhesion.cli import names
 from gradhesion.cli.blocks import blocks
 from gradhesion.cli.curve_words import curves_told
 from gradhesion.cli.names import KEYS, SCENE, SOLVER
@@ -141,7 +142,8 @@ def _status(dataset: xarray.Dataset) -> Iterator[str]:
     yield f"status: {scenes - failed:,} of {scenes:,} scenes ({(scenes - failed) / scenes:.1%}) have values"
     for name, count in counts.items():
         if count:
-            yield f"  {name:<30} {count:,} scenes ({count / scenes:.2g} of all)"
+            share = f"{count:,} of {scenes:,} scenes ({100 * count / scenes:.2g} %)"
+            yield f"  {name:<30} {share:<26} {names.FLAGS[name]}"
 
 
 def _origin(dataset: xarray.Dataset) -> Iterator[str]:

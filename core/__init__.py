@@ -4,11 +4,12 @@ from gradhesion.core.curves import CURVES, draw_curves
 from gradhesion.core.report import REPORTS
 from gradhesion.core.results import OUTPUTS
 from gradhesion.core.solvers import SOLVERS
-from gradhesion.core.status import FAILED, FLAGS
+from gradhesion.core.status import DOUBTFUL, FAILED, FLAGS, doubts_about
 from gradhesion.core.sweep import PARAMETERS, compiled_before, solve
 
 __all__ = [
     "CURVES",
+    "DOUBTFUL",
     "FAILED",
     "FLAGS",
     "OUTPUTS",
@@ -16,6 +17,7 @@ __all__ = [
     "REPORTS",
     "SOLVERS",
     "compiled_before",
+    "doubts_about",
     "draw_curves",
     "solve",
 ]

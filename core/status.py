@@ -30,5 +30,16 @@ FLAGS: Final = {
 }
 """Name of every flag, with its bit; not every solver sets every one."""
 
+DOUBTFUL: Final = LOADING_NOT_ONE_DISC | UNLOADING_NOT_ONE_DISC | TOLERANCE_NOT_MET
+"""The bits of a scene whose values are there and may not hold."""
+_SOUND_BEYOND_LOADING: Final = ("pull_off_force", "pull_off_radius", "unloading_jumps", "delta_jump_out")
+"""Results that do not depend on how full contact was reached (docs/theory.md, section 12)."""
+
+
+def doubts_about(result: str) -> int:
+    """Return the bits of `DOUBTFUL` that cast doubt on a result (a name of sweep.OUTPUTS, or any other)."""
+    return DOUBTFUL & ~LOADING_NOT_ONE_DISC if result in _SOUND_BEYOND_LOADING else DOUBTFUL
+
+
 FAILED: Final = TOLERANCE_NOT_MET | NO_VALUE
 """The bits that mean that a scene has failed (the others only inform)."""

@@ -56,6 +56,28 @@ def test_extremes_are_found_across_blocks(
     assert "greatest  9            at k = 0.31, lambda_over_R = 0.47, A = 0, a_max_over_R = inf" in told
 
 
+def test_every_flag_that_occurs_is_told_with_its_count_and_share_in_words(
+    gradhesion: Call, dataset_file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from gradhesion.cli import names
+    from gradhesion.core import FLAGS
+
+    status = np.zeros(24, dtype=np.int8)
+    for number, bit in enumerate(FLAGS.values()):
+        status[: 3 * number] |= bit
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        file["status"][:] = status.reshape(file["status"].shape)
+    for chunk in (131_072, 1):
+        monkeypatch.setattr("gradhesion.cli.blocks.CHUNK", chunk)
+        lines = [" ".join(line.split()) for line in gradhesion("info", dataset_file).stdout.splitlines()]
+        first = lines.index("status: 6 of 24 scenes (25.0%) have values")  # the last flag, no_value, is set in 18
+        told = [
+            f"{name} {3 * number} of 24 scenes ({12.5 * number:.2g} %) {names.FLAGS[name]}"
+            for number, name in enumerate(FLAGS)
+        ]
+        assert lines[first + 1 : lines.index("origin") - 1] == told[1:], "one that does not occur is not told"
+
+
 def test_points_and_single_scenes(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
     single = [f"--set=parameters.{name}=0.2" for name in ("k", "lambda_over_R", "A", "a_max_over_R")]
     gradhesion("run", study_file, "-o", tmp_path / "1.nc", *single)

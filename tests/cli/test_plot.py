@@ -146,7 +146,7 @@ def test_points_are_drawn(gradhesion: Call, dataset_file: Callable[..., Path]) -
     assert gradhesion("plot", path, "--overwrite", "--variable", "status").exit_code == 0
 
 
-def test_scenes_without_a_value_are_hatched(gradhesion: Call, dataset_file: Callable[..., Path]) -> None:
+def test_scenes_without_a_value_are_told(gradhesion: Call, dataset_file: Callable[..., Path]) -> None:
     path = dataset_file(*SHAPES["a map"])
     with netCDF4.Dataset(path, "a") as file:
         values = file["pull_off_force"][:]

@@ -1,0 +1,84 @@
+"""Scenes whose value is there and may not hold, and how a picture shows them."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from gradhesion.cli import names
+from gradhesion.core import DOUBTFUL, FLAGS, doubts_about
+
+INK: Final = "0.25"
+"""The colour of marks in a legend."""
+
+GREY: Final = "0.8"
+CROSS: Final = "0.6"
+"""The colours of scenes that have no value, in a map and as crosses."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Doubt:
+    """A flag that makes a value doubtful, with its looks."""
+
+    bit: int
+    words: str
+    hatch: str
+    """Its pattern in a map."""
+    mark: str
+    """Its open marker in a line or among points."""
+    size: float
+    """That of the marker: all can be seen one in the other."""
+
+    def marks(self, status: NDArray[Any]) -> NDArray[np.bool_]:
+        """Tell which scenes have the flag."""
+        flags: NDArray[np.bool_] = (status & self.bit) != 0
+        return flags
+
+
+def _doubts() -> tuple[Doubt, ...]:
+    """Give each flag that makes values doubtful a look of its own."""
+    flags = [(name, bit) for name, bit in FLAGS.items() if bit & DOUBTFUL]
+    looks = (("////", "o", 3.5), ("\\\\\\\\", "s", 5.5), ("xxxx", "D", 7.0))
+    return tuple(
+        Doubt(bit=bit, words=names.FLAGS[name], hatch=hatch, mark=mark, size=size)
+        for (name, bit), (hatch, mark, size) in zip(flags, looks, strict=True)
+    )
+
+
+DOUBTS: Final = _doubts()
+"""Every flag that makes values doubtful."""
+
+
+def doubts_in(status: NDArray[Any], variable: str) -> list[Doubt]:
+    """List the doubts that some scenes cast on a variable; none on `status` itself."""
+    if variable == "status":
+        return []
+    return [doubt for doubt in DOUBTS if doubt.bit & doubts_about(variable) and doubt.marks(status).any()]
+
+
+GAP: Final = "no finite value"
+"""What a legend says of scenes without a value."""
+
+ORDER: Final = (*(doubt.words for doubt in DOUBTS), GAP)
+"""The order of the entries of a legend."""
+
+
+def entries(doubts: Sequence[Doubt], *, in_map: bool, gaps: bool) -> list[Patch | Line2D]:
+    """Make the entries of a legend: the doubts, and scenes without a value if there are such gaps."""
+    made: list[Patch | Line2D] = []
+    for doubt in doubts:
+        if in_map:
+            made.append(Patch(facecolor="none", edgecolor=INK, lw=0.0, hatch=doubt.hatch, label=doubt.words))
+        else:
+            made.append(
+                Line2D([], [], ls="", marker=doubt.mark, ms=doubt.size, mfc="white", mec=INK, label=doubt.words)
+            )
+    if gaps and in_map:
+        made.append(Patch(facecolor=GREY, label=GAP))
+    elif gaps:
+        made.append(Line2D([], [], ls="", marker="x", ms=4, mec=CROSS, label=GAP))
+    return made
