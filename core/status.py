@@ -32,13 +32,13 @@ FLAGS: Final = {
 
 DOUBTFUL: Final = LOADING_NOT_ONE_DISC | UNLOADING_NOT_ONE_DISC | TOLERANCE_NOT_MET
 """The bits of a scene whose values are there and may not hold."""
-_SOUND_BEYOND_LOADING: Final = ("pull_off_force", "pull_off_radius", "unloading_jumps", "delta_jump_out")
-"""Results that do not depend on how full contact was reached (docs/theory.md, section 12)."""
+_OF_LOADING: Final = ("dissipated_energy", "energy_gain", "loading_jumps", "delta_max", "path", "jumps")
+"""Results and curves that depend on how full contact is reached (docs/theory.md, section 12)."""
 
 
 def doubts_about(result: str) -> int:
-    """Return the bits of `DOUBTFUL` that cast doubt on a result (a name of sweep.OUTPUTS, or any other)."""
-    return DOUBTFUL & ~LOADING_NOT_ONE_DISC if result in _SOUND_BEYOND_LOADING else DOUBTFUL
+    """Return the bits of `DOUBTFUL` that cast doubt on a result or a curve."""
+    return DOUBTFUL if result in _OF_LOADING else DOUBTFUL & ~LOADING_NOT_ONE_DISC
 
 
 FAILED: Final = TOLERANCE_NOT_MET | NO_VALUE

@@ -19,7 +19,7 @@ from gradhesion.cli.dataset import compute
 from gradhesion.cli.doubts import CROSS, DOUBTS, GAP, GREY, Doubt, doubts_in
 from gradhesion.cli.picture import drawn, save
 from gradhesion.cli.study import study_from
-from gradhesion.core import DOUBTFUL, FLAGS, OUTPUTS, solve
+from gradhesion.core import CURVES, DOUBTFUL, FLAGS, OUTPUTS, REPORTS, solve
 
 LOADING, UNLOADING, TOLERANCE = DOUBTS
 
@@ -69,8 +69,8 @@ def test_every_flag_has_words_and_every_doubt_looks_of_its_own() -> None:
 
 def test_loading_casts_no_doubt_on_what_follows_full_contact() -> None:
     status = np.array([0, *FLAGS.values()])
-    doubtful = {name for name in OUTPUTS if LOADING in doubts_in(status, name)}
-    assert doubtful == {"dissipated_energy", "loading_jumps", "delta_max"}
+    doubtful = {name for name in (*OUTPUTS, *REPORTS, *CURVES) if LOADING in doubts_in(status, name)}
+    assert doubtful == {"dissipated_energy", "energy_gain", "loading_jumps", "delta_max", "path", "jumps"}
     for name in OUTPUTS:
         assert {UNLOADING, TOLERANCE} <= {*doubts_in(status, name)}
     assert (
