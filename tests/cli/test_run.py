@@ -228,7 +228,7 @@ def test_failed_scenes_are_written_and_told(
         assert int(dataset["pull_off_force"].isnull().sum()) == 1
     told = gradhesion("info", tmp_path / "out.nc").stdout
     assert "status: 23 of 24 scenes (95.8%) have values" in told
-    assert re.search(r"no_value +1 scenes", told)
+    assert re.search(r"no_value +1 of 24 scenes", told)
 
 
 def test_a_study_larger_than_the_disk_is_refused(
