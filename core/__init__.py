@@ -1,6 +1,8 @@
 """Adhesive contact of a wavy axisymmetric punch on a power-law graded half-space: arrays in, arrays out."""
 
 from gradhesion.core.curves import CURVES, draw_curves
+from gradhesion.core.loading_control import CONTROLS, Loading
+from gradhesion.core.profile import Harmonic, Profile
 from gradhesion.core.report import REPORTS
 from gradhesion.core.results import OUTPUTS
 from gradhesion.core.solvers import SOLVERS
@@ -8,6 +10,7 @@ from gradhesion.core.status import DOUBTFUL, FAILED, FLAGS, doubts_about
 from gradhesion.core.sweep import PARAMETERS, compiled_before, solve
 
 __all__ = [
+    "CONTROLS",
     "CURVES",
     "DOUBTFUL",
     "FAILED",
@@ -16,6 +19,9 @@ __all__ = [
     "PARAMETERS",
     "REPORTS",
     "SOLVERS",
+    "Harmonic",
+    "Loading",
+    "Profile",
     "compiled_before",
     "doubts_about",
     "draw_curves",

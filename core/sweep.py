@@ -16,7 +16,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core import _jit
 from gradhesion.core.branches import ROWS
+from gradhesion.core.loading_control import Loading
 from gradhesion.core.material import fill_stiffness
+from gradhesion.core.profile import Profile
 from gradhesion.core.report import NEEDED, REPORTS, report_curves
 from gradhesion.core.results import INTEGERS, OUTPUTS
 from gradhesion.core.solvers import LOOPS, SOLVERS
@@ -61,6 +63,8 @@ def solve(
     solver: str = "exact",
     check_contact: bool = True,
     threads: int | None = None,
+    profile: Profile | None = None,
+    loading: Loading | None = None,
 ) -> dict[str, NDArray[Any]]:
     """Solve all scenes of the broadcast parameters.
 
@@ -85,6 +89,13 @@ def solve(
         loading path: it is told where any output but the two of the pull-off is asked for, by the exact solver only.
     threads
         Number of threads; all processors if not given. Results do not depend on it.
+    profile
+        The shape of the punch, a paraboloid with one cosine wave if not given. Another shape or control needs the exact
+        solver, has no `REPORTS`, and does not test the contact.
+    loading
+        What is prescribed, the displacement if not given. With control "machine" `parameters` also has
+        machine_stiffness, S/(E* R) > 0, which broadcasts with the others. Under load control dissipated_energy leaves
+        the jump-out out: under a dead load it has no bound.
 
     Returns
     -------
@@ -95,7 +106,8 @@ def solve(
     Raises
     ------
     ValueError
-        For an unknown output or solver, or parameters that are missing or do not broadcast.
+        For an unknown output or solver, or parameters that are missing or do not broadcast; for a solver or an output
+        that another profile or control does not have.
 
     Notes
     -----
@@ -118,6 +130,16 @@ def solve(
         raise ValueError(f"unknown outputs {unknown}, missing parameters {missing}, solver {solver!r}")
     if reports and solver != "exact":
         raise ValueError(f"outputs {reports} are known of the exact solver only, not of {solver!r}")
+    profile, loading = profile or Profile(), loading or Loading()
+    if ("machine_stiffness" in parameters) != (loading.control == "machine"):
+        raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
+    if profile != Profile() or loading != Loading():
+        if reports or solver != "exact":
+            raise ValueError(
+                f"solver {solver!r} and outputs {reports} are known of the paraboloid with one cosine wave under "
+                "displacement control only; another profile or control has the exact solver and its outputs"
+            )
+        raise ValueError("another profile or control is not solved yet")
     rows = list(dict.fromkeys([*outputs, *(NEEDED[name] for name in reports if name in NEEDED)]))
     arrays = [np.asarray(parameters[name], dtype=float) for name in PARAMETERS]
     shape = np.broadcast_shapes(*(array.shape for array in arrays))

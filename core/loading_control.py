@@ -1,0 +1,34 @@
+"""How a punch is driven: by its displacement, by the load on it, or by a machine of finite stiffness."""
+
+from dataclasses import dataclass
+from typing import Final
+
+CONTROLS: Final = ("displacement", "load", "machine")
+"""What is prescribed: the depth, the load, or the far end of a spring (its stiffness is a parameter of the scene)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Loading:
+    """What the loading prescribes.
+
+    Parameters
+    ----------
+    control
+        One of `CONTROLS`. With "machine" the parameters of `solve` have `machine_stiffness`, S/(E* R) > 0.
+
+    Raises
+    ------
+    ValueError
+        For an unknown control.
+
+    Examples
+    --------
+    >>> Loading().control
+    'displacement'
+    """
+
+    control: str = "displacement"
+
+    def __post_init__(self) -> None:
+        if self.control not in CONTROLS:
+            raise ValueError(f"control = {self.control!r}: it is one of {', '.join(CONTROLS)}")

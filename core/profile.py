@@ -1,0 +1,76 @@
+"""The shape of a punch: a power of the radius and a Fourier series of waves.
+
+    f(r) = r^m/(m R^(m-1)) + lambda A sum_n [ cos_n (1 - cos 2 pi n r/lambda) + sin_n sin(2 pi n r/lambda) ]
+
+m = 2 is a paraboloid. A sine gives the punch a tip; one cosine is the wave of the paper.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+MOST_HARMONICS: Final = 64
+
+
+@dataclass(frozen=True, kw_only=True)
+class Harmonic:
+    """One wave of the series, n times shorter than the wavelength.
+
+    Parameters
+    ----------
+    n
+        Waves a wavelength, a whole number >= 1.
+    cos, sin
+        Amplitudes of 1 - cos and of sin, in units of A; finite.
+
+    Raises
+    ------
+    ValueError
+        For a number out of range.
+    """
+
+    n: int
+    cos: float = 1.0
+    sin: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not (self.n >= 1 and self.n == int(self.n)):
+            raise ValueError(f"harmonic n = {self.n}: n is a whole number from 1 on")
+        if not (math.isfinite(self.cos) and math.isfinite(self.sin)):
+            raise ValueError(f"harmonic n = {self.n}: cos = {self.cos} and sin = {self.sin} must be finite")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Profile:
+    """The shape of a punch; by default a paraboloid with one cosine wave.
+
+    Parameters
+    ----------
+    exponent
+        m >= 1, finite; 1 is a cone, 2 a paraboloid.
+    harmonics
+        Up to 64 waves, each n once; with all amplitudes 0 the punch is smooth.
+
+    Raises
+    ------
+    ValueError
+        For an exponent or a series out of range.
+
+    Examples
+    --------
+    >>> Profile() == Profile(exponent=2.0, harmonics=(Harmonic(n=1, cos=1.0, sin=0.0),))
+    True
+    """
+
+    exponent: float = 2.0
+    harmonics: tuple[Harmonic, ...] = (Harmonic(n=1),)
+
+    def __post_init__(self) -> None:
+        if not 1.0 <= self.exponent < math.inf:
+            raise ValueError(f"exponent = {self.exponent}: the power of the punch is a finite number from 1 on")
+        numbers = [harmonic.n for harmonic in self.harmonics]
+        if not 1 <= len(numbers) <= MOST_HARMONICS:
+            raise ValueError(f"{len(numbers)} harmonics: a series has 1 to {MOST_HARMONICS}")
+        repeated = sorted({n for n in numbers if numbers.count(n) > 1})
+        if repeated:
+            raise ValueError(f"harmonics n = {repeated} are given more than once")

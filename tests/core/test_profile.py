@@ -1,0 +1,53 @@
+"""Profiles and controls: what is refused, and with what words."""
+
+import math
+from typing import Any
+
+import pytest
+
+from gradhesion.core import Harmonic, Loading, Profile, solve
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"exponent": 0.99}, "exponent"),
+        ({"exponent": math.inf}, "exponent"),
+        ({"exponent": math.nan}, "exponent"),
+        ({"harmonics": ()}, "harmonics"),
+        ({"harmonics": tuple(Harmonic(n=n) for n in range(1, 66))}, "65"),
+        ({"harmonics": (Harmonic(n=1), Harmonic(n=3), Harmonic(n=1))}, r"\[1\]"),
+    ],
+)
+def test_profiles_out_of_range(changes: dict[str, Any], word: str) -> None:
+    with pytest.raises(ValueError, match=word):
+        Profile(**changes)
+
+
+@pytest.mark.parametrize("values", [{"n": 0}, {"n": 1.5}, {"n": 2, "cos": math.nan}, {"n": 2, "sin": math.inf}])
+def test_harmonics_out_of_range(values: dict[str, Any]) -> None:
+    with pytest.raises(ValueError, match=f"n = {values['n']}"):
+        Harmonic(**values)
+
+
+def test_controls() -> None:
+    with pytest.raises(ValueError, match="displacement, load, machine"):
+        Loading(control="force")
+
+
+def test_what_another_profile_does_not_have(scene: dict[str, float]) -> None:
+    cone = Profile(exponent=1.0)
+    with pytest.raises(ValueError, match="envelope"):
+        solve(scene, solver="envelope", profile=cone)
+    with pytest.raises(ValueError, match="energy_residual"):
+        solve(scene, ["energy_residual"], loading=Loading(control="load"))
+    with pytest.raises(ValueError, match="machine_stiffness"):
+        solve(scene, loading=Loading(control="machine"))
+    with pytest.raises(ValueError, match="machine_stiffness"):
+        solve(scene | {"machine_stiffness": 1.0})
+
+
+def test_the_default_profile_and_control_change_nothing(scene: dict[str, float]) -> None:
+    plain = solve(scene)
+    other = solve(scene, profile=Profile(), loading=Loading())
+    assert all(plain[name].tobytes() == other[name].tobytes() for name in plain)
