@@ -20,6 +20,8 @@ most. Half wave i has theta between (i-1) pi and i pi: cos theta rises if i is e
 import math
 from typing import TypeAlias
 
+import numpy as np
+
 from gradhesion.core._jit import kernel
 from gradhesion.core.envelope import envelope_force
 from gradhesion.core.smooth import FORCE_SCALE
@@ -81,7 +83,7 @@ def depth_slope(wave: Wave, z: float) -> float:
 def half_at(wave: Wave, level: float, z: float) -> float:
     """Return the half wave in which z lies."""
     phi = wave[4]
-    return max(0.0, math.floor((z - phi - math.atan2(level, z)) / math.pi) + 1.0)
+    return max(0.0, np.floor((z - phi - math.atan2(level, z)) / math.pi) + 1.0)
 
 
 @kernel()
@@ -118,7 +120,7 @@ def _find_zero(wave: Wave, level: float, low: float, high: float, rising: bool) 
     middle = 0.5 * (low + high)
     # where the cosine of the middle's half wave takes the value that the slow part has there
     theta = middle - phi - math.atan2(level, middle)
-    half = math.floor(theta / math.pi)
+    half = np.floor(theta / math.pi)
     angle = math.acos(max(-1.0, min(1.0, _slow_part(wave, level, middle) / chi)))
     z = middle - theta + (half * math.pi + angle if half % 2.0 == 0.0 else (half + 1.0) * math.pi - angle)
     for _ in range(_STEPS):

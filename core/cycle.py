@@ -10,6 +10,8 @@ still has to lose.
 import math
 from typing import Any, Final
 
+import numpy as np
+
 from gradhesion.core._jit import kernel
 from gradhesion.core.branches import (
     ARRIVAL,
@@ -49,6 +51,12 @@ LONGEST_WALK: Final = 160.0
 BEGINNING: Final = 16.0
 """Waves walked at the beginning of a long curve; z > 150 there."""
 COUNTABLE: Final = 2.0**53
+LARGEST: Final = 1e60
+"""Bend and gain of a curve, and waves within its rim, above which powers of them may overflow."""
+SMALLEST: Final = 1e-60
+"""Radius over wavelength below which powers of it may underflow."""
+_FURTHEST: Final = 1e300
+"""An arch that stands for all beyond: numbers of arches are subtracted from each other."""
 _HALVINGS: Final = 200
 MOST_ARCHES: Final = 2.0e9
 """Arches up to which the phase of a radius is told well enough to walk there."""
@@ -60,7 +68,7 @@ NEAR_RIM: Final = 10.0
 def extent(table: Any, curve: Curve) -> tuple[float, float]:
     """Return the first and the last arch on which the curve can fold."""
     level = 0.5 * (1.0 - table.k)
-    return first_arch(table, curve, level), last_arch(table, curve, level)
+    return min(_FURTHEST, first_arch(table, curve, level)), min(_FURTHEST, last_arch(table, curve, level))
 
 
 @kernel()
@@ -70,9 +78,9 @@ def is_long(table: Any, arches: tuple[float, float], rim: float) -> bool:
 
 
 @kernel()
-def is_endless(arches: tuple[float, float], rim: float) -> bool:
-    """Return whether a curve folds so often up to a rim that not even the number of its waves is a float."""
-    return min(arches[1], 2.0 * rim) > COUNTABLE
+def is_unresolved(arches: tuple[float, float], rim: float) -> bool:
+    """Return whether a rim has no value: up to it folds are beyond counting, or powers of it underflow."""
+    return min(arches[1], 2.0 * rim) > COUNTABLE or rim < SMALLEST or LARGEST < rim < math.inf
 
 
 @kernel()
@@ -88,7 +96,7 @@ def walk(
     """Walk a curve of moderate length outwards to `furthest`; return the number of its branches and the trace."""
     first, final = arches
     trace = room_for(trace, min(final, 2.0 * furthest) - first + 8.0)
-    count = append_branches(table, curve, int(first), final, furthest, trace, 0)
+    count = append_branches(table, curve, int(min(first, COUNTABLE)), final, furthest, trace, 0)
     trace[RUN, GAP] = math.inf
     load_up(table, curve, count, trace, furthest, losses)
     return count, trace
@@ -97,7 +105,7 @@ def walk(
 @kernel()
 def _wave_of(table: Any, start: float) -> float:
     """Return the number of the wave whose branch starts at x: half a wave to none before its centre."""
-    return math.floor(start - table.phase / TWO_PI + 0.75)
+    return np.floor(start - table.phase / TWO_PI + 0.75)
 
 
 @kernel()
@@ -113,7 +121,7 @@ def _first_wave_above(table: Any, curve: Curve, low: float, high: float, level: 
         pull = stretch * z * amplitude_power(table, z)
         z -= (0.5 * b * z * z - pull + g - level) / (b * z - 0.5 * (1.0 - table.k) * pull / z)
         z = max(z, TWO_PI * low)
-    middle = math.floor(z / TWO_PI - table.phase / TWO_PI)
+    middle = np.floor(z / TWO_PI - table.phase / TWO_PI)
     step = 1.0
     for _ in range(_HALVINGS):
         if high - low <= 1.0:
@@ -126,7 +134,7 @@ def _first_wave_above(table: Any, curve: Curve, low: float, high: float, level: 
             low, middle = middle, middle + step
         step *= 2.0
         if not low < middle < high:
-            middle = math.floor(0.5 * (low + high))
+            middle = np.floor(0.5 * (low + high))
     return high
 
 
@@ -139,7 +147,7 @@ def _lowest_wave(table: Any, curve: Curve, low: float, high: float) -> float:
     b, g, _ = curve
     k = table.k
     z = (0.5 * (1.0 - k) * (1.0 + g * table.amplitude) / b) ** (2.0 / (3.0 + k))
-    middle = math.floor(z / TWO_PI - table.phase / TWO_PI)
+    middle = np.floor(z / TWO_PI - table.phase / TWO_PI)
     step = 1.0
     for _ in range(_HALVINGS):  # the lowest is one of low .. high
         if high <= low:
@@ -153,7 +161,7 @@ def _lowest_wave(table: Any, curve: Curve, low: float, high: float) -> float:
             high, middle = middle, middle - step
         step *= 2.0
         if not low <= middle < high:
-            middle = math.floor(0.5 * (low + high))
+            middle = np.floor(0.5 * (low + high))
     return low
 
 
@@ -242,7 +250,7 @@ def _nominal_branch(table: Any, curve: Curve, rim: float, final: float, trace: A
     if rim > final:
         trace[END_DEPTH, near] = math.inf
     trace[UNLOADING_JUMPS, near] = UNKNOWN
-    return float(math.floor(place - table.phase / TWO_PI))
+    return np.floor(place - table.phase / TWO_PI)
 
 
 @kernel()

@@ -8,6 +8,8 @@ far side of the arch's curvature, none; equal signs on the near side, two or non
 import math
 from typing import Any, Final
 
+import numpy as np
+
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve import Curve, slope
 from gradhesion.core.struve.arches import inner_edge, summit
@@ -216,4 +218,4 @@ def first_arch(table: Any, curve: Curve, level: float) -> float:
         slow = b / amplitude_power(table, z)
         most = chi * (1.0 + 0.35 / (z * z))  # it falls as z grows: a bound for all that is to come
         z += max(0.0, (level / z - slow - most) / (level / (z * z) + n * slow / z))
-    return float(math.floor((z - table.phase) / math.pi - 1.0))
+    return np.floor((z - table.phase) / math.pi - 1.0)

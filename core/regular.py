@@ -110,7 +110,7 @@ def _shifted(table: Any, curve: Curve, wave: float) -> tuple[Curve, float, float
     """Return a curve that lags, the number of one of its waves that is like this one, and the scale between the two."""
     b, g, _ = curve
     scale = 1.0
-    whole = float(math.floor(wave))
+    whole = np.floor(wave)
     lag = wave - whole
     if whole > FAR:  # the same cosine at the folds, nearer to zero
         scale = wave / (FAR + lag)

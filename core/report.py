@@ -18,7 +18,7 @@ from gradhesion.core import smooth
 from gradhesion.core._jit import kernel
 from gradhesion.core.branches import ARRIVAL, END, START
 from gradhesion.core.curve import Curve, depth, wave
-from gradhesion.core.cycle import MOST_ARCHES, extent, is_endless, is_long, is_smooth, stride, walk
+from gradhesion.core.cycle import MOST_ARCHES, extent, is_long, is_smooth, is_unresolved, stride, walk
 from gradhesion.core.folds import fold_of_arch, survey_arch
 from gradhesion.core.loading import loading_to
 from gradhesion.core.loop_energy import loop_energy
@@ -121,7 +121,7 @@ def _report_energy(
     """Tell how good the energy of one rim is."""
     long = is_long(table, arches, x)
     error, residual = math.nan, math.nan
-    if not is_endless(arches, x):
+    if not is_unresolved(arches, x):
         if long:
             count, trace = stride(table, curve, arches, x, scratch, True, 2.0)
             error = 4.0 * abs(energy - scale * _energy_at(table, curve, count, trace, x))

@@ -12,7 +12,7 @@ from gradhesion.core import smooth
 from gradhesion.core._jit import kernel
 from gradhesion.core.contact import disc_limits, is_one_disc
 from gradhesion.core.curve import Curve, depth
-from gradhesion.core.cycle import extent, is_endless, is_long, is_smooth, stride, walk
+from gradhesion.core.cycle import LARGEST, SMALLEST, extent, is_long, is_smooth, is_unresolved, stride, walk
 from gradhesion.core.folds import CLOSE
 from gradhesion.core.loading import highest_depth, jumps_in_to, loading_to
 from gradhesion.core.pull_off import lowest_load
@@ -149,21 +149,20 @@ def _solve_cycle(
     furthest = 0.0
     for i in range(rims.size):
         x = rims[i] / wavelength
-        if not is_long(table, arches, x):
+        if is_unresolved(arches, x):
+            status[i] |= NO_VALUE
+        elif not is_long(table, arches, x):
             furthest = max(furthest, x)
     if furthest > 0.0:
         count, trace = walk(table, curve, arches, furthest, scratch, losses)
         limits = _limits(table, curve, count, trace, furthest, slots)
     for i in range(rims.size):
         x = rims[i] / wavelength
-        if not is_long(table, arches, x):
+        if not is_unresolved(arches, x) and not is_long(table, arches, x):
             _cycle_at_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i)
     for i in range(rims.size):
         x = rims[i] / wavelength
-        if is_endless(arches, x):
-            out[:, i] = math.nan
-            status[i] |= NO_VALUE
-        elif is_long(table, arches, x):
+        if not is_unresolved(arches, x) and is_long(table, arches, x):
             count, trace = stride(table, curve, arches, x, scratch, losses)
             limits = _limits(table, curve, count, trace, x, slots)
             _cycle_at_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i)
@@ -190,6 +189,10 @@ def solve_curve(
     length = wavelength / TWO_PI
     depth_scale = stretch * length ** (0.5 * (1.0 - k))
     curve = (2.0 * length * length / ((1.0 + k) * depth_scale), amplitude * wavelength / depth_scale, 0.0)
+    if not (0.0 < curve[0] < LARGEST and curve[1] < LARGEST):  # powers of them would overflow
+        out[:, :] = math.nan
+        status[:] = NO_VALUE
+        return
     folds = wants_folds(slots)
     arches = extent(table, curve) if folds else (0.0, 0.0)
     if folds and is_smooth(arches):
@@ -202,3 +205,7 @@ def solve_curve(
     if folds:
         scales = (TWO_PI * length * length, depth_scale)
         _solve_cycle(table, curve, arches, scales, wavelength, rims, slots, out, status, scratch)
+    for i in range(rims.size):
+        if status[i] & NO_VALUE or not rims[i] / wavelength > SMALLEST or LARGEST < rims[i] / wavelength < math.inf:
+            out[:, i] = math.nan
+            status[i] = NO_VALUE

@@ -9,7 +9,7 @@ from gradhesion.core._jit import kernel
 from gradhesion.core.asymptotic import Wave, folds_of_half, half_at, window_end
 from gradhesion.core.branches import END, START
 from gradhesion.core.curve import Curve, slope
-from gradhesion.core.cycle import MOST_ARCHES
+from gradhesion.core.cycle import COUNTABLE, MOST_ARCHES
 from gradhesion.core.folds import first_arch, fold_of_arch, last_arch, survey_arch
 from gradhesion.core.struve.circle import TWO_PI
 
@@ -68,7 +68,7 @@ def folds_of_load(table: Any, curve: Curve, furthest: float) -> Any:
     first, final = first_arch(table, curve, level), last_arch(table, curve, level)
     places = np.empty(max(8, int(min(final, 2.0 * furthest) - first) + 16))
     count = 0
-    i = int(first)
+    i = int(min(first, COUNTABLE))
     while i <= final:
         survey = survey_arch(table, curve, level, i)
         kind, _, _, high = survey

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from .checks import CHECKS
+from .checks import CHECKS, values_or_status
 from .draw import eventful, hostile
 
 ROOT = Path(__file__).parents[2]
@@ -52,3 +52,18 @@ def test_cost_and_memory_are_bounded() -> None:
         [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, timeout=300, check=True
     )
     assert float(done.stdout) < 64.0, f"{done.stdout} MiB for 3,000 scenes"
+
+
+def test_beyond_all_bounds_it_ends() -> None:
+    """Any positive doubles at all: each scene has values, or a status that says why not, and none hangs."""
+    rng = np.random.default_rng(4)
+    size = 1500
+    scenes = {
+        "k": rng.choice([0.0, 1e-16, 0.1, 0.7, 1.0 - 1e-12, 1.0], size),
+        "nu": rng.choice([-0.9, 0.3, 0.5], size),
+    }
+    for name in ("modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R"):
+        wild = 10.0 ** rng.uniform(-300, 300, size)
+        scenes[name] = np.where(rng.uniform(size=size) < 0.4, wild, 10.0 ** rng.uniform(-6, 6, size))
+    for bounded in (True, False):
+        assert np.all(values_or_status(scenes if bounded else scenes | {"a_max_over_R": np.full(size, np.inf)}) <= 1.0)
