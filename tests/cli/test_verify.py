@@ -20,8 +20,8 @@ ALL = ("--sample", "100", "--seed", "1")
 @pytest.fixture
 def dataset_file(gradhesion: Call, data: dict[str, Any], write_study: Callable[[str], Path], tmp_path: Path) -> Path:
     """The small study with all outputs: 24 scenes."""
-    from gradhesion.cli.names import OUTPUTS
     from gradhesion.cli.study import study_from
+    from gradhesion.core import OUTPUTS
 
     path = tmp_path / "out.nc"
     study = write_study(study_from(data | {"outputs": list(OUTPUTS)}).text)
