@@ -23,6 +23,7 @@ from gradhesion.core.folds import fold_of_arch, survey_arch
 from gradhesion.core.loading import loading_to
 from gradhesion.core.loop_energy import loop_energy
 from gradhesion.core.results import ENERGY, FORCE, RADIUS, put
+from gradhesion.core.status import TOLERANCE_NOT_MET
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.unloading import unloading_from
 
@@ -46,6 +47,8 @@ NEEDED: Final = {
 """The result that a report starts from."""
 FORCE_ERROR, ENERGY_ERROR, RESIDUAL, ROUGHNESS, SATURATION, ADHESION_GAIN, ENERGY_GAIN = 0, 1, 2, 3, 4, 5, 6
 _ROUNDING: Final = 6.0 * 2.0**-52
+_PROMISED: Final = 1e-9
+"""Error of the energy, in parts of its terms, above which a scene does not meet the tolerance (docs/accuracy.md)."""
 _LOOPED: Final = 4096.0
 """Arches up to which a loop is integrated: some milliseconds."""
 _ARCHES_BACK: Final = 8
@@ -115,10 +118,11 @@ def _report_energy(
     energy: float,
     slots: Any,
     out: Any,
+    status: Any,
     i: int,
     scratch: Any,
 ) -> None:
-    """Tell how good the energy of one rim is."""
+    """Tell how good the energy of one rim is, in its status too if it is not as good as promised."""
     long = is_long(table, arches, x)
     error, residual = math.nan, math.nan
     if not is_unresolved(arches, x):
@@ -128,7 +132,10 @@ def _report_energy(
         else:
             count, trace = walk(table, curve, arches, x, scratch, True)
             error = 0.0
-        error += scale * _ROUNDING * _energy_terms(table, curve, count, trace, x)
+        terms = scale * _energy_terms(table, curve, count, trace, x)
+        error += _ROUNDING * terms
+        if error > _PROMISED * terms:
+            status[i] |= TOLERANCE_NOT_MET
     if slots[RESIDUAL] >= 0 and min(arches[1], 2.0 * x) - arches[0] <= _LOOPED:
         if long:
             count, trace = walk(table, curve, arches, x, scratch, False)
@@ -180,6 +187,7 @@ def _report_curve(
     results: Any,
     slots: Any,
     out: Any,
+    status: Any,
     scratch: Any,
 ) -> None:
     """Report on one curve for all its rims."""
@@ -205,7 +213,7 @@ def _report_curve(
         if slots[ENERGY_ERROR] >= 0 or slots[RESIDUAL] >= 0:
             x = rims[i] / wavelength
             scale = TWO_PI * length * length
-            _report_energy(table, curve, arches, scale, x, out[results[ENERGY], i], slots, out, i, scratch)
+            _report_energy(table, curve, arches, scale, x, out[results[ENERGY], i], slots, out, status, i, scratch)
 
 
 @kernel()
@@ -219,6 +227,7 @@ def report_curves(
     results: Any,
     slots: Any,
     out: Any,
+    status: Any,
     scratch: Any,
 ) -> None:
     """Report on the curves `index` of one gradient exponent; `results` are the slots of what is solved already."""
@@ -236,5 +245,15 @@ def report_curves(
             _report_smooth(table.k, constants, stretch, row, slots, out[:, i])
         else:
             _report_curve(
-                table, constants, stretch, wavelength[i], amplitude[i], row, results, slots, out[:, i], scratch
+                table,
+                constants,
+                stretch,
+                wavelength[i],
+                amplitude[i],
+                row,
+                results,
+                slots,
+                out[:, i],
+                status[i],
+                scratch,
             )

@@ -15,7 +15,7 @@ loading path is followed."""
 CLOSE_TO_A_JUMP: Final = 16
 """An error of 1e-12 in an input could change the number of jumps, or move the pull-off to another trough."""
 TOLERANCE_NOT_MET: Final = 32
-"""The accuracy that was asked for is not reached."""
+"""The energy is not as good as promised: its estimated error, where that is asked for, is above 1e-9 of its terms."""
 NO_VALUE: Final = 64
 """A parameter is not a number or outside its range, or the scene cannot be resolved: the values are NaN."""
 

@@ -177,7 +177,7 @@ def solve(
         curves_of = (table, index, stiffnesses, wavelengths, amplitudes, rims)
         solve_curves(*curves_of, slots, out, status, scratch)
         if reports:
-            report_curves(*curves_of, slots, slots_of_reports, out, scratch)
+            report_curves(*curves_of, slots, slots_of_reports, out, status, scratch)
 
     tasks = list(_tasks(exponents, max(1, _TASK // max(1, rims.shape[1]))))
     workers = min(threads or os.cpu_count() or 1, len(tasks))
