@@ -8,9 +8,11 @@ from typing import Final
 import numpy as np
 import xarray
 
+from gradhesion.cli.dataset import following
 from gradhesion.cli.errors import DatasetError, StudyError
 from gradhesion.cli.names import SOLVER
 from gradhesion.cli.study import Study, study_from
+from gradhesion.core import PARAMETERS
 
 CLOSE: Final = 16 * 2.0**-52
 """Of a coordinate: logarithmic spacing may differ by some units in the last place from one numpy to the next."""
@@ -69,8 +71,11 @@ def _check_coordinates(dataset: xarray.Dataset, study: Study, path: Path) -> Non
             at = f"[{wrong[0]}]" if here.ndim else ""
             both = f"{here.flat[wrong[0]]!s}, in its study {given.flat[wrong[0]]!s}"
             raise _apart(path, f"{name}{at} is {both}")
-    if "a_max_over_R" not in study.parameters and dict(dataset["a_max_over_R"].sizes) != study.axes:
-        raise _apart(path, "the axes of a_max_over_R are not those of its study")
+    for name in PARAMETERS:
+        if name not in study.parameters and (
+            name not in dataset.coords or dataset[name].dims != following(study, name)
+        ):
+            raise _apart(path, f"the axes of {name} are not those of its study")
 
 
 def _apart(path: Path, what: str) -> DatasetError:

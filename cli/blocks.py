@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import interrupts
 from gradhesion.cli.study import Study
-from gradhesion.core import solve
+from gradhesion.core import PARAMETERS, solve
 
 CHUNK: Final = 131_072
 """Cells of a chunk in the file: one MiB of float64."""
@@ -68,15 +68,13 @@ def size_of(block: Block) -> int:
 
 
 def scenes_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
-    """Give the parameters of a block of the axes as the core knows them; NaN is an a_max over an a_2 that is none."""
-    parameters = study.parameters_of(block)
-    ratio = parameters.pop("a_max_over_a2", None)
-    if ratio is not None:
-        from gradhesion.core.jump_in_radius import jump_in_radius_of_envelope  # noqa: PLC0415 (300 ms for SciPy)
+    """Give the parameters of a block of the axes as the core knows them; NaN is one that does not exist."""
+    given = study.parameters_of(block)
+    if given.keys() >= {*PARAMETERS}:
+        return given
+    from gradhesion.core.reduced import parameters_from  # noqa: PLC0415 (300 ms for SciPy)
 
-        with np.errstate(over="ignore", under="ignore"):
-            parameters["a_max_over_R"] = ratio * jump_in_radius_of_envelope(**parameters)
-    return parameters
+    return parameters_from(given)
 
 
 def solve_block(study: Study, block: Block, threads: int | None) -> dict[str, NDArray[Any]]:

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli import curves, names
-from gradhesion.cli.blocks import Block, scenes_of, solved
+from gradhesion.cli.blocks import Block, scenes_of, size_of, solved
 from gradhesion.cli.study import Study
-from gradhesion.core import FLAGS
+from gradhesion.core import FLAGS, PARAMETERS
 
 if TYPE_CHECKING:
     import xarray
@@ -65,16 +65,27 @@ def _coordinates(study: Study) -> dict[str, Variable]:
             else:
                 own = (name,) if name in axes else ()
             described[name] = Variable(dimensions=own, dtype="f8", attributes=attributes, values=values)
-        elif name == "a_max_over_R":  # it follows from a_max_over_a2
-            described[name] = Variable(
-                dimensions=axes, dtype="f8", attributes=attributes, made=partial(_radii, study), blank=np.nan
-            )
+        elif name in PARAMETERS:  # it follows from others
+            own = following(study, name)
+            made = partial(_made, study, name, own)
+            described[name] = Variable(dimensions=own, dtype="f8", attributes=attributes, made=made, blank=np.nan)
     return described
 
 
-def _radii(study: Study, block: Block) -> NDArray[np.float64]:
-    """Compute a_max/R of a block of scenes."""
-    return scenes_of(study, block)["a_max_over_R"]
+def following(study: Study, name: str) -> tuple[str, ...]:
+    """Name the axes along which a parameter varies that is not given but made from others."""
+    from gradhesion.core.reduced import sources_of  # noqa: PLC0415 (300 ms for SciPy)
+
+    sources = sources_of(name, study.parameters)
+    return tuple(axis for axis in study.axes if axis in sources or study.layout == "points")
+
+
+def _made(study: Study, name: str, own: tuple[str, ...], block: Block) -> NDArray[np.float64]:
+    """Compute a block, of its own axes, of a parameter that is made from others."""
+    cuts = dict(zip(own, block, strict=True))
+    whole = tuple(cuts.get(axis, slice(0, 1)) for axis in study.axes)
+    values = np.broadcast_to(scenes_of(study, whole)[name], [size_of((cut,)) for cut in whole])
+    return values.reshape([size_of((cut,)) for cut in block])
 
 
 def _output(study: Study, name: str) -> Variable:
@@ -155,7 +166,7 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
     made = {}
     for name, variable in described.items():
         if variable.made:
-            values = variable.made(tuple(slice(0, length) for length in study.axes.values()))
+            values = variable.made(tuple(slice(0, study.axes[axis]) for axis in variable.dimensions))
         else:
             values = found[name] if variable.values is None else variable.values
         blank = {} if variable.blank is None else {"_FillValue": values.dtype.type(variable.blank)}

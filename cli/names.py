@@ -13,13 +13,38 @@ PARAMETERS: Final = {
 }
 """Every parameter of a scene in the order of a dataset's dimensions, with its `long_name`."""
 
-RIM_KEYS: Final = ("a_max_over_R", "a_max_over_a2")
-"""The keys that give the radius of the punch: a study has one of them."""
-
-KEYS: Final = PARAMETERS | {
-    "a_max_over_a2": "radius a_max/a_2 of the punch over the jump-in radius of the loading envelope"
+TIED: Final = {
+    "lambda_over_L": ("lambda_over_R", "wavelength lambda/L of the waviness over the similarity length"),
+    "chi": ("A", "roughness parameter chi = r/s of the waviness"),
+    "a_max_over_L": ("a_max_over_R", "radius a_max/L of the punch over the similarity length (inf: unbounded)"),
+    "a_max_over_a2": ("a_max_over_R", "radius a_max/a_2 of the punch over the jump-in radius of the loading envelope"),
 }
-"""Every key of [parameters], with its `long_name`."""
+"""The keys of [parameters] in reduced variables: the parameter that each is given instead of, and its `long_name`."""
+
+ROLES: Final = {
+    "modulus": "the reduced modulus",
+    "c0_over_R": "the depth of the gradient",
+    "lambda_over_R": "the wavelength",
+    "A": "the amplitude",
+    "a_max_over_R": "the radius of the punch",
+}
+"""What the parameters stand for that can be given by another key."""
+
+RIM_KEYS: Final = ("a_max_over_R", "a_max_over_L", "a_max_over_a2")
+"""The keys that give the radius of the punch, which may be infinite."""
+
+
+def _ordered() -> dict[str, str]:
+    """Put each key before the parameter in whose place it stands."""
+    ordered: dict[str, str] = {}
+    for name, long_name in PARAMETERS.items():
+        ordered |= {key: own for key, (parameter, own) in TIED.items() if parameter == name}
+        ordered[name] = long_name
+    return ordered
+
+
+KEYS: Final = _ordered()
+"""Every key of [parameters] in the order of a dataset's dimensions, with its `long_name`."""
 
 OUTPUTS: Final = {
     "pull_off_force": "pull-off force F/(1.5 pi R dgamma)",
@@ -152,6 +177,9 @@ SYMBOLS: Final = {
     "lambda_over_R": r"$\lambda/R$",
     "A": "$A$",
     "a_max_over_R": r"$a_{\max}/R$",
+    "lambda_over_L": r"$\lambda/L$",
+    "chi": r"$\chi$",
+    "a_max_over_L": r"$a_{\max}/L$",
     "a_max_over_a2": r"$a_{\max}/a_2$",
     "pull_off_force": r"pull-off force $F\,/\,\frac{3}{2}\pi R\Delta\gamma$",
     "pull_off_radius": "radius at pull-off $a/R$",

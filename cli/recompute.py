@@ -16,7 +16,7 @@ from gradhesion.cli.belonging import study_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SOLVER
 from gradhesion.cli.study import Method, Study
-from gradhesion.core import FAILED
+from gradhesion.core import FAILED, PARAMETERS
 from gradhesion.core.status import CLOSE_TO_A_JUMP, NO_VALUE
 from gradhesion.twin import stated
 
@@ -136,8 +136,8 @@ def _drawn(
             found.failed += 1
             if status & NO_VALUE:
                 found.deviations += _without_value(dataset, scene, study.outputs)
-        elif math.isnan(scene.parameters["a_max_over_R"]):
-            found.deviations.append(_unlike(scene, "a_max_over_R", math.nan, "a radius, by its status"))
+        elif missing := [name for name in PARAMETERS if math.isnan(scene.parameters[name])]:
+            found.deviations += [_unlike(scene, name, math.nan, "a value, by its status") for name in missing]
         elif stated.within_reach(scene.parameters, outputs, scene.solver):
             scenes.append(scene)
         else:
@@ -165,8 +165,10 @@ def _scene(
     place: dict[str, float | str] = {
         name: value for name, value in parameters.items() if isinstance(study.parameters[name], np.ndarray)
     }
-    if "a_max_over_R" not in parameters:
-        parameters["a_max_over_R"] = float(dataset["a_max_over_R"][index])
+    for name in PARAMETERS:
+        if name not in parameters:  # it is made from others
+            own = {axis: at for axis, at in along.items() if axis in dataset[name].dims}
+            parameters[name] = float(dataset[name].isel(own))
     if SOLVER in study.sizes:
         place = {SOLVER: known[which], **place}
         index = (study.method.solver.index(known[which]), *index)

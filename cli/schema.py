@@ -15,7 +15,7 @@ from typing import Annotated, Any, Final, Literal, Union
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, create_model
 from pydantic_core import ErrorDetails
 
-from gradhesion.cli.names import KEYS, OUTPUTS, PARAMETERS, RIM_KEYS
+from gradhesion.cli.names import KEYS, OUTPUTS, PARAMETERS, RIM_KEYS, ROLES, TIED
 from gradhesion.cli.places import Path, dotted
 
 LAYOUTS: Final = ("grid", "points")
@@ -29,6 +29,9 @@ _BOUNDS: Final[dict[str, tuple[dict[str, float], str]]] = {
     "lambda_over_R": ({"gt": 0.0}, "lambda_over_R > 0, and finite"),
     "A": ({"ge": 0.0}, "A >= 0, and finite"),
     "a_max_over_R": ({"gt": 0.0}, "a_max_over_R > 0 (inf: an unbounded punch)"),
+    "lambda_over_L": ({"gt": 0.0}, "lambda_over_L > 0, and finite"),
+    "chi": ({"ge": 0.0}, "chi >= 0, and finite"),
+    "a_max_over_L": ({"gt": 0.0}, "a_max_over_L > 0 (inf: an unbounded punch)"),
     "a_max_over_a2": ({"gt": 0.0}, "a_max_over_a2 > 0 (inf: an unbounded punch)"),
 }
 
@@ -88,7 +91,7 @@ def _parameter(name: str) -> Any:
 @cache
 def study_model() -> type[BaseModel]:
     """Make the model of a whole study."""
-    parameters: dict[str, Any] = {name: (_parameter(name), None if name in RIM_KEYS else ...) for name in KEYS}
+    parameters: dict[str, Any] = {name: (_parameter(name), None if name in (*ROLES, *TIED) else ...) for name in KEYS}
     return create_model(
         "Study",
         __base__=_Table,
@@ -119,7 +122,7 @@ def mistakes_of_form(data: Mapping[str, Any]) -> list[Mistake]:
         else:
             sentence = _sentence(detail, path)
         mistakes.append((detail["type"], Mistake(path, detail["input"], sentence)))
-    mistakes += _mistakes_of_rim(data.get("parameters"), excused)
+    mistakes += _mistakes_of_roles(data.get("parameters"), excused)
     return [
         replace(mistake, value=None) if kind == "missing" else mistake
         for kind, mistake in mistakes
@@ -127,19 +130,26 @@ def mistakes_of_form(data: Mapping[str, Any]) -> list[Mistake]:
     ]
 
 
-def _mistakes_of_rim(parameters: object, excused: set[Path]) -> list[tuple[str, Mistake]]:
-    """Check that exactly one key gives the radius of the punch."""
+def _mistakes_of_roles(parameters: object, excused: set[Path]) -> list[tuple[str, Mistake]]:
+    """Check that exactly one key gives each parameter that more than one can give."""
     if not isinstance(parameters, Mapping):
         return []
-    paths = [("parameters", name) for name in RIM_KEYS]
-    given = [path for path in paths if path[1] in parameters]
-    if len(given) == 2:
-        sentence = f"{RIM_KEYS[0]} gives the radius of the punch already; keep one of the two and remove the other"
-        return [("both", Mistake(paths[1], parameters[RIM_KEYS[1]], sentence))]
-    if not given and not excused & {*paths}:
-        sentence = f"this parameter is required; {_example(paths[0])}, or instead {_example(paths[1])}"
-        return [("missing", Mistake(paths[0], None, sentence))]
-    return []
+    mistakes = []
+    for role, words in ROLES.items():
+        paths = [
+            ("parameters", key) for key in (role, *(key for key, (parameter, _) in TIED.items() if parameter == role))
+        ]
+        given = [path for path in paths if path[1] in parameters]
+        for path in given[1:]:
+            sentence = f"{given[0][1]} gives {words} already; keep one of the two and remove the other"
+            mistakes.append(("both", Mistake(path, parameters[path[1]], sentence)))
+        if not given and not excused & {*paths}:
+            instead = " or ".join(_line(path) for path in paths[1:])
+            sentence = f"this parameter is required; {_example(paths[0])}" + (
+                f", or instead {instead}" if instead else ""
+            )
+            mistakes.append(("missing", Mistake(paths[0], None, sentence)))
+    return mistakes
 
 
 def did_you_mean(word: str, known: Sequence[str]) -> str:
@@ -250,6 +260,11 @@ def _parameter_sentence(kind: str, value: object, path: Path) -> str:
 
 def _example(path: Path) -> str:
     """Show a line that would do."""
+    return f"write for example {_line(path)}"
+
+
+def _line(path: Path) -> str:
+    """Write a line that would do."""
     examples: dict[str, str] = {
         "title": 'title = "Pull-off force against wavelength"',
         "kind": 'kind = "map"',
@@ -266,10 +281,13 @@ def _example(path: Path) -> str:
         "lambda_over_R": 'lambda_over_R = { start = 0.02, stop = 1.0, num = 200, spacing = "log" }',
         "A": "A = 0.1",
         "a_max_over_R": "a_max_over_R = inf",
+        "lambda_over_L": "lambda_over_L = 0.5",
+        "chi": "chi = 0.5",
+        "a_max_over_L": "a_max_over_L = 5.0",
         "a_max_over_a2": "a_max_over_a2 = 2.0",
         "start": "start = 0.1",
         "stop": "stop = 1.0",
         "num": "num = 50",
     }
     named = [step for step in path if isinstance(step, str)]
-    return f"write for example {examples[named[-1]]}"
+    return examples[named[-1]]

@@ -53,7 +53,7 @@ class Study:
     outputs: tuple[str, ...]
     """The variables of its dataset beside `status`, in the order of the dataset."""
     parameters: Mapping[str, rules.Values]
-    """Seven of the keys of [parameters]: a_max_over_R or a_max_over_a2 is the last."""
+    """A value for each parameter, under the key that gives it, in the order of the dataset's dimensions."""
     method: Method
     text: str
     """The study as TOML: reading it again gives the same study."""

@@ -59,9 +59,11 @@ def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
         yield ""
         yield "fixed"
         yield from (f"  {name:<17} {dataset[name].item():g}" for name in fixed)
-    for name in [name for name in known if name not in (*varying, *fixed)]:
+    following = [name for name in known if name not in (*varying, *fixed)]
+    if following:
         yield ""
         yield "following from these"
+    for name in following:
         extremes = [f"{value:g}" for value, _ in _extremes(dataset[name])]
         yield f"  {name:<17} {' to '.join(extremes) or 'no value in any scene'}"
 

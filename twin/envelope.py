@@ -17,13 +17,29 @@ from flint import arb
 from gradhesion.twin.special import theta
 
 
+def _stiffness(parameters: Mapping[str, float]) -> arb:
+    """Return M."""
+    k = arb(parameters["k"])
+    return theta(k, arb(parameters["nu"])) * arb(parameters["modulus"]) / arb(parameters["c0_over_R"]) ** k
+
+
+def similarity_length(parameters: Mapping[str, float]) -> arb:
+    """Return L = (1/M)^(1/(3+k))."""
+    return (1 / _stiffness(parameters)) ** (1 / (3 + arb(parameters["k"])))
+
+
 def strengths(parameters: Mapping[str, float]) -> tuple[arb, arb]:
     """Return s and r."""
     k = arb(parameters["k"])
-    modulus = theta(k, arb(parameters["nu"])) * arb(parameters["modulus"]) / arb(parameters["c0_over_R"]) ** k
-    s = (2 ** (1 + k) * arb.pi() / modulus).sqrt()
+    s = (2 ** (1 + k) * arb.pi() / _stiffness(parameters)).sqrt()
     wave = arb(parameters["A"]) * arb(parameters["lambda_over_R"]) ** ((1 + k) / 2)
     return s, arb.pi() ** ((1 - k) / 2) * ((1 + k) / 2).gamma() * wave
+
+
+def amplitude(parameters: Mapping[str, float], ratio: float) -> arb:
+    """Return the A of r/s."""
+    s, r = strengths({**parameters, "A": 1.0})
+    return ratio * s / r
 
 
 def jump_in_radius(parameters: Mapping[str, float]) -> tuple[arb, float]:

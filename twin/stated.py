@@ -7,7 +7,7 @@ from typing import Final
 
 from flint import arb
 
-from gradhesion.twin.envelope import jump_in_radius, solve_envelope
+from gradhesion.twin.envelope import amplitude, jump_in_radius, similarity_length, solve_envelope
 from gradhesion.twin.scene import PullOff, Solution, solve, solve_pull_off, waves_to_follow
 
 FORCE: Final = 5e-14
@@ -36,8 +36,8 @@ KNOWN: Final = CYCLE | {"pull_off_force", "pull_off_radius"}
 """Outputs that the twin solves."""
 BY_STEPS: Final = frozenset(("loading_jumps", "unloading_jumps", "pull_off_radius"))
 """Outputs that are not continuous in the parameters."""
-RADIUS_OF_RIM: Final = 2e-14
-"""Of a_max/R given in the jump-in radius, times the condition of that."""
+MADE: Final = 2e-14
+"""Of a parameter that is made from others, times its condition where that is made of s - r."""
 SOLVERS: Final = ("exact", "envelope")
 """Solvers of which the twin has an equal."""
 
@@ -71,7 +71,8 @@ def expected(parameters: Mapping[str, float], outputs: Collection[str], solver: 
     Parameters
     ----------
     parameters
-        The seven parameters of a scene; and a_max_over_a2 where a_max_over_R is made from it, to be checked as well.
+        The seven parameters of a scene; and lambda_over_L, chi and the like where one of the seven is made from them,
+        to be checked as well.
     outputs
         Names of outputs; those that are not in `KNOWN` are passed over.
     solver
@@ -100,18 +101,30 @@ def expected(parameters: Mapping[str, float], outputs: Collection[str], solver: 
     else:
         solution = solve(parameters)
         found = _of_pull_off(solution) | _of_cycle(solution)
-    if "a_max_over_a2" in parameters:
-        found["a_max_over_R"] = _of_rim(parameters)
-        outputs = [*outputs, "a_max_over_R"]
+    made = _made(parameters)
+    found |= made
+    outputs = [*outputs, *made]
     if not all(_is_sure(one) for one in found.values()):
         raise ArithmeticError(f"too few digits are left: {dict(parameters)}")
     return {name: found[name] for name in outputs if name in found}
 
 
-def _of_rim(parameters: Mapping[str, float]) -> Expected:
-    radius, condition = jump_in_radius(parameters)
-    value = parameters["a_max_over_a2"] * radius
-    return Expected(value, _share(RADIUS_OF_RIM * condition, value) if value.is_finite() else 0.0)
+def _made(parameters: Mapping[str, float]) -> dict[str, Expected]:
+    """Make the parameters that are not given but follow from reduced ones."""
+    made: dict[str, tuple[arb, float]] = {}
+    if "lambda_over_L" in parameters:
+        made["lambda_over_R"] = parameters["lambda_over_L"] * similarity_length(parameters), 1.0
+    if "chi" in parameters:
+        made["A"] = amplitude(parameters, parameters["chi"]), 1.0
+    if "a_max_over_L" in parameters:
+        made["a_max_over_R"] = parameters["a_max_over_L"] * similarity_length(parameters), 1.0
+    if "a_max_over_a2" in parameters:
+        radius, condition = jump_in_radius(parameters)
+        made["a_max_over_R"] = parameters["a_max_over_a2"] * radius, condition
+    return {
+        name: Expected(value, _share(MADE * condition, value) if value.is_finite() else 0.0)
+        for name, (value, condition) in made.items()
+    }
 
 
 def _is_sure(one: Expected) -> bool:

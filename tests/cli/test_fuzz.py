@@ -14,7 +14,7 @@ LINES = [
     'title = "Good"', 'layout = "grid"', 'layout = "points"', 'kind = "map"', 'outputs = ["pull_off_force"]', "[parameters]",
     "k = [0.0, 0.5]", "k = 1", "nu = 0.3", "nu = [0.5, 0.4]", "modulus = 500.0", "c0_over_R = 0.01", "A = 0.1",
     'lambda_over_R = { start = 0.1, stop = 0.5, num = 3, spacing = "log" }', "lambda_over_R = [0.1, 0.2]",
-    'kind = "curve"', 'outputs = ["path", "load"]', "a_max_over_a2 = [1.0, 2.0]", 'solver = ["exact", "envelope"]',
+    'kind = "curve"', 'outputs = ["path", "load"]', "a_max_over_a2 = [1.0, 2.0]", "chi = [0.1, 0.2]", "lambda_over_L = 0.3", 'solver = ["exact", "envelope"]',
     "a_max_over_R = inf", "[method]", 'solver = "exact"', "[parameters.k]", "start = 0.1", "[[outputs]]", "outputs = []",
 ]  # fmt: skip
 PIECES = [

@@ -104,7 +104,7 @@ MISTAKES = {
     "no radius": (
         "a_max_over_R = inf\n",
         "",
-        r":6: parameters.a_max_over_R: .*required; .* a_max_over_R = inf, or instead .* a_max_over_a2 = 2.0",
+        r":6: parameters.a_max_over_R: .*required; .* a_max_over_R = inf, or instead a_max_over_L = 5.0 or a_max_over_a2 = 2.0",
     ),
     "radius misspelt": (
         "a_max_over_R",
@@ -117,6 +117,15 @@ MISTAKES = {
         "a_max_over_a2 = { start = 1.0, stop = inf, num = 2 }",
         r":13: .*a2.stop = inf: a range must end at finite values",
     ),
+    "wavelength twice": (
+        "A = 0.1",
+        "A = 0.1\nlambda_over_L = [0.1, 0.2]",
+        r":13: parameters.lambda_over_L = \[0.1, 0.2\]: lambda_over_R gives the wavelength already; keep one",
+    ),
+    "amplitude twice": ("A = 0.1", "A = 0.1\nchi = 0.5", r":13: parameters.chi = 0.5: A gives the amplitude already"),
+    "no amplitude": ("A = 0.1\n", "", r":6: parameters.A: .*required; write for example A = 0.1, or instead chi = 0.5"),
+    "ratio out of range": ("A = 0.1", "chi = -0.1", r":12: parameters.chi = -0.1: out of range; .*chi >= 0"),
+    "ratio not finite": ("A = 0.1", "chi = inf", r":12: parameters.chi = inf: out of range; .*chi >= 0, and finite"),
     "layout unknown": ('layout = "grid"', 'layout = "gird"', r':3: layout = "gird": .*did you mean "grid"'),
     "outputs no list": ('["pull_off_force"]', '"pull_off_force"', r':4: outputs = "pull_off_force": .*a list'),
     "outputs empty": ('["pull_off_force"]', "[]", r":4: outputs = \[\]: the list is empty"),

@@ -1,0 +1,150 @@
+"""Scenes given in other variables than those of `solve`: in reduced ones, or in SI units.
+
+Each of the parameters of `solve` may be left out where others tell it:
+
+    modulus         R, E_star, work_of_adhesion     E* R/dgamma
+    c0_over_R       c0, R
+    lambda_over_R   lambda_over_L                   times L/R of similarity.py
+                    wavelength, R
+    A               chi                             r/s of similarity.py
+                    amplitude                       over the wavelength
+    a_max_over_R    a_max_over_L                    times L/R
+                    a_max_over_a2                   times a_2/R of jump_in_radius.py
+                    a_max, R
+
+R, c0, wavelength, amplitude and a_max are in m, E_star in Pa, work_of_adhesion in J/m^2.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gradhesion.core.jump_in_radius import jump_in_radius_of_envelope
+from gradhesion.core.similarity import amplitude_of_ratio, similarity_length
+from gradhesion.core.sweep import PARAMETERS
+
+_Array = NDArray[np.float64]
+_MATERIAL: Final = PARAMETERS[:4]
+
+WAYS: Final[dict[str, dict[str, tuple[str, ...]]]] = {
+    "modulus": {"E_star": ("R", "work_of_adhesion")},
+    "c0_over_R": {"c0": ("R",)},
+    "lambda_over_R": {"lambda_over_L": _MATERIAL, "wavelength": ("R",)},
+    "A": {"chi": PARAMETERS[:5], "amplitude": ("R", "lambda_over_R")},
+    "a_max_over_R": {"a_max_over_L": _MATERIAL, "a_max_over_a2": PARAMETERS[:6], "a_max": ("R",)},
+}
+"""By what a parameter can be told, and what else that takes; in the order in which they follow from one another."""
+
+_FOLLOWS: Final[dict[str, Callable[..., Any]]] = {
+    "E_star": lambda E_star, R, work_of_adhesion: E_star * R / work_of_adhesion,
+    "c0": lambda c0, R: c0 / R,
+    "lambda_over_L": lambda ratio, *material: ratio * similarity_length(*material),
+    "wavelength": lambda wavelength, R: wavelength / R,
+    "chi": lambda chi, k, nu, modulus, c0, wavelength: amplitude_of_ratio(k, nu, modulus, c0, wavelength, chi),
+    "amplitude": lambda amplitude, R, lambda_over_R: amplitude / R / lambda_over_R,
+    "a_max_over_L": lambda ratio, *material: ratio * similarity_length(*material),
+    "a_max_over_a2": lambda ratio, *others: ratio * jump_in_radius_of_envelope(*others),
+    "a_max": lambda a_max, R: a_max / R,
+}
+
+
+def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
+    """Return the parameters of `solve`, those that are not given made from what is.
+
+    Parameters
+    ----------
+    given
+        Arrays by name, all broadcastable: for each parameter of `solve` itself, or one of those above in its place.
+        Others that are no such way (machine_stiffness) stay as they are; R, E_star and the like are left out.
+
+    Returns
+    -------
+    An array for each parameter, over the axes that it depends on. What is out of range or does not exist (a_2 for
+    r >= s) is NaN. Accurate to a few units in the last place, but for a_2 (see there).
+
+    Raises
+    ------
+    ValueError
+        For a parameter that nothing given tells.
+
+    Examples
+    --------
+    A probe of an atomic force microscope, and the same in numbers:
+
+    >>> probe = dict(R=1e-6, E_star=1e9, work_of_adhesion=0.05, c0=1e-8, wavelength=1e-7, a_max=math.inf)
+    >>> made = parameters_from(dict(k=0.5, nu=0.3, A=0.02) | probe)
+    >>> {name: round(float(values), 9) for name, values in made.items()}
+    {'k': 0.5, 'nu': 0.3, 'modulus': 20000.0, 'c0_over_R': 0.01, 'lambda_over_R': 0.1, 'A': 0.02, 'a_max_over_R': inf}
+    """
+    known = {name: np.asarray(values, dtype=float) for name, values in given.items()}
+    for parameter in PARAMETERS:
+        if parameter not in known:
+            way, needed = _way(parameter, known)
+            with np.errstate(all="ignore"):  # what overflows has no value
+                known[parameter] = np.asarray(_FOLLOWS[way](known[way], *(known[name] for name in needed)))
+    ways = {name for alternatives in WAYS.values() for way, needed in alternatives.items() for name in (way, *needed)}
+    return {name: known[name] for name in (*PARAMETERS, *(name for name in given if name not in {*ways, *PARAMETERS}))}
+
+
+def sources_of(parameter: str, given: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the names of what is given that a parameter of `solve` follows from.
+
+    Parameters
+    ----------
+    parameter
+        One of `PARAMETERS`.
+    given
+        As in `parameters_from`; only its names count.
+
+    Returns
+    -------
+    Names out of `given`; the parameter alone if it is given itself.
+
+    Raises
+    ------
+    ValueError
+        For a parameter that nothing given tells.
+
+    Examples
+    --------
+    >>> sources_of("lambda_over_R", dict.fromkeys(["k", "nu", "modulus", "c0", "R", "lambda_over_L"]))
+    ('lambda_over_L', 'k', 'nu', 'modulus', 'c0', 'R')
+    """
+    if parameter in given:
+        return (parameter,)
+    way, needed = _way(parameter, given)
+    return tuple(dict.fromkeys([way, *(source for name in needed for source in sources_of(name, given))]))
+
+
+def _way(parameter: str, given: Mapping[str, Any]) -> tuple[str, tuple[str, ...]]:
+    """Return by what a parameter is told, and what else that takes."""
+    for way, needed in WAYS.get(parameter, {}).items():
+        if way in given:
+            return way, needed
+    raise ValueError(f"{parameter} is not given, nor is one of {', '.join(WAYS.get(parameter, {})) or 'its kin'}")
+
+
+def scales_in_si(R: ArrayLike, work_of_adhesion: ArrayLike) -> dict[str, _Array]:
+    """Return the units of results in SI: of a force 1.5 pi R dgamma, an energy R^2 dgamma, a length R.
+
+    Parameters
+    ----------
+    R
+        Radius of the punch at its tip in m, > 0.
+    work_of_adhesion
+        dgamma in J/m^2, > 0.
+
+    Returns
+    -------
+    Arrays by the unit "N", "J" and "m".
+
+    Examples
+    --------
+    >>> scales_in_si(2.0, 0.25)["J"].item()
+    1.0
+    """
+    radius, work = np.asarray(R, dtype=float), np.asarray(work_of_adhesion, dtype=float)
+    return {"N": 1.5 * math.pi * radius * work, "J": radius * radius * work, "m": radius}
