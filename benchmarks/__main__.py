@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Iterator
 from datetime import UTC, datetime
 
-from benchmarks import draw, error, functions, scenes, start_up, study
+from benchmarks import contact, draw, error, functions, scenes, start_up, study
 from benchmarks.clock import ROOT, machine
 
 REPORT = ROOT / "docs" / "benchmarks.md"
@@ -74,6 +74,12 @@ shared; where the rim ends it, and the last jump, are each rim's own.
 {by_rims}"""
     scenes.picture(waves, rims, scenes.numbers())
     yield "![Cost against the number of waves, of scenes and of rims](figures/cost.png)\n"
+    yield f"""### Is the contact one disc?
+
+The rigorous test of `docs/theory.md`, section 12, on the same mixtures. Free tests (r/s up to 1/2 above all) and the
+depths of the path decide some of the scenes, the integral of the gap the others. Aim: 30 % at most.
+
+{contact.contact_table(20_000 if quick else 200_000, 200 if quick else 2000)}"""
     if not quick:
         yield f"### A large study\n\nAims: 20 s, 1 GiB.\n\n{study.study_sentence()}"
     yield f"## Start-up\n\nMedians, the first run apart. Aims: 0.15 s, 1.5 s, 30 s.\n\n{start_up.start_up_table()}"

@@ -1,0 +1,68 @@
+"""The cost of the test whether the contact is one disc, and how many scenes need its integral."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from benchmarks.clock import seconds_of, table
+from benchmarks.draw import mixture
+from gradhesion.core import contact, solve
+from gradhesion.core.branches import ROWS
+from gradhesion.core.cycle import extent, is_long, walk
+from gradhesion.core.material import stiffness
+from gradhesion.core.status import LOADING_NOT_ONE_DISC
+from gradhesion.core.sweep import table_of
+
+BOTH = ("pull_off_force", "dissipated_energy")
+
+
+def integrals(scenes: dict[str, Any]) -> float:
+    """Return the share of scenes for which an integral of the gap is taken (the kernel run as plain Python)."""
+    calls = [0]
+    compiled = contact.least_opening
+
+    def counted(*arguments: Any) -> float:
+        calls[0] += 1
+        return float(compiled(*arguments))
+
+    needed, number = 0, scenes["k"].size
+    contact.least_opening = counted
+    try:
+        for i in range(number):
+            one = {name: float(np.broadcast_to(values, number)[i]) for name, values in scenes.items()}
+            k, wavelength = one["k"], one["lambda_over_R"]
+            stretch = math.sqrt(
+                2 ** (1 + k) * math.pi / float(stiffness(k, one["nu"], one["modulus"], one["c0_over_R"]))
+            )
+            length = wavelength / (2 * math.pi)
+            unit = stretch * length ** (0.5 * (1 - k))
+            curve = (2 * length**2 / ((1 + k) * unit), one["A"] * wavelength / unit, 0.0)
+            arches, rim = extent(table_of(k), curve), one["a_max_over_R"] / wavelength
+            if curve[1] == 0.0 or is_long(table_of(k), arches, rim):
+                continue
+            count, trace = walk(table_of(k), curve, arches, rim, np.empty((ROWS, 400)), losses=False)
+            before = calls[0]
+            contact.disc_limits.py_func(np.array(table_of(k)).view(np.recarray)[()], curve, count, trace, rim)
+            needed += calls[0] > before
+    finally:
+        contact.least_opening = compiled
+    return needed / number
+
+
+def contact_table(number: int = 200_000, sample: int = 2000) -> str:
+    """Return cost and shares on both mixtures."""
+    lines = []
+    for name, spacing in [("log-uniform lambda/L", "log"), ("uniform lambda/L", "linear")]:
+        scenes = mixture(number, spacing)
+        without, with_it = math.inf, math.inf
+        for _ in range(9):  # in turns, for a machine that others use too
+            without = min(
+                without, seconds_of(lambda s=scenes: solve(s, BOTH, check_contact=False, threads=1), repeat=1)
+            )
+            with_it = min(with_it, seconds_of(lambda s=scenes: solve(s, BOTH, threads=1), repeat=1))
+        flagged = np.mean((solve(scenes, BOTH)["status"] & LOADING_NOT_ONE_DISC) != 0)
+        share = integrals(mixture(sample, spacing))
+        lines.append([name, f"{100 * (with_it / without - 1):.0f} %", f"{100 * share:.0f} %", f"{100 * flagged:.0f} %"])
+    header = ["force and energy", "the test costs", "scenes that take the integral", "not one disc on loading"]
+    return table(header, lines)
