@@ -60,6 +60,8 @@ _FURTHEST: Final = 1e300
 _HALVINGS: Final = 200
 MOST_ARCHES: Final = 2.0e9
 """Arches up to which the phase of a radius is told well enough to walk there."""
+NEGLIGIBLE: Final = 2.0**-56
+"""Gain over bend below which waviness is lost in rounding: its share of the depth is at most 2 g/((1+k) b)."""
 NEAR_RIM: Final = 10.0
 """Waves walked before the rim, or before the folds end."""
 

@@ -12,7 +12,7 @@ from gradhesion.core import smooth
 from gradhesion.core._jit import kernel
 from gradhesion.core.contact import disc_limits, is_one_disc
 from gradhesion.core.curve import Curve, depth
-from gradhesion.core.cycle import LARGEST, SMALLEST, extent, is_long, is_smooth, is_unresolved, stride, walk
+from gradhesion.core.cycle import LARGEST, NEGLIGIBLE, SMALLEST, extent, is_long, is_smooth, is_unresolved, stride, walk
 from gradhesion.core.folds import CLOSE
 from gradhesion.core.loading import highest_depth, jumps_in_to, loading_to
 from gradhesion.core.pull_off import lowest_load
@@ -57,8 +57,10 @@ def _solve_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: An
             put(out, slots, UNLOADING, i, unloading_jumps)
             put(out, slots, LAST, i, depth_scale * last)
         if slots[DEEPEST] >= 0:
-            deepest = max(0.0, smooth.smooth_depth(k, z_rim)) if z_rim < math.inf else math.inf
-            put(out, slots, DEEPEST, i, depth_scale * deepest)
+            deepest = depth_scale * max(0.0, smooth.smooth_depth(k, z_rim))
+            if z_rim > LARGEST:  # its square may overflow, and nothing else counts
+                deepest = rims[i] * rims[i] / (1.0 + k)
+            put(out, slots, DEEPEST, i, deepest)
         if wants_folds(slots) and z_rim < constants[1]:
             status[i] |= JUMP_IN_TO_RIM
 
@@ -189,6 +191,9 @@ def solve_curve(
     length = wavelength / TWO_PI
     depth_scale = stretch * length ** (0.5 * (1.0 - k))
     curve = (2.0 * length * length / ((1.0 + k) * depth_scale), amplitude * wavelength / depth_scale, 0.0)
+    if curve[1] <= NEGLIGIBLE * curve[0]:  # a wave so long that its curvature is below rounding
+        _solve_smooth(k, constants, stretch, rims, slots, out, status)
+        return
     if not (0.0 < curve[0] < LARGEST and curve[1] < LARGEST):  # powers of them would overflow
         out[:, :] = math.nan
         status[:] = NO_VALUE

@@ -19,6 +19,10 @@ SMALL = {
     "fig4a": ("lambda_over_R={ start = 0.1, stop = 0.8, num = 29 }",),
     "fig4b": ("lambda_over_R={ start = 0.1, stop = 0.8, num = 29 }",),
     "fig4c": ("a_max_over_R={ start = 0.02, stop = 0.8, num = 40 }",),
+    "fig9": (
+        'lambda_over_R={ start = 0.0001, stop = 0.01, num = 5, spacing = "log" }',
+        "A={ start = 0.0, stop = 0.15, num = 4 }",
+    ),
     "fig9a": ("A={ start = 0.0, stop = 0.15, num = 7 }",),
     "fig9b": ('lambda_over_R={ start = 0.0001, stop = 0.01, num = 7, spacing = "log" }',),
 }

@@ -234,3 +234,12 @@ def test_fig9b_the_energy_falls_with_the_exponent_and_tends_to_that_of_the_envel
     assert (share < 1).all()
     assert (share.isel(lambda_over_R=0) > 0.95).all()
     assert (share.isel(lambda_over_R=0) > share.isel(lambda_over_R=-1)).all()
+
+
+def test_fig9_without_waves_the_energy_is_that_of_the_smooth_punch(computed: Compute) -> None:
+    """At A = 0 the wavelength is nothing, and both solvers give the closed form: 7.0922 at k = 0."""
+    lost = computed("fig9")["dissipated_energy"]
+    still = lost.sel(A=0.0, k=0.0) * 500.0 ** (2 / 3)
+    assert still.values.ravel().tolist() == pytest.approx([7.0922] * still.size, abs=5e-5)
+    assert (lost.sel(solver="exact").diff("k") < 0).all()
+    assert (lost.sel(solver="envelope").isel(A=slice(1, None)).diff("lambda_over_R") > 0).all()
