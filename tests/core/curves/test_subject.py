@@ -95,8 +95,13 @@ def test_out_of_range(wrong: dict[str, float], scene: dict[str, float]) -> None:
     assert subject_of(scene | wrong) is None
 
 
-def test_a_wave_too_long_for_the_tables(scene: dict[str, float]) -> None:
-    assert subject_of(scene | {"lambda_over_R": 1e200}) is None
+def test_a_wave_too_long_for_the_tables_is_none(scene: dict[str, float]) -> None:
+    """Its curvature, 4 pi^2 A/lambda, is nothing beside 1/R."""
+    long, smooth = subject_of(scene | {"lambda_over_R": 1e200}), subject_of(scene | {"A": 0.0})
+    assert long is not None
+    assert smooth is not None
+    np.testing.assert_array_equal(long.trace, smooth.trace)
+    assert subject_of(scene | {"lambda_over_R": 1e200, "A": 1e250}) is None
 
 
 def test_scales(scene: dict[str, float]) -> None:
