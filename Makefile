@@ -18,6 +18,9 @@ test: build/tested ## lint, types and tests
 stress: .venv/installed ## the long form of the stress suite (minutes)
 	.venv/bin/python -m tests.stress.long
 
+faults: .venv/installed ## kill runs at 200 random moments and at every rename, and go on with them (a minute)
+	.venv/bin/python -m tests.faults.trials --random 200
+
 bench: .venv/installed ## measure time and error (minutes), and write docs/benchmarks.md and its figures
 	.venv/bin/python -m benchmarks
 
@@ -60,4 +63,4 @@ build/tested: $(checked) .venv/installed | build/types/gradhesion
 	.venv/bin/pytest
 	touch $@
 
-.PHONY: help maps figures docs-figures test stress bench clean
+.PHONY: help maps figures docs-figures test stress faults bench clean

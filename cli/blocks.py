@@ -1,8 +1,9 @@
 """How the scenes of a study are cut into blocks, and the blocks solved one ahead of whoever takes them."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor, wait
+from functools import partial
 from itertools import product
 from typing import Any, Final, TypeVar
 
@@ -45,6 +46,14 @@ def chunk_shape(shape: tuple[int, ...]) -> tuple[int, ...]:
     return tile(shape, CHUNK)
 
 
+def _cuts(shape: tuple[int, ...]) -> list[range]:
+    """Tell where the blocks of a shape begin along each axis; the steps are their lengths."""
+    chunk = chunk_shape(shape)
+    counts = tuple(-(-length // part) for length, part in zip(shape, chunk, strict=True))
+    steps = [n * part for n, part in zip(tile(counts, CHUNKS_OF_BLOCK), chunk, strict=True)]
+    return [range(0, length, step) for length, step in zip(shape, steps, strict=True)]
+
+
 def blocks(shape: tuple[int, ...]) -> Iterator[Block]:
     """
     Cut a shape into blocks of whole chunks, so that no chunk is written twice.
@@ -52,14 +61,18 @@ def blocks(shape: tuple[int, ...]) -> Iterator[Block]:
     >>> [block[0] for block in blocks((5, 131_072))]
     [slice(0, 2, None), slice(2, 4, None), slice(4, 5, None)]
     """
-    chunk = chunk_shape(shape)
-    counts = tuple(-(-length // part) for length, part in zip(shape, chunk, strict=True))
-    steps = [n * part for n, part in zip(tile(counts, CHUNKS_OF_BLOCK), chunk, strict=True)]
-    cuts = [
-        [slice(start, min(start + step, length)) for start in range(0, length, step)]
-        for length, step in zip(shape, steps, strict=True)
-    ]
+    cuts = [[slice(start, min(start + cut.step, cut.stop)) for start in cut] for cut in _cuts(shape)]
     yield from product(*cuts)
+
+
+def count_of(shape: tuple[int, ...]) -> int:
+    """
+    Count the blocks of a shape.
+
+    >>> count_of((5, 131_072)), count_of(())
+    (3, 1)
+    """
+    return math.prod(map(len, _cuts(shape)))
 
 
 def size_of(block: Block) -> int:
@@ -92,21 +105,26 @@ def solve_block(study: Study, block: Block, threads: int | None) -> dict[str, ND
 
 
 def solved(study: Study, threads: int | None = None) -> Iterator[tuple[Block, dict[str, NDArray[Any]]]]:
-    """
-    Solve a study block by block: the values of each block and its `status`.
+    """Solve a study block by block: the values of each block and its `status`."""
 
-    The next block is solved in a thread of its own while the caller deals with this one; two blocks are in memory.
-    """
+    def task(block: Block) -> tuple[Block, dict[str, NDArray[Any]]]:
+        return block, solve_block(study, block, threads)
+
+    yield from one_ahead(partial(task, block) for block in blocks(study.shape))
+
+
+def one_ahead(tasks: Iterable[Callable[[], _T]]) -> Iterator[_T]:
+    """Run tasks in a thread of their own, each while the caller deals with the one before; two are in memory."""
     worker = ThreadPoolExecutor(1, thread_name_prefix="solve")
     try:
-        ahead = None
-        for block in blocks(study.shape):
-            future = worker.submit(solve_block, study, block, threads)
+        ahead: Future[_T] | None = None
+        for task in tasks:
+            future = worker.submit(task)
             if ahead is not None:
-                yield ahead[0], awaited(ahead[1])
-            ahead = block, future
+                yield awaited(ahead)
+            ahead = future
         if ahead is not None:
-            yield ahead[0], awaited(ahead[1])
+            yield awaited(ahead)
     finally:
         worker.shutdown(wait=False, cancel_futures=True)
 

@@ -9,6 +9,7 @@ BURST: Final = 1.0
 """Seconds in which further signals are taken for the first one, so that they do not disturb the tidying up."""
 
 _heard: list[float] = []
+_kept: list[str] = []
 
 
 def listen() -> None:
@@ -28,6 +29,16 @@ def check() -> None:
     """Raise KeyboardInterrupt if a signal has come."""
     if heard():
         raise KeyboardInterrupt
+
+
+def keep(sentence: str) -> None:
+    """Note what an interrupt has left, for the last words of the program."""
+    _kept[:] = [sentence]
+
+
+def last_words() -> str:
+    """Tell what an interrupt has left."""
+    return f"interrupted; {_kept[0] if _kept else 'no output is left half-written'}"
 
 
 def _hear(_number: int, _frame: FrameType | None) -> None:

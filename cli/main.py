@@ -60,7 +60,7 @@ def _code_of(error: BaseException) -> int:
     # What an interrupt breaks can look like anything, an ImportError for one.
     if interrupts.heard() or isinstance(error, KeyboardInterrupt | click.Abort):
         with suppress(BrokenPipeError):
-            click.echo("interrupted; no output is left half-written", err=True)
+            click.echo(interrupts.last_words(), err=True)
         return INTERRUPTED
     if isinstance(error, click.ClickException):
         with suppress(BrokenPipeError):

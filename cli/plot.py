@@ -21,9 +21,9 @@ def plot(file: Path, output: Path | None, variables: tuple[str, ...], overwrite:
         raise click.UsageError(f"{path}: the name of a picture ends in .png, .svg or .pdf; name another with -o")
 
     from gradhesion.cli.curve_picture import drawn_curves
+    from gradhesion.cli.disk import replacement, writing
     from gradhesion.cli.picture import drawn, save
     from gradhesion.cli.reader import has_curves, opened
-    from gradhesion.cli.writer import replacement, writing
 
     with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
         figure = (drawn_curves if has_curves(dataset) else drawn)(dataset, variables)

@@ -4,19 +4,27 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Final
+from typing import Final, Protocol
 
 import click
+
+
+class Advance(Protocol):
+    """Counts scenes that are done, or were done before."""
+
+    def __call__(self, scenes: int, /, *, reused: bool = False) -> None:
+        """Count them."""
+
 
 PERIOD: Final = 10.0
 """Seconds between two plain lines."""
 
 
 @contextmanager
-def progress(total: int, *, quiet: bool) -> Iterator[Callable[[int], None]]:
+def progress(total: int, *, quiet: bool) -> Iterator[Advance]:
     """Show how many of `total` scenes are done: call what is given with the number of newly done ones."""
     if quiet:
-        yield lambda _: None
+        yield lambda _, **__: None
     elif sys.stderr.isatty():
         with _bar(total) as advance:
             yield advance
@@ -25,7 +33,7 @@ def progress(total: int, *, quiet: bool) -> Iterator[Callable[[int], None]]:
 
 
 @contextmanager
-def _bar(total: int) -> Iterator[Callable[[int], None]]:
+def _bar(total: int) -> Iterator[Advance]:
     """Draw a bar with rate and time left."""
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
@@ -38,32 +46,33 @@ def _bar(total: int) -> Iterator[Callable[[int], None]]:
         TimeRemainingColumn(),
     )
     start = time.monotonic()
-    done = 0
+    solved = 0
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("scenes", total=total, rate="")
 
-        def advance(scenes: int) -> None:
-            nonlocal done
-            done += scenes
-            bar.update(task, advance=scenes, rate=f"{rate(done, time.monotonic() - start)} per s")
+        def advance(scenes: int, /, *, reused: bool = False) -> None:
+            nonlocal solved
+            solved += 0 if reused else scenes
+            bar.update(task, advance=scenes, rate=f"{rate(solved, time.monotonic() - start)} per s")
 
         yield advance
 
 
-def _lines(total: int, clock: Callable[[], float]) -> Callable[[int], None]:
+def _lines(total: int, clock: Callable[[], float]) -> Advance:
     """Print a plain line when the last one is `PERIOD` seconds old."""
     start = last = clock()
-    done = 0
+    done = solved = 0
 
-    def advance(scenes: int) -> None:
-        nonlocal done, last
+    def advance(scenes: int, /, *, reused: bool = False) -> None:
+        nonlocal done, solved, last
         done += scenes
+        solved += 0 if reused else scenes
         now = clock()
         if now - last >= PERIOD and done < total:
             last = now
-            left = (now - start) * (total - done) / done
-            speed = rate(done, now - start)
-            click.echo(f"{done:,} of {total:,} scenes ({done / total:.0%}), {speed} per s, {left:.0f} s left", err=True)
+            left = f"{(now - start) * (total - done) / solved:.0f} s" if solved else "some time"
+            speed = rate(solved, now - start)
+            click.echo(f"{done:,} of {total:,} scenes ({done / total:.0%}), {speed} per s, {left} left", err=True)
 
     return advance
 

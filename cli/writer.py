@@ -1,23 +1,27 @@
-"""Files that appear whole or not at all, and the dataset of a study written block by block."""
+"""The dataset of a study, written block by block, and the blocks kept until it is complete."""
 
 import os
-import secrets
 import shutil
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, suppress
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NoReturn
 
 import netCDF4
-import numpy as np
 
 from gradhesion.cli import dataset
-from gradhesion.cli.blocks import blocks, chunk_shape, size_of
+from gradhesion.cli.blocks import blocks, chunk_shape, count_of, size_of
 from gradhesion.cli.curves import within
-from gradhesion.cli.errors import OutputError
+from gradhesion.cli.disk import bytes_in_words, refuse_existing, to_disk, writing
+from gradhesion.cli.errors import OutputError, ScenesFailedError
+from gradhesion.cli.folder import Folder, claimed, folder_of, identity, read_json, write_json
+from gradhesion.cli.manifest import adopt, manifest_of
 from gradhesion.cli.names import RAGGED
+from gradhesion.cli.parts import types_of
+from gradhesion.cli.resume import Solved, has_parts, place_of, results
+from gradhesion.cli.state import Keeper
 from gradhesion.cli.study import Study
-from gradhesion.core import FAILED
 
 LEAST_SHARE: Final = 0.1
 """Values hardly compress to less than this share: what cannot fit is refused before it is begun."""
@@ -26,50 +30,19 @@ POINTS: Final = 1024
 """Points of a curve in a chunk: most curves have fewer, and unwritten chunks take no room."""
 
 
-@contextmanager
-def writing(path: Path) -> Iterator[None]:
-    """Turn a failure to write into a sentence about `path`."""
-    try:
-        yield
-    except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError where HDF5 cannot write
-        raise OutputError(_reason(path, error)) from error
+@dataclass(frozen=True, kw_only=True)
+class Written:
+    """What has become of a study."""
 
-
-@contextmanager
-def replacement(path: Path, *, overwrite: bool) -> Iterator[Path]:
-    """
-    Give a temporary file beside `path` that takes its place, complete and on disk, when the body ends.
-
-    If the body fails, or is interrupted, the temporary file goes and what stood at `path` is as it was.
-
-    Raises
-    ------
-    OutputError
-        At once, if `path` exists and may not be replaced or its folder cannot be written; later, if it cannot be
-        finished.
-    """
-    target = Path(os.path.realpath(path))
-    with writing(path):
-        exists, is_file = target.exists(), target.is_file()
-    if exists and not is_file:
-        raise OutputError(f"{path}: is not a file, so it cannot be replaced; name another output with -o")
-    if exists and not overwrite:
-        raise OutputError(f"{path}: exists already; add --overwrite to replace it, or name another output with -o")
-    # Its name is known before it is made, so that no interrupt comes between the two and leaves it behind.
-    temporary = target.with_name(f".{target.name[:100]}.{secrets.token_hex(8)}.part{target.suffix}")
-    try:
-        with writing(path):
-            target.parent.mkdir(parents=True, exist_ok=True)
-            temporary.touch(exist_ok=False)
-        yield temporary
-        with writing(path):
-            _to_disk(temporary)
-            temporary.replace(target)
-        with suppress(OSError):  # some file systems cannot sync a folder
-            _to_disk(target.parent)
-    finally:
-        with suppress(OSError):
-            temporary.unlink(missing_ok=True)
+    failed: int = 0
+    """Scenes without value."""
+    reused: int = 0
+    computed: int = 0
+    """Blocks."""
+    raised: tuple[str, ...] = ()
+    """A sentence for each block that could not be solved."""
+    complete: bool = False
+    """Whether an earlier run had written it, and was killed before it could say so."""
 
 
 def write(
@@ -78,39 +51,136 @@ def write(
     *,
     history: str,
     overwrite: bool = False,
+    fresh: bool = False,
+    fail_fast: bool = False,
     threads: int | None = None,
-    advance: Callable[[int], None] = lambda _: None,
-) -> int:
+    advance: Callable[..., None] = lambda *_, **__: None,
+) -> Written:
     """
     Compute a study into a file; `advance` is told the scenes of each block when they are written.
 
-    Returns
-    -------
-    The number of scenes that have failed.
+    The file takes the place of `path` when it is complete and on disk. Until then each finished block of a map of
+    several is a part of its own, which the next call reuses.
+
+    Parameters
+    ----------
+    fresh
+        Drop the parts of an earlier run.
+    fail_fast
+        End at the first block with a failed scene.
+
+    Raises
+    ------
+    OutputError
+        It cannot be written: it exists, another run is at work on it, parts of another study are kept, the disk.
+    ScenesFailedError
+        No block could be solved, or one has failed and `fail_fast`.
     """
-    failed = 0
-    with replacement(path, overwrite=overwrite) as temporary:
-        _check_space(study, path, temporary)
+    target = Path(os.path.realpath(path))
+    if not os.path.isdir(folder_of(path).path):  # noqa: PTH112 (never an error, whatever the name)
+        refuse_existing(path, target, overwrite=overwrite)
+    with ExitStack() as stack:
         with writing(path):
-            file = netCDF4.Dataset(temporary, "w", format="NETCDF4")
-        try:
+            folder = stack.enter_context(claimed(path))
+            done = _finished(folder, target, study)
+        if done is not None and not fresh:
+            return done
+        refuse_existing(path, target, overwrite=overwrite)
+        with writing(path):
+            if fresh:
+                folder.clear()
+            adopt(study, folder, path)
+        _check_space(study, path, folder)
+        written = _merge(study, path, folder, history, threads, advance, fail_fast=fail_fast)
+        with writing(path):
+            to_disk(folder.merged)
+            if not written.raised:
+                finished = {"file": identity(folder.merged), "study": manifest_of(study), "failed": written.failed}
+                write_json(folder.finished, finished)
+            folder.merged.replace(target)
+        with suppress(OSError):  # some file systems cannot sync a folder
+            to_disk(target.parent)
+        if not written.raised:
+            folder.clear("*.part")
+    return written
+
+
+def _merge(
+    study: Study,
+    path: Path,
+    folder: Folder,
+    history: str,
+    threads: int | None,
+    advance: Callable[..., None],
+    *,
+    fail_fast: bool,
+) -> Written:
+    """Write the dataset in the making, block by block, as they are solved or found."""
+    count = count_of(study.shape) if study.kind == "map" else study.scenes
+    keeper = Keeper(folder.path / "state.json", scenes=study.scenes, blocks=count)
+    raised = []
+    with writing(path):
+        file = netCDF4.Dataset(folder.merged, "w", format="NETCDF4")
+    try:
+        with writing(path):
+            _define(file, study, history)
+        begun = 0  # items of ragged curves
+        for number, solved in _solved(study, path, folder, threads):
             with writing(path):
-                _define(file, study, history)
-            begun = 0  # items of ragged curves
-            for block, values in dataset.parts(study, threads):
-                with writing(path):
-                    for name, part in values.items():
-                        file[name][within(name, block, part, begun) or ...] = part
-                begun += sum(int(values[count].item()) for count in RAGGED.values() if count in values)
-                failed += int(np.count_nonzero(values["status"] & FAILED))
-                advance(size_of(block))
-        except BaseException:
-            with suppress(OSError, RuntimeError):  # what went wrong first counts
-                file.close()
-            raise
-        with writing(path):
+                for name, part in solved.values.items():
+                    file[name][within(name, solved.block, part, begun) or ...] = part
+            begun += sum(int(solved.values[one].item()) for one in RAGGED.values() if one in solved.values)
+            if solved.error:
+                raised.append(
+                    f"block {number + 1:,} of {count:,} ({place_of(study, solved.block)}) raised {solved.error}"
+                )
+            scenes, failed = size_of(solved.block), solved.failed
+            keeper.add(scenes=scenes, failed=failed, reused=solved.reused, raised=bool(solved.error))
+            if failed and fail_fast:
+                _give_up(path, raised, f"block {number + 1:,} of {count:,} has {failed:,} failed scenes")
+            advance(scenes, reused=solved.reused)
+        if len(raised) == count:
+            _give_up(path, raised, "")
+    except BaseException:
+        keeper.write()
+        with suppress(OSError, RuntimeError):  # what went wrong first counts
             file.close()
-    return failed
+        raise
+    with writing(path):
+        file.close()
+    state = keeper.state
+    return Written(
+        failed=state.scenes_failed,
+        reused=state.blocks_reused,
+        computed=state.blocks_done - state.blocks_reused,
+        raised=tuple(raised),
+    )
+
+
+def _give_up(path: Path, raised: list[str], otherwise: str) -> NoReturn:
+    """End a run in which a block has failed, or every one."""
+    raise ScenesFailedError(f"{path}: {raised[-1] if raised else otherwise}; nothing is written")
+
+
+def _solved(study: Study, path: Path, folder: Folder, threads: int | None) -> Iterator[tuple[int, Solved]]:
+    """Give the blocks of a study with their values; of curves each scene is one."""
+    if study.kind == "map":
+        yield from results(study, path, folder, threads)
+    else:
+        yield from ((i, Solved(*drawing)) for i, drawing in enumerate(dataset.parts(study, threads)))
+
+
+def _finished(folder: Folder, target: Path, study: Study) -> Written | None:
+    """Tell whether the run that left this folder had written the output, and tidy up if so."""
+    finished = read_json(folder.finished)
+    if not isinstance(finished, dict):
+        return None
+    if finished.get("file") != identity(target):
+        folder.clear("finished.json")
+        return None
+    folder.clear()
+    same = finished.get("study") == manifest_of(study)
+    return Written(failed=int(finished.get("failed", 0)), complete=True) if same else None
 
 
 def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
@@ -147,45 +217,15 @@ def _chunks(dimensions: tuple[netCDF4.Dimension, ...]) -> tuple[int, ...]:
     return chunk_shape(tuple(map(len, dimensions)))
 
 
-def _check_space(study: Study, path: Path, temporary: Path) -> None:
-    """Refuse a dataset that cannot fit on its disk."""
+def _check_space(study: Study, path: Path, folder: Folder) -> None:
+    """Refuse a dataset that cannot fit on its disk, with its parts."""
     least = study.scenes * LEAST_SHARE * sum(8 for output in study.outputs if not output.endswith("_jumps"))
-    free = shutil.disk_usage(temporary.parent).free
+    if has_parts(study):
+        least += study.scenes * sum(kind.itemsize for kind in types_of(study).values())
+        least -= sum(part.stat().st_size for part in folder.parts())
+    free = shutil.disk_usage(folder.path).free
     if least > free:
         raise OutputError(
-            f"{path}: {study.scenes:,} scenes need {_bytes(least)} or more, and {_bytes(free)} are free there; "
-            "use fewer scenes, or name an output on a larger disk with -o"
+            f"{path}: {study.scenes:,} scenes need {bytes_in_words(least)} or more, and {bytes_in_words(free)} are "
+            "free there; use fewer scenes, or name an output on a larger disk with -o"
         )
-
-
-def _to_disk(path: Path) -> None:
-    """Wait until a file or folder is on disk."""
-    handle = os.open(path, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)
-
-
-def _reason(path: Path, error: Exception) -> str:
-    """Say why an output could not be written."""
-    reason = getattr(error, "strerror", None) or str(error)
-    with suppress(OSError, RuntimeError):
-        free = shutil.disk_usage(path.resolve().parent).free
-        if free < 2**20:
-            reason = f"{reason}; {_bytes(free)} are free on its disk"
-    return (
-        f"{path}: cannot be written ({reason}); what stood there before is untouched; "
-        "make room or get the right to write, or name another output with -o"
-    )
-
-
-def _bytes(number: float) -> str:
-    """
-    Write a number of bytes in the unit that fits.
-
-    >>> _bytes(2.5e9), _bytes(300)
-    ('2.5 GB', '0.3 kB')
-    """
-    unit, size = next((pair for pair in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6)) if number >= pair[1]), ("kB", 1e3))
-    return f"{number / size:,.1f} {unit}"

@@ -1,5 +1,6 @@
 """Adhesive contact of a wavy axisymmetric punch on a power-law graded half-space: arrays in, arrays out."""
 
+from gradhesion.core._jit import SOURCES
 from gradhesion.core.curves import CURVES, draw_curves
 from gradhesion.core.loading_control import CONTROLS, Loading
 from gradhesion.core.profile import Harmonic, Profile
@@ -19,6 +20,7 @@ __all__ = [
     "PARAMETERS",
     "REPORTS",
     "SOLVERS",
+    "SOURCES",
     "Harmonic",
     "Loading",
     "Profile",

@@ -19,14 +19,19 @@ _CORE: Final = Path(__file__).parent
 
 
 def _digest_of_sources() -> str:
-    digest = hashlib.sha256(str(_CORE).encode())
+    digest = hashlib.sha256()
     for source in sorted(_CORE.rglob("*.py")):
         digest.update(source.relative_to(_CORE).as_posix().encode())
         digest.update(source.read_bytes())
-    return digest.hexdigest()[:16]
+    return digest.hexdigest()
 
 
-CACHE_FOLDER: Final = Path(platformdirs.user_cache_dir("gradhesion")) / f"kernels-{_digest_of_sources()}"
+SOURCES: Final = _digest_of_sources()
+"""A digest of all sources of the core, wherever they stand: results of one are comparable bit by bit."""
+
+_PLACE: Final = hashlib.sha256(f"{_CORE}{SOURCES}".encode()).hexdigest()[:16]
+
+CACHE_FOLDER: Final = Path(platformdirs.user_cache_dir("gradhesion")) / f"kernels-{_PLACE}"
 """Where the compiled kernels of exactly these sources are kept (numba falls back to its own choice if it cannot)."""
 
 

@@ -11,14 +11,14 @@ from typing import Any
 
 import pytest
 
-from gradhesion.cli import writer
+from gradhesion.cli import disk
+from gradhesion.cli.disk import replacement
 from gradhesion.cli.errors import OutputError
-from gradhesion.cli.writer import replacement
 
 
 def is_of_interest(frame: FrameType) -> bool:
     """Tell where an interrupt is tried: at every line of ours, and of the making of a file."""
-    return frame.f_code.co_filename == writer.__file__ or frame.f_code is Path.touch.__code__
+    return frame.f_code.co_filename == disk.__file__ or frame.f_code is Path.touch.__code__
 
 
 @contextmanager

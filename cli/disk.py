@@ -1,0 +1,94 @@
+"""Files that appear whole or not at all, and failures to write told in a sentence."""
+
+import os
+import secrets
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from gradhesion.cli.errors import OutputError
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Turn a failure to write into a sentence about `path`."""
+    try:
+        yield
+    except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError where HDF5 cannot write
+        raise OutputError(_reason(path, error)) from error
+
+
+@contextmanager
+def replacement(path: Path, *, overwrite: bool) -> Iterator[Path]:
+    """
+    Give a temporary file beside `path` that takes its place, complete and on disk, when the body ends.
+
+    If the body fails, or is interrupted, the temporary file goes and what stood at `path` is as it was.
+
+    Raises
+    ------
+    OutputError
+        At once, if `path` exists and may not be replaced or its folder cannot be written; later, if it cannot be
+        finished.
+    """
+    target = Path(os.path.realpath(path))
+    refuse_existing(path, target, overwrite=overwrite)
+    # Its name is known before it is made, so that no interrupt comes between the two and leaves it behind.
+    temporary = target.with_name(f".{target.name[:100]}.{secrets.token_hex(8)}.part{target.suffix}")
+    try:
+        with writing(path):
+            target.parent.mkdir(parents=True, exist_ok=True)
+            temporary.touch(exist_ok=False)
+        yield temporary
+        with writing(path):
+            to_disk(temporary)
+            temporary.replace(target)
+        with suppress(OSError):  # some file systems cannot sync a folder
+            to_disk(target.parent)
+    finally:
+        with suppress(OSError):
+            temporary.unlink(missing_ok=True)
+
+
+def refuse_existing(path: Path, target: Path, *, overwrite: bool) -> None:
+    """Refuse to replace what is not a file, or was not to be replaced."""
+    with writing(path):
+        exists, is_file = target.exists(), target.is_file()
+    if exists and not is_file:
+        raise OutputError(f"{path}: is not a file, so it cannot be replaced; name another output with -o")
+    if exists and not overwrite:
+        raise OutputError(f"{path}: exists already; add --overwrite to replace it, or name another output with -o")
+
+
+def to_disk(path: Path) -> None:
+    """Wait until a file or folder is on disk."""
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
+
+
+def _reason(path: Path, error: Exception) -> str:
+    """Say why an output could not be written."""
+    reason = getattr(error, "strerror", None) or str(error)
+    with suppress(OSError, RuntimeError):
+        free = shutil.disk_usage(path.resolve().parent).free
+        if free < 2**20:
+            reason = f"{reason}; {bytes_in_words(free)} are free on its disk"
+    return (
+        f"{path}: cannot be written ({reason}); what stood there before is untouched; "
+        "make room or get the right to write, or name another output with -o"
+    )
+
+
+def bytes_in_words(number: float) -> str:
+    """
+    Write a number of bytes in the unit that fits.
+
+    >>> bytes_in_words(2.5e9), bytes_in_words(300)
+    ('2.5 GB', '0.3 kB')
+    """
+    unit, size = next((pair for pair in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6)) if number >= pair[1]), ("kB", 1e3))
+    return f"{number / size:,.1f} {unit}"

@@ -1,0 +1,109 @@
+"""The blocks of a study, taken from the parts of an earlier run where they are there, and solved where they are not."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from gradhesion.cli.blocks import Block, blocks, count_of, one_ahead, size_of, solve_block
+from gradhesion.cli.disk import writing
+from gradhesion.cli.folder import Folder
+from gradhesion.cli.parts import PartError, Values, key_of, read_part, types_of, write_part
+from gradhesion.cli.study import Study
+from gradhesion.core import FAILED, FLAGS
+
+ATTEMPTS: Final = 2
+"""Times that a block is tried: what raises twice, as for want of memory, hardly ends well a third time."""
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A block with its values."""
+
+    block: Block
+    values: Values
+    key: str = ""
+    """What its part depends on."""
+    reused: bool = False
+    error: str = ""
+    """Why it has none, if it raised each time."""
+
+    @property
+    def failed(self) -> int:
+        """The number of its scenes that have failed."""
+        return int(np.count_nonzero(self.values["status"] & FAILED))
+
+
+def has_parts(study: Study) -> bool:
+    """Tell whether the blocks of a study are kept in parts: one block is done or not."""
+    return study.kind == "map" and count_of(study.shape) > 1
+
+
+def results(
+    study: Study, path: Path, folder: Folder, threads: int | None = None, shard: tuple[int, int] = (1, 1)
+) -> Iterator[tuple[int, Solved]]:
+    """Give the blocks of a map in order, or of one shard, each with its number; those solved are kept as parts."""
+    kept = has_parts(study)
+
+    def task(number: int, block: Block) -> tuple[int, Solved]:
+        key = key_of(study, block) if kept else ""
+        values = found(study, folder, number, block, key) if kept else None
+        if isinstance(values, dict):
+            return number, Solved(block, values, key, reused=True)
+        values, error = attempted(study, block, threads)
+        return number, Solved(block, values, key, error=error)
+
+    index, count = shard
+    chosen = (item for item in enumerate(blocks(study.shape)) if item[0] % count == index - 1)
+    for number, solved in one_ahead(partial(task, *item) for item in chosen):
+        if kept and not (solved.reused or solved.error):
+            with writing(path):
+                write_part(folder.part(number), solved.key, solved.values, study)
+        yield number, solved
+
+
+def found(study: Study, folder: Folder, number: int, block: Block, key: str) -> Values | str:
+    """Read the part of a block, or tell why it is of no use."""
+    try:
+        return read_part(folder.part(number), key, study, block)
+    except FileNotFoundError:
+        return "not computed yet"
+    except OSError:
+        return "cannot be read"
+    except PartError as error:
+        return str(error)
+
+
+def attempted(study: Study, block: Block, threads: int | None) -> tuple[Values, str]:
+    """Solve a block, again if it raises; then its scenes have no value, and the error is told."""
+    reason = ""
+    for _ in range(ATTEMPTS):
+        try:
+            return solve_block(study, block, threads), ""
+        except Exception as error:  # noqa: BLE001 (its neighbours are not to be lost with it)
+            reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    return blank(study, block), reason
+
+
+def blank(study: Study, block: Block) -> Values:
+    """Make the values of a block that has none."""
+    shape = tuple(part.stop - part.start for part in block)
+    values = {
+        name: np.full(shape, np.nan if kind.kind == "f" else -1, kind)
+        for name, kind in types_of(study).items()
+        if name != "status"
+    }
+    return values | {"status": np.full(shape, FLAGS["no_value"], np.int8)}
+
+
+def place_of(study: Study, block: Block) -> str:
+    """Say which scenes a block has."""
+    axes = [
+        f"{name} {part.start}" + (f" to {part.stop - 1}" if part.stop - part.start > 1 else "")
+        for (name, size), part in zip(study.sizes.items(), block, strict=True)
+        if (part.start, part.stop) != (0, size)
+    ]
+    return f"{size_of(block):,} scenes" + (f", index {', '.join(axes)}" if axes else "")

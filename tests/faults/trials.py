@@ -1,0 +1,196 @@
+"""Runs that are killed at a moment of their life, and gone on with: what is lost, what is left behind.
+
+Each run is a process of its own, forked from one that has the kernels in memory, so that a trial takes a tenth of a
+second and not two. It is killed by SIGKILL before or after its n-th change of a name in the folder (a rename, an
+unlink, a removal of a folder), or by SIGKILL or SIGTERM at a random moment. Then the same command is run to its end.
+
+    python -m tests.faults.trials --random 100 --seed 7        (every change of a name, and 100 random moments)
+"""
+
+import argparse
+import os
+import random
+import shutil
+import signal
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import numpy as np
+
+from gradhesion.cli import blocks, interrupts
+from gradhesion.cli.dataset import compute
+from gradhesion.cli.main import main as gradhesion
+from gradhesion.cli.study import load_study
+
+STUDY = """\
+outputs = ["pull_off_force", "dissipated_energy", "loading_jumps"]
+[parameters]
+k = [0.0, 0.31]
+nu = 0.27
+modulus = 430.0
+c0_over_R = 0.013
+lambda_over_R = { start = 0.11, stop = 0.47, num = 3, spacing = "log" }
+A = [0.0, 0.023]
+a_max_over_R = [1.7, inf]
+"""
+OLD = b"precious"
+
+
+def values_of(path: Path) -> dict[str, bytes]:
+    """Read all bytes of all variables."""
+    with netCDF4.Dataset(path) as file:
+        file.set_auto_mask(False)
+        return {name: np.asarray(variable[...]).tobytes() for name, variable in file.variables.items()}
+
+
+def run(study: Path, output: Path, *options: str, before: Callable[[], None] = lambda: None) -> int:
+    """Start a run in a process of its own; `before` is called there first."""
+    pid = os.fork()
+    if pid:
+        return pid
+    try:
+        errors = os.open(output.parent.parent / "stderr", os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+        os.dup2(errors, 2)
+        sys.argv = ["gradhesion", "run", str(study), "-o", str(output), "--quiet", *options]
+        before()
+        gradhesion()
+    except SystemExit as ended:
+        os._exit(int(ended.code or 0))
+    finally:
+        os._exit(99)
+
+
+def ended(pid: int) -> int:
+    """Wait for a run; a signal that has killed it is negative."""
+    return os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
+
+
+def kill_at(number: int, *, after: bool) -> None:
+    """Kill this process at its n-th change of a name."""
+    count = 0
+
+    def wrap(change: Callable[..., Any]) -> Callable[..., Any]:
+        def changed(*arguments: Any, **options: Any) -> Any:
+            nonlocal count
+            count += 1
+            if count == number and not after:
+                os.kill(os.getpid(), signal.SIGKILL)
+            result = change(*arguments, **options)
+            if count == number and after:
+                os.kill(os.getpid(), signal.SIGKILL)
+            return result
+
+        return changed
+
+    for name in ("replace", "unlink", "rmdir", "mkdir"):
+        setattr(Path, name, wrap(getattr(Path, name)))
+
+
+class Trials:
+    """A study, its dataset in a single go, and a folder for trials."""
+
+    def __init__(self, folder: Path) -> None:
+        blocks.CHUNK = 2  # type: ignore[misc]
+        self.study = folder / "study.toml"
+        self.study.write_text(STUDY)
+        self.folder = folder / "data"
+        self.output = self.folder / "out.nc"
+        self.folder.mkdir()
+        compute(load_study(self.study), threads=1)  # so that the processes to come have the kernels
+        assert self._in_full() == 0
+        self.whole = values_of(self.output)
+        start = time.monotonic()
+        assert self._in_full() == 0
+        self.seconds = time.monotonic() - start
+        self.interrupted = 0
+        self.kept = 0
+
+    def _in_full(self) -> int:
+        return ended(run(self.study, self.output, "--overwrite"))
+
+    def fault(self, *, overwrite: bool, before: Callable[[], None], kill: Callable[[int], None]) -> int:
+        """Kill a run, check what stands at the output, run it again, and check what there is."""
+        shutil.rmtree(self.folder)
+        self.folder.mkdir()
+        options = ["--overwrite"] if overwrite else []
+        if overwrite:
+            self.output.write_bytes(OLD)
+        pid = run(self.study, self.output, *options, before=before)
+        kill(pid)
+        code = ended(pid)
+        assert code in {0, 130, -signal.SIGKILL, -signal.SIGTERM}, (code, self._told())
+        self.interrupted += code != 0
+        old = self.output.read_bytes() if self.output.exists() else None
+        complete = old not in (None, OLD)
+        if complete:
+            assert values_of(self.output) == self.whole
+        else:
+            assert old == (OLD if overwrite else None), "the old output is gone"
+            assert code != 0, "it says that it is fine"
+        parts = self.output.with_name("out.nc.parts")
+        self.kept += len(list(parts.glob("*.part")))
+        if code == 130:
+            left = [path.name for path in parts.glob("*") if path.suffix in {".tmp", ".nc"}]
+            assert not left, left
+        final = ended(run(self.study, self.output, *options))
+        # An output that is complete without a word about it may be refused as any other that exists.
+        allowed = {0, 4} if complete and not overwrite else {0}
+        assert final in allowed, (final, self._told())
+        assert values_of(self.output) == self.whole, "the resumed dataset differs"
+        assert os.listdir(self.folder) == ["out.nc"], os.listdir(self.folder)
+        return code
+
+    def _told(self) -> str:
+        return (self.folder.parent / "stderr").read_text()
+
+    def at_every_change_of_a_name(self) -> int:
+        """Kill a run before and after each change of a name; tells how many there are."""
+        for number in range(1, 1000):
+            for after in (False, True):
+                code = self.fault(
+                    overwrite=number % 2 == 0,
+                    before=lambda number=number, after=after: kill_at(number, after=after),
+                    kill=lambda _: None,
+                )
+                if code == 0:
+                    return number - 1
+        raise AssertionError("it never ends")
+
+    def at_random(self, count: int, seed: int) -> None:
+        """Kill runs at random moments of their life, by SIGKILL and SIGTERM in turn."""
+        draw = random.Random(seed)
+        for number in range(count):
+
+            def kill(pid: int, number: int = number) -> None:
+                time.sleep(draw.uniform(0.0, 1.1 * self.seconds))
+                os.kill(pid, (signal.SIGKILL, signal.SIGTERM)[number % 2])
+
+            self.fault(overwrite=number % 4 < 2, before=lambda: None, kill=kill)
+
+
+def main() -> None:
+    """Kill runs, and tell how many."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--random", type=int, default=200)
+    parser.add_argument("--seed", type=int, default=random.randrange(10**6))
+    asked = parser.parse_args()
+    interrupts.listen()
+    start = time.monotonic()
+    with tempfile.TemporaryDirectory() as folder:
+        trials = Trials(Path(folder))
+        changes = trials.at_every_change_of_a_name()
+        trials.at_random(asked.random, asked.seed)
+    print(
+        f"killed before and after each of {changes} changes of a name, and at {asked.random} random moments (seed "
+        f"{asked.seed}): {trials.interrupted} runs ended early, {trials.kept} parts kept in all; nothing lost, nothing "
+        f"left behind, every resumed dataset the same bit by bit; {time.monotonic() - start:.0f} s"
+    )
+
+
+if __name__ == "__main__":
+    main()
