@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core import _jit
 from gradhesion.core.branches import ROWS
+from gradhesion.core.general.sweep import equivalent_wave, solve_general
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.material import fill_stiffness
 from gradhesion.core.profile import Profile
@@ -139,7 +140,16 @@ def solve(
                 f"solver {solver!r} and outputs {reports} are known of the paraboloid with one cosine wave under "
                 "displacement control only; another profile or control has the exact solver and its outputs"
             )
-        raise ValueError("another profile or control is not solved yet")
+        alike = equivalent_wave(profile) if loading == Loading() else None
+        if alike is None:
+            workers = threads or os.cpu_count() or 1
+            return solve_general(parameters, PARAMETERS, outputs, profile, loading, workers)
+        wavelengths_a_wave, amplitude_factor = alike
+        parameters = {
+            **parameters,
+            "lambda_over_R": np.asarray(parameters["lambda_over_R"], dtype=float) / wavelengths_a_wave,
+            "A": np.asarray(parameters["A"], dtype=float) * amplitude_factor,
+        }
     rows = list(dict.fromkeys([*outputs, *(NEEDED[name] for name in reports if name in NEEDED)]))
     arrays = [np.asarray(parameters[name], dtype=float) for name in PARAMETERS]
     shape = np.broadcast_shapes(*(array.shape for array in arrays))

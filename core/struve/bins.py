@@ -20,7 +20,7 @@ from gradhesion.core._jit import kernel
 from gradhesion.core.struve import double_double as dd
 from gradhesion.core.struve.layout import BIN_TERMS, BIN_WIDTH
 
-_TAYLOR: Final = 20
+TAYLOR: Final = 20
 """Taylor coefficients a bin: h^20/20! and the smallness of S0 leave nothing above 1e-20."""
 _SERIES: Final = 14
 """Terms of the power series at z = 1/4."""
@@ -49,7 +49,7 @@ def economisation(taylor_terms: int, terms: int) -> NDArray[np.float64]:
     return matrix
 
 
-ECONOMISATION: Final = economisation(_TAYLOR - 1, BIN_TERMS)
+ECONOMISATION: Final = economisation(TAYLOR - 1, BIN_TERMS)
 
 
 @kernel()
@@ -67,7 +67,7 @@ def _start(k: float, z: float) -> tuple[tuple[float, float], tuple[float, float]
 
 
 @kernel()
-def _over_z(taylor: Any, quotient: Any, centre: float, half: float) -> None:
+def over_z(taylor: Any, quotient: Any, centre: float, half: float) -> None:
     """Divide a Taylor series by z = centre + half t."""
     rest = (taylor[0, 0], taylor[0, 1])
     quotient[0, 0], quotient[0, 1] = dd.shrink(rest, centre)
@@ -77,29 +77,29 @@ def _over_z(taylor: Any, quotient: Any, centre: float, half: float) -> None:
 
 
 @kernel()
-def _differentiate(taylor: Any, slope: Any, half: float) -> None:
+def differentiate(taylor: Any, slope: Any, half: float) -> None:
     """Differentiate a Taylor series with respect to z."""
     for n in range(len(taylor) - 1):
         slope[n, 0], slope[n, 1] = dd.scale((taylor[n + 1, 0], taylor[n + 1, 1]), (n + 1.0) / half)
 
 
 @kernel()
-def _taylor_of_s0(s: Any, k: float, centre: float, half: float) -> None:
-    """Continue s[0], s[1] by the recurrence of the differential equation."""
+def taylor_of(s: Any, k: float, centre: float, half: float, source: float) -> None:
+    """Continue s[0], s[1] by the recurrence of the equation, whose right side is `source` (1, or 0 for the cosine)."""
     square = half * half
     for n in range(len(s) - 2):
         factor = dd.scale(dd.two_sum(n + 1.0, k), -half * (n + 1.0))
         right = dd.multiply(factor, (s[n + 1, 0], s[n + 1, 1]))
         right = dd.add(right, dd.scale((s[n, 0], s[n, 1]), -square * centre))
         if n == 0:
-            right = dd.add(right, (square, 0.0))
+            right = dd.add(right, (source * square, 0.0))
         else:
             right = dd.add(right, dd.scale((s[n - 1, 0], s[n - 1, 1]), -square * half))
         s[n + 2, 0], s[n + 2, 1] = dd.shrink(right, centre * ((n + 1.0) * (n + 2.0)))
 
 
 @kernel()
-def _at_next_centre(taylor: Any, terms: int) -> tuple[float, float]:
+def at_next_centre(taylor: Any, terms: int) -> tuple[float, float]:
     """Sum a Taylor series at t = 2, the centre of the next bin."""
     total = (0.0, 0.0)
     for n in range(terms - 1, -1, -1):
@@ -108,7 +108,7 @@ def _at_next_centre(taylor: Any, terms: int) -> tuple[float, float]:
 
 
 @kernel()
-def _economise(taylor: Any, matrix: Any, coefficients: Any) -> None:
+def economise(taylor: Any, matrix: Any, coefficients: Any) -> None:
     """Store a Taylor series at the degree of a bin."""
     terms, taylor_terms = matrix.shape
     for j in range(terms):
@@ -122,33 +122,33 @@ def _economise(taylor: Any, matrix: Any, coefficients: Any) -> None:
 def build_bins(k: float, bins: Any, matrix: Any) -> None:
     """Fill `bins` (layout.py) with S0/z, S1/z, S0', S1'."""
     half = 0.5 * BIN_WIDTH
-    s0 = np.zeros((_TAYLOR + 2, 2))
-    s0_slope = np.zeros((_TAYLOR + 2, 2))
-    s0_over_z = np.zeros((_TAYLOR, 2))
-    numerator = np.zeros((_TAYLOR, 2))
-    s1 = np.zeros((_TAYLOR, 2))
-    s1_slope = np.zeros((_TAYLOR, 2))
-    s1_over_z = np.zeros((_TAYLOR, 2))
+    s0 = np.zeros((TAYLOR + 2, 2))
+    s0_slope = np.zeros((TAYLOR + 2, 2))
+    s0_over_z = np.zeros((TAYLOR, 2))
+    numerator = np.zeros((TAYLOR, 2))
+    s1 = np.zeros((TAYLOR, 2))
+    s1_slope = np.zeros((TAYLOR, 2))
+    s1_over_z = np.zeros((TAYLOR, 2))
     minus_k1 = dd.scale(dd.two_sum(1.0, k), -1.0)
     value, slope = _start(k, half)
     for i in range(len(bins)):
         centre = BIN_WIDTH * i + half
         s0[0, 0], s0[0, 1] = value
         s0[1, 0], s0[1, 1] = dd.scale(slope, half)
-        _taylor_of_s0(s0, k, centre, half)
-        _differentiate(s0, s0_slope, half)
-        for n in range(_TAYLOR):
+        taylor_of(s0, k, centre, half, 1.0)
+        differentiate(s0, s0_slope, half)
+        for n in range(TAYLOR):
             term = dd.multiply((s0_slope[n, 0], s0_slope[n, 1]), minus_k1)
             if n == 0:
                 term = dd.add(term, (1.0, 0.0))
             numerator[n, 0], numerator[n, 1] = term
-        _over_z(numerator, s1, centre, half)
-        _differentiate(s1, s1_slope, half)
-        _over_z(s0[:_TAYLOR], s0_over_z, centre, half)
-        _over_z(s1, s1_over_z, centre, half)
-        _economise(s0_over_z, matrix, bins[i, :, 0])
-        _economise(s1_over_z, matrix, bins[i, :, 1])
-        _economise(s0_slope, matrix, bins[i, :, 2])
-        _economise(s1_slope, matrix, bins[i, :, 3])
-        value = _at_next_centre(s0, _TAYLOR + 2)
-        slope = _at_next_centre(s0_slope, _TAYLOR + 1)
+        over_z(numerator, s1, centre, half)
+        differentiate(s1, s1_slope, half)
+        over_z(s0[:TAYLOR], s0_over_z, centre, half)
+        over_z(s1, s1_over_z, centre, half)
+        economise(s0_over_z, matrix, bins[i, :, 0])
+        economise(s1_over_z, matrix, bins[i, :, 1])
+        economise(s0_slope, matrix, bins[i, :, 2])
+        economise(s1_slope, matrix, bins[i, :, 3])
+        value = at_next_centre(s0, TAYLOR + 2)
+        slope = at_next_centre(s0_slope, TAYLOR + 1)

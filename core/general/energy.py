@@ -1,0 +1,97 @@
+"""The energy lost in a jump at a fixed coordinate, whatever is prescribed (docs/theory.md, section 15).
+
+    e = int_{z1}^{z2} z [1 - rho^2] dz,    rho = 1 + (Y(z) - Y_j)/((alpha + beta z^(1+k)) z^c)
+
+in units of 2 pi l^2 dgamma, from the radius that is left to the one that is reached; rho = 1 on the equilibrium curve.
+Gauss's rule in panels short against the shortest wave, and against the distance from the branch point at z = 0.
+"""
+
+import math
+from typing import Any, Final
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.general.curve import Basis, Curve, state
+from gradhesion.core.general.series import sums
+from gradhesion.core.jump_energy import NODES, WEIGHTS
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.power import amplitude_power
+
+_PANEL: Final = 1.25
+"""Waves a panel of 16 nodes: they leave 1e-14 of a term cos 2 z, the fastest there is."""
+_NEGLIGIBLE: Final = 1e-18
+
+
+@kernel()
+def _longest_panel(series: Any) -> float:
+    shortest = 0.0
+    for i in range(series.shape[0]):
+        shortest = max(shortest, series[i, 0])
+    return _PANEL / shortest if shortest > 0.0 else math.inf
+
+
+@kernel(contract=True)
+def _rise(basis: Basis, curve: Curve, x1: float, waves: tuple[float, float], x: float) -> float:
+    """Return [Y(z) - Y(z1)]/((alpha + beta z^(1+k)) z^c); each term's difference first, however large the terms are."""
+    table, cosines, series = basis
+    B, m, g, alpha, beta = curve
+    k = table.k
+    z, z1 = TWO_PI * x, TWO_PI * x1
+    power, power1 = amplitude_power(table, z), amplitude_power(table, z1)
+    ratio = math.log1p((x - x1) / x1)
+    w0, w1, _, _ = sums(table, cosines, series, x)
+    bend = B * z1**m * math.expm1(m * ratio)
+    rise = alpha * (bend + g * z * w0 - waves[0] - z1 * power1 * math.expm1(0.5 * (1.0 - k) * ratio))
+    front = 0.0
+    if beta > 0.0:
+        front, front1 = beta / (power * power), beta / (power1 * power1)
+        bend = m / (1.0 + k + m) * front1 * B * z1**m * math.expm1((1.0 + k + m) * ratio)
+        stretch = front1 * z1 * power1 * math.expm1(0.5 * (3.0 + k) * ratio)
+        rise += bend + front * g * z * w1 - beta * waves[1] - stretch
+    return rise / ((alpha + front) * z * power)
+
+
+@kernel()
+def jump_energy(basis: Basis, curve: Curve, start: float, end: float) -> float:
+    """Return e of a jump from x = start > 0 on the curve to x = end > 0."""
+    table, cosines, series = basis
+    _, _, g, _, _ = curve
+    z = TWO_PI * start
+    w0, w1, _, _ = sums(table, cosines, series, start)
+    power = amplitude_power(table, z)
+    waves = (g * z * w0, g * z * w1 / (power * power))
+    low, high = min(start, end), max(start, end)
+    longest = _longest_panel(series)
+    total = 0.0
+    while low < high:
+        width = min(longest, 2.0 * low)
+        panels = max(1, math.ceil((high - low) / width - 1e-9))
+        width = (high - low) / panels if panels < 3 else width
+        part = 0.0
+        for i in range(NODES.size):
+            x = low + width * NODES[i]
+            u = _rise(basis, curve, start, waves, x)
+            part -= WEIGHTS[i] * x * u * (2.0 + u)
+        total += width * part
+        low = low + width if panels > 1 else high
+    return total * (TWO_PI * TWO_PI if end > start else -TWO_PI * TWO_PI)
+
+
+@kernel()
+def energy_from_zero(basis: Basis, curve: Curve, x: float, level: float) -> float:
+    """Return e of a jump at Y = level from zero contact to x; the way back has the other sign."""
+    table, _, series = basis
+    _, _, _, alpha, beta = curve
+    longest = _longest_panel(series)
+    total, high = 0.0, x
+    end = _NEGLIGIBLE ** (1.0 / (1.0 + table.k)) * x
+    while high > end:
+        low = max(high - longest, high / 3.0)
+        part = 0.0
+        for i in range(NODES.size):
+            place = low + (high - low) * NODES[i]
+            _, stretch, front, depth, load = state(basis, curve, place)
+            u = (alpha * depth + beta * load - level) / ((alpha + beta * front) * stretch)
+            part -= WEIGHTS[i] * place * u * (2.0 + u)
+        total += (high - low) * part
+        high = low
+    return total * TWO_PI * TWO_PI

@@ -1,0 +1,192 @@
+"""From the numbers of a general scene to its results: one kernel for one scene."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.folds import CLOSE
+from gradhesion.core.general.curve import Basis, Curve, state
+from gradhesion.core.general.folds import MOST_FOLDS, find_folds, room
+from gradhesion.core.general.path import depth_at_full_contact, fill_branches, folds_are_close, load_up, unload
+from gradhesion.core.general.pull_off import lowest_load
+from gradhesion.core.general.window import first_fold_bound, last_fold_bound
+from gradhesion.core.results import (
+    DEEPEST,
+    ENERGY,
+    FORCE,
+    LAST,
+    LOADING,
+    RADIUS,
+    UNLOADING,
+    put,
+    wants_cycle,
+    wants_folds,
+    wants_force,
+)
+from gradhesion.core.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, NO_VALUE, PULL_OFF_AT_RIM
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.intrinsics import fma
+
+
+@kernel()
+def curve_of(
+    k: float,
+    exponent: float,
+    front: float,
+    stretch: float,
+    wavelength: float,
+    amplitude: float,
+    compliance: float,
+) -> tuple[Curve, float, float]:
+    """Return the curve, l, and the unit of depth; lengths are in R.
+
+    Parameters
+    ----------
+    k, exponent
+        The gradient's, and the punch's.
+    front
+        G(m/2) G(n)/(2 G(n + m/2)).
+    stretch
+        s.
+    wavelength, amplitude
+        lambda and A; A = 0 for a smooth punch.
+    compliance
+        K/S in units of 1/R^(1+k): 0 under displacement control, inf under load control.
+    """
+    length = wavelength / TWO_PI
+    c = 0.5 * (1.0 - k)
+    unit = stretch * length**c
+    share = compliance * length ** (1.0 + k)
+    alpha, beta = (0.0, 1.0) if share == math.inf else (1.0 / (1.0 + share), share / (1.0 + share))
+    return (front * length**exponent / unit, exponent, amplitude * wavelength / unit, alpha, beta), length, unit
+
+
+@kernel()
+def _cycle(
+    basis: Basis, curve: Curve, length: float, unit: float, rim: float, slots: Any, out: Any, status: Any, i: int
+) -> None:
+    """Follow the cycle of a scene up to the rim x = `rim`."""
+    _, _, _, alpha, _ = curve
+    first = first_fold_bound(basis, curve) / TWO_PI
+    last = min(rim, last_fold_bound(basis, curve) / TWO_PI)
+    zeros = np.empty(MOST_FOLDS)
+    count, rises, tangency = 0, False, math.inf
+    if first < last:
+        count, rises, tangency = find_folds(basis, curve, first, last, room(), zeros)
+    if count < 0 or last == math.inf:
+        for row in range(LAST + 1):
+            put(out, slots, row, i, math.nan)
+        status[i] = NO_VALUE
+        return
+    trace = np.empty((count // 2 + 2, 4))
+    count_of_branches = fill_branches(basis, curve, zeros, count, rises, rim, trace)
+    losses = slots[ENERGY] >= 0
+    loading_loss, loading_jumps, level, close = load_up(basis, curve, count_of_branches, trace, rim, losses)
+    unloading_loss, unloading_jumps, left, close_too = unload(
+        basis, curve, count_of_branches, trace, rim, losses, alpha > 0.0
+    )
+    if close or close_too or tangency < math.inf or folds_are_close(zeros, count, rim):
+        status[i] |= CLOSE_TO_A_JUMP
+    if level == 0.0:
+        status[i] |= JUMP_IN_TO_RIM
+    put(out, slots, ENERGY, i, TWO_PI * length * length * (loading_loss + unloading_loss))
+    put(out, slots, LOADING, i, loading_jumps)
+    put(out, slots, UNLOADING, i, unloading_jumps)
+    if slots[LAST] >= 0:
+        depth = -1.0
+        if left > 0.0:
+            _, _, _, depth, _ = state(basis, curve, left)
+        put(out, slots, LAST, i, unit * depth)
+    if slots[DEEPEST] >= 0:
+        put(out, slots, DEEPEST, i, unit * depth_at_full_contact(basis, curve, rim, level) if rim < math.inf else rim)
+
+
+@kernel()
+def solve_scene(
+    table: Any,
+    cosines: Any,
+    series: Any,
+    exponent: float,
+    front: float,
+    stretch: float,
+    wavelength: float,
+    amplitude: float,
+    compliance: float,
+    rim: float,
+    slots: Any,
+    out: Any,
+    status: Any,
+    i: int,
+) -> None:
+    """Solve one scene (curve_of tells what its numbers are) and put its results into column i."""
+    basis = (table, cosines, series)
+    curve, length, unit = curve_of(table.k, exponent, front, stretch, wavelength, amplitude, compliance)
+    if not (0.0 < curve[0] < math.inf and 0.0 <= curve[2] < math.inf and rim > 0.0):
+        for row in range(LAST + 1):
+            put(out, slots, row, i, math.nan)
+        status[i] = NO_VALUE
+        return
+    x = rim / wavelength
+    if wants_force(slots):
+        x_low = fma(-x, wavelength, rim) / wavelength if x < math.inf else 0.0
+        lowest, place, second = lowest_load(basis, curve, x, x_low, room())
+        if not lowest < 0.0:
+            status[i] |= NO_VALUE
+            lowest = place = math.nan
+        elif second < lowest * (1.0 - CLOSE):
+            status[i] |= CLOSE_TO_A_JUMP
+        # as in core/scene.py: K s^2 = 4 pi R dgamma/(1+k)
+        put(out, slots, FORCE, i, -8.0 / (3.0 * (1.0 + table.k)) * length * length / unit * lowest)
+        put(out, slots, RADIUS, i, place * wavelength if place != x else rim)
+        if place == x:
+            status[i] |= PULL_OFF_AT_RIM
+    if wants_folds(slots) or wants_cycle(slots):
+        _cycle(basis, curve, length, unit, x, slots, out, status, i)
+
+
+@kernel()
+def solve_scenes(
+    table: Any,
+    cosines: Any,
+    series: Any,
+    exponent: float,
+    front: float,
+    index: Any,
+    stretch: Any,
+    wavelength: Any,
+    amplitude: Any,
+    compliance: Any,
+    rim: Any,
+    slots: Any,
+    out: Any,
+    status: Any,
+) -> None:
+    """Solve the scenes `index` of one gradient exponent."""
+    smooth = np.zeros((0, 3))
+    for j in range(index.size):
+        i = index[j]
+        valid = 0.0 < stretch[i] < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf
+        if not (valid and rim[i] > 0.0 and compliance[i] >= 0.0):
+            for row in range(LAST + 1):
+                put(out, slots, row, i, math.nan)
+            status[i] = NO_VALUE
+            continue
+        waves = series if amplitude[i] > 0.0 else smooth
+        solve_scene(
+            table,
+            cosines,
+            waves,
+            exponent,
+            front,
+            stretch[i],
+            wavelength[i],
+            amplitude[i],
+            compliance[i],
+            rim[i],
+            slots,
+            out,
+            status,
+            i,
+        )
