@@ -46,7 +46,7 @@ def study_of(dataset: xarray.Dataset, path: Path) -> Study:
 
 def _check_variables(dataset: xarray.Dataset, study: Study, path: Path) -> None:
     """Check that a dataset has what its study asks for."""
-    for name in (*study.outputs, "status"):
+    for name in (*study.variables, "status"):
         if name not in dataset.data_vars:
             raise _apart(path, f"its study asks for {name}, which it has not")
         if dict(dataset[name].sizes) != study.sizes:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli import interrupts
+from gradhesion.cli.names import SI, UNITS
 from gradhesion.cli.study import Study
 from gradhesion.core import PARAMETERS, solve
 
@@ -91,7 +92,24 @@ def scenes_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
 
 
 def solve_block(study: Study, block: Block, threads: int | None) -> dict[str, NDArray[Any]]:
-    """Solve a block of a study: the values of its outputs and `status`."""
+    """Solve a block of a study: the values of its variables and `status`."""
+    found = _solved(study, block, threads)
+    scales = scales_of(study, block[len(block) - len(study.axes) :])
+    return found | {name + SI: found[name] * scales[UNITS[name]] for name in study.in_si}
+
+
+def scales_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
+    """Give what results are multiplied by for SI units, by the unit; nothing if the study has none."""
+    if not study.in_si:
+        return {}
+    from gradhesion.core.reduced import scales_in_si  # noqa: PLC0415 (300 ms for SciPy)
+
+    given = study.parameters_of(block)
+    return scales_in_si(given["R"], given["work_of_adhesion"])
+
+
+def _solved(study: Study, block: Block, threads: int | None) -> dict[str, NDArray[Any]]:
+    """Solve a block of a study: its outputs and `status`."""
     solvers, check = study.method.solver, study.method.check_contact
     if isinstance(solvers, str):
         scenes = scenes_of(study, block)

@@ -10,8 +10,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.blocks import Block, awaited, scenes_of
-from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, RAGGED
+from gradhesion.cli.blocks import Block, awaited, scales_of, scenes_of
+from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, RAGGED, SI, UNITS
 from gradhesion.cli.study import Study
 from gradhesion.core import draw_curves
 
@@ -28,7 +28,7 @@ def extent_of(variable: str) -> str:
     >>> extent_of("path_load")
     'path_point'
     """
-    return next(EXTENTS[curve] for curve, own in CURVES.items() if variable in own)
+    return next(EXTENTS[curve] for curve, own in CURVES.items() if variable.removesuffix(SI) in own)
 
 
 def is_ragged(variable: str) -> bool:
@@ -38,7 +38,7 @@ def is_ragged(variable: str) -> bool:
     >>> is_ragged("jump_energy"), is_ragged("jump_count"), is_ragged("path_load")
     (True, False, False)
     """
-    return any(variable in CURVES[curve] and variable != count for curve, count in RAGGED.items())
+    return any(variable.removesuffix(SI) in CURVES[curve] and variable != count for curve, count in RAGGED.items())
 
 
 def blank_of(variable: str) -> float:
@@ -88,6 +88,8 @@ def _draw(study: Study, block: Block) -> Drawing:
         else:
             values = np.asarray(found[name]) if np.size(found[name]) else np.array([blank_of(name)])
             parts[name] = values.reshape(*front, -1)
+    scales = scales_of(study, block)
+    parts |= {name + SI: parts[name] * scales[UNITS[name]].item() for name in study.in_si}
     parts["status"] = np.full(front, status, dtype=np.int8)
     return block, parts
 
@@ -96,7 +98,7 @@ def gathered(study: Study, threads: int | None = None) -> dict[str, NDArray[Any]
     """Draw a study in memory, padded to its longest curves."""
     drawings = list(drawn(study, threads))
     filled: dict[str, NDArray[Any]] = {"status": np.empty(study.shape, np.int8)}
-    for name in study.outputs:
+    for name in study.variables:
         parts_of = [parts[name] for _, parts in drawings]
         if is_ragged(name):
             filled[name] = np.concatenate(parts_of)

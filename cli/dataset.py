@@ -2,7 +2,7 @@
 
 import platform
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
@@ -37,7 +37,7 @@ def variables(study: Study) -> dict[str, Variable]:
     """Describe the variables of a study's dataset, coordinates first."""
     described = _coordinates(study)
     beside = " ".join(name for name in described if name not in study.sizes)
-    outputs = {name: _output(study, name) for name in study.outputs}
+    outputs = {name: _output(study, name) for name in study.variables}
     outputs["status"] = _status(study)
     if beside:
         for name, variable in outputs.items():
@@ -57,7 +57,7 @@ def _coordinates(study: Study) -> dict[str, Variable]:
             dimensions=(names.SOLVER,), dtype="str", attributes=attributes, values=solvers
         )
     for name, long_name in names.KEYS.items():
-        attributes = {"units": "1", "long_name": long_name}
+        attributes = {"units": names.unit_of(name), "long_name": long_name}
         if name in study.parameters:
             values = np.asarray(study.parameters[name])
             if study.layout == "points":
@@ -68,7 +68,8 @@ def _coordinates(study: Study) -> dict[str, Variable]:
         elif name in PARAMETERS:  # it follows from others
             own = following(study, name)
             made = partial(_made, study, name, own)
-            described[name] = Variable(dimensions=own, dtype="f8", attributes=attributes, made=made, blank=np.nan)
+            blank = np.nan if names.TIED.keys() & study.parameters.keys() else None  # where there is no a_2
+            described[name] = Variable(dimensions=own, dtype="f8", attributes=attributes, made=made, blank=blank)
     return described
 
 
@@ -89,7 +90,11 @@ def _made(study: Study, name: str, own: tuple[str, ...], block: Block) -> NDArra
 
 
 def _output(study: Study, name: str) -> Variable:
-    """Describe a result: one value a scene, or one curve."""
+    """Describe a result: one value a scene, or one curve; perhaps in SI units."""
+    if name.endswith(names.SI):
+        plain = _output(study, name.removesuffix(names.SI))
+        long_name = names.long_name_in_si(plain.attributes["long_name"])
+        return replace(plain, attributes=plain.attributes | {"units": names.unit_of(name), "long_name": long_name})
     dimensions = tuple(study.sizes)
     attributes: dict[str, Any] = {"units": "1", "ancillary_variables": "status"}
     if study.kind == "curve":
@@ -177,7 +182,7 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
 
 def _joined(study: Study, described: Mapping[str, Variable], threads: int | None) -> dict[str, NDArray[Any]]:
     """Solve a study in memory."""
-    filled = {name: np.empty(study.shape, described[name].dtype) for name in (*study.outputs, "status")}
+    filled = {name: np.empty(study.shape, described[name].dtype) for name in (*study.variables, "status")}
     for block, values in parts(study, threads):
         for name, part in values.items():
             filled[name][block] = part

@@ -57,7 +57,11 @@ def doubts_in(status: NDArray[Any], variable: str) -> list[Doubt]:
     """List the doubts that some scenes cast on a variable; none on `status` itself."""
     if variable == "status":
         return []
-    return [doubt for doubt in DOUBTS if doubt.bit & doubts_about(variable) and doubt.marks(status).any()]
+    return [
+        doubt
+        for doubt in DOUBTS
+        if doubt.bit & doubts_about(variable.removesuffix(names.SI)) and doubt.marks(status).any()
+    ]
 
 
 GAP: Final = "no finite value"

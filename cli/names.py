@@ -21,6 +21,17 @@ TIED: Final = {
 }
 """The keys of [parameters] in reduced variables: the parameter that each is given instead of, and its `long_name`."""
 
+PHYSICAL: Final = {
+    "R": ("modulus", "m", "radius R of the punch at its tip"),
+    "E_star": ("modulus", "Pa", "reduced modulus E* = E0/(1 - nu^2) at the depth c0"),
+    "work_of_adhesion": ("modulus", "J m-2", "work of adhesion dgamma"),
+    "c0": ("c0_over_R", "m", "characteristic depth c0 of the gradient"),
+    "wavelength": ("lambda_over_R", "m", "wavelength lambda of the waviness"),
+    "amplitude": ("A", "m", "amplitude A lambda of the waviness"),
+    "a_max": ("a_max_over_R", "m", "radius a_max of the punch (inf: unbounded)"),
+}
+"""The keys of [physical]: the parameter that each helps to give, its unit in a dataset, and its `long_name`."""
+
 ROLES: Final = {
     "modulus": "the reduced modulus",
     "c0_over_R": "the depth of the gradient",
@@ -35,16 +46,40 @@ RIM_KEYS: Final = ("a_max_over_R", "a_max_over_L", "a_max_over_a2")
 
 
 def _ordered() -> dict[str, str]:
-    """Put each key before the parameter in whose place it stands."""
+    """Put each key before the parameter in whose place it stands, those with units first."""
     ordered: dict[str, str] = {}
     for name, long_name in PARAMETERS.items():
+        ordered |= {key: own for key, (parameter, _, own) in PHYSICAL.items() if parameter == name}
         ordered |= {key: own for key, (parameter, own) in TIED.items() if parameter == name}
         ordered[name] = long_name
     return ordered
 
 
 KEYS: Final = _ordered()
-"""Every key of [parameters] in the order of a dataset's dimensions, with its `long_name`."""
+"""Every key that gives parameters, in the order of a dataset's dimensions, with its `long_name`."""
+
+
+def table_of(key: str) -> str:
+    """
+    Name the table of a study that a key stands in.
+
+    >>> table_of("R"), table_of("chi")
+    ('physical', 'parameters')
+    """
+    return "physical" if key in PHYSICAL else "parameters"
+
+
+def unit_of(name: str) -> str:
+    """
+    Give the unit of a variable of a dataset, as UDUNITS writes it.
+
+    >>> unit_of("R"), unit_of("chi"), unit_of("dissipated_energy"), unit_of("dissipated_energy_si")
+    ('m', '1', '1', 'J')
+    """
+    if name in PHYSICAL:
+        return PHYSICAL[name][1]
+    return UNITS.get(name.removesuffix(SI), "1") if name.endswith(SI) else "1"
+
 
 OUTPUTS: Final = {
     "pull_off_force": "pull-off force F/(1.5 pi R dgamma)",
@@ -130,6 +165,37 @@ CURVES: Final = {
 }
 """Every curve of a curve study: its variables, with their `long_name`."""
 
+SI: Final = "_si"
+"""What is added to the name of an output, for the variable that has it in SI units."""
+
+
+def _units() -> dict[str, str]:
+    """Find the unit of each output by what it is over in the dataset."""
+    signs = {"(1.5 pi R dgamma)": "N", "R^2 dgamma": "J", "/R": "m"}
+    own = OUTPUTS | {name: long_name for curve in CURVES.values() for name, long_name in curve.items()}
+    return {
+        name: next(unit for sign, unit in signs.items() if sign in long_name)
+        for name, long_name in own.items()
+        if any(sign in long_name for sign in signs)
+    }
+
+
+UNITS: Final = _units()
+"""The unit in SI of each output that has one."""
+
+
+def long_name_in_si(long_name: str) -> str:
+    """
+    Tell what an output is in SI units.
+
+    >>> long_name_in_si("energy dissipated in a loading cycle, H/(R^2 dgamma)")
+    'energy dissipated in a loading cycle, H'
+    """
+    for over in ("/(1.5 pi R dgamma)", "/(R^2 dgamma)", ", in R^2 dgamma", " over R^2 dgamma", "/R"):
+        long_name = long_name.replace(over, "")
+    return long_name
+
+
 INTEGERS: Final = {
     "stable": "i1",
     "path_branch": "i4",
@@ -177,6 +243,13 @@ SYMBOLS: Final = {
     "lambda_over_R": r"$\lambda/R$",
     "A": "$A$",
     "a_max_over_R": r"$a_{\max}/R$",
+    "R": "$R$",
+    "E_star": r"$E^{\ast}$",
+    "work_of_adhesion": r"$\Delta\gamma$",
+    "c0": "$c_0$",
+    "wavelength": r"$\lambda$",
+    "amplitude": r"$A\lambda$",
+    "a_max": r"$a_{\max}$",
     "lambda_over_L": r"$\lambda/L$",
     "chi": r"$\chi$",
     "a_max_over_L": r"$a_{\max}/L$",
@@ -195,6 +268,15 @@ SYMBOLS: Final = {
     "saturation_radius": "saturation radius $a/R$",
     "adhesion_gain": "gain in force $F/F_0$",
     "energy_gain": "gain in energy $H/H_0$",
+    "pull_off_force_si": "pull-off force $F$",
+    "pull_off_radius_si": "radius at pull-off $a$",
+    "dissipated_energy_si": "dissipated energy $H$",
+    "delta_max_si": r"greatest depth $\delta_{\max}$",
+    "delta_jump_out_si": r"depth at jump-out $\delta$",
+    "pull_off_force_error_si": "error of the force",
+    "dissipated_energy_error_si": "error of the energy",
+    "energy_residual_si": "residual of the energy",
+    "saturation_radius_si": "saturation radius $a$",
     "status": "status",
     "solver": "solver",
 }

@@ -48,7 +48,7 @@ def settings_of(study: Study) -> dict[str, Any]:
 
 def types_of(study: Study) -> dict[str, np.dtype[Any]]:
     """Give the types of the results of a map, in the order of a part."""
-    types = {name: "<i4" if name.endswith("_jumps") else "<f8" for name in study.outputs}
+    types = {name: "<i4" if name.endswith("_jumps") else "<f8" for name in study.variables}
     return {name: np.dtype(kind) for name, kind in (types | {"status": "|i1"}).items()}
 
 

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from gradhesion.cli import panels
 from gradhesion.cli.doubts import ORDER, Doubt, doubts_in, entries
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import KEYS, SCENE, SOLVER, SYMBOLS
-from gradhesion.cli.scales import equation, number, scale
+from gradhesion.cli.names import KEYS, SCENE, SOLVER
+from gradhesion.cli.scales import equation, label, number, scale
 from gradhesion.cli.schema import did_you_mean
 
 STYLE: Final[dict[Any, Any]] = {
@@ -203,12 +203,12 @@ def _dress(
     """Put labels, the colour bar or legend, and the fixed values around the panels of a variable."""
     name = str(variable.name)
     for axes in grid[-1]:
-        axes.set_xlabel(SYMBOLS[plan.x])
+        axes.set_xlabel(label(plan.x))
     for axes in grid[:, 0]:
-        axes.set_ylabel(SYMBOLS[plan.second] if plan.is_map and plan.second else SYMBOLS[name])
+        axes.set_ylabel(label(plan.second) if plan.is_map and plan.second else label(name))
     if plan.is_map:
         filled = ScalarMappable(norm=levels.norm, cmap=panels.COLOURS)
-        bar = part.colorbar(filled, ax=grid, label=SYMBOLS[name], boundaries=levels.levels, fraction=0.06, aspect=30)
+        bar = part.colorbar(filled, ax=grid, label=label(name), boundaries=levels.levels, fraction=0.06, aspect=30)
         bar.ax.minorticks_off()
         bar.ax.set_yticks(levels.levels, [number(level) for level in levels.levels])
     elif plan.second:
@@ -249,11 +249,11 @@ def _draw_scenes(
     doubts = doubts_in(flags, str(variable.name))
     doubtful = [(doubt, dict(zip(solvers, doubt.marks(flags), strict=True))) for doubt in doubts]
     panels.draw_points(axes, x, dict(zip(solvers, np.atleast_2d(values)[:, x.order], strict=True)), doubtful)
-    axes.set_xlabel(SYMBOLS[varying[0]])
-    axes.set_ylabel(SYMBOLS[str(variable.name)])
+    axes.set_xlabel(label(varying[0]))
+    axes.set_ylabel(label(str(variable.name)))
     told = [equation(name, variable[name].values[0]) for name in known if name not in varying]
     if varying[1:]:
-        told.append("varying too: " + ", ".join(SYMBOLS[name] for name in varying[1:]))
+        told.append("varying too: " + ", ".join(label(name) for name in varying[1:]))
     part.suptitle(",  ".join(told), fontsize=8)
     return 4.2, 3.1, entries(doubts, in_map=False, gaps=bool(np.isnan(values).any()))
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.belonging import study_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import SOLVER
+from gradhesion.cli.names import SI, SOLVER
 from gradhesion.cli.study import Method, Study
 from gradhesion.core import FAILED, PARAMETERS
 from gradhesion.core.status import CLOSE_TO_A_JUMP, NO_VALUE
@@ -135,7 +135,7 @@ def _drawn(
         if status & FAILED:
             found.failed += 1
             if status & NO_VALUE:
-                found.deviations += _without_value(dataset, scene, study.outputs)
+                found.deviations += _without_value(dataset, scene, study.variables)
         elif missing := [name for name in PARAMETERS if math.isnan(scene.parameters[name])]:
             found.deviations += [_unlike(scene, name, math.nan, "a value, by its status") for name in missing]
         elif stated.within_reach(scene.parameters, outputs, scene.solver):
@@ -197,6 +197,8 @@ def _compared(
     except ArithmeticError:
         found.unsure += 1
         return
+    if "R" in scene.parameters:
+        expected |= stated.in_si(expected, scene.parameters)
     found.scenes += 1
     flagged = bool(int(dataset["status"][scene.index]) & CLOSE_TO_A_JUMP)
     for name, one in expected.items():
@@ -205,7 +207,7 @@ def _compared(
         if f"{name}_error" in dataset.data_vars:  # of this very value; the last bit of a double is nobody's error
             error = float(dataset[f"{name}_error"][scene.index]) + 2.0**-52 * abs(value)
         deviation = stated.deviation(value, one)
-        near = one.near or ("its status says so" if flagged and name in stated.BY_STEPS else "")
+        near = one.near or ("its status says so" if flagged and name.removesuffix(SI) in stated.BY_STEPS else "")
         if near and deviation > error:
             found.near[f"{name}: {near}"] = found.near.get(f"{name}: {near}", 0) + 1
             continue

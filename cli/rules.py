@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import CURVES, OUTPUTS
+from gradhesion.cli.names import CURVES, OUTPUTS, table_of, unit_of
 from gradhesion.cli.places import Path
 from gradhesion.cli.schema import KINDS, LAYOUTS, Mistake, did_you_mean, nearest, shown
 
@@ -51,16 +51,25 @@ def expanded(entry: Any) -> Values:
 
 
 def mistakes_between_keys(
-    data: Mapping[str, Any], wrong: Sequence[Path], outputs: Sequence[str], solvers: Sequence[str]
+    data: Mapping[str, Any],
+    entries: Mapping[str, Any],
+    wrong: Sequence[Path],
+    outputs: Sequence[str],
+    solvers: Sequence[str],
 ) -> Iterator[Mistake]:
-    """List what is wrong between the keys of a study, leaving out those whose form is `wrong` already."""
+    """
+    List what is wrong between the keys of a study, leaving out those whose form is `wrong` already.
+
+    `entries` are the parameters in plain numbers, under the keys that give them.
+    """
     sound_tables = {key: table for key, table in data.items() if (key,) not in wrong}
     named = {path[:2] for path in wrong}
     yield from _mistakes_of_choice(sound_tables, named, outputs, solvers)
     sound = {}
-    for name, entry in sound_tables.get("parameters", {}).items():
-        if ("parameters", name) not in named:
-            mistake = _mistake_of_range(name, entry)
+    for name, entry in entries.items():
+        path = (table_of(name), name)
+        if path not in named and path[:1] not in wrong:
+            mistake = _mistake_of_range(path, data[path[0]][name], entry)
             if mistake:
                 yield mistake
             else:
@@ -161,11 +170,10 @@ def _mistakes_of_reports(asked: Sequence[str], solver: str | list[str], solvers:
             yield Mistake(("outputs", i), name, sentence)
 
 
-def _mistake_of_range(name: str, entry: Any) -> Mistake | None:
+def _mistake_of_range(path: Path, written: Any, entry: Any) -> Mistake | None:
     """Check that a range makes sense as a whole, and that an axis can be held in memory."""
-    path = ("parameters", name)
     if isinstance(entry, list) and len(entry) > MOST_VALUES:
-        return Mistake(path, entry, f"more than {MOST_VALUES:,} values in one list; split the study")
+        return Mistake(path, written, f"more than {MOST_VALUES:,} values in one list; split the study")
     if not isinstance(entry, Mapping):
         return None
     start, stop, num = entry["start"], entry["stop"], entry["num"]
@@ -175,11 +183,12 @@ def _mistake_of_range(name: str, entry: Any) -> Mistake | None:
         sentence = "one value cannot be at both start and stop; use num = 2 or more, or a list of one value"
         return Mistake((*path, "num"), num, sentence)
     if num > 1 and start == stop:
-        sentence = f"start and stop are the same, so the value {start} repeats; write [{start}] or another stop"
-        return Mistake(path, entry, sentence)
+        value = shown(written["start"])
+        sentence = f"start and stop are the same, so the value {value} repeats; write [{value}] or another stop"
+        return Mistake(path, written, sentence)
     if entry.get("spacing") == "log" and min(start, stop) <= 0:
         end = "start" if start <= 0 else "stop"
-        return Mistake((*path, end), entry[end], 'log spacing needs values > 0; raise it, or use spacing = "linear"')
+        return Mistake((*path, end), written[end], 'log spacing needs values > 0; raise it, or use spacing = "linear"')
     return None
 
 
@@ -191,8 +200,10 @@ def _mistakes_of_grid(axes: Mapping[str, Values]) -> Iterator[Mistake]:
             if np.any(counts > 1):
                 value = float(unique[np.argmax(counts > 1)])
                 places = np.flatnonzero(values == value)[:2].tolist()
-                sentence = f"the axis repeats the value {shown(value)} (items {places[0]} and {places[1]}); remove one"
-                yield Mistake(("parameters", name), values.tolist()[:9], sentence)
+                unit = "" if unit_of(name) == "1" else f" {unit_of(name)}"
+                items = f"items {places[0]} and {places[1]}"
+                sentence = f"the axis repeats the value {shown(value)}{unit} ({items}); remove one"
+                yield Mistake((table_of(name), name), values.tolist()[:9], sentence)
     if {"k", "nu"} <= axes.keys() and np.any(axes["k"] == 1.0):
         others = np.atleast_1d(axes["nu"])
         others = others[others != 0.5]
@@ -215,7 +226,7 @@ def _mistakes_of_points(lists: Mapping[str, Values]) -> Iterator[Mistake]:
                 f"it has {length} values, but {first} has {lengths[first]}; "
                 'with layout = "points" all lists have one length (a single number serves all scenes)'
             )
-            yield Mistake(("parameters", name), np.asarray(lists[name]).tolist()[:9], sentence)
+            yield Mistake((table_of(name), name), np.asarray(lists[name]).tolist()[:9], sentence)
     if {"k", "nu"} <= lists.keys() and len({lengths[name] for name in ("k", "nu") if name in lengths}) <= 1:
         k, nu = np.broadcast_arrays(np.atleast_1d(lists["k"]), np.atleast_1d(lists["nu"]))
         scenes = np.flatnonzero((k == 1.0) & (nu != 0.5))

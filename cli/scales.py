@@ -1,14 +1,17 @@
 """Axes of a dataset as axes of a picture: their order, their spacing, and a place for infinity."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Final, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import SYMBOLS
+from gradhesion.cli.names import SYMBOLS, unit_of
+
+UNIT_SYMBOLS: Final = {"m": "m", "Pa": "Pa", "J m-2": "J/m$^2$", "N": "N", "J": "J"}
+"""Units as a picture writes them."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -98,4 +101,18 @@ def equation(name: str, value: float | str) -> str:
     >>> equation("A", 0.02), equation("solver", "exact")
     ('$A$ = 0.02', 'exact')
     """
-    return value if isinstance(value, str) else f"{SYMBOLS[name]} = {number(value)}"
+    unit = UNIT_SYMBOLS.get(unit_of(name), "")
+    if isinstance(value, str):
+        return value
+    return f"{SYMBOLS[name]} = {number(value)}" + (f" {unit}" if unit and np.isfinite(value) else "")
+
+
+def label(name: str) -> str:
+    """
+    Name a variable at an axis of a picture.
+
+    >>> label("A"), label("R")
+    ('$A$', '$R$ (m)')
+    """
+    unit = UNIT_SYMBOLS.get(unit_of(name), "")
+    return SYMBOLS[name] + (f" ({unit})" if unit else "")

@@ -15,13 +15,13 @@ from typing import Annotated, Any, Final, Literal, Union
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, create_model
 from pydantic_core import ErrorDetails
 
-from gradhesion.cli.names import KEYS, OUTPUTS, PARAMETERS, RIM_KEYS, ROLES, TIED
+from gradhesion.cli.names import KEYS, OUTPUTS, PARAMETERS, PHYSICAL, RIM_KEYS, ROLES, TIED, table_of
 from gradhesion.cli.places import Path, dotted
 
 LAYOUTS: Final = ("grid", "points")
 KINDS: Final = ("map", "curve")
 
-_BOUNDS: Final[dict[str, tuple[dict[str, float], str]]] = {
+BOUNDS: Final[dict[str, tuple[dict[str, float], str]]] = {
     "k": ({"ge": 0.0, "le": 1.0}, "0 <= k <= 1"),
     "nu": ({"gt": -1.0, "le": 0.5}, "-1 < nu <= 0.5"),
     "modulus": ({"gt": 0.0}, "modulus > 0, and finite"),
@@ -33,7 +33,11 @@ _BOUNDS: Final[dict[str, tuple[dict[str, float], str]]] = {
     "chi": ({"ge": 0.0}, "chi >= 0, and finite"),
     "a_max_over_L": ({"gt": 0.0}, "a_max_over_L > 0 (inf: an unbounded punch)"),
     "a_max_over_a2": ({"gt": 0.0}, "a_max_over_a2 > 0 (inf: an unbounded punch)"),
+    **{key: ({"gt": 0.0}, f"{key} > 0, and finite") for key in PHYSICAL},
+    "amplitude": ({"ge": 0.0}, "amplitude >= 0, and finite"),
+    "a_max": ({"gt": 0.0}, "a_max > 0 (inf: an unbounded punch)"),
 }
+"""The bounds of each key that gives parameters, for pydantic and in words."""
 
 
 @dataclass(frozen=True)
@@ -68,15 +72,25 @@ def _form(value: object) -> str:
 
 def _parameter(name: str) -> Any:
     """Make the type of a parameter: a number, a list of them, or a range table."""
-    bounds: dict[str, Any] = dict(_BOUNDS[name][0])
+    bounds: dict[str, Any] = dict(BOUNDS[name][0])
     finite: Any = Annotated[float, Field(strict=True, allow_inf_nan=False, **bounds)]
     number: Any = Annotated[float, Field(strict=True, **bounds)] if name in RIM_KEYS else finite
+    return _forms(name, number, finite)
+
+
+def _quantity(name: str) -> Any:
+    """Make the type of a quantity with a unit, a list of them, or a range table; quantities.py reads them."""
+    return _forms(name, Any, Any)
+
+
+def _forms(name: str, number: Any, end: Any) -> Any:
+    """Make the type of one value, a list of values, or a range table between two ends."""
     spacing: Any = Literal["linear", "log"]
     range_table: Any = create_model(
         f"Range_{name}",
         __base__=_Table,
-        start=(finite, ...),
-        stop=(finite, ...),
+        start=(end, ...),
+        stop=(end, ...),
         num=(Annotated[int, Field(ge=1)], ...),
         spacing=(spacing, "linear"),
     )
@@ -91,7 +105,12 @@ def _parameter(name: str) -> Any:
 @cache
 def study_model() -> type[BaseModel]:
     """Make the model of a whole study."""
-    parameters: dict[str, Any] = {name: (_parameter(name), None if name in (*ROLES, *TIED) else ...) for name in KEYS}
+    parameters: dict[str, Any] = {
+        name: (_parameter(name), None if name in (*ROLES, *TIED) else ...)
+        for name in KEYS
+        if table_of(name) == "parameters"
+    }
+    physical: dict[str, Any] = {name: (_quantity(name), None) for name in PHYSICAL}
     return create_model(
         "Study",
         __base__=_Table,
@@ -100,6 +119,7 @@ def study_model() -> type[BaseModel]:
         layout=(str, "grid"),
         outputs=(Annotated[list[str], Field(min_length=1)], ...),
         parameters=(create_model("Parameters", __base__=_Table, **parameters), ...),
+        physical=(create_model("Physical", __base__=_Table, **physical), None),
         method=(_Method, _Method()),
     )
 
@@ -122,7 +142,7 @@ def mistakes_of_form(data: Mapping[str, Any]) -> list[Mistake]:
         else:
             sentence = _sentence(detail, path)
         mistakes.append((detail["type"], Mistake(path, detail["input"], sentence)))
-    mistakes += _mistakes_of_roles(data.get("parameters"), excused)
+    mistakes += _mistakes_of_roles(data.get("parameters"), data.get("physical"), excused)
     return [
         replace(mistake, value=None) if kind == "missing" else mistake
         for kind, mistake in mistakes
@@ -130,24 +150,42 @@ def mistakes_of_form(data: Mapping[str, Any]) -> list[Mistake]:
     ]
 
 
-def _mistakes_of_roles(parameters: object, excused: set[Path]) -> list[tuple[str, Mistake]]:
+def _mistakes_of_roles(parameters: object, physical: object, excused: set[Path]) -> list[tuple[str, Mistake]]:
     """Check that exactly one key gives each parameter that more than one can give."""
     if not isinstance(parameters, Mapping):
         return []
     mistakes = []
+    with_units = isinstance(physical, Mapping)
+    tables = {"parameters": parameters, "physical": physical if isinstance(physical, Mapping) else {}}
     for role, words in ROLES.items():
-        paths = [
-            ("parameters", key) for key in (role, *(key for key, (parameter, _) in TIED.items() if parameter == role))
-        ]
-        given = [path for path in paths if path[1] in parameters]
+        plain: Path = ("parameters", role)
+        tied: list[Path] = [("parameters", key) for key, (parameter, _) in TIED.items() if parameter == role]
+        united: list[Path] = [("physical", key) for key, (parameter, *_) in PHYSICAL.items() if parameter == role]
+        if with_units and role != "A":
+            if role in parameters:
+                sentence = (
+                    "a ratio, where [physical] gives quantities with units, and the two ways do not mix; remove it "
+                    f"and give {', '.join(str(path[1]) for path in united)} under [physical], or remove [physical]"
+                )
+                mistakes.append(("both", Mistake(plain, parameters[role], sentence)))
+            paths = [*united, *tied]
+        else:
+            paths = [plain, *tied, *(united if with_units else [])]
+        if role == "modulus" and with_units:
+            absent = [path for path in united if path[1] not in tables["physical"] and path not in excused]
+            sentences = [(path, f"this quantity is required; {example(path)}") for path in absent]
+            mistakes += [("missing", Mistake(path, None, sentence)) for path, sentence in sentences]
+            continue
+        given = [path for path in paths if path[1] in tables[str(path[0])]]
         for path in given[1:]:
             sentence = f"{given[0][1]} gives {words} already; keep one of the two and remove the other"
-            mistakes.append(("both", Mistake(path, parameters[path[1]], sentence)))
+            mistakes.append(("both", Mistake(path, tables[str(path[0])][path[1]], sentence)))
         if not given and not excused & {*paths}:
-            instead = " or ".join(_line(path) for path in paths[1:])
-            sentence = f"this parameter is required; {_example(paths[0])}" + (
-                f", or instead {instead}" if instead else ""
+            instead = " or ".join(
+                _line(path) + (f" under [{path[0]}]" if path[0] != paths[0][0] else "") for path in paths[1:]
             )
+            what = "quantity" if paths[0][0] == "physical" else "parameter"
+            sentence = f"this {what} is required; {example(paths[0])}" + (f", or instead {instead}" if instead else "")
             mistakes.append(("missing", Mistake(paths[0], None, sentence)))
     return mistakes
 
@@ -197,14 +235,15 @@ def shown(value: object) -> str:
 def _path(detail: ErrorDetails) -> Path:
     """Take the tag of the form (number, list, range, name) out of pydantic's path of a parameter or solver."""
     steps = detail["loc"]
-    return (*steps[:2], *steps[3:]) if steps[0] in ("parameters", "method") else steps
+    return (*steps[:2], *steps[3:]) if steps[0] in ("parameters", "physical", "method") else steps
 
 
 def _unknown_key(path: Path) -> tuple[Path, str]:
     """Tell which key was meant, and say so."""
     tables: dict[Path, tuple[str, ...]] = {
-        (): ("title", "kind", "layout", "outputs", "parameters", "method"),
-        ("parameters",): tuple(KEYS),
+        (): ("title", "kind", "layout", "outputs", "parameters", "physical", "method"),
+        ("parameters",): tuple(key for key in KEYS if table_of(key) == "parameters"),
+        ("physical",): tuple(PHYSICAL),
         ("method",): ("solver", "check_contact"),
     }
     table, key = path[:-1], str(path[-1])
@@ -222,22 +261,22 @@ def _sentence(detail: ErrorDetails, path: Path) -> str:
     kind = detail["type"]
     value = detail["input"]
     last = path[-1]
-    if path[0] == "parameters" and len(path) > 1 and last not in ("num", "spacing"):
+    if path[0] in ("parameters", "physical") and len(path) > 1 and last not in ("num", "spacing"):
         return _parameter_sentence(kind, value, path)
     if kind == "missing":
-        return f"this key is required; {_example(path)}"
+        return f"this key is required; {example(path)}"
     if kind == "too_short":
-        return f"the list is empty; {_example(path)}"
+        return f"the list is empty; {example(path)}"
     if last == "solver":
-        return f"this must be a string in quotes or a list of them; {_example(path)}"
+        return f"this must be a string in quotes or a list of them; {example(path)}"
     if last == "check_contact":
-        return f"this must be true or false; {_example(path)}"
+        return f"this must be true or false; {example(path)}"
     if last == "num":
         return "num is the number of values, an integer of 1 or more; write for example num = 50"
     if last == "spacing":
         return 'spacing is "linear" or "log"; ' + did_you_mean(str(value), ("linear", "log"))
     wanted = {"string_type": "a string in quotes", "list_type": "a list in brackets"}.get(kind, "a table")
-    return f"this must be {wanted}; {_example(path)}"
+    return f"this must be {wanted}; {example(path)}"
 
 
 def _parameter_sentence(kind: str, value: object, path: Path) -> str:
@@ -245,20 +284,20 @@ def _parameter_sentence(kind: str, value: object, path: Path) -> str:
     name, last = str(path[1]), path[-1]
     if kind == "missing":
         if len(path) > 2:
-            return f"a range needs this key; {_example(path)}"
-        return f"this parameter is required; {_example(path)}"
+            return f"a range needs this key; {example(path)}"
+        return f"this parameter is required; {example(path)}"
     if kind == "too_short":
         return "an axis needs at least one value; put values into the list, or write a single number to fix it"
-    allowed = _BOUNDS[name][1]
+    allowed = BOUNDS[name][1]
     if kind == "float_type" and not (isinstance(value, int) and not isinstance(value, bool)):
         forms = "" if len(path) > 2 else ", a list of numbers or a range table"
-        return f"this must be a number{forms}, with {allowed}; {_example(path[:2])}"
+        return f"this must be a number{forms}, with {allowed}; {example(path[:2])}"
     if last in ("start", "stop") and isinstance(value, float) and math.isinf(value):
         return "a range must end at finite values; write a list where inf is one of the values"
     return f"out of range; choose a value with {allowed}"
 
 
-def _example(path: Path) -> str:
+def example(path: Path) -> str:
     """Show a line that would do."""
     return f"write for example {_line(path)}"
 
@@ -285,9 +324,19 @@ def _line(path: Path) -> str:
         "chi": "chi = 0.5",
         "a_max_over_L": "a_max_over_L = 5.0",
         "a_max_over_a2": "a_max_over_a2 = 2.0",
+        "physical": 'a table [physical] with R = "1 mm" and other quantities',
+        "R": 'R = "1 mm"',
+        "E_star": 'E_star = "50 kPa"',
+        "work_of_adhesion": 'work_of_adhesion = "20 mJ/m^2"',
+        "c0": 'c0 = "0.1 mm"',
+        "wavelength": 'wavelength = "20 um"',
+        "amplitude": 'amplitude = "0.5 um"',
+        "a_max": 'a_max = "0.5 mm" or a_max = inf',
         "start": "start = 0.1",
         "stop": "stop = 1.0",
         "num": "num = 50",
     }
     named = [step for step in path if isinstance(step, str)]
+    if path[0] == "physical" and named[-1] in ("start", "stop"):
+        return examples[named[1]].replace(named[1], named[-1], 1)
     return examples[named[-1]]

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import places, rules, schema
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.names import CURVES, KEYS, RAGGED, SCENE, SOLVER
+from gradhesion.cli.names import CURVES, KEYS, RAGGED, SCENE, SI, SOLVER, UNITS
+from gradhesion.cli.quantities import in_si
 from gradhesion.cli.source import Source, read_source
 from gradhesion.core import OUTPUTS, REPORTS, SOLVERS
 
@@ -51,12 +52,22 @@ class Study:
     kind: str
     layout: str
     outputs: tuple[str, ...]
-    """The variables of its dataset beside `status`, in the order of the dataset."""
+    """What is asked for beside `status`, in the order of the dataset."""
     parameters: Mapping[str, rules.Values]
     """A value for each parameter, under the key that gives it, in the order of the dataset's dimensions."""
     method: Method
     text: str
     """The study as TOML: reading it again gives the same study."""
+
+    @property
+    def in_si(self) -> tuple[str, ...]:
+        """The outputs that its dataset has in SI units as well: those that have a unit, if the study has units."""
+        return tuple(name for name in self.outputs if name in UNITS) if "R" in self.parameters else ()
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """The names of all variables of its dataset but `status`."""
+        return (*self.outputs, *(name + SI for name in self.in_si))
 
     @property
     def sizes(self) -> dict[str, int]:
@@ -132,7 +143,13 @@ def _study(source: Source) -> Study:
     """Check a study as a whole and expand it."""
     data = source.data
     found = schema.mistakes_of_form(data)
-    found += rules.mistakes_between_keys(data, [mistake.path for mistake in found], (*OUTPUTS, *REPORTS), SOLVERS)
+    quantities, unreadable = in_si(data.get("physical"), [mistake.path for mistake in found])
+    found += unreadable
+    wrong = [mistake.path for mistake in found]
+    table = data.get("parameters")
+    entries = {**(table if isinstance(table, Mapping) else {}), **quantities}
+    entries = {key: entries[key] for key in KEYS if key in entries}
+    found += rules.mistakes_between_keys(data, entries, wrong, (*OUTPUTS, *REPORTS), SOLVERS)
     sentences = []
     for mistake in found:
         value = "" if mistake.value is None else f" = {schema.shown(mistake.value)}"
@@ -145,7 +162,7 @@ def _study(source: Source) -> Study:
     if mistakes:
         raise StudyError(mistakes)
     layout = data.get("layout", "grid")
-    parameters = {key: rules.expanded(data["parameters"][key]) for key in KEYS if key in data["parameters"]}
+    parameters = {key: rules.expanded(entry) for key, entry in entries.items()}
     for values in parameters.values():
         if isinstance(values, np.ndarray):
             if layout == "grid" and not (np.all(np.diff(values) > 0) or np.all(np.diff(values) < 0)):

@@ -51,21 +51,27 @@ def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
         else:
             told = f"{values.size:,} values from {np.nanmin(values):g} to {np.nanmax(values):g}"
             told += "" if points else f", {_spacing(values)}"
-        yield f"  {name:<17} {told}"
+        yield f"  {name:<17} {told}{_unit(dataset[name])}"
     if not varying:
         yield "  none: a single scene"
     fixed = [name for name in known if dataset[name].ndim == 0]
     if fixed:
         yield ""
         yield "fixed"
-        yield from (f"  {name:<17} {dataset[name].item():g}" for name in fixed)
+        yield from (f"  {name:<17} {dataset[name].item():g}{_unit(dataset[name])}" for name in fixed)
     following = [name for name in known if name not in (*varying, *fixed)]
     if following:
         yield ""
         yield "following from these"
     for name in following:
         extremes = [f"{value:g}" for value, _ in _extremes(dataset[name])]
-        yield f"  {name:<17} {' to '.join(extremes) or 'no value in any scene'}"
+        yield f"  {name:<17} {' to '.join(extremes) or 'no finite value in any scene'}"
+
+
+def _unit(variable: xarray.DataArray, before: str = " ") -> str:
+    """Give the unit of a variable, nothing if it has none."""
+    unit = str(variable.attrs.get("units", "1"))
+    return "" if unit == "1" else before + unit
 
 
 def _number(value: float | str) -> str:
@@ -99,7 +105,7 @@ def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
         if name == "status":
             continue
         yield ""
-        yield f"{name}: {dataset[name].attrs['long_name']}"
+        yield f"{name}: {dataset[name].attrs['long_name']}{_unit(dataset[name], ', in ')}"
         extremes = _extremes(dataset[name])
         if not extremes:
             yield "  no value in any scene"
@@ -127,7 +133,11 @@ def _extremes(variable: xarray.DataArray) -> list[tuple[float, dict[str, float |
 def _place(part: xarray.DataArray, index: tuple[Any, ...]) -> dict[str, float | str]:
     """Tell the solver and the varying parameters of a cell."""
     cell = part[index]
-    return {name: cell[name].item() for name in _coordinates(part) if part[name].ndim}
+    return {
+        name: cell[name].item()
+        for name in _coordinates(part)
+        if part[name].ndim and (name in part.dims or SCENE in part.dims)  # not what follows from axes
+    }
 
 
 def _status(dataset: xarray.Dataset) -> Iterator[str]:

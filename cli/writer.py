@@ -219,7 +219,7 @@ def _chunks(dimensions: tuple[netCDF4.Dimension, ...]) -> tuple[int, ...]:
 
 def _check_space(study: Study, path: Path, folder: Folder) -> None:
     """Refuse a dataset that cannot fit on its disk, with its parts."""
-    least = study.scenes * LEAST_SHARE * sum(8 for output in study.outputs if not output.endswith("_jumps"))
+    least = study.scenes * LEAST_SHARE * sum(8 for output in study.variables if not output.endswith("_jumps"))
     if has_parts(study):
         least += study.scenes * sum(kind.itemsize for kind in types_of(study).values())
         least -= sum(part.stat().st_size for part in folder.parts())

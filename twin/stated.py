@@ -30,6 +30,8 @@ NEAR: Final = 1e-12
 """Least margin of a number of jumps, and of the place of pull-off: nearer, those of a neighbouring double count."""
 MOST_WAVES: Final = 1000.0
 """Waves, of two folds each, that the twin follows: 15 s, 300 MB."""
+ROUNDED: Final = 1e-15
+"""Of a value in SI units, besides the error of the same without a unit."""
 CYCLE: Final = frozenset(("dissipated_energy", "loading_jumps", "unloading_jumps", "delta_max", "delta_jump_out"))
 """Outputs for which the cycle must be followed."""
 KNOWN: Final = CYCLE | {"pull_off_force", "pull_off_radius"}
@@ -121,9 +123,51 @@ def _made(parameters: Mapping[str, float]) -> dict[str, Expected]:
     if "a_max_over_a2" in parameters:
         radius, condition = jump_in_radius(parameters)
         made["a_max_over_R"] = parameters["a_max_over_a2"] * radius, condition
+    if "R" in parameters:
+        made |= {name: (value, 1.0) for name, value in _ratios(parameters).items()}
     return {
         name: Expected(value, _share(MADE * condition, value) if value.is_finite() else 0.0)
         for name, (value, condition) in made.items()
+    }
+
+
+def _ratios(parameters: Mapping[str, float]) -> dict[str, arb]:
+    """Make the parameters that follow from quantities in SI units."""
+    radius = arb(parameters["R"])
+    ratios = {"modulus": parameters["E_star"] * radius / arb(parameters["work_of_adhesion"])}
+    for name, length in (("c0_over_R", "c0"), ("lambda_over_R", "wavelength"), ("a_max_over_R", "a_max")):
+        if length in parameters:
+            ratios[name] = parameters[length] / radius
+    if "amplitude" in parameters:
+        ratios["A"] = parameters["amplitude"] / radius / parameters["lambda_over_R"]
+    return ratios
+
+
+def in_si(found: Mapping[str, Expected], parameters: Mapping[str, float]) -> dict[str, Expected]:
+    """
+    Give expected values in SI units, by the name of the output with `_si` after it.
+
+    >>> depth = {"delta_max": Expected(arb(0.25), 1e-14)}
+    >>> float(in_si(depth, {"R": 2.0, "work_of_adhesion": 0.5})["delta_max_si"].value)
+    0.5
+    """
+    radius, work = arb(parameters["R"]), arb(parameters["work_of_adhesion"])
+    scales = {
+        "pull_off_force": 1.5 * arb.pi() * radius * work,
+        "pull_off_radius": radius,
+        "dissipated_energy": radius * radius * work,
+        "delta_max": radius,
+        "delta_jump_out": radius,
+    }
+    return {
+        f"{name}_si": Expected(
+            one.value * scales[name],
+            one.error * float(scales[name])
+            + (_share(ROUNDED, one.value * scales[name]) if one.value.is_finite() else 0.0),
+            one.near,
+        )
+        for name, one in found.items()
+        if name in scales
     }
 
 

@@ -40,6 +40,7 @@ HEAVY = (
     "netCDF4",
     "matplotlib",
     "pandas",
+    "pint",
     "pydantic",
     "rich",
     "gradhesion.core",
@@ -85,7 +86,7 @@ def test_run_imports_neither_xarray_nor_matplotlib(tmp_path: Path) -> None:
     code = (
         "import sys; from gradhesion.cli.main import cli; "
         f"cli.main(['run', {str(ROOT / 'configs' / 'smoke.toml')!r}, '-o', {str(tmp_path / 'x.nc')!r}], standalone_mode=False); "
-        "print([name for name in ('xarray', 'pandas', 'matplotlib') if name in sys.modules])"
+        "print([name for name in ('xarray', 'pandas', 'matplotlib', 'pint') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"
@@ -99,8 +100,12 @@ MAPS = [config for config in CONFIGS if tomllib.loads(config.read_text()).get("k
 def test_every_study_works_small_and_its_smooth_scenes_are_known(
     config: Path, gradhesion: Callable[..., Result], tmp_path: Path
 ) -> None:
-    small = {"k": "[0.0, 0.37]", "lambda_over_R": "[0.3]", "A": "[0.0, 0.01]", "a_max_over_R": "[inf]"}
-    sets = [f"--set=parameters.{name}={values}" for name, values in small.items()]
+    small = {"parameters.k": "[0.0, 0.37]", "parameters.A": "[0.0, 0.01]"}
+    if "physical" in tomllib.loads(config.read_text()):
+        small |= {"physical.wavelength": "['0.3 um']", "physical.R": "'1 um'", "physical.a_max": "[inf]"}
+    else:
+        small |= {"parameters.lambda_over_R": "[0.3]", "parameters.a_max_over_R": "[inf]"}
+    sets = [f"--set={name}={values}" for name, values in small.items()]
     result = gradhesion("run", config, "-o", tmp_path / "small.nc", "--quiet", *sets)
     assert result.exit_code == 0, result.stderr
     with xarray.open_dataset(tmp_path / "small.nc") as dataset:
@@ -127,6 +132,17 @@ def test_the_curve_is_that_of_a_reference_scene(gradhesion: Callable[..., Result
         starts = (dataset["stable"] == 1).astype(int).diff("point") == 1
         assert int(starts.sum()) == 5
     assert gradhesion("plot", output, "-o", tmp_path / "curve.svg").exit_code == 0
+
+
+def test_the_study_in_units_has_jkr_in_newtons(gradhesion: Callable[..., Result], tmp_path: Path) -> None:
+    config, output = ROOT / "configs" / "physical.toml", tmp_path / "physical.nc"
+    assert gradhesion("run", config, "-o", output, "--quiet").exit_code == 0
+    with xarray.open_dataset(output) as dataset:
+        smooth = dataset["pull_off_force_si"].sel(k=0.0, A=0.0).isel(R=-1)
+        known = {0.02: 4.71238898038469e-07, 0.05: 1.1780972450961725e-06}  # 1.5 pi R dgamma with R = 5 um
+        for work, force in known.items():
+            assert math.isclose(float(smooth.sel(work_of_adhesion=work)), force, rel_tol=1e-13)
+        assert (dataset["pull_off_force_si"].units, dataset["R"].units) == ("N", "m")
 
 
 def test_the_maps_are_a_real_study_over_all_five_axes() -> None:
@@ -161,7 +177,7 @@ def test_every_dependency_is_pinned_and_none_by_an_address() -> None:
 def test_the_study_of_the_readme_works(
     gradhesion: Callable[..., Result], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (study,) = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
+    study, *_ = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
     assert len([line for line in study.splitlines() if line.strip()]) <= 12
     monkeypatch.chdir(tmp_path)
     Path("fig4a.toml").write_text(study)
@@ -170,8 +186,20 @@ def test_the_study_of_the_readme_works(
     assert gradhesion("plot", "outputs/fig4a.nc", "-o", "fig4a.pdf").exit_code == 0
 
 
+def test_the_tables_of_the_readme_are_valid() -> None:
+    from gradhesion.cli.study import study_from
+
+    plain, *tables = (tomllib.loads(text) for text in re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL))
+    assert tables
+    for table in tables:
+        study = {**plain, **table}
+        if "physical" in table:
+            study["parameters"] = {"k": 0.3, "nu": 0.3, "A": 0.02}
+        assert study_from(study).scenes > 1
+
+
 def test_the_python_of_the_readme_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (study,) = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
+    study, *_ = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
     (code,) = re.findall(r"```python\n(.*?)```", README, flags=re.DOTALL)
     monkeypatch.chdir(tmp_path)
     Path("fig4a.toml").write_text(study)
