@@ -61,6 +61,24 @@ def refuse_existing(path: Path, target: Path, *, overwrite: bool) -> None:
         raise OutputError(f"{path}: exists already; add --overwrite to replace it, or name another output with -o")
 
 
+def write_whole(path: Path, *pieces: bytes, sync: bool = True) -> None:
+    """Write a file under another name, wait until it is on disk, and give it its name."""
+    temporary = path.with_name(f"{path.name}.{secrets.token_hex(8)}.tmp")
+    try:
+        with temporary.open("xb", buffering=0) as file:
+            for piece in pieces:
+                rest = memoryview(piece)
+                while rest:
+                    rest = rest[file.write(rest) :]
+            if sync:
+                os.fsync(file.fileno())
+        temporary.replace(path)
+    except BaseException:
+        with suppress(OSError):
+            temporary.unlink(missing_ok=True)
+        raise
+
+
 def to_disk(path: Path) -> None:
     """Wait until a file or folder is on disk."""
     handle = os.open(path, os.O_RDONLY)

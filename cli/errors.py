@@ -5,6 +5,8 @@ from typing import IO, Any
 
 import click
 
+from gradhesion.cli import messages
+
 
 class GradhesionError(click.ClickException):
     """A failure that the user can mend; `str()` of it is the message, `exit_code` what the command returns."""
@@ -13,7 +15,10 @@ class GradhesionError(click.ClickException):
 
     def show(self, file: IO[Any] | None = None) -> None:
         """Print the message to `file` (stderr if None)."""
-        click.echo(self.message, file=file, err=file is None)
+        if messages.in_json() and file is None:
+            messages.say_json("error", exit_code=self.exit_code, message=self.message)
+        else:
+            click.echo(self.message, file=file, err=file is None)
 
 
 class StudyError(GradhesionError):

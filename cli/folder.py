@@ -19,8 +19,8 @@ from pathlib import Path
 from typing import Any, Final
 
 from gradhesion.cli import interrupts
+from gradhesion.cli.disk import write_whole
 from gradhesion.cli.errors import OutputError
-from gradhesion.cli.parts import write_whole
 
 PATIENCE: Final = 0.5
 """Seconds to wait for the lock: `gradhesion status` takes it for a moment to see whether it is free."""

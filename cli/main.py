@@ -7,10 +7,14 @@ from typing import NoReturn
 
 import click
 
-from gradhesion.cli import interrupts
+from gradhesion.cli import interrupts, messages
+from gradhesion.cli.errors import GradhesionError
 from gradhesion.cli.info import info
+from gradhesion.cli.merge import merge
 from gradhesion.cli.plot import plot
 from gradhesion.cli.run import run
+from gradhesion.cli.status import status
+from gradhesion.cli.validate import schema, validate
 from gradhesion.cli.verify import verify
 
 INTERRUPTED = 130
@@ -32,6 +36,10 @@ def cli() -> None:
 
 
 cli.add_command(run)
+cli.add_command(status)
+cli.add_command(merge)
+cli.add_command(validate)
+cli.add_command(schema)
 cli.add_command(info)
 cli.add_command(plot)
 cli.add_command(verify)
@@ -60,10 +68,13 @@ def _code_of(error: BaseException) -> int:
     # What an interrupt breaks can look like anything, an ImportError for one.
     if interrupts.heard() or isinstance(error, KeyboardInterrupt | click.Abort):
         with suppress(BrokenPipeError):
-            click.echo(interrupts.last_words(), err=True)
+            messages.say("interrupted", interrupts.last_words(), exit_code=INTERRUPTED)
         return INTERRUPTED
     if isinstance(error, click.ClickException):
         with suppress(BrokenPipeError):
-            error.show()
+            if messages.in_json() and not isinstance(error, GradhesionError):
+                messages.say_json("error", exit_code=error.exit_code, message=error.format_message())
+            else:
+                error.show()
         return error.exit_code
     raise error

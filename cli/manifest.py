@@ -2,16 +2,19 @@
 
 import hashlib
 import json
+import tomllib
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from gradhesion.cli.errors import OutputError
+from gradhesion.cli.blocks import count_of
+from gradhesion.cli.errors import DatasetError, OutputError, StudyError
 from gradhesion.cli.folder import Folder, read_json, write_json
 from gradhesion.cli.parts import settings_of, versions
 from gradhesion.cli.rules import Values
-from gradhesion.cli.study import Study
+from gradhesion.cli.study import Study, study_from
 
 
 def manifest_of(study: Study) -> dict[str, Any]:
@@ -21,6 +24,8 @@ def manifest_of(study: Study) -> dict[str, Any]:
         "versions": versions(),
         "settings": settings_of(study),
         "parameters": parameters,
+        "blocks": count_of(study.shape) if study.kind == "map" else study.scenes,
+        "scenes": study.scenes,
         "title": study.title,
         "name": study.name,
         "text": study.text,
@@ -50,6 +55,25 @@ def adopt(study: Study, folder: Folder, output: Path) -> None:
                 f"{'; '.join(differences)}; add --fresh to drop them, or name another output with -o"
             )
     write_json(folder.study, new)
+
+
+def study_in(folder: Folder, output: Path) -> Study:
+    """
+    Read the study whose parts are kept.
+
+    Raises
+    ------
+    DatasetError
+        There is none, or none of this version.
+    """
+    content = read_json(folder.study)
+    try:
+        study = study_from(tomllib.loads(content["text"]), content["name"])
+    except (TypeError, KeyError, ValueError, RecursionError, StudyError):
+        raise DatasetError(
+            f"{output}: no study with parts is in {output}.parts; compute them first, with `gradhesion run --shard`"
+        ) from None
+    return replace(study, text=content["text"], title=content["title"])
 
 
 def differences_of(old: dict[str, Any], new: dict[str, Any]) -> list[str]:

@@ -7,10 +7,7 @@ neither the name of a part nor its age matters.
 
 import hashlib
 import json
-import os
-import secrets
 from collections.abc import Mapping
-from contextlib import suppress
 from dataclasses import asdict, fields
 from importlib.metadata import version
 from pathlib import Path
@@ -21,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.blocks import Block, size_of
+from gradhesion.cli.disk import write_whole
 from gradhesion.cli.study import Study
 from gradhesion.core import SOURCES
 
@@ -108,21 +106,3 @@ def read_part(path: Path, key: str, study: Study, block: Block) -> Values:
         values[name] = np.frombuffer(content, kind, size_of(block), at).reshape(shape)
         at += values[name].nbytes
     return values
-
-
-def write_whole(path: Path, *pieces: bytes, sync: bool = True) -> None:
-    """Write a file under another name, wait until it is on disk, and give it its name."""
-    temporary = path.with_name(f"{path.name}.{secrets.token_hex(8)}.tmp")
-    try:
-        with temporary.open("xb", buffering=0) as file:
-            for piece in pieces:
-                rest = memoryview(piece)
-                while rest:
-                    rest = rest[file.write(rest) :]
-            if sync:
-                os.fsync(file.fileno())
-        temporary.replace(path)
-    except BaseException:
-        with suppress(OSError):
-            temporary.unlink(missing_ok=True)
-        raise

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Final, Protocol
 
-import click
+from gradhesion.cli import messages
 
 
 class Advance(Protocol):
@@ -19,17 +19,22 @@ class Advance(Protocol):
 PERIOD: Final = 10.0
 """Seconds between two plain lines."""
 
+PERIOD_OF_JSON: Final = 1.0
+"""Seconds between two lines for a program."""
+
 
 @contextmanager
 def progress(total: int, *, quiet: bool) -> Iterator[Advance]:
     """Show how many of `total` scenes are done: call what is given with the number of newly done ones."""
     if quiet:
         yield lambda _, **__: None
+    elif messages.in_json():
+        yield _lines(total, time.monotonic, PERIOD_OF_JSON)
     elif sys.stderr.isatty():
         with _bar(total) as advance:
             yield advance
     else:
-        yield _lines(total, time.monotonic)
+        yield _lines(total, time.monotonic, PERIOD)
 
 
 @contextmanager
@@ -58,8 +63,8 @@ def _bar(total: int) -> Iterator[Advance]:
         yield advance
 
 
-def _lines(total: int, clock: Callable[[], float]) -> Advance:
-    """Print a plain line when the last one is `PERIOD` seconds old."""
+def _lines(total: int, clock: Callable[[], float], period: float) -> Advance:
+    """Print a line when the last one is `period` seconds old."""
     start = last = clock()
     done = solved = 0
 
@@ -68,11 +73,19 @@ def _lines(total: int, clock: Callable[[], float]) -> Advance:
         done += scenes
         solved += 0 if reused else scenes
         now = clock()
-        if now - last >= PERIOD and done < total:
+        if now - last >= period and done < total:
             last = now
-            left = f"{(now - start) * (total - done) / solved:.0f} s" if solved else "some time"
+            left = (now - start) * (total - done) / solved if solved else None
             speed = rate(solved, now - start)
-            click.echo(f"{done:,} of {total:,} scenes ({done / total:.0%}), {speed} per s, {left} left", err=True)
+            words = "" if left is None else f", {left:.0f} s left"
+            messages.say(
+                "progress",
+                f"{done:,} of {total:,} scenes ({done / total:.0%}), {speed} per s{words}",
+                done=done,
+                scenes=total,
+                rate=solved / max(now - start, 1e-9),
+                seconds_left=left,
+            )
 
     return advance
 

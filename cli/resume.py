@@ -10,6 +10,7 @@ import numpy as np
 
 from gradhesion.cli.blocks import Block, blocks, count_of, one_ahead, size_of, solve_block
 from gradhesion.cli.disk import writing
+from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.folder import Folder
 from gradhesion.cli.parts import PartError, Values, key_of, read_part, types_of, write_part
 from gradhesion.cli.study import Study
@@ -43,9 +44,22 @@ def has_parts(study: Study) -> bool:
 
 
 def results(
-    study: Study, path: Path, folder: Folder, threads: int | None = None, shard: tuple[int, int] = (1, 1)
+    study: Study,
+    path: Path,
+    folder: Folder,
+    threads: int | None = None,
+    *,
+    shard: tuple[int, int] = (1, 1),
+    solve: bool = True,
 ) -> Iterator[tuple[int, Solved]]:
-    """Give the blocks of a map in order, or of one shard, each with its number; those solved are kept as parts."""
+    """
+    Give the blocks of a map in order, or of one shard, each with its number; those solved are kept as parts.
+
+    Raises
+    ------
+    DatasetError
+        A part is missing or of no use, and is not to be solved.
+    """
     kept = has_parts(study)
 
     def task(number: int, block: Block) -> tuple[int, Solved]:
@@ -53,6 +67,11 @@ def results(
         values = found(study, folder, number, block, key) if kept else None
         if isinstance(values, dict):
             return number, Solved(block, values, key, reused=True)
+        if not solve:
+            raise DatasetError(
+                f"{path}: block {number + 1:,} of {count_of(study.shape):,} is {values}; compute its shard again, or "
+                "all that is left with `gradhesion run`"
+            )
         values, error = attempted(study, block, threads)
         return number, Solved(block, values, key, error=error)
 

@@ -1,5 +1,6 @@
 """`gradhesion run`: compute a study into a dataset."""
 
+import re
 import shlex
 import sys
 import time
@@ -9,11 +10,24 @@ from typing import TYPE_CHECKING
 
 import click
 
+from gradhesion.cli import messages
 from gradhesion.cli.errors import ScenesFailedError
 from gradhesion.cli.progress import progress, rate
 
 if TYPE_CHECKING:
+    from gradhesion.cli.study import Study
     from gradhesion.cli.writer import Written
+
+
+def _shard(_context: click.Context, _option: click.Parameter, value: str | None) -> tuple[int, int] | None:
+    """Read I/N."""
+    if value is None:
+        return None
+    found = re.fullmatch(r"(\d{1,9})/(\d{1,9})", value)
+    shard = (int(found[1]), int(found[2])) if found else (0, 0)
+    if not 1 <= shard[0] <= shard[1]:
+        raise click.BadParameter(f"{value} is not of the form I/N with 1 <= I <= N; write for example --shard 3/8")
+    return shard
 
 
 @click.command()
@@ -23,8 +37,12 @@ if TYPE_CHECKING:
 @click.option("--overwrite", is_flag=True, help="Replace an existing dataset.")
 @click.option("--fresh", is_flag=True, help="Drop the finished parts of an earlier run.")
 @click.option("--fail-fast", is_flag=True, help="Stop at the first block with a failed scene, and write nothing.")
+@click.option("--shard", metavar="I/N", callback=_shard, help="Compute every N-th block only, as parts for `merge`.")
 @click.option("--threads", type=click.IntRange(min=1), help="Threads to use [all cores]; values do not depend on it.")
 @click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
+@click.option(
+    "--log-json", is_flag=True, is_eager=True, callback=messages.speak_json, help="Log one JSON object a line."
+)
 def run(
     study: Path,
     output: Path | None,
@@ -32,10 +50,12 @@ def run(
     overwrite: bool,
     fresh: bool,
     fail_fast: bool,
+    shard: tuple[int, int] | None,
     threads: int | None,
     quiet: bool,
+    log_json: bool,  # noqa: ARG001 (its callback has it)
 ) -> None:
-    """Compute STUDY (TOML) into a dataset (NetCDF)."""
+    """Compute STUDY (TOML) into a dataset (NetCDF). After an interrupt or a crash the same command goes on."""
     from gradhesion.cli.study import load_study
     from gradhesion.cli.writer import write
     from gradhesion.core import compiled_before
@@ -43,25 +63,46 @@ def run(
     asked = load_study(study, overrides)
     path = output or Path("outputs") / f"{asked.name}.nc"
     if not quiet and not compiled_before(curves=asked.kind == "curve"):
-        click.echo("compiling the kernels, once per version", err=True)
+        messages.say("compile", "compiling the kernels, once per version")
+    if shard is not None:
+        if fresh or fail_fast:
+            raise click.UsageError("--shard goes with neither --fresh nor --fail-fast; run without these two")
+        _run_shard(asked, path, shard, overwrite=overwrite, threads=threads, quiet=quiet)
+        return
     start = time.monotonic()
-    history = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} gradhesion {shlex.join(sys.argv[1:])}"
     with progress(asked.scenes, quiet=quiet) as advance:
         written = write(
             asked,
             path,
-            history=history,
+            history=history_now(),
             overwrite=overwrite,
             fresh=fresh,
             fail_fast=fail_fast,
             threads=threads,
             advance=advance,
         )
-    seconds = time.monotonic() - start
+    finish(path, asked.scenes, written, time.monotonic() - start, quiet=quiet)
+
+
+def history_now() -> str:
+    """Write the line of `history` for this command."""
+    return f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} gradhesion {shlex.join(sys.argv[1:])}"
+
+
+def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet: bool) -> None:
+    """
+    Say what was written, and what has failed.
+
+    Raises
+    ------
+    ScenesFailedError
+        Some scenes have.
+    """
     if not quiet:
-        click.echo(_told(path, asked.scenes, written, seconds), err=True)
+        counted = {"blocks_reused": written.reused, "blocks_computed": written.computed, "failed": written.failed}
+        messages.say("done", _told(path, scenes, written, seconds), scenes=scenes, seconds=seconds, **counted)
     for sentence in written.raised:
-        click.echo(f"{path}: {sentence}", err=True)
+        messages.say("raised", f"{path}: {sentence}")
     if written.raised:
         raise ScenesFailedError(
             f"{path}: {len(written.raised):,} blocks could not be solved, and their scenes have no value; the parts of "
@@ -69,7 +110,32 @@ def run(
         )
     if written.failed:
         raise ScenesFailedError(
-            f"{path}: {written.failed:,} of {asked.scenes:,} scenes have failed; `gradhesion info {path}` tells why"
+            f"{path}: {written.failed:,} of {scenes:,} scenes have failed; `gradhesion info {path}` tells why"
+        )
+
+
+def _run_shard(
+    study: "Study", path: Path, shard: tuple[int, int], *, overwrite: bool, threads: int | None, quiet: bool
+) -> None:
+    """Compute the parts of a shard."""
+    from gradhesion.cli.resume import has_parts
+    from gradhesion.cli.writer import write_shard
+
+    if not has_parts(study):
+        raise click.UsageError("--shard: the study has one block only, and needs no shards; run it without --shard")
+    with progress(study.scenes // shard[1], quiet=quiet) as advance:
+        written = write_shard(study, path, shard, overwrite=overwrite, threads=threads, advance=advance)
+    if not quiet:
+        sentence = (
+            f"{path}.parts: shard {shard[0]} of {shard[1]}: reused {written.reused:,} blocks, computed "
+            f"{written.computed:,}; `gradhesion merge {path}` joins them when all shards are done"
+        )
+        messages.say("done", sentence, blocks_reused=written.reused, blocks_computed=written.computed)
+    for sentence in written.raised:
+        messages.say("raised", f"{path}: {sentence}")
+    if written.raised:
+        raise ScenesFailedError(
+            f"{path}: {len(written.raised):,} blocks could not be solved; the same command tries these again"
         )
 
 

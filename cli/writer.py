@@ -54,6 +54,7 @@ def write(
     fresh: bool = False,
     fail_fast: bool = False,
     threads: int | None = None,
+    solve: bool = True,
     advance: Callable[..., None] = lambda *_, **__: None,
 ) -> Written:
     """
@@ -68,9 +69,13 @@ def write(
         Drop the parts of an earlier run.
     fail_fast
         End at the first block with a failed scene.
+    solve
+        Whether to solve blocks that are no part yet; if not, each must be one.
 
     Raises
     ------
+    DatasetError
+        A block is no part, and is not to be solved.
     OutputError
         It cannot be written: it exists, another run is at work on it, parts of another study are kept, the disk.
     ScenesFailedError
@@ -91,7 +96,7 @@ def write(
                 folder.clear()
             adopt(study, folder, path)
         _check_space(study, path, folder)
-        written = _merge(study, path, folder, history, threads, advance, fail_fast=fail_fast)
+        written = _merge(study, path, folder, history, threads, advance, fail_fast=fail_fast, solve=solve)
         with writing(path):
             to_disk(folder.merged)
             if not written.raised:
@@ -114,6 +119,7 @@ def _merge(
     advance: Callable[..., None],
     *,
     fail_fast: bool,
+    solve: bool,
 ) -> Written:
     """Write the dataset in the making, block by block, as they are solved or found."""
     count = count_of(study.shape) if study.kind == "map" else study.scenes
@@ -125,15 +131,13 @@ def _merge(
         with writing(path):
             _define(file, study, history)
         begun = 0  # items of ragged curves
-        for number, solved in _solved(study, path, folder, threads):
+        for number, solved in _solved(study, path, folder, threads, solve=solve):
             with writing(path):
                 for name, part in solved.values.items():
                     file[name][within(name, solved.block, part, begun) or ...] = part
             begun += sum(int(solved.values[one].item()) for one in RAGGED.values() if one in solved.values)
             if solved.error:
-                raised.append(
-                    f"block {number + 1:,} of {count:,} ({place_of(study, solved.block)}) raised {solved.error}"
-                )
+                raised.append(_sentence(study, number, solved))
             scenes, failed = size_of(solved.block), solved.failed
             keeper.add(scenes=scenes, failed=failed, reused=solved.reused, raised=bool(solved.error))
             if failed and fail_fast:
@@ -157,15 +161,61 @@ def _merge(
     )
 
 
+def write_shard(
+    study: Study,
+    path: Path,
+    shard: tuple[int, int],
+    *,
+    overwrite: bool = False,
+    threads: int | None = None,
+    advance: Callable[..., None] = lambda *_, **__: None,
+) -> Written:
+    """
+    Solve every N-th block of a study into its part, beside others that do the rest.
+
+    Raises
+    ------
+    OutputError
+        As `write`.
+    """
+    refuse_existing(path, Path(os.path.realpath(path)), overwrite=overwrite)
+    index, count = shard
+    name = f"{index}-of-{count}"
+    mine = [size_of(block) for number, block in enumerate(blocks(study.shape)) if number % count == index - 1]
+    raised = []
+    with ExitStack() as stack:
+        with writing(path):
+            folder = stack.enter_context(claimed(path, name))
+            adopt(study, folder, path)
+        keeper = Keeper(folder.path / f"state-{name}.json", scenes=sum(mine), blocks=len(mine))
+        for number, solved in results(study, path, folder, threads, shard=shard):
+            if solved.error:
+                raised.append(_sentence(study, number, solved))
+            scenes = size_of(solved.block)
+            keeper.add(scenes=scenes, failed=solved.failed, reused=solved.reused, raised=bool(solved.error))
+            advance(scenes, reused=solved.reused)
+        keeper.write()
+    state = keeper.state
+    computed = state.blocks_done - state.blocks_reused
+    return Written(failed=state.scenes_failed, reused=state.blocks_reused, computed=computed, raised=tuple(raised))
+
+
+def _sentence(study: Study, number: int, solved: Solved) -> str:
+    """Tell of a block that could not be solved."""
+    return f"block {number + 1:,} of {count_of(study.shape):,} ({place_of(study, solved.block)}) raised {solved.error}"
+
+
 def _give_up(path: Path, raised: list[str], otherwise: str) -> NoReturn:
     """End a run in which a block has failed, or every one."""
     raise ScenesFailedError(f"{path}: {raised[-1] if raised else otherwise}; nothing is written")
 
 
-def _solved(study: Study, path: Path, folder: Folder, threads: int | None) -> Iterator[tuple[int, Solved]]:
+def _solved(
+    study: Study, path: Path, folder: Folder, threads: int | None, *, solve: bool
+) -> Iterator[tuple[int, Solved]]:
     """Give the blocks of a study with their values; of curves each scene is one."""
     if study.kind == "map":
-        yield from results(study, path, folder, threads)
+        yield from results(study, path, folder, threads, solve=solve)
     else:
         yield from ((i, Solved(*drawing)) for i, drawing in enumerate(dataset.parts(study, threads)))
 

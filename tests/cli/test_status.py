@@ -1,0 +1,90 @@
+"""`gradhesion status` tells what is so: running, stopped or complete."""
+
+import json
+import os
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import Result
+
+from gradhesion.cli.folder import claimed
+from gradhesion.cli.state import Keeper
+from gradhesion.core import solve as real_solve
+
+Call = Callable[..., Result]
+
+
+@pytest.fixture(autouse=True)
+def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Cut the small study of 24 scenes into 6 blocks."""
+    monkeypatch.setattr("gradhesion.cli.blocks.CHUNK", 2)
+
+
+def test_nothing_is_told_as_a_mistake(gradhesion: Call, tmp_path: Path) -> None:
+    result = gradhesion("status", tmp_path / "out.nc")
+    assert result.exit_code == 2
+    assert "neither a dataset nor parts of one are there" in result.stderr
+
+
+def test_under_way_stopped_and_complete(
+    gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    output = tmp_path / "out.nc"
+    seen: list[dict[str, Any]] = []
+    calls = 0
+
+    def spying(*arguments: Any, **options: Any) -> dict[str, Any]:
+        nonlocal calls
+        calls += 1
+        if calls == 4:
+            seen.append(json.loads(gradhesion("status", output, "--json").stdout))
+            seen.append({"words": gradhesion("status", output).stdout})
+        if calls > 4:
+            raise KeyboardInterrupt
+        return real_solve(*arguments, **options)
+
+    with monkeypatch.context() as patch:
+        patch.setattr("gradhesion.cli.blocks.solve", spying)
+        patch.setattr("gradhesion.cli.state.PERIOD", 0.0)
+        assert gradhesion("run", study_file, "-o", output).exit_code == 1
+    running, words = seen
+    assert running["state"] == "running"
+    assert (running["blocks"], running["scenes"]) == (6, 24)
+    (run,) = running["runs"]
+    assert (run["pid"], run["blocks"], run["scenes"]) == (os.getpid(), 6, 24)
+    assert 0 <= run["scenes_done"] <= 12
+    assert words["words"].startswith(f"{output}: running; ")
+    stopped = json.loads(gradhesion("status", output, "--json").stdout)
+    assert stopped["state"] == "stopped"
+    assert stopped["parts"] in {3, 4}
+    told = gradhesion("status", output).stdout
+    assert f"{output}: stopped; {stopped['parts']} of 6 blocks (24 scenes) are kept; the same command goes on" in told
+    assert gradhesion("run", study_file, "-o", output, "--quiet").exit_code == 0
+    assert gradhesion("status", output).stdout.startswith(f"{output}: complete, 0.0 MB, written 2")
+
+
+def test_rate_and_time_left_leave_out_what_was_reused(gradhesion: Call, tmp_path: Path) -> None:
+    output = tmp_path / "out.nc"
+    with claimed(output) as folder:
+        keeper = Keeper(folder.path / "state-2-of-3.json", scenes=1000, blocks=10)
+        keeper.add(scenes=600, failed=3, reused=True, raised=False)
+        keeper.add(scenes=100, failed=0, reused=False, raised=False)
+        keeper.state.started = time.time() - 50.0
+        keeper.write()
+        told = gradhesion("status", output).stdout.splitlines()[1]
+    assert told.startswith(f"  shard 2 of 3, process {os.getpid()} on ")
+    assert "2 of 10 blocks done, 1 of them reused, 700 of 1,000 scenes (70%), 3 failed, 2 per s, 150 s left" in told
+
+
+def test_a_damaged_state_is_no_error(gradhesion: Call, tmp_path: Path) -> None:
+    folder = tmp_path / "out.nc.parts"
+    folder.mkdir()
+    (folder / "state.json").write_text("{")
+    (folder / "state-1-of-2.json").write_text('{"pid": 1}')
+    (folder / "study.json").write_text("[]")
+    result = gradhesion("status", tmp_path / "out.nc")
+    assert result.exit_code == 0
+    assert "stopped; 0 of ? blocks (? scenes) are kept" in result.stdout

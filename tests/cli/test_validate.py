@@ -1,0 +1,42 @@
+"""`gradhesion validate` tells all mistakes; `gradhesion schema` is what it goes by."""
+
+import json
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+
+from click.testing import Result
+
+from gradhesion.cli.names import KEYS
+from gradhesion.cli.schema import study_model
+
+Call = Callable[..., Result]
+
+
+def test_a_valid_study(gradhesion: Call, study_file: Path) -> None:
+    result = gradhesion("validate", study_file)
+    assert result.exit_code == 0
+    assert result.stdout == (
+        f"{study_file}: valid; a map of 24 scenes; axes: k (2), lambda_over_R (3), A (2), a_max_over_R (2); "
+        "outputs: pull_off_force, dissipated_energy, loading_jumps\n"
+    )
+
+
+def test_all_mistakes_of_a_study(gradhesion: Call, study_file: Path) -> None:
+    result = gradhesion("validate", study_file, "--set=parameters.nu=0.7", "--set=parameters.k=-1.0")
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert len(result.stderr.splitlines()) == 2
+
+
+def test_the_schema_is_that_of_validation(gradhesion: Call, root: Path) -> None:
+    told = json.loads(gradhesion("schema").stdout)
+    assert told.pop("$schema").startswith("https://json-schema.org/")
+    assert told == study_model().model_json_schema()
+    parameters = told["$defs"]["Parameters"]
+    assert set(parameters["properties"]) == {*KEYS}
+    assert parameters["additionalProperties"] is False
+    for config in (root / "configs").glob("*.toml"):
+        keys = tomllib.loads(config.read_text())
+        assert keys.keys() <= told["properties"].keys()
+        assert keys["parameters"].keys() <= parameters["properties"].keys()
