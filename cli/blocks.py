@@ -66,6 +66,21 @@ def blocks(shape: tuple[int, ...]) -> Iterator[Block]:
     yield from product(*cuts)
 
 
+def block_at(shape: tuple[int, ...], number: int) -> Block:
+    """
+    Give a block by its number.
+
+    >>> block_at((5, 131_072), 2)
+    (slice(4, 5, None), slice(0, 131072, None))
+    """
+    cuts = _cuts(shape)
+    at = []
+    for cut in reversed(cuts):
+        number, place = divmod(number, len(cut))
+        at.append(slice(cut[place], min(cut[place] + cut.step, cut.stop)))
+    return tuple(reversed(at))
+
+
 def count_of(shape: tuple[int, ...]) -> int:
     """
     Count the blocks of a shape.

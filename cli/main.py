@@ -11,6 +11,7 @@ from gradhesion.cli import interrupts, messages
 from gradhesion.cli.errors import GradhesionError
 from gradhesion.cli.info import info
 from gradhesion.cli.merge import merge
+from gradhesion.cli.plan import plan
 from gradhesion.cli.plot import plot
 from gradhesion.cli.run import run
 from gradhesion.cli.status import status
@@ -36,6 +37,7 @@ def cli() -> None:
 
 
 cli.add_command(run)
+cli.add_command(plan)
 cli.add_command(status)
 cli.add_command(merge)
 cli.add_command(validate)

@@ -12,6 +12,7 @@ import click
 
 from gradhesion.cli import messages
 from gradhesion.cli.errors import ScenesFailedError
+from gradhesion.cli.plan import show_plan
 from gradhesion.cli.progress import progress, rate
 
 if TYPE_CHECKING:
@@ -38,6 +39,7 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
 @click.option("--fresh", is_flag=True, help="Drop the finished parts of an earlier run.")
 @click.option("--fail-fast", is_flag=True, help="Stop at the first block with a failed scene, and write nothing.")
 @click.option("--shard", metavar="I/N", callback=_shard, help="Compute every N-th block only, as parts for `merge`.")
+@click.option("--dry-run", is_flag=True, help="Tell what would be done, as `gradhesion plan`, and write nothing.")
 @click.option("--threads", type=click.IntRange(min=1), help="Threads to use [all cores]; values do not depend on it.")
 @click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
 @click.option(
@@ -51,6 +53,7 @@ def run(
     fresh: bool,
     fail_fast: bool,
     shard: tuple[int, int] | None,
+    dry_run: bool,
     threads: int | None,
     quiet: bool,
     log_json: bool,  # noqa: ARG001 (its callback has it)
@@ -62,6 +65,9 @@ def run(
 
     asked = load_study(study, overrides)
     path = output or Path("outputs") / f"{asked.name}.nc"
+    if dry_run:
+        show_plan(asked, path, threads)
+        return
     if not quiet and not compiled_before(curves=asked.kind == "curve"):
         messages.say("compile", "compiling the kernels, once per version")
     if shard is not None:

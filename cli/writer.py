@@ -26,6 +26,10 @@ from gradhesion.cli.study import Study
 LEAST_SHARE: Final = 0.1
 """Values hardly compress to less than this share: what cannot fit is refused before it is begun."""
 
+CACHE: Final = 2**22
+"""Bytes of chunks to be held of each variable: blocks are whole chunks, so there is nothing to wait for. The
+library's own choice took more memory than all else that a run has."""
+
 POINTS: Final = 1024
 """Points of a curve in a chunk: most curves have fewer, and unwritten chunks take no room."""
 
@@ -252,6 +256,8 @@ def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
             settings["fill_value"] = described.blank
         dtype = str if described.dtype == "str" else described.dtype
         variable = file.createVariable(name, dtype, described.dimensions, **settings)
+        if study.kind == "map" and "chunksizes" in settings:
+            variable.set_var_chunk_cache(CACHE)
         variable.setncatts(described.attributes)
         if described.values is not None:
             variable[...] = described.values
