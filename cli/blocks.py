@@ -125,15 +125,13 @@ def scales_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
 
 def _solved(study: Study, block: Block, threads: int | None) -> dict[str, NDArray[Any]]:
     """Solve a block of a study: its outputs and `status`."""
-    solvers, check = study.method.solver, study.method.check_contact
+    solvers = study.method.solver
+    settings: dict[str, Any] = {"check_contact": study.method.check_contact, "threads": threads}
+    settings |= {"profile": study.profile, "loading": study.loading}
     if isinstance(solvers, str):
-        scenes = scenes_of(study, block)
-        return solve(scenes, study.outputs, solver=solvers, check_contact=check, threads=threads)
+        return solve(scenes_of(study, block), study.outputs, solver=solvers, **settings)
     scenes = scenes_of(study, block[1:])
-    found = [
-        solve(scenes, study.outputs, solver=solver, check_contact=check, threads=threads)
-        for solver in solvers[block[0]]
-    ]
+    found = [solve(scenes, study.outputs, solver=solver, **settings) for solver in solvers[block[0]]]
     return {name: np.stack([values[name] for values in found]) for name in found[0]}
 
 

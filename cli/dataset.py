@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import curves, names
 from gradhesion.cli.blocks import Block, scenes_of, size_of, solved
+from gradhesion.cli.shape_words import shape_told
 from gradhesion.cli.study import Study
 from gradhesion.core import FLAGS, PARAMETERS
 
@@ -113,6 +114,8 @@ def _output(study: Study, name: str) -> Variable:
         dimensions = (*dimensions, curves.extent_of(name))
         return Variable(dimensions=dimensions, dtype=dtype, attributes=attributes, blank=curves.blank_of(name))
     attributes["long_name"] = names.OUTPUTS[name]
+    if name == "dissipated_energy" and study.loading.control == "load":
+        attributes["long_name"] = names.OUTPUTS[name].replace(",", " without its jump-out, which has no bound,")
     if name.endswith("_jumps"):
         return Variable(dimensions=dimensions, dtype="i4", attributes=attributes)
     return Variable(dimensions=dimensions, dtype="f8", attributes=attributes, blank=np.nan)
@@ -142,6 +145,8 @@ def attributes(study: Study, history: str) -> dict[str, str]:
         "source": f"gradhesion {version('gradhesion')}",
         "history": history,
         "references": names.REFERENCES,
+        "profile": shape_told(study.profile),
+        "control": study.loading.control,
         "study": study.text,
         "study_sha256": study.sha256,
         "python_version": platform.python_version(),

@@ -32,6 +32,9 @@ PHYSICAL: Final = {
 }
 """The keys of [physical]: the parameter that each helps to give, its unit in a dataset, and its `long_name`."""
 
+MACHINE: Final = "machine_stiffness"
+"""The key of [loading] that is a parameter: its dimension stands before that of the punch's radius."""
+
 ROLES: Final = {
     "modulus": "the reduced modulus",
     "c0_over_R": "the depth of the gradient",
@@ -49,6 +52,8 @@ def _ordered() -> dict[str, str]:
     """Put each key before the parameter in whose place it stands, those with units first."""
     ordered: dict[str, str] = {}
     for name, long_name in PARAMETERS.items():
+        if name == "a_max_over_R":  # the last, since all radii of one curve share its trace
+            ordered[MACHINE] = "stiffness S/(E* R) of the loading machine"
         ordered |= {key: own for key, (parameter, _, own) in PHYSICAL.items() if parameter == name}
         ordered |= {key: own for key, (parameter, own) in TIED.items() if parameter == name}
         ordered[name] = long_name
@@ -63,9 +68,11 @@ def table_of(key: str) -> str:
     """
     Name the table of a study that a key stands in.
 
-    >>> table_of("R"), table_of("chi")
-    ('physical', 'parameters')
+    >>> table_of("R"), table_of("chi"), table_of("machine_stiffness")
+    ('physical', 'parameters', 'loading')
     """
+    if key == MACHINE:
+        return "loading"
     return "physical" if key in PHYSICAL else "parameters"
 
 
@@ -243,6 +250,7 @@ SYMBOLS: Final = {
     "lambda_over_R": r"$\lambda/R$",
     "A": "$A$",
     "a_max_over_R": r"$a_{\max}/R$",
+    "machine_stiffness": r"$S/E^{\ast}R$",
     "R": "$R$",
     "E_star": r"$E^{\ast}$",
     "work_of_adhesion": r"$\Delta\gamma$",

@@ -17,6 +17,8 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SI, SOLVER
 from gradhesion.cli.study import Method, Study
 from gradhesion.core import FAILED, PARAMETERS
+from gradhesion.core.loading_control import Loading
+from gradhesion.core.profile import Profile
 from gradhesion.core.status import CLOSE_TO_A_JUMP, NO_VALUE
 from gradhesion.twin import stated
 
@@ -97,6 +99,11 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
         )
     if study.method != Method(solver=solvers, check_contact=study.method.check_contact):  # that changes no value
         raise DatasetError(f"{path}: its study has settings that `gradhesion verify` cannot recompute")
+    if study.profile != Profile() or study.loading != Loading():
+        raise DatasetError(
+            f"{path}: has another profile or control, which have no independent twin; `gradhesion verify` takes the "
+            "paraboloid with one cosine wave under controlled displacement"
+        )
     if seed is None:
         seed = random.SystemRandom().randrange(10**6)
     found = Recomputed(seed=seed, total=study.scenes // len(asked) * len(known), solvers=known)

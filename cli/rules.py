@@ -2,14 +2,17 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import CURVES, OUTPUTS, table_of, unit_of
+from gradhesion.cli.names import CURVES, MACHINE, OUTPUTS, table_of, unit_of
 from gradhesion.cli.places import Path
 from gradhesion.cli.schema import KINDS, LAYOUTS, Mistake, did_you_mean, nearest, shown
+from gradhesion.core.loading_control import CONTROLS
+from gradhesion.core.profile import Harmonic, Profile
 
 Values = float | NDArray[np.float64]
 """The values of a parameter: a float is fixed, an array is an axis."""
@@ -76,8 +79,28 @@ def mistakes_between_keys(
                 sound[name] = expanded(entry)
     points = nearest(str(data.get("layout", "grid")), LAYOUTS) == "points"
     yield from _mistakes_of_points(sound) if points else _mistakes_of_grid(sound)
+    yield from _mistakes_of_series(sound_tables.get("profile", {}), {*wrong}, sound)
+    yield from _mistakes_of_control(sound_tables.get("loading", {}), named)
+    yield from _mistakes_of_default_only(sound_tables, solvers)
     if kind_of(sound_tables) == "curve":
         yield from _mistakes_of_curves(sound_tables, [np.size(values) for values in sound.values()], points=points)
+
+
+def profile_of(table: Mapping[str, Any]) -> Profile:
+    """
+    Make the shape of the punch of a valid table [profile]; what a wave does not have is zero.
+
+    >>> profile_of({"harmonics": [{"n": 2, "sin": 0.5}]}).harmonics
+    (Harmonic(n=2, cos=0.0, sin=0.5),)
+    """
+    exponent = float(table.get("exponent", 2.0))
+    if "harmonics" not in table:
+        return Profile(exponent=exponent)
+    waves = (
+        Harmonic(n=wave["n"], cos=float(wave.get("cos", 0.0)), sin=float(wave.get("sin", 0.0)))
+        for wave in table["harmonics"]
+    )
+    return Profile(exponent=exponent, harmonics=tuple(waves))
 
 
 def kind_of(data: Mapping[str, Any]) -> str:
@@ -134,6 +157,76 @@ def _mistakes_of_outputs(
                 yield Mistake(
                     path, name, f'a variable of "{curve}", which is asked for as a whole; remove one of the two'
                 )
+
+
+def _mistakes_of_series(table: Mapping[str, Any], wrong: set[Path], sound: Mapping[str, Values]) -> Iterator[Mistake]:
+    """Check the waves of a profile: each n once, each with an amplitude, and not all of them zero if A is not."""
+    path: Path = ("profile", "harmonics")
+    waves = table.get("harmonics", [])
+    if path in wrong:
+        return
+    sizes = []
+    for i, wave in enumerate(waves):
+        if any(one[:3] == (*path, i) for one in wrong):
+            sizes.append(1.0)  # not known
+            continue
+        earlier = [j for j, other in enumerate(waves[:i]) if isinstance(other, Mapping) and other.get("n") == wave["n"]]
+        if earlier:
+            sentence = f"the wave n = {wave['n']} is given already, as item {earlier[0]}; join the two"
+            yield Mistake((*path, i, "n"), wave["n"], sentence)
+        if not wave.keys() & {"cos", "sin"}:
+            sentence = "the wave has no amplitude; add cos, sin or both, as in { n = 1, cos = 1.0 }"
+            yield Mistake((*path, i), wave, sentence)
+            sizes.append(1.0)
+        sizes += [abs(wave.get(name, 0.0)) for name in ("cos", "sin")]
+    for name in ("A", "chi", "amplitude"):
+        if sizes and max(sizes) == 0.0 and name in sound and np.any(np.asarray(sound[name]) > 0.0):
+            sentence = f"all cos and sin are zero, so that {name} has no effect; give one a value, or use {name} = 0"
+            yield Mistake(path, waves, sentence)
+
+
+def _mistakes_of_control(table: Mapping[str, Any], named: set[Path]) -> Iterator[Mistake]:
+    """Check the control of the loading, and that the stiffness of a machine goes with it alone."""
+    control = table.get("control", "displacement")
+    if ("loading", "control") in named:
+        return
+    if control not in CONTROLS:
+        yield Mistake(("loading", "control"), control, f"not a control; {did_you_mean(control, CONTROLS)}")
+    elif control == "machine" and MACHINE not in table and ("loading", MACHINE) not in named:
+        sentence = f"a machine needs its stiffness S/(E* R); add {MACHINE} = 10.0 to [loading]"
+        yield Mistake(("loading", "control"), control, sentence)
+    elif control != "machine" and MACHINE in table:
+        sentence = f'control = "{control}" has no machine; remove this key, or write control = "machine"'
+        yield Mistake(("loading", MACHINE), table[MACHINE], sentence)
+
+
+def _mistakes_of_default_only(data: Mapping[str, Any], solvers: Sequence[str]) -> Iterator[Mistake]:
+    """Check that another profile or control is asked for only where it is known."""
+    others = []
+    with suppress(LookupError, TypeError, ValueError):  # what is wrong with it has its own sentence
+        others += ["[profile]"] if profile_of(data.get("profile", {})) != Profile() else []
+    if data.get("loading", {}).get("control", "displacement") in CONTROLS[1:]:
+        others.append("[loading]")
+    if not others:
+        return
+    known = "known of a paraboloid with one cosine wave under controlled displacement only"
+    remedy = f"or remove {' and '.join(others)}"
+    if kind_of(data) == "curve":
+        yield Mistake(("kind",), data["kind"], f'curves are {known}; write kind = "map", {remedy}')
+        return
+    asked = data.get("method", {}).get("solver", "exact")
+    for one in [asked] if isinstance(asked, str) else asked:
+        if one in solvers[1:]:
+            sentence = f'the solver "{one}" is {known}; write solver = "exact", {remedy}'
+            yield Mistake(("method", "solver"), asked, sentence)
+    for i, name in enumerate(data.get("outputs", [])):
+        if name in EXACT_ONLY:
+            yield Mistake(("outputs", i), name, f"this output is {known}; remove it, {remedy}")
+    if "[profile]" in others and "a_max_over_a2" in data.get("parameters", {}):
+        sentence = (
+            "a_2 is that of a paraboloid with one cosine wave; give a_max_over_R or a_max_over_L, or remove [profile]"
+        )
+        yield Mistake(("parameters", "a_max_over_a2"), data["parameters"]["a_max_over_a2"], sentence)
 
 
 def _mistakes_of_curves(data: Mapping[str, Any], lengths: Sequence[int], *, points: bool) -> Iterator[Mistake]:

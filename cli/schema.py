@@ -15,8 +15,9 @@ from typing import Annotated, Any, Final, Literal, Union
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, create_model
 from pydantic_core import ErrorDetails
 
-from gradhesion.cli.names import KEYS, OUTPUTS, PARAMETERS, PHYSICAL, RIM_KEYS, ROLES, TIED, table_of
+from gradhesion.cli.names import KEYS, MACHINE, OUTPUTS, PARAMETERS, PHYSICAL, RIM_KEYS, ROLES, TIED, table_of
 from gradhesion.cli.places import Path, dotted
+from gradhesion.core.profile import MOST_HARMONICS
 
 LAYOUTS: Final = ("grid", "points")
 KINDS: Final = ("map", "curve")
@@ -33,6 +34,7 @@ BOUNDS: Final[dict[str, tuple[dict[str, float], str]]] = {
     "chi": ({"ge": 0.0}, "chi >= 0, and finite"),
     "a_max_over_L": ({"gt": 0.0}, "a_max_over_L > 0 (inf: an unbounded punch)"),
     "a_max_over_a2": ({"gt": 0.0}, "a_max_over_a2 > 0 (inf: an unbounded punch)"),
+    MACHINE: ({"gt": 0.0}, "machine_stiffness > 0, and finite"),
     **{key: ({"gt": 0.0}, f"{key} > 0, and finite") for key in PHYSICAL},
     "amplitude": ({"ge": 0.0}, "amplitude >= 0, and finite"),
     "a_max": ({"gt": 0.0}, "a_max > 0 (inf: an unbounded punch)"),
@@ -49,6 +51,13 @@ class Mistake:
     sentence: str
 
 
+MOST_WAVES: Final = 10_000
+"""The shortest wave of a series, in waves a wavelength: beyond it hardly any scene can be followed."""
+
+_OF_PARAMETERS: Final = ("parameters", "physical", "loading")
+"""The tables whose keys are parameters."""
+
+
 class _Table(BaseModel):
     """A table of a study: no unknown keys, no silent conversions."""
 
@@ -63,6 +72,21 @@ class _Method(_Table):
         Discriminator(lambda value: "list" if isinstance(value, list) else "name"),
     ] = "exact"
     check_contact: bool = True
+
+
+class _Harmonic(_Table):
+    """One wave of the series of a profile."""
+
+    n: Annotated[int, Field(ge=1, le=MOST_WAVES)]
+    cos: Annotated[float, Field(allow_inf_nan=False)] = 0.0
+    sin: Annotated[float, Field(allow_inf_nan=False)] = 0.0
+
+
+class _Profile(_Table):
+    """The shape of the punch."""
+
+    exponent: Annotated[float, Field(ge=1.0, allow_inf_nan=False)] = 2.0
+    harmonics: Annotated[list[_Harmonic], Field(min_length=1, max_length=MOST_HARMONICS)] | None = None
 
 
 def _form(value: object) -> str:
@@ -111,6 +135,7 @@ def study_model() -> type[BaseModel]:
         if table_of(name) == "parameters"
     }
     physical: dict[str, Any] = {name: (_quantity(name), None) for name in PHYSICAL}
+    loading: dict[str, Any] = {"control": (str, "displacement"), MACHINE: (_parameter(MACHINE), None)}
     return create_model(
         "Study",
         __base__=_Table,
@@ -120,6 +145,8 @@ def study_model() -> type[BaseModel]:
         outputs=(Annotated[list[str], Field(min_length=1)], ...),
         parameters=(create_model("Parameters", __base__=_Table, **parameters), ...),
         physical=(create_model("Physical", __base__=_Table, **physical), None),
+        profile=(_Profile, None),
+        loading=(create_model("Loading", __base__=_Table, **loading), None),
         method=(_Method, _Method()),
     )
 
@@ -235,19 +262,22 @@ def shown(value: object) -> str:
 def _path(detail: ErrorDetails) -> Path:
     """Take the tag of the form (number, list, range, name) out of pydantic's path of a parameter or solver."""
     steps = detail["loc"]
-    return (*steps[:2], *steps[3:]) if steps[0] in ("parameters", "physical", "method") else steps
+    return (*steps[:2], *steps[3:]) if steps[0] in ("parameters", "physical", "loading", "method") else steps
 
 
 def _unknown_key(path: Path) -> tuple[Path, str]:
     """Tell which key was meant, and say so."""
     tables: dict[Path, tuple[str, ...]] = {
-        (): ("title", "kind", "layout", "outputs", "parameters", "physical", "method"),
+        (): ("title", "kind", "layout", "outputs", "parameters", "physical", "profile", "loading", "method"),
         ("parameters",): tuple(key for key in KEYS if table_of(key) == "parameters"),
         ("physical",): tuple(PHYSICAL),
+        ("profile",): ("exponent", "harmonics"),
+        ("loading",): ("control", MACHINE),
         ("method",): ("solver", "check_contact"),
     }
     table, key = path[:-1], str(path[-1])
-    known = tables.get(table, ("start", "stop", "num", "spacing"))
+    inner = ("n", "cos", "sin") if table[:1] == ("profile",) else ("start", "stop", "num", "spacing")
+    known = tables.get(table, inner)
     for other, keys in tables.items():
         if other != table and key in keys:
             home = f"under [{dotted(other)}]" if other else "at the top, before the first [table]"
@@ -261,7 +291,14 @@ def _sentence(detail: ErrorDetails, path: Path) -> str:
     kind = detail["type"]
     value = detail["input"]
     last = path[-1]
-    if path[0] in ("parameters", "physical") and len(path) > 1 and last not in ("num", "spacing"):
+    if path[0] == "profile" and len(path) > 1:
+        return _profile_sentence(kind, path)
+    if (
+        path[:2] != ("loading", "control")
+        and path[0] in _OF_PARAMETERS
+        and len(path) > 1
+        and last not in ("num", "spacing")
+    ):
         return _parameter_sentence(kind, value, path)
     if kind == "missing":
         return f"this key is required; {example(path)}"
@@ -295,6 +332,20 @@ def _parameter_sentence(kind: str, value: object, path: Path) -> str:
     if last in ("start", "stop") and isinstance(value, float) and math.isinf(value):
         return "a range must end at finite values; write a list where inf is one of the values"
     return f"out of range; choose a value with {allowed}"
+
+
+def _profile_sentence(kind: str, path: Path) -> str:
+    """Say what is wrong with the shape of the punch."""
+    last = path[-1]
+    if last == "exponent":
+        return f"the power of the punch is a number of 1 or more, and finite (1 is a cone); {example(path)}"
+    if last == "n":
+        return f"n is the number of waves a wavelength, an integer from 1 to {MOST_WAVES:,}; {example(path)}"
+    if last in ("cos", "sin"):
+        return f"this must be a number, and finite; {example(path)}"
+    if kind == "too_long":
+        return f"a series has {MOST_HARMONICS} terms at most; leave the smallest out"
+    return f"this must be a list of tables, one for each wave; {example(path)}"
 
 
 def example(path: Path) -> str:
@@ -332,6 +383,15 @@ def _line(path: Path) -> str:
         "wavelength": 'wavelength = "20 um"',
         "amplitude": 'amplitude = "0.5 um"',
         "a_max": 'a_max = "0.5 mm" or a_max = inf',
+        "profile": "a table [profile] with exponent or harmonics",
+        "exponent": "exponent = 2.0",
+        "harmonics": "harmonics = [{ n = 1, cos = 1.0 }, { n = 2, sin = 0.3 }]",
+        "n": "n = 1",
+        "cos": "cos = 1.0",
+        "sin": "sin = 0.3",
+        "loading": 'a table [loading] with control = "displacement", "load" or "machine"',
+        "control": 'control = "load"',
+        MACHINE: f"{MACHINE} = 10.0",
         "start": "start = 0.1",
         "stop": "stop = 1.0",
         "num": "num = 50",

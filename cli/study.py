@@ -5,7 +5,7 @@ import json
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
 
@@ -18,6 +18,8 @@ from gradhesion.cli.names import CURVES, KEYS, RAGGED, SCENE, SI, SOLVER, UNITS
 from gradhesion.cli.quantities import in_si
 from gradhesion.cli.source import Source, read_source
 from gradhesion.core import OUTPUTS, REPORTS, SOLVERS
+from gradhesion.core.loading_control import Loading
+from gradhesion.core.profile import Profile
 
 MOST_MISTAKES: Final = 30
 """Mistakes to print: whoever has more is served by the first."""
@@ -56,6 +58,8 @@ class Study:
     parameters: Mapping[str, rules.Values]
     """A value for each parameter, under the key that gives it, in the order of the dataset's dimensions."""
     method: Method
+    profile: Profile = field(default_factory=Profile)
+    loading: Loading = field(default_factory=Loading)
     text: str
     """The study as TOML: reading it again gives the same study."""
 
@@ -146,8 +150,8 @@ def _study(source: Source) -> Study:
     quantities, unreadable = in_si(data.get("physical"), [mistake.path for mistake in found])
     found += unreadable
     wrong = [mistake.path for mistake in found]
-    table = data.get("parameters")
-    entries = {**(table if isinstance(table, Mapping) else {}), **quantities}
+    plain = [data[name] for name in ("parameters", "loading") if isinstance(data.get(name), Mapping)]
+    entries = {key: entry for table in (*plain, quantities) for key, entry in table.items()}
     entries = {key: entries[key] for key in KEYS if key in entries}
     found += rules.mistakes_between_keys(data, entries, wrong, (*OUTPUTS, *REPORTS), SOLVERS)
     sentences = []
@@ -176,6 +180,8 @@ def _study(source: Source) -> Study:
         outputs=_outputs(data["outputs"]),
         parameters=parameters,
         method=_method(data.get("method", {})),
+        profile=rules.profile_of(data.get("profile", {})),
+        loading=Loading(control=data.get("loading", {}).get("control", "displacement")),
         text=source.text or _toml(data),
     )
 

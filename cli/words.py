@@ -13,7 +13,9 @@ from gradhesion.cli.blocks import blocks
 from gradhesion.cli.curve_words import curves_told
 from gradhesion.cli.names import KEYS, SCENE, SOLVER
 from gradhesion.cli.reader import has_curves
+from gradhesion.cli.shape_words import control_told
 from gradhesion.core import FAILED, FLAGS
+from gradhesion.core.loading_control import Loading
 
 FEW: Final = 8
 """Values of an axis that are listed one by one."""
@@ -23,6 +25,10 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
     """Tell what a dataset holds, line by line."""
     yield dataset.attrs["title"]
     yield f"{file}: {dataset['status'].size:,} scenes, {file.stat().st_size / 1e6:.1f} MB"
+    if "profile" in dataset.attrs:
+        yield ""
+        yield f"profile: {dataset.attrs['profile']}"
+        yield f"control: {control_told(Loading(control=dataset.attrs['control']))}"
     yield from _parameters(dataset)
     yield from curves_told(dataset) if has_curves(dataset) else _outputs(dataset)
     yield from _status(dataset)

@@ -14,7 +14,10 @@ LINES = [
     'title = "Good"', 'layout = "grid"', 'layout = "points"', 'kind = "map"', 'outputs = ["pull_off_force"]', "[parameters]",
     "k = [0.0, 0.5]", "k = 1", "nu = 0.3", "nu = [0.5, 0.4]", "modulus = 500.0", "c0_over_R = 0.01", "A = 0.1",
     'lambda_over_R = { start = 0.1, stop = 0.5, num = 3, spacing = "log" }', "lambda_over_R = [0.1, 0.2]",
-    'kind = "curve"', 'outputs = ["path", "load"]', "a_max_over_a2 = [1.0, 2.0]", "chi = [0.1, 0.2]", "lambda_over_L = 0.3", 'solver = ["exact", "envelope"]',
+    'kind = "curve"', 'outputs = ["path", "load"]', "a_max_over_a2 = [1.0, 2.0]", "chi = [0.1, 0.2]", "lambda_over_L = 0.3", "[profile]", "exponent = 2.5",
+    "harmonics = [{ n = 1, cos = 1.0 }, { n = 2, sin = 0.1 }]", "harmonics = [{ n = 1 }]", "[loading]", 'control = "machine"',
+    "machine_stiffness = [1.0, 2.0]", 'control = "load"', "[physical]", 'R = "1 mm"', 'E_star = ["1 kPa", "2 Pa"]', 'a_max = "1 m"',
+    'work_of_adhesion = { start = "1 J/m^2", stop = "2 J", num = 3 }', 'c0 = "1 m"', 'wavelength = "3 um"', 'solver = ["exact", "envelope"]',
     "a_max_over_R = inf", "[method]", 'solver = "exact"', "[parameters.k]", "start = 0.1", "[[outputs]]", "outputs = []",
 ]  # fmt: skip
 PIECES = [

@@ -1,0 +1,53 @@
+"""The shape of a punch and the control of its loading in words, as a dataset keeps and `gradhesion info` tells them."""
+
+from gradhesion.core.loading_control import Loading
+from gradhesion.core.profile import Harmonic, Profile
+
+
+def shape_told(profile: Profile) -> str:
+    """
+    Write the shape of a punch as a formula.
+
+    >>> shape_told(Profile())
+    'r^2/(2 R) + lambda A [1 - cos(2 pi x)], x = r/lambda'
+    >>> shape_told(Profile(exponent=1.5, harmonics=(Harmonic(n=1, cos=0.0, sin=1.0), Harmonic(n=3, cos=-0.25))))
+    'r^1.5/(1.5 R^0.5) + lambda A [sin(2 pi x) - 0.25 (1 - cos(6 pi x))], x = r/lambda'
+    """
+    m = profile.exponent
+    power = {1.0: "", 2.0: " R"}.get(m, f" R^{m - 1.0:.15g}")
+    own = f"r^{m:.15g}/({m:.15g}{power})" if m != 1.0 else "r"
+    terms = [term for harmonic in profile.harmonics for term in _terms(harmonic)]
+    if not terms:
+        return own
+    first, *others = terms
+    told = ("-" if first[0] < 0.0 else "") + _term(*first, alone=len(terms) == 1)
+    for size, wave in others:
+        told += (" - " if size < 0.0 else " + ") + _term(size, wave, alone=False)
+    return f"{own} + lambda A [{told}], x = r/lambda"
+
+
+def control_told(loading: Loading) -> str:
+    """
+    Say what is controlled.
+
+    >>> control_told(Loading(control="load"))
+    'load, so that the energy of the jump-out, which has no bound, is left out'
+    """
+    return {
+        "displacement": "displacement",
+        "load": "load, so that the energy of the jump-out, which has no bound, is left out",
+        "machine": "displacement through a machine of finite stiffness",
+    }[loading.control]
+
+
+def _terms(harmonic: Harmonic) -> list[tuple[float, str]]:
+    """List the waves of a harmonic that are there, with their sizes."""
+    angle = f"{2 * harmonic.n} pi x"
+    waves = ((harmonic.cos, f"1 - cos({angle})"), (harmonic.sin, f"sin({angle})"))
+    return [(size, wave) for size, wave in waves if size != 0.0]
+
+
+def _term(size: float, wave: str, *, alone: bool) -> str:
+    """Write a wave with its size, its sign apart."""
+    factor = "" if abs(size) == 1.0 else f"{abs(size):.15g} "
+    return factor + (f"({wave})" if wave.startswith("1") and not (alone and size == 1.0) else wave)

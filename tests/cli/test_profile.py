@@ -1,0 +1,178 @@
+"""Studies with another shape of punch and another control of its loading: [profile] and [loading]."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import numpy as np
+import pytest
+import xarray
+from click.testing import Result
+
+from gradhesion.cli.dataset import compute
+from gradhesion.cli.study import load_study, study_from
+from gradhesion.core import solve
+from gradhesion.core.loading_control import Loading
+from gradhesion.core.profile import Harmonic, Profile
+
+Call = Callable[..., Result]
+SCENES = json.loads((Path(__file__).parents[1] / "reference" / "general.json").read_text())["scenes"]
+OUTPUTS = ["pull_off_force", "dissipated_energy", "loading_jumps", "unloading_jumps"]
+CONTROLS = ("displacement", "load", "machine")
+SHAPE = {"exponent": 1.7, "harmonics": [{"n": 1, "cos": 1.0}, {"n": 3, "sin": -0.2}]}
+
+
+@pytest.fixture
+def shaped(data: dict[str, Any]) -> dict[str, Any]:
+    """A small study of a machine of several stiffnesses."""
+    parameters = data["parameters"] | {"lambda_over_R": 0.3, "a_max_over_R": [0.6, 0.8]}
+    loading = {"control": "machine", "machine_stiffness": [0.1, 3.0, 70.0]}
+    return data | {"parameters": parameters, "profile": SHAPE, "loading": loading}
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_reference_scenes_of_every_control(control: str) -> None:
+    scenes = [scene for scene in SCENES if scene["parameters"]["control"] == control]
+    assert scenes
+    for scene in scenes:
+        parameters = dict(scene["parameters"])
+        study: dict[str, Any] = {"outputs": OUTPUTS, "loading": {"control": parameters.pop("control")}}
+        study["profile"] = {name: parameters.pop(name) for name in ("exponent", "harmonics")}
+        if control == "machine":
+            study["loading"]["machine_stiffness"] = parameters.pop("machine_stiffness")
+        dataset = compute(study_from(study | {"parameters": parameters}))
+        for name in OUTPUTS:  # the digits that the independent quadrature promises
+            assert float(dataset[name]) == pytest.approx(scene["expected"][name], rel=0 if "jumps" in name else 1e-9)
+
+
+def test_the_stiffness_is_an_axis_before_the_radius(shaped: dict[str, Any]) -> None:
+    dataset = compute(study_from(shaped))
+    assert list(dataset["pull_off_force"].dims) == ["k", "A", "machine_stiffness", "a_max_over_R"]
+    assert dataset["machine_stiffness"].values.tolist() == [0.1, 3.0, 70.0]
+    assert dataset["machine_stiffness"].long_name == "stiffness S/(E* R) of the loading machine"
+    names = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "machine_stiffness", "a_max_over_R")
+    given = xarray.broadcast(*(dataset[name] for name in names))
+    parameters = {name: one.values for name, one in zip(names, given, strict=True)}
+    waves = (Harmonic(n=1), Harmonic(n=3, cos=0.0, sin=-0.2))
+    found = solve(
+        parameters,
+        shaped["outputs"],
+        profile=Profile(exponent=1.7, harmonics=waves),
+        loading=Loading(control="machine"),
+    )
+    for name, values in found.items():
+        np.testing.assert_array_equal(dataset[name], values)
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_the_file_says_what_shape_and_control_it_is_of(
+    control: str, shaped: dict[str, Any], gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path
+) -> None:
+    if control != "machine":
+        shaped["loading"] = {"control": control}
+    study, path = write_study(study_from(shaped).text), tmp_path / "x.nc"
+    computed = compute(load_study(study))
+    assert gradhesion("run", study, "-o", path).exit_code == 0
+    with netCDF4.Dataset(path) as file:
+        assert file.control == control
+        assert file.profile == "r^1.7/(1.7 R^0.7) + lambda A [(1 - cos(2 pi x)) - 0.2 sin(6 pi x)], x = r/lambda"
+        assert "[profile]" in file.study
+        assert ("without its jump-out" in file["dissipated_energy"].long_name) == (control == "load")
+    with xarray.open_dataset(path) as written:
+        for name in computed.variables:
+            np.testing.assert_array_equal(written[name].values, computed[name].values)
+    told = gradhesion("info", path).stdout
+    assert "profile: r^1.7/(1.7 R^0.7)" in told
+    assert f"control: {'displacement through a machine' if control == 'machine' else control}" in told
+    assert ("without its jump-out" in told) == (control == "load")
+    assert gradhesion("plot", path).exit_code == 0
+    result = gradhesion("verify", path)
+    assert result.exit_code == 2
+    assert "another profile or control" in result.stderr
+
+
+def test_the_defaults_written_out_are_the_defaults(data: dict[str, Any]) -> None:
+    data["method"] = {"solver": ["exact", "envelope"]}
+    plain = compute(study_from(data))
+    profile = {"exponent": 2.0, "harmonics": [{"n": 1, "cos": 1, "sin": 0}]}
+    written = compute(study_from(data | {"profile": profile, "loading": {"control": "displacement"}}))
+    for name in plain.variables:
+        np.testing.assert_array_equal(plain[name].values, written[name].values)
+    assert plain.attrs["profile"] == written.attrs["profile"] == "r^2/(2 R) + lambda A [1 - cos(2 pi x)], x = r/lambda"
+
+
+def test_a_shape_in_units(shaped: dict[str, Any]) -> None:
+    quantities = {
+        "R": "1 um",
+        "E_star": "1 GPa",
+        "work_of_adhesion": "50 mJ/m^2",
+        "c0": "13 nm",
+        "wavelength": "0.3 um",
+    }
+    parameters = {"k": 0.31, "nu": 0.27, "A": 0.023}
+    study = shaped | {"parameters": parameters, "physical": quantities | {"a_max": "0.8 um"}}
+    dataset = compute(study_from(study))
+    assert dataset["dissipated_energy_si"].dims == ("machine_stiffness",)
+    np.testing.assert_allclose(dataset["dissipated_energy_si"], dataset["dissipated_energy"] * 5e-14, rtol=1e-15)
+
+
+# What is set in the small study of a machine, and what the message must say.
+MISTAKES = {
+    "exponent": ("profile.exponent=0.99", "profile.exponent = 0.99: the power of the punch is a number of 1 or more"),
+    "exponent nan": ("profile.exponent=nan", "profile.exponent = nan: the power of the punch"),
+    "exponent text": ("profile.exponent='2'", 'profile.exponent = "2": the power of the punch'),
+    "no series": ("profile.harmonics=[]", "profile.harmonics = []: this must be a list of tables"),
+    "a wave": ("profile.harmonics={n=1}", "profile.harmonics = { n = 1 }: this must be a list of tables"),
+    "n zero": ("profile.harmonics=[{n=0, cos=1}]", "profile.harmonics[0].n = 0: n is the number of waves a wavelength, an integer"),
+    "n half": ("profile.harmonics=[{n=0.5, cos=1}]", "profile.harmonics[0].n = 0.5: n is the number"),
+    "n large": ("profile.harmonics=[{n=10001, cos=1}]", "an integer from 1 to 10,000; write for example n = 1"),
+    "no n": ("profile.harmonics=[{cos=1}]", "profile.harmonics[0].n: n is the number of waves"),
+    "n repeated": ("profile.harmonics=[{n=2, cos=1}, {n=3, cos=1}, {n=2, sin=1}]", "profile.harmonics[2].n = 2: the wave n = 2 is given already, as item 0; join"),
+    "no amplitude": ("profile.harmonics=[{n=1}]", "profile.harmonics[0] = { n = 1 }: the wave has no amplitude; add cos, sin or both"),
+    "infinite": ("profile.harmonics=[{n=1, cos=inf}]", "profile.harmonics[0].cos = inf: this must be a number, and finite"),
+    "all zero": ("profile.harmonics=[{n=1, cos=0.0}, {n=2, sin=0}]", "all cos and sin are zero, so that A has no effect; give one a value, or use A = 0"),
+    "unknown key": ("profile.harmonic=[]", 'profile.harmonic = []: unknown key; did you mean "harmonics"?'),
+    "unknown part": ("profile.harmonics=[{n=1, cos=1, sine=2}]", 'profile.harmonics[0].sine = 2: unknown key; did you mean "sin"?'),
+    "too many": ("profile.harmonics=[" + ",".join(f"{{n={n}, cos=1}}" for n in range(1, 66)) + "]", "a series has 64 terms at most"),
+    "no table": ("profile=3", "profile = 3: this must be a table"),
+    "control": ("loading.control='lode'", 'loading.control = "lode": not a control; did you mean "load"?'),
+    "control no word": ("loading.control=3", "loading.control = 3: this must be a string in quotes; write for example control"),
+    "no stiffness": ("loading={control='machine'}", "a machine needs its stiffness S/(E* R); add machine_stiffness = 10.0 to [loading]"),
+    "no machine": ("loading.control='load'", 'control = "load" has no machine; remove this key, or write control = "machine"'),
+    "stiffness zero": ("loading.machine_stiffness=0", "loading.machine_stiffness = 0: out of range; choose a value with machine_stiffness > 0"),
+    "stiffness negative": ("loading.machine_stiffness=[1, -1]", "loading.machine_stiffness[1] = -1: out of range"),
+    "stiffness infinite": ("loading.machine_stiffness=inf", "machine_stiffness > 0, and finite"),
+    "stiffness twice": ("loading.machine_stiffness=[1, 1]", "the axis repeats the value 1.0 (items 0 and 1)"),
+    "stiffness text": ("loading.machine_stiffness='1'", "this must be a number, a list of numbers or a range table, with machine_stiffness > 0"),
+    "stiffness elsewhere": ("parameters.machine_stiffness=1", "this key belongs under [loading]; move it there"),
+    "solver": ("method.solver='envelope'", 'the solver "envelope" is known of a paraboloid with one cosine wave under controlled displacement only'),
+    "report": ("outputs=['energy_gain']", "this output is known of a paraboloid with one cosine wave under controlled displacement only"),
+    "jump-in radius": ("parameters.a_max_over_a2=2.0", "a_2 is that of a paraboloid with one cosine wave"),
+    "curves": ("kind='curve'", 'curves are known of a paraboloid with one cosine wave under controlled displacement only; write kind = "map", or remove [profile] and [loading]'),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_each_mistake_has_its_sentence(
+    name: str, shaped: dict[str, Any], gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path
+) -> None:
+    override, message = MISTAKES[name]
+    result = gradhesion("run", write_study(study_from(shaped).text), "-o", tmp_path / "x.nc", "--set", override)
+    assert result.exit_code == 2
+    assert any(message in line for line in result.stderr.splitlines()), result.stderr
+    assert not (tmp_path / "x.nc").exists()
+
+
+def test_all_mistakes_are_told_at_once(shaped: dict[str, Any]) -> None:
+    from gradhesion.cli.errors import StudyError
+
+    shaped["profile"] = {"exponent": 0.5, "harmonics": [{"n": 0, "cos": 1.0}, {"n": 2, "tan": 1.0}]}
+    shaped["loading"] = {"control": "lode", "machine_stiffness": -1.0}
+    with pytest.raises(StudyError) as caught:
+        study_from(shaped)
+    keys = ["profile.exponent", "harmonics[0].n", "harmonics[1].tan", "loading.machine_stiffness", "loading.control"]
+    for key in keys:
+        assert sum(key in sentence.split(" = ")[0] for sentence in caught.value.mistakes) == 1
+    assert len(caught.value.mistakes) == len(keys)
