@@ -61,7 +61,7 @@ def refuse_existing(path: Path, target: Path, *, overwrite: bool) -> None:
         raise OutputError(f"{path}: exists already; add --overwrite to replace it, or name another output with -o")
 
 
-def write_whole(path: Path, *pieces: bytes, sync: bool = True) -> None:
+def write_whole(path: Path, *pieces: bytes | memoryview, sync: bool = True) -> None:
     """Write a file under another name, wait until it is on disk, and give it its name."""
     temporary = path.with_name(f"{path.name}.{secrets.token_hex(8)}.tmp")
     try:

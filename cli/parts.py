@@ -74,8 +74,8 @@ def key_of(study: Study, block: Block) -> str:
 
 def write_part(path: Path, key: str, values: Mapping[str, NDArray[Any]], study: Study) -> None:
     """Write the values of a block to disk, whole or not at all."""
-    pieces = [f"{key}\n".encode()]
-    pieces += [np.ascontiguousarray(values[name], kind).tobytes() for name, kind in types_of(study).items()]
+    pieces = [memoryview(f"{key}\n".encode())]
+    pieces += [np.ascontiguousarray(values[name], kind).data.cast("B") for name, kind in types_of(study).items()]
     digest = hashlib.sha256()
     for piece in pieces:
         digest.update(piece)
