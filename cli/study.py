@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import places, rules, schema
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.names import CURVES, KEYS, RAGGED, SCENE, SI, SOLVER, UNITS
+from gradhesion.cli.names import CURVES, KEYS, RAGGED, SCENE, SI, SOLVER, UNITS, table_of
 from gradhesion.cli.quantities import in_si
 from gradhesion.cli.source import Source, read_source
 from gradhesion.core import OUTPUTS, REPORTS, SOLVERS
@@ -150,9 +150,9 @@ def _study(source: Source) -> Study:
     quantities, unreadable = in_si(data.get("physical"), [mistake.path for mistake in found])
     found += unreadable
     wrong = [mistake.path for mistake in found]
-    plain = [data[name] for name in ("parameters", "loading") if isinstance(data.get(name), Mapping)]
-    entries = {key: entry for table in (*plain, quantities) for key, entry in table.items()}
-    entries = {key: entries[key] for key in KEYS if key in entries}
+    tables = {name: data.get(name) for name in ("parameters", "loading")} | {"physical": quantities}
+    homes = {key: tables[table_of(key)] for key in KEYS}
+    entries = {key: home[key] for key, home in homes.items() if isinstance(home, Mapping) and key in home}
     found += rules.mistakes_between_keys(data, entries, wrong, (*OUTPUTS, *REPORTS), SOLVERS)
     sentences = []
     for mistake in found:

@@ -36,6 +36,17 @@ MISTAKES = {
     "unknown key": ('title = "Good"', 'titel = "x"', r':1: titel = "x": .*did you mean "title"'),
     "unknown parameter": ("A = 0.1", "A = 0.1\nspeed = 1", r":13: parameters.speed = 1: unknown key; choose from"),
     "unknown table": ("[method]", "[methods]", r':15: methods = .*did you mean "method"'),
+    "quantity in the wrong table": (
+        "A = 0.1",
+        'A = 0.1\nR = "1 mm"',
+        r':13: parameters.R = "1 mm": .*under \[physical\]',
+    ),
+    "stiffness in the wrong table": ("A = 0.1", "A = 0.1\nmachine_stiffness = 3", r":13: .* belongs under \[loading\]"),
+    "parameter in a table of its own": (
+        "[method]",
+        "[loading]\nk = 0.3\n[method]",
+        r":16: loading.k = 0.3: this key belongs under \[parameters\]",
+    ),
     "key in the wrong table": ("[method]", "", r':16: parameters.solver = "exact": .*belongs under \[method\]'),
     "unknown method key": ("solver =", "sovler =", r':16: method.sovler = "exact": .*did you mean "solver"'),
     "missing outputs": ('outputs = ["pull_off_force"]', "", r": outputs: this key is required"),
