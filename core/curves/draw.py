@@ -6,14 +6,18 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.core.curves import general, general_path
 from gradhesion.core.curves.asymptotic import draw_asymptotic
 from gradhesion.core.curves.effective import draw_effective
 from gradhesion.core.curves.envelope import draw_envelope
 from gradhesion.core.curves.equilibrium import draw_equilibrium
+from gradhesion.core.curves.forms import GENERAL
 from gradhesion.core.curves.jumps import list_jumps
 from gradhesion.core.curves.path import draw_path
 from gradhesion.core.curves.smooth import draw_smooth
 from gradhesion.core.curves.subject import Subject, subject_of
+from gradhesion.core.loading_control import Loading
+from gradhesion.core.profile import Profile
 from gradhesion.core.status import FAILED, NO_VALUE
 from gradhesion.core.sweep import PARAMETERS, solve
 
@@ -68,30 +72,49 @@ _CLOSED: Final = {
     "smooth": draw_smooth,
 }
 
+_GENERAL: Final = {
+    "equilibrium": draw_equilibrium,
+    "path": general_path.draw_path,
+    "smooth": general.draw_smooth,
+    "jumps": general_path.list_jumps,
+}
+GENERAL_CURVES: Final = tuple(_GENERAL)
+"""The curves of any profile under any control; the others are closed forms of one cosine wave on a paraboloid."""
+
 
 def _draw(subject: Subject | None, curve: str) -> dict[str, NDArray[Any]] | None:
     """Return the variables of a curve, None where it has no value."""
     if subject is None or (curve in _EXACT and subject.trace is None):
         return None
+    of_curve = _GENERAL if subject.exact.kind == GENERAL else _EXACT | _CLOSED
     with np.errstate(all="ignore"):
-        variables = (_EXACT[curve] if curve in _EXACT else _CLOSED[curve])(subject)
-    if variables is None or not all(np.isfinite(values).all() for values in variables.values()):
+        variables = of_curve[curve](subject)
+    if variables is None or not all(np.isfinite(variables[name]).all() for name in variables if name != "jump_energy"):
         return None
     return variables
 
 
-def draw_curves(scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict[str, NDArray[Any]], int]:
+def draw_curves(
+    scene: Mapping[str, float],
+    curves: Sequence[str],
+    profile: Profile | None = None,
+    loading: Loading | None = None,
+) -> tuple[dict[str, NDArray[Any]], int]:
     """Return curves of one scene at points that adapt to them.
 
     Parameters
     ----------
     scene
-        A number for each name of `PARAMETERS`, in the ranges of `solve`; a_max/R may be inf.
+        A number for each name of `PARAMETERS`, in the ranges of `solve`; a_max/R may be inf. Machine control takes
+        `machine_stiffness`, S/(E* R) > 0, besides.
     curves
         Names out of `CURVES`: "equilibrium", the whole equilibrium curve, stable and unstable; "path", the cycle of
-        loading and unloading under controlled displacement; "asymptotic", the curve for short waves (5.15)-(5.20);
+        loading and unloading; "asymptotic", the curve for short waves (5.15)-(5.20);
         "envelope", its two envelopes (5.21)-(5.27); "effective", the path along them (5.28)-(5.35); "smooth", the curve
         of A = 0; "jumps", the jumps of the cycle, one by one.
+    profile, loading
+        Shape of the punch and what is prescribed, as in `solve`; other ones than the default have the curves of
+        `GENERAL_CURVES` only.
 
     Returns
     -------
@@ -101,16 +124,21 @@ def draw_curves(scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict
         integers. A curve that has no value is one point, NaN (-1 for integers); jumps that have none are no item.
     status
         Bits of status.FLAGS: no_value where a parameter is outside its range or a curve that was asked for can fold
-        more than 100,000 times within the range; with the path or its jumps, what `solve` reports of
+        more than 100,000 times (20,000 for another profile or control) within the range; with the path or its jumps, what `solve` reports of
         them.
 
     Raises
     ------
     ValueError
-        For an unknown curve or parameters that are missing.
+        For an unknown curve, one that the profile or control does not have, or parameters that are missing.
 
     Notes
     -----
+    Stable is what is stable under the control in force. A jump is a straight line at what is prescribed: at the depth,
+    at the load, or at delta + P/S; a contact that is pinned at the rim is one too. Under load control the path ends at
+    the last fold, with radius 0 at its depth and load, as nothing holds the punch after it; the energy of that jump is
+    unbounded, and NaN among the jumps.
+
     Curves reach from zero contact to the rim. Those of an unbounded punch end at 1.5 times the radius where the smooth
     curve crosses zero depth, or 5 % beyond the last fold of depth, extremum of load or jump of loading. Folds of depth,
     extrema of load, jumps, start and rim are points of their own, exact to rounding. Between them chords stay within
@@ -132,7 +160,17 @@ def draw_curves(scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict
     missing = [name for name in PARAMETERS if name not in scene]
     if unknown or missing:
         raise ValueError(f"unknown curves {unknown}, missing parameters {missing}")
-    subject = subject_of(scene)
+    profile, loading = profile or Profile(), loading or Loading()
+    if ("machine_stiffness" in scene) != (loading.control == "machine"):
+        raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
+    default = profile == Profile() and loading == Loading()
+    absent = [] if default else [name for name in curves if name not in GENERAL_CURVES]
+    if absent:
+        raise ValueError(
+            f"curves {absent} are known of the paraboloid with one cosine wave under displacement control only; "
+            f"another profile or control has {', '.join(GENERAL_CURVES)}"
+        )
+    subject = subject_of(scene) if default else general.subject_of(scene, profile, loading)
     result: dict[str, NDArray[Any]] = {}
     status, cycle = 0, False
     for curve in curves:
@@ -148,6 +186,7 @@ def draw_curves(scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict
             result |= variables
             cycle = cycle or curve in ("path", "jumps")
     if cycle:
-        solved = solve(scene, ["dissipated_energy", "loading_jumps", "unloading_jumps"], threads=1)
+        outputs = ["dissipated_energy", "loading_jumps", "unloading_jumps"]
+        solved = solve(scene, outputs, threads=1, profile=profile, loading=loading)
         status |= int(solved["status"]) & ~FAILED
     return result, status

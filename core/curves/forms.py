@@ -4,16 +4,23 @@ EXACT      the curve of one wave (curve.py); a place is x = a/lambda, `numbers` 
 SHORT      its leading asymptotic form (asymptotic.py); a place is z = 2 pi a/lambda, `numbers` are the wave's five
 PLAIN      a smooth punch of any pull (smooth.py, envelope.py), z^2/2 - pull z^((1-k)/2) and X [X/(3+k) - pull] with
            X = z^((3+k)/2); a place is z = a/l with the bend 1, `numbers` are k, the pull and a height that depth gains
+GENERAL    any power and any waves (core/general/curve.py); a place is x = a/lambda, `numbers` are the five of its curve,
+           half the shortest wave and the sum of the amplitudes, and its basis stands for the table
 
-All numbers are padded to five, so that one compiled sampler serves all forms.
+All other numbers are padded to five, so that one compiled sampler serves all forms but the general one, which the
+compiler tells by its seven.
 """
 
 import math
 from typing import Any, Final, TypeAlias
 
+import numpy as np
+from numpy.typing import NDArray
+
 from gradhesion.core import asymptotic
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve import wave
+from gradhesion.core.general.curve import state
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 
@@ -22,6 +29,8 @@ Numbers: TypeAlias = tuple[float, float, float, float, float]
 EXACT: Final = 0
 SHORT: Final = 1
 PLAIN: Final = 2
+GENERAL: Final = 3
+GENERAL_NUMBERS: Final = 7
 
 
 @kernel(contract=True)
@@ -46,8 +55,35 @@ def _plain_point(numbers: Numbers, z: float) -> tuple[float, float]:
 
 
 @kernel()
+def _general_point(basis: Any, numbers: Any, x: float) -> tuple[float, float]:
+    """Return depth and load of general/curve.py."""
+    if x == 0.0:
+        return (-1.0 if basis[0].k == 1.0 else 0.0), 0.0
+    _, _, _, depth, load = state(basis, numbers[:5], x)
+    return depth, load
+
+
+@kernel()
+def _general_ripple(basis: Any, numbers: Any, x: float) -> tuple[float, float, float]:
+    """Return what `ripple` does: the waves of all harmonics together."""
+    z = TWO_PI * x
+    power = amplitude_power(basis[0], z)
+    return numbers[5], numbers[6] * z * power, numbers[6] * z / power
+
+
+def general_numbers(k: float, curve: Numbers, amplitude: float, series: NDArray[np.float64]) -> tuple[float, ...]:
+    """Return the numbers of the general form; `amplitude` is that of S0 (struve/table.py)."""
+    n = series[:, 0]
+    heights = np.hypot(series[:, 1], series[:, 2]) * n ** (0.5 * (1.0 - k))
+    half_wave = 0.5 / float(n.max()) if n.size else math.inf
+    return (*curve, half_wave, amplitude * curve[2] * float(heights.sum()))
+
+
+@kernel()
 def point(kind: int, table: Any, numbers: Numbers, place: float) -> tuple[float, float]:
     """Return the reduced depth and load of a form at a place >= 0."""
+    if len(numbers) == GENERAL_NUMBERS:
+        return _general_point(table, numbers, place)
     if kind == EXACT:
         return _exact_point(table, numbers, place)
     if kind == SHORT:
@@ -58,6 +94,8 @@ def point(kind: int, table: Any, numbers: Numbers, place: float) -> tuple[float,
 @kernel()
 def ripple(kind: int, table: Any, numbers: Numbers, place: float) -> tuple[float, float, float]:
     """Return the length of a half wave, and the amplitude of the waves in depth and in load at a place."""
+    if len(numbers) == GENERAL_NUMBERS:
+        return _general_ripple(table, numbers, place)
     if kind == EXACT:
         z = TWO_PI * place
         power = amplitude_power(table, z)

@@ -17,7 +17,7 @@ from gradhesion.core.curves.equilibrium import scales_of
 from gradhesion.core.curves.forms import EXACT, Numbers, pinned_load, point
 from gradhesion.core.curves.knots import landed
 from gradhesion.core.curves.sampling import sample
-from gradhesion.core.curves.subject import Subject
+from gradhesion.core.curves.subject import Form, Subject
 from gradhesion.core.unloading import next_lower
 
 PLACE, DEPTH, LOAD, JOINED, BRANCH, JUMP, UNLOADING = 0, 1, 2, 3, 4, 5, 6
@@ -130,6 +130,23 @@ def find_corners(kind: int, table: Any, numbers: Numbers, trace: Any, load_folds
     return corners[:, :count]
 
 
+def draw_corners(form: Form, corners: NDArray[np.float64], end: float) -> dict[str, NDArray[Any]]:
+    """Return the variables `path_...` (draw.CURVES) through corners; `end` is the rim (in R)."""
+    rim = end / form.radius_scale
+    knots = np.ascontiguousarray(corners[:3])
+    points, owners = sample(form.kind, form.table, form.numbers, knots, corners[JOINED] > 0.0, scales_of(knots))
+    radius, depth, load = form.scaled(points)
+    radius[points[0] == rim] = end
+    return {
+        "path_contact_radius": radius,
+        "path_indentation": depth,
+        "path_load": load,
+        "path_branch": corners[BRANCH, owners].astype(np.int32),
+        "path_jump": corners[JUMP, owners].astype(np.int8),
+        "path_unloading": corners[UNLOADING, owners].astype(np.int8),
+    }
+
+
 def draw_path(subject: Subject) -> dict[str, NDArray[Any]]:
     """Return the path of a cycle: loading from depth zero without contact to full contact, unloading to its end.
 
@@ -153,15 +170,4 @@ def draw_path(subject: Subject) -> dict[str, NDArray[Any]]:
     assert trace is not None  # noqa: S101 (draw.py asks first)
     rim = subject.end / form.radius_scale
     corners = find_corners(form.kind, form.table, form.numbers, trace, subject.load_folds, rim, subject.bounded)
-    knots = np.ascontiguousarray(corners[:3])
-    points, owners = sample(form.kind, form.table, form.numbers, knots, corners[JOINED] > 0.0, scales_of(knots))
-    radius, depth, load = form.scaled(points)
-    radius[points[0] == rim] = subject.end
-    return {
-        "path_contact_radius": radius,
-        "path_indentation": depth,
-        "path_load": load,
-        "path_branch": corners[BRANCH, owners].astype(np.int32),
-        "path_jump": corners[JUMP, owners].astype(np.int8),
-        "path_unloading": corners[UNLOADING, owners].astype(np.int8),
-    }
+    return draw_corners(form, corners, subject.end)

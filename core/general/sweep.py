@@ -23,7 +23,7 @@ _TASK: Final = 16
 
 
 @lru_cache(maxsize=128)
-def _tables_of(k: float) -> tuple[Any, NDArray[np.float64]]:
+def tables_of(k: float) -> tuple[Any, NDArray[np.float64]]:
     """Return the tables of an exponent."""
     return build_table(k), build_cosine_bins(k)
 
@@ -53,6 +53,22 @@ def equivalent_wave(profile: Profile) -> tuple[int, float] | None:
     return (int(n), n * even) if even > 0.0 and odd == 0.0 else None
 
 
+def compliance_of(
+    loading: Loading,
+    k: NDArray[np.float64],
+    modulus: NDArray[np.float64],
+    material: NDArray[np.float64],
+    machine: NDArray[np.float64] | None = None,
+) -> NDArray[np.float64]:
+    """Return K/S over 1/R^(1+k): 0 under displacement control, inf under load control, NaN where S is out of range."""
+    if machine is None:
+        return np.full(k.shape, math.inf if loading.control == "load" else 0.0)
+    with np.errstate(all="ignore"):
+        spring = np.where(machine > 0.0, machine * modulus, np.nan)
+        compliance = 2.0 ** (1.0 - k) / (1.0 + k) * material / spring
+    return np.where(compliance == np.inf, np.nan, compliance)
+
+
 def solve_general(
     parameters: Mapping[str, ArrayLike],
     names: Sequence[str],
@@ -69,12 +85,7 @@ def solve_general(
     material = stiffness(k, nu, modulus, c0)
     with np.errstate(all="ignore"):
         stretch = np.sqrt(2.0 ** (1.0 + k) * math.pi / material)
-        if loading.control == "machine":
-            spring = np.where(machine[0] > 0.0, machine[0] * modulus, np.nan)
-            compliance = 2.0 ** (1.0 - k) / (1.0 + k) * material / spring
-            compliance[compliance == np.inf] = np.nan
-        else:
-            compliance = np.full(k.size, math.inf if loading.control == "load" else 0.0)
+    compliance = compliance_of(loading, k, modulus, material, *machine)
     rows = list(dict.fromkeys(outputs))
     slots = np.array([*(rows.index(name) if name in rows else -1 for name in OUTPUTS), -1])
     out = np.full((len(rows), k.size), np.nan)
@@ -85,7 +96,7 @@ def solve_general(
     def work(task: tuple[float, NDArray[np.int64]]) -> None:
         exponent, index = task
         valid = exponent if 0.0 <= exponent <= 1.0 else 0.0  # beyond, the stretch has no value
-        table, cosines = _tables_of(valid)
+        table, cosines = tables_of(valid)
         front = front_of(valid, profile.exponent)
         scenes = (stretch, wavelength, amplitude, compliance, rim)
         solve_scenes(table, cosines, series, profile.exponent, front, index, *scenes, slots, out, status)

@@ -1,0 +1,127 @@
+"""A scene of any profile under any control made ready for drawing, and its punch without waves.
+
+The branches of the subject are those of the coordinate that is prescribed (core/general/curve.py): there the contact is
+stable under the control in force. The other extrema of depth and of load are its `load_folds`.
+"""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.core.curves.equilibrium import draw_through
+from gradhesion.core.curves.forms import GENERAL, Numbers, general_numbers
+from gradhesion.core.curves.smooth import VARIABLES
+from gradhesion.core.curves.subject import BEYOND, BEYOND_SMOOTH, Form, Subject
+from gradhesion.core.general.curve import Basis
+from gradhesion.core.general.folds import MOST_FOLDS, find_folds, room
+from gradhesion.core.general.path import END, START, fill_branches, find_level
+from gradhesion.core.general.scene import curve_of
+from gradhesion.core.general.sweep import compliance_of, front_of, rows_of, tables_of
+from gradhesion.core.general.window import first_fold_bound, last_fold_bound
+from gradhesion.core.loading_control import Loading
+from gradhesion.core.material import stiffness
+from gradhesion.core.profile import Profile
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.sweep import PARAMETERS
+
+
+def _folds(basis: Basis, numbers: Numbers, furthest: float) -> tuple[NDArray[np.float64], bool] | None:
+    """Return all folds of the coordinate up to a place, and whether it rises from zero contact; None if too many."""
+    first, end = first_fold_bound(basis, numbers) / TWO_PI, last_fold_bound(basis, numbers) / TWO_PI
+    zeros = np.empty(MOST_FOLDS)
+    count, rises, last = 0, False, min(furthest, end)
+    if first < last < math.inf:
+        count, rises, _ = find_folds(basis, numbers, first, last, room(), zeros)
+    if count < 0 or last == math.inf:
+        return None
+    return zeros[:count], rises
+
+
+def _trace(
+    basis: Basis, numbers: Numbers, furthest: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]] | tuple[None, NDArray[np.float64]]:
+    """Return the branches, one a column, and the extrema of depth and load that do not bound them."""
+    folds = _folds(basis, numbers, furthest)
+    turns = [_folds(basis, (*numbers[:3], *ends), furthest) for ends in ((1.0, 0.0), (0.0, 1.0))]
+    if folds is None or turns[0] is None or turns[1] is None:
+        return None, np.empty(0)
+    zeros, rises = folds
+    rows = np.empty((zeros.size // 2 + 2, 4))
+    branches = fill_branches(basis, numbers, zeros, zeros.size, rises, furthest, rows)
+    others = np.setdiff1d(np.concatenate([turns[0][0], turns[1][0]]), zeros)
+    return np.ascontiguousarray(rows[:branches].T), others[others < furthest]
+
+
+def _form(basis: Any, curve: Numbers, radius_scale: float, depth_scale: float, load_scale: float) -> Form:
+    table, _, series = basis
+    numbers: Any = general_numbers(float(table["k"]), curve, float(table["amplitude"]), series)
+    return Form(GENERAL, basis, numbers, radius_scale, depth_scale, load_scale)
+
+
+def smooth_place(form: Form, level: float) -> float:
+    """Return z where m B z^(m-1) = level z^(-(1+k)/2): a turn of depth or load of the punch without waves."""
+    bend, m = form.numbers[:2]
+    place: float = (level / (m * bend)) ** (1.0 / (m - 0.5 * (1.0 - float(form.table[0]["k"]))))
+    return place
+
+
+def subject_of(scene: Mapping[str, float], profile: Profile, loading: Loading) -> Subject | None:
+    """Return a scene ready for drawing, None where a parameter is outside its range.
+
+    Parameters
+    ----------
+    scene
+        The parameters (sweep.PARAMETERS), and `machine_stiffness` under machine control.
+    profile, loading
+        Any.
+
+    Returns
+    -------
+    The subject; its range is that of curves/subject.py, with folds of the coordinate among what it goes beyond.
+    """
+    k, nu, modulus, c0, wavelength, amplitude, rim = (float(scene[name]) for name in PARAMETERS)
+    machine = [np.array(float(scene["machine_stiffness"]))] if loading.control == "machine" else []
+    with np.errstate(all="ignore"):
+        material = stiffness(k, nu, modulus, c0)
+        stretch = math.sqrt(2.0 ** (1.0 + k) * math.pi / material) if material > 0.0 else math.nan
+        compliance = float(compliance_of(loading, np.array(k), np.array(modulus), np.array(material), *machine))
+    lengths = 0.0 < stretch < math.inf and 0.0 < wavelength < math.inf and 0.0 <= amplitude < math.inf
+    if not (lengths and rim > 0.0 and compliance >= 0.0):
+        return None
+    table, cosines = tables_of(k)
+    series = rows_of(profile)
+    if not (amplitude > 0.0 and series.size):
+        amplitude, series = 0.0, np.zeros((0, 3))
+    basis: Any = (table, cosines, series)
+    front = front_of(k, profile.exponent)
+    curve, length, unit = curve_of(k, profile.exponent, front, stretch, wavelength, amplitude, compliance)
+    if not (0.0 < curve[0] < math.inf and curve[2] < math.inf):
+        return None
+    load_scale = 8.0 / (3.0 * (1.0 + k)) * length * length / unit
+    form = _form(basis, curve, wavelength, unit, load_scale)
+    trace, turns = _trace(basis, curve, rim / wavelength)
+    end = rim
+    if not rim < math.inf:
+        places = [BEYOND_SMOOTH * smooth_place(form, profile.exponent) / TWO_PI, *BEYOND * turns[-1:]]
+        if trace is not None:
+            arrival = find_level(basis, curve, 0.0, trace[:, -1])
+            places += [BEYOND * trace[START, -1], BEYOND * arrival]
+        end = wavelength * max(places)
+    return Subject(table, stretch, wavelength, math.nan, amplitude * wavelength, rim, end, form, trace, turns)
+
+
+def draw_smooth(subject: Subject) -> dict[str, NDArray[np.float64]]:
+    """Return the variables `smooth_...` (draw.CURVES): the curve of the same power without waves."""
+    exact, k = subject.exact, subject.k
+    B, m, _, alpha, beta = exact.numbers[:5]
+    basis = (*exact.table[:2], np.zeros((0, 3)))
+    form = _form(basis, (B, m, 0.0, alpha, beta), exact.radius_scale, exact.depth_scale, exact.load_scale)
+    end = subject.end / form.radius_scale
+    places = np.unique([smooth_place(form, level) / TWO_PI for level in (0.5 * (1.0 - k), m, 0.5 * (3.0 + k))])
+    points, _ = draw_through(form, places[(places > 0.0) & (places < end)], end)
+    radius, depth, load = form.scaled(points)
+    radius[-1] = subject.end
+    return dict(zip(VARIABLES, (radius, depth, load), strict=True))

@@ -1,0 +1,152 @@
+"""The path of a cycle of any profile under any control: core/general/path.py with its corners kept.
+
+Jumps keep the coordinate Y = alpha depth + beta load that is prescribed. Without contact the load is zero and the depth
+Y/alpha. Under load control (alpha = 0) the punch falls without end once contact is lost: the path ends there, with
+contact radius 0 at the depth and the load of the last fold.
+"""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.core.curves.forms import point
+from gradhesion.core.curves.path import BRANCH, DEPTH, JOINED, JUMP, LOAD, PLACE, UNLOADING, draw_corners
+from gradhesion.core.curves.subject import Subject
+from gradhesion.core.general.energy import energy_from_zero, jump_energy
+from gradhesion.core.general.path import END, END_LEVEL, START, START_LEVEL, find_level
+from gradhesion.core.struve.circle import TWO_PI
+
+_ROWS: Final = 7
+
+
+class _Walk:
+    """The corners of a path, as they are met."""
+
+    def __init__(self, subject: Subject) -> None:
+        self.form = subject.exact
+        self.turns = subject.load_folds
+        self.curve = self.form.numbers[:5]
+        _, _, _, self.alpha, self.beta = self.curve
+        self.corners: list[tuple[float, ...]] = []
+
+    def put(
+        self, place: float, depth: float, load: float, joined: bool, branch: float, jump: bool, unloading: bool
+    ) -> None:
+        """Append a corner."""
+        corner = [0.0] * _ROWS
+        corner[PLACE], corner[DEPTH], corner[LOAD] = place, depth, load
+        corner[JOINED], corner[BRANCH], corner[JUMP], corner[UNLOADING] = joined, branch, jump, unloading
+        self.corners.append(tuple(corner))
+
+    def at(self, place: float) -> tuple[float, float]:
+        """Return depth and load of the curve."""
+        depth, load = point(self.form.kind, self.form.table, self.form.numbers, place)
+        return depth, load
+
+    def kept(self, depth: float, load: float) -> tuple[float, float]:
+        """Return the state after a jump from the last corner: what is prescribed is the same to the last digit."""
+        last = self.corners[-1]
+        return (last[DEPTH] if self.beta == 0.0 else depth), (last[LOAD] if self.alpha == 0.0 else load)
+
+    def land(self, branch: NDArray[np.float64], level: float, number: float, unloading: bool) -> None:
+        """Jump to a branch at a level."""
+        place = find_level(self.form.table, self.curve, level, branch)
+        self.put(place, *self.kept(*self.at(place)), False, number, True, unloading)
+
+    def along(self, place: float, number: float, unloading: bool) -> None:
+        """Go along a branch to a place, by the turns between."""
+        start = self.corners[-1][PLACE]
+        turns = self.turns[(self.turns > min(start, place)) & (self.turns < max(start, place))]
+        for turn in [*(turns[::-1] if unloading else turns).tolist(), *([place] if place != start else [])]:
+            self.put(turn, *self.at(turn), True, number, False, unloading)
+
+    def pin(self, rim: float, level: float, number: float) -> None:
+        """Jump to the pinned contact at the rim at a level."""
+        depth, load = self.at(rim)
+        front = (TWO_PI * rim) ** (1.0 + float(self.form.table[0]["k"]))
+        push = (level - self.alpha * depth - self.beta * load) / (self.alpha + self.beta * front)
+        self.put(rim, *self.kept(depth + push, load + front * push), False, number, True, False)
+
+
+def find_corners(subject: Subject) -> NDArray[np.float64]:
+    """Return the corners of the path up to the rim and back, one a column, with the rows of path.py."""
+    trace = subject.trace
+    assert trace is not None  # noqa: S101 (draw.py asks first)
+    walk = _Walk(subject)
+    rim = subject.end / walk.form.radius_scale
+    branches = trace.shape[1]
+    at_rim = branches + 1.0
+    ends = np.minimum(trace[END], rim)
+    walk.put(0.0, 0.0, 0.0, False, 0.0, False, False)
+    left, level = 0.0, 0.0
+    for branch in range(branches):
+        if trace[END_LEVEL, branch] > level:
+            walk.land(trace[:, branch], level, branch + 1.0, False)
+            left, level = float(ends[branch]), float(trace[END_LEVEL, branch])
+            walk.along(left, branch + 1.0, False)
+    rim_depth, rim_load = walk.at(rim)
+    rim_level = walk.alpha * rim_depth + walk.beta * rim_load
+    if left < rim:
+        walk.pin(rim, level, at_rim)
+        if level > rim_level:
+            walk.put(rim, rim_depth, rim_load, False, at_rim, False, True)
+    now, level = branches - 1, rim_level
+    landed = now >= 0 and ends[now] == rim
+    left = rim
+    while True:
+        if not landed:
+            while now >= 0 and not trace[START_LEVEL, now] < level:
+                now -= 1
+            if now < 0:
+                break
+            walk.land(trace[:, now], level, now + 1.0, True)
+        left, level = float(trace[START, now]), float(trace[START_LEVEL, now])
+        walk.along(left, now + 1.0, True)
+        now, landed = now - 1, False
+    if left > 0.0:
+        depth = level / walk.alpha if walk.alpha > 0.0 else walk.corners[-1][DEPTH]
+        walk.put(0.0, *walk.kept(depth, 0.0), False, 0.0, True, True)
+    return np.ascontiguousarray(np.array(walk.corners).T)
+
+
+def draw_path(subject: Subject) -> dict[str, NDArray[Any]]:
+    """Return the variables `path_...` (draw.CURVES). A jump is one straight line at its coordinate."""
+    return draw_corners(subject.exact, find_corners(subject), subject.end)
+
+
+def list_jumps(subject: Subject) -> dict[str, NDArray[Any]]:
+    """Return the variables `jump_...` (draw.CURVES), one item a jump; the depth is that before it.
+
+    The jump-out under load control has no bounded energy: that is NaN.
+    """
+    form = subject.exact
+    rim = subject.end / form.radius_scale
+    curve = form.numbers[:5]
+    _, _, _, alpha, beta = curve
+    corners = find_corners(subject)
+    after = np.flatnonzero(corners[JUMP] > 0.0)
+    before = after - 1
+    left, reached = corners[PLACE, before], corners[PLACE, after]
+    levels = alpha * corners[DEPTH, before] + beta * corners[LOAD, before]
+    energies = np.empty(after.size)
+    for i, (start, end) in enumerate(zip(left.tolist(), reached.tolist(), strict=True)):
+        if start == 0.0:
+            energies[i] = energy_from_zero(form.table, curve, end, levels[i])
+        elif end == 0.0:
+            energies[i] = -energy_from_zero(form.table, curve, start, levels[i]) if alpha > 0.0 else math.nan
+        else:
+            energies[i] = jump_energy(form.table, curve, start, end)
+    length = form.radius_scale / TWO_PI
+    at_rim = ((left == rim) | (reached == rim)) & subject.bounded
+    return {
+        "jump_indentation": corners[DEPTH, before] * form.depth_scale,
+        "jump_radius_before": np.where(left == rim, subject.end, left * form.radius_scale),
+        "jump_radius_after": np.where(reached == rim, subject.end, reached * form.radius_scale),
+        "jump_energy": TWO_PI * length * length * energies,
+        "jump_load_before": corners[LOAD, before] * form.load_scale,
+        "jump_load_after": corners[LOAD, after] * form.load_scale,
+        "jump_unloading": corners[UNLOADING, after].astype(np.int8),
+        "jump_at_rim": at_rim.astype(np.int8),
+    }
