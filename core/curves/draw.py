@@ -124,8 +124,8 @@ def draw_curves(
         integers. A curve that has no value is one point, NaN (-1 for integers); jumps that have none are no item.
     status
         Bits of status.FLAGS: no_value where a parameter is outside its range or a curve that was asked for can fold
-        more than 100,000 times (20,000 for another profile or control) within the range; with the path or its jumps, what `solve` reports of
-        them.
+        more than 100,000 times within the range (20,000 times for another profile or control); with the path or its
+        jumps, what `solve` reports of them.
 
     Raises
     ------

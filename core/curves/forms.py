@@ -4,8 +4,8 @@ EXACT      the curve of one wave (curve.py); a place is x = a/lambda, `numbers` 
 SHORT      its leading asymptotic form (asymptotic.py); a place is z = 2 pi a/lambda, `numbers` are the wave's five
 PLAIN      a smooth punch of any pull (smooth.py, envelope.py), z^2/2 - pull z^((1-k)/2) and X [X/(3+k) - pull] with
            X = z^((3+k)/2); a place is z = a/l with the bend 1, `numbers` are k, the pull and a height that depth gains
-GENERAL    any power and any waves (core/general/curve.py); a place is x = a/lambda, `numbers` are the five of its curve,
-           half the shortest wave and the sum of the amplitudes, and its basis stands for the table
+GENERAL    any power and any waves (core/general/curve.py); a place is x = a/lambda, `numbers` are those of its curve
+           with half the shortest wave and the sum of the amplitudes, and its basis stands for the table
 
 All other numbers are padded to five, so that one compiled sampler serves all forms but the general one, which the
 compiler tells by its seven.
@@ -80,7 +80,7 @@ def general_numbers(k: float, curve: Numbers, amplitude: float, series: NDArray[
 
 
 @kernel()
-def point(kind: int, table: Any, numbers: Numbers, place: float) -> tuple[float, float]:
+def point(kind: int, table: Any, numbers: Any, place: float) -> tuple[float, float]:
     """Return the reduced depth and load of a form at a place >= 0."""
     if len(numbers) == GENERAL_NUMBERS:
         return _general_point(table, numbers, place)
@@ -92,7 +92,7 @@ def point(kind: int, table: Any, numbers: Numbers, place: float) -> tuple[float,
 
 
 @kernel()
-def ripple(kind: int, table: Any, numbers: Numbers, place: float) -> tuple[float, float, float]:
+def ripple(kind: int, table: Any, numbers: Any, place: float) -> tuple[float, float, float]:
     """Return the length of a half wave, and the amplitude of the waves in depth and in load at a place."""
     if len(numbers) == GENERAL_NUMBERS:
         return _general_ripple(table, numbers, place)

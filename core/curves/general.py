@@ -17,7 +17,7 @@ from gradhesion.core.curves.smooth import VARIABLES
 from gradhesion.core.curves.subject import BEYOND, BEYOND_SMOOTH, Form, Subject
 from gradhesion.core.general.curve import Basis
 from gradhesion.core.general.folds import MOST_FOLDS, find_folds, room
-from gradhesion.core.general.path import END, START, fill_branches, find_level
+from gradhesion.core.general.path import END, END_LEVEL, START, fill_branches, find_level
 from gradhesion.core.general.scene import curve_of
 from gradhesion.core.general.sweep import compliance_of, front_of, rows_of, tables_of
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
@@ -52,7 +52,9 @@ def _trace(
     rows = np.empty((zeros.size // 2 + 2, 4))
     branches = fill_branches(basis, numbers, zeros, zeros.size, rises, furthest, rows)
     others = np.setdiff1d(np.concatenate([turns[0][0], turns[1][0]]), zeros)
-    return np.ascontiguousarray(rows[:branches].T), others[others < furthest]
+    trace = np.ascontiguousarray(rows[:branches].T)
+    trace[END, trace[END] == furthest] = math.inf  # the rim is no fold
+    return trace, others[others < furthest]
 
 
 def _form(basis: Any, curve: Numbers, radius_scale: float, depth_scale: float, load_scale: float) -> Form:
@@ -107,7 +109,7 @@ def subject_of(scene: Mapping[str, float], profile: Profile, loading: Loading) -
     if not rim < math.inf:
         places = [BEYOND_SMOOTH * smooth_place(form, profile.exponent) / TWO_PI, *BEYOND * turns[-1:]]
         if trace is not None:
-            arrival = find_level(basis, curve, 0.0, trace[:, -1])
+            arrival = find_level(basis, curve, float(np.max(trace[END_LEVEL, :-1], initial=0.0)), trace[:, -1])
             places += [BEYOND * trace[START, -1], BEYOND * arrival]
         end = wavelength * max(places)
     return Subject(table, stretch, wavelength, math.nan, amplitude * wavelength, rim, end, form, trace, turns)

@@ -72,19 +72,19 @@ class _Walk:
 
 def find_corners(subject: Subject) -> NDArray[np.float64]:
     """Return the corners of the path up to the rim and back, one a column, with the rows of path.py."""
-    trace = subject.trace
-    assert trace is not None  # noqa: S101 (draw.py asks first)
+    assert subject.trace is not None  # noqa: S101 (draw.py asks first)
     walk = _Walk(subject)
     rim = subject.end / walk.form.radius_scale
+    trace = subject.trace.copy()
+    trace[END] = np.minimum(trace[END], rim)
     branches = trace.shape[1]
     at_rim = branches + 1.0
-    ends = np.minimum(trace[END], rim)
     walk.put(0.0, 0.0, 0.0, False, 0.0, False, False)
     left, level = 0.0, 0.0
     for branch in range(branches):
         if trace[END_LEVEL, branch] > level:
             walk.land(trace[:, branch], level, branch + 1.0, False)
-            left, level = float(ends[branch]), float(trace[END_LEVEL, branch])
+            left, level = float(trace[END, branch]), float(trace[END_LEVEL, branch])
             walk.along(left, branch + 1.0, False)
     rim_depth, rim_load = walk.at(rim)
     rim_level = walk.alpha * rim_depth + walk.beta * rim_load
@@ -93,7 +93,7 @@ def find_corners(subject: Subject) -> NDArray[np.float64]:
         if level > rim_level:
             walk.put(rim, rim_depth, rim_load, False, at_rim, False, True)
     now, level = branches - 1, rim_level
-    landed = now >= 0 and ends[now] == rim
+    landed = now >= 0 and trace[END, now] == rim
     left = rim
     while True:
         if not landed:
