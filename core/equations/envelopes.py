@@ -8,8 +8,8 @@
 Loading runs along the upper signs, unloading along the lower ones: a smooth punch with s + r for s, whose pull-off
 force is (3+k)/3 (1+r/s)^2. The printed form leaves out lambda A, the mean height of the wave. For a Fourier series r is
 2^((k-1)/2) G((1+k)/2) lambda^((1+k)/2) times the maximum of zeta for loading, and minus its minimum for unloading,
-(5.21)-(5.25). A paraboloid, lengths in R, loads in 1.5 pi R dgamma, M in dgamma/R^(1+k). Source: Jin, Guo & Wan (2013)
-as corrected in docs/theory.md.
+(5.21)-(5.25). For a punch r^m/m the first terms are those of `hertz.power_indentation`. Lengths are in R, loads in
+1.5 pi R dgamma, M in dgamma/R^(1+k). Source: Jin, Guo & Wan (2013) as corrected in docs/theory.md.
 """
 
 import math
@@ -20,9 +20,12 @@ from numpy.typing import ArrayLike
 from scipy.special import gamma
 
 from gradhesion.core.equations import hertz
-from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive
+from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
 from gradhesion.core.equations.general import harmonics
-from gradhesion.core.equations.short_waves import zeta
+
+_SAMPLES = 64
+_NEWTON_STEPS = 6
+"""From 1/128 of the shortest wave: its quadratic convergence is done after four."""
 
 
 def adhesion_strength(k: ArrayLike, stiffness: ArrayLike) -> Array:
@@ -88,8 +91,8 @@ def series_strengths(
 
     Returns
     -------
-    Two arrays of the broadcast shape; NaN outside the ranges. The extrema of zeta are those of 512 samples for each
-    harmonic with a parabola through the best three: 1e-9 of the sum of all amplitudes, relative.
+    Two arrays of the broadcast shape; NaN outside the ranges. The extrema of zeta are the true ones: every local
+    extremum of 64 samples for each wave of the shortest harmonic is refined by Newton's method, and the best is taken.
 
     Examples
     --------
@@ -99,9 +102,120 @@ def series_strengths(
     """
     n = 0.5 * (1.0 + exponent_of(k))
     size = 2.0 ** (n - 1.0) * gamma(n) * positive(wavelength) ** n
-    turns = np.arange(512 * max(1, len(harmonics(cosines, sines)))) / (512 * max(1, len(harmonics(cosines, sines))))
-    values = zeta(np.asarray(k, dtype=float)[..., None], turns, cosines, sines)
-    return size * _crest(values), size * _crest(-values)
+    lowest, highest = zeta_extrema(k, cosines, sines)
+    return size * highest, -size * lowest
+
+
+def zeta_extrema(k: ArrayLike, cosines: Sequence[float], sines: Sequence[float] = ()) -> tuple[Array, Array]:
+    """Return the true minimum and maximum of zeta (5.17) over its period.
+
+    Parameters
+    ----------
+    k
+        Gradient exponent, 0 to 1.
+    cosines, sines
+        a_1, a_2, ... and b_1, b_2, ..., over the wavelength.
+
+    Returns
+    -------
+    Two arrays of the shape of `k`; NaN outside the range.
+
+    Examples
+    --------
+    >>> [float(value.round(12)) for value in zeta_extrema(1.0, [-0.02])]
+    [-0.02, 0.02]
+    """
+    exponents = exponent_of(k)[..., None]
+    waves = harmonics(cosines, sines)
+    count = _SAMPLES * max(1, len(waves))
+    turns = np.broadcast_to(np.arange(count) / count, (*exponents.shape[:-1], count))
+
+    def derivative(xi: Array, order: int) -> Array:
+        # a derivative of a harmonic is (2 pi n)^order of it, a quarter turn on
+        total = np.zeros(np.broadcast_shapes(exponents.shape, xi.shape))
+        for n, a_n, b_n in waves:
+            phase = 2.0 * math.pi * np.mod(n * xi, 1.0) - 0.25 * math.pi * (1.0 + exponents) + 0.5 * math.pi * order
+            size = (2.0 * math.pi * n) ** (0.5 * (1.0 - exponents) + order)
+            total = total + size * (b_n * np.cos(phase) - a_n * np.sin(phase))
+        return total
+
+    values = derivative(turns, 0)
+    extreme = []
+    for sign in (-1.0, 1.0):
+        crests = sign * values
+        local = (crests >= np.roll(crests, 1, -1)) & (crests >= np.roll(crests, -1, -1))
+        xi = turns
+        for _ in range(_NEWTON_STEPS):
+            bend = sign * derivative(xi, 2)
+            step = np.divide(-sign * derivative(xi, 1), bend, out=np.zeros_like(bend), where=bend < 0.0)
+            xi = turns + np.clip(xi + step - turns, -1.0 / count, 1.0 / count)
+        refined = np.maximum(sign * derivative(xi, 0), crests)
+        extreme.append(sign * np.max(np.where(local, refined, crests), axis=-1))
+    return extreme[0], extreme[1]
+
+
+def power_pull_off(
+    k: ArrayLike, stiffness: ArrayLike, pull: ArrayLike, exponent: ArrayLike = 2.0
+) -> tuple[Array, Array]:
+    """Return the radius and the force of pull-off of an envelope of any power m.
+
+    With G the factor of `hertz.power_indentation` and c = (1-k)/2,
+
+        a^(m-c) = (3+k) (s+r)/(2 m G),   F = K (s+r) a^((3+k)/2) (m-c)/(1+k+m)
+
+    Parameters
+    ----------
+    k, exponent
+        As in `indentation`.
+    stiffness
+        M R^(1+k)/dgamma > 0, finite.
+    pull
+        s + r of the unloading envelope, over R^((1+k)/2), > 0.
+
+    Returns
+    -------
+    a/R and F/(1.5 pi R dgamma), of the broadcast shape; NaN outside the ranges.
+
+    Examples
+    --------
+    >>> s, r = adhesion_strength(0.2, 500.0), waviness_strength(0.2, 0.01, 0.02)
+    >>> bool(abs(power_pull_off(0.2, 500.0, s + r)[1] / pull_off_force(0.2, r / s) - 1) < 1e-14)
+    True
+    """
+    gradient, hold, m = exponent_of(k), positive(pull), power_of(exponent)
+    c = 0.5 * (1.0 - gradient)
+    front = hertz.power_indentation(gradient, 1.0, m)
+    radius = (0.5 * (3.0 + gradient) * hold / (m * front)) ** (1.0 / (m - c))
+    return radius, hertz.disc_stiffness(k, stiffness, radius) * hold * radius**c * (m - c) / (1.0 + gradient + m)
+
+
+def power_radii(k: ArrayLike, pull: ArrayLike, exponent: ArrayLike = 2.0) -> tuple[Array, Array]:
+    """Return the radii of an envelope of any power m at the depth 0 and at its fold, (5.34) and (5.35).
+
+        a_2^(m-c) = pull/G,   a_4^(m-c) = (1-k) pull/(2 m G)
+
+    depths counted from the mean surface, with G the factor of `hertz.power_indentation` and c = (1-k)/2.
+
+    Parameters
+    ----------
+    k, exponent
+        As in `indentation`.
+    pull
+        s - r of the loading envelope for a_2, s + r of the unloading one for a_4, over R^((1+k)/2), > 0.
+
+    Returns
+    -------
+    a_2/R and a_4/R, of the broadcast shape; NaN outside the ranges.
+
+    Examples
+    --------
+    >>> [float(radius.round(12)) for radius in power_radii(0.0, 0.008)]
+    [0.04, 0.01587401052]
+    """
+    gradient, hold, m = exponent_of(k), positive(pull), power_of(exponent)
+    c = 0.5 * (1.0 - gradient)
+    ratio = hold / hertz.power_indentation(gradient, 1.0, m)
+    return ratio ** (1.0 / (m - c)), (c * ratio / m) ** (1.0 / (m - c))
 
 
 def pull_off_force(k: ArrayLike, ratio: ArrayLike) -> Array:
@@ -132,6 +246,7 @@ def indentation(
     radius: ArrayLike,
     pull: ArrayLike,
     mean_height: ArrayLike = 0.0,
+    exponent: ArrayLike = 2.0,
 ) -> Array:
     """Return the depth delta/R on an envelope (5.26).
 
@@ -145,6 +260,8 @@ def indentation(
         s - r for loading, s + r for unloading, over R^((1+k)/2); may be negative.
     mean_height
         lambda A/R of the wave, or 0 for the printed form.
+    exponent
+        m >= 1; 2 is a paraboloid.
 
     Returns
     -------
@@ -157,16 +274,16 @@ def indentation(
     [0.032242, 0.025359]
     """
     a, c = not_negative(radius), 0.5 * (1.0 - exponent_of(k))
-    smooth = hertz.power_indentation(k, a) - np.asarray(pull, dtype=float) * a**c
+    smooth = hertz.power_indentation(k, a, exponent) - np.asarray(pull, dtype=float) * a**c
     return smooth + np.asarray(mean_height, dtype=float)
 
 
-def load(k: ArrayLike, stiffness: ArrayLike, radius: ArrayLike, pull: ArrayLike) -> Array:
+def load(k: ArrayLike, stiffness: ArrayLike, radius: ArrayLike, pull: ArrayLike, exponent: ArrayLike = 2.0) -> Array:
     """Return the load P/(1.5 pi R dgamma) on an envelope (5.27).
 
     Parameters
     ----------
-    k, radius, pull
+    k, radius, pull, exponent
         As in `indentation`.
     stiffness
         M R^(1+k)/dgamma > 0, finite.
@@ -181,16 +298,7 @@ def load(k: ArrayLike, stiffness: ArrayLike, radius: ArrayLike, pull: ArrayLike)
     >>> load(0.0, 500.0, 0.3, [s - r, s + r]).round(4).tolist()
     [0.13, -0.3082]
     """
-    a, exponent = not_negative(radius), exponent_of(k)
-    smooth = hertz.power_indentation(k, a) * 2.0 / (3.0 + exponent)
-    hold = np.asarray(pull, dtype=float) * a ** (0.5 * (1.0 - exponent))
+    a, gradient, m = not_negative(radius), exponent_of(k), power_of(exponent)
+    smooth = hertz.power_indentation(k, a, m) * m / (1.0 + gradient + m)
+    hold = np.asarray(pull, dtype=float) * a ** (0.5 * (1.0 - gradient))
     return hertz.disc_stiffness(k, stiffness, a) * (smooth - hold)
-
-
-def _crest(values: Array) -> Array:
-    """Return the maximum of a periodic function along the last axis, from samples."""
-    place = np.expand_dims(np.argmax(values, axis=-1), -1)
-    count = values.shape[-1]
-    before, best, after = (np.take_along_axis(values, (place + i) % count, -1)[..., 0] for i in (-1, 0, 1))
-    bend = 2.0 * best - before - after
-    return best + np.divide((after - before) ** 2, 8.0 * bend, out=np.zeros_like(best), where=bend > 0.0)

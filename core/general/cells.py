@@ -7,6 +7,7 @@ Casteljau). A pair that is not told apart after 20 halvings is two zeros on eith
 itself, or none.
 """
 
+import math
 from typing import Any, Final
 
 import numpy as np
@@ -43,7 +44,7 @@ def _changes(coefficients: Any) -> int:
 
 
 @kernel()
-def isolate(values: Any, stack: Any, spans: Any, found: Any) -> int:
+def isolate(values: Any, stack: Any, spans: Any, found: Any) -> tuple[int, float]:
     """Put the parts of [0, 1] that hold zeros of an interpolant into `found`, from left to right.
 
     Parameters
@@ -58,7 +59,7 @@ def isolate(values: Any, stack: Any, spans: Any, found: Any) -> int:
 
     Returns
     -------
-    The number of rows.
+    The number of rows, and a number below |interpolant| wherever it is in no row: nearly zero at a near miss.
     """
     for j in range(DEGREE + 1):
         total = 0.0
@@ -68,14 +69,17 @@ def isolate(values: Any, stack: Any, spans: Any, found: Any) -> int:
     stack[0, 0], stack[0, DEGREE] = values[0], values[DEGREE]
     spans[0, 0], spans[0, 1], spans[0, 2] = 0.0, 1.0, 0.0
     top, count = 0, 0
+    nearest = math.inf
     while top >= 0:
         changes = _changes(stack[top])
         left, right, halvings = spans[top, 0], spans[top, 1], spans[top, 2]
         if changes == 0:
+            for j in range(DEGREE + 1):
+                nearest = min(nearest, abs(stack[top, j]))
             top -= 1
         elif changes == 1 or halvings >= HALVINGS:
             if count == MOST:
-                return count
+                return count, nearest
             found[count, 0], found[count, 1] = left, right
             found[count, 2] = -1.0 if stack[top, 0] < 0.0 else 1.0
             found[count, 3] = 1.0 if changes % 2 == 1 else 2.0
@@ -94,4 +98,4 @@ def isolate(values: Any, stack: Any, spans: Any, found: Any) -> int:
             spans[top, 0], spans[top, 1], spans[top, 2] = middle, right, halvings + 1.0
             spans[top + 1, 0], spans[top + 1, 1], spans[top + 1, 2] = left, middle, halvings + 1.0
             top += 1
-    return count
+    return count, nearest

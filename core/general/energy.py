@@ -83,7 +83,9 @@ def energy_from_zero(basis: Basis, curve: Curve, x: float, level: float) -> floa
     _, _, _, alpha, beta = curve
     longest = _longest_panel(series)
     total, high = 0.0, x
-    end = _NEGLIGIBLE ** (1.0 / (1.0 + table.k)) * x
+    # the integrand's share up to z is about z^(1+k), on the scale on which the machine's share of the stiffness changes
+    scale = min(1.0, alpha / (beta * (TWO_PI * x) ** (1.0 + table.k))) if alpha * beta > 0.0 else 1.0
+    end = (_NEGLIGIBLE * scale) ** (1.0 / (1.0 + table.k)) * x
     while high > end:
         low = max(high - longest, high / 3.0)
         part = 0.0

@@ -18,6 +18,8 @@ MOST_CELLS: Final = 4 * MOST_FOLDS
 _SHARE: Final = 0.5
 """Longest cell over its distance from zero contact, where powers of z have a branch point."""
 _STEPS: Final = 80
+_NEAR: Final = 1e-6
+"""Least |D| over the ends' below which it is compared with the terms of D."""
 
 
 @kernel()
@@ -92,7 +94,10 @@ def folds_of_cell(
     at_high = values[DEGREE]
     count, miss = 0, math.inf
     here, negative = low, at_low < 0.0
-    for row in range(isolate(values, stack, spans, found)):
+    rows, nearest = isolate(values, stack, spans, found)
+    if nearest <= _NEAR * max(abs(at_low), abs(at_high)):
+        miss = nearest / _terms(basis, curve, low)
+    for row in range(rows):
         left, right = low + (high - low) * found[row, 0], low + (high - low) * found[row, 1]
         points = 2
         middle = right

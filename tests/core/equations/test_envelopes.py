@@ -68,7 +68,7 @@ def test_one_wave_as_a_series() -> None:
     k = np.array([0.0, 0.3, 0.7, 1.0])
     for wave in ([-AMPLITUDE], [AMPLITUDE]):
         for strength in envelopes.series_strengths(k, WAVELENGTH, wave):
-            np.testing.assert_allclose(strength, envelopes.waviness_strength(k, WAVELENGTH, AMPLITUDE), rtol=1e-9)
+            np.testing.assert_allclose(strength, envelopes.waviness_strength(k, WAVELENGTH, AMPLITUDE), rtol=1e-15 * 8)
 
 
 @pytest.mark.parametrize("k", [0.0, 0.6, 1.0])
@@ -81,6 +81,65 @@ def test_series_are_bounded_and_touched(k: float) -> None:
     assert loading == pytest.approx(values.max(), rel=1e-8)
     assert unloading == pytest.approx(-values.min(), rel=1e-8)
     assert abs(loading - unloading) > 1e-3 * loading
+
+
+@pytest.mark.parametrize("k", [0.0, 0.37, 1.0])
+def test_extrema_of_zeta_are_true(k: float) -> None:
+    rng = np.random.default_rng(5)
+    for count in (1, 2, 5, 17, 64):
+        cosines, sines = rng.normal(size=(2, count)) / np.arange(1, count + 1)
+        lowest, highest = envelopes.zeta_extrema(k, cosines.tolist(), sines.tolist())
+        for sign, extreme in ((1.0, highest), (-1.0, -lowest)):
+            xi = np.linspace(0.0, 1.0, 2000 * count + 1)
+            values = sign * short_waves.zeta(k, xi, cosines.tolist(), sines.tolist())
+            best = xi[np.argmax(values)]
+            polished = minimize_scalar(
+                lambda t, sign=sign, cosines=cosines, sines=sines: (
+                    -sign * float(short_waves.zeta(k, t, cosines.tolist(), sines.tolist()))
+                ),
+                bounds=(best - 1e-3 / count, best + 1e-3 / count),
+                method="bounded",
+                options={"xatol": 1e-12},
+            )
+            size = np.sum(np.hypot(cosines, sines) * (2 * math.pi * np.arange(1, count + 1)) ** (0.5 * (1 - k)))
+            assert extreme == pytest.approx(-polished.fun, abs=50 * EPS * size)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.41, 1.0])
+@pytest.mark.parametrize("m", [1.0, 1.5, 2.0, 4.0, 6.5])
+def test_envelopes_of_any_power(k: float, m: float) -> None:
+    loading, unloading = _pulls(k)
+    radius, force = envelopes.power_pull_off(k, M, unloading, m)
+    low = minimize_scalar(
+        lambda a: float(envelopes.load(k, M, a, unloading, m)),
+        bounds=(0.5 * float(radius), 2.0 * float(radius)),
+        method="bounded",
+        options={"xatol": 1e-12},
+    )
+    assert -low.fun == pytest.approx(float(force), rel=1e-12)
+    touch, _ = envelopes.power_radii(k, loading, m)
+    assert abs(float(envelopes.indentation(k, touch, loading, 0.0, m))) <= 20 * EPS * loading
+    _, fold = envelopes.power_radii(k, unloading, m)
+    if k < 1.0:
+        near = envelopes.indentation(k, float(fold) * np.array([1 - 1e-4, 1.0, 1 + 1e-4]), unloading, 0.0, m)
+        assert near[1] < min(near[0], near[2])
+    else:
+        assert fold == 0.0
+
+
+def test_exact_force_of_other_powers_and_series_tends_to_the_envelope() -> None:
+    from gradhesion.core import Harmonic, Profile
+
+    k, m, wavelength = 0.3, 3.0, 1e-3
+    material = float(stiffness(k, 0.3, 300.0, 0.2))
+    profile = Profile(exponent=m, harmonics=(Harmonic(n=1, cos=0.7, sin=0.2), Harmonic(n=3, cos=-0.1, sin=0.05)))
+    amplitude = 0.02
+    cosines, sines = [-0.7 * amplitude, 0.0, 0.1 * amplitude], [0.2 * amplitude, 0.0, 0.05 * amplitude]
+    _, r = envelopes.series_strengths(k, wavelength, cosines, sines)
+    _, force = envelopes.power_pull_off(k, material, envelopes.adhesion_strength(k, material) + r, m)
+    scene = {"k": k, "nu": 0.3, "modulus": 300.0, "c0_over_R": 0.2, "lambda_over_R": wavelength, "A": amplitude}
+    exact = solve(scene | {"a_max_over_R": math.inf}, ["pull_off_force"], profile=profile)["pull_off_force"]
+    assert float(exact) == pytest.approx(float(force), rel=1e-3)  # of the order of the wavelength over the radius
 
 
 def test_outside_the_ranges() -> None:
