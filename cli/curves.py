@@ -72,7 +72,7 @@ def _draw(study: Study, block: Block) -> Drawing:
     """Draw the curves of one scene; one that has none is one point without a value."""
     scene = {name: float(values.item()) for name, values in scenes_of(study, block).items()}
     curves = [curve for curve, own in CURVES.items() if any(name in own for name in study.outputs)]
-    found, status = draw_curves(scene, curves)
+    found, status = draw_curves(scene, curves, study.profile, study.loading)
     front = (1,) * len(block)
     parts = {}
     counts = {

@@ -117,6 +117,9 @@ EXTENTS: Final = {
 }
 """Every curve of a curve study, with the dimension along it."""
 
+GENERAL_CURVES: Final = ("equilibrium", "path", "smooth", "jumps")
+"""Curves of any profile under any control; the others are closed forms of one cosine wave on a paraboloid."""
+
 RAGGED: Final = {"jumps": "jump_count"}
 """Curves kept as contiguous ragged arrays, one scene after the other, with the variable that counts what each has."""
 
@@ -125,7 +128,7 @@ CURVES: Final = {
         "contact_radius": "contact radius a/R",
         "indentation": "indentation depth delta/R in equilibrium",
         "load": "load P/(1.5 pi R dgamma) in equilibrium, negative if it pulls",
-        "stable": "whether the equilibrium is stable under controlled displacement",
+        "stable": "whether the equilibrium is stable under the control in force",
     },
     "path": {
         "path_contact_radius": "contact radius a/R on the path of a loading cycle",

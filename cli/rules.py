@@ -8,7 +8,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import CURVES, MACHINE, OUTPUTS, table_of, unit_of
+from gradhesion.cli.names import CURVES, GENERAL_CURVES, MACHINE, OUTPUTS, table_of, unit_of
 from gradhesion.cli.places import Path
 from gradhesion.cli.schema import KINDS, LAYOUTS, Mistake, did_you_mean, nearest, shown
 from gradhesion.core.loading_control import CONTROLS
@@ -212,8 +212,10 @@ def _mistakes_of_default_only(data: Mapping[str, Any], solvers: Sequence[str]) -
     known = "known of a paraboloid with one cosine wave under controlled displacement only"
     remedy = f"or remove {' and '.join(others)}"
     if kind_of(data) == "curve":
-        yield Mistake(("kind",), data["kind"], f'curves are {known}; write kind = "map", {remedy}')
-        return
+        special = {one: (one, *own) for one, own in CURVES.items() if one not in GENERAL_CURVES}
+        for i, name in enumerate(data.get("outputs", [])):
+            if any(name in own for own in special.values()):
+                yield Mistake(("outputs", i), name, f"this curve is {known}; remove it, {remedy}")
     asked = data.get("method", {}).get("solver", "exact")
     for one in [asked] if isinstance(asked, str) else asked:
         if one in solvers[1:]:

@@ -12,7 +12,7 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset import compute
-from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, KEYS, MEANINGS, PARAMETERS, RAGGED
+from gradhesion.cli.names import CURVES, EXTENTS, GENERAL_CURVES, INTEGERS, KEYS, MEANINGS, PARAMETERS, RAGGED
 from gradhesion.cli.study import load_study, study_from
 from gradhesion.core import FAILED, FLAGS, draw_curves, solve
 from gradhesion.core import curves as core_curves
@@ -47,6 +47,7 @@ def test_the_names_are_those_of_the_core() -> None:
     counts = {*RAGGED.values()}
     of_core = {curve: tuple(name for name in own if name not in counts) for curve, own in CURVES.items()}
     assert of_core == core_curves.CURVES
+    assert GENERAL_CURVES == core_curves.GENERAL_CURVES
     assert set(INTEGERS) - counts == set(core_curves.INTEGERS)
     assert list(EXTENTS) == list(CURVES)
     assert set(MEANINGS) < set(INTEGERS)

@@ -12,8 +12,9 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset import compute
+from gradhesion.cli.names import CURVES
 from gradhesion.cli.study import load_study, study_from
-from gradhesion.core import solve
+from gradhesion.core import draw_curves, solve
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.profile import Harmonic, Profile
 
@@ -150,7 +151,6 @@ MISTAKES = {
     "solver": ("method.solver='envelope'", 'the solver "envelope" is known of a paraboloid with one cosine wave under controlled displacement only'),
     "report": ("outputs=['energy_gain']", "this output is known of a paraboloid with one cosine wave under controlled displacement only"),
     "jump-in radius": ("parameters.a_max_over_a2=2.0", "a_2 is that of a paraboloid with one cosine wave"),
-    "curves": ("kind='curve'", 'curves are known of a paraboloid with one cosine wave under controlled displacement only; write kind = "map", or remove [profile] and [loading]'),
 }  # fmt: skip
 
 
@@ -176,3 +176,32 @@ def test_all_mistakes_are_told_at_once(shaped: dict[str, Any]) -> None:
     for key in keys:
         assert sum(key in sentence.split(" = ")[0] for sentence in caught.value.mistakes) == 1
     assert len(caught.value.mistakes) == len(keys)
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_curves_of_any_shape_and_control_are_drawn(shaped: dict[str, Any], control: str) -> None:
+    curves = ["equilibrium", "path", "smooth", "jumps"]
+    loading = {"control": control} | ({"machine_stiffness": 3.0} if control == "machine" else {})
+    parameters = shaped["parameters"] | {"k": 0.31, "A": [0.0, 0.02], "a_max_over_R": 0.8}
+    study = study_from(shaped | {"kind": "curve", "outputs": curves, "loading": loading, "parameters": parameters})
+    dataset = compute(study)
+    assert set(CURVES) - set(curves) == {"asymptotic", "envelope", "effective"}
+    for i, amplitude in enumerate([0.0, 0.02]):
+        scene = {name: float(np.max(dataset[name])) for name in ("k", "nu", "modulus", "c0_over_R", "lambda_over_R")}
+        scene |= {"A": amplitude, "a_max_over_R": 0.8}
+        scene |= {"machine_stiffness": 3.0} if control == "machine" else {}
+        found, status = draw_curves(scene, curves, study.profile, Loading(control=control))
+        assert int(dataset["status"][i]) == status
+        for name in ("load", "path_indentation", "path_branch", "smooth_load"):
+            assert np.array_equal(dataset[name][i].values[: found[name].size], found[name]), name
+
+
+def test_curves_of_one_cosine_are_refused(shaped: dict[str, Any]) -> None:
+    from gradhesion.cli.errors import StudyError
+
+    outputs = ["path", "envelope", "asymptotic_load"]
+    with pytest.raises(StudyError) as caught:
+        study_from(shaped | {"kind": "curve", "outputs": outputs})
+    known = "this curve is known of a paraboloid with one cosine wave under controlled displacement only; remove it, "
+    assert [known in sentence for sentence in caught.value.mistakes] == [True, True]
+    assert ["outputs[1]" in caught.value.mistakes[0], "outputs[2]" in caught.value.mistakes[1]] == [True, True]
