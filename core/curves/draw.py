@@ -89,7 +89,7 @@ def _draw(subject: Subject | None, curve: str) -> dict[str, NDArray[Any]] | None
     of_curve = _GENERAL if subject.exact.kind == GENERAL else _EXACT | _CLOSED
     with np.errstate(all="ignore"):
         variables = of_curve[curve](subject)
-    if variables is None or not all(np.isfinite(variables[name]).all() for name in variables if name != "jump_energy"):
+    if variables is None or not all(np.isfinite(values).all() for values in variables.values()):
         return None
     return variables
 
@@ -137,7 +137,7 @@ def draw_curves(
     Stable is what is stable under the control in force. A jump is a straight line at what is prescribed: at the depth,
     at the load, or at delta + P/S; a contact that is pinned at the rim is one too. Under load control the path ends at
     the last fold, with radius 0 at its depth and load, as nothing holds the punch after it; the energy of that jump is
-    unbounded, and NaN among the jumps.
+    unbounded, and it is none of the jumps that are listed.
 
     Curves reach from zero contact to the rim. Those of an unbounded punch end at 1.5 times the radius where the smooth
     curve crosses zero depth, or 5 % beyond the last fold of depth, extremum of load or jump of loading. Folds of depth,

@@ -5,7 +5,6 @@ Y/alpha. Under load control (alpha = 0) the punch falls without end once contact
 contact radius 0 at the depth and the load of the last fold.
 """
 
-import math
 from typing import Any, Final
 
 import numpy as np
@@ -119,14 +118,14 @@ def draw_path(subject: Subject) -> dict[str, NDArray[Any]]:
 def list_jumps(subject: Subject) -> dict[str, NDArray[Any]]:
     """Return the variables `jump_...` (draw.CURVES), one item a jump; the depth is that before it.
 
-    The jump-out under load control has no bounded energy: that is NaN.
+    The jump-out under load control has no bounded energy and is left out, as in `dissipated_energy`.
     """
     form = subject.exact
     rim = subject.end / form.radius_scale
     curve = form.numbers[:5]
     _, _, _, alpha, beta = curve
     corners = find_corners(subject)
-    after = np.flatnonzero(corners[JUMP] > 0.0)
+    after = np.flatnonzero((corners[JUMP] > 0.0) & ((corners[PLACE] > 0.0) | (alpha > 0.0)))
     before = after - 1
     left, reached = corners[PLACE, before], corners[PLACE, after]
     levels = alpha * corners[DEPTH, before] + beta * corners[LOAD, before]
@@ -135,7 +134,7 @@ def list_jumps(subject: Subject) -> dict[str, NDArray[Any]]:
         if start == 0.0:
             energies[i] = energy_from_zero(form.table, curve, end, levels[i])
         elif end == 0.0:
-            energies[i] = -energy_from_zero(form.table, curve, start, levels[i]) if alpha > 0.0 else math.nan
+            energies[i] = -energy_from_zero(form.table, curve, start, levels[i])
         else:
             energies[i] = jump_energy(form.table, curve, start, end)
     length = form.radius_scale / TWO_PI

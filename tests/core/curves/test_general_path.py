@@ -43,10 +43,10 @@ def test_the_loop_is_the_energy(profile: Profile, control: str, stiffness: float
     path, solved = _drawn(control, stiffness, profile, a_max_over_R=rim)
     energy = solved["dissipated_energy"]
     lost = path["jump_energy"]
-    assert np.isnan(lost).tolist() == [False] * (lost.size - 1) + [control == "load"]
-    assert np.nansum(lost) == pytest.approx(energy, rel=100 * EPS)
+    assert lost.sum() == pytest.approx(energy, rel=100 * EPS)
     assert (path["jump"] * (1 - path["unloading"])).sum() == solved["loading_jumps"]
-    assert (path["jump"] * path["unloading"]).sum() == solved["unloading_jumps"] == path["jump_unloading"].sum()
+    assert (path["jump"] * path["unloading"]).sum() == solved["unloading_jumps"]
+    assert path["jump_unloading"].sum() == solved["unloading_jumps"] - (control == "load")
     depth, load = path["indentation"], path["load"]
     if control == "load":
         return  # the loop is open
