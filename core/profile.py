@@ -9,6 +9,8 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
+HIGHEST: Final = 10_000
+"""Number of the highest harmonic."""
 MOST_HARMONICS: Final = 64
 
 
@@ -19,7 +21,7 @@ class Harmonic:
     Parameters
     ----------
     n
-        Waves a wavelength, a whole number >= 1.
+        Waves a wavelength, a whole number from 1 to 10,000.
     cos, sin
         Amplitudes of 1 - cos and of sin, in units of A; finite.
 
@@ -34,8 +36,8 @@ class Harmonic:
     sin: float = 0.0
 
     def __post_init__(self) -> None:
-        if not (self.n >= 1 and self.n == int(self.n)):
-            raise ValueError(f"harmonic n = {self.n}: n is a whole number from 1 on")
+        if not (1 <= self.n <= HIGHEST and self.n == int(self.n)):
+            raise ValueError(f"harmonic n = {self.n}: n is a whole number from 1 on, {HIGHEST:,} at most")
         if not (math.isfinite(self.cos) and math.isfinite(self.sin)):
             raise ValueError(f"harmonic n = {self.n}: cos = {self.cos} and sin = {self.sin} must be finite")
 
