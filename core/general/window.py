@@ -1,6 +1,6 @@
 """Where folds can stand at all, from bounds of the waves.
 
-With C the amplitude of z^n S0 and h_n = |cos_n + i sin_n|, for every k (a scan: tests/core/general/test_path.py holds it)
+With C the amplitude of z^n S0 and h_n = |cos_n + i sin_n|, for every k (a scan)
 
     |cos V_S(y) + sin V_T(y)| <= h C y^c (1 + 0.35/y^2)         and, for y small, h T0(0) (1 + y)
 
