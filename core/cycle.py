@@ -60,8 +60,8 @@ _FURTHEST: Final = 1e300
 _HALVINGS: Final = 200
 MOST_ARCHES: Final = 2.0e9
 """Arches up to which the phase of a radius is told well enough to walk there."""
-NEGLIGIBLE: Final = 2.0**-56
-"""Gain over bend below which waviness is lost in rounding: its share of the depth is at most 2 g/((1+k) b)."""
+_NEGLIGIBLE: Final = 2.0**-56
+"""Curvature of the waviness over that of the paraboloid below which it is lost in rounding."""
 NEAR_RIM: Final = 10.0
 """Waves walked before the rim, or before the folds end."""
 
@@ -77,6 +77,12 @@ def extent(table: Any, curve: Curve) -> tuple[float, float]:
 def is_long(table: Any, arches: tuple[float, float], rim: float) -> bool:
     """Return whether a rim is too far out to walk there."""
     return min(arches[1], 2.0 * rim - table.phase / math.pi) - arches[0] > LONGEST_WALK
+
+
+@kernel()
+def is_endless_wave(wavelength: float, amplitude: float) -> bool:
+    """Return whether a wave (lambda/R, A) is so long that its curvature 4 pi^2 A/lambda is nothing beside 1/R."""
+    return TWO_PI * TWO_PI * amplitude <= _NEGLIGIBLE * wavelength
 
 
 @kernel()

@@ -18,7 +18,7 @@ from gradhesion.core import smooth
 from gradhesion.core._jit import kernel
 from gradhesion.core.branches import ARRIVAL, END, START
 from gradhesion.core.curve import Curve, depth, wave
-from gradhesion.core.cycle import MOST_ARCHES, NEGLIGIBLE, extent, is_long, is_smooth, is_unresolved, stride, walk
+from gradhesion.core.cycle import MOST_ARCHES, extent, is_endless_wave, is_long, is_smooth, is_unresolved, stride, walk
 from gradhesion.core.folds import fold_of_arch, survey_arch
 from gradhesion.core.loading import loading_to
 from gradhesion.core.loop_energy import loop_energy
@@ -196,7 +196,7 @@ def _report_curve(
     depth_scale = stretch * length ** (0.5 * (1.0 - k))
     curve = (2.0 * length * length / ((1.0 + k) * depth_scale), amplitude * wavelength / depth_scale, 0.0)
     arches = extent(table, curve)
-    if curve[1] <= NEGLIGIBLE * curve[0] or is_smooth(arches):
+    if is_endless_wave(wavelength, amplitude) or is_smooth(arches):
         _report_smooth(k, constants, stretch, rims, slots, out)
         for i in range(rims.size):
             put(out, slots, ROUGHNESS, i, curve[1] * table.amplitude)

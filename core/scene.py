@@ -12,7 +12,17 @@ from gradhesion.core import smooth
 from gradhesion.core._jit import kernel
 from gradhesion.core.contact import disc_limits, is_one_disc
 from gradhesion.core.curve import Curve, depth
-from gradhesion.core.cycle import LARGEST, NEGLIGIBLE, SMALLEST, extent, is_long, is_smooth, is_unresolved, stride, walk
+from gradhesion.core.cycle import (
+    LARGEST,
+    SMALLEST,
+    extent,
+    is_endless_wave,
+    is_long,
+    is_smooth,
+    is_unresolved,
+    stride,
+    walk,
+)
 from gradhesion.core.folds import CLOSE
 from gradhesion.core.loading import highest_depth, jumps_in_to, loading_to
 from gradhesion.core.pull_off import lowest_load
@@ -185,15 +195,12 @@ def solve_curve(
 ) -> None:
     """Solve one curve (k, s, lambda, A) for all its rims a_max."""
     k = table.k
-    if amplitude == 0.0:
+    if is_endless_wave(wavelength, amplitude):  # A = 0 among them
         _solve_smooth(k, constants, stretch, rims, slots, out, status)
         return
     length = wavelength / TWO_PI
     depth_scale = stretch * length ** (0.5 * (1.0 - k))
     curve = (2.0 * length * length / ((1.0 + k) * depth_scale), amplitude * wavelength / depth_scale, 0.0)
-    if curve[1] <= NEGLIGIBLE * curve[0]:  # a wave so long that its curvature is below rounding
-        _solve_smooth(k, constants, stretch, rims, slots, out, status)
-        return
     if not (0.0 < curve[0] < LARGEST and curve[1] < LARGEST):  # powers of them would overflow
         out[:, :] = math.nan
         status[:] = NO_VALUE

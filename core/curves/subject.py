@@ -12,7 +12,7 @@ from gradhesion.core import smooth
 from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, ROWS, START, START_DEPTH
 from gradhesion.core.curves import knots
 from gradhesion.core.curves.forms import EXACT, PLAIN, Numbers
-from gradhesion.core.cycle import NEGLIGIBLE, extent, is_smooth, walk
+from gradhesion.core.cycle import extent, is_endless_wave, is_smooth, walk
 from gradhesion.core.material import stiffness
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.sweep import PARAMETERS, table_of
@@ -141,7 +141,7 @@ def subject_of(scene: Mapping[str, float]) -> Subject | None:
         wavy = wavy_form(table, stretch, wavelength, amplitude * wavelength)
         chi = float(table["amplitude"]) * wavy.numbers[1]
         curve = (wavy.numbers[0], wavy.numbers[1], 0.0)
-        if curve[1] > NEGLIGIBLE * curve[0]:
+        if not is_endless_wave(wavelength, amplitude):
             if not (0.0 < curve[0] < math.inf and chi < math.inf and min(rim, least) > _SMALLEST * wavelength):
                 return None
             arches = extent(table, curve)
