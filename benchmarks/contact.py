@@ -9,6 +9,7 @@ from benchmarks.clock import seconds_of, table
 from benchmarks.draw import mixture
 from gradhesion.core import contact, solve
 from gradhesion.core.branches import ROWS
+from gradhesion.core.curve import curve_of
 from gradhesion.core.cycle import extent, is_long, walk
 from gradhesion.core.material import stiffness
 from gradhesion.core.status import LOADING_NOT_ONE_DISC
@@ -35,9 +36,7 @@ def integrals(scenes: dict[str, Any]) -> float:
             stretch = math.sqrt(
                 2 ** (1 + k) * math.pi / float(stiffness(k, one["nu"], one["modulus"], one["c0_over_R"]))
             )
-            length = wavelength / (2 * math.pi)
-            unit = stretch * length ** (0.5 * (1 - k))
-            curve = (2 * length**2 / ((1 + k) * unit), one["A"] * wavelength / unit, 0.0)
+            curve, _, _ = curve_of(k, stretch, wavelength, one["A"] * wavelength)
             arches, rim = extent(table_of(k), curve), one["a_max_over_R"] / wavelength
             if curve[1] == 0.0 or is_long(table_of(k), arches, rim):
                 continue

@@ -24,6 +24,7 @@ from gradhesion.core.asymptotic import (
 )
 from gradhesion.core.asymptotic_jump import loss_of_jump
 from gradhesion.core.branches import END, END_DEPTH, START, START_DEPTH
+from gradhesion.core.curve import curve_of, force_unit
 from gradhesion.core.results import put_all, wants_folds, wants_force
 from gradhesion.core.status import NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
@@ -148,11 +149,9 @@ def solve_curve(
         envelope.solve_curve(table, stretch, wavelength, amplitude, rims, slots, out)
         return
     k = table.k
-    length = wavelength / TWO_PI
-    depth_scale = stretch * length ** (0.5 * (1.0 - k))
-    gain = amplitude * wavelength / depth_scale
-    wave = (k, 2.0 * length * length / ((1.0 + k) * depth_scale), table.amplitude * gain, gain, table.phase)
-    force_scale = 8.0 / (3.0 * (1.0 + k)) * length * length / depth_scale
+    (bend, gain, _), length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
+    wave = (k, bend, table.amplitude * gain, gain, table.phase)
+    force_scale = force_unit(k, length, depth_scale)
     energy_scale = TWO_PI * length * length
     force, folds = wants_force(slots), wants_folds(slots)
     count, trace = -1, np.empty((4, 0))

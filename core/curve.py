@@ -31,6 +31,27 @@ Curve: TypeAlias = tuple[float, float, float]
 """Bend, gain and lag."""
 
 
+@kernel()
+def curve_of(k: float, stretch: float, wavelength: float, mean_height: float) -> tuple[Curve, float, float]:
+    """Return the curve of a scene, l, and the unit of depth s l^c; lengths are in R.
+
+    Parameters
+    ----------
+    k, stretch, wavelength, mean_height
+        Gradient exponent, s, lambda and lambda A.
+    """
+    length = wavelength / TWO_PI
+    unit = stretch * length ** (0.5 * (1.0 - k))
+    return (2.0 * length * length / ((1.0 + k) * unit), mean_height / unit, 0.0), length, unit
+
+
+@kernel()
+def force_unit(k: float, length: float, unit: float) -> float:
+    """Return the unit of load K l^(1+k) s l^c in 1.5 pi R dgamma, for l and the unit of depth s l^c."""
+    # it is K s^2 l^2/(s l^c), and K s^2 = 4 pi R dgamma/(1+k)
+    return 8.0 / (3.0 * (1.0 + k)) * length * length / unit
+
+
 @kernel(contract=True)
 def wave(table: Any, lag: float, x: float) -> tuple[float, float, float, float, float, float, float]:
     """Return z, z^(-n), S0, S1, V, V', V'' at x > 0."""

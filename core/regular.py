@@ -38,6 +38,8 @@ _WIDE: Final = 2.2
 """Half the width of a branch, in radians, from which on both its folds are found."""
 FAR: Final = 4.0e6
 """Waves from which on z e_j is taken for its limit: the phase of a float would fade, and 1/z is below 1e-7."""
+_REMOTE: Final = 1e8
+"""End of the folds over the last wave of a sum, from which on it makes no difference where they end."""
 
 
 @kernel(contract=True)
@@ -151,6 +153,7 @@ def _limit_terms(values: Any) -> float:
 @kernel()
 def _integral(table: Any, curve: Curve, begin: float, end: float, outwards: bool, final: float, trace: Any) -> float:
     """Return the integral of what a jump loses over the number of its wave."""
+    final = min(final, _REMOTE * end)  # so that 1 - y^2 keeps its digits
     low = math.sqrt(1.0 - (end / final) ** 0.25)
     high = math.sqrt(1.0 - (begin / final) ** 0.25)
     total = 0.0

@@ -14,16 +14,18 @@ scenes of an independent solver (tests/twin) the true error is at most 4.2 of th
 import math
 from typing import Any, Final
 
+import numpy as np
+
 from gradhesion.core import smooth
 from gradhesion.core._jit import kernel
 from gradhesion.core.branches import ARRIVAL, END, START
-from gradhesion.core.curve import Curve, depth, wave
-from gradhesion.core.cycle import MOST_ARCHES, extent, is_endless_wave, is_long, is_smooth, is_unresolved, stride, walk
+from gradhesion.core.curve import Curve, curve_of, depth, force_unit, wave
+from gradhesion.core.cycle import MOST_ARCHES, extent, is_endless_wave, is_long, is_smooth, stride, walk
 from gradhesion.core.folds import fold_of_arch, survey_arch
 from gradhesion.core.loading import loading_to
 from gradhesion.core.loop_energy import loop_energy
 from gradhesion.core.results import ENERGY, FORCE, RADIUS, put
-from gradhesion.core.status import TOLERANCE_NOT_MET
+from gradhesion.core.status import NO_VALUE, TOLERANCE_NOT_MET
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.unloading import unloading_from
 
@@ -50,7 +52,7 @@ _ROUNDING: Final = 6.0 * 2.0**-52
 _PROMISED: Final = 1e-9
 """Error of the energy, in parts of its terms, above which a scene does not meet the tolerance (docs/accuracy.md)."""
 _LOOPED: Final = 4096.0
-"""Arches up to which a loop is integrated: some milliseconds."""
+"""Arches, or halves of waves, up to which a loop is integrated: some milliseconds."""
 _ARCHES_BACK: Final = 8
 """Arches from the bound of the last one inwards on which the last fold is looked for."""
 
@@ -124,19 +126,19 @@ def _report_energy(
 ) -> None:
     """Tell how good the energy of one rim is, in its status too if it is not as good as promised."""
     long = is_long(table, arches, x)
-    error, residual = math.nan, math.nan
-    if not is_unresolved(arches, x):
-        if long:
-            count, trace = stride(table, curve, arches, x, scratch, True, 2.0)
-            error = 4.0 * abs(energy - scale * _energy_at(table, curve, count, trace, x))
-        else:
-            count, trace = walk(table, curve, arches, x, scratch, True)
-            error = 0.0
-        terms = scale * _energy_terms(table, curve, count, trace, x)
-        error += _ROUNDING * terms
-        if error > _PROMISED * terms:
-            status[i] |= TOLERANCE_NOT_MET
-    if slots[RESIDUAL] >= 0 and min(arches[1], 2.0 * x) - arches[0] <= _LOOPED:
+    residual = math.nan
+    if long:
+        count, trace = stride(table, curve, arches, x, scratch, True, 2.0)
+        error = 4.0 * abs(energy - scale * _energy_at(table, curve, count, trace, x))
+    else:
+        count, trace = walk(table, curve, arches, x, scratch, True)
+        error = 0.0
+    terms = scale * _energy_terms(table, curve, count, trace, x)
+    error += _ROUNDING * terms
+    if error > _PROMISED * terms:
+        status[i] |= TOLERANCE_NOT_MET
+    waves = _outermost(count, trace, x) - (trace[START, 0] if count > 0 else 0.0)
+    if slots[RESIDUAL] >= 0 and max(min(arches[1], 2.0 * x) - arches[0], 2.0 * waves) <= _LOOPED:
         if long:
             count, trace = walk(table, curve, arches, x, scratch, False)
         rim_depth = depth(table, curve, x) if x < math.inf else math.inf
@@ -192,19 +194,20 @@ def _report_curve(
 ) -> None:
     """Report on one curve for all its rims."""
     k = table.k
-    length = wavelength / TWO_PI
-    depth_scale = stretch * length ** (0.5 * (1.0 - k))
-    curve = (2.0 * length * length / ((1.0 + k) * depth_scale), amplitude * wavelength / depth_scale, 0.0)
-    arches = extent(table, curve)
-    if is_endless_wave(wavelength, amplitude) or is_smooth(arches):
+    curve, length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
+    endless = is_endless_wave(wavelength, amplitude)
+    arches = (0.0, 0.0) if endless else extent(table, curve)
+    if endless or is_smooth(arches):
         _report_smooth(k, constants, stretch, rims, slots, out)
         for i in range(rims.size):
-            put(out, slots, ROUGHNESS, i, curve[1] * table.amplitude)
+            put(out, slots, ROUGHNESS, i, curve[1] * table.amplitude if amplitude > 0.0 else 0.0)
         return
     _report_gains(k, constants, stretch, rims, results, slots, out)
-    force_scale = 8.0 / (3.0 * (1.0 + k)) * length * length / depth_scale
+    force_scale = force_unit(k, length, depth_scale)
     saturation = last_fold(table, curve, arches) * wavelength if slots[SATURATION] >= 0 else 0.0
     for i in range(rims.size):
+        if status[i] & NO_VALUE:
+            continue
         put(out, slots, ROUGHNESS, i, curve[1] * table.amplitude)
         put(out, slots, SATURATION, i, saturation)
         if slots[FORCE_ERROR] >= 0:
@@ -236,24 +239,13 @@ def report_curves(
     for j in range(index.size):
         i = index[j]
         row = rims[i if rims.shape[0] > 1 else 0]
+        values, flags = out[:, i], status[i]
         stretch = math.sqrt(front / stiffness[i])
-        if not (0.0 < stretch < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf):
-            for slot in slots:
-                if slot >= 0:
-                    out[slot, i] = math.nan
-        elif amplitude[i] == 0.0:
-            _report_smooth(table.k, constants, stretch, row, slots, out[:, i])
-        else:
-            _report_curve(
-                table,
-                constants,
-                stretch,
-                wavelength[i],
-                amplitude[i],
-                row,
-                results,
-                slots,
-                out[:, i],
-                status[i],
-                scratch,
-            )
+        if np.any((flags & NO_VALUE) == 0):  # what solve gives no value may be out of every range
+            solved = (results, slots, values, flags, scratch)
+            _report_curve(table, constants, stretch, wavelength[i], amplitude[i], row, *solved)
+        for rim in range(flags.size):
+            if flags[rim] & NO_VALUE:
+                for slot in slots:
+                    if slot >= 0:
+                        values[slot, rim] = math.nan

@@ -11,7 +11,7 @@ from typing import Any
 from gradhesion.core import smooth
 from gradhesion.core._jit import kernel
 from gradhesion.core.contact import disc_limits, is_one_disc
-from gradhesion.core.curve import Curve, depth
+from gradhesion.core.curve import Curve, curve_of, depth, force_unit
 from gradhesion.core.cycle import (
     LARGEST,
     SMALLEST,
@@ -198,9 +198,7 @@ def solve_curve(
     if is_endless_wave(wavelength, amplitude):  # A = 0 among them
         _solve_smooth(k, constants, stretch, rims, slots, out, status)
         return
-    length = wavelength / TWO_PI
-    depth_scale = stretch * length ** (0.5 * (1.0 - k))
-    curve = (2.0 * length * length / ((1.0 + k) * depth_scale), amplitude * wavelength / depth_scale, 0.0)
+    curve, length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
     if not (0.0 < curve[0] < LARGEST and curve[1] < LARGEST):  # powers of them would overflow
         out[:, :] = math.nan
         status[:] = NO_VALUE
@@ -211,9 +209,7 @@ def solve_curve(
         _solve_smooth(k, constants, stretch, rims, slots, out, status)
         return
     if wants_force(slots):
-        # K l^(1+k) s l^c/(1.5 pi R dgamma) = K s^2 l^2/(s l^c)/1.5 pi, and K s^2 = 4 pi R dgamma/(1+k)
-        scale = 8.0 / (3.0 * (1.0 + k)) * length * length / depth_scale
-        _solve_force(table, curve, scale, wavelength, rims, slots, out, status)
+        _solve_force(table, curve, force_unit(k, length, depth_scale), wavelength, rims, slots, out, status)
     if folds:
         scales = (TWO_PI * length * length, depth_scale)
         _solve_cycle(table, curve, arches, scales, wavelength, rims, slots, out, status, scratch)

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.core.curve import force_unit
 from gradhesion.core.curves.equilibrium import draw_through
 from gradhesion.core.curves.forms import GENERAL, Numbers, general_numbers
 from gradhesion.core.curves.smooth import VARIABLES
@@ -102,8 +103,7 @@ def subject_of(scene: Mapping[str, float], profile: Profile, loading: Loading) -
     curve, length, unit = curve_of(k, profile.exponent, front, stretch, wavelength, amplitude, compliance)
     if not (0.0 < curve[0] < math.inf and curve[2] < math.inf):
         return None
-    load_scale = 8.0 / (3.0 * (1.0 + k)) * length * length / unit
-    form = _form(basis, curve, wavelength, unit, load_scale)
+    form = _form(basis, curve, wavelength, unit, force_unit(k, length, unit))
     trace, turns = _trace(basis, curve, rim / wavelength)
     end = rim
     if not rim < math.inf:

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from gradhesion.core import smooth
 from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, ROWS, START, START_DEPTH
+from gradhesion.core.curve import curve_of, force_unit
 from gradhesion.core.curves import knots
 from gradhesion.core.curves.forms import EXACT, PLAIN, Numbers
 from gradhesion.core.cycle import extent, is_endless_wave, is_smooth, walk
 from gradhesion.core.material import stiffness
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.sweep import PARAMETERS, table_of
 
 BEYOND: Final = 1.05
@@ -88,10 +88,8 @@ def plain_form(table: Any, stretch: float, pull: float, height: float = 0.0) -> 
 def wavy_form(table: Any, stretch: float, wavelength: float, mean_height: float) -> Form:
     """Return the exact form of one wave, in the scales of scene.py."""
     k = float(table["k"])
-    length = wavelength / TWO_PI
-    depth_scale = stretch * length ** (0.5 * (1.0 - k))
-    bend, gain = 2.0 * length * length / ((1.0 + k) * depth_scale), mean_height / depth_scale
-    load_scale = 8.0 / (3.0 * (1.0 + k)) * length * length / depth_scale
+    (bend, gain, _), length, depth_scale = curve_of(k, stretch, wavelength, mean_height)
+    load_scale = force_unit(k, length, depth_scale)
     return Form(EXACT, table, (bend, gain, 0.0, 0.0, 0.0), wavelength, depth_scale, load_scale)
 
 

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from gradhesion.core._jit import kernel
+from gradhesion.core.curve import force_unit
 from gradhesion.core.folds import CLOSE
 from gradhesion.core.general.curve import Basis, Curve, state
 from gradhesion.core.general.folds import MOST_FOLDS, find_folds, room
@@ -137,8 +138,7 @@ def solve_scene(
             lowest = place = math.nan
         elif second < lowest * (1.0 - CLOSE):
             status[i] |= CLOSE_TO_A_JUMP
-        # as in core/scene.py: K s^2 = 4 pi R dgamma/(1+k)
-        put(out, slots, FORCE, i, -8.0 / (3.0 * (1.0 + table.k)) * length * length / unit * lowest)
+        put(out, slots, FORCE, i, -force_unit(table.k, length, unit) * lowest)
         put(out, slots, RADIUS, i, place * wavelength if place != x else rim)
         if place == x:
             status[i] |= PULL_OFF_AT_RIM

@@ -9,6 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gradhesion.core import REPORTS, solve
+from gradhesion.core.status import NO_VALUE
+
 from .checks import CHECKS, values_or_status
 from .draw import eventful, hostile
 
@@ -67,3 +70,26 @@ def test_beyond_all_bounds_it_ends() -> None:
         scenes[name] = np.where(rng.uniform(size=size) < 0.4, wild, 10.0 ** rng.uniform(-6, 6, size))
     for bounded in (True, False):
         assert np.all(values_or_status(scenes if bounded else scenes | {"a_max_over_R": np.full(size, np.inf)}) <= 1.0)
+
+
+def test_beyond_all_bounds_reports_end() -> None:
+    """Reports of such scenes: none hangs, and a scene without a value has no report."""
+    rng = np.random.default_rng(5)
+    size = 600
+    scenes = {"k": rng.choice([0.0, 0.3, 0.7, 1.0 - 1e-16, 1.0], size), "nu": 0.5}
+    for name in ("modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R"):
+        wild = 10.0 ** rng.uniform(-300, 300, size)
+        scenes[name] = np.where(rng.uniform(size=size) < 0.5, wild, 10.0 ** rng.uniform(-6, 2, size))
+    result = solve(scenes, REPORTS)
+    failed = (result["status"] & NO_VALUE) != 0
+    assert 0.1 < np.mean(failed) < 0.9
+    for name in REPORTS:
+        assert np.all(np.isnan(result[name][failed]))
+
+
+def test_waves_that_end_beyond_1e100_waves_are_summed() -> None:
+    """At k = 1 a gain of 1e36 on a bend of 1e-101: the energy of 157 waves is that of no bend at all, and grows as A^2."""
+    scene = {"k": 1.0, "nu": 0.5, "modulus": 3e4, "c0_over_R": 1e193, "lambda_over_R": 0.00636, "a_max_over_R": 1.0}
+    amplitudes = np.array([1e133, 1e134])
+    energy = solve(scene | {"A": amplitudes}, ["dissipated_energy"])["dissipated_energy"]
+    np.testing.assert_allclose(energy[1] / energy[0], 100.0, rtol=1e-12)
