@@ -17,10 +17,9 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SI, SOLVER
 from gradhesion.cli.study import Method, Study
 from gradhesion.core import FAILED, PARAMETERS
-from gradhesion.core.loading_control import Loading
-from gradhesion.core.profile import Profile
 from gradhesion.core.status import CLOSE_TO_A_JUMP, NO_VALUE
 from gradhesion.twin import stated
+from gradhesion.twin.general import Shape
 
 CANDIDATES: Final = 20
 """Scenes that may be drawn for each one of the sample, where some are left out."""
@@ -99,11 +98,6 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
         )
     if study.method != Method(solver=solvers, check_contact=study.method.check_contact):  # that changes no value
         raise DatasetError(f"{path}: its study has settings that `gradhesion verify` cannot recompute")
-    if study.profile != Profile() or study.loading != Loading():
-        raise DatasetError(
-            f"{path}: has another profile or control, which have no independent twin; `gradhesion verify` takes the "
-            "paraboloid with one cosine wave under controlled displacement"
-        )
     if seed is None:
         seed = random.SystemRandom().randrange(10**6)
     found = Recomputed(seed=seed, total=study.scenes // len(asked) * len(known), solvers=known)
@@ -112,11 +106,12 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
         *(name for name in study.outputs if name not in outputs and not name.endswith("_error")),
         *(f"all of the solver {solver}" for solver in asked if solver not in known),
     )
-    scenes = _drawn(dataset, study, outputs, sample, found)
+    shape = shape_of(study)
+    scenes = _drawn(dataset, study, shape, outputs, sample, found)
     scenes.sort(key=lambda scene: scene.parameters["k"])  # scenes of one exponent share what is known of it
     with progress(len(scenes)) as advance:
         for scene in scenes:
-            found.deviations += _compared(dataset, scene, outputs, found)
+            found.deviations += _compared(dataset, scene, shape, outputs, found)
             advance(1)
     if not found.deviations:
         raise DatasetError(
@@ -127,8 +122,14 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
     return found
 
 
+def shape_of(study: Study) -> Shape:
+    """Tell the twin what the shape of the punch is, and what is prescribed."""
+    harmonics = tuple((wave.n, wave.cos, wave.sin) for wave in study.profile.harmonics)
+    return Shape(exponent=study.profile.exponent, harmonics=harmonics, control=study.loading.control)
+
+
 def _drawn(
-    dataset: xarray.Dataset, study: Study, outputs: Collection[str], sample: int, found: Recomputed
+    dataset: xarray.Dataset, study: Study, shape: Shape, outputs: Collection[str], sample: int, found: Recomputed
 ) -> list[Scene]:
     """Draw scenes until `sample` of them have values that can be recomputed."""
     coordinates = {name: dataset[name].values for name in study.parameters}
@@ -145,11 +146,18 @@ def _drawn(
                 found.deviations += _without_value(dataset, scene, study.variables)
         elif missing := [name for name in PARAMETERS if math.isnan(scene.parameters[name])]:
             found.deviations += [_unlike(scene, name, math.nan, "a value, by its status") for name in missing]
-        elif stated.within_reach(scene.parameters, outputs, scene.solver):
+        elif _is_within_reach(scene, shape, outputs):
             scenes.append(scene)
         else:
             found.beyond += 1
     return scenes
+
+
+def _is_within_reach(scene: Scene, shape: Shape, outputs: Collection[str]) -> bool:
+    try:
+        return stated.within_reach(scene.parameters, outputs, scene.solver, shape)
+    except ArithmeticError:  # which says so again when it is solved
+        return True
 
 
 def _scene(
@@ -196,11 +204,11 @@ def _unlike(scene: Scene, output: str, value: float, expected: str) -> Deviation
 
 
 def _compared(
-    dataset: xarray.Dataset, scene: Scene, outputs: Collection[str], found: Recomputed
+    dataset: xarray.Dataset, scene: Scene, shape: Shape, outputs: Collection[str], found: Recomputed
 ) -> Iterator[Deviation]:
     """Recompute one scene and compare."""
     try:
-        expected = stated.expected(scene.parameters, outputs, scene.solver)
+        expected = stated.expected(scene.parameters, outputs, scene.solver, shape)
     except ArithmeticError:
         found.unsure += 1
         return

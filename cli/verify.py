@@ -18,8 +18,8 @@ def verify(file: Path, sample: int, seed: int | None, digits: bool) -> None:
 
     The study in the dataset must be unchanged and give its coordinates. Then a random sample of its scenes is solved in
     arithmetic of 51 digits, without the kernels that made the dataset; the deviations are told, the worst first. A
-    scene takes less than 0.1 s as a rule and 15 s at most: one of more than 1,000 waves is left out, and another is
-    drawn instead.
+    scene takes less than 0.1 s as a rule and 15 s at most: one of more than 1,000 waves (of the shortest of a series,
+    each counted once more for every 16 harmonics) is left out, and another is drawn instead.
 
     Exit code 3 if a value deviates by more than the error that is stated for it.
     """

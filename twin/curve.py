@@ -15,6 +15,7 @@ from functools import lru_cache
 from flint import arb
 
 from gradhesion.twin.special import Sine, theta
+from gradhesion.twin.window import grid
 
 
 @lru_cache(maxsize=2)
@@ -25,6 +26,9 @@ def sine_of(k: float) -> Sine:
 
 class Curve:
     """delta, P and the tilt of one scene; parameters are exact doubles under the keys of a study."""
+
+    shortest = 1
+    innermost = 1.5
 
     def __init__(self, parameters: Mapping[str, float]) -> None:
         """Derive M and the coefficients of the curve."""
@@ -41,6 +45,7 @@ class Curve:
         unit = self.adhesion * (2 * pi / self.wavelength) ** ((3 + k) / 2)
         self.fold = unit * (1 - k) / 2
         self.trough = unit * (3 + k) / 2
+        self.starts_rising = bool(self.fold == 0)
         rim = parameters["a_max_over_R"]
         self.rim = self.phase(arb(rim)).mid() if rim != float("inf") else None
 
@@ -72,6 +77,23 @@ class Curve:
         """Indentation in equilibrium."""
         return self.hertz(z) - self.gap(z)
 
+    coordinate = delta
+
+    def ratio(self, z: arb, level: arb) -> arb:
+        """Rho = (delta_H - level)/Delta at a depth that is held."""
+        return (self.hertz(z) - level) / self.gap(z)
+
+    def depth_at_full_contact(self, level: arb) -> arb:
+        """Depth at the rim is what is prescribed."""
+        return level
+
+    def work_at_rim(self, level: arb) -> arb:
+        """Return the integral of P d(delta) from the depth of the rim to `level`; P has the slope K a^(1+k)."""
+        assert self.rim is not None
+        pinned = level - self.delta(self.rim)
+        spring = self.stiffness * self.radius(self.rim) ** (1 + self.k)
+        return self.force(self.rim) * pinned + spring * pinned * pinned / 2
+
     def force(self, z: arb) -> arb:
         """Load P in equilibrium."""
         k, a = self.k, self.radius(z)
@@ -102,3 +124,24 @@ class Curve:
         """Return the derivative of delta in z: a^2/z (tilt with c = fold)."""
         a = self.radius(z)
         return a * a / z * self.tilt(z, self.fold)[0]
+
+    def grid(self, c: arb, end: arb | None) -> list[arb]:
+        """Return phases that cut the window of a control's folds into pieces for `tilt`."""
+        return grid(self, c, end)
+
+    def coordinate_size(self, z: arb) -> float:
+        """Return the size of the terms of delta but the waves."""
+        a = self.radius(z)
+        return float(a * a / (1 + self.k) + self.gap(z))
+
+    def depth_size(self, z: arb) -> float:
+        """Return the size of delta, of its terms, and of its change with the phase."""
+        a = self.radius(z)
+        change = z * abs(self.slope(z)) if z > 0 else arb(0)
+        return float(abs(self.delta(z)) + a * a / (1 + self.k) + self.gap(z) + change)
+
+    full_depth_size = depth_size
+
+    def tilt_size(self, z: arb, c: arb) -> arb:
+        """Return the size of the terms of the tilt but the waves."""
+        return 2 / (1 + self.k) + (c * z ** (-(3 + self.k) / 2) if c > 0 else 0)

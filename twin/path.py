@@ -1,20 +1,20 @@
-"""The way of a contact along its equilibrium curve under displacement control: rising branches, jumps between them.
+"""The way of a contact along its equilibrium curve: rising branches, jumps between them.
 
-Loading holds at the running maximum of delta from a = 0 outwards, unloading at the running minimum from the rim
-inwards; a jump keeps delta and crosses all radii where the curve lies off that level.
+Loading holds at the running maximum of the coordinate Y from a = 0 outwards, unloading at the running minimum from the
+rim inwards; a jump keeps Y and crosses all radii where the curve lies off that level. Y is delta if that is prescribed.
 """
 
 from dataclasses import dataclass
 
 from flint import arb
 
-from gradhesion.twin.curve import Curve
+from gradhesion.twin.contact import Contact
 from gradhesion.twin.roots import refine, zeros
 
 
 @dataclass(frozen=True)
 class Branch:
-    """A rising piece of delta(z) from `lo` to `hi`; the outermost may end at the rim, or never (`hi` None)."""
+    """A rising piece of Y(z) from `lo` to `hi`; the outermost may end at the rim, or never (`hi` None)."""
 
     lo: arb
     hi: arb | None
@@ -24,7 +24,7 @@ class Branch:
 
 @dataclass(frozen=True)
 class Jump:
-    """A jump at constant delta = `level`."""
+    """A jump at constant Y = `level`."""
 
     start: arb
     end: arb
@@ -33,44 +33,43 @@ class Jump:
 
 @dataclass(frozen=True)
 class Path:
-    """One cycle: its jumps, the largest delta, and delta where contact is lost, each with the phase where it is met."""
+    """One cycle: its jumps, the largest Y, and Y where contact is lost, each with the phase where it is met."""
 
     loading: list[Jump]
     unloading: list[Jump]
-    delta_max: arb
-    delta_jump_out: arb
+    largest: arb
+    lowest: arb
     deepest: arb
     last: arb
 
 
-def branches(curve: Curve, folds: list[arb]) -> list[Branch]:
-    """Rising branches in order; delta falls at first for k < 1 and rises from a = 0 at k = 1."""
-    starts_rising = bool(curve.fold == 0)
-    ends = [arb(0), *folds] if starts_rising else folds
+def branches(curve: Contact, folds: list[arb]) -> list[Branch]:
+    """Rising branches in order; Y falls at first for k < 1 and may rise from a = 0 at k = 1."""
+    ends = [arb(0), *folds] if curve.starts_rising else folds
     made: list[Branch] = []
     for i in range(0, len(ends), 2):
         lo, hi = ends[i], ends[i + 1] if i + 1 < len(ends) else curve.rim
-        made.append(Branch(lo, hi, curve.delta(lo), None if hi is None else curve.delta(hi)))
+        made.append(Branch(lo, hi, curve.coordinate(lo), None if hi is None else curve.coordinate(hi)))
     return made
 
 
-def ends_at_rim(curve: Curve, made: list[Branch]) -> bool:
+def ends_at_rim(curve: Contact, made: list[Branch]) -> bool:
     """Whether the rim (or infinity) lies on a rising branch, and is stable."""
     return bool(made) and (made[-1].hi is None or made[-1].hi is curve.rim)
 
 
-def crossing(curve: Curve, branch: Branch, level: arb) -> arb:
-    """Return the phase where a rising branch has delta = level."""
+def crossing(curve: Contact, branch: Branch, level: arb) -> arb:
+    """Return the phase where a rising branch has Y = level."""
     hi = branch.hi
     if hi is None:
         hi = 2 * branch.lo + 1
-        while not curve.delta(hi) > level:
+        while not curve.coordinate(hi) > level:
             hi = 2 * hi
-    return refine(lambda z: (curve.delta(z) - level, curve.slope(z)), branch.lo, hi)
+    return refine(lambda z: (curve.coordinate(z) - level, curve.slope(z)), branch.lo, hi)
 
 
-def load(curve: Curve, made: list[Branch]) -> tuple[list[Jump], arb, arb]:
-    """Return the jumps from a = 0, delta = 0 to full contact, the largest delta on the way, and its phase."""
+def load(curve: Contact, made: list[Branch]) -> tuple[list[Jump], arb, arb]:
+    """Return the jumps from a = 0, Y = 0 to full contact, the largest Y on the way, and its phase."""
     jumps: list[Jump] = []
     at, level = arb(0), arb(0)
     for branch in made:
@@ -88,8 +87,8 @@ def load(curve: Curve, made: list[Branch]) -> tuple[list[Jump], arb, arb]:
     return jumps, level, at
 
 
-def unload(curve: Curve, made: list[Branch]) -> tuple[list[Jump], arb, arb]:
-    """Return the jumps from full contact to a = 0, delta where contact is lost, and its phase."""
+def unload(curve: Contact, made: list[Branch]) -> tuple[list[Jump], arb, arb]:
+    """Return the jumps from full contact to a = 0, Y where contact is lost, and its phase."""
     jumps: list[Jump] = []
     inner = list(made)
     if ends_at_rim(curve, made):
@@ -97,7 +96,7 @@ def unload(curve: Curve, made: list[Branch]) -> tuple[list[Jump], arb, arb]:
         at, level = branch.lo, branch.bottom
     else:
         assert curve.rim is not None
-        at, level = curve.rim, curve.delta(curve.rim)
+        at, level = curve.rim, curve.coordinate(curve.rim)
     while inner:
         branch = inner.pop()
         if branch.bottom < level:
@@ -108,7 +107,7 @@ def unload(curve: Curve, made: list[Branch]) -> tuple[list[Jump], arb, arb]:
     return jumps, level, at
 
 
-def cycle(curve: Curve) -> tuple[Path, list[Branch]]:
+def cycle(curve: Contact) -> tuple[Path, list[Branch]]:
     """Return the whole cycle and the branches it rests on."""
     made = branches(curve, zeros(curve, curve.fold, curve.rim))
     loading, largest, deepest = load(curve, made)
@@ -116,7 +115,7 @@ def cycle(curve: Curve) -> tuple[Path, list[Branch]]:
     return Path(loading, unloading, largest, lowest, deepest, last), made
 
 
-def pull_off(curve: Curve) -> tuple[arb, arb, list[arb]]:
+def pull_off(curve: Contact) -> tuple[arb, arb, list[arb]]:
     """Return the pull-off force -min P, its phase, and -P at every candidate (the minima of P, and the rim)."""
     found = zeros(curve, curve.trough, curve.rim)[::2]  # P falls at first, so minima come first
     if curve.rim is not None:

@@ -7,9 +7,14 @@ from dataclasses import dataclass
 from flint import arb
 
 from gradhesion.twin import energy
+from gradhesion.twin.contact import Contact
 from gradhesion.twin.curve import Curve
+from gradhesion.twin.general import PLAIN, Shape
+from gradhesion.twin.general.bounds import waves_within
+from gradhesion.twin.general.curve import GeneralCurve
 from gradhesion.twin.path import Branch, Jump, Path, cycle, pull_off
-from gradhesion.twin.roots import extrema, window
+from gradhesion.twin.roots import extrema
+from gradhesion.twin.window import window
 
 PARAMETERS = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
 
@@ -33,7 +38,8 @@ class Solution:
     lowest P moves to another place; force and energy are continuous there. `energy_condition` is the sum of |e_j| over
     the energy, `radius_condition` the relative change of the radius for a relative change of the terms of dP/da,
     `force_condition` the sum of the sizes of the terms of P over P. `delta_max_size` and `delta_jump_out_size` are the
-    sizes of the terms of the two depths; `folded_waves` is how many waves the folds within the rim span.
+    sizes of the terms of the two depths; `folded_waves` is how many waves, the shortest, the folds within the rim
+    span.
     """
 
     pull_off_force: arb
@@ -53,8 +59,15 @@ class Solution:
     folded_waves: float
 
 
-def waves_to_follow(parameters: Mapping[str, float], *, cycle: bool) -> float:
+def curve_of(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Contact:
+    """Return the equilibrium curve of a scene; one cosine on a paraboloid under displacement control has its own."""
+    return Curve(parameters) if shape == PLAIN else GeneralCurve(parameters, shape)
+
+
+def waves_to_follow(parameters: Mapping[str, float], shape: Shape = PLAIN, *, cycle: bool) -> float:
     """Estimate the waves that `solve` goes through (`solve_pull_off` if not `cycle`): the time is 15 ms for each."""
+    if shape != PLAIN:
+        return waves_within(GeneralCurve(parameters, shape), cycle=cycle)
     curve = Curve(parameters)
     furthest = window(curve, curve.trough)[1]
     if cycle:
@@ -65,12 +78,15 @@ def waves_to_follow(parameters: Mapping[str, float], *, cycle: bool) -> float:
     return float(furthest) / (2 * math.pi)
 
 
-def solve(parameters: Mapping[str, float]) -> Solution:
-    """Solve one scene."""
-    curve = Curve(parameters)
+def solve(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Solution:
+    """Solve one scene; under a dead load its energy is without the jump-out, which has no bound."""
+    curve = curve_of(parameters, shape)
     held = _pull_off(curve)
     path, made = cycle(curve)
-    drops = [energy.dissipated(curve, jump) for jump in path.loading + path.unloading]
+    jumps = path.loading + path.unloading
+    if shape.control == "load":
+        jumps = [jump for jump in jumps if jump.end > 0]
+    drops = [energy.dissipated(curve, jump) for jump in jumps]
     lost = sum(drops, arb(0))
     return Solution(
         pull_off_force=held.pull_off_force,
@@ -78,25 +94,25 @@ def solve(parameters: Mapping[str, float]) -> Solution:
         dissipated_energy=lost,
         loading_jumps=len(path.loading),
         unloading_jumps=len(path.unloading),
-        delta_max=None if curve.rim is None else path.delta_max,
-        delta_jump_out=path.delta_jump_out,
+        delta_max=None if curve.rim is None else curve.depth_at_full_contact(path.largest),
+        delta_jump_out=curve.delta(path.last),
         margin_jumps=_margin_jumps(curve, path, made),
         margin_radius=held.margin_radius,
         energy_condition=float(sum((abs(drop) for drop in drops), arb(0)) / abs(lost)) if drops else 1.0,
         radius_condition=held.radius_condition,
         force_condition=held.force_condition,
-        delta_max_size=_size(curve, path.deepest) if curve.rim is not None else math.inf,
-        delta_jump_out_size=_size(curve, path.last),
-        folded_waves=_folded_waves(made),
+        delta_max_size=curve.full_depth_size(path.deepest) if curve.rim is not None else math.inf,
+        delta_jump_out_size=curve.depth_size(path.last),
+        folded_waves=curve.shortest * _folded_waves(made),
     )
 
 
-def solve_pull_off(parameters: Mapping[str, float]) -> PullOff:
+def solve_pull_off(parameters: Mapping[str, float], shape: Shape = PLAIN) -> PullOff:
     """Solve the pull-off of one scene, for which its cycle need not be followed."""
-    return _pull_off(Curve(parameters))
+    return _pull_off(curve_of(parameters, shape))
 
 
-def _pull_off(curve: Curve) -> PullOff:
+def _pull_off(curve: Contact) -> PullOff:
     force, at, forces = pull_off(curve)
     return PullOff(
         pull_off_force=force / (3 * arb.pi() / 2),
@@ -105,13 +121,6 @@ def _pull_off(curve: Curve) -> PullOff:
         radius_condition=_radius_condition(curve, at),
         force_condition=float(curve.force_size(at) / abs(force)),
     )
-
-
-def _size(curve: Curve, z: arb) -> float:
-    """Give the size of the terms of delta at a phase, and of its change with the phase."""
-    a = curve.radius(z)
-    change = z * abs(curve.slope(z)) if z > 0 else arb(0)
-    return float(abs(curve.delta(z)) + a * a / (1 + curve.k) + curve.gap(z) + change)
 
 
 def _folded_waves(made: list[Branch]) -> float:
@@ -125,20 +134,18 @@ def _margin_radius(force: arb, forces: list[arb]) -> float:
     return min(1.0, others[1]) if len(others) > 1 else 1.0
 
 
-def _radius_condition(curve: Curve, z: arb) -> float:
+def _radius_condition(curve: Contact, z: arb) -> float:
     if curve.rim is not None and z == curve.rim:
         return 1.0
-    terms = 2 / (1 + curve.k) + curve.trough * z ** (-(3 + curve.k) / 2)
-    return float(terms / (z * abs(curve.tilt(z, curve.trough)[1])))
+    return float(curve.tilt_size(z, curve.trough) / (z * abs(curve.tilt(z, curve.trough)[1])))
 
 
 class _Fold:
-    """The depth of a fold, to be compared with the levels of jumps."""
+    """The coordinate of a fold, to be compared with the levels of jumps."""
 
-    def __init__(self, curve: Curve, depth: arb, z: arb) -> None:
-        a = curve.radius(z)
+    def __init__(self, curve: Contact, depth: arb, z: arb) -> None:
         self.z, self.depth = z, depth
-        self.rough, self.size = float(depth), float(a * a / (1 + curve.k) + curve.gap(z))
+        self.rough, self.size = float(depth), curve.coordinate_size(z)
 
     def margin(self, jump: Jump) -> float:
         """Give the distance of a level from the fold over the sizes of both; precise where it is small."""
@@ -148,7 +155,7 @@ class _Fold:
         return rough if rough > 1e-9 else float(abs(jump.level - self.depth)) / scale
 
 
-def _margin_jumps(curve: Curve, path: Path, made: list[Branch]) -> float:
+def _margin_jumps(curve: Contact, path: Path, made: list[Branch]) -> float:
     """Least of: fold depths against the levels of jumps; the tilt at its extrema and at the rim (folds about to be)."""
     margins = [1.0]
     tops = [(b.top, b.hi) for b in made if b.top is not None and b.hi is not None and b.hi is not curve.rim]
@@ -163,7 +170,5 @@ def _margin_jumps(curve: Curve, path: Path, made: list[Branch]) -> float:
         points.append(curve.rim)
     for z in points:
         tilt = curve.tilt(z, curve.fold)[0]
-        p = (3 + curve.k) / 2
-        size = 2 / (1 + curve.k) + (curve.fold * z**-p if curve.fold > 0 else 0)
-        margins.append(float(abs(tilt) / (abs(tilt) + size)))
+        margins.append(float(abs(tilt) / (abs(tilt) + curve.tilt_size(z, curve.fold))))
     return min(margins)

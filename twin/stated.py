@@ -8,6 +8,7 @@ from typing import Final
 from flint import arb
 
 from gradhesion.twin.envelope import amplitude, jump_in_radius, similarity_length, solve_envelope
+from gradhesion.twin.general import PLAIN, Shape
 from gradhesion.twin.scene import PullOff, Solution, solve, solve_pull_off, waves_to_follow
 
 FORCE: Final = 5e-14
@@ -59,14 +60,16 @@ class Expected:
         return f"{float(self.value):.0f}" if self.value.is_integer() else str(self.value.str(30, radius=False))
 
 
-def within_reach(parameters: Mapping[str, float], outputs: Collection[str], solver: str) -> bool:
+def within_reach(parameters: Mapping[str, float], outputs: Collection[str], solver: str, shape: Shape = PLAIN) -> bool:
     """Tell whether a scene has no more waves than the twin follows."""
     if solver == "envelope":
         return True
-    return waves_to_follow(parameters, cycle=not CYCLE.isdisjoint(outputs)) <= MOST_WAVES
+    return waves_to_follow(parameters, shape, cycle=not CYCLE.isdisjoint(outputs)) <= MOST_WAVES
 
 
-def expected(parameters: Mapping[str, float], outputs: Collection[str], solver: str) -> dict[str, Expected]:
+def expected(
+    parameters: Mapping[str, float], outputs: Collection[str], solver: str, shape: Shape = PLAIN
+) -> dict[str, Expected]:
     """
     Solve a scene for the outputs that the twin knows.
 
@@ -74,11 +77,13 @@ def expected(parameters: Mapping[str, float], outputs: Collection[str], solver: 
     ----------
     parameters
         The seven parameters of a scene; and lambda_over_L, chi and the like where one of the seven is made from them,
-        to be checked as well.
+        to be checked as well; machine_stiffness under the control of a machine.
     outputs
         Names of outputs; those that are not in `KNOWN` are passed over.
     solver
-        One of `SOLVERS`.
+        One of `SOLVERS`; "envelope" for the plain shape alone.
+    shape
+        The profile and the control.
 
     Returns
     -------
@@ -99,9 +104,9 @@ def expected(parameters: Mapping[str, float], outputs: Collection[str], solver: 
     if solver == "envelope":
         found = _of_envelope(parameters)
     elif CYCLE.isdisjoint(outputs):
-        found = _of_pull_off(solve_pull_off(parameters))
+        found = _of_pull_off(solve_pull_off(parameters, shape))
     else:
-        solution = solve(parameters)
+        solution = solve(parameters, shape)
         found = _of_pull_off(solution) | _of_cycle(solution)
     made = _made(parameters)
     found |= made

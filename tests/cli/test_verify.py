@@ -330,3 +330,79 @@ def test_a_tolerance_that_is_not_met_is_a_failure_with_values(gradhesion: Call, 
     result = gradhesion("verify", dataset_file, *ALL)
     assert result.exit_code == 0
     assert "12 scenes drawn have failed, as their status says" in result.stdout
+
+
+GENERAL = (
+    {"exponent": 1.4, "harmonics": [{"n": 1, "cos": 1.0}, {"n": 3, "cos": 0.2, "sin": -0.1}]},
+    {"exponent": 3.0, "harmonics": [{"n": 2, "sin": 0.4}]},
+)
+
+
+@pytest.mark.parametrize("control", ["displacement", "load", "machine"])
+@pytest.mark.parametrize("profile", GENERAL, ids=["two waves", "a sine"])
+def test_datasets_of_any_profile_and_control_are_recomputed(
+    profile: dict[str, Any],
+    control: str,
+    gradhesion: Call,
+    write_study: Callable[[str], Path],
+    tmp_path: Path,
+) -> None:
+    from gradhesion.cli.study import study_from
+    from gradhesion.core import OUTPUTS
+
+    path = tmp_path / "out.nc"
+    quantities = {
+        "R": "1 um",
+        "E_star": "1 GPa",
+        "work_of_adhesion": "50 mJ/m^2",
+        "c0": "13 nm",
+        "wavelength": "0.3 um",
+    }
+    loading = {"control": control} | ({"machine_stiffness": [0.02, 5.0]} if control == "machine" else {})
+    study = {
+        "outputs": list(OUTPUTS),
+        "profile": profile,
+        "loading": loading,
+        "parameters": {"k": [0.0, 0.31], "nu": 0.27, "A": [0.0, 0.05]},
+        "physical": quantities | {"a_max": ["0.2 um", "0.7 um"]},
+    }
+    assert gradhesion("run", write_study(study_from(study).text), "-o", path, "--quiet").exit_code == 0
+    result = gradhesion("verify", path, *ALL)
+    assert result.exit_code == 0, result.stdout + result.stderr
+    assert "pull_off_force_si" in result.stdout
+    with netCDF4.Dataset(path, "a") as file:
+        place = (1,) * file["dissipated_energy"].ndim
+        file["dissipated_energy"][place] *= 1 + 1e-11
+    result = gradhesion("verify", path, *ALL)
+    assert result.exit_code == 3
+    assert rows(result)[0][0] == "dissipated_energy"
+    edit_study(path, f'control = "{control}"', 'control = "lode"', seal=True)
+    assert gradhesion("verify", path).exit_code == 2
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("exponent = 1.4", "exponent = 1.5"),
+        ("sin = -0.1", "sin = -0.2"),
+        ('control = "displacement"', 'control = "load"'),
+    ],
+)
+def test_another_profile_or_control_in_the_study_is_found(
+    old: str, new: str, gradhesion: Call, data: dict[str, Any], write_study: Callable[[str], Path], tmp_path: Path
+) -> None:
+    from gradhesion.cli.study import study_from
+
+    path = tmp_path / "out.nc"
+    parameters = data["parameters"] | {"lambda_over_R": 0.3, "a_max_over_R": 0.5, "A": 0.023}
+    study = {
+        "outputs": ["dissipated_energy"],
+        "parameters": parameters,
+        "profile": GENERAL[0],
+        "loading": {"control": "displacement"},
+    }
+    assert gradhesion("run", write_study(study_from(study).text), "-o", path, "--quiet").exit_code == 0
+    edit_study(path, old, new)
+    assert "sha256" in gradhesion("verify", path).stderr
+    edit_study(path, new, new, seal=True)
+    assert gradhesion("verify", path).exit_code == 3  # the values are those of another scene

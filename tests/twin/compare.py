@@ -1,6 +1,6 @@
 """The solver of the core against the twin on the draws of the stress suite, in shares of the stated errors.
 
-python -m tests.twin.compare [--scenes N] [--seed N] [--waves FROM TO], from the repository's root. Prints for each draw and
+python -m tests.twin.compare [--scenes N] [--seed N] [--waves FROM TO] [--general], from the repository's root. Prints for each draw and
 output the share of the stated error (gradhesion.twin.stated) that a half and 99 in 100 of the values keep, the worst,
 and the worst error over the value; then the worst scene of each.
 """
@@ -18,6 +18,8 @@ from gradhesion.twin import stated
 from gradhesion.twin.scene import waves_to_follow
 from tests.stress.draw import Scenes, eventful, hostile
 
+from .draw_general import general_scene, known_to_the_core
+
 
 @dataclass
 class Comparison:
@@ -28,6 +30,27 @@ class Comparison:
     unsure: int = 0
     near: int = 0
     found: dict[str, list[tuple[float, float, int]]] = field(default_factory=lambda: {name: [] for name in OUTPUTS})
+
+    def take(self, values: dict[str, float], expected: dict[str, stated.Expected], scene: int) -> None:
+        """Add a scene."""
+        for name, of in expected.items():
+            deviation = stated.deviation(values[name], of)
+            if of.near and deviation > of.error:
+                self.near += 1
+                continue
+            share = deviation / of.error if of.error > 0.0 else 0.0 if deviation == 0.0 else math.inf
+            size = abs(float(of.value))
+            self.found[name].append((share, deviation / size if 0.0 < size < math.inf else 0.0, scene))
+
+    def told(self) -> list[str]:
+        """Tell the shares of each output."""
+        lines = [f"  {'output':<20}{'half':>10}{'99 in 100':>12}{'worst':>10}{'over the value':>16}  scene"]
+        for name, rows in self.found.items():
+            shares = np.array([share for share, _, _ in rows])
+            half, most = np.quantile(shares, [0.5, 0.99])
+            over, scene = max(row[1] for row in rows), max(rows)[2]
+            lines.append(f"  {name:<20}{half:>10.2g}{most:>12.2g}{shares.max():>10.2g}{over:>16.2g}  {scene}")
+        return lines
 
     @property
     def worst(self) -> float:
@@ -59,14 +82,27 @@ def compare(
             made.unsure += 1
             continue
         made.scenes += 1
-        for name, of in expected.items():
-            deviation = stated.deviation(float(values[name][i]), of)
-            if of.near and deviation > of.error:
-                made.near += 1
+        made.take({name: float(values[name][i]) for name in expected}, expected, int(i))
+    return made
+
+
+def compare_general(seed: int, count: int, most_waves: float) -> Comparison:
+    """Solve scenes of any profile and control both ways."""
+    made = Comparison()
+    rng = np.random.default_rng(seed)
+    for i in range(count):
+        scene, shape = general_scene(rng)
+        values = solve(scene, OUTPUTS, **known_to_the_core(shape))
+        try:
+            if values["status"] & FAILED or waves_to_follow(scene, shape, cycle=True) > most_waves:
+                made.beyond += 1
                 continue
-            share = deviation / of.error if of.error > 0.0 else 0.0 if deviation == 0.0 else math.inf
-            size = abs(float(of.value))
-            made.found[name].append((share, deviation / size if 0.0 < size < math.inf else 0.0, int(i)))
+            expected = stated.expected(scene, OUTPUTS, "exact", shape)
+        except ArithmeticError:
+            made.unsure += 1
+            continue
+        made.scenes += 1
+        made.take({name: float(values[name]) for name in expected}, expected, i)
     return made
 
 
@@ -76,7 +112,15 @@ def main() -> int:
     parser.add_argument("--scenes", type=int, default=5000, help="scenes of each draw")
     parser.add_argument("--seed", type=int, default=2013)
     parser.add_argument("--waves", type=float, nargs=2, default=(0.0, 60.0), metavar=("FROM", "TO"))
+    parser.add_argument("--general", action="store_true", help="scenes of any profile and control")
     arguments = parser.parse_args()
+    if arguments.general:
+        start = time.perf_counter()
+        made = compare_general(arguments.seed, arguments.scenes, arguments.waves[1])
+        took = time.perf_counter() - start
+        print(f"{made.scenes:,} scenes in {took:.0f} s, {made.beyond:,} beyond, {made.unsure} unsure, {made.near} near")
+        print("\n".join(made.told()))
+        return 1 if made.worst > 1.0 else 0
     worst = 0.0
     for draw in (hostile, eventful):
         start = time.perf_counter()
@@ -86,11 +130,7 @@ def main() -> int:
             f"{draw.__name__}: {made.scenes:,} scenes compared in {time.perf_counter() - start:.0f} s, {made.beyond:,} with "
             f"other numbers of waves, {made.unsure:,} unsure, {made.near} values may be either of two"
         )
-        print(f"  {'output':<20}{'half':>10}{'99 in 100':>12}{'worst':>10}{'over the value':>16}")
-        for name, rows in made.found.items():
-            shares = np.array([share for share, _, _ in rows])
-            half, most = np.quantile(shares, [0.5, 0.99])
-            print(f"  {name:<20}{half:>10.2g}{most:>12.2g}{shares.max():>10.2g}{max(row[1] for row in rows):>16.2g}")
+        print("\n".join(made.told()))
         for name, rows in made.found.items():
             if "jumps" not in name:
                 print(f"  worst {name}: {one(scenes, max(rows)[2])}")

@@ -7,7 +7,7 @@ import numpy as np
 from flint import arb
 
 from gradhesion.twin.curve import Curve
-from gradhesion.twin.roots import window
+from gradhesion.twin.window import window
 
 EDGES = (0.0, 1e-9, 1 - 1e-9, 1.0, 0.5)
 """Exponents in every pool, beside 35 random ones."""

@@ -1,0 +1,180 @@
+"""The twin of general scenes against 24 of another program, the twin of one wave, loop integrals and closed forms."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from flint import arb
+
+from gradhesion.twin import stated
+from gradhesion.twin.energy import dissipated, double_exponential, loop
+from gradhesion.twin.general import PLAIN, Shape
+from gradhesion.twin.general.curve import GeneralCurve
+from gradhesion.twin.general.integrals import Integral
+from gradhesion.twin.general.series import Series
+from gradhesion.twin.path import cycle
+from gradhesion.twin.scene import curve_of, solve, waves_to_follow
+
+from .compare import compare_general
+from .draw_general import general_scene
+
+ULP = 2.0**-52
+SCENES = json.loads((Path(__file__).parents[1] / "reference" / "general.json").read_text())["scenes"]
+ZERO_WAVE = Shape(harmonics=((1, 1.0, 0.0), (2, 0.0, 0.0)))
+"""One cosine wave, and one that is not there: the general twin solves what the other one does."""
+
+
+@pytest.mark.parametrize("index", range(len(SCENES)))
+def test_reference(index: int) -> None:
+    parameters: dict[str, Any] = dict(SCENES[index]["parameters"])
+    waves = tuple((wave["n"], wave["cos"], wave["sin"]) for wave in parameters.pop("harmonics"))
+    solution = solve(parameters, Shape(parameters.pop("exponent"), waves, parameters.pop("control")))
+    for name, value in SCENES[index]["expected"].items():
+        if name != "M":
+            assert abs(float(getattr(solution, name)) - value) <= 2 * ULP * abs(value), name
+
+
+@pytest.mark.parametrize("k", [0.0, 0.37, 1.0])
+@pytest.mark.parametrize("y", [0.013, 0.25, 3.3, 41.7, 260.2])
+def test_the_cosine_integral_is_its_definition(k: float, y: float) -> None:
+    """T0 and its slope by quadrature, with t = 1 - u as in test_twin; k = 1 against elementary functions."""
+    exponent, z = arb(k), arb(y)
+    value, slope = Integral(exponent, sine=False).at(z)
+    if k == 1.0:
+        assert abs(value - z.sin() / z) < 1e-40
+        assert abs(slope - (z.cos() / z - z.sin() / z**2)) < 1e-40
+    elif y < 10:
+        rule = double_exponential()
+        weight = [(w * (u * (2 - u)) ** ((exponent - 1) / 2), 1 - u) for u, w in rule]
+        ends = 1e-12 if k > 0 else 1e-18  # the rule ends at u = 1e-40
+        assert abs(value - sum((w * (z * t).cos() for w, t in weight), arb(0))) < ends
+        assert abs(slope + sum((w * t * (z * t).sin() for w, t in weight), arb(0))) < ends
+
+
+def test_the_sum_over_waves_is_that_of_its_terms() -> None:
+    waves = ((2, 0.3, -0.2), (7, 0.0, 0.05), (9, -0.4, 0.0))
+    series = Series(0.41, waves)
+    sine, cosine = Integral(arb(0.41), sine=True), Integral(arb(0.41), sine=False)
+    for z in (arb(0), arb(0.02), arb(1) / 3, arb(17.03)):
+        w = v = arb(0)
+        for n, even, odd in waves:
+            (s, s1), (t, t1) = sine.at(n * z), cosine.at(n * z)
+            w += n * (even * s + odd * t)
+            v += n * (even * (s + n * z * s1) + odd * (t + n * z * t1))
+        assert abs(series.w(z) - w) < 1e-40
+        assert abs(series.v(z)[0] - v) < 1e-40
+    step = arb(2) ** -60
+    z = arb(5.5)
+    assert abs((series.v(z + step)[0] - series.v(z - step)[0]) / (2 * step) - series.v(z)[1]) < 1e-25
+    (s, _), (t, _) = sine.at(z), cosine.at(z)
+    alone = [Series(0.41, ((1, 1.0, 0.0),)).pair(z), Series(0.41, ((1, 0.0, 1.0),)).pair(z)]
+    assert abs(alone[0][0] - s) < 1e-40
+    assert abs(alone[1][0] - t) < 1e-40
+    assert abs((1 + arb(0.41)) * cosine.at(z)[1] + z * alone[1][1]) < 1e-40  # T0' = -z T1/(1+k)
+
+
+@pytest.mark.parametrize(("k", "nu"), [(0.0, 0.3), (0.61, 0.1), (1.0, 0.5)])
+@pytest.mark.parametrize("rim", [0.31, math.inf])
+def test_one_cosine_is_what_its_own_twin_finds(k: float, nu: float, rim: float) -> None:
+    scene = {"k": k, "nu": nu, "modulus": 310.0, "c0_over_R": 0.2, "lambda_over_R": 0.07, "A": 0.04}
+    one, other = (solve(scene | {"a_max_over_R": rim}, shape) for shape in (PLAIN, ZERO_WAVE))
+    for name in stated.KNOWN:
+        value, same = getattr(one, name), getattr(other, name)
+        assert (value is None) == (same is None)
+        if value is not None:
+            assert abs(arb(value) - arb(same)) <= 1e-34 * (1 + abs(arb(value))), name
+
+
+def test_loop_integrals() -> None:
+    """The drops at the jumps sum to the loop integral of P over what is prescribed, a spring's other end too."""
+    rng = np.random.default_rng(31)
+    done = 0
+    while done < 8:
+        scene, shape = general_scene(rng, 3)
+        if (
+            shape.control == "load"
+            or scene["a_max_over_R"] == math.inf
+            or waves_to_follow(scene, shape, cycle=True) > 20
+        ):
+            continue
+        curve = curve_of(scene, shape)
+        path, _ = cycle(curve)
+        drops = [dissipated(curve, jump) for jump in path.loading + path.unloading]
+        size = float(sum((abs(drop) for drop in drops), arb(0)))
+        assert abs(sum(drops, arb(0)) - loop(curve, path)) < 1e-30 * size
+        done += 1
+
+
+def test_load_control_is_the_end_of_soft_machines() -> None:
+    """Without the jump-out, whose energy grows as 1/S, the energy of a machine comes near that of a dead load with S."""
+    scene = {
+        "k": 0.33,
+        "nu": 0.2,
+        "modulus": 310.0,
+        "c0_over_R": 0.2,
+        "lambda_over_R": 0.07,
+        "A": 0.04,
+        "a_max_over_R": 0.4,
+    }
+    waves = ((1, 1.0, 0.1), (3, 0.2, 0.0))
+    dead = solve(scene, Shape(1.4, waves, "load")).dissipated_energy
+    rests = []
+    for softness in (1e-9, 1e-11):
+        curve = curve_of(scene | {"machine_stiffness": softness}, Shape(1.4, waves, "machine"))
+        path, _ = cycle(curve)
+        jumps = [jump for jump in path.loading + path.unloading if jump.end > 0]
+        rests.append(float(abs(sum((dissipated(curve, jump) for jump in jumps), arb(0)) - dead)))
+    assert 0.0 < rests[0] < 1e-5 * float(dead)
+    assert rests[1] == pytest.approx(0.01 * rests[0], rel=1e-3)
+
+
+@pytest.mark.parametrize("m", [1.0, 1.5, 4.0])
+@pytest.mark.parametrize("k", [0.0, 0.4])
+def test_smooth_punch_of_any_power(m: float, k: float) -> None:
+    """The load is least where a^(m-c) = (3+k) s/(2 m F); a wave of no amplitude, or of amplitude zero, is none."""
+    scene = {"k": k, "nu": 0.3, "modulus": 1e5, "c0_over_R": 1e-4, "lambda_over_R": 1e-9, "A": 0.0, "a_max_over_R": 9.0}
+    for amplitude, wave in ((0.0, 1.0), (0.1, 0.0)):
+        shape = Shape(m, ((1, wave, 0.0),))
+        curve = GeneralCurve(scene | {"A": amplitude}, shape)
+        solution = solve(scene | {"A": amplitude}, shape)
+        c = (1 - arb(k)) / 2
+        at = ((3 + arb(k)) * curve.adhesion / (2 * curve.m * curve.front)) ** (1 / (m - c))
+        force = (
+            curve.stiffness
+            * at ** (1 + arb(k))
+            * (curve.adhesion * at**c - curve.m / (1 + arb(k) + curve.m) * curve.front * at**curve.m)
+        )
+        assert abs(solution.pull_off_radius / at - 1) < 1e-40
+        assert abs(solution.pull_off_force * (3 * arb.pi() / 2) / force - 1) < 1e-40
+        assert [solution.loading_jumps, solution.unloading_jumps] == [1, 1]
+
+
+def test_what_has_no_end_is_told() -> None:
+    """The waves of an endless cone never cease to fold; its pull-off has a value."""
+    scene = {
+        "k": 0.3,
+        "nu": 0.2,
+        "modulus": 100.0,
+        "c0_over_R": 0.1,
+        "lambda_over_R": 0.1,
+        "A": 0.1,
+        "a_max_over_R": math.inf,
+    }
+    cone = Shape(1.0, ((1, 1.0, 0.0),))
+    with pytest.raises(ArithmeticError, match="no end"):
+        solve(scene, cone)
+    assert not stated.within_reach(scene, ["dissipated_energy"], "exact", cone)
+    assert stated.within_reach(scene, ["pull_off_force"], "exact", cone)
+    assert stated.expected(scene, ["pull_off_force"], "exact", cone)["pull_off_force"].value > 0
+
+
+def test_the_core_keeps_its_stated_errors() -> None:
+    """The short form of `python -m tests.twin.compare --general`."""
+    made = compare_general(7, 100, 12.0)
+    assert made.scenes >= 50
+    assert made.unsure == 0
+    assert made.near <= 2
+    assert made.worst <= 1.0
