@@ -66,7 +66,7 @@ def _coordinates(study: Study) -> dict[str, Variable]:
             else:
                 own = (name,) if name in axes else ()
             described[name] = Variable(dimensions=own, dtype="f8", attributes=attributes, values=values)
-        elif name in PARAMETERS:  # it follows from others
+        elif name in PARAMETERS or (name == names.MACHINE and names.SPRING in study.parameters):
             own = following(study, name)
             made = partial(_made, study, name, own)
             blank = np.nan if names.TIED.keys() & study.parameters.keys() else None  # where there is no a_2

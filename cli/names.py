@@ -21,6 +21,11 @@ TIED: Final = {
 }
 """The keys of [parameters] in reduced variables: the parameter that each is given instead of, and its `long_name`."""
 
+MACHINE: Final = "machine_stiffness"
+"""The key of [loading] that is a parameter: its dimension stands before that of the punch's radius."""
+SPRING: Final = "spring_constant"
+"""The key of [physical] that gives the same with its unit."""
+
 PHYSICAL: Final = {
     "R": ("modulus", "m", "radius R of the punch at its tip"),
     "E_star": ("modulus", "Pa", "reduced modulus E* = E0/(1 - nu^2) at the depth c0"),
@@ -28,12 +33,10 @@ PHYSICAL: Final = {
     "c0": ("c0_over_R", "m", "characteristic depth c0 of the gradient"),
     "wavelength": ("lambda_over_R", "m", "wavelength lambda of the waviness"),
     "amplitude": ("A", "m", "amplitude A lambda of the waviness"),
+    SPRING: (MACHINE, "N m-1", "spring constant S of the loading machine"),
     "a_max": ("a_max_over_R", "m", "radius a_max of the punch (inf: unbounded)"),
 }
 """The keys of [physical]: the parameter that each helps to give, its unit in a dataset, and its `long_name`."""
-
-MACHINE: Final = "machine_stiffness"
-"""The key of [loading] that is a parameter: its dimension stands before that of the punch's radius."""
 
 ROLES: Final = {
     "modulus": "the reduced modulus",
@@ -51,9 +54,8 @@ RIM_KEYS: Final = ("a_max_over_R", "a_max_over_L", "a_max_over_a2")
 def _ordered() -> dict[str, str]:
     """Put each key before the parameter in whose place it stands, those with units first."""
     ordered: dict[str, str] = {}
-    for name, long_name in PARAMETERS.items():
-        if name == "a_max_over_R":  # the last, since all radii of one curve share its trace
-            ordered[MACHINE] = "stiffness S/(E* R) of the loading machine"
+    *others, rim = PARAMETERS.items()  # the radius last, since all radii of one curve share its trace
+    for name, long_name in (*others, (MACHINE, "stiffness S/(E* R) of the loading machine"), rim):
         ordered |= {key: own for key, (parameter, _, own) in PHYSICAL.items() if parameter == name}
         ordered |= {key: own for key, (parameter, own) in TIED.items() if parameter == name}
         ordered[name] = long_name
@@ -163,7 +165,7 @@ CURVES: Final = {
     },
     "jumps": {
         "jump_count": "number of jumps of a loading cycle; those of all scenes follow one another",
-        "jump_indentation": "indentation depth delta/R at which the jump happens",
+        "jump_indentation": "indentation depth delta/R before the jump; under displacement control it stays",
         "jump_radius_before": "contact radius a/R before the jump (0: no contact)",
         "jump_radius_after": "contact radius a/R after the jump (0: no contact)",
         "jump_energy": "energy dissipated by the jump over R^2 dgamma (negative: gained)",

@@ -25,7 +25,7 @@ LONGEST: Final = 60
 _QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,4})?|[+-]?inf|nan)\s*\*?\s*(.*)")
 _POWER: Final = re.compile(r"([^\W\d_])([+-]?\d)")
 """A power as UDUNITS writes it, `m-2`."""
-_WORDS: Final = {"m": "a length", "Pa": "a pressure", "J m-2": "an energy per area"}
+_WORDS: Final = {"m": "a length", "Pa": "a pressure", "J m-2": "an energy per area", "N m-1": "a force per length"}
 """What is expected of a quantity, by its unit in SI."""
 _NO_UNIT: Final = (
     ArithmeticError,

@@ -8,9 +8,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import CURVES, GENERAL_CURVES, MACHINE, OUTPUTS, table_of, unit_of
+from gradhesion.cli.names import CURVES, GENERAL_CURVES, MACHINE, OUTPUTS, SPRING, table_of, unit_of
 from gradhesion.cli.places import Path
-from gradhesion.cli.schema import KINDS, LAYOUTS, Mistake, did_you_mean, nearest, shown
+from gradhesion.cli.schema import KINDS, LAYOUTS, Mistake, did_you_mean, example, nearest, shown
 from gradhesion.core.loading_control import CONTROLS
 from gradhesion.core.profile import Harmonic, Profile
 
@@ -80,7 +80,7 @@ def mistakes_between_keys(
     points = nearest(str(data.get("layout", "grid")), LAYOUTS) == "points"
     yield from _mistakes_of_points(sound) if points else _mistakes_of_grid(sound)
     yield from _mistakes_of_series(sound_tables.get("profile", {}), {*wrong}, sound)
-    yield from _mistakes_of_control(sound_tables.get("loading", {}), named)
+    yield from _mistakes_of_control(sound_tables, named)
     yield from _mistakes_of_default_only(sound_tables, solvers)
     if kind_of(sound_tables) == "curve":
         yield from _mistakes_of_curves(sound_tables, [np.size(values) for values in sound.values()], points=points)
@@ -185,19 +185,30 @@ def _mistakes_of_series(table: Mapping[str, Any], wrong: set[Path], sound: Mappi
             yield Mistake(path, waves, sentence)
 
 
-def _mistakes_of_control(table: Mapping[str, Any], named: set[Path]) -> Iterator[Mistake]:
-    """Check the control of the loading, and that the stiffness of a machine goes with it alone."""
-    control = table.get("control", "displacement")
+def _mistakes_of_control(tables: Mapping[str, Any], named: set[Path]) -> Iterator[Mistake]:
+    """Check the control of the loading, and that one stiffness of a machine goes with it alone."""
+    control = tables.get("loading", {}).get("control", "displacement")
+    keys = (("loading", MACHINE), ("physical", SPRING))
+    given = [path for path in keys if path[1] in tables.get(path[0], {})]
     if ("loading", "control") in named:
         return
     if control not in CONTROLS:
         yield Mistake(("loading", "control"), control, f"not a control; {did_you_mean(control, CONTROLS)}")
-    elif control == "machine" and MACHINE not in table and ("loading", MACHINE) not in named:
-        sentence = f"a machine needs its stiffness S/(E* R); add {MACHINE} = 10.0 to [loading]"
+    elif control == "machine" and not given and not named & {*keys}:
+        with_unit = "physical" in tables
+        key = f"{example(keys[1])} under [physical]" if with_unit else f"add {MACHINE} = 10.0 to [loading]"
+        sentence = f"a machine needs its stiffness {'S' if with_unit else 'S/(E* R)'}; {key}"
         yield Mistake(("loading", "control"), control, sentence)
-    elif control != "machine" and MACHINE in table:
-        sentence = f'control = "{control}" has no machine; remove this key, or write control = "machine"'
-        yield Mistake(("loading", MACHINE), table[MACHINE], sentence)
+    elif control == "machine":
+        for path in given[1:]:
+            sentence = f"{MACHINE} gives the stiffness of the machine already; keep one of the two and remove the other"
+            yield Mistake(path, tables[path[0]][path[1]], sentence)
+    else:
+        for path in given:
+            sentence = (
+                f'control = "{control}" has no machine; remove this key, or write control = "machine" under [loading]'
+            )
+            yield Mistake(path, tables[path[0]][path[1]], sentence)
 
 
 def _mistakes_of_default_only(data: Mapping[str, Any], solvers: Sequence[str]) -> Iterator[Mistake]:

@@ -382,6 +382,7 @@ def _line(path: Path) -> str:
         "c0": 'c0 = "0.1 mm"',
         "wavelength": 'wavelength = "20 um"',
         "amplitude": 'amplitude = "0.5 um"',
+        "spring_constant": 'spring_constant = "0.2 N/m"',
         "a_max": 'a_max = "0.5 mm" or a_max = inf',
         "profile": "a table [profile] with exponent or harmonics",
         "exponent": "exponent = 2.0",

@@ -11,8 +11,9 @@ Each of the parameters of `solve` may be left out where others tell it:
     a_max_over_R    a_max_over_L                    times L/R
                     a_max_over_a2                   times a_2/R of jump_in_radius.py
                     a_max, R
+    machine_stiffness    spring_constant, E_star, R
 
-R, c0, wavelength, amplitude and a_max are in m, E_star in Pa, work_of_adhesion in J/m^2.
+R, c0, wavelength, amplitude and a_max are in m, E_star in Pa, work_of_adhesion in J/m^2, spring_constant in N/m.
 """
 
 import math
@@ -28,6 +29,7 @@ from gradhesion.core.sweep import PARAMETERS
 
 _Array = NDArray[np.float64]
 _MATERIAL: Final = PARAMETERS[:4]
+_MACHINE: Final = "machine_stiffness"
 
 WAYS: Final[dict[str, dict[str, tuple[str, ...]]]] = {
     "modulus": {"E_star": ("R", "work_of_adhesion")},
@@ -35,6 +37,7 @@ WAYS: Final[dict[str, dict[str, tuple[str, ...]]]] = {
     "lambda_over_R": {"lambda_over_L": _MATERIAL, "wavelength": ("R",)},
     "A": {"chi": PARAMETERS[:5], "amplitude": ("R", "lambda_over_R")},
     "a_max_over_R": {"a_max_over_L": _MATERIAL, "a_max_over_a2": PARAMETERS[:6], "a_max": ("R",)},
+    _MACHINE: {"spring_constant": ("E_star", "R")},
 }
 """By what a parameter can be told, and what else that takes; in the order in which they follow from one another."""
 
@@ -48,6 +51,7 @@ _FOLLOWS: Final[dict[str, Callable[..., Any]]] = {
     "a_max_over_L": lambda ratio, *material: ratio * similarity_length(*material),
     "a_max_over_a2": lambda ratio, *others: ratio * jump_in_radius_of_envelope(*others),
     "a_max": lambda a_max, R: a_max / R,
+    "spring_constant": lambda spring_constant, E_star, R: spring_constant / (E_star * R),
 }
 
 
@@ -58,7 +62,8 @@ def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
     ----------
     given
         Arrays by name, all broadcastable: for each parameter of `solve` itself, or one of those above in its place.
-        Others that are no such way (machine_stiffness) stay as they are; R, E_star and the like are left out.
+        Others stay as they are, and machine_stiffness, which is made if spring_constant is given; R, E_star and the
+        like are left out.
 
     Returns
     -------
@@ -80,13 +85,14 @@ def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
     {'k': 0.5, 'nu': 0.3, 'modulus': 20000.0, 'c0_over_R': 0.01, 'lambda_over_R': 0.1, 'A': 0.02, 'a_max_over_R': inf}
     """
     known = {name: np.asarray(values, dtype=float) for name, values in given.items()}
-    for parameter in PARAMETERS:
+    wanted = (*PARAMETERS, *((_MACHINE,) if {_MACHINE, "spring_constant"} & known.keys() else ()))
+    for parameter in wanted:
         if parameter not in known:
             way, needed = _way(parameter, known)
             with np.errstate(all="ignore"):  # what overflows has no value
                 known[parameter] = np.asarray(_FOLLOWS[way](known[way], *(known[name] for name in needed)))
     ways = {name for alternatives in WAYS.values() for way, needed in alternatives.items() for name in (way, *needed)}
-    return {name: known[name] for name in (*PARAMETERS, *(name for name in given if name not in {*ways, *PARAMETERS}))}
+    return {name: known[name] for name in (*wanted, *(name for name in given if name not in {*ways, *wanted}))}
 
 
 def sources_of(parameter: str, given: Mapping[str, Any]) -> tuple[str, ...]:
@@ -95,7 +101,7 @@ def sources_of(parameter: str, given: Mapping[str, Any]) -> tuple[str, ...]:
     Parameters
     ----------
     parameter
-        One of `PARAMETERS`.
+        One of `PARAMETERS`, or machine_stiffness.
     given
         As in `parameters_from`; only its names count.
 

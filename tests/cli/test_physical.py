@@ -13,6 +13,7 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset import compute
+from gradhesion.cli.errors import StudyError
 from gradhesion.cli.names import CURVES, OUTPUTS, SI, SYMBOLS, UNITS
 from gradhesion.cli.study import load_study, study_from
 
@@ -230,3 +231,63 @@ def test_what_is_missing_is_told_at_once(
     for name in ("R", "E_star", "work_of_adhesion", "c0", "wavelength", "a_max"):
         assert any(f"physical.{name}: this quantity is required; write for example {name} = " in line for line in lines)
     assert json.dumps("20 um") + ", or instead lambda_over_L = 0.5 under [parameters]" in "\n".join(lines)
+
+
+def test_a_machine_has_its_spring_constant_in_newtons_per_metre() -> None:
+    """The ratio is S/(E* R); the dataset has it beside the quantity, over the axes of both."""
+    R, E_star, _, written = SCALES["microscope"]
+    table = {"outputs": ["pull_off_force", "dissipated_energy"], "loading": {"control": "machine"}}
+    table |= {"parameters": {"k": 0.31, "nu": 0.27, "A": 0.023}}
+    constants = [0.2, 41.0]
+    with_units = compute(
+        study_from(table | {"physical": written | lengths(R) | {"spring_constant": ["0.2 N/m", "41 kN/km"]}})
+    )
+    ratios = [constant / (E_star * R) for constant in constants]
+    assert with_units["spring_constant"].attrs["units"] == "N m-1"
+    assert with_units["dissipated_energy"].dims == ("spring_constant", "a_max")
+    np.testing.assert_allclose(with_units["machine_stiffness"].values, ratios, rtol=2 * EPS)
+    plain = compute(
+        study_from(
+            table | {"physical": written | lengths(R), "loading": {"control": "machine", "machine_stiffness": ratios}}
+        )
+    )
+    for name in table["outputs"]:
+        np.testing.assert_allclose(with_units[name].values, plain[name].values, rtol=64 * EPS)
+
+
+@pytest.mark.parametrize(
+    ("loading", "physical", "sentence"),
+    [
+        (
+            {"control": "machine"},
+            {},
+            'a machine needs its stiffness S; write for example spring_constant = "0.2 N/m" under',
+        ),
+        (
+            {},
+            {"spring_constant": "3 N/m"},
+            'control = "displacement" has no machine; remove this key, or write control',
+        ),
+        (
+            {"control": "machine", "machine_stiffness": 2.0},
+            {"spring_constant": "3 N/m"},
+            "machine_stiffness gives the stiffness",
+        ),
+        (
+            {"control": "machine"},
+            {"spring_constant": "3 N"},
+            '"N" is the unit of something else; a force per length is expected',
+        ),
+        (
+            {"control": "machine"},
+            {"spring_constant": "0 N/m"},
+            "out of range; choose a force per length with spring_constant > 0",
+        ),
+    ],
+)
+def test_a_wrong_spring_constant_is_told(loading: dict[str, Any], physical: dict[str, Any], sentence: str) -> None:
+    R, _, _, written = SCALES["microscope"]
+    table = {"outputs": ["pull_off_force"], "parameters": {"k": 0.31, "nu": 0.27, "A": 0.023}, "loading": loading}
+    with pytest.raises(StudyError) as error:
+        study_from(table | {"physical": written | lengths(R) | physical})
+    assert [sentence in mistake for mistake in error.value.mistakes] == [True]
