@@ -81,16 +81,25 @@ def _text(path: Path) -> str:
         raise StudyError([f"{path}:{line}: not text in UTF-8; name a study in TOML, saved as UTF-8"]) from None
 
 
+_REMEDIES: Final = {
+    "Cannot overwrite a value": "the key stands twice, remove one",
+    "Cannot declare": "the table stands twice, join the two",
+}
+"""What to do about problems of TOML that no single line has, by what the parser calls them."""
+
+
 def _syntax_sentence(path: Path, text: str, problem: str) -> str:
     """Say where a text is not TOML, and show the line."""
     at = re.search(r" ?\(at (?:line (\d+), column (\d+)|end of document)\)", problem)
-    if not at:
-        return f"{path}: not valid TOML, {problem}; see toml.io for the format"
+    if not at:  # Python's own limit on integers
+        return f"{path}: not valid TOML, a number of more than 4,300 digits; write it with an exponent, as 1e6"
     lines = text.rstrip().split("\n")
     line = min(int(at[1]) if at[1] else len(lines), len(lines))
     shown = schema.shown(lines[line - 1].strip())
     column = f" (column {at[2]})" if at[2] else ""
-    return f"{path}:{line}: not valid TOML, {problem[: at.start()].lower()}{column} in {shown}; mend this line"
+    what = problem[: at.start()]
+    remedy = next((remedy for start, remedy in _REMEDIES.items() if what.startswith(start)), "mend this line")
+    return f"{path}:{line}: not valid TOML, {what[0].lower()}{what[1:]}{column} in {shown}; {remedy}"
 
 
 def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[places.Path, str], list[str]]:

@@ -1,5 +1,6 @@
 """Whatever a study file holds, it is a study or its mistakes are told; never anything else."""
 
+import re
 import tempfile
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study import load_study
 
+ROOT = Path(__file__).parents[2]
 LINES = [
     'title = "Good"', 'layout = "grid"', 'layout = "points"', 'kind = "map"', 'outputs = ["pull_off_force"]', "[parameters]",
     "k = [0.0, 0.5]", "k = 1", "nu = 0.3", "nu = [0.5, 0.4]", "modulus = 500.0", "c0_over_R = 0.01", "A = 0.1",
@@ -24,6 +26,9 @@ PIECES = [
     "nan", "-inf", "inf", "true", '"x"', "[", "]", "{", "}", "=", ".", ",", "#", "\n", "'", '"""', "1e999", "-0.0", "0x1F",
     "1979-05-27", "[[1], [2]]", "{}", "[{}]", "{a = {b = 1}}", "99999999999999999999", "\\", "\u00e9", "\u2028", "\x0b",
 ]  # fmt: skip
+SENTENCE = re.compile(r"(:\d+: .*|--set .*: .*|: not valid TOML, .*|: [\w.]+: .* required); .*|... and .*", re.DOTALL)
+"""The place, what is wrong, and what to do about it."""
+CONFIGS = [path.read_text(encoding="utf-8").splitlines() for path in sorted((ROOT / "configs").glob("*.toml"))]
 pieces = st.one_of(st.sampled_from(PIECES), st.text(max_size=4))
 
 
@@ -39,6 +44,8 @@ def read(content: bytes, overrides: list[str]) -> None:
             mistakes = error.mistakes
         assert all(one.startswith((str(path), "--set ", "... and ")) for one in mistakes)
         assert len(mistakes) == len(set(mistakes))
+        for one in mistakes:
+            assert SENTENCE.fullmatch(one.removeprefix(str(path))), one
 
 
 @given(
@@ -52,13 +59,60 @@ def read(content: bytes, overrides: list[str]) -> None:
         unique=True,
     ),
 )
-@settings(max_examples=400)
+@settings(max_examples=500)
 def test_mutated_studies(lines: list[str], cuts: list[tuple[int, int, str]], overrides: list[str]) -> None:
     text = "\n".join(lines)
     for start, length, piece in cuts:
         start %= len(text) + 1
         text = text[:start] + piece + text[start + length :]
     read(text.encode("utf-8", "replace"), overrides)
+
+
+@st.composite
+def edited(draw: st.DrawFn) -> str:
+    """One of the studies of the project after one to four slips of its author."""
+    lines = [*draw(st.sampled_from(CONFIGS))]
+    for _ in range(draw(st.integers(1, 4))):
+        at = draw(st.integers(0, len(lines) - 1))
+        key, equals, value = lines[at].partition("=")
+        slip = draw(st.sampled_from(["drop", "twice", "value", "number", "key", "swap", "add", "letter"]))
+        if slip == "drop" and len(lines) > 1:
+            del lines[at]
+        elif slip == "twice":
+            lines.insert(draw(st.integers(0, len(lines))), lines[at])
+        elif slip == "value" and equals:
+            lines[at] = key + "= " + draw(pieces)
+        elif slip == "number" and equals:
+            numbers = [*re.finditer(r"[\d.]+", value)]
+            if numbers:
+                here = draw(st.sampled_from(numbers))
+                other = draw(
+                    st.sampled_from(
+                        ["-1", "0", "1e400", "nan", "inf", "7", "1e-300", "0.5", '"0.5"', "true", "5 m", ""]
+                    )
+                )
+                lines[at] = f"{key}={value[: here.start()]}{other}{value[here.end() :]}"
+        elif slip == "key" and equals:
+            lines[at] = (
+                draw(st.sampled_from([key.strip() + "s", key.strip().upper(), "parameters.k", "k", "n", ""]))
+                + " ="
+                + value
+            )
+        elif slip == "swap":
+            other = draw(st.integers(0, len(lines) - 1))
+            lines[at], lines[other] = lines[other], lines[at]
+        elif slip == "add":
+            lines.insert(at, draw(st.sampled_from(LINES)))
+        else:
+            place = draw(st.integers(0, len(lines[at])))
+            lines[at] = lines[at][:place] + draw(pieces) + lines[at][place + 1 :]
+    return "\n".join(lines)
+
+
+@given(text=edited())
+@settings(max_examples=4500)
+def test_slips_in_real_studies(text: str) -> None:
+    read(text.encode("utf-8", "replace"), [])
 
 
 @given(content=st.binary(max_size=200))

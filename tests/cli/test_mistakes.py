@@ -223,10 +223,23 @@ MISTAKES = {
         r':11: parameters.lambda_over_R = .*it has 3 values, but k has 2; with layout = "points"',
     ),
     "not TOML": ("kind = ", "kind ", r":2: not valid TOML, .*mend this line"),
-    "key twice": ("nu = 0.3", "nu = 0.3\nnu = 0.4", r":9: not valid TOML, cannot overwrite"),
+    "key twice": (
+        "nu = 0.3",
+        "nu = 0.3\nnu = 0.4",
+        r":9: not valid TOML, cannot overwrite .*; the key stands twice, remove one",
+    ),
+    "table twice": (
+        "nu = 0.3",
+        "nu = 0.3\n[parameters]",
+        r":9: not valid TOML, cannot declare .*; the table stands twice, join the two",
+    ),
     "unfinished": ("R = inf", "R = [", r"not valid TOML"),
     "nested too deeply": ("R = inf", "R = " + 3000 * "[", r"not valid TOML"),
-    "digits without end": ("R = inf", "R = " + 5000 * "1", r"not valid TOML"),
+    "digits without end": (
+        "R = inf",
+        "R = " + 5000 * "1",
+        r"not valid TOML, a number of more than 4,300 digits; write it with an exponent",
+    ),
 }
 
 BOUNDS = {
