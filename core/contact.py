@@ -52,7 +52,7 @@ _SMOOTH: Final = 0.25
 
 
 @kernel()
-def _place(low: float, high: float, i: int) -> float:
+def place_of(low: float, high: float, i: int) -> float:
     """Return node i of a window, its end for the last i."""
     if i >= NODES.size:
         return high
@@ -116,7 +116,7 @@ def _least_in_window(
         return least
     if low > a or error > _CLEAR:
         for i in range(NODES.size + 1):
-            openings[i] = opening(table, curve, edge, _place(low, high, i))
+            openings[i] = opening(table, curve, edge, place_of(low, high, i))
             if openings[i] < 0.0:
                 return openings[i]
         at, least = _least_of(openings)
@@ -125,22 +125,26 @@ def _least_in_window(
     elif openings[at] < -error:
         return openings[at]
     return min(
-        opening(table, curve, edge, _place(low, high, at)),
+        opening(table, curve, edge, place_of(low, high, at)),
         _search(
-            table, curve, edge, _place(low, high, at - 1) if at > 0 else low, _place(low, high, min(at + 1, NODES.size))
+            table,
+            curve,
+            edge,
+            place_of(low, high, at - 1) if at > 0 else low,
+            place_of(low, high, min(at + 1, NODES.size)),
         ),
     )
 
 
 @kernel()
-def _next_window(low: float, high: float, heights: Any) -> float:
+def next_window(low: float, high: float, heights: Any) -> float:
     """Return where the next window may begin: where the last part begins on which depth_H lies above, or at `high`."""
     i = NODES.size - 1
     while i > 0 and heights[i] < 0.0:
         i -= 1
     while i > 0 and heights[i - 1] >= 0.0:
         i -= 1
-    return _place(low, high, i) if i > 0 else high
+    return place_of(low, high, i) if i > 0 else high
 
 
 @kernel()
@@ -158,7 +162,7 @@ def least_opening(table: Any, curve: Curve, start: float, end: float, heights: A
         least = min(least, _least_in_window(table, curve, edge, low, high, heights, openings))
         if least < 0.0 or high == end:
             return least
-        low = _next_window(low, high, heights)
+        low = next_window(low, high, heights)
     trough = math.ceil(low)
     while trough <= end:
         least = min(least, trough_gap(table, curve, edge, trough))

@@ -3,10 +3,11 @@
 from typing import Final
 
 LOADING_NOT_ONE_DISC: Final = 1
-"""On loading the surfaces would overlap outside the contact, which is no single disc then (contact.py). Told where the
-loading path is followed, that is, where anything but the pull-off is asked for."""
+"""On loading the surfaces would overlap outside the contact, which is no single disc then (contact.py,
+general/contact.py); or a punch of several waves touches elsewhere before its centre does. Told where the loading path
+is followed, that is, where anything but the pull-off is asked for."""
 UNLOADING_NOT_ONE_DISC: Final = 2
-"""The same of unloading. Never so under controlled displacement (docs/theory.md, section 12)."""
+"""The same of unloading. Never so, whatever the profile and the control (docs/theory.md, sections 12 and 15)."""
 PULL_OFF_AT_RIM: Final = 4
 """The pull-off force is met at the rim (told where it is asked for)."""
 JUMP_IN_TO_RIM: Final = 8

@@ -94,7 +94,7 @@ def solve(
         Number of threads; all processors if not given. Results do not depend on it.
     profile
         The shape of the punch, a paraboloid with one cosine wave if not given. Another shape or control needs the exact
-        solver, has no `REPORTS`, and does not test the contact.
+        solver and no `REPORTS`.
     loading
         What is prescribed, the displacement if not given. With control "machine" `parameters` also has
         machine_stiffness, S/(E* R) > 0, which broadcasts with the others. Under load control dissipated_energy leaves
@@ -145,7 +145,9 @@ def solve(
         alike = equivalent_wave(profile) if loading == Loading() else None
         if alike is None:
             workers = threads or os.cpu_count() or 1
-            return solve_general(parameters, PARAMETERS, outputs, profile, loading, workers)
+            return solve_general(
+                parameters, PARAMETERS, outputs, profile, loading, workers, check_contact=check_contact
+            )
         wavelengths_a_wave, amplitude_factor = alike
         parameters = {
             **parameters,

@@ -8,12 +8,14 @@ import numpy as np
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve import force_unit
 from gradhesion.core.folds import CLOSE
+from gradhesion.core.general.contact import loading_is_one_disc
 from gradhesion.core.general.curve import Basis, Curve, state
 from gradhesion.core.general.folds import MOST_FOLDS, find_folds, room
 from gradhesion.core.general.path import depth_at_full_contact, fill_branches, folds_are_close, load_up, unload
 from gradhesion.core.general.pull_off import lowest_load
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
 from gradhesion.core.results import (
+    CONTACT,
     DEEPEST,
     ENERGY,
     FORCE,
@@ -26,7 +28,7 @@ from gradhesion.core.results import (
     wants_folds,
     wants_force,
 )
-from gradhesion.core.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, NO_VALUE, PULL_OFF_AT_RIM
+from gradhesion.core.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 
@@ -92,6 +94,8 @@ def _cycle(
         status[i] |= CLOSE_TO_A_JUMP
     if level == 0.0:
         status[i] |= JUMP_IN_TO_RIM
+    if slots[CONTACT] >= 0 and not loading_is_one_disc(basis, curve, count_of_branches, trace, rim):
+        status[i] |= LOADING_NOT_ONE_DISC
     put(out, slots, ENERGY, i, TWO_PI * length * length * (loading_loss + unloading_loss))
     put(out, slots, LOADING, i, loading_jumps)
     put(out, slots, UNLOADING, i, unloading_jumps)

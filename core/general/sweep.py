@@ -76,6 +76,8 @@ def solve_general(
     profile: Profile,
     loading: Loading,
     workers: int,
+    *,
+    check_contact: bool = True,
 ) -> dict[str, NDArray[Any]]:
     """Solve all scenes of the broadcast parameters `names` for one profile and control, as `solve` of core/sweep.py."""
     keys = [*names, *(["machine_stiffness"] if loading.control == "machine" else [])]
@@ -87,7 +89,7 @@ def solve_general(
         stretch = np.sqrt(2.0 ** (1.0 + k) * math.pi / material)
     compliance = compliance_of(loading, k, modulus, material, *machine)
     rows = list(dict.fromkeys(outputs))
-    slots = np.array([*(rows.index(name) if name in rows else -1 for name in OUTPUTS), -1])
+    slots = np.array([*(rows.index(name) if name in rows else -1 for name in OUTPUTS), int(check_contact) - 1])
     out = np.full((len(rows), k.size), np.nan)
     status = np.zeros(k.size, dtype=np.int8)
     series = rows_of(profile)
