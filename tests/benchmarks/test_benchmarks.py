@@ -11,7 +11,9 @@ def python(root: Path, *arguments: str) -> str:
     return subprocess.run([sys.executable, *arguments], cwd=root, capture_output=True, text=True, check=True).stdout
 
 
-@pytest.mark.parametrize("name", ["", ".dense_grid", ".error", ".functions", ".scenes", ".start_up", ".study"])
+@pytest.mark.parametrize(
+    "name", ["", ".dense_grid", ".error", ".functions", ".scale", ".scenes", ".start_up", ".study"]
+)
 def test_every_script_has_help(root: Path, name: str) -> None:
     assert "usage" in python(root, "-m", f"benchmarks{name}", "--help")
 
