@@ -229,7 +229,13 @@ def _mistakes_of_default_only(data: Mapping[str, Any], solvers: Sequence[str]) -
                 yield Mistake(("outputs", i), name, f"this curve is {known}; remove it, {remedy}")
     asked = data.get("method", {}).get("solver", "exact")
     for one in [asked] if isinstance(asked, str) else asked:
-        if one in solvers[1:]:
+        if one == "envelope" and "[loading]" in others:
+            sentence = (
+                'the solver "envelope" is known under controlled displacement only: contact through a spring begins '
+                'and ends where no closed form tells; write solver = "exact", or remove [loading]'
+            )
+            yield Mistake(("method", "solver"), asked, sentence)
+        elif one in solvers[1:] and one != "envelope":
             sentence = f'the solver "{one}" is {known}; write solver = "exact", {remedy}'
             yield Mistake(("method", "solver"), asked, sentence)
     for i, name in enumerate(data.get("outputs", [])):

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core import _jit
 from gradhesion.core.branches import ROWS
+from gradhesion.core.general.envelope import solve_envelope
 from gradhesion.core.general.sweep import equivalent_wave, solve_general
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.material import fill_stiffness
@@ -93,8 +94,8 @@ def solve(
     threads
         Number of threads; all processors if not given. Results do not depend on it.
     profile
-        The shape of the punch, a paraboloid with one cosine wave if not given. Another shape or control needs the exact
-        solver and no `REPORTS`.
+        The shape of the punch, a paraboloid with one cosine wave if not given. Another shape or control has no
+        `REPORTS`; another control needs the exact solver, another shape that or the envelopes.
     loading
         What is prescribed, the displacement if not given. With control "machine" `parameters` also has
         machine_stiffness, S/(E* R) > 0, which broadcasts with the others. Under load control dissipated_energy leaves
@@ -137,12 +138,15 @@ def solve(
     if ("machine_stiffness" in parameters) != (loading.control == "machine"):
         raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
     if profile != Profile() or loading != Loading():
-        if reports or solver != "exact":
+        if reports or solver == "asymptotic" or (solver != "exact" and loading != Loading()):
             raise ValueError(
                 f"solver {solver!r} and outputs {reports} are known of the paraboloid with one cosine wave under "
-                "displacement control only; another profile or control has the exact solver and its outputs"
+                "displacement control only; another profile has the exact solver and the envelopes, another "
+                "control the exact solver"
             )
         alike = equivalent_wave(profile) if loading == Loading() else None
+        if alike is None and solver == "envelope":
+            return solve_envelope(parameters, PARAMETERS, outputs, profile)
         if alike is None:
             workers = threads or os.cpu_count() or 1
             return solve_general(

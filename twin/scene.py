@@ -165,6 +165,9 @@ def _margin_jumps(curve: Contact, path: Path, made: list[Branch]) -> float:
     margins += [
         min((fold.margin(jump) for fold in inner if fold.z < jump.start), default=1.0) for jump in path.unloading
     ]
+    start = curve.coordinate(arb(0))
+    if inner and start != 0:  # k = 1: a fold at next to no contact, which a jump leaves or a branch ends in
+        margins.append(float(abs(inner[0].depth - start)) / (abs(inner[0].rough) + inner[0].size))
     points = extrema(curve, curve.fold, curve.rim)
     if curve.rim is not None:
         points.append(curve.rim)

@@ -81,7 +81,7 @@ def expected(
     outputs
         Names of outputs; those that are not in `KNOWN` are passed over.
     solver
-        One of `SOLVERS`; "envelope" for the plain shape alone.
+        One of `SOLVERS`; "envelope" under displacement control alone.
     shape
         The profile and the control.
 
@@ -102,7 +102,7 @@ def expected(
     (1.0, 5e-14)
     """
     if solver == "envelope":
-        found = _of_envelope(parameters)
+        found = _of_envelope(parameters, shape)
     elif CYCLE.isdisjoint(outputs):
         found = _of_pull_off(solve_pull_off(parameters, shape))
     else:
@@ -208,8 +208,8 @@ def _of_cycle(solution: Solution) -> dict[str, Expected]:
     }
 
 
-def _of_envelope(parameters: Mapping[str, float]) -> dict[str, Expected]:
-    solution = solve_envelope(parameters)
+def _of_envelope(parameters: Mapping[str, float], shape: Shape) -> dict[str, Expected]:
+    solution = solve_envelope(parameters, shape)
     energy = arb("inf") if solution.dissipated_energy is None else solution.dissipated_energy
     near = "r = s, where jumps into contact end" if solution.margin_jumps < NEAR else ""
     return {

@@ -94,6 +94,22 @@ def test_the_file_says_what_shape_and_control_it_is_of(
     assert "4 of " in result.stdout
 
 
+def test_the_envelopes_of_any_shape_stand_beside_the_exact_solution(
+    shaped: dict[str, Any], gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path
+) -> None:
+    del shaped["loading"]
+    path = tmp_path / "x.nc"
+    study = write_study(study_from(shaped | {"method": {"solver": ["exact", "envelope"]}}).text)
+    assert gradhesion("run", study, "-o", path).exit_code == 0
+    with xarray.open_dataset(path) as written:
+        force = written["pull_off_force"].sel(A=0.023)
+        ratio = force.sel(solver="exact") / force.sel(solver="envelope")
+        assert 0.5 < float(ratio.min()) < float(ratio.max()) < 1.0
+    result = gradhesion("verify", path, "--sample", "8", "--seed", "1")
+    assert result.exit_code == 0, result.stdout + result.stderr
+    assert "solver exact and envelope" in result.stdout
+
+
 def test_the_defaults_written_out_are_the_defaults(data: dict[str, Any]) -> None:
     data["method"] = {"solver": ["exact", "envelope"]}
     plain = compute(study_from(data))
@@ -148,7 +164,8 @@ MISTAKES = {
     "stiffness twice": ("loading.machine_stiffness=[1, 1]", "the axis repeats the value 1.0 (items 0 and 1)"),
     "stiffness text": ("loading.machine_stiffness='1'", "this must be a number, a list of numbers or a range table, with machine_stiffness > 0"),
     "stiffness elsewhere": ("parameters.machine_stiffness=1", "this key belongs under [loading]; move it there"),
-    "solver": ("method.solver='envelope'", 'the solver "envelope" is known of a paraboloid with one cosine wave under controlled displacement only'),
+    "solver": ("method.solver='asymptotic'", 'the solver "asymptotic" is known of a paraboloid with one cosine wave under controlled displacement only'),
+    "envelopes of a machine": ("method.solver=['exact', 'envelope']", 'the solver "envelope" is known under controlled displacement only: contact through a spring'),
     "report": ("outputs=['energy_gain']", "this output is known of a paraboloid with one cosine wave under controlled displacement only"),
     "jump-in radius": ("parameters.a_max_over_a2=2.0", "a_2 is that of a paraboloid with one cosine wave"),
 }  # fmt: skip
