@@ -10,7 +10,7 @@ import xarray
 
 from gradhesion.cli.dataset import following
 from gradhesion.cli.errors import DatasetError, StudyError
-from gradhesion.cli.names import SOLVER
+from gradhesion.cli.names import MACHINE, SOLVER, SPRING
 from gradhesion.cli.study import Study, study_from
 from gradhesion.core import PARAMETERS
 
@@ -71,7 +71,7 @@ def _check_coordinates(dataset: xarray.Dataset, study: Study, path: Path) -> Non
             at = f"[{wrong[0]}]" if here.ndim else ""
             both = f"{here.flat[wrong[0]]!s}, in its study {given.flat[wrong[0]]!s}"
             raise _apart(path, f"{name}{at} is {both}")
-    for name in PARAMETERS:
+    for name in (*PARAMETERS, *((MACHINE,) if SPRING in study.parameters else ())):
         if name not in study.parameters and (
             name not in dataset.coords or dataset[name].dims != following(study, name)
         ):

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.belonging import study_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import SI, SOLVER
+from gradhesion.cli.names import MACHINE, SI, SOLVER
 from gradhesion.cli.study import Method, Study
 from gradhesion.core import FAILED, PARAMETERS
 from gradhesion.core.status import CLOSE_TO_A_JUMP, NO_VALUE
@@ -180,7 +180,7 @@ def _scene(
     place: dict[str, float | str] = {
         name: value for name, value in parameters.items() if isinstance(study.parameters[name], np.ndarray)
     }
-    for name in PARAMETERS:
+    for name in (*PARAMETERS, *((MACHINE,) if study.loading.control == "machine" else ())):
         if name not in parameters:  # it is made from others
             own = {axis: at for axis, at in along.items() if axis in dataset[name].dims}
             parameters[name] = float(dataset[name].isel(own))

@@ -143,6 +143,8 @@ def _ratios(parameters: Mapping[str, float]) -> dict[str, arb]:
     for name, length in (("c0_over_R", "c0"), ("lambda_over_R", "wavelength"), ("a_max_over_R", "a_max")):
         if length in parameters:
             ratios[name] = parameters[length] / radius
+    if "spring_constant" in parameters:
+        ratios["machine_stiffness"] = parameters["spring_constant"] / (arb(parameters["E_star"]) * radius)
     if "amplitude" in parameters:
         ratios["A"] = parameters["amplitude"] / radius / parameters["lambda_over_R"]
     return ratios

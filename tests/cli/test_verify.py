@@ -359,17 +359,21 @@ def test_datasets_of_any_profile_and_control_are_recomputed(
         "wavelength": "0.3 um",
     }
     loading = {"control": control} | ({"machine_stiffness": [0.02, 5.0]} if control == "machine" else {})
-    study = {
+    study: dict[str, Any] = {
         "outputs": list(OUTPUTS),
         "profile": profile,
         "loading": loading,
         "parameters": {"k": [0.0, 0.31], "nu": 0.27, "A": [0.0, 0.05]},
         "physical": quantities | {"a_max": ["0.2 um", "0.7 um"]},
     }
+    if control == "machine" and profile is GENERAL[0]:
+        study["loading"] = {"control": control}
+        study["physical"] |= {"spring_constant": ["20 N/m", "5000 N/m"]}
     assert gradhesion("run", write_study(study_from(study).text), "-o", path, "--quiet").exit_code == 0
     result = gradhesion("verify", path, *ALL)
     assert result.exit_code == 0, result.stdout + result.stderr
     assert "pull_off_force_si" in result.stdout
+    assert ("machine_stiffness" in result.stdout.split("worst of each")[1]) == ("spring_constant" in study["physical"])
     with netCDF4.Dataset(path, "a") as file:
         place = (1,) * file["dissipated_energy"].ndim
         file["dissipated_energy"][place] *= 1 + 1e-11
