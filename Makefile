@@ -54,7 +54,7 @@ docs/figures/paper/%.png: $$(call dataset,$$*) $(drawing)
 .PRECIOUS: outputs/figures/%.nc
 build/types/gradhesion:
 	mkdir -p $@
-	ln -s ../../../core ../../../cli ../../../twin $@
+	ln -s ../../../core ../../../cli ../../../configs ../../../twin $@
 
 build/tested: $(checked) .venv/installed | build/types/gradhesion
 	.venv/bin/ruff check

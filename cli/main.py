@@ -10,6 +10,7 @@ import click
 from gradhesion.cli import interrupts, messages
 from gradhesion.cli.errors import GradhesionError
 from gradhesion.cli.info import info
+from gradhesion.cli.init import init
 from gradhesion.cli.merge import merge
 from gradhesion.cli.plan import plan
 from gradhesion.cli.plot import plot
@@ -36,6 +37,7 @@ def cli() -> None:
     """
 
 
+cli.add_command(init)
 cli.add_command(run)
 cli.add_command(plan)
 cli.add_command(status)
@@ -52,8 +54,8 @@ def main() -> NoReturn:
     interrupts.listen()
     try:
         code = cli.main(prog_name="gradhesion", standalone_mode=False) or 0
-    except SystemExit:  # so click leaves where the reader of its output has gone, as `| head` does; it is told nothing
-        code = UNHEARD
+    except SystemExit as end:  # so click leaves where the reader of its output has gone, as `| head` does
+        code = 0 if end.code == 0 else UNHEARD  # and, with 0, where it has completed a line for the shell
     except (Exception, KeyboardInterrupt) as error:  # noqa: BLE001 (raised again where no user can mend it)
         code = _code_of(error)
     if code == 0:

@@ -1,0 +1,116 @@
+"""Studies to start from: each is written, valid, and commented; and the shell completes what is typed."""
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from gradhesion.cli.init import studies
+from gradhesion.cli.study import load_study
+
+Call = Callable[..., Result]
+CONFIGS = Path(__file__).parents[2] / "configs"
+
+
+def test_the_studies_are_those_of_the_repository() -> None:
+    assert studies() == {path.stem: path.read_text(encoding="utf-8") for path in CONFIGS.glob("*.toml")}
+    assert {"map", "curve", "physical", "fig4a"} <= studies().keys()
+
+
+@pytest.mark.parametrize("name", sorted(studies()))
+def test_each_study_is_valid_and_begins_with_what_it_is(name: str) -> None:
+    text = studies()[name]
+    assert text.startswith("# ")
+    assert load_study(CONFIGS / f"{name}.toml").scenes >= 1
+
+
+def test_a_map_is_written_and_runs(gradhesion: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert gradhesion("init").exit_code == 0
+    assert Path("map.toml").read_text(encoding="utf-8") == studies()["map"]
+    result = gradhesion("run", "map.toml", "--set=parameters.lambda_over_R=0.2", "--quiet")
+    assert result.exit_code == 0, result.stderr
+    assert Path("outputs/map.nc").exists()
+
+
+def test_every_parameter_of_the_map_is_explained() -> None:
+    table = studies()["map"].split("[parameters]")[1].splitlines()
+    assert all("#" in line for line in table if "=" in line)
+
+
+def test_another_name_and_place(gradhesion: Call, tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    assert gradhesion("init", "fig4a", "-o", path).exit_code == 0
+    assert path.read_text(encoding="utf-8") == studies()["fig4a"]
+
+
+def test_an_existing_file_stays(gradhesion: Call, tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text("precious")
+    result = gradhesion("init", "-o", path)
+    assert (result.exit_code, result.stderr) == (
+        4,
+        f"{path}: exists already; name another file by -o, or add --overwrite\n",
+    )
+    assert path.read_text() == "precious"
+    assert gradhesion("init", "-o", path, "--overwrite").exit_code == 0
+    assert path.read_text(encoding="utf-8") == studies()["map"]
+
+
+def test_a_folder_that_is_not_there(gradhesion: Call, tmp_path: Path) -> None:
+    result = gradhesion("init", "-o", tmp_path / "none" / "a.toml")
+    assert result.exit_code == 4
+    assert "cannot be written (No such file or directory); name another file by -o" in result.stderr
+
+
+def test_an_unknown_name_has_a_suggestion(gradhesion: Call) -> None:
+    result = gradhesion("init", "fig4")
+    assert result.exit_code == 2
+    assert 'there is no study "fig4"; did you mean "fig4' in result.stderr
+
+
+def test_the_list_names_them_all(gradhesion: Call) -> None:
+    lines = gradhesion("init", "--list").stdout.splitlines()
+    assert [line.split()[0] for line in lines] == sorted(studies())
+
+
+def completed(shell: str, words: str, count: int) -> list[str]:
+    """Ask the command what it would complete, as the script of a shell does."""
+    environment = os.environ | {
+        "_GRADHESION_COMPLETE": f"{shell}_complete",
+        "COMP_WORDS": words,
+        "COMP_CWORD": str(count),
+    }
+    if shell == "fish":
+        environment["COMP_CWORD"] = words.rsplit(maxsplit=1)[-1]
+    done = subprocess.run(
+        [sys.executable, "-m", "gradhesion.cli"], env=environment, capture_output=True, text=True, check=True
+    )
+    return done.stdout.splitlines()
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_shells_complete_commands_and_studies(shell: str) -> None:
+    commands = completed(shell, "gradhesion pl", 1)
+    assert {"bash": "plain,plot", "zsh": "plot", "fish": "plain,plot"}[shell] in [
+        line.split("\t")[0] for line in commands
+    ]
+    assert any("physical" in line for line in completed(shell, "gradhesion init ph", 2))
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_the_script_of_a_shell_is_one(shell: str, tmp_path: Path) -> None:
+    environment = os.environ | {"_GRADHESION_COMPLETE": f"{shell}_source"}
+    done = subprocess.run(
+        [sys.executable, "-m", "gradhesion.cli"], env=environment, capture_output=True, text=True, check=True
+    )
+    assert f"_GRADHESION_COMPLETE={shell}_complete" in done.stdout
+    if shutil.which(shell):
+        script = tmp_path / "script"
+        script.write_text(done.stdout)
+        subprocess.run([shell, "-n", script], check=True)
