@@ -141,7 +141,7 @@ def jump_of_wave(table: Any, curve: Curve, wave: float, outwards: bool, trace: A
 
 
 @kernel()
-def _limit_terms(values: Any) -> float:
+def limit_terms(values: Any) -> float:
     """Return e'/24 - 7 e'''/5760 + 31 e^(5)/967680 in the middle of six values."""
     first = values[3] - values[2]
     third = values[4] - values[1] - 3.0 * first
@@ -187,7 +187,7 @@ def sum_of_waves(
             _, values[i] = jump_of_wave(table, curve, edge + i, outwards, trace)
         for i in range(EDGE):
             total += values[i] if side == 0 else values[EDGE + i]
-        corrections += -_limit_terms(values) if side == 0 else _limit_terms(values)
+        corrections += -limit_terms(values) if side == 0 else limit_terms(values)
     begin, end = first + EDGE - 0.5, last - EDGE + 0.5
     middle = math.sqrt(begin * end) if g * table.amplitude < _WEAK else end
     integral = _integral(table, curve, begin, middle, outwards, final, trace)

@@ -6,7 +6,7 @@ stable under the control in force. The other extrema of depth and of load are it
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +16,9 @@ from gradhesion.core.curves.equilibrium import draw_through
 from gradhesion.core.curves.forms import GENERAL, Numbers, general_numbers
 from gradhesion.core.curves.smooth import VARIABLES
 from gradhesion.core.curves.subject import BEYOND, BEYOND_SMOOTH, Form, Subject
+from gradhesion.core.general.branches import END, END_LEVEL, START, fill_branches, find_level
 from gradhesion.core.general.curve import Basis
-from gradhesion.core.general.folds import MOST_FOLDS, find_folds, room
-from gradhesion.core.general.path import END, END_LEVEL, START, fill_branches, find_level
+from gradhesion.core.general.folds import find_folds, room
 from gradhesion.core.general.scene import curve_of
 from gradhesion.core.general.sweep import compliance_of, front_of, rows_of, tables_of
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
@@ -27,6 +27,9 @@ from gradhesion.core.material import stiffness
 from gradhesion.core.profile import Profile
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.sweep import PARAMETERS
+
+MOST_FOLDS: Final = 20_000
+"""Folds of a curve that is drawn."""
 
 
 def _folds(basis: Basis, numbers: Numbers, furthest: float) -> tuple[NDArray[np.float64], bool] | None:

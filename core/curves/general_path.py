@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from gradhesion.core.curves.forms import point
 from gradhesion.core.curves.path import BRANCH, DEPTH, JOINED, JUMP, LOAD, PLACE, UNLOADING, draw_corners
 from gradhesion.core.curves.subject import Subject
+from gradhesion.core.general.branches import END, END_LEVEL, START, START_LEVEL, find_level
 from gradhesion.core.general.energy import energy_from_zero, jump_energy
-from gradhesion.core.general.path import END, END_LEVEL, START, START_LEVEL, find_level
 from gradhesion.core.struve.circle import TWO_PI
 
 _ROWS: Final = 7

@@ -15,9 +15,9 @@ import numpy as np
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.contact import next_window, place_of
+from gradhesion.core.general.branches import END, END_LEVEL, START_LEVEL, find_level
 from gradhesion.core.general.curve import Basis, Curve, coordinate
 from gradhesion.core.general.gap import Edge, edge_at, growth_of_a_panel, opening, openings_between, shortest_wave
-from gradhesion.core.general.path import END, END_LEVEL, START_LEVEL, find_level
 from gradhesion.core.general.touch import touches_at_centre
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.fractional import NODES
@@ -183,23 +183,34 @@ def jump_is_one_disc(basis: Basis, curve: Curve, left: float, end: float) -> boo
 
 
 @kernel()
-def loading_is_one_disc(basis: Basis, curve: Curve, count: int, trace: Any, rim: float) -> bool:
-    """Return whether loading to the rim keeps the contact one disc, from the branches of path.py."""
-    left, level, lowest = 0.0, 0.0, math.inf
+def climb_is_one_disc(
+    basis: Basis, curve: Curve, count: int, trace: Any, rim: float, left: float, level: float, whole: float
+) -> bool:
+    """Return whether loading over the branches of a trace, and on to the rim, keeps the contact one disc.
+
+    It begins at the radius x = `left` and the coordinate `level`; trace and rim are `whole` waves further out, and a
+    rim of -inf is none.
+    """
+    lowest = -math.inf
     for branch in range(count + 1):
-        end, top = rim, level
         if branch < count:
             lowest = min(lowest, trace[branch, START_LEVEL])
-            top = trace[branch, END_LEVEL]
-            if top <= level:
+            if trace[branch, END_LEVEL] <= level:
                 continue
-        elif left < rim:
-            lowest = min(lowest, coordinate(basis, curve, rim))
-        if left < rim and (left == 0.0 or not is_surely_open(basis, curve, left, level - lowest)):
-            if branch < count:
-                end = find_level(basis, curve, level, trace[branch])
+        elif left < whole + rim:
+            lowest = min(lowest, coordinate(basis, curve, rim, whole))
+        else:
+            break
+        if left == 0.0 or not is_surely_open(basis, curve, left, level - lowest):
+            end = whole + (find_level(basis, curve, level, trace[branch], whole) if branch < count else rim)
             if not jump_is_one_disc(basis, curve, left, end):
                 return False
         if branch < count:
-            left, level, lowest = trace[branch, END], top, math.inf
+            left, level, lowest = whole + trace[branch, END], trace[branch, END_LEVEL], math.inf
     return True
+
+
+@kernel()
+def loading_is_one_disc(basis: Basis, curve: Curve, count: int, trace: Any, rim: float) -> bool:
+    """Return whether loading to the rim keeps the contact one disc, from the branches of path.py."""
+    return climb_is_one_disc(basis, curve, count, trace, rim, 0.0, 0.0, 0.0)

@@ -27,25 +27,25 @@ Basis: TypeAlias = tuple[Any, Any, Any]
 
 
 @kernel(contract=True)
-def state(basis: Basis, curve: Curve, x: float) -> tuple[float, float, float, float, float]:
-    """Return z, z^c, z^(1+k), depth and load at x > 0."""
+def state(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[float, float, float, float, float]:
+    """Return z, z^c, z^(1+k), depth and load at whole + x > 0."""
     table, cosines, series = basis
     B, m, g, _, _ = curve
-    z = TWO_PI * x
+    z = TWO_PI * (whole + x)
     power = amplitude_power(table, z)
     stretch, front = z * power, 1.0 / (power * power)
     bend = B * z**m
-    w0, w1, _, _ = sums(table, cosines, series, x)
+    w0, w1, _, _ = sums(table, cosines, series, x, whole)
     depth = bend + g * z * w0 - stretch
     load = front * (bend * (m / (1.0 + table.k + m)) + g * z * w1 - stretch)
     return z, stretch, front, depth, load
 
 
 @kernel(contract=True)
-def coordinate(basis: Basis, curve: Curve, x: float) -> float:
-    """Return Y at x > 0."""
+def coordinate(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> float:
+    """Return Y at whole + x > 0."""
     _, _, _, alpha, beta = curve
-    _, _, _, depth, load = state(basis, curve, x)
+    _, _, _, depth, load = state(basis, curve, x, whole)
     return alpha * depth + beta * load
 
 
@@ -58,28 +58,28 @@ def level_at(k: float, alpha: float, t: float) -> float:
 
 
 @kernel(contract=True)
-def slope(basis: Basis, curve: Curve, x: float) -> tuple[float, float, float]:
-    """Return D, dD/dz, and dY/dz at x > 0."""
+def slope(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[float, float, float]:
+    """Return D, dD/dz, and dY/dz at whole + x > 0."""
     table, cosines, series = basis
     B, m, g, alpha, beta = curve
     k = table.k
-    z = TWO_PI * x
+    z = TWO_PI * (whole + x)
     power = amplitude_power(table, z)
     t = beta / (power * power)
     q = level_at(k, alpha, t)
     change = 0.0 if alpha == 0.0 else alpha * t * ((1.0 + k) / (alpha + t)) ** 2 / z
     bend = m * B * z ** (m - 1.0)
-    _, _, v, v1 = sums(table, cosines, series, x)
+    _, _, v, v1 = sums(table, cosines, series, x, whole)
     value = bend + g * v - q * power
     return value, (m - 1.0) * bend / z + g * v1 + (0.5 * (1.0 + k) * q / z - change) * power, (alpha + t) * value
 
 
 @kernel(contract=True)
-def size(basis: Basis, curve: Curve, x: float) -> float:
-    """Return the size of the terms of Y at x > 0."""
+def size(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> float:
+    """Return the size of the terms of Y at whole + x > 0."""
     table, _, series = basis
     B, m, g, alpha, beta = curve
-    z = TWO_PI * x
+    z = TWO_PI * (whole + x)
     power = amplitude_power(table, z)
     waves = 0.0
     for i in range(series.shape[0]):

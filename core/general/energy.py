@@ -7,18 +7,23 @@ Gauss's rule in panels short against the shortest wave, and against the distance
 """
 
 import math
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.general.curve import Basis, Curve, state
+from gradhesion.core.general.curve import Basis, Curve, slope, state
 from gradhesion.core.general.series import sums
 from gradhesion.core.jump_energy import NODES, WEIGHTS
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 
+Left: TypeAlias = tuple[float, float, float, float]
+"""A place that is left: whole waves, x beyond them, and there the waves of depth and of load."""
 _PANEL: Final = 1.25
 """Waves a panel of 16 nodes: they leave 1e-14 of a term cos 2 z, the fastest there is."""
 _NEGLIGIBLE: Final = 1e-18
+_STEPS: Final = 200
+_SURE: Final = 1e-8
+"""Step of Newton's method, in waves, whose square is below rounding."""
 
 
 @kernel()
@@ -29,50 +34,94 @@ def _longest_panel(series: Any) -> float:
     return _PANEL / shortest if shortest > 0.0 else math.inf
 
 
+@kernel()
+def place_left(basis: Basis, curve: Curve, x: float, whole: float) -> Left:
+    """Return a place that a jump leaves."""
+    table, cosines, series = basis
+    _, _, g, _, _ = curve
+    z = TWO_PI * (whole + x)
+    w0, w1, _, _ = sums(table, cosines, series, x, whole)
+    power = amplitude_power(table, z)
+    return whole, x, g * z * w0, g * z * w1 / (power * power)
+
+
 @kernel(contract=True)
-def _rise(basis: Basis, curve: Curve, x1: float, waves: tuple[float, float], x: float) -> float:
+def _rise(basis: Basis, curve: Curve, left: Left, x: float, whole: float) -> float:
     """Return [Y(z) - Y(z1)]/((alpha + beta z^(1+k)) z^c); each term's difference first, however large the terms are."""
     table, cosines, series = basis
     B, m, g, alpha, beta = curve
+    whole1, x1, wave0, wave1 = left
     k = table.k
-    z, z1 = TWO_PI * x, TWO_PI * x1
+    place1 = whole1 + x1
+    z, z1 = TWO_PI * (whole + x), TWO_PI * place1
     power, power1 = amplitude_power(table, z), amplitude_power(table, z1)
-    ratio = math.log1p((x - x1) / x1)
-    w0, w1, _, _ = sums(table, cosines, series, x)
+    ratio = math.log1p(((whole - whole1) + (x - x1)) / place1)
+    w0, w1, _, _ = sums(table, cosines, series, x, whole)
     bend = B * z1**m * math.expm1(m * ratio)
-    rise = alpha * (bend + g * z * w0 - waves[0] - z1 * power1 * math.expm1(0.5 * (1.0 - k) * ratio))
+    rise = alpha * (bend + g * z * w0 - wave0 - z1 * power1 * math.expm1(0.5 * (1.0 - k) * ratio))
     front = 0.0
     if beta > 0.0:
         front, front1 = beta / (power * power), beta / (power1 * power1)
         bend = m / (1.0 + k + m) * front1 * B * z1**m * math.expm1((1.0 + k + m) * ratio)
         stretch = front1 * z1 * power1 * math.expm1(0.5 * (3.0 + k) * ratio)
-        rise += bend + front * g * z * w1 - beta * waves[1] - stretch
+        rise += bend + front * g * z * w1 - beta * wave1 - stretch
     return rise / ((alpha + front) * z * power)
 
 
 @kernel()
-def jump_energy(basis: Basis, curve: Curve, start: float, end: float) -> float:
-    """Return e of a jump from x = start > 0 on the curve to x = end > 0."""
-    table, cosines, series = basis
-    _, _, g, _, _ = curve
-    z = TWO_PI * start
-    w0, w1, _, _ = sums(table, cosines, series, start)
-    power = amplitude_power(table, z)
-    waves = (g * z * w0, g * z * w1 / (power * power))
-    low, high = min(start, end), max(start, end)
+def find_landing(basis: Basis, curve: Curve, left: Left, low: float, high: float, whole: float) -> float:
+    """Return where the branch from whole + low to whole + high meets the coordinate of the place `left`.
+
+    Newton's method for the difference of the two, kept in the bracket: the coordinates themselves are larger than what
+    a wave adds to them by the number of waves.
+    """
+    x = 0.5 * (low + high)
+    for _ in range(_STEPS):
+        rest = _rise(basis, curve, left, x, whole)
+        if rest == 0.0:
+            return x
+        if rest < 0.0:
+            low = x
+        else:
+            high = x
+        value, _, _ = slope(basis, curve, x, whole)
+        z = TWO_PI * (whole + x)
+        step = -rest * amplitude_power(basis[0], z) * (whole + x) / value
+        if low <= x + step <= high and abs(step) <= _SURE:  # what is left is its square
+            return x + step
+        x += step
+        if not low < x < high:
+            x = 0.5 * (low + high)
+            if x <= low or x >= high:
+                return x
+    return x
+
+
+@kernel()
+def drop(basis: Basis, curve: Curve, left: Left, low: float, high: float, whole: float) -> float:
+    """Return int x (1 - rho^2) dx from whole + low to whole + high, at the coordinate of the place `left`."""
+    _, _, series = basis
     longest = _longest_panel(series)
     total = 0.0
     while low < high:
-        width = min(longest, 2.0 * low)
+        width = min(longest, 2.0 * (whole + low))
         panels = max(1, math.ceil((high - low) / width - 1e-9))
         width = (high - low) / panels if panels < 3 else width
         part = 0.0
         for i in range(NODES.size):
             x = low + width * NODES[i]
-            u = _rise(basis, curve, start, waves, x)
-            part -= WEIGHTS[i] * x * u * (2.0 + u)
+            u = _rise(basis, curve, left, x, whole)
+            part -= WEIGHTS[i] * (whole + x) * u * (2.0 + u)
         total += width * part
         low = low + width if panels > 1 else high
+    return total
+
+
+@kernel()
+def jump_energy(basis: Basis, curve: Curve, start: float, end: float, whole: float = 0.0) -> float:
+    """Return e of a jump from x = start > 0 on the curve to x = end > 0, both beyond `whole` waves."""
+    left = place_left(basis, curve, start, whole)
+    total = drop(basis, curve, left, min(start, end), max(start, end), whole)
     return total * (TWO_PI * TWO_PI if end > start else -TWO_PI * TWO_PI)
 
 
@@ -91,7 +140,7 @@ def energy_from_zero(basis: Basis, curve: Curve, x: float, level: float) -> floa
         part = 0.0
         for i in range(NODES.size):
             place = low + (high - low) * NODES[i]
-            _, stretch, front, depth, load = state(basis, curve, place)
+            _, stretch, front, depth, load = state(basis, curve, place, 0.0)
             u = (alpha * depth + beta * load - level) / ((alpha + beta * front) * stretch)
             part -= WEIGHTS[i] * place * u * (2.0 + u)
         total += (high - low) * part

@@ -12,9 +12,9 @@ from gradhesion.core.general.curve import Basis, Curve, level_at, slope
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 
-MOST_FOLDS: Final = 20_000
-MOST_CELLS: Final = 4 * MOST_FOLDS
-"""Cells of a quarter of the shortest wave, which may hold a fold in two of them."""
+MOST_CELLS: Final = 1_000_000
+"""Cells of a quarter of the shortest wave that are looked at."""
+MOST_FOLDS: Final = 400_000
 _SHARE: Final = 0.5
 """Longest cell over its distance from zero contact, where powers of z have a branch point."""
 _STEPS: Final = 80
@@ -38,12 +38,12 @@ def cell_width(series: Any, x: float) -> float:
 
 
 @kernel()
-def refine(basis: Basis, curve: Curve, low: float, high: float, rising: bool) -> float:
+def refine(basis: Basis, curve: Curve, low: float, high: float, rising: bool, whole: float) -> float:
     """Return where D goes through zero between two radii of different signs (Newton, kept in the bracket)."""
     x = 0.5 * (low + high)
     last = math.inf
     for _ in range(_STEPS):
-        value, rate, _ = slope(basis, curve, x)
+        value, rate, _ = slope(basis, curve, x, whole)
         if value == 0.0:
             return x
         if (value < 0.0) == rising:
@@ -51,7 +51,7 @@ def refine(basis: Basis, curve: Curve, low: float, high: float, rising: bool) ->
         else:
             high = x
         step = -value / (TWO_PI * rate)
-        if abs(step) <= 2e-16 * x or (abs(step) >= 0.5 * last and abs(step) < 1e-10 * x):
+        if abs(step) <= 2e-16 * abs(x) or (abs(step) >= 0.5 * last and abs(step) < 1e-10 * abs(x)):
             return x
         last = abs(step)
         x += step
@@ -64,14 +64,14 @@ def refine(basis: Basis, curve: Curve, low: float, high: float, rising: bool) ->
 
 
 @kernel()
-def _extremum(basis: Basis, curve: Curve, low: float, high: float) -> float:
+def _extremum(basis: Basis, curve: Curve, low: float, high: float, whole: float) -> float:
     """Return where D has its extremum between two close radii (regula falsi of its slope, then bisection)."""
-    _, first, _ = slope(basis, curve, low)
+    _, first, _ = slope(basis, curve, low, whole)
     for _ in range(_STEPS):
         x = 0.5 * (low + high)
         if x <= low or x >= high:
             break
-        _, rate, _ = slope(basis, curve, x)
+        _, rate, _ = slope(basis, curve, x, whole)
         if (rate < 0.0) == (first < 0.0):
             low = x
         else:
@@ -81,7 +81,7 @@ def _extremum(basis: Basis, curve: Curve, low: float, high: float) -> float:
 
 @kernel()
 def folds_of_cell(
-    basis: Basis, curve: Curve, low: float, high: float, at_low: float, work: Any, zeros: Any
+    basis: Basis, curve: Curve, low: float, high: float, at_low: float, work: Any, zeros: Any, whole: float = 0.0
 ) -> tuple[int, float, float]:
     """Put the zeros of D in a cell into `zeros`, in order; return their number, D at the far end, and the nearest miss.
 
@@ -90,75 +90,77 @@ def folds_of_cell(
     values, stack, spans, found = work
     values[0] = at_low
     for i in range(1, DEGREE + 1):
-        values[i], _, _ = slope(basis, curve, high if i == DEGREE else low + (high - low) * NODES[i])
+        values[i], _, _ = slope(basis, curve, high if i == DEGREE else low + (high - low) * NODES[i], whole)
     at_high = values[DEGREE]
     count, miss = 0, math.inf
     here, negative = low, at_low < 0.0
     rows, nearest = isolate(values, stack, spans, found)
     if nearest <= _NEAR * max(abs(at_low), abs(at_high)):
-        miss = nearest / _terms(basis, curve, low)
+        miss = nearest / _terms(basis, curve, low, whole)
     for row in range(rows):
         left, right = low + (high - low) * found[row, 0], low + (high - low) * found[row, 1]
         points = 2
         middle = right
         if found[row, 3] == 2.0:
             points = 3
-            middle = _extremum(basis, curve, left, right)
-            value, _, _ = slope(basis, curve, middle)
-            miss = min(miss, abs(value) / _terms(basis, curve, middle))
+            middle = _extremum(basis, curve, left, right, whole)
+            value, _, _ = slope(basis, curve, middle, whole)
+            miss = min(miss, abs(value) / _terms(basis, curve, middle, whole))
         for i in range(points):
             x = left if i == 0 else (middle if i == 1 else right)
             if x <= here:
                 continue
             value = at_high
             if x < high:
-                value, _, _ = slope(basis, curve, x)
+                value, _, _ = slope(basis, curve, x, whole)
             if (value < 0.0) != negative:
-                zeros[count] = refine(basis, curve, here, x, negative)
+                zeros[count] = refine(basis, curve, here, x, negative, whole)
                 count += 1
                 negative = value < 0.0
             here = x
     if (at_high < 0.0) != negative:
-        zeros[count] = refine(basis, curve, here, high, negative)
+        zeros[count] = refine(basis, curve, here, high, negative, whole)
         count += 1
     return count, at_high, miss
 
 
 @kernel()
-def _terms(basis: Basis, curve: Curve, x: float) -> float:
+def _terms(basis: Basis, curve: Curve, x: float, whole: float) -> float:
     """Return the size of the terms of D."""
     table, _, _ = basis
     B, m, _, alpha, beta = curve
-    z = TWO_PI * x
+    z = TWO_PI * (whole + x)
     power = amplitude_power(table, z)
     return m * B * z ** (m - 1.0) + level_at(table.k, alpha, beta / (power * power)) * power
 
 
 @kernel()
-def find_folds(basis: Basis, curve: Curve, first: float, last: float, work: Any, zeros: Any) -> tuple[int, bool, float]:
-    """Put all zeros of D between two radii into `zeros`, in order.
+def find_folds(
+    basis: Basis, curve: Curve, first: float, last: float, work: Any, zeros: Any, whole: float = 0.0
+) -> tuple[int, bool, float]:
+    """Put all zeros of D between two radii, `whole` waves further out, into `zeros`, in order.
 
     Returns
     -------
-    Their number, -1 if there are too many to look for; whether the coordinate rises at the first radius; and the first
-    place of a pair of folds that an error of CLOSE could make or unmake, else inf.
+    Their number, -1 if there are too many for `zeros` or too many cells to look at; whether the coordinate rises at the
+    first radius; and the first place of a pair of folds that an error of CLOSE could make or unmake, else inf.
     """
     _, _, series = basis
     cell_zeros = np.empty(MOST)
-    value, _, _ = slope(basis, curve, first)
+    value, _, _ = slope(basis, curve, first, whole)
     rises = value >= 0.0
     count, tangency = 0, math.inf
     x = first
     for _ in range(MOST_CELLS):
         if x >= last:
             return count, rises, tangency
-        high = x + cell_width(series, x)
+        high = x + cell_width(series, whole + x)
         if not high < last:
             high = last
-        found, value, miss = folds_of_cell(basis, curve, x, high, value, work, cell_zeros)
+        found, value, miss = folds_of_cell(basis, curve, x, high, value, work, cell_zeros, whole)
         if miss <= CLOSE:
             tangency = min(tangency, x)
-        if count + found > MOST_FOLDS:
+        if count + found > zeros.size:
             return -1, rises, tangency
         for i in range(found):
             zeros[count] = cell_zeros[i]

@@ -1,18 +1,19 @@
 """From the numbers of a general scene to its results: one kernel for one scene."""
 
 import math
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve import force_unit
 from gradhesion.core.folds import CLOSE
-from gradhesion.core.general.contact import loading_is_one_disc
 from gradhesion.core.general.curve import Basis, Curve, state
-from gradhesion.core.general.folds import MOST_FOLDS, find_folds, room
-from gradhesion.core.general.path import depth_at_full_contact, fill_branches, folds_are_close, load_up, unload
+from gradhesion.core.general.folds import MOST_CELLS, room
+from gradhesion.core.general.path import depth_at_full_contact, walk
 from gradhesion.core.general.pull_off import lowest_load
+from gradhesion.core.general.stride import stride
+from gradhesion.core.general.waves import highest_harmonic
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
 from gradhesion.core.results import (
     CONTACT,
@@ -31,6 +32,9 @@ from gradhesion.core.results import (
 from gradhesion.core.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
+
+LONGEST_WALK: Final = 512.0
+"""Waves up to which a curve is walked."""
 
 
 @kernel()
@@ -68,44 +72,53 @@ def curve_of(
 
 @kernel()
 def _cycle(
-    basis: Basis, curve: Curve, length: float, unit: float, rim: float, slots: Any, out: Any, status: Any, i: int
+    basis: Basis,
+    curve: Curve,
+    length: float,
+    unit: float,
+    rim: float,
+    rim_low: float,
+    slots: Any,
+    out: Any,
+    status: Any,
+    i: int,
 ) -> None:
-    """Follow the cycle of a scene up to the rim x = `rim`."""
+    """Follow the cycle of a scene up to the rim x = `rim` + `rim_low`."""
+    _, _, series = basis
     _, _, _, alpha, _ = curve
     first = first_fold_bound(basis, curve) / TWO_PI
     last = min(rim, last_fold_bound(basis, curve) / TWO_PI)
-    zeros = np.empty(MOST_FOLDS)
-    count, rises, tangency = 0, False, math.inf
-    if first < last:
-        count, rises, tangency = find_folds(basis, curve, first, last, room(), zeros)
-    if count < 0 or last == math.inf:
+    tasks = (slots[ENERGY] >= 0, alpha > 0.0, slots[CONTACT] >= 0)
+    nothing = (0.0, 0.0, 0.0, 0.0, 0.0, False)
+    done, loading, unloading, close, one_disc, waves, x = False, nothing, nothing, False, True, 0.0, rim
+    if series.shape[0] > 0 and LONGEST_WALK < last - first < math.inf:
+        done, loading, unloading, close, one_disc, waves, x = stride(basis, curve, first, last, rim, rim_low, tasks)
+    if not done and (last - first) * highest_harmonic(series) < MOST_CELLS:
+        done, loading, unloading, close, one_disc, waves, x = walk(basis, curve, first, last, rim, tasks)
+    if not done:
         for row in range(LAST + 1):
             put(out, slots, row, i, math.nan)
         status[i] = NO_VALUE
         return
-    trace = np.empty((count // 2 + 2, 4))
-    count_of_branches = fill_branches(basis, curve, zeros, count, rises, rim, trace)
-    losses = slots[ENERGY] >= 0
-    loading_loss, loading_jumps, level, close = load_up(basis, curve, count_of_branches, trace, rim, losses)
-    unloading_loss, unloading_jumps, left, close_too = unload(
-        basis, curve, count_of_branches, trace, rim, losses, alpha > 0.0
-    )
-    if close or close_too or tangency < math.inf or folds_are_close(zeros, count, rim):
+    _, _, level, _, _, _ = loading
+    _, _, _, whole, left, _ = unloading
+    if close:
         status[i] |= CLOSE_TO_A_JUMP
     if level == 0.0:
         status[i] |= JUMP_IN_TO_RIM
-    if slots[CONTACT] >= 0 and not loading_is_one_disc(basis, curve, count_of_branches, trace, rim):
+    if not one_disc:
         status[i] |= LOADING_NOT_ONE_DISC
-    put(out, slots, ENERGY, i, TWO_PI * length * length * (loading_loss + unloading_loss))
-    put(out, slots, LOADING, i, loading_jumps)
-    put(out, slots, UNLOADING, i, unloading_jumps)
+    put(out, slots, ENERGY, i, TWO_PI * length * length * (loading[0] + unloading[0]))
+    put(out, slots, LOADING, i, loading[1])
+    put(out, slots, UNLOADING, i, unloading[1])
     if slots[LAST] >= 0:
         depth = -1.0
-        if left > 0.0:
-            _, _, _, depth, _ = state(basis, curve, left)
+        if whole + left > 0.0:
+            _, _, _, depth, _ = state(basis, curve, left, whole)
         put(out, slots, LAST, i, unit * depth)
     if slots[DEEPEST] >= 0:
-        put(out, slots, DEEPEST, i, unit * depth_at_full_contact(basis, curve, rim, level) if rim < math.inf else rim)
+        deepest = depth_at_full_contact(basis, curve, x, level, waves) if rim < math.inf else rim
+        put(out, slots, DEEPEST, i, unit * deepest)
 
 
 @kernel()
@@ -134,8 +147,8 @@ def solve_scene(
         status[i] = NO_VALUE
         return
     x = rim / wavelength
+    x_low = fma(-x, wavelength, rim) / wavelength if x < math.inf else 0.0
     if wants_force(slots):
-        x_low = fma(-x, wavelength, rim) / wavelength if x < math.inf else 0.0
         lowest, place, second = lowest_load(basis, curve, x, x_low, room())
         if not lowest < 0.0:
             status[i] |= NO_VALUE
@@ -147,7 +160,7 @@ def solve_scene(
         if place == x:
             status[i] |= PULL_OFF_AT_RIM
     if wants_folds(slots) or wants_cycle(slots):
-        _cycle(basis, curve, length, unit, x, slots, out, status, i)
+        _cycle(basis, curve, length, unit, x, x_low, slots, out, status, i)
 
 
 @kernel()

@@ -6,6 +6,10 @@ With z = 2 pi x, x = a/lambda, and y = n z for each harmonic,
     v  = sum n [cos_n V_S + sin_n V_T] = (z w0)'    V_S = S0 + y S0',  V_T = T0 + y T0'     v1 = dv/dz
 
 n x is rounded, and its rounding error is carried along: the phase of every harmonic is that of the exact product.
+
+Far out a place is `whole` + x, with x of a few waves: whole waves have no part in the phase, so that no digit of it is
+lost at 10^6 waves. `whole` is 0, or at least 8 (z > 40); it may be any real number, which makes what belongs to a
+wave a smooth function of its number (waves.py).
 """
 
 from typing import Any
@@ -22,10 +26,15 @@ horner8 = make_horner(8, TAIL_TERMS)
 
 
 @kernel(contract=True)
-def integrals(table: Any, cosines: Any, x: float, x_low: float) -> tuple[float, float, float, float, float, float]:
-    """Return z, S0, S1, S0', T0, T1 at z = 2 pi (x + x_low), where x_low is below the last place of x."""
+def integrals(
+    table: Any, cosines: Any, x: float, x_low: float, whole: float = 0.0
+) -> tuple[float, float, float, float, float, float]:
+    """Return z, S0, S1, S0', T0, T1 at z = 2 pi (whole + x + x_low) and the phase of x + x_low.
+
+    x_low is below the last place of x. Where z < 40 `whole` must be 0.
+    """
     k = table.k
-    z = TWO_PI * x
+    z = TWO_PI * (whole + x)
     if z < SWITCH:
         i = int(2.0 * z)
         t = fma(4.0 * TWO_PI, x, -(2.0 * i + 1.0)) + 4.0 * (TWO_PI_LOW * x + TWO_PI * x_low)
@@ -50,15 +59,15 @@ def integrals(table: Any, cosines: Any, x: float, x_low: float) -> tuple[float, 
 
 
 @kernel(contract=True)
-def sums(table: Any, cosines: Any, series: Any, x: float) -> tuple[float, float, float, float]:
-    """Return w0, w1, v and v1 at x >= 0; `series` has a row (n, cos, sin) for each harmonic."""
+def sums(table: Any, cosines: Any, series: Any, x: float, whole: float = 0.0) -> tuple[float, float, float, float]:
+    """Return w0, w1, v and v1 at whole + x >= 0; `series` has a row (n, cos, sin) for each harmonic."""
     k1 = 1.0 + table.k
     w0, w1, v, v1 = 0.0, 0.0, 0.0, 0.0
     for i in range(series.shape[0]):
         n = series[i, 0]
         even, odd = n * series[i, 1], n * series[i, 2]
         product = n * x
-        y, s0, s1, d0, t0, t1 = integrals(table, cosines, product, fma(n, x, -product))
+        y, s0, s1, d0, t0, t1 = integrals(table, cosines, product, fma(n, x, -product), n * whole)
         fall = -y * t1 / k1  # T0'
         w0 += even * s0 + odd * t0
         w1 += even * (s0 - s1) + odd * (t0 - t1)

@@ -8,11 +8,11 @@ import pytest
 from scipy.special import gamma
 
 from gradhesion.core import PARAMETERS, Harmonic, Loading, Profile, solve
+from gradhesion.core.general.branches import END, END_LEVEL, START_LEVEL, fill_branches
 from gradhesion.core.general.contact import is_surely_open, jump_is_one_disc, least_opening, loading_is_one_disc
 from gradhesion.core.general.curve import coordinate
 from gradhesion.core.general.folds import MOST_FOLDS, find_folds, room
 from gradhesion.core.general.gap import edge_at, opening
-from gradhesion.core.general.path import END, END_LEVEL, START_LEVEL, fill_branches
 from gradhesion.core.general.sweep import solve_general, tables_of
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
 from gradhesion.core.material import stiffness

@@ -1,0 +1,70 @@
+"""The branches of a curve, rows (start, Y there, end, Y there): between two folds Y rises from the one to the other."""
+
+import math
+from typing import Any, Final
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.general.curve import Basis, Curve, coordinate, slope
+from gradhesion.core.struve.circle import TWO_PI
+
+START, START_LEVEL, END, END_LEVEL = 0, 1, 2, 3
+_STEPS: Final = 200
+_OUTERMOST: Final = 1e100
+_SURE: Final = 1e-9
+"""Step of Newton's method over the radius, or over _FAR waves, from which on what is left is below rounding."""
+_FAR: Final = 100.0
+
+
+@kernel()
+def fill_branches(
+    basis: Basis, curve: Curve, zeros: Any, count: int, rises: bool, rim: float, trace: Any, whole: float = 0.0
+) -> int:
+    """Fill the trace from the folds within the rim; return the number of branches. All stand `whole` waves out."""
+    _, _, _, alpha, _ = curve
+    branches = 0
+    inside = rises
+    if rises:  # k = 1: contact grows from a point, where Y = -alpha
+        trace[0, START], trace[0, START_LEVEL] = 0.0, -alpha
+    for i in range(count):
+        if inside:
+            trace[branches, END], trace[branches, END_LEVEL] = zeros[i], coordinate(basis, curve, zeros[i], whole)
+            branches += 1
+        else:
+            trace[branches, START], trace[branches, START_LEVEL] = zeros[i], coordinate(basis, curve, zeros[i], whole)
+        inside = not inside
+    if inside:
+        trace[branches, END] = rim
+        trace[branches, END_LEVEL] = coordinate(basis, curve, rim, whole) if rim < math.inf else math.inf
+        branches += 1
+    return branches
+
+
+@kernel()
+def find_level(basis: Basis, curve: Curve, target: float, branch: Any, whole: float = 0.0) -> float:
+    """Return where a branch meets a coordinate between those of its ends (Newton, kept in the bracket)."""
+    low, high = branch[START], branch[END]
+    if high == math.inf:
+        step = whole + low if whole + low > 0.0 else 1.0
+        high = low + step
+        while high < _OUTERMOST and not coordinate(basis, curve, high, whole) > target:
+            step *= 2.0
+            low, high = high, high + step
+    x = 0.5 * (low + high)
+    for _ in range(_STEPS):
+        rest = coordinate(basis, curve, x, whole) - target
+        if rest == 0.0:
+            return x
+        if rest < 0.0:
+            low = x
+        else:
+            high = x
+        _, _, rate = slope(basis, curve, x, whole)
+        step = -rest / (TWO_PI * rate)
+        if low <= x + step <= high and abs(step) <= _SURE * min(whole + x, _FAR):  # what is left is its square
+            return x + step
+        x += step
+        if not low < x < high:
+            x = 0.5 * (low + high)
+            if x <= low or x >= high:
+                return x
+    return x
