@@ -157,11 +157,12 @@ def test_the_maps_are_a_real_study_over_all_five_axes() -> None:
 
 def test_every_folder_of_modules_is_packaged() -> None:
     listed = PROJECT["tool"]["setuptools"]["package-dir"]
-    folders = {path.parent.relative_to(ROOT) for top in ("cli", "core", "twin") for path in (ROOT / top).rglob("*.py")}
-    assert {Path(folder) for folder in listed.values()} == folders | {Path("configs")}
+    tops = ("cli", "configs", "core", "twin")
+    folders = {path.parent.relative_to(ROOT) for top in tops for path in (ROOT / top).rglob("*.py")}
+    assert {Path(folder) for folder in listed.values()} == folders
     assert sorted(listed) == sorted(PROJECT["tool"]["setuptools"]["packages"])
     assert all(name == "gradhesion." + folder.replace("/", ".") for name, folder in listed.items())
-    assert all((ROOT / folder / "__init__.py").exists() for folder in listed.values() if folder != "configs")
+    assert all((ROOT / folder / "__init__.py").exists() for folder in listed.values())
     assert all((ROOT / top / "py.typed").exists() for top in ("cli", "core", "twin"))
 
 
