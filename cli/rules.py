@@ -239,8 +239,11 @@ def _mistakes_of_default_only(data: Mapping[str, Any], solvers: Sequence[str]) -
             sentence = f'the solver "{one}" is {known}; write solver = "exact", {remedy}'
             yield Mistake(("method", "solver"), asked, sentence)
     for i, name in enumerate(data.get("outputs", [])):
-        if name in EXACT_ONLY:
-            yield Mistake(("outputs", i), name, f"this output is {known}; remove it, {remedy}")
+        if name == "energy_residual" and data.get("loading", {}).get("control") == "load":
+            sentence = (
+                'a dead load closes no loop, so that there is no residual; remove it, or write control = "machine"'
+            )
+            yield Mistake(("outputs", i), name, sentence)
     if "[profile]" in others and "a_max_over_a2" in data.get("parameters", {}):
         sentence = (
             "a_2 is that of a paraboloid with one cosine wave; give a_max_over_R or a_max_over_L, or remove [profile]"

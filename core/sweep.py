@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core import _jit
 from gradhesion.core.branches import ROWS
 from gradhesion.core.general.envelope import solve_envelope
+from gradhesion.core.general.report import report_general
 from gradhesion.core.general.sweep import equivalent_wave, solve_general
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.material import fill_stiffness
@@ -94,8 +95,8 @@ def solve(
     threads
         Number of threads; all processors if not given. Results do not depend on it.
     profile
-        The shape of the punch, a paraboloid with one cosine wave if not given. Another shape or control has no
-        `REPORTS`; another control needs the exact solver, another shape that or the envelopes.
+        The shape of the punch, a paraboloid with one cosine wave if not given. Another control needs the exact solver,
+        another shape that or the envelopes; under load control there is no energy_residual.
     loading
         What is prescribed, the displacement if not given. With control "machine" `parameters` also has
         machine_stiffness, S/(E* R) > 0, which broadcasts with the others. Under load control dissipated_energy leaves
@@ -138,20 +139,26 @@ def solve(
     if ("machine_stiffness" in parameters) != (loading.control == "machine"):
         raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
     if profile != Profile() or loading != Loading():
-        if reports or solver == "asymptotic" or (solver != "exact" and loading != Loading()):
+        if loading.control == "load" and "energy_residual" in reports:
+            raise ValueError("energy_residual: a dead load closes no loop; ask for it under another control")
+        if solver == "asymptotic" or (solver != "exact" and loading != Loading()):
             raise ValueError(
-                f"solver {solver!r} and outputs {reports} are known of the paraboloid with one cosine wave under "
-                "displacement control only; another profile has the exact solver and the envelopes, another "
-                "control the exact solver"
+                f"solver {solver!r} is known of the paraboloid with one cosine wave under displacement control only; "
+                "another profile has the exact solver and the envelopes, another control the exact solver"
             )
         alike = equivalent_wave(profile) if loading == Loading() else None
         if alike is None and solver == "envelope":
             return solve_envelope(parameters, PARAMETERS, outputs, profile)
         if alike is None:
             workers = threads or os.cpu_count() or 1
-            return solve_general(
-                parameters, PARAMETERS, outputs, profile, loading, workers, check_contact=check_contact
+            wanted = [name for name in outputs if name in OUTPUTS]
+            wanted += [NEEDED[name] for name in reports if name in NEEDED]
+            found = solve_general(
+                parameters, PARAMETERS, wanted, profile, loading, workers, check_contact=check_contact
             )
+            if reports:
+                found |= report_general(parameters, PARAMETERS, reports, found, profile, loading, workers)
+            return {name: found[name] for name in (*outputs, "status")}
         wavelengths_a_wave, amplitude_factor = alike
         parameters = {
             **parameters,

@@ -260,11 +260,19 @@ def go_through(
 
 @kernel()
 def stride(
-    basis: Basis, curve: Curve, first: float, last: float, rim: float, rim_low: float, tasks: tuple[bool, bool, bool]
+    basis: Basis,
+    curve: Curve,
+    first: float,
+    last: float,
+    rim: float,
+    rim_low: float,
+    tasks: tuple[bool, bool, bool],
+    apart: float = 0.0,
 ) -> Any:
     """Do what walk (path.py) does, on a long curve; `rim_low` is the rounding error of the rim.
 
-    The contact is tested on the way into the regular waves and out of them, and on some of these.
+    The sums begin and end `apart` waves further in than they could. The contact is tested on the way into the regular
+    waves and out of them, and on some of these.
     """
     table, _, series = basis
     losses, last_loss, test = tasks
@@ -275,8 +283,9 @@ def stride(
     if last - first < 2.0 * SHORTEST:
         return False, nothing, nothing, False, True, 0.0, rim
     again, begin, end, ends = regular_waves(basis, curve, cut, first, last)
+    begin, end = begin + apart, end - apart
     if end - begin < SHORTEST and ends and again == 0.0:
-        furthest = min(last, max(begin, end + NEAR_END) + NEAR_END)
+        furthest = min(last, max(begin, end + NEAR_END) + NEAR_END + apart)
         return walk(basis, curve, first, furthest, rim, tasks)
     if end - begin < SHORTEST:
         return False, nothing, nothing, False, True, 0.0, rim
@@ -295,7 +304,7 @@ def stride(
     close = tangency < math.inf or folds_are_close(zeros, count, math.inf, 0.0)
     whole = end + 1.0
     x = (rim - whole) + rim_low
-    furthest = min(x, 2.0 * NEAR_END if ends else last - whole + 1.0)
+    furthest = min(x, 2.0 * NEAR_END + apart if ends else last - whole + 1.0)
     count, rises, tangency = find_folds(basis, curve, cut, furthest, search, zeros, whole)
     if count < 0 or rises:
         return False, nothing, nothing, False, True, 0.0, rim

@@ -1,8 +1,9 @@
 """Arrays of general scenes, in tasks of one gradient exponent."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, Final
 
@@ -69,6 +70,50 @@ def compliance_of(
     return np.where(compliance == np.inf, np.nan, compliance)
 
 
+@dataclass(frozen=True)
+class Scenes:
+    """The scenes of broadcast parameters as flat arrays, their shape, and what the kernels take of them."""
+
+    shape: tuple[int, ...]
+    k: NDArray[np.float64]
+    stretch: NDArray[np.float64]
+    wavelength: NDArray[np.float64]
+    amplitude: NDArray[np.float64]
+    compliance: NDArray[np.float64]
+    rim: NDArray[np.float64]
+
+
+def prepared(parameters: Mapping[str, ArrayLike], names: Sequence[str], loading: Loading) -> Scenes:
+    """Return the scenes of the broadcast parameters `names`."""
+    keys = [*names, *(["machine_stiffness"] if loading.control == "machine" else [])]
+    arrays = np.broadcast_arrays(*(np.asarray(parameters[key], dtype=float) for key in keys))
+    k, nu, modulus, c0, wavelength, amplitude, rim, *machine = (np.ascontiguousarray(a).ravel() for a in arrays)
+    material = stiffness(k, nu, modulus, c0)
+    with np.errstate(all="ignore"):
+        stretch = np.sqrt(2.0 ** (1.0 + k) * math.pi / material)
+    compliance = compliance_of(loading, k, modulus, material, *machine)
+    return Scenes(arrays[0].shape, k, stretch, wavelength, amplitude, compliance, rim)
+
+
+def run_by_exponent(k: NDArray[np.float64], work: Callable[[float, NDArray[np.int64]], None], workers: int) -> None:
+    """Do the work on scenes by their numbers, in tasks of one gradient exponent each."""
+
+    def one(task: tuple[float, NDArray[np.int64]]) -> None:
+        exponent, index = task
+        work(exponent if 0.0 <= exponent <= 1.0 else 0.0, index)  # beyond, the stretch has no value
+
+    order = np.argsort(k, kind="stable")
+    first = np.flatnonzero(np.concatenate([[True], k[order][1:] != k[order][:-1]])) if k.size else np.array([], int)
+    groups = np.split(order, first[1:]) if k.size else []
+    tasks = [(float(k[g[0]]), g[i : i + _TASK]) for g in groups for i in range(0, g.size, _TASK)]
+    if min(workers, len(tasks)) > 1:
+        with ThreadPoolExecutor(min(workers, len(tasks))) as pool:
+            list(pool.map(one, tasks))
+    else:
+        for task in tasks:
+            one(task)
+
+
 def solve_general(
     parameters: Mapping[str, ArrayLike],
     names: Sequence[str],
@@ -80,44 +125,26 @@ def solve_general(
     check_contact: bool = True,
 ) -> dict[str, NDArray[Any]]:
     """Solve all scenes of the broadcast parameters `names` for one profile and control, as `solve` of core/sweep.py."""
-    keys = [*names, *(["machine_stiffness"] if loading.control == "machine" else [])]
-    arrays = np.broadcast_arrays(*(np.asarray(parameters[key], dtype=float) for key in keys))
-    shape = arrays[0].shape
-    k, nu, modulus, c0, wavelength, amplitude, rim, *machine = (np.ascontiguousarray(a).ravel() for a in arrays)
-    material = stiffness(k, nu, modulus, c0)
-    with np.errstate(all="ignore"):
-        stretch = np.sqrt(2.0 ** (1.0 + k) * math.pi / material)
-    compliance = compliance_of(loading, k, modulus, material, *machine)
+    scenes = prepared(parameters, names, loading)
     rows = list(dict.fromkeys(outputs))
     slots = np.array([*(rows.index(name) if name in rows else -1 for name in OUTPUTS), int(check_contact) - 1])
-    out = np.full((len(rows), k.size), np.nan)
-    status = np.zeros(k.size, dtype=np.int8)
+    out = np.full((len(rows), scenes.k.size), np.nan)
+    status = np.zeros(scenes.k.size, dtype=np.int8)
     series = rows_of(profile)
-    amplitude = amplitude if series.size else 0.0 * amplitude
+    amplitude = scenes.amplitude if series.size else 0.0 * scenes.amplitude
 
-    def work(task: tuple[float, NDArray[np.int64]]) -> None:
-        exponent, index = task
-        valid = exponent if 0.0 <= exponent <= 1.0 else 0.0  # beyond, the stretch has no value
-        table, cosines = tables_of(valid)
-        front = front_of(valid, profile.exponent)
-        scenes = (stretch, wavelength, amplitude, compliance, rim)
-        solve_scenes(table, cosines, series, profile.exponent, front, index, *scenes, slots, out, status)
+    def work(exponent: float, index: NDArray[np.int64]) -> None:
+        table, cosines = tables_of(exponent)
+        front = front_of(exponent, profile.exponent)
+        arrays = (scenes.stretch, scenes.wavelength, amplitude, scenes.compliance, scenes.rim)
+        solve_scenes(table, cosines, series, profile.exponent, front, index, *arrays, slots, out, status)
 
-    order = np.argsort(k, kind="stable")
-    first = np.flatnonzero(np.concatenate([[True], k[order][1:] != k[order][:-1]])) if k.size else np.array([], int)
-    groups = np.split(order, first[1:]) if k.size else []
-    tasks = [(float(k[g[0]]), g[i : i + _TASK]) for g in groups for i in range(0, g.size, _TASK)]
-    if min(workers, len(tasks)) > 1:
-        with ThreadPoolExecutor(min(workers, len(tasks))) as pool:
-            list(pool.map(work, tasks))
-    else:
-        for task in tasks:
-            work(task)
+    run_by_exponent(scenes.k, work, workers)
     result: dict[str, NDArray[Any]] = {}
     for name in outputs:
         values: NDArray[Any] = out[rows.index(name)]
         if name in INTEGERS:
             values = np.where(np.isnan(values), -1.0, values).astype(np.int32)
-        result[name] = values.reshape(shape)
-    result["status"] = status.reshape(shape)
+        result[name] = values.reshape(scenes.shape)
+    result["status"] = status.reshape(scenes.shape)
     return result

@@ -1,0 +1,298 @@
+"""What a general scene can tell of itself on request, as core/report.py does for one cosine wave.
+
+    error of the force   6 eps times the sizes of the terms of the load at pull-off, every wave for itself
+    error of the energy  20 eps [2 pi a^2 (1 + chi)^2 dgamma + H], a the outermost radius of a jump and chi that of all
+                         waves at their crests, since |rho| <= 1 + 2 chi on a jump; H is most where a spring lets go
+
+and where waves are summed (stride.py) four times the difference from a sum that begins and ends elsewhere.
+
+The residual is the energy less the loop integral of P over what is prescribed, by Gauss's rule along the branches: a
+computation that shares no integrand with the energies of jumps. A dead load closes no loop and has none.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.general.branches import END, END_LEVEL, START, START_LEVEL, fill_branches, find_level
+from gradhesion.core.general.curve import Basis, Curve, coordinate, slope, state
+from gradhesion.core.general.envelope import chis
+from gradhesion.core.general.folds import MOST_CELLS, MOST_FOLDS, cell_width, find_folds, folds_of_cell, room
+from gradhesion.core.general.scene import LONGEST_WALK, curve_of
+from gradhesion.core.general.series import integrals
+from gradhesion.core.general.stride import NEAR_END, regular_waves, stride
+from gradhesion.core.general.sweep import front_of, prepared, rows_of, run_by_exponent, solve_general, tables_of
+from gradhesion.core.general.waves import cut_of
+from gradhesion.core.general.window import first_fold_bound, last_fold_bound
+from gradhesion.core.jump_energy import NODES, WEIGHTS
+from gradhesion.core.loading_control import Loading
+from gradhesion.core.profile import Profile
+from gradhesion.core.status import NO_VALUE, TOLERANCE_NOT_MET
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.intrinsics import fma
+from gradhesion.core.struve.power import amplitude_power
+
+ROWS: Final = ("pull_off_force_error", "dissipated_energy_error", "energy_residual", "saturation_radius")
+"""What the kernel finds; the others are ratios of what is known."""
+_GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
+_FORCE_ROUNDING: Final = 6.0 * 2.0**-52
+_ENERGY_ROUNDING: Final = 20.0 * 2.0**-52
+"""The true errors on scenes of the twin are at most 3.4 and 11 eps (docs/accuracy.md)."""
+_PANEL: Final = 0.6
+"""Waves a panel of 16 nodes of the loop."""
+_INWARDS: Final = 0.3
+_APART: Final = 5.0
+"""Waves by which the other sum begins later and ends earlier."""
+_LOOPED: Final = 2048.0
+"""Waves up to which a loop is integrated."""
+_PROMISED: Final = 1e-9
+"""Error of the energy, in parts of its terms, above which a scene does not meet the tolerance (docs/accuracy.md)."""
+_NEGLIGIBLE: Final = 1e-8
+"""Of the outer end of a branch that begins in a point (k = 1), up to where its work is about the cube of it."""
+
+
+@kernel()
+def _crests(table: Any, series: Any, gain: float) -> float:
+    """Return chi of all waves at their crests."""
+    total = 0.0
+    for i in range(series.shape[0]):
+        total += math.hypot(series[i, 1], series[i, 2]) * series[i, 0] ** (0.5 * (1.0 - table.k))
+    return gain * table.amplitude * total
+
+
+@kernel()
+def _force_terms(basis: Basis, curve: Curve, x: float) -> float:
+    """Return the size of the terms of the load at x."""
+    table, cosines, series = basis
+    B, m, g, _, _ = curve
+    z = TWO_PI * x
+    power = amplitude_power(table, z)
+    waves = 0.0
+    for i in range(series.shape[0]):
+        n = series[i, 0]
+        h = n * math.hypot(series[i, 1], series[i, 2])
+        _, s0, s1, _, t0, t1 = integrals(table, cosines, n * x, 0.0)
+        waves += h * min(abs(s0) + abs(s1) + abs(t0) + abs(t1), 4.0)
+        waves += h * min(1.0, table.amplitude * (n * z) ** (-0.5 * (1.0 + table.k)))
+    return (B * z**m * (m / (1.0 + table.k + m)) + z * power + g * z * waves) / (power * power)
+
+
+@kernel()
+def _work(basis: Basis, curve: Curve, low: float, high: float) -> float:
+    """Return the integral of the load over the coordinate along a branch, from its inner end to its outer one."""
+    _, _, series = basis
+    shortest = 0.0
+    for i in range(series.shape[0]):
+        shortest = max(shortest, series[i, 0])
+    longest = _PANEL / shortest if shortest > 0.0 else math.inf
+    total, end = 0.0, max(low, _NEGLIGIBLE * high)
+    while high > end:
+        width = min(longest, high / 3.0, high - low)
+        part = 0.0
+        for i in range(NODES.size):
+            x = high - width * NODES[i]
+            _, _, _, _, load = state(basis, curve, x)
+            _, _, rate = slope(basis, curve, x)
+            part += WEIGHTS[i] * load * rate
+        total += width * part
+        high = max(low, high - width)
+    return total * TWO_PI
+
+
+@kernel()
+def loop(basis: Basis, curve: Curve, count: int, trace: Any, rim: float) -> tuple[float, float]:
+    """Return the loop integral of the load over the coordinate, and the outermost radius that a jump passes."""
+    _, _, _, alpha, beta = curve
+    total, level, left, outermost = 0.0, 0.0, 0.0, 0.0
+    place = 0.0
+    for branch in range(count):
+        top = trace[branch, END_LEVEL]
+        if top <= level:
+            continue
+        place = find_level(basis, curve, level, trace[branch])
+        outermost = place
+        level, left = top, trace[branch, END]
+        if left < rim:
+            total += _work(basis, curve, place, left)
+    at_rim = count > 0 and trace[count - 1, END] == rim
+    arrives = left == rim
+    if not arrives and rim < math.inf:
+        outermost = rim
+    if rim < math.inf:
+        _, _, front, _, load = state(basis, curve, rim)
+        pinned = max(0.0, level - coordinate(basis, curve, rim))
+        total -= pinned * (load + 0.5 * pinned * front / (alpha + beta * front))
+    now = count - 1
+    left, level = (trace[now, START], trace[now, START_LEVEL]) if at_rim else (rim, coordinate(basis, curve, rim))
+    if at_rim:
+        # loading that lands on this branch as well goes the rest of it both ways
+        total -= _work(basis, curve, left, place if arrives else rim)
+        now -= 1
+    while left > 0.0:
+        while now >= 0 and not trace[now, START_LEVEL] < level:
+            now -= 1
+        if now < 0:
+            break
+        place = find_level(basis, curve, level, trace[now])
+        total -= _work(basis, curve, trace[now, START], place)
+        left, level = trace[now, START], trace[now, START_LEVEL]
+        now -= 1
+    return total, outermost
+
+
+@kernel()
+def outermost_fold(basis: Basis, curve: Curve) -> float:
+    """Return x of the last fold of a curve, 0 if it has none, inf if folds need not end; NaN if it is not found."""
+    table, _, series = basis
+    first, high = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
+    if high == math.inf:
+        return high
+    if series.shape[0] > 0 and high - first > LONGEST_WALK:
+        _, begin, end, ends = regular_waves(basis, curve, cut_of(table, series), first, high)
+        if ends:
+            high = min(high, max(begin, end + NEAR_END) + 2.0 * NEAR_END)
+    zeros, work = np.empty(32), room()
+    for _ in range(MOST_CELLS):
+        if not high > first:
+            return 0.0
+        low = max(first, high - min(cell_width(series, high), _INWARDS * high))
+        value, _, _ = slope(basis, curve, low)
+        found, _, _ = folds_of_cell(basis, curve, low, high, value, work, zeros)
+        if found > 0:
+            return zeros[found - 1]
+        high = low
+    return math.nan
+
+
+@kernel()
+def _other_sum(basis: Basis, curve: Curve, first: float, last: float, rim: float, rim_low: float) -> float:
+    """Return the energy of a long curve over 2 pi l^2 dgamma by other sums, NaN if it cannot be summed."""
+    _, _, _, alpha, _ = curve
+    tasks = (True, alpha > 0.0, False)
+    done, loading, unloading, _, _, _, _ = stride(basis, curve, first, last, rim, rim_low, tasks, _APART)
+    return loading[0] + unloading[0] if done else math.nan
+
+
+@kernel()
+def _energy_reports(
+    basis: Basis, curve: Curve, rim: float, rim_low: float, energy: float
+) -> tuple[float, float, float]:
+    """Return the size of the terms of the energy, its error but rounding, and its loop integral, over 2 pi l^2 dgamma.
+
+    NaN if not known.
+    """
+    table, _, series = basis
+    _, _, g, alpha, _ = curve
+    first = first_fold_bound(basis, curve) / TWO_PI
+    last = min(rim, last_fold_bound(basis, curve) / TWO_PI)
+    waves = last - first
+    if last == math.inf:
+        return math.nan, math.nan, math.nan
+    apart, total, outermost = 0.0, math.nan, last
+    if series.shape[0] > 0 and waves > LONGEST_WALK:
+        apart = 4.0 * abs(energy - _other_sum(basis, curve, first, last, rim, rim_low))
+    if not waves > _LOOPED:
+        zeros = np.empty(MOST_FOLDS)
+        count, rises = 0, False
+        if first < last:
+            count, rises, _ = find_folds(basis, curve, first, last, room(), zeros)
+        if count >= 0:
+            trace = np.empty((count // 2 + 2, 4))
+            branches = fill_branches(basis, curve, zeros, count, rises, rim, trace)
+            total, outermost = loop(basis, curve, branches, trace, rim)
+    residual = 2.0 / (1.0 + table.k) * total / alpha if alpha > 0.0 else math.nan
+    return (TWO_PI * outermost * (1.0 + _crests(table, series, g))) ** 2, apart, residual
+
+
+@kernel()
+def report_scenes(
+    table: Any,
+    cosines: Any,
+    series: Any,
+    exponent: float,
+    front: float,
+    index: Any,
+    stretch: Any,
+    wavelength: Any,
+    amplitude: Any,
+    compliance: Any,
+    rim: Any,
+    radius: Any,
+    energy: Any,
+    wanted: Any,
+    out: Any,
+    status: Any,
+) -> None:
+    """Report on the scenes `index` of one gradient exponent that have values."""
+    smooth = np.zeros((0, 3))
+    for j in range(index.size):
+        i = index[j]
+        if status[i] & NO_VALUE:
+            continue
+        basis = (table, cosines, series if amplitude[i] > 0.0 else smooth)
+        curve, length, unit = curve_of(table.k, exponent, front, stretch[i], wavelength[i], amplitude[i], compliance[i])
+        if wanted[0]:
+            scale = 8.0 / (3.0 * (1.0 + table.k)) * length * length / unit
+            out[0, i] = _FORCE_ROUNDING * scale * _force_terms(basis, curve, radius[i] / wavelength[i])
+        if wanted[1] or wanted[2]:
+            x, scale = rim[i] / wavelength[i], TWO_PI * length * length
+            x_low = fma(-x, wavelength[i], rim[i]) / wavelength[i] if x < math.inf else 0.0
+            terms, apart, total = _energy_reports(basis, curve, x, x_low, energy[i] / scale)
+            terms = scale * terms + abs(energy[i])
+            out[1, i] = _ENERGY_ROUNDING * terms + scale * apart
+            out[2, i] = energy[i] - scale * total
+            if out[1, i] > _PROMISED * terms:
+                status[i] |= TOLERANCE_NOT_MET
+        if wanted[3]:
+            out[3, i] = outermost_fold(basis, curve) * wavelength[i]
+
+
+def report_general(
+    parameters: Mapping[str, ArrayLike],
+    names: Sequence[str],
+    reports: Sequence[str],
+    found: Mapping[str, NDArray[Any]],
+    profile: Profile,
+    loading: Loading,
+    workers: int,
+) -> dict[str, NDArray[Any]]:
+    """Report on scenes that `solve_general` has solved; `found` has the results that the reports start from."""
+    scenes = prepared(parameters, names, loading)
+    status = found["status"].ravel()
+    series = rows_of(profile)
+    amplitude = scenes.amplitude if series.size else 0.0 * scenes.amplitude
+    out = np.full((len(ROWS), scenes.k.size), np.nan)
+    wanted = np.array([name in reports for name in ROWS])
+    none = np.full(scenes.k.size, np.nan)
+    radius, energy = (
+        found[name].ravel() if name in found else none for name in ("pull_off_radius", "dissipated_energy")
+    )
+
+    def work(exponent: float, index: NDArray[np.int64]) -> None:
+        table, cosines = tables_of(exponent)
+        front = front_of(exponent, profile.exponent)
+        arrays = (scenes.stretch, scenes.wavelength, amplitude, scenes.compliance, scenes.rim, radius, energy)
+        report_scenes(table, cosines, series, profile.exponent, front, index, *arrays, wanted, out, status)
+
+    if wanted.any():
+        run_by_exponent(scenes.k, work, workers)
+    made: dict[str, NDArray[Any]] = {
+        name: row.reshape(scenes.shape) for name, row in zip(ROWS, out, strict=True) if name in reports
+    }
+    if "roughness_parameter" in reports:
+        k = np.where(status & NO_VALUE, np.nan, scenes.k)
+        _, down = chis(k, scenes.stretch, scenes.wavelength, amplitude, profile)
+        made["roughness_parameter"] = down.reshape(scenes.shape)
+    gains = [name for name in reports if name in _GAINS]
+    if gains:
+        even = {**parameters, "A": 0.0 * np.asarray(parameters["A"], dtype=float)}
+        smooth = solve_general(
+            even, names, [_GAINS[name] for name in gains], profile, loading, workers, check_contact=False
+        )
+        with np.errstate(all="ignore"):
+            made |= {name: found[_GAINS[name]] / smooth[_GAINS[name]] for name in gains}
+    return made
