@@ -20,11 +20,20 @@ Dash = str | tuple[float, tuple[float, ...]]
 JUMP: Final[Dash] = (0, (3, 2))
 """The dash of a jump."""
 
-THIN: Final = 0.5
-"""The width of a jump over that of its line."""
+THIN: Final = 0.8
+"""The width of a jump, in points."""
+
+ARROW: Final = 0.06
+"""The length of an arrow on a line, over the side of a panel."""
+
+FEWEST: Final = 0.1
+"""The length of a part of a line, over the side of a panel, that has room for an arrow."""
 
 APART: Final = 0.12
 """How far apart open markers stand along a line, in diagonals of the panel."""
+
+SHARES: Final = (0.5, 0.62, 0.38, 0.75, 0.25)
+"""Where along a part of a line an arrow may stand, the best place first."""
 
 LIGHT: Final = 0.6
 """How far unstable parts are faded to white."""
@@ -71,15 +80,15 @@ TRACKS: Final = (
     _track("equilibrium", "equilibrium, stable", "", "-", 0.9, 0.4),
     _track("asymptotic", "asymptotic", "asymptotic_", (0, (1, 1.2)), 1.0, 0.7),
     _track("effective", "effective path", "effective_", (0, (3, 1)), 1.1, 0.3),
-    _track("path", "loading", "path_", "-", 1.6, 0.5, unloading=False),
-    _track("path", "unloading", "path_", "-", 1.6, 0.0, unloading=True),
+    _track("path", "loading", "path_", "-", 2.6, 0.75, unloading=False),
+    _track("path", "unloading", "path_", "-", 1.3, 0.0, unloading=True),
 )
-"""Every line of a single scene, those on top last."""
+"""Every line of a single scene, those on top last: loading is wider, so that unloading does not hide it."""
 
 TRACKS_OF_MANY: Final = tuple(
     replace(track, width=0.75 * track.width)
     if track.unloading is None
-    else replace(track, width=0.75 * track.width, label="path", unloading=None)
+    else replace(track, width=1.2, label="path", unloading=None)
     for track in TRACKS
     if track.unloading is not True
 )
@@ -94,13 +103,49 @@ def draw_track(axes: Axes, track: Track, scene: Mapping[str, Values], x: str, y:
     if track.unloading is not None and "path_unloading" in scene:
         own = (scene["path_unloading"][1:] == 1.0) == track.unloading
     looks = (
-        (own & jumps, JUMP, THIN * track.width, colour),
+        (own & jumps, JUMP, THIN, colour),
         (own & falls & ~jumps, track.dash, track.width, faded(colour)),
         (own & ~falls & ~jumps, track.dash, track.width, colour),
     )
     for steps, dash, width, shown in looks:
         if steps.any():
             axes.plot(*_only(steps, along, up), ls=dash, lw=width, color=shown, solid_capstyle="butt")
+
+
+def draw_arrows(
+    axes: Axes, track: Track, scene: Mapping[str, Values], x: str, y: str, colour: Colour, taken: list[Values]
+) -> None:
+    """
+    Put arrows along a path: one on each jump, one on the longest part without jump on loading and on unloading.
+
+    The limits of the panel must stand. An arrow gives way to those of `taken`, the places in the panel of others.
+    """
+    if track.curve != "path":
+        return
+    points = np.column_stack([scene[getattr(track, x)], scene[getattr(track, y)]])
+    limits = np.array([axes.get_xlim(), axes.get_ylim()])
+    places = (points - limits[:, 0]) / (limits[:, 1] - limits[:, 0])
+    sides = scene["path_unloading"][1:] if "path_unloading" in scene else np.zeros(max(0, len(points) - 1))
+    jumps = np.broadcast_to(jumps_of(track, scene), sides.shape)
+    for run in np.split(np.arange(sides.size), np.flatnonzero((np.diff(sides) != 0) | jumps[1:] | jumps[:-1]) + 1):
+        if not run.size or (track.unloading is not None and (sides[run[0]] == 1.0) != track.unloading):
+            continue
+        line = places[run[0] : run[-1] + 2]
+        lengths = np.append(0.0, np.cumsum(np.hypot(*np.diff(line, axis=0).T)))
+        if not lengths[-1] > FEWEST:
+            continue
+        for share in SHARES:
+            ends = [
+                np.array([np.interp(share * lengths[-1] + step, lengths, row) for row in line.T])
+                for step in (-0.5 * ARROW, 0.5 * ARROW)
+            ]
+            if all(np.hypot(*(ends[1] - other)) > ARROW for other in taken):
+                break
+        else:
+            continue
+        taken.append(ends[1])
+        looks = {"arrowstyle": "-|>", "color": colour, "lw": 0.0, "shrinkA": 0.0, "shrinkB": 0.0, "mutation_scale": 8.0}
+        axes.annotate("", tuple(ends[1]), tuple(ends[0]), "axes fraction", "axes fraction", arrowprops=looks)
 
 
 def draw_doubt(

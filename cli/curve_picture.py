@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-import matplotlib as mpl
 import numpy as np
 import xarray
 from matplotlib.artist import Artist
@@ -22,6 +21,7 @@ from gradhesion.cli.curve_panels import (
     Dash,
     Track,
     Values,
+    draw_arrows,
     draw_doubt,
     draw_track,
     faded,
@@ -30,10 +30,10 @@ from gradhesion.cli.curve_panels import (
 )
 from gradhesion.cli.doubts import CROSS, DOUBTS, Doubt, doubts_in, entries
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import CURVES, KEYS, RAGGED, SCENE
+from gradhesion.cli.labels import equation, given
+from gradhesion.cli.names import CURVES, RAGGED, SCENE
 from gradhesion.cli.panels import COLOURS
-from gradhesion.cli.picture import STYLE
-from gradhesion.cli.scales import equation
+from gradhesion.cli.pictured import heading, in_lines, styled
 from gradhesion.cli.schema import did_you_mean
 
 PLANES: Final = (("indentation", "load"), ("contact_radius", "indentation"), ("contact_radius", "load"))
@@ -90,8 +90,9 @@ def drawn_curves(dataset: xarray.Dataset, asked: Sequence[str]) -> Figure:
     tracks = [track for track in known if any(track in there for _, _, there in planes)]
     if not any(values.size for scene in scenes for values in scene.values.values()):
         raise DatasetError("no value in any scene drawn; `gradhesion info` tells why")
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(max(4.0, 2.25 * len(planes) + 0.2), 3.1), layout="constrained")
+    with styled():
+        width = max(4.0, 2.5 * len(planes))
+        figure = Figure(figsize=(width, 3.5), layout="constrained")
         for axes, (x, y, there) in zip(figure.subplots(1, len(planes), squeeze=False)[0], planes, strict=True):
             for track in there:
                 for scene in scenes:
@@ -100,10 +101,14 @@ def drawn_curves(dataset: xarray.Dataset, asked: Sequence[str]) -> Figure:
                         for doubt in reversed(scene.doubts):  # the larger ones below
                             draw_doubt(axes, track, scene.values, x, y, scene.colour or track.colour, doubt)
             _dress(axes, x, y)
+            arrows: list[Values] = []
+            for track in there:
+                for scene in scenes:
+                    draw_arrows(axes, track, scene.values, x, y, scene.colour or track.colour, arrows)
         handles = _handles(scenes, tracks)
         columns = min(len(handles), 4 if len(planes) > 1 else 2)
         figure.legend(handles=handles, loc="outside lower center", ncols=columns, fontsize=8, frameon=False)
-        figure.suptitle("\n".join(filter(None, (dataset.attrs["title"], caption))), fontsize=9, wrap=True)
+        figure.suptitle("\n".join(filter(None, (heading(dataset), in_lines(caption, width)))), fontsize=9, wrap=True)
     return figure
 
 
@@ -122,7 +127,7 @@ def _chosen(dataset: xarray.Dataset, asked: Sequence[str]) -> list[str]:
     return [curve for curve, own in there.items() if own and (not asked or {curve, *own} & {*asked})]
 
 
-def _scenes(dataset: xarray.Dataset) -> tuple[list[Scene], str]:
+def _scenes(dataset: xarray.Dataset) -> tuple[list[Scene], list[str]]:
     """Choose the scenes to draw, along the last axis with more than one value; tell what they have in common."""
     axes = [str(axis) for axis, size in dataset["status"].sizes.items() if size > 1]
     last = axes[-1] if axes else None
@@ -150,21 +155,21 @@ def _scene(scene: xarray.Dataset, label: str, colour: Colour | None) -> Scene:
 
 def _varying(dataset: xarray.Dataset) -> list[str]:
     """List the parameters that vary between points."""
-    return [name for name in KEYS if name in dataset and np.unique(dataset[name].values).size > 1]
+    return [name for name in given(dataset.coords) if np.unique(dataset[name].values).size > 1]
 
 
-def _caption(dataset: xarray.Dataset, axes: Sequence[str]) -> str:
+def _caption(dataset: xarray.Dataset, axes: Sequence[str]) -> list[str]:
     """Tell the parameters that are the same in all scenes drawn."""
     told = []
-    for name in KEYS:
-        values = np.unique(dataset[name].values) if name in dataset else np.empty(0)
+    for name in given(dataset.coords):
+        values = np.unique(dataset[name].values)
         if values.size == 1:
             told.append(equation(name, values[0]))
         elif name in axes[:-1]:
             told.append(f"{equation(name, dataset[name].values[0])} (first of {values.size})")
     if axes and dataset.sizes[axes[-1]] > SCENES:
         told.append(f"{SCENES} of {dataset.sizes[axes[-1]]} scenes")
-    return ",  ".join(told)
+    return told
 
 
 def _trimmed(scene: xarray.Dataset) -> dict[str, Values]:
@@ -192,7 +197,7 @@ def _handles(scenes: Sequence[Scene], tracks: Sequence[Track]) -> list[Artist]:
         if any(falls_of(track, scene.values).any() for scene in scenes):
             made.append(entry("equilibrium, unstable", faded(INK if inked else track.colour), track.dash, track.width))
     if any(jumps_of(track, scene.values).any() for track in tracks for scene in scenes):
-        made.append(entry("jump", INK, JUMP, THIN * 1.6))
+        made.append(entry("jump", INK, JUMP, THIN))
     if any(track.curve == "path" for track in tracks):
         found = [doubt for doubt in DOUBTS if any(doubt in scene.doubts for scene in scenes)]
         made += entries(found, in_map=False, gaps=False)

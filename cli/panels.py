@@ -9,10 +9,11 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.contour import QuadContourSet
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
 from gradhesion.cli.doubts import CROSS, GREY, INK, Doubt
+from gradhesion.cli.labels import Unit
 from gradhesion.cli.scales import Scale
 
 Values = NDArray[np.float64]
@@ -22,6 +23,12 @@ COLOURS = colormaps["viridis"]  # perceptual, and rising in lightness, so that i
 
 MARKS: Final = 40
 """Markers along a line, about: more would hide it."""
+
+FAR: Final = 50.0
+"""The ratio of the greatest value to the least from which lines are drawn over a logarithm."""
+
+FLAT: Final = 1e-9
+"""Values that differ by less, over their size, are drawn as equal: what is left is rounding."""
 
 _DARK: Final = 0.35
 """How far up the colours need white hatches."""
@@ -40,16 +47,19 @@ class Levels:
 
     levels: Values
     norm: Normalize
+    extremes: tuple[float, float]
+    """The least and the greatest of the values."""
 
 
-def levels_of(least: float, greatest: float) -> Levels:
+def levels_of(least: float, greatest: float, *, whole: bool = False) -> Levels:
     """
-    Choose round contour levels between two values, rising by ratios where they differ much.
+    Choose round contour levels between two values, rising by ratios where they differ much; whole ones for numbers.
 
     >>> levels_of(1.0, 2.0).levels
     array([1. , 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9, 2. ])
     """
-    if greatest - least <= 1e-12 * max(abs(least), abs(greatest)):
+    extremes = least, greatest
+    if greatest - least <= FLAT * max(abs(least), abs(greatest)):
         pad = 0.05 * max(abs(least), 1e-300)
         least, greatest = least - pad, greatest + pad
     log = least > 0 and greatest > 8 * least
@@ -59,13 +69,21 @@ def levels_of(least: float, greatest: float) -> Levels:
         rising = np.array([step * 10.0**decade for decade in decades for step in steps])
     else:
         rising = np.asarray(MaxNLocator(11, steps=[1, 2, 2.5, 5, 10]).tick_values(least, greatest))
+    if whole:
+        rising = np.unique(np.append(np.round(rising), np.ceil(greatest) + 1.0))
     first = max(0, int(np.searchsorted(rising, least, side="right")) - 1)
     levels = rising[first : int(np.searchsorted(rising, greatest)) + 1]
-    return Levels(levels=levels, norm=(LogNorm if log else Normalize)(levels[0], levels[-1]))
+    return Levels(levels=levels, norm=(LogNorm if log else Normalize)(levels[0], levels[-1]), extremes=extremes)
 
 
 def draw_map(
-    axes: Axes, x: Scale, y: Scale, values: Values, levels: Levels, doubtful: Sequence[tuple[Doubt, Flags]] = ()
+    axes: Axes,
+    x: Scale,
+    y: Scale,
+    values: Values,
+    levels: Levels,
+    unit: Unit,
+    doubtful: Sequence[tuple[Doubt, Flags]] = (),
 ) -> QuadContourSet:
     """Draw values[y, x] as filled contours with labelled lines; doubtful ones are hatched, what has none is grey."""
     axes.patch.set_facecolor(GREY)
@@ -78,7 +96,7 @@ def draw_map(
     if inner.size and np.isfinite(values).any():
         shades = ["white" if levels.norm(level) < 0.6 else "black" for level in inner]
         lines = axes.contour(x.positions, y.positions, values, levels=inner, colors=shades, linewidths=0.4)
-        axes.clabel(lines, inner, fmt="%g", fontsize=6, inline_spacing=2)
+        axes.clabel(lines, inner, fmt=unit.number, fontsize=6, inline_spacing=2)
     dark = np.ma.filled(levels.norm(values), np.nan) < _DARK
     for doubt, flags in doubtful:
         for shade, part in (("white", flags & dark), (INK, flags & ~dark)):
@@ -98,14 +116,19 @@ def draw_map(
 
 
 def draw_lines(
-    axes: Axes, x: Scale, curves: dict[str, Values], doubtful: Sequence[tuple[Doubt, dict[str, Flags]]] = ()
+    axes: Axes,
+    x: Scale,
+    curves: dict[str, Values],
+    levels: Levels,
+    unit: Unit,
+    doubtful: Sequence[tuple[Doubt, dict[str, Flags]]] = (),
 ) -> None:
     """
     Draw a line for each curve, told apart by shade and by dash; a value between two gaps shows as a dot.
 
     Doubtful values have open markers, and a cross at the foot of the panel stands where there is none.
     """
-    dashes = ("-", "--", "-.", ":")
+    dashes: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (8, 4)))  # the gaps of those on top show what is below
     for i, (label, values) in enumerate(curves.items()):
         colour = COLOURS(0.85 * i / max(1, len(curves) - 1))
         marks = "." if values.size <= MARKS else ""
@@ -113,7 +136,7 @@ def draw_lines(
         axes.plot(
             finite,
             values[: finite.size],
-            dashes[i % len(dashes)],
+            ls=dashes[i % len(dashes)],
             color=colour,
             marker=marks,
             ms=3,
@@ -126,12 +149,17 @@ def draw_lines(
             _draw_marks(axes, doubt, x.positions, values, _some(flags[label]), colour)
         _draw_gaps(axes, x, values)
     x.dress(axes, "x")
-    axes.grid(color="0.9", lw=0.5)
+    _dress_values(axes, levels, unit)
     axes.margins(x=0.02)
 
 
 def draw_points(
-    axes: Axes, x: Scale, series: dict[str, Values], doubtful: Sequence[tuple[Doubt, dict[str, Flags]]] = ()
+    axes: Axes,
+    x: Scale,
+    series: dict[str, Values],
+    levels: Levels,
+    unit: Unit,
+    doubtful: Sequence[tuple[Doubt, dict[str, Flags]]] = (),
 ) -> None:
     """
     Draw a dot for each scene; several series are told apart by shade and by mark.
@@ -147,9 +175,25 @@ def draw_points(
             _draw_marks(axes, doubt, x.positions, values, flags[label], colour)
         _draw_gaps(axes, x, values)
     if len(series) > 1:
-        axes.legend(fontsize=7, framealpha=0.9)
+        axes.legend(fontsize=7)
     x.dress(axes, "x")
+    _dress_values(axes, levels, unit)
+
+
+def _dress_values(axes: Axes, levels: Levels, unit: Unit) -> None:
+    """Give the values of lines or points their scale: logarithmic where they differ by a factor of `FAR` or more."""
     axes.grid(color="0.9", lw=0.5)
+    least, greatest = levels.extremes
+    if least > 0 and greatest >= FAR * least:
+        axes.set_yscale("log")
+        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if greatest < 200 * least else (1.0,)))
+        axes.yaxis.set_minor_locator(NullLocator())
+    elif greatest - least <= FLAT * max(abs(least), abs(greatest)):
+        axes.set_ylim(levels.levels[0], levels.levels[-1])
+    if axes.get_yscale() == "log" and greatest > 1e4 * least:
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"$10^{{{np.log10(value) - unit.power:.0f}}}$"))
+    elif unit.power or axes.get_yscale() == "log":
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: unit.number(value)))
 
 
 def _draw_marks(axes: Axes, doubt: Doubt, positions: Values, values: Values, flags: Flags, colour: Any) -> None:

@@ -1,17 +1,15 @@
 """Axes of a dataset as axes of a picture: their order, their spacing, and a place for infinity."""
 
 from dataclasses import dataclass
-from typing import Final, Literal
+from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import SYMBOLS, unit_of
-
-UNIT_SYMBOLS: Final = {"m": "m", "Pa": "Pa", "J m-2": "J/m$^2$", "N": "N", "J": "J"}
-"""Units as a picture writes them."""
+from gradhesion.cli.labels import Unit, number, unit_for
+from gradhesion.cli.selection import is_log
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -25,6 +23,8 @@ class Scale:
     log: bool
     infinite: bool
     """Whether the last place is that of inf."""
+    unit: Unit
+    """How its values are written."""
 
     def dress(self, axes: Axes, which: Literal["x", "y"]) -> None:
         """Give an axis of a picture this scale, with ticks at plain numbers."""
@@ -39,7 +39,7 @@ class Scale:
             places = MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]).tick_values(first, last)
         slack = 1e-9 * max(abs(first), abs(last))
         kept = [float(place) for place in places if first - slack <= place <= last + slack]
-        labels = [number(place) for place in kept]
+        labels = [self.unit.number(place) for place in kept]
         if self.infinite:
             kept.append(float(self.positions[-1]))
             labels.append(number(np.inf))
@@ -47,9 +47,9 @@ class Scale:
         axis.set_ticks(kept, labels)
 
 
-def scale(values: NDArray[np.float64]) -> Scale:
+def scale(values: NDArray[np.float64], name: str = "") -> Scale:
     """
-    Choose the scale of an axis: logarithmic where its values are nearer to that than to an even spacing.
+    Choose the scale of an axis of a name: logarithmic where its values are nearer to that than to an even spacing.
 
     >>> scale(np.array([1.0, np.inf, 10.0, 100.0])).positions
     array([   1.,   10.,  100., 1000.])
@@ -57,7 +57,7 @@ def scale(values: NDArray[np.float64]) -> Scale:
     order = np.argsort(values, kind="stable")
     places = values[order]
     finite = np.unique(places[np.isfinite(places)])
-    log = _is_log(finite)
+    log = is_log(finite)
     infinite = np.isinf(places)
     if infinite.any():
         steps = max(1, finite.size - 1)
@@ -66,53 +66,4 @@ def scale(values: NDArray[np.float64]) -> Scale:
         else:
             beyond = finite[-1] + ((finite[-1] - finite[0]) / steps or finite[-1])
         places = np.where(infinite, beyond, places)
-    return Scale(order=order, positions=places, log=log, infinite=bool(infinite.any()))
-
-
-def _is_log(finite: NDArray[np.float64]) -> bool:
-    """Tell whether the ratios of rising values are more even than their differences."""
-    if finite.size < 2 or finite[0] <= 0 or finite[-1] < 5 * finite[0]:
-        return False
-    steps, ratios = np.diff(finite), np.diff(np.log(finite))
-    return bool(finite.size == 2 or np.std(ratios) / np.mean(ratios) < np.std(steps) / np.mean(steps))
-
-
-def number(value: float) -> str:
-    r"""
-    Write a number for a picture.
-
-    >>> number(0.25), number(1e-6), number(float("inf"))
-    ('0.25', '$10^{-6}$', '$\\infty$')
-    """
-    if np.isinf(value):
-        return r"$\infty$"
-    text = f"{value:.4g}"
-    if value and not 1e-3 <= abs(value) < 1e5:
-        digits, exponent = f"{value:.3e}".split("e")
-        digits = digits.rstrip("0").rstrip(".")
-        text = f"$10^{{{int(exponent)}}}$" if digits == "1" else rf"${digits}\times10^{{{int(exponent)}}}$"
-    return text
-
-
-def equation(name: str, value: float | str) -> str:
-    r"""
-    Say in a picture which value a parameter has.
-
-    >>> equation("A", 0.02), equation("solver", "exact")
-    ('$A$ = 0.02', 'exact')
-    """
-    unit = UNIT_SYMBOLS.get(unit_of(name), "")
-    if isinstance(value, str):
-        return value
-    return f"{SYMBOLS[name]} = {number(value)}" + (f" {unit}" if unit and np.isfinite(value) else "")
-
-
-def label(name: str) -> str:
-    """
-    Name a variable at an axis of a picture.
-
-    >>> label("A"), label("R")
-    ('$A$', '$R$ (m)')
-    """
-    unit = UNIT_SYMBOLS.get(unit_of(name), "")
-    return SYMBOLS[name] + (f" ({unit})" if unit else "")
+    return Scale(order=order, positions=places, log=log, infinite=bool(infinite.any()), unit=unit_for(name, finite))

@@ -5,13 +5,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
-import matplotlib as mpl
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from figures import fig2, fig3, fig4, fig5, fig6, fig7, fig8, fig9
-from figures.style import STYLE
+from figures.style import styled
 
 PICTURES: Final[dict[str, Callable[[Axes, xarray.Dataset], None]]] = {
     name: draw for module in (fig2, fig3, fig4, fig5, fig6, fig7, fig8, fig9) for name, draw in module.PICTURES.items()
@@ -24,7 +23,7 @@ UNDATED: Final = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
 
 def draw(name: str, dataset: xarray.Dataset, files: list[Path], dpi: float | None = None) -> None:
     """Draw a picture and save it in files, each in the form of its suffix."""
-    with mpl.rc_context(fname=STYLE):
+    with styled():
         figure = Figure()
         PICTURES[name](figure.subplots(), dataset)
         figure.draw_without_rendering()

@@ -1,13 +1,24 @@
 """What the pictures have in common: labels of axes, colours, dashes."""
 
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any, Final
 
+import matplotlib.style
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-STYLE: Final = Path(__file__).with_name("journal.mplstyle")
+from gradhesion.cli import pictured
+
+STYLE: Final = (pictured.STYLE, Path(__file__).with_name("journal.mplstyle"))
+"""The style of all pictures, and what differs in a column of a journal."""
+
+
+def styled() -> AbstractContextManager[None]:
+    """Draw in this style, whatever the user's own is."""
+    return matplotlib.style.context(STYLE, after_reset=True)
+
 
 RADIUS: Final = "contact radius $a/R$"
 DEPTH: Final = r"depth $\delta/R$"

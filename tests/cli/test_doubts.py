@@ -17,7 +17,8 @@ from gradhesion.cli import names
 from gradhesion.cli.curve_picture import drawn_curves
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.doubts import CROSS, DOUBTS, GAP, GREY, Doubt, doubts_in
-from gradhesion.cli.picture import drawn, save
+from gradhesion.cli.picture import drawn
+from gradhesion.cli.pictured import save
 from gradhesion.cli.study import study_from
 from gradhesion.core import CURVES, DOUBTFUL, FLAGS, OUTPUTS, REPORTS, solve
 

@@ -3,15 +3,22 @@
 from collections.abc import Callable
 from pathlib import Path
 
+import matplotlib as mpl
 import netCDF4
 import numpy as np
 import pytest
 from click.testing import Result
+from matplotlib.contour import QuadContourSet
+from matplotlib.figure import Figure
 
 from gradhesion.cli.curve_picture import drawn_curves
-from gradhesion.cli.picture import Plan, plan_of
+from gradhesion.cli.layout import Plan, plan_of
+from gradhesion.cli.names import SYMBOLS
+from gradhesion.cli.picture import drawn
+from gradhesion.cli.pictured import save
 from gradhesion.cli.reader import opened
 from gradhesion.cli.scales import scale
+from gradhesion.cli.selection import selection_of
 
 Call = Callable[..., Result]
 INF = "a_max_over_R=[0.5, 1.0, 2.0, inf]"
@@ -220,3 +227,215 @@ def test_scales_follow_the_spacing() -> None:
     assert falling.order.tolist() == [2, 0, 1]
     assert falling.positions.tolist() == [1.0, 3.0, 5.0]
     assert falling.infinite
+
+
+def told(figure: Figure) -> str:
+    """All that stands above the panels."""
+    words = "\n".join([figure.get_suptitle(), *(part.get_suptitle() for part in figure.subfigs)])
+    return words.replace("$", "").replace(",\n", ",  ")
+
+
+def test_lines_are_the_values_of_the_dataset(dataset_file: Callable[..., Path]) -> None:
+    with opened(dataset_file("A=0.1", "lambda_over_R.num=12", "a_max_over_R=1.0")) as dataset:
+        figure = drawn(dataset, [])
+        force, energy = (part.axes[0] for part in figure.subfigs)
+        assert (force.get_xscale(), force.get_xlabel()) == ("linear", SYMBOLS["lambda_over_R"])
+        assert force.get_ylabel() == SYMBOLS["pull_off_force"]
+        assert energy.get_ylabel() == SYMBOLS["dissipated_energy"]
+        for axes, name in ((force, "pull_off_force"), (energy, "dissipated_energy")):
+            lines = [line for line in axes.get_lines() if line.get_linestyle() != "None"]
+            assert len(lines) == dataset.sizes["k"]
+            for line, values in zip(lines, dataset[name].transpose("k", "lambda_over_R").values, strict=True):
+                np.testing.assert_array_equal(line.get_xdata(), dataset["lambda_over_R"])
+                np.testing.assert_array_equal(line.get_ydata(), values)
+        labels = [text.get_text() for text in figure.subfigs[0].legends[0].get_texts()]
+        assert labels == [f"$k$ = {value:g}" for value in dataset["k"].values]
+        assert "A = 0.1,  a_{\\max}/R = 1" in told(figure)
+
+
+def test_a_map_has_its_axes_and_contours_its_values(dataset_file: Callable[..., Path]) -> None:
+    wide = "lambda_over_R={start=0.02, stop=1.0, num=20, spacing='log'}"
+    with opened(dataset_file("A=0.1", wide, "a_max_over_R=1.0", "k={start=0, stop=0.9, num=7}")) as dataset:
+        for x, y in ((None, None), ("k", None), (None, "lambda_over_R"), ("k", "lambda_over_R")):
+            figure = drawn(dataset, ["pull_off_force"], x=x, y=y)
+            axes, bar = figure.axes
+            turned = x is not None or y is not None
+            sides = ["lambda_over_R", "k"][:: -1 if turned else 1]
+            assert [axes.get_xlabel(), axes.get_ylabel()] == [SYMBOLS[side] for side in sides]
+            assert (axes.get_xscale(), axes.get_yscale()) == (("linear", "log") if turned else ("log", "linear"))
+            assert bar.get_ylabel() == SYMBOLS["pull_off_force"]
+            filled, lines = [one for one in axes.collections if isinstance(one, QuadContourSet)][:2]
+            assert lines.labelTexts
+            # a contour crosses a line of the grid where the values along it, interpolated, have its level
+            crossings = 0
+            assert filled.get_array()[0] <= dataset["pull_off_force"].min()
+            for level, path in zip(lines.levels, lines.get_paths(), strict=True):
+                places = path.vertices[:, ::-1] if turned else path.vertices
+                on_grid = [v for v in places if np.isclose(v[1], dataset["k"].values, rtol=1e-12, atol=1e-12).any()]
+                for wavelength, k in on_grid:
+                    item = int(np.argmin(np.abs(dataset["k"].values - k)))
+                    found = np.interp(wavelength, dataset["lambda_over_R"], dataset["pull_off_force"].values[item])
+                    assert found == pytest.approx(level, rel=1e-9)
+                    crossings += 1
+            assert crossings > 20
+
+
+def test_what_is_fixed_or_reduced_is_said_and_drawn(dataset_file: Callable[..., Path]) -> None:
+    with opened(dataset_file("A=[0.0, 0.02, 0.05]", "lambda_over_R.num=12", "a_max_over_R=1.0")) as dataset:
+        selection = selection_of(dataset, ["A=0.019"], ["k=max"])
+        figure = drawn(dataset, ["pull_off_force"], selection)
+        assert "A = 0.02,  a_{\\max}/R = 1,  max over k" in told(figure)
+        (line,) = figure.axes[0].get_lines()
+        np.testing.assert_array_equal(line.get_ydata(), dataset["pull_off_force"].sel(A=0.02).max("k"))
+        figure = drawn(dataset, ["pull_off_force"], selection_of(dataset, ["A=0.03", "k=0"], interpolate=True))
+        assert "A = 0.03 (interpolated)" in told(figure)
+        values = dataset["pull_off_force"].sel(k=0.0).interp(A=0.03)
+        np.testing.assert_allclose(figure.axes[0].get_lines()[0].get_ydata(), values, rtol=1e-14)
+        figure = drawn(dataset, ["pull_off_force"], selection_of(dataset, ["k=0"], ["lambda_over_R=argmin"]))
+        (axes,) = figure.axes
+        assert axes.get_ylabel() == r"$\lambda/R$ of the least pull-off force"
+        places = dataset["lambda_over_R"].values[dataset["pull_off_force"].sel(k=0.0).argmin("lambda_over_R").values]
+        np.testing.assert_array_equal(axes.get_lines()[0].get_ydata(), places)
+
+
+def test_scenes_left_out_of_a_reduction_are_said(dataset_file: Callable[..., Path]) -> None:
+    path = dataset_file("A=[0.0, 0.02, 0.05]", "k=0.1", "a_max_over_R=1.0")
+    with netCDF4.Dataset(path, "a") as file:
+        values = file["pull_off_force"][:]
+        values[:, 0] = np.nan
+        file["pull_off_force"][:] = values
+    with opened(path) as dataset:
+        failed = int(np.isnan(dataset["pull_off_force"].values).sum())
+        selection = selection_of(dataset, over=["A=mean"])
+        figure = drawn(dataset, ["pull_off_force"], selection)
+        assert failed > 1
+        assert f"mean over A,  {failed} failed scenes left out" in told(figure)
+
+
+def test_panels_have_the_ends_and_the_middle_of_their_axes(dataset_file: Callable[..., Path]) -> None:
+    few = [
+        "k={start=0, stop=0.8, num=9}",
+        "lambda_over_R.num=12",
+        "A=[0.0, 0.01, 0.02, 0.03]",
+        "a_max_over_R=[0.5, 1.0]",
+    ]
+    with opened(dataset_file(*few)) as dataset:
+        figure = drawn(dataset, ["pull_off_force"])
+        titles = [axes.get_title() for axes in figure.axes[:6]]
+        assert titles == ["$A$ = 0", "$A$ = 0.02", "$A$ = 0.03", "", "", ""]
+        rows = [text.get_text() for axes in figure.axes for text in axes.texts if "a_" in text.get_text()]
+        assert rows == [r"$a_{\max}/R$ = 0.5", r"$a_{\max}/R$ = 1"]
+
+
+def test_units_have_prefixes_and_values_stay_in_si(gradhesion: Call, root: Path, tmp_path: Path) -> None:
+    path = tmp_path / "out.nc"
+    assert gradhesion("run", root / "configs/physical.toml", "-o", path, "--quiet").exit_code == 0
+    with opened(path) as dataset:
+        figure = drawn(dataset, [], selection_of(dataset, ["k=0", "work_of_adhesion=50 mJ/m^2", "A=0"]))
+        force, energy = (part.axes[0] for part in figure.subfigs)
+        assert force.get_xlabel() == "$R$ (µm)"
+        assert [tick.get_text() for tick in force.get_xticklabels()] == ["0.5", "1", "2", "5"]
+        assert force.get_ylabel() == "pull-off force $F$ (µN)"
+        line = force.get_lines()[0]
+        np.testing.assert_array_equal(line.get_xdata(), dataset["R"])
+        # Johnson, Kendall & Roberts: 1.5 pi R dgamma
+        np.testing.assert_allclose(line.get_ydata(), 1.5 * np.pi * dataset["R"].values * 0.05, rtol=1e-12)
+        assert r"\Delta\gamma = 50 mJ/m^2,  c_0 = 10 nm" in told(figure)
+        assert "E^{\\ast}R" not in told(figure), "what follows from other parameters is not told"
+        assert energy.get_yscale() == "linear"
+        wide = drawn(dataset, [], selection_of(dataset, ["k=0", "work_of_adhesion=0.02"]))
+        assert [part.axes[0].get_yscale() for part in wide.subfigs] == ["log", "log"], "they differ by 50 and more"
+        over = drawn(dataset, [], selection_of(dataset, ["k=0", "A=0", "work_of_adhesion=0.02"]), x="c0_over_R")
+        np.testing.assert_array_equal(over.subfigs[0].axes[0].get_lines()[0].get_xdata()[::-1], dataset["c0_over_R"])
+
+
+def test_points_are_drawn_over_the_parameter_that_is_asked_for(dataset_file: Callable[..., Path]) -> None:
+    both = ["lambda_over_R=[0.2, 0.1]", "k=[0.1, 0.3]", "A=0.1", "a_max_over_R=1.0"]
+    with opened(dataset_file(*both, layout="points")) as dataset:
+        for x, order in (("lambda_over_R", [1, 0]), (None, [0, 1])):
+            figure = drawn(dataset, ["pull_off_force"], x=x)
+            axes = figure.axes[0]
+            assert axes.get_xlabel() == SYMBOLS[x or "k"]
+            line = axes.get_lines()[0]
+            np.testing.assert_array_equal(line.get_xdata(), dataset[x or "k"].values[order])
+            np.testing.assert_array_equal(line.get_ydata(), dataset["pull_off_force"].values[order])
+        assert "varying too: \\lambda/R" in told(figure)
+
+
+@pytest.mark.parametrize(("shape", "below"), [("a few lines", False), ("solvers beside lines", True)])
+def test_strips_of_panels_stand_below_each_other(shape: str, below: bool, dataset_file: Callable[..., Path]) -> None:
+    with opened(dataset_file(*SHAPES[shape])) as dataset:
+        figure = drawn(dataset, [])
+        first, second = figure.subfigs
+        assert (first.bbox.y0 > second.bbox.y0) == below
+        assert (first.bbox.x0 == second.bbox.x0) == below
+
+
+WRONG = [
+    (["--x", "lamda_over_R"], '--x lamda_over_R: not an axis of this dataset; did you mean "lambda_over_R"?'),
+    (["--x", "k", "--y", "k"], "--x k --y k: one axis cannot be both sides"),
+    (["--x", "k", "--at", "k=0"], "--x k: k is fixed or reduced by --at or --over"),
+    (["--y", "k", "--over", "k=max"], "--y k: k is fixed or reduced by --at or --over"),
+    (["--x", "nu"], "--x nu: not an axis; nu is 0.27 in the whole dataset"),
+    (["--at", "k=0", "--at", "A=0", "--at", "lambda_over_R=0.2", "--over", "a_max_over_R=max"], "fix or reduce fewer axes"),
+    (["--variable", "pull_off_force,energy"], "--variable energy: not in this dataset"),
+    (["--at", "k=0.5"], "--at k=0.5: outside the axis, which has values of 0 to 0.31; choose one within"),
+    (["--at", "k=x"], "x is no number"),
+    (["--over", "k=sum"], "--over k=sum: not a reduction; choose from"),
+]  # fmt: skip
+
+
+def test_wrong_choices_are_said_in_a_sentence(gradhesion: Call, dataset_file: Callable[..., Path]) -> None:
+    path = dataset_file()
+    for options, message in WRONG:
+        result = gradhesion("plot", path, *options)
+        assert result.exit_code == 2, options
+        assert message in result.stderr
+        assert len(result.stderr.splitlines()) == 1
+        assert not path.with_suffix(".png").exists()
+
+
+def test_curves_take_at_and_nothing_else(gradhesion: Call, curve_file: Callable[..., Path]) -> None:
+    path = curve_file("['path']", "parameters.k=[0.1, 0.3]")
+    with opened(path) as dataset:
+        figure = drawn_curves(selection_of(dataset, ["A=0.02"]).narrowed(dataset), [])
+        assert [text.get_text() for text in figure.legends[0].get_texts()][:2] == ["$k$ = 0.1", "$k$ = 0.3"]
+        assert "$A$ = 0.023" in figure.get_suptitle()
+    for option in (["--over", "A=max"], ["--x", "A"], ["--at", "A=0.01", "--interpolate"]):
+        result = gradhesion("plot", path, *option)
+        assert result.exit_code == 2
+        assert "curves are drawn as they are" in result.stderr
+
+
+@pytest.mark.parametrize("control", ["displacement", "load", "machine"])
+def test_arrows_go_along_the_path(control: str, curve_file: Callable[..., Path]) -> None:
+    machine = ["loading.machine_stiffness=2.0"] if control == "machine" else []
+    with opened(curve_file("['path']", "parameters.A=0.07", f"loading.control='{control}'", *machine)) as dataset:
+        figure = drawn_curves(dataset, [])
+        figure.draw_without_rendering()
+        assert ("controlled load" in figure.get_suptitle()) == (control == "load")
+        assert ("machine" in figure.get_suptitle()) == (control == "machine")
+        axes = figure.axes[1]  # depth over contact radius: on loading the radius grows, on unloading it shrinks
+        limits = np.array([axes.get_xlim(), axes.get_ylim()])
+        points = np.column_stack([dataset["path_contact_radius"], dataset["path_indentation"]])
+        points = (points - limits[:, 0]) / np.diff(limits).T
+        jumps = int(dataset["path_jump"].sum())
+        arrows = [(np.array(text.xyann), np.array(text.xy)) for text in axes.texts]
+        assert len(arrows) > jumps / 2
+        for tail, head in arrows:
+            fine = np.linspace(0.0, len(points) - 1.0, 50 * len(points))
+            line = np.array([np.interp(fine, np.arange(len(points)), row) for row in points.T]).T
+            near = [np.flatnonzero(np.hypot(*(line - place).T) < 0.01) for place in (tail, head)]
+            assert all(places.size for places in near), "an arrow lies on the path"
+            assert near[0][0] < near[1][-1], "and goes along it"
+
+
+def test_the_style_is_that_of_the_project_whatever_the_user_has(
+    dataset_file: Callable[..., Path], tmp_path: Path
+) -> None:
+    with opened(dataset_file(*SHAPES["a map"])) as dataset:
+        save(drawn(dataset, []), tmp_path / "a.svg", "svg")
+        with mpl.rc_context({"font.size": 30, "axes.facecolor": "red", "lines.linewidth": 9}):
+            save(drawn(dataset, []), tmp_path / "b.svg", "svg")
+        assert mpl.rcParams["font.family"] != ["STIXGeneral"]
+    assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()

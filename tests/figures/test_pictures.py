@@ -6,7 +6,6 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-import matplotlib as mpl
 import pytest
 import xarray
 from matplotlib.figure import Figure
@@ -15,7 +14,7 @@ from matplotlib.text import Annotation
 from figures.__main__ import PICTURES, draw
 from figures.fig3 import corners_of
 from figures.fig4 import threshold_of
-from figures.style import STYLE
+from figures.style import styled
 
 Compute = Callable[..., xarray.Dataset]
 ROOT = Path(__file__).parents[2]
@@ -27,7 +26,7 @@ def study_of(picture: str) -> str:
 
 
 def drawn(name: str, dataset: xarray.Dataset) -> Figure:
-    with mpl.rc_context(fname=STYLE):
+    with styled():
         figure = Figure()
         PICTURES[name](figure.subplots(), dataset)
     return figure
