@@ -56,7 +56,12 @@ def draw_grid(
     rows, columns = shape_of(sizes, plan)
     grid = part.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     whole = dataset[name].dtype.kind == "i" and bool((finite == np.round(finite)).all())
-    levels = panels.levels_of(float(finite.min()), float(finite.max()), whole=whole)
+    if whole and name == "status" and plan.is_map:
+        codes = np.unique(finite)
+        cut = cut.copy(data=np.searchsorted(codes, cut)).where(cut.notnull())
+        levels = panels.levels_of_flags(codes)
+    else:
+        levels = panels.levels_of(float(finite.min()), float(finite.max()), whole=whole)
     for i, line in enumerate(grid):
         for j, axes in enumerate(line):
             place = {axis: item for axis, item in ((plan.columns, j), (plan.rows, i)) if axis}
@@ -70,7 +75,7 @@ def draw_grid(
     width, height = (2.1, 1.8) if columns > 1 else (3.6, 2.9)
     named = _named(name, selection, unit)
     _dress(part, grid, plan, cut, named, unit, levels, height * rows)
-    width = width * columns + 1.2
+    width = width * columns + (2.2 if levels.names else 1.2)
     caption = in_lines(_caption(dataset, plan, items, selection, taken.left_out), width)
     part.suptitle(caption, fontsize=8)
     lines = caption.count("\n") * 0.15 + (0.0 if plan.is_map or not plan.second else 0.3)
@@ -126,8 +131,14 @@ def _dress(
         )
     if plan.is_map:
         filled = ScalarMappable(norm=levels.norm, cmap=panels.COLOURS)
-        bar = part.colorbar(filled, ax=grid, label=named, boundaries=levels.levels, fraction=0.06, aspect=30)
+        bar = part.colorbar(
+            filled, ax=grid, label="" if levels.names else named, boundaries=levels.levels, fraction=0.06, aspect=30
+        )
         bar.ax.minorticks_off()
+        if levels.names:
+            bar.ax.set_title(named, loc="left")
+            bar.ax.set_yticks(range(len(levels.names)), levels.names, fontsize=7)
+            return
         some = levels.levels[:: int(np.ceil(levels.levels.size * APART / height))]
         bar.ax.set_yticks(some, [unit.number(level) for level in some])
     elif plan.second:

@@ -7,14 +7,14 @@ from typing import Any, Final
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.colors import LogNorm, Normalize
-from matplotlib.contour import QuadContourSet
+from matplotlib.colors import BoundaryNorm, LogNorm, Normalize
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
 from gradhesion.cli.doubts import CROSS, GREY, INK, Doubt
 from gradhesion.cli.labels import Unit
 from gradhesion.cli.scales import Scale
+from gradhesion.core import FLAGS
 
 Values = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -49,6 +49,8 @@ class Levels:
     norm: Normalize
     extremes: tuple[float, float]
     """The least and the greatest of the values."""
+    names: tuple[str, ...] = ()
+    """What 0, 1, 2, ... stand for, where values are no more than that."""
 
 
 def levels_of(least: float, greatest: float, *, whole: bool = False) -> Levels:
@@ -76,6 +78,17 @@ def levels_of(least: float, greatest: float, *, whole: bool = False) -> Levels:
     return Levels(levels=levels, norm=(LogNorm if log else Normalize)(levels[0], levels[-1]), extremes=extremes)
 
 
+def levels_of_flags(codes: Values) -> Levels:
+    """Give each code of a status a level of its own, named by its flags; values are to be places among the codes."""
+    names = []
+    for code in codes:
+        flags = [name.replace("_", " ") for name, bit in FLAGS.items() if int(code) & bit]
+        names.append("\n+ ".join(flags) or "nothing to report")
+    edges: Values = np.arange(codes.size + 1, dtype=np.float64) - 0.5
+    norm = BoundaryNorm(edges, COLOURS.N)
+    return Levels(levels=edges, norm=norm, extremes=(0.0, codes.size - 1.0), names=tuple(names))
+
+
 def draw_map(
     axes: Axes,
     x: Scale,
@@ -84,9 +97,15 @@ def draw_map(
     levels: Levels,
     unit: Unit,
     doubtful: Sequence[tuple[Doubt, Flags]] = (),
-) -> QuadContourSet:
+) -> None:
     """Draw values[y, x] as filled contours with labelled lines; doubtful ones are hatched, what has none is grey."""
     axes.patch.set_facecolor(GREY)
+    if levels.names:
+        cells = axes.pcolormesh(x.edges(), y.edges(), values, norm=levels.norm, cmap=COLOURS)
+        cells.set_edgecolor("face")
+        x.dress(axes, "x")
+        y.dress(axes, "y")
+        return
     filled = axes.contourf(
         x.positions, y.positions, values, levels=levels.levels, norm=levels.norm, cmap=COLOURS, extend="neither"
     )
@@ -112,7 +131,6 @@ def draw_map(
             axes.contour(x.positions, y.positions, shown, levels=(0.5,), colors=INK, linewidths=0.8)
     x.dress(axes, "x")
     y.dress(axes, "y")
-    return filled
 
 
 def draw_lines(

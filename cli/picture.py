@@ -68,16 +68,18 @@ def drawn(
         below = len(chosen) if shape[1] > 1 and shape[0] == 1 else 1  # strips of panels stand below each other
         parts = figure.subfigures(below, len(chosen) // below, squeeze=False).ravel()
         told: dict[str, Artist] = {}
-        width = height = 0.0
+        wide, high = [0.0], [0.0]
         for part, name in zip(parts, chosen, strict=True):
             if plan:
                 width, height, more = draw_grid(part, narrow, name, plan, selection)
             else:
                 width, height, more = draw_scenes(part, narrow, name, x)
+            wide.append(width)
+            high.append(height)
             told |= {str(entry.get_label()): entry for entry in more}
         words = heading(dataset)
         lines = LINE * (len(told) + words.count("\n"))
-        figure.set_size_inches(width * len(chosen) / below, height * below + 0.5 + lines)
+        figure.set_size_inches(max(wide) * len(chosen) / below, max(high) * below + 0.5 + lines)
         if told:
             handles = [told[words] for words in ORDER if words in told]
             figure.legend(handles=handles, loc="outside lower center", fontsize=7)

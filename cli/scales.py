@@ -26,6 +26,13 @@ class Scale:
     unit: Unit
     """How its values are written."""
 
+    def edges(self) -> NDArray[np.float64]:
+        """Give the edges of cells around the places, halfway between them."""
+        places = np.log(self.positions) if self.log else self.positions
+        middles = 0.5 * (places[1:] + places[:-1])
+        edges = np.concatenate([2.0 * places[:1] - middles[:1], middles, 2.0 * places[-1:] - middles[-1:]])
+        return np.exp(edges) if self.log else edges
+
     def dress(self, axes: Axes, which: Literal["x", "y"]) -> None:
         """Give an axis of a picture this scale, with ticks at plain numbers."""
         finite = self.positions[:-1] if self.infinite else self.positions

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import xarray
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.colors import to_rgb
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
@@ -194,3 +195,20 @@ def test_a_scene_without_curves_is_grey_in_the_legend(data: dict[str, Any]) -> N
     assert first.get_text().endswith("(no value)")
     assert not second.get_text().endswith("(no value)")
     assert to_rgb(figure.legends[0].get_lines()[0].get_color()) == to_rgb(CROSS)
+
+
+def test_a_map_of_the_status_has_a_colour_for_each_set_of_flags(
+    make: Callable[..., xarray.Dataset], tmp_path: File
+) -> None:
+    dataset = make(**MAP)
+    codes = [0, FLAGS["pull_off_at_rim"], LOADING.bit | FLAGS["jump_in_to_rim"]]
+    dataset["status"][...] = np.array(codes)[np.arange(12) // 4]
+    figure = drawn(dataset, ["status"])
+    save(figure, tmp_path / "x.png", "png")
+    axes, bar = figure.axes
+    (mesh,) = [one for one in axes.collections if isinstance(one, QuadMesh)]
+    np.testing.assert_array_equal(np.array(codes)[mesh.get_array().astype(int)], dataset["status"])
+    words = [tick.get_text() for tick in bar.get_yticklabels()]
+    assert words == ["nothing to report", "pull off at rim", "loading contact not one disc\n+ jump in to rim"]
+    shades = mesh.cmap(mesh.norm(np.arange(3))) @ [0.299, 0.587, 0.114, 0.0]
+    assert (np.diff(shades) > 0.2).all(), "they differ in a grey print"

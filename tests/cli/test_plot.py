@@ -11,6 +11,7 @@ from click.testing import Result
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 
+from gradhesion.cli import layout
 from gradhesion.cli.curve_picture import drawn_curves
 from gradhesion.cli.layout import Plan, plan_of
 from gradhesion.cli.names import SYMBOLS
@@ -439,3 +440,24 @@ def test_the_style_is_that_of_the_project_whatever_the_user_has(
             save(drawn(dataset, []), tmp_path / "b.svg", "svg")
         assert mpl.rcParams["font.family"] != ["STIXGeneral"]
     assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
+
+
+def test_a_file_that_is_not_ours_is_said(gradhesion: Call, tmp_path: Path) -> None:
+    path = tmp_path / "other.nc"
+    with netCDF4.Dataset(path, "w") as file:
+        file.title = "something else"
+    result = gradhesion("plot", path)
+    assert result.exit_code == 2
+    assert "is not a dataset of gradhesion; name one that `gradhesion run` wrote" in result.stderr
+    assert not path.with_suffix(".png").exists()
+
+
+def test_a_fine_map_is_thinned_and_says_so(dataset_file: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(layout, "MOST", 5)
+    with opened(dataset_file("A=0.1", "lambda_over_R.num=12", "a_max_over_R=1.0")) as dataset:
+        figure = drawn(dataset, ["pull_off_force"])
+        assert "5 of 12 values of \\lambda/R" in told(figure)
+        places = figure.axes[0].get_lines()[0].get_xdata()
+        assert len(places) == 5
+        assert {*places} <= {*dataset["lambda_over_R"].values}
+        assert (places[0], places[-1]) == (dataset["lambda_over_R"].values[0], dataset["lambda_over_R"].values[-1])
