@@ -9,6 +9,7 @@ import click
 
 from gradhesion.cli import interrupts, messages
 from gradhesion.cli.errors import GradhesionError
+from gradhesion.cli.explore import explore
 from gradhesion.cli.info import info
 from gradhesion.cli.init import init
 from gradhesion.cli.merge import merge
@@ -46,6 +47,7 @@ cli.add_command(validate)
 cli.add_command(schema)
 cli.add_command(info)
 cli.add_command(plot)
+cli.add_command(explore)
 cli.add_command(verify)
 
 

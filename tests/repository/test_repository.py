@@ -33,6 +33,8 @@ MODULES = sorted(
     if not module.name.endswith("__main__")
 )
 HEAVY = (
+    "bokeh",
+    "jinja2",
     "numpy",
     "numba",
     "scipy",
@@ -164,6 +166,12 @@ def test_every_folder_of_modules_is_packaged() -> None:
     assert all(name == "gradhesion." + folder.replace("/", ".") for name, folder in listed.items())
     assert all((ROOT / folder / "__init__.py").exists() for folder in listed.values())
     assert all((ROOT / top / "py.typed").exists() for top in ("cli", "core", "twin"))
+    data = PROJECT["tool"]["setuptools"]["package-data"]
+    packed = {file for name, globs in data.items() for glob in globs for file in (ROOT / listed[name]).glob(glob)}
+    others = {
+        file for top in ("cli", "configs", "core", "twin") for file in (ROOT / top).rglob("*.*") if file.is_file()
+    }
+    assert packed == {file for file in others if file.suffix not in {".py", ".pyc"} and "__pycache__" not in file.parts}
 
 
 def test_every_dependency_is_pinned_and_none_by_an_address() -> None:

@@ -1,0 +1,1 @@
+"""The page that `gradhesion explore` writes: its data, its figures and what moves them."""

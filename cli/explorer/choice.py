@@ -1,0 +1,66 @@
+"""What of a dataset goes into a page: variables by name, single values of axes, and no more than a browser takes."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import xarray
+
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.names import RAGGED, SCENE
+from gradhesion.cli.reader import has_curves
+from gradhesion.cli.schema import did_you_mean
+from gradhesion.cli.selection import selection_of
+
+MOST: Final = 20_000_000
+"""Values in a page: it is 110 MB then, and takes a browser some seconds to open."""
+
+
+def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[str]) -> xarray.Dataset:
+    """
+    Cut a dataset down to some variables and to some values of axes; `status` stays.
+
+    Raises
+    ------
+    DatasetError
+        A variable, an axis or a value is not there, or the rest is too large for a page.
+
+    See Also
+    --------
+    gradhesion.cli.selection : how a value is found on an axis.
+    """
+    known = [str(name) for name in dataset.data_vars if name != "status" and _is_shown(dataset, str(name))]
+    for name in variables:
+        if name not in known:
+            raise DatasetError(f"--variable {name}: nothing that a page can show; {did_you_mean(name, known)}")
+    if not known:
+        raise DatasetError(
+            "jumps are told and not drawn: `gradhesion info --jumps` lists them; "
+            'for a page of the cycle add "path" to the outputs of the study'
+        )
+    cut = dataset[[*(variables or known), "status"]]
+    cut = selection_of(cut, places).narrowed(cut)
+    size = sum(variable.size for variable in cut.data_vars.values())
+    if size > MOST:
+        raise DatasetError(
+            f"{size:,} values are too many for a page, which takes {MOST:,}: "
+            f"choose one value of an axis with --at, as in {_example(cut)}, "
+            "or fewer variables with --variable, or make a coarser study"
+        )
+    return cut
+
+
+def _is_shown(dataset: xarray.Dataset, name: str) -> bool:
+    """Tell whether a variable has one value, or one row of values, a scene."""
+    own, scenes = dataset[name].dims, dataset["status"].dims
+    return own[: len(scenes)] == scenes and not (has_curves(dataset) and name in RAGGED.values())
+
+
+def _example(dataset: xarray.Dataset) -> str:
+    """Write an option that takes the middle of the longest axis that is not one of the two finest."""
+    sizes = {str(axis): size for axis, size in dataset["status"].sizes.items() if axis != SCENE and size > 1}
+    axes = sorted(sizes, key=lambda axis: -sizes[axis])
+    if not axes:
+        return "--at AXIS=VALUE"
+    axis = (axes[2:] or axes[-1:])[0]
+    value = dataset[axis].values[sizes[axis] // 2]
+    return f"--at {axis}={value}" if isinstance(value, str) else f"--at {axis}={value:.7g}"

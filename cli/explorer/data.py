@@ -1,0 +1,193 @@
+"""The data of a page: axes, parameters, variables and flags as its script reads them."""
+
+from collections.abc import Sequence
+from typing import Any, Final
+
+import numpy as np
+import xarray
+from numpy.typing import NDArray
+
+from gradhesion.cli import names
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.explorer.plain import in_order, symbol, words
+from gradhesion.cli.labels import unit_for
+from gradhesion.cli.names import INTEGERS, SCENE, SOLVER
+from gradhesion.cli.scales import scale
+from gradhesion.core import DOUBTFUL, FAILED, FLAGS, doubts_about
+
+DIGITS: Final = 6
+"""Significant digits of a value: as many as single precision keeps of any decimal number."""
+
+FEW: Final = 8
+"""Values of an axis that are ticks of it; of more, round numbers are."""
+
+_LEAST, _GREATEST = (float(bound) for bound in (np.finfo(np.float32).tiny, np.finfo(np.float32).max))
+
+Entry = dict[str, Any]
+
+
+def rounded(values: NDArray[Any]) -> NDArray[np.floating[Any]]:
+    """
+    Round values to 6 digits, in single precision where its range holds them: written to 6 digits they are exact.
+
+    >>> rounded(np.array([0.12345649, 1234565.1]))
+    array([1.23456e-01, 1.23457e+06], dtype=float32)
+    """
+    exact = np.where(np.isfinite(values), np.asarray(values, dtype=float), np.nan)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        places = DIGITS - 1 - np.floor(np.log10(np.abs(exact)))
+        # a power of ten up to 10^22 is exact: values of common sizes meet one rounding by it and one after it
+        near = np.rint(exact * 10.0 ** np.maximum(places, 0) / 10.0 ** np.maximum(-places, 0))
+        near = near * 10.0 ** np.maximum(-places, 0) / 10.0 ** np.maximum(places, 0)
+    near = np.where((np.abs(places) < 300) & np.isfinite(near), near, exact)  # 0, and what has no such power of ten
+    sizes = np.abs(near[np.isfinite(near) & (near != 0.0)])
+    fits = not sizes.size or (sizes.min() >= _LEAST and sizes.max() <= _GREATEST)
+    return near.astype(np.float32) if fits else near
+
+
+def study_data(dataset: xarray.Dataset) -> tuple[Entry, list[Entry]]:
+    """
+    Make the data of a page from a dataset that is cut down to what it shall show.
+
+    Returns
+    -------
+    study
+        What tells scenes apart, in the order of the values: `axes`, `parameters` (fixed, or following from axes),
+        `status`, `flags`.
+    variables
+        A list of what has values, each flat in that order; a row of `length` values a scene of a curve.
+
+    Raises
+    ------
+    DatasetError
+        No variable has a finite value.
+    """
+    dataset = _rising(dataset)
+    axes = [str(axis) for axis in dataset["status"].dims if dataset.sizes[axis] > 1]
+    dataset = dataset.isel({axis: 0 for axis in dataset["status"].dims if dataset.sizes[axis] == 1})
+    variables = [_variable(dataset, str(name)) for name in dataset.data_vars if name != "status"]
+    if not any(np.isfinite(variable["values"]).any() for variable in variables):
+        told = ", ".join(variable["name"] for variable in variables)
+        raise DatasetError(f"{told}: no value in any scene; `gradhesion info` tells why")
+    status = dataset["status"].values.astype(np.uint8).ravel()
+    known = [str(name) for name in dataset.coords if name not in axes]
+    solvers = [SOLVER] if SOLVER in known else []
+    study = {
+        "axes": [_axis(dataset, axis) for axis in axes],
+        "parameters": [_parameter(dataset, name, axes) for name in (*solvers, *in_order(known))],
+        "status": status,
+        "flags": [
+            {"bit": bit, "words": names.FLAGS[name], "doubtful": bool(bit & DOUBTFUL), "failed": bool(bit & FAILED)}
+            for name, bit in FLAGS.items()
+        ],
+        "found": int(np.bitwise_or.reduce(status, initial=0)),
+    }
+    return study, variables
+
+
+def _rising(dataset: xarray.Dataset) -> xarray.Dataset:
+    """Put the values of numeric axes into rising order."""
+    numeric = [axis for axis in dataset["status"].dims if axis in dataset.coords and dataset[axis].dtype.kind in "fiu"]
+    return dataset.isel({axis: np.argsort(dataset[axis].values, kind="stable") for axis in numeric})
+
+
+def _axis(dataset: xarray.Dataset, name: str) -> Entry:
+    """Describe an axis: its values, and where they stand along a picture (at their logarithms if it has that scale)."""
+    if name == SCENE or dataset[name].dtype.kind not in "fiu":
+        size = dataset.sizes[name]
+        own = range(1, size + 1) if name == SCENE else dataset[name].values
+        long_name = "number of the scene" if name == SCENE else names.SOLVERS
+        return {
+            "name": name,
+            "symbol": name,
+            "words": long_name,
+            "unit": "",
+            "values": [str(value) for value in own],
+            **_listed(np.arange(size, dtype=float)),
+        }
+    named, values = _named(dataset, name)
+    return named | {"values": values} | _placed(values)
+
+
+def _listed(places: NDArray[np.float64]) -> Entry:
+    """Place words along a picture, one after the other."""
+    few = places if places.size <= FEW else places[:0]
+    ends = [places[0], places[-1]]
+    return {"places": places, "log": False, "ends": ends, "infinity": None, "few": few, "listed": True}
+
+
+def _placed(values: NDArray[np.float64]) -> Entry:
+    """
+    Place numbers in rising order along a picture; inf stands one step beyond the others.
+
+    >>> _placed(np.array([1.0, 2.0, np.inf]))["places"]
+    array([1., 2., 3.])
+    """
+    own = scale(values)
+    places = np.log10(own.positions) if own.log else own.positions
+    unique = np.unique(places)
+    return {
+        "places": places,
+        "log": own.log,
+        "ends": [unique[0], unique[-2 if own.infinite and unique.size > 1 else -1]],
+        "infinity": unique[-1] if own.infinite else None,
+        "few": unique if unique.size <= FEW else unique[:0],
+        "listed": False,
+    }
+
+
+def _named(dataset: xarray.Dataset, name: str) -> tuple[Entry, NDArray[Any]]:
+    """Name a variable in its ways, and give its values in the unit that it is told in."""
+    values = dataset[name].values
+    own = unit_for(name, values)
+    named = {
+        "name": name,
+        "symbol": symbol(name),
+        "words": words(str(dataset[name].attrs.get("long_name", name))),
+        "unit": own.symbol.replace("$^2$", "²"),
+    }
+    return named, np.asarray(values, dtype=float) / 10.0**own.power if own.power else values
+
+
+def _parameter(dataset: xarray.Dataset, name: str, axes: Sequence[str]) -> Entry:
+    """Describe a parameter that is no axis: fixed, or following from axes, or one of the points."""
+    if dataset[name].dtype.kind not in "fiu":
+        return {
+            "name": name,
+            "symbol": name,
+            "words": names.SOLVERS,
+            "unit": "",
+            "axes": [],
+            "values": [str(dataset[name].item())],
+        }
+    own = [axis for axis in axes if axis in dataset[name].dims]
+    named, values = _named(dataset.transpose(*own, ...), name)
+    values = np.asarray(values, dtype=float).ravel()
+    entry = named | {"axes": [axes.index(axis) for axis in own], "values": values}
+    if own == [SCENE] and np.unique(values).size > 1:
+        order = np.argsort(values, kind="stable")
+        placed = _placed(values[order])
+        placed["places"] = placed["places"][np.argsort(order, kind="stable")]
+        entry |= placed
+    return entry
+
+
+def _variable(dataset: xarray.Dataset, name: str) -> Entry:
+    """Describe a variable: its values to 6 digits, and which flags cast doubt on them."""
+    named, values = _named(dataset, name)
+    if values.dtype.kind in "iu" and name not in INTEGERS:
+        values = np.where(values < 0, np.nan, values)  # a count that is missing is -1
+    flat = rounded(values.ravel())
+    finite = flat[np.isfinite(flat)]
+    positive = finite[finite > 0]
+    curve = next((one for one, own in names.CURVES.items() if name in own), "")
+    return named | {
+        "values": flat,
+        "length": values.shape[-1] if curve else 1,
+        "curve": curve,
+        "doubts": doubts_about(curve or name.removesuffix(names.SI)) & DOUBTFUL,
+        "least": float(finite.min()) if finite.size else None,
+        "greatest": float(finite.max()) if finite.size else None,
+        "gaps": bool(finite.size < flat.size),
+        "leastPositive": float(positive.min()) if positive.size else None,
+    }

@@ -1,0 +1,256 @@
+// What the page does: one state, and everything shown drawn from it.
+
+const explorer = {
+  looks: {},
+
+  // Called by Bokeh when all figures are there.
+  start(study, variables, parts) {
+    this.study = new Study(study, variables);
+    this.parts = parts;
+    const { axes, solver, kind } = this.study;
+    this.at = axes.map((axis) => (axis.name === "solver" ? 0 : Math.floor((axis.values.length - 1) / 2)));
+    const free = axes.map((_, i) => i).filter((i) => i !== solver);
+    free.sort((one, other) => this.study.sizes[other] - this.study.sizes[one]);
+    [this.x, this.y] = [free[0], free[1]];
+    this.over = this.study.parameters.filter((parameter) => parameter.places);
+    this.held = false;
+    this.whole = false;
+    this.drawn = variables.slice(0, 2).map((variable, i) => this.choiceOf(i));
+    this.marked = () => 0;
+    this.showTable = buildTable(this.study);
+    this.marked = buildLegend(this.study, () => this.later("everything"));
+    this.sliders = buildSliders(this.study, this.at, (axis, place) => {
+      this.at[axis] = place;
+      this.hold(true);
+      this.later(kind === "maps" && (axis === this.x || axis === this.y) ? "scene" : "everything");
+    });
+    if (kind === "curves") {
+      this.planes = new Planes(this.study, parts.planes);
+      this.planes.legend(document.getElementById("lines"));
+    } else {
+      this.startFigures();
+    }
+    this.draw("everything");
+    document.documentElement.dataset.ready = "true";
+  },
+
+  // Maps and sections, and the lists that choose what is in them.
+  startFigures() {
+    const { study, parts } = this;
+    this.maps = (parts.maps ?? []).map((part) => new ValueMap(study, part, parts.ranges));
+    this.sections = parts.sections.map((both) =>
+      Object.fromEntries(Object.entries(both).map(([side, part]) => [side, new Section(study, part)])),
+    );
+    buildSolvers(study, document.getElementById("lines"));
+    this.buildChoosers();
+    if (this.maps.length) {
+      this.fitRanges();
+      for (const range of Object.values(parts.ranges)) range.change.connect(() => this.later("maps"));
+      for (const part of parts.maps) {
+        for (const name of ["inner_width", "inner_height"]) {
+          part.figure.properties[name].change.connect(() => this.later("maps"));
+        }
+      }
+    }
+  },
+
+  // The variable that a map shows at first.
+  choiceOf(i) {
+    const number = this.study.variables.findIndex((one) => one.name === ["pull_off_force", "dissipated_energy"][i]);
+    const two = this.study.variables.some((one) => one.name === "pull_off_force");
+    const variable = number >= 0 && two ? number : Math.min(i, this.study.variables.length - 1);
+    return this.choiceOfVariable(variable);
+  },
+
+  buildChoosers() {
+    const { study } = this;
+    const place = document.getElementById("axes");
+    const named = study.axes.map((axis, i) => [i, axis.words]);
+    const other = { x: "y", y: "x" };
+    if (study.kind === "maps") {
+      for (const side of ["x", "y"]) {
+        const choose = (axis) => {
+          if (this[other[side]] === axis) this[other[side]] = this[side];
+          this[side] = axis;
+          document.getElementById("along-x").value = this.x;
+          document.getElementById("along-y").value = this.y;
+          this.fitRanges();
+          this.later("everything");
+        };
+        place.append(chooser(`along-${side}`, `${side === "x" ? "Across" : "Up"}`, named, this[side], choose));
+      }
+      place.append(
+        chooser("span", "Colours", [[0, "from least to greatest of this map"], [1, "from least to greatest of all scenes"]], 0, (whole) => {
+          this.whole = Boolean(whole);
+          this.later("maps");
+        }),
+      );
+    } else if (this.over.length > 1) {
+      this.overNow = 0;
+      const options = this.over.map((parameter, i) => [i, parameter.words]);
+      place.append(chooser("along-x", "Over", options, 0, (i) => {
+        this.overNow = i;
+        this.later("everything");
+      }));
+    }
+    this.drawn.forEach((choice, i) => {
+      const head = document.getElementById(`head-${i}`);
+      const box = element("input", { type: "checkbox", id: `log-${i}` });
+      const options = study.variables.map((variable, j) => [j, withUnit(variable.words, variable.unit)]);
+      const update = () => {
+        box.disabled = study.variables[choice.variable].leastPositive === null;
+        choice.log = choice.log && !box.disabled;
+        box.checked = choice.log;
+      };
+      box.addEventListener("change", () => {
+        choice.log = box.checked;
+        this.later("everything");
+      });
+      head.append(chooser(`shown-${i}`, "Show", options, choice.variable, (variable) => {
+        Object.assign(choice, this.choiceOfVariable(variable));
+        update();
+        this.later("everything");
+      }));
+      head.append(element("div", { className: "box" }, box, element("label", { htmlFor: `log-${i}` }, "logarithmic")));
+      head.append(element("output", { className: "now", id: `now-${i}`, title: "in this scene" }));
+      update();
+    });
+  },
+
+  // How a variable is shown at first: in colours that rise by ratios if its values differ much.
+  choiceOfVariable(variable) {
+    const { least, greatest } = this.study.variables[variable];
+    return { variable, log: least > 0 && greatest > 8 * least };
+  },
+
+  // Set the ranges of the maps to the whole of both axes.
+  fitRanges() {
+    for (const side of ["x", "y"]) {
+      const { edges } = this.study.axes[this[side]];
+      const [start, end] = [edges[0], edges[edges.length - 1]];
+      this.parts.ranges[side].setv({ start, end, reset_start: start, reset_end: end });
+    }
+  },
+
+  // Draw before the next frame, once, whatever asks for it.
+  later(what) {
+    const ranks = ["scene", "maps", "everything"];
+    if (this.waiting !== undefined) {
+      if (ranks.indexOf(what) > ranks.indexOf(this.waiting)) this.waiting = what;
+      return;
+    }
+    this.waiting = what;
+    requestAnimationFrame(() => {
+      const wanted = this.waiting;
+      this.waiting = undefined;
+      this.draw(wanted);
+    });
+  },
+
+  // Draw the scene alone, the maps too, or everything.
+  draw(what) {
+    const { study, at, x, y } = this;
+    const number = study.numberOf(at);
+    this.showTable(at, number);
+    const maps = study.kind === "maps";
+    study.axes.forEach((_, i) => this.sliders[i].show(at[i], maps && i === x ? "across" : maps && i === y ? "up" : ""));
+    document.documentElement.dataset.scene = number;
+    if (study.kind === "curves") {
+      if (what !== "everything") return;
+      this.planes.draw(number);
+      this.parts.planes.forEach((part, i) => {
+        this.name(part.figure, `plane${i}`, PLANE_WORDS[part.x], PLANE_WORDS[part.y]);
+      });
+      return;
+    }
+    const marked = this.marked();
+    this.drawn.forEach((choice, i) => {
+      const variable = study.variables[choice.variable];
+      document.getElementById(`now-${i}`).textContent = short(variable.values[number]);
+      if (maps && what !== "scene") {
+        this.looks[`map${i}.bar`] = this.maps[i].paint(variable, { at, x, y, log: choice.log, whole: this.whole, marked });
+        this.name(this.parts.maps[i].figure, "map", this.axisWords(study.axes[x]), this.axisWords(study.axes[y]));
+        [this.looks["map.x"], this.looks["map.y"]] = [study.axes[x], study.axes[y]];
+      }
+      if (maps) this.maps[i].point(at, x, y);
+      for (const [side, section] of Object.entries(this.sections[i])) {
+        const axis = maps ? this[side] : this.lineAxis();
+        const over = study.kind === "points" ? this.over[this.overNow ?? 0] : undefined;
+        const place = `section${i}${side}`;
+        this.looks[`${place}.x`] = over ?? study.axes[axis];
+        this.looks[`${place}.y`] = section.draw(variable, { at, axis, over, log: choice.log, marked });
+        const title = withUnit(variable.symbol, variable.unit);
+        this.name(section.part.figure, place, this.axisWords(over ?? study.axes[axis]), title);
+      }
+    });
+  },
+
+  // The axis of a page of lines or points.
+  lineAxis() {
+    return this.study.axes.findIndex((axis) => axis.name !== "solver");
+  },
+
+  axisWords(axis) {
+    return withUnit(axis.symbol, axis.unit);
+  },
+
+  // Label the axes of a figure.
+  name(figure, place, x, y) {
+    const [below] = figure.below;
+    const [left] = figure.left;
+    if (below.axis_label !== x) below.axis_label = x;
+    if (left.axis_label !== y) left.axis_label = y;
+  },
+
+  // Ticks for Bokeh.
+  ticks(place, start, end) {
+    return ticksOf(this.looks[place] ?? lookOf(false), Math.min(start, end), Math.max(start, end));
+  },
+
+  tickWords(place, tick) {
+    return tickWords(this.looks[place] ?? lookOf(false), tick);
+  },
+
+  // The place along each axis that a pointer is at, null if it is at none.
+  placeOf(which, i, event) {
+    const at = [...this.at];
+    if (which === "map") {
+      const [x, y] = [cellAt(this.study.axes[this.x].edges, event.x), cellAt(this.study.axes[this.y].edges, event.y)];
+      if (x < 0 || y < 0) return null;
+      [at[this.x], at[this.y]] = [x, y];
+    } else {
+      const side = which.slice(-1);
+      at[this.study.kind === "maps" ? this[side] : this.lineAxis()] = this.sections[i][side].nearest(event);
+    }
+    return at;
+  },
+
+  hover(which, i, event) {
+    if (this.held || which !== "map" && this.study.kind === "maps") return;
+    this.go(this.placeOf(which, i, event));
+  },
+
+  // A tap holds a cell; one more on the same cell lets it go.
+  tap(which, i, event) {
+    const at = this.placeOf(which, i, event);
+    if (!at) return;
+    const same = at.every((place, axis) => place === this.at[axis]);
+    this.hold(!(this.held && same));
+    this.go(at);
+  },
+
+  go(at) {
+    if (!at || at.every((place, axis) => place === this.at[axis])) return;
+    this.at = at;
+    const moved = this.study.kind === "maps" ? "scene" : "everything";
+    this.later(moved);
+  },
+
+  hold(held) {
+    this.held = held;
+    const words = document.getElementById("held");
+    if (words) words.textContent = held ? "held: tap the cell again to let it go" : "follows the pointer";
+  },
+};
+
+const PLANE_WORDS = { indentation: "depth δ/R", load: "load P/1.5 πRΔγ", contact_radius: "contact radius a/R" };

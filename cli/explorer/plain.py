@@ -1,0 +1,62 @@
+"""Names as a page writes them: in Unicode, since a page with formulae would need a megabyte and a half more."""
+
+import re
+from typing import Final
+
+from gradhesion.cli.names import KEYS, SYMBOLS
+
+_TEX: Final = (
+    (r"\frac{3}{2}\pi R\Delta\gamma", "1.5 πRΔγ"),
+    (r"\Delta\gamma", "Δγ"),
+    (r"\lambda", "λ"),
+    (r"\delta", "δ"),
+    (r"\nu", "ν"),
+    (r"\chi", "χ"),
+    (r"^{\ast}", "*"),
+    (r"_{\max}", "ₘₐₓ"),
+    ("_0", "₀"),
+    ("_2", "₂"),
+    ("^2", "²"),
+    (r"\,", " "),
+    ("$", ""),
+)
+_WORDS: Final = {
+    "lambda": "λ",
+    "dgamma": "Δγ",
+    "delta": "δ",
+    "chi": "χ",
+    "pi": "π",
+    "E0": "E₀",
+    "c0": "c₀",
+    "a_2": "a₂",
+    "a_max": "aₘₐₓ",
+}
+
+
+def symbol(name: str) -> str:
+    """
+    Name a variable at an axis.
+
+    >>> symbol("a_max_over_R"), symbol("dissipated_energy"), symbol("load")
+    ('aₘₐₓ/R', 'dissipated energy H/R²Δγ', 'load')
+    """
+    text = SYMBOLS.get(name, name.replace("_", " "))
+    for tex, plain in _TEX:
+        text = text.replace(tex, plain)
+    return re.sub(r"  +", " ", text).replace(" / ", "/")
+
+
+def words(long_name: str) -> str:
+    """
+    Write a `long_name` with the letters of the field.
+
+    >>> words("pull-off force F/(1.5 pi R dgamma)"), words("reduced modulus E* = E0/(1 - nu^2)")
+    ('pull-off force F/(1.5 π R Δγ)', 'reduced modulus E* = E₀/(1 − ν²)')
+    """
+    text = re.sub(r"[A-Za-z_0-9]+", lambda found: _WORDS.get(found[0], found[0]), long_name)
+    return re.sub(r"\bnu\^2", "ν²", text).replace("^2", "²").replace(")^k", ")ᵏ").replace(" - ", " − ")
+
+
+def in_order(names: list[str]) -> list[str]:
+    """Put parameters into the order of a dataset."""
+    return [name for name in KEYS if name in names]

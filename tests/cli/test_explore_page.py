@@ -1,0 +1,423 @@
+"""The page of `gradhesion explore` in a real browser: what it shows is what the dataset has."""
+
+import os
+import re
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import numpy as np
+import pytest
+import xarray
+from bokeh.palettes import Viridis256
+from click.testing import CliRunner
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from gradhesion.cli.main import cli
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+STUDY = """
+title = "Maps </script><script>window.broken = 1</script> & more"
+outputs = ["pull_off_force", "dissipated_energy", "loading_jumps"]
+[parameters]
+k = [0.0, 0.31, 0.62, 0.9]
+nu = 0.27
+modulus = 430.0
+c0_over_R = [0.013, 0.2]
+lambda_over_R = { start = 0.11, stop = 0.87, num = 7, spacing = "log" }
+A = [0.0, 0.023, 0.05]
+a_max_over_R = [0.3, 1.7, inf]
+"""
+LINES = """
+title = "Lines"
+outputs = ["pull_off_force", "dissipated_energy"]
+method = { solver = ["exact", "envelope"] }
+[parameters]
+k = 0.3
+nu = 0.27
+modulus = 430.0
+c0_over_R = 0.013
+lambda_over_R = { start = 0.11, stop = 0.47, num = 5, spacing = "log" }
+A = 0.023
+a_max_over_R = 1.7
+"""
+POINTS = """
+title = "Points"
+layout = "points"
+outputs = ["pull_off_force", "dissipated_energy"]
+[parameters]
+k = [0.1, 0.5, 0.2, 0.4]
+nu = 0.27
+modulus = 430.0
+c0_over_R = 0.013
+lambda_over_R = [0.11, 0.3, 0.7, 0.2]
+A = 0.023
+a_max_over_R = inf
+"""
+CURVES = """
+title = "Curves"
+kind = "curve"
+outputs = ["equilibrium", "path"]
+[parameters]
+k = [0.1, 0.3]
+nu = 0.27
+modulus = 430.0
+c0_over_R = 0.013
+lambda_over_R = 0.17
+A = [0.0, 0.023, 0.07]
+a_max_over_R = 0.4
+"""
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    found = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if found is None:
+        assert not {"BROWSER_REQUIRED", "CI"} & os.environ.keys(), (
+            "no browser: install chromium, as `apt-get install chromium` does"
+        )
+        pytest.skip("no browser is installed: chromium, as `apt-get install chromium` installs it, tests the pages")
+    with sync_playwright() as playwright:
+        running = playwright.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        yield running
+        running.close()
+
+
+def _made(folder: Path, study: str, edit: Callable[[netCDF4.Dataset], None] | None = None) -> Path:
+    """Make a dataset and its page in a folder."""
+    (folder / "study.toml").write_text(study)
+    for arguments in (["run", "study.toml", "-o", "data.nc", "--quiet"], ["explore", "data.nc"]):
+        if edit is not None and arguments[0] == "explore":
+            with netCDF4.Dataset(folder / "data.nc", "a") as file:
+                edit(file)
+        names = [str(folder / argument) if "." in argument else argument for argument in arguments]
+        result = CliRunner().invoke(cli, names)
+        assert result.exit_code == 0, result.output
+    return folder / "data.html"
+
+
+def _spoil(file: netCDF4.Dataset) -> None:
+    """Give one column of the first map a flag, and one cell no value."""
+    status = file["status"][:]
+    status[:] = 0
+    status[:, :, 2] = 1  # contact on loading is not one disc: a doubt about the energy, not about the force
+    status[0, :, 4] = 64
+    file["status"][:] = status
+    for name in ("pull_off_force", "dissipated_energy"):
+        values = file[name][:]
+        values[0, :, 4] = np.nan
+        file[name][:] = values
+
+
+@pytest.fixture(scope="module")
+def maps(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return _made(tmp_path_factory.mktemp("maps"), STUDY, _spoil)
+
+
+class Opened:
+    """A page in a tab, with what it asked for and what it complained of."""
+
+    def __init__(self, browser: Browser, file: Path, **options: Any) -> None:
+        self.page: Page = browser.new_page(**{"viewport": {"width": 1400, "height": 900}, **options})
+        self.requests: list[str] = []
+        self.complaints: list[str] = []
+        self.page.on("request", lambda request: self.requests.append(request.url))
+        self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        self.page.on(
+            "console", lambda told: self.complaints.append(told.text) if told.type in {"warning", "error"} else None
+        )
+        self.page.goto(file.as_uri())
+        self.page.wait_for_selector("html[data-ready=true]", state="attached")
+        self.settle()
+
+    def settle(self) -> None:
+        """Wait until the page has drawn what it was asked for."""
+        self.page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+    def shown(self, name: str) -> str:
+        """Read a value from the table of the scene."""
+        self.settle()
+        return self.page.inner_text(f"#value-{name}")
+
+    def press(self, axis: str, *keys: str) -> None:
+        """Move the slider of an axis by keys."""
+        self.page.focus(f"#axis-{axis}")
+        for key in keys:
+            self.page.keyboard.press(key)
+        self.settle()
+
+    def point_of(self, part: str, x: float, y: float) -> tuple[float, float]:
+        """Find the point in the window at a place in a figure."""
+        self.page.evaluate(f"window.view = Bokeh.index.find_one({part}.figure); null")
+        self.page.evaluate("view.el.scrollIntoView({block: 'center'})")
+        left, top = self.page.evaluate(
+            "(([x, y]) => { const box = view.canvas_view.el.getBoundingClientRect();"
+            "return [box.left + view.frame.x_scale.compute(x), box.top + view.frame.y_scale.compute(y)] })"
+            f"([{x}, {y}])"
+        )
+        return float(left), float(top)
+
+
+@pytest.fixture
+def open_page(browser: Browser) -> Iterator[Callable[..., Opened]]:
+    """Open pages; each must need nothing else, and complain of nothing."""
+    opened: list[Opened] = []
+
+    def open_one(file: Path, **options: Any) -> Opened:
+        opened.append(Opened(browser, file, **options))
+        return opened[-1]
+
+    yield open_one
+    for one in opened:
+        assert [url[:60] for url in one.requests if not url.startswith(("file:", "data:", "blob:"))] == []
+        assert len([url for url in one.requests if url.startswith("file:")]) == 1
+        assert one.complaints == []
+        one.page.close()
+
+
+def number(text: str) -> float:
+    """Read a number as the page writes it."""
+    if text in {"∞", "no value"}:
+        return np.inf if text == "∞" else np.nan
+    plain = text.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--"))
+    return float(
+        re.sub(r"^(10)(?=-?\d)", "1×10", plain).replace("×10", "e") if "10" in plain and text != plain else plain
+    )
+
+
+def same(text: str, value: float) -> bool:
+    """Tell whether a text is a value to six digits."""
+    return np.array_equal(number(text), float(f"{value:.6g}"), equal_nan=True)
+
+
+def scenes_shown(page: Opened, scene: xarray.Dataset) -> None:
+    """Compare all that the table has of a scene with the dataset."""
+    page.settle()
+    rows = page.page.evaluate("[...document.querySelectorAll('td[id]')].map(cell => [cell.id, cell.textContent])")
+    shown = {name.removeprefix("value-"): text for name, text in rows}
+    expected = {str(name): float(scene[name]) for name in (*scene.data_vars, *scene.coords) if name != "status"}
+    assert expected.keys() <= shown.keys()
+    assert {name: shown[name] for name, value in expected.items() if not same(shown[name], value)} == {}
+
+
+AXES = ("k", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
+
+
+def test_the_keys_move_the_sliders_and_the_values_are_those_of_the_dataset(
+    maps: Path, open_page: Callable[..., Opened]
+) -> None:
+    page = open_page(maps)
+    with xarray.open_dataset(maps.with_suffix(".nc")) as dataset:
+        at = {name: (dataset.sizes[name] - 1) // 2 for name in AXES}
+        scenes_shown(page, dataset.isel(at))
+        moves = [
+            ("a_max_over_R", ["End"], 2),
+            ("A", ["ArrowRight"], 2),
+            ("c0_over_R", ["ArrowRight", "ArrowRight"], 1),
+            ("lambda_over_R", ["Home", "ArrowRight"], 1),
+            ("k", ["End"], 3),
+        ]
+        for axis, keys, place in moves:
+            page.press(axis, *keys)
+            at[axis] = place
+            scenes_shown(page, dataset.isel(at))
+            assert page.shown("status") == "nothing to report"
+        assert page.page.inner_text("#axis-a_max_over_R-value") == "∞"
+        assert page.page.get_attribute("#axis-a_max_over_R", "aria-valuetext") == "∞"
+
+
+def test_a_pointer_reads_cells_and_a_tap_holds_one(maps: Path, open_page: Callable[..., Opened]) -> None:
+    page = open_page(maps)
+    with xarray.open_dataset(maps.with_suffix(".nc")) as dataset:
+        middle = dataset.isel(c0_over_R=0, A=1, a_max_over_R=1)
+        for number_of_map in (0, 1):
+            for k, wave in [(0, 0), (3, 6), (1, 5)]:
+                cell = middle.isel(k=k, lambda_over_R=wave)
+                place = np.log10(float(cell["lambda_over_R"])), float(cell["k"])
+                page.page.mouse.move(*page.point_of(f"explorer.parts.maps[{number_of_map}]", *place))
+                page.settle()
+                scenes_shown(page, cell)
+        assert "follows" in page.page.inner_text("#held")
+        page.page.mouse.down()
+        page.page.mouse.up()
+        page.page.wait_for_function("document.getElementById('held').textContent.startsWith('held')")
+        held = page.shown("pull_off_force")
+        page.page.mouse.move(*page.point_of("explorer.parts.maps[0]", np.log10(0.11), 0.0))
+        assert page.shown("pull_off_force") == held
+        # the status of a cell in words, and what has no value
+        for wave, words in [(2, "contact on loading is not one disc"), (4, "a parameter is outside its range")]:
+            at = np.log10(float(dataset["lambda_over_R"][wave])), 0.0
+            page.page.mouse.click(*page.point_of("explorer.parts.maps[1]", *at))
+            page.page.wait_for_function(f"document.getElementById('value-status').textContent.includes('{words}')")
+        assert page.shown("dissipated_energy") == "no value"
+
+
+def _image(page: Opened, i: int) -> np.ndarray:
+    """Read the pixels of a map."""
+    shape, pixels = page.page.evaluate(
+        f"(() => {{ const image = explorer.parts.maps[{i}].image.data.image[0];"
+        "return [image.shape, Array.from(new Uint8Array(image.buffer), one => String.fromCharCode(one)).join('')] })()"
+    )
+    return np.frombuffer(pixels.encode("latin-1"), dtype="<u4").reshape(shape)
+
+
+def _colours(image: np.ndarray, row: float, column: float) -> list[str]:
+    """List the colours of the middle part of a cell, whose centre is given in parts of the picture."""
+    height, width = image.shape
+    j, i = int(row * height), int(column * width)
+    part = np.unique(image[j - 8 : j + 8, i - 8 : i + 8])
+    return [f"#{pixel & 255:02x}{(pixel >> 8) & 255:02x}{(pixel >> 16) & 255:02x}" for pixel in part.tolist()]
+
+
+def test_a_cell_has_the_colour_of_its_value_and_the_marks_of_its_flags(
+    maps: Path, open_page: Callable[..., Opened]
+) -> None:
+    page = open_page(maps)
+    page.press("A", "End")
+    assert page.page.get_attribute("#flag-0", "type") == "checkbox"
+    assert page.page.locator("#flags li").count() == 2, "the flag that occurs, and no value"
+    with xarray.open_dataset(maps.with_suffix(".nc")) as dataset:
+        values = dataset["dissipated_energy"].isel(c0_over_R=0, A=2, a_max_over_R=1).values
+    # rows of the picture are cells of k, uneven as its values: 0, 0.31, 0.62, 0.9 with edges half-way between
+    edges = np.array([-0.155, 0.155, 0.465, 0.76, 1.04])
+    rows = (np.array([0.0, 0.31, 0.62, 0.9]) - edges[0]) / (edges[-1] - edges[0])
+    for log in (True, False):
+        page.page.set_checked("#log-1", log)
+        page.settle()
+        size = np.log10 if log else np.asarray
+        part = (size(values) - size(np.nanmin(values))) / (size(np.nanmax(values)) - size(np.nanmin(values)))
+        image = _image(page, 1)
+        for k in range(4):
+            for wave in range(7):
+                found = _colours(image, rows[k], (wave + 0.5) / 7)
+                if np.isnan(values[k, wave]):
+                    assert set(found) == {"#d4d4d4", "#9a9a9a"}
+                    continue
+                expected = Viridis256[min(255, int(part[k, wave] * 256))].lower()
+                assert expected in found, (log, k, wave)
+                assert (len(found) == 2) == (wave == 2), (log, k, wave)
+        force = _image(page, 0)
+        assert all(len(_colours(force, row, 2.5 / 7)) == 1 for row in rows), "no doubt about the force"
+    page.page.uncheck("#flag-0")
+    page.settle()
+    assert len(_colours(_image(page, 1), rows[1], 2.5 / 7)) == 1
+
+
+def test_other_axes_and_variables_are_chosen(maps: Path, open_page: Callable[..., Opened]) -> None:
+    page = open_page(maps)
+    assert page.page.title() == "Maps </script><script>window.broken = 1</script> & more"
+    assert page.page.evaluate("window.broken === undefined")
+    page.page.select_option("#along-x", label="amplitude over wavelength of the waviness")
+    page.page.select_option("#along-y", label="wavelength λ/R of the waviness")
+    page.page.select_option("#shown-1", label="number of jumps on loading, the jump-in counted")
+    page.settle()
+    # what was across is up now, and what was up is free; two maps have one range
+    figures = "explorer.parts.maps.map(map => map.figure)"
+    assert (
+        page.page.evaluate(f"{figures}.map(one => [one.below[0].axis_label, one.left[0].axis_label])")
+        == [["A", "λ/R"]] * 2
+    )
+    assert page.page.evaluate(f"{figures}[0].x_range === {figures}[1].x_range")
+    with xarray.open_dataset(maps.with_suffix(".nc")) as dataset:
+        cell = dataset.isel(k=1, c0_over_R=0, lambda_over_R=6, A=2, a_max_over_R=1)
+        place = float(cell["A"]), np.log10(float(cell["lambda_over_R"]))
+        page.page.mouse.move(*page.point_of("explorer.parts.maps[1]", *place))
+        page.settle()
+        scenes_shown(page, cell)
+        assert same(page.page.inner_text("#now-1"), float(cell["loading_jumps"]))
+        # the sections are the row and the column of the cell
+        row = dataset["loading_jumps"].isel(k=1, c0_over_R=0, lambda_over_R=6, a_max_over_R=1)
+        column = dataset["loading_jumps"].isel(k=1, c0_over_R=0, A=2, a_max_over_R=1)
+        page.page.uncheck("#log-1")
+        page.settle()
+        for side, values in (("x", row), ("y", column)):
+            drawn = page.page.evaluate(f"Array.from(explorer.parts.sections[1].{side}.lines.data.ys[0])")
+            assert drawn == values.values.tolist()
+
+
+def test_a_narrow_window_has_one_column_and_a_finger_reads_a_cell(maps: Path, open_page: Callable[..., Opened]) -> None:
+    page = open_page(maps, viewport={"width": 360, "height": 740}, has_touch=True)
+    assert page.page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
+    first, second = (page.page.locator(".plot.map").nth(i).bounding_box() for i in (0, 1))
+    assert first is not None
+    assert second is not None
+    assert first["x"] == second["x"]
+    assert second["y"] > first["y"] + first["height"]
+    assert first["width"] > 300
+    with xarray.open_dataset(maps.with_suffix(".nc")) as dataset:
+        cell = dataset.isel(k=3, c0_over_R=0, lambda_over_R=1, A=1, a_max_over_R=1)
+        place = np.log10(float(cell["lambda_over_R"])), float(cell["k"])
+        page.page.touchscreen.tap(*page.point_of("explorer.parts.maps[0]", *place))
+        page.page.wait_for_function("document.getElementById('held').textContent.startsWith('held')")
+        scenes_shown(page, cell)
+
+
+def test_a_page_can_be_read_without_a_picture(maps: Path, open_page: Callable[..., Opened]) -> None:
+    page = open_page(maps)
+    assert page.page.get_attribute("html", "lang") == "en"
+    unlabelled = "[...document.querySelectorAll('main input, main select')].filter(one => !one.labels.length).length"
+    assert page.page.evaluate(unlabelled) == 0
+    assert page.page.locator(".plot:not([aria-label])").count() == 0
+    assert page.page.locator("details[open]").count() == 0
+    page.page.click("summary >> nth=0")
+    assert "[parameters]" in page.page.inner_text("details >> nth=0")
+
+
+def test_one_axis_is_drawn_as_lines_of_all_solvers(tmp_path: Path, open_page: Callable[..., Opened]) -> None:
+    file = _made(tmp_path, LINES)
+    page = open_page(file)
+    with xarray.open_dataset(file.with_suffix(".nc")) as dataset:
+        page.press("solver", "End")
+        page.page.mouse.move(*page.point_of("explorer.parts.sections[1].x", np.log10(0.47), 0.0))
+        page.settle()
+        scene = dataset.isel(solver=1, lambda_over_R=2)
+        scenes_shown(page, scene.drop_vars("solver"))  # held by the key: the pointer does not move it
+        assert page.shown("solver") == "envelope"
+        page.press("lambda_over_R", "End")
+        scenes_shown(page, dataset.isel(solver=1, lambda_over_R=4).drop_vars("solver"))
+        page.page.uncheck("#log-0")
+        page.settle()
+        drawn = page.page.evaluate("explorer.parts.sections[0].x.lines.data.ys.map(line => Array.from(line))")
+        assert np.allclose(drawn, dataset["pull_off_force"].values, rtol=5e-6, atol=0.0)  # six digits
+        assert page.page.inner_text("#lines").split() == ["exact", "envelope"]
+
+
+def test_points_are_dots_over_a_parameter(tmp_path: Path, open_page: Callable[..., Opened]) -> None:
+    file = _made(tmp_path, POINTS)
+    page = open_page(file)
+    with xarray.open_dataset(file.with_suffix(".nc")) as dataset:
+        page.page.select_option("#along-x", label="wavelength λ/R of the waviness")
+        page.page.uncheck("#log-0")
+        page.settle()
+        dot = dataset.isel(scene=2)
+        place = np.log10(float(dot["lambda_over_R"])), float(dot["pull_off_force"])
+        page.page.mouse.move(*page.point_of("explorer.parts.sections[0].x", *place))
+        scenes_shown(page, dot)
+        page.press("scene", "Home")
+        scenes_shown(page, dataset.isel(scene=0))
+
+
+def test_curves_are_those_of_the_scene_on_the_sliders(tmp_path: Path, open_page: Callable[..., Opened]) -> None:
+    file = _made(tmp_path, CURVES)
+    page = open_page(file)
+    page.press("A", "End")
+    page.press("k", "End")
+    with xarray.open_dataset(file.with_suffix(".nc")) as dataset:
+        scene = dataset.isel(A=2, k=1)
+        for name in ("A", "k"):
+            assert same(page.shown(name), float(scene[name]))
+        for i, (x, y) in enumerate(
+            [("indentation", "load"), ("contact_radius", "indentation"), ("contact_radius", "load")]
+        ):
+            lines = page.page.evaluate(f"explorer.parts.planes[{i}].lines.data")
+            for side, name in (("xs", x), ("ys", y)):
+                drawn = np.concatenate(lines[side])
+                expected = np.concatenate([scene[name].values, scene[f"path_{name}"].values])
+                ends = np.nanmin(expected), np.nanmax(expected)
+                assert np.allclose([drawn.min(), drawn.max()], ends, rtol=5e-6, atol=0.0)
+        jumps = int(scene["path_jump"].sum())
+        looks = page.page.evaluate("explorer.parts.planes[0].lines.data.width")
+        thin = page.page.evaluate("explorer.study.tracks[0].jumpWidth")
+        assert looks.count(thin) == jumps
