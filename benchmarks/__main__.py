@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Iterator
 from datetime import UTC, datetime
 
-from benchmarks import contact, draw, error, functions, scale, scenes, start_up, study
+from benchmarks import contact, draw, engines, error, functions, scale, scenes, start_up, study
 from benchmarks.clock import ROOT, machine
 
 REPORT = ROOT / "docs" / "benchmarks.md"
@@ -82,6 +82,12 @@ depths of the path decide some of the scenes, the integral of the gap the others
 {contact.contact_table(20_000 if quick else 200_000, 200 if quick else 2000)}"""
     if not quick:
         yield f"### A large study\n\nAims: 20 s, 1 GiB.\n\n{study.study_sentence()}"
+        yield f"""### Threads and workers
+
+Runs of the command with `--engine dask` on this machine, against threads. Aim: 5 % at most where a block takes a second
+or more.
+
+{engines.engines_table()}"""
     yield f"""### Studies of any size
 
 The same axes with more and more values, computed and written by `gradhesion.cli.writer.write` in a process of its own,

@@ -59,3 +59,9 @@ class OutputError(GradhesionError):
     """The output cannot be written."""
 
     exit_code = 4
+
+
+class ClusterError(GradhesionError):
+    """A cluster cannot be used: no scheduler answers, or no worker can do the work."""
+
+    exit_code = 2

@@ -18,6 +18,10 @@ from gradhesion.cli.study import Study
 
 BASE: Final = 205e6
 """Bytes of the program itself, its libraries and kernels, as measured."""
+START: Final = 3.0
+"""Seconds until the workers of a cluster on this machine are at work: 4 of processor time on two cores, and waiting."""
+OF_CLUSTER: Final = 0.006
+"""Seconds of this process for a block of a cluster, beside writing it: 2 ms to hand it out, and to read its part."""
 COPIES: Final = 8
 """Times the values of a block, as measured: two blocks are in memory, and one of them at work."""
 
@@ -48,6 +52,10 @@ class Estimate:
     seconds: float | None
     seconds_uncertain: float | None
     """Two standard errors of the probe."""
+    seconds_dask: float | None
+    """With --engine dask on this machine."""
+    seconds_of_block: float | None
+    """Of one core: what a worker of a cluster needs at a time."""
     scenes_probed: int
 
 
@@ -68,12 +76,15 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
     left = [number for number in range(count) if number not in reused] if is_map else []
     scenes_left = study.scenes - sum(size_of(block_at(study.shape, number)) for number in reused)
     probed = probe(study, left)
-    seconds = uncertain = None
+    seconds = uncertain = by_dask = of_one = None
     if probed:
         workers = threads or os.cpu_count() or 1
         writing = probed.compressing * study.scenes
         seconds = max(probed.solving * scenes_left / workers + writing / workers, writing)
         uncertain = probed.uncertainty * scenes_left / workers
+        of_one = probed.solving * scenes_left / len(left)
+        if parts:
+            by_dask = START + seconds + OF_CLUSTER * len(left)
     each = of_block // size_of(block_at(study.shape, 0)) if is_map else 0
     return Estimate(
         output=str(output),
@@ -93,6 +104,8 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
         bytes_of_memory=round(BASE + COPIES * of_block) if is_map else None,
         seconds=seconds,
         seconds_uncertain=uncertain,
+        seconds_dask=by_dask,
+        seconds_of_block=of_one,
         scenes_probed=probed.scenes if probed else 0,
     )
 

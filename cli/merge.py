@@ -19,6 +19,7 @@ from gradhesion.cli.run import finish, history_now
 def merge(file: Path, overwrite: bool, quiet: bool, log_json: bool) -> None:  # noqa: ARG001 (its callback has it)
     """Join the parts that `gradhesion run STUDY.toml --shard I/N -o FILE` has left, into the dataset FILE."""
     from gradhesion.cli.blocks import count_of
+    from gradhesion.cli.engines.kept import Kept
     from gradhesion.cli.folder import folder_of
     from gradhesion.cli.manifest import study_in
     from gradhesion.cli.writer import write
@@ -35,5 +36,5 @@ def merge(file: Path, overwrite: bool, quiet: bool, log_json: bool) -> None:  # 
             "or `gradhesion run`, which computes all that is left"
         )
     with progress(study.scenes, quiet=quiet) as advance:
-        written = write(study, file, history=history_now(), overwrite=overwrite, solve=False, advance=advance)
+        written = write(study, file, history=history_now(), overwrite=overwrite, engine=Kept(), advance=advance)
     finish(file, study.scenes, written, time.monotonic() - start, quiet=quiet)

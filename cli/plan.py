@@ -72,6 +72,12 @@ def _lines(found: "Estimate") -> list[str]:
             f"time      about {duration(found.seconds)}, give or take {duration(found.seconds_uncertain)} "
             f"(by {found.scenes_probed:,} scenes), and a second to start"
         )
+        if found.seconds_dask is not None and found.seconds_of_block is not None:
+            lines.append(
+                f"engines   with --engine dask about {duration(found.seconds_dask)} on this machine; on N workers "
+                f"elsewhere {duration(found.seconds_of_block * (found.blocks - found.blocks_reused))} / N, "
+                f"{duration(found.seconds_of_block)} a block"
+            )
     else:
         lines.append("time      only what writing takes: every block is there")
     return lines

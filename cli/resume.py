@@ -1,18 +1,13 @@
 """The blocks of a study, taken from the parts of an earlier run where they are there, and solved where they are not."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import partial
-from pathlib import Path
 from typing import Final
 
 import numpy as np
 
-from gradhesion.cli.blocks import Block, blocks, count_of, one_ahead, size_of, solve_block
-from gradhesion.cli.disk import writing
-from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.blocks import Block, count_of, size_of, solve_block
 from gradhesion.cli.folder import Folder
-from gradhesion.cli.parts import PartError, Values, key_of, read_part, types_of, write_part
+from gradhesion.cli.parts import PartError, Values, read_part, types_of
 from gradhesion.cli.study import Study
 from gradhesion.core import FAILED, FLAGS
 
@@ -41,47 +36,6 @@ class Solved:
 def has_parts(study: Study) -> bool:
     """Tell whether the blocks of a study are kept in parts: one block is done or not."""
     return study.kind == "map" and count_of(study.shape) > 1
-
-
-def results(
-    study: Study,
-    path: Path,
-    folder: Folder,
-    threads: int | None = None,
-    *,
-    shard: tuple[int, int] = (1, 1),
-    solve: bool = True,
-) -> Iterator[tuple[int, Solved]]:
-    """
-    Give the blocks of a map in order, or of one shard, each with its number; those solved are kept as parts.
-
-    Raises
-    ------
-    DatasetError
-        A part is missing or of no use, and is not to be solved.
-    """
-    kept = has_parts(study)
-
-    def task(number: int, block: Block) -> tuple[int, Solved]:
-        key = key_of(study, block) if kept else ""
-        values = found(study, folder, number, block, key) if kept else None
-        if isinstance(values, dict):
-            return number, Solved(block, values, key, reused=True)
-        if not solve:
-            raise DatasetError(
-                f"{path}: block {number + 1:,} of {count_of(study.shape):,} is {values}; compute its shard again, or "
-                "all that is left with `gradhesion run`"
-            )
-        values, error = attempted(study, block, threads)
-        return number, Solved(block, values, key, error=error)
-
-    index, count = shard
-    chosen = (item for item in enumerate(blocks(study.shape)) if item[0] % count == index - 1)
-    for number, solved in one_ahead(partial(task, *item) for item in chosen):
-        if kept and not (solved.reused or solved.error):
-            with writing(path):
-                write_part(folder.part(number), solved.key, solved.values, study)
-        yield number, solved
 
 
 def found(study: Study, folder: Folder, number: int, block: Block, key: str) -> Values | str:

@@ -16,6 +16,7 @@ from gradhesion.cli.plan import show_plan
 from gradhesion.cli.progress import progress, rate
 
 if TYPE_CHECKING:
+    from gradhesion.cli.engines import Engine
     from gradhesion.cli.study import Study
     from gradhesion.cli.writer import Written
 
@@ -40,6 +41,10 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
 @click.option("--fail-fast", is_flag=True, help="Stop at the first block with a failed scene, and write nothing.")
 @click.option("--shard", metavar="I/N", callback=_shard, help="Compute every N-th block only, as parts for `merge`.")
 @click.option("--dry-run", is_flag=True, help="Tell what would be done, as `gradhesion plan`, and write nothing.")
+@click.option(
+    "--engine", type=click.Choice(["threads", "dask"]), default="threads", show_default=True, help="Who solves."
+)
+@click.option("--scheduler", metavar="ADDRESS", help="Of a Dask cluster, or its scheduler file [one on this machine].")
 @click.option("--threads", type=click.IntRange(min=1), help="Threads to use [all cores]; values do not depend on it.")
 @click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
 @click.option(
@@ -54,6 +59,8 @@ def run(
     fail_fast: bool,
     shard: tuple[int, int] | None,
     dry_run: bool,
+    engine: str,
+    scheduler: str | None,
     threads: int | None,
     quiet: bool,
     log_json: bool,  # noqa: ARG001 (its callback has it)
@@ -63,6 +70,8 @@ def run(
     from gradhesion.cli.writer import write
     from gradhesion.core import compiled_before
 
+    if scheduler is not None and (engine != "dask" or threads is not None):
+        raise click.UsageError("--scheduler goes with --engine dask, and without --threads: its workers have their own")
     asked = load_study(study, overrides)
     path = output or Path("outputs") / f"{asked.name}.nc"
     if dry_run:
@@ -70,10 +79,11 @@ def run(
         return
     if not quiet and not compiled_before(curves=asked.kind == "curve"):
         messages.say("compile", "compiling the kernels, once per version")
+    solver = _engine(asked, engine, scheduler, threads, quiet=quiet)
     if shard is not None:
         if fresh or fail_fast:
             raise click.UsageError("--shard goes with neither --fresh nor --fail-fast; run without these two")
-        _run_shard(asked, path, shard, overwrite=overwrite, threads=threads, quiet=quiet)
+        _run_shard(asked, path, shard, solver, overwrite=overwrite, quiet=quiet)
         return
     start = time.monotonic()
     with progress(asked.scenes, quiet=quiet) as advance:
@@ -85,6 +95,7 @@ def run(
             fresh=fresh,
             fail_fast=fail_fast,
             threads=threads,
+            engine=solver,
             advance=advance,
         )
     finish(path, asked.scenes, written, time.monotonic() - start, quiet=quiet)
@@ -120,17 +131,37 @@ def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet
         )
 
 
+def _engine(study: "Study", name: str, scheduler: str | None, threads: int | None, *, quiet: bool) -> "Engine":
+    """Choose who solves the blocks of a study."""
+    from gradhesion.cli.engines.threads import Threads
+    from gradhesion.cli.resume import has_parts
+
+    if name == "dask":
+        from gradhesion.cli.engines.connection import require_dask
+
+        require_dask()
+        if has_parts(study):
+            from gradhesion.cli.engines.cluster import Cluster
+
+            return Cluster(scheduler, threads, quiet=quiet)
+        if not quiet:
+            messages.say("engine", "the study is of one block or of curves, and is solved in this process")
+    return Threads(threads)
+
+
 def _run_shard(
-    study: "Study", path: Path, shard: tuple[int, int], *, overwrite: bool, threads: int | None, quiet: bool
+    study: "Study", path: Path, shard: tuple[int, int], engine: "Engine", *, overwrite: bool, quiet: bool
 ) -> None:
     """Compute the parts of a shard."""
+    from gradhesion.cli.kernels import compile_kernels
     from gradhesion.cli.resume import has_parts
     from gradhesion.cli.writer import write_shard
 
     if not has_parts(study):
         raise click.UsageError("--shard: the study has one block only, and needs no shards; run it without --shard")
+    compile_kernels(study)  # the jobs of an array begin at one moment
     with progress(study.scenes // shard[1], quiet=quiet) as advance:
-        written = write_shard(study, path, shard, overwrite=overwrite, threads=threads, advance=advance)
+        written = write_shard(study, path, shard, overwrite=overwrite, engine=engine, advance=advance)
     if not quiet:
         sentence = (
             f"{path}.parts: shard {shard[0]} of {shard[1]}: reused {written.reused:,} blocks, computed "

@@ -2,8 +2,8 @@
 
 import os
 import shutil
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, suppress
+from collections.abc import Callable, Generator, Iterable
+from contextlib import ExitStack, closing, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, NoReturn
@@ -11,15 +11,17 @@ from typing import Any, Final, NoReturn
 import netCDF4
 
 from gradhesion.cli import dataset
-from gradhesion.cli.blocks import blocks, chunk_shape, count_of, size_of
+from gradhesion.cli.blocks import block_at, blocks, chunk_shape, count_of, size_of
 from gradhesion.cli.curves import within
 from gradhesion.cli.disk import bytes_in_words, refuse_existing, to_disk, writing
+from gradhesion.cli.engines import Engine, Work
+from gradhesion.cli.engines.threads import Threads
 from gradhesion.cli.errors import OutputError, ScenesFailedError
 from gradhesion.cli.folder import Folder, claimed, folder_of, identity, read_json, write_json
 from gradhesion.cli.manifest import adopt, manifest_of
 from gradhesion.cli.names import RAGGED
 from gradhesion.cli.parts import types_of
-from gradhesion.cli.resume import Solved, has_parts, place_of, results
+from gradhesion.cli.resume import Solved, has_parts, place_of
 from gradhesion.cli.state import Keeper
 from gradhesion.cli.study import Study
 
@@ -58,7 +60,7 @@ def write(
     fresh: bool = False,
     fail_fast: bool = False,
     threads: int | None = None,
-    solve: bool = True,
+    engine: Engine | None = None,
     advance: Callable[..., None] = lambda *_, **__: None,
 ) -> Written:
     """
@@ -73,13 +75,13 @@ def write(
         Drop the parts of an earlier run.
     fail_fast
         End at the first block with a failed scene.
-    solve
-        Whether to solve blocks that are no part yet; if not, each must be one.
+    engine
+        Who solves the blocks of a map, `threads` of this process if not given; curves are drawn here.
 
     Raises
     ------
-    DatasetError
-        A block is no part, and is not to be solved.
+    GradhesionError
+        The engine gives up: a worker cannot do its work, or a block is no part and is not to be solved.
     OutputError
         It cannot be written: it exists, another run is at work on it, parts of another study are kept, the disk.
     ScenesFailedError
@@ -100,7 +102,8 @@ def write(
                 folder.clear()
             adopt(study, folder, path)
         _check_space(study, path, folder)
-        written = _merge(study, path, folder, history, threads, advance, fail_fast=fail_fast, solve=solve)
+        solved = stack.enter_context(closing(_solved(study, path, folder, threads, engine or Threads(threads))))
+        written = _merge(study, path, folder, history, solved, advance, fail_fast=fail_fast)
         with writing(path):
             to_disk(folder.merged)
             if not written.raised:
@@ -119,36 +122,35 @@ def _merge(
     path: Path,
     folder: Folder,
     history: str,
-    threads: int | None,
+    results: Iterable[tuple[int, Solved]],
     advance: Callable[..., None],
     *,
     fail_fast: bool,
-    solve: bool,
 ) -> Written:
     """Write the dataset in the making, block by block, as they are solved or found."""
     count = count_of(study.shape) if study.kind == "map" else study.scenes
     keeper = Keeper(folder.path / "state.json", scenes=study.scenes, blocks=count)
-    raised = []
+    raised: dict[int, str] = {}
     with writing(path):
         file = netCDF4.Dataset(folder.merged, "w", format="NETCDF4")
     try:
         with writing(path):
             _define(file, study, history)
         begun = 0  # items of ragged curves
-        for number, solved in _solved(study, path, folder, threads, solve=solve):
+        for number, solved in results:
             with writing(path):
                 for name, part in solved.values.items():
                     file[name][within(name, solved.block, part, begun) or ...] = part
             begun += sum(int(solved.values[one].item()) for one in RAGGED.values() if one in solved.values)
             if solved.error:
-                raised.append(_sentence(study, number, solved))
+                raised[number] = _sentence(study, number, solved)
             scenes, failed = size_of(solved.block), solved.failed
             keeper.add(scenes=scenes, failed=failed, reused=solved.reused, raised=bool(solved.error))
             if failed and fail_fast:
-                _give_up(path, raised, f"block {number + 1:,} of {count:,} has {failed:,} failed scenes")
+                _give_up(path, raised.get(number), f"block {number + 1:,} of {count:,} has {failed:,} failed scenes")
             advance(scenes, reused=solved.reused)
         if len(raised) == count:
-            _give_up(path, raised, "")
+            _give_up(path, raised[number], "")
     except BaseException:
         keeper.write()
         with suppress(OSError, RuntimeError):  # what went wrong first counts
@@ -161,7 +163,7 @@ def _merge(
         failed=state.scenes_failed,
         reused=state.blocks_reused,
         computed=state.blocks_done - state.blocks_reused,
-        raised=tuple(raised),
+        raised=tuple(raised[number] for number in sorted(raised)),
     )
 
 
@@ -171,7 +173,7 @@ def write_shard(
     shard: tuple[int, int],
     *,
     overwrite: bool = False,
-    threads: int | None = None,
+    engine: Engine,
     advance: Callable[..., None] = lambda *_, **__: None,
 ) -> Written:
     """
@@ -185,23 +187,26 @@ def write_shard(
     refuse_existing(path, Path(os.path.realpath(path)), overwrite=overwrite)
     index, count = shard
     name = f"{index}-of-{count}"
-    mine = [size_of(block) for number, block in enumerate(blocks(study.shape)) if number % count == index - 1]
-    raised = []
+    mine = range(index - 1, count_of(study.shape), count)
+    scenes = sum(size_of(block_at(study.shape, number)) for number in mine)
+    raised: dict[int, str] = {}
     with ExitStack() as stack:
         with writing(path):
             folder = stack.enter_context(claimed(path, name))
             adopt(study, folder, path)
-        keeper = Keeper(folder.path / f"state-{name}.json", scenes=sum(mine), blocks=len(mine))
-        for number, solved in results(study, path, folder, threads, shard=shard):
+        keeper = Keeper(folder.path / f"state-{name}.json", scenes=scenes, blocks=len(mine))
+        results = stack.enter_context(closing(engine.results(Work(study, path, folder, mine))))
+        for number, solved in results:
             if solved.error:
-                raised.append(_sentence(study, number, solved))
+                raised[number] = _sentence(study, number, solved)
             scenes = size_of(solved.block)
             keeper.add(scenes=scenes, failed=solved.failed, reused=solved.reused, raised=bool(solved.error))
             advance(scenes, reused=solved.reused)
         keeper.write()
     state = keeper.state
     computed = state.blocks_done - state.blocks_reused
-    return Written(failed=state.scenes_failed, reused=state.blocks_reused, computed=computed, raised=tuple(raised))
+    told = tuple(raised[number] for number in sorted(raised))
+    return Written(failed=state.scenes_failed, reused=state.blocks_reused, computed=computed, raised=told)
 
 
 def _sentence(study: Study, number: int, solved: Solved) -> str:
@@ -209,17 +214,17 @@ def _sentence(study: Study, number: int, solved: Solved) -> str:
     return f"block {number + 1:,} of {count_of(study.shape):,} ({place_of(study, solved.block)}) raised {solved.error}"
 
 
-def _give_up(path: Path, raised: list[str], otherwise: str) -> NoReturn:
+def _give_up(path: Path, raised: str | None, otherwise: str) -> NoReturn:
     """End a run in which a block has failed, or every one."""
-    raise ScenesFailedError(f"{path}: {raised[-1] if raised else otherwise}; nothing is written")
+    raise ScenesFailedError(f"{path}: {raised or otherwise}; nothing is written")
 
 
 def _solved(
-    study: Study, path: Path, folder: Folder, threads: int | None, *, solve: bool
-) -> Iterator[tuple[int, Solved]]:
+    study: Study, path: Path, folder: Folder, threads: int | None, engine: Engine
+) -> Generator[tuple[int, Solved], None, None]:
     """Give the blocks of a study with their values; of curves each scene is one."""
     if study.kind == "map":
-        yield from results(study, path, folder, threads, solve=solve)
+        yield from engine.results(Work(study, path, folder, range(count_of(study.shape))))
     else:
         yield from ((i, Solved(*drawing)) for i, drawing in enumerate(dataset.parts(study, threads)))
 

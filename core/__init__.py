@@ -1,6 +1,6 @@
 """Adhesive contact of a wavy axisymmetric punch on a power-law graded half-space: arrays in, arrays out."""
 
-from gradhesion.core._jit import SOURCES
+from gradhesion.core._jit import CACHE_FOLDER, SOURCES
 from gradhesion.core.curves import CURVES, draw_curves
 from gradhesion.core.loading_control import CONTROLS, Loading
 from gradhesion.core.profile import Harmonic, Profile
@@ -11,6 +11,7 @@ from gradhesion.core.status import DOUBTFUL, FAILED, FLAGS, doubts_about
 from gradhesion.core.sweep import PARAMETERS, compiled_before, solve
 
 __all__ = [
+    "CACHE_FOLDER",
     "CONTROLS",
     "CURVES",
     "DOUBTFUL",

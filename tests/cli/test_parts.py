@@ -241,7 +241,7 @@ def test_one_block_needs_no_part(
     gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("gradhesion.cli.blocks.CHUNK", 100)
-    monkeypatch.setattr("gradhesion.cli.resume.write_part", lambda *_: pytest.fail("there is none"))
+    monkeypatch.setattr("gradhesion.cli.engines.threads.write_part", lambda *_: pytest.fail("there is none"))
     assert gradhesion("run", study_file, "-o", output).exit_code == 0
 
 
@@ -282,7 +282,7 @@ def test_a_disk_that_fills_up_keeps_what_is_done(
         write_part(*arguments)
 
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.resume.write_part", until_full)
+        patch.setattr("gradhesion.cli.engines.threads.write_part", until_full)
         result = gradhesion("run", study_file, "-o", output)
     assert result.exit_code == 4
     assert "No space left on device" in result.stderr

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -46,6 +47,8 @@ def test_nothing_is_written(gradhesion: Call, study_file: Path, tmp_path: Path) 
     assert plan["bytes_of_parts"] == 24 * (8 + 8 + 4 + 1)
     assert plan["seconds"] > 0
     assert plan["bytes_free"] > 0
+    assert plan["seconds_dask"] > plan["seconds"]
+    assert 0 < 6 * plan["seconds_of_block"] < 2 * plan["seconds"] * (os.cpu_count() or 1)
     assert not plan["output_exists"]
 
 
@@ -82,6 +85,9 @@ def test_dry_run_is_the_plan(gradhesion: Call, study_file: Path, tmp_path: Path)
     assert result.exit_code == 0
     assert "blocks    6; 0 reused; 6 not computed yet\n" in result.stdout
     assert "time      about " in result.stdout
+    assert re.search(
+        r"engines   with --engine dask about .* on N workers elsewhere .* / N, .* a block\n", result.stdout
+    )
     assert os.listdir(tmp_path) == ["study.toml"]
 
 

@@ -1,0 +1,87 @@
+"""The scripts of docs/cluster.md: an array of jobs and a Dask cluster give the same bytes as threads on one machine."""
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import pytest
+from click.testing import Result
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "cluster.md").read_text(encoding="utf-8")
+
+STUDY = """\
+outputs = ["pull_off_force"]
+[parameters]
+k = [0.0, 0.3]
+nu = 0.3
+modulus = 500.0
+c0_over_R = 0.01
+lambda_over_R = { start = 0.1, stop = 1.0, num = 1000, spacing = "log" }
+A = { start = 0.0, stop = 0.02, num = 300 }
+a_max_over_R = inf
+"""
+
+JOBQUEUE = """
+from distributed import LocalCluster
+
+class SLURMCluster(LocalCluster):
+    def __init__(self, *, queue, cores, processes, memory, walltime, worker_extra_args, job_script_prologue):
+        assert processes == 1 and "--lifetime" in worker_extra_args
+        super().__init__(n_workers=0, threads_per_worker=1, dashboard_address="127.0.0.1:0", silence_logs=60)
+
+    def adapt(self, *, minimum_jobs, maximum_jobs):
+        self.scale(2)
+"""
+
+
+def values_of(path: Path) -> dict[str, bytes]:
+    """Read all bytes of all variables."""
+    with netCDF4.Dataset(path) as file:
+        file.set_auto_mask(False)
+        return {name: np.asarray(variable[...]).tobytes() for name, variable in file.variables.items()}
+
+
+@pytest.fixture
+def machine(tmp_path: Path) -> dict[str, str]:
+    """An environment with the command, and with what stands for SLURM."""
+    command = tmp_path / "bin" / "gradhesion"
+    command.parent.mkdir()
+    command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m gradhesion.cli "$@"\n')
+    command.chmod(0o755)
+    (tmp_path / "stub").mkdir()
+    (tmp_path / "stub" / "dask_jobqueue.py").write_text(JOBQUEUE)
+    (tmp_path / "study.toml").write_text(STUDY)
+    path = os.pathsep.join([str(tmp_path / "stub"), *filter(None, [os.environ.get("PYTHONPATH")])])
+    return os.environ | {"PATH": f"{command.parent}:{os.environ['PATH']}", "PYTHONPATH": path}
+
+
+def test_both_ways_give_the_bytes_of_one_machine(
+    machine: dict[str, str], gradhesion: Callable[..., Result], tmp_path: Path
+) -> None:
+    array, merge = re.findall(r"```bash\n(.*?)```", PAGE, flags=re.DOTALL)
+    (script,) = re.findall(r"```python\n(.*?)```", PAGE, flags=re.DOTALL)
+    first, last = map(int, re.findall(r"--array=(\d+)-(\d+)\n", array)[0])
+    assert (first, last) == (1, 8), "SLURM counts as the command does"
+
+    whole = tmp_path / "whole.nc"
+    assert gradhesion("run", tmp_path / "study.toml", "-o", whole, "--quiet").exit_code == 0
+    for number in ("2", "1"):
+        job = {"SLURM_ARRAY_TASK_ID": number, "SLURM_ARRAY_TASK_COUNT": "2", "SLURM_CPUS_PER_TASK": "1"}
+        subprocess.run(["bash", "-ec", array], cwd=tmp_path, env=machine | job, check=True, timeout=120)
+    assert len(list(tmp_path.glob("big.nc.parts/*.part"))) == 4
+    merged = gradhesion(*merge.split()[1:-1], tmp_path / "big.nc")
+    assert merged.exit_code == 0, merged.stderr
+    assert values_of(tmp_path / "big.nc") == values_of(whole)
+
+    (tmp_path / "sweep.py").write_text(script)
+    command = [sys.executable, "sweep.py", "study.toml", "-o", "dask.nc"]
+    done = subprocess.run(command, cwd=tmp_path, env=machine, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr.startswith("dask.nc: 600,000 scenes in ")
+    assert values_of(tmp_path / "dask.nc") == values_of(whole)
