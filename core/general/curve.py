@@ -23,7 +23,7 @@ from gradhesion.core.struve.power import amplitude_power
 Curve: TypeAlias = tuple[float, float, float, float, float]
 """B, m, g, alpha, beta."""
 Basis: TypeAlias = tuple[Any, Any, Any]
-"""The table of the exponent, the bins of T0 and T1, and the rows (n, cos, sin)."""
+"""The table of the exponent, the flat array of series_table.py, and the rows (n, cos, sin)."""
 
 
 @kernel(contract=True)

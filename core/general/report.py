@@ -273,7 +273,7 @@ def report_general(
     )
 
     def work(exponent: float, index: NDArray[np.int64]) -> None:
-        table, cosines = tables_of(exponent)
+        table, cosines = tables_of(exponent, series)
         front = front_of(exponent, profile.exponent)
         arrays = (scenes.stretch, scenes.wavelength, amplitude, scenes.compliance, scenes.rim, radius, energy)
         report_scenes(table, cosines, series, profile.exponent, front, index, *arrays, wanted, out, status)

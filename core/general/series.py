@@ -12,14 +12,28 @@ lost at 10^6 waves. `whole` is 0, or at least 8 (z > 40); it may be any real num
 wave a smooth function of its number (waves.py).
 """
 
-from typing import Any
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
 
 from gradhesion.core._jit import kernel
+from gradhesion.core.general.series_table import (
+    COSINES,
+    PLACES,
+    TERMS,
+    build_far,
+    fit_powers,
+    join_table,
+    near_bins,
+    tabulated_sums,
+)
 from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
 from gradhesion.core.struve.intrinsics import fma, make_horner
 from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS
 from gradhesion.core.struve.power import amplitude_power
 
+_COSINE_BIN: Final = 2 * BIN_TERMS
 horner2 = make_horner(2, BIN_TERMS)
 horner4 = make_horner(4, BIN_TERMS)
 horner8 = make_horner(8, TAIL_TERMS)
@@ -39,7 +53,7 @@ def integrals(
         i = int(2.0 * z)
         t = fma(4.0 * TWO_PI, x, -(2.0 * i + 1.0)) + 4.0 * (TWO_PI_LOW * x + TWO_PI * x_low)
         s0_over_z, s1_over_z, s0_slope, _ = horner4(table.bins[i], t)
-        t0, t1 = horner2(cosines[i], t)
+        t0, t1 = horner2(cosines[_COSINE_BIN * i : _COSINE_BIN * (i + 1)], t)
         return z, z * s0_over_z, z * s1_over_z, s0_slope, t0, t1
     inverse = 1.0 / z
     w = SWITCH * inverse
@@ -58,19 +72,51 @@ def integrals(
     return z, s0, s1, h0 * inverse * inverse - wave1, t0, t1
 
 
-@kernel(contract=True)
-def sums(table: Any, cosines: Any, series: Any, x: float, whole: float = 0.0) -> tuple[float, float, float, float]:
-    """Return w0, w1, v and v1 at whole + x >= 0; `series` has a row (n, cos, sin) for each harmonic."""
+@kernel(contract=True, inline=True)
+def summed(
+    table: Any, waves: Any, series: Any, x: float, x_low: float, whole: float
+) -> tuple[float, float, float, float]:
+    """Return what `sums` does, term by term, at whole + x + x_low."""
     k1 = 1.0 + table.k
     w0, w1, v, v1 = 0.0, 0.0, 0.0, 0.0
     for i in range(series.shape[0]):
         n = series[i, 0]
         even, odd = n * series[i, 1], n * series[i, 2]
         product = n * x
-        y, s0, s1, d0, t0, t1 = integrals(table, cosines, product, fma(n, x, -product), n * whole)
+        y, s0, s1, d0, t0, t1 = integrals(table, waves, product, fma(n, x, -product) + n * x_low, n * whole)
         fall = -y * t1 / k1  # T0'
         w0 += even * s0 + odd * t0
         w1 += even * (s0 - s1) + odd * (t0 - t1)
         v += even * (s0 + y * d0) + odd * (t0 + y * fall)
         v1 += n * (even * (2.0 * d0 + y * (s1 - s0)) + odd * (2.0 * fall + y * (t1 - t0)))
     return w0, w1, v, v1
+
+
+@kernel(contract=True)
+def sums(table: Any, waves: Any, series: Any, x: float, whole: float = 0.0) -> tuple[float, float, float, float]:
+    """Return w0, w1, v and v1 at whole + x >= 0; `series` has a row (n, cos, sin) for each harmonic."""
+    if waves.size > COSINES and series.shape[0] > 0 and waves[COSINES] * (whole + x) >= 1.0:
+        return tabulated_sums(table, waves, x, whole)
+    return summed(table, waves, series, x, 0.0, whole)
+
+
+@kernel()
+def _fill_near(table: Any, waves: Any, series: Any, count: float, near: Any) -> None:
+    """Fill the bins up to z = 40 and a little more, `count` a wavelength."""
+    values = np.empty((TERMS, 4))
+    for b in range(near.shape[0]):
+        for place in range(TERMS):
+            part = 0.5 * (1.0 + PLACES[place])
+            x = (b + part) / count
+            x_low = (fma(-x, count, float(b)) + part) / count
+            w0, w1, v, v1 = summed(table, waves, series, x, x_low, 0.0)
+            values[place, 0], values[place, 1], values[place, 2], values[place, 3] = w0, w1, v, v1
+        fit_powers(values, near[b])
+
+
+def with_table(table: Any, bins: NDArray[np.float64], rows: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the bins of T0 and T1, flat, with the table of a series that has_table (series_table.py)."""
+    far, slow = build_far(table, rows)
+    near = np.empty((near_bins(far.shape[0]), TERMS, 4))
+    _fill_near(table, bins.ravel(), rows, float(far.shape[0]), near)
+    return join_table(bins, near, far, slow)

@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import beta
 
 from gradhesion.core.general.scene import solve_scenes
+from gradhesion.core.general.series import with_table
+from gradhesion.core.general.series_table import has_table
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.material import stiffness
 from gradhesion.core.profile import Profile
@@ -24,9 +26,22 @@ _TASK: Final = 16
 
 
 @lru_cache(maxsize=128)
-def tables_of(k: float) -> tuple[Any, NDArray[np.float64]]:
-    """Return the tables of an exponent."""
+def _tables(k: float) -> tuple[Any, NDArray[np.float64]]:
     return build_table(k), build_cosine_bins(k)
+
+
+@lru_cache(maxsize=16)
+def _waves(k: float, rows: bytes) -> NDArray[np.float64]:
+    table, bins = _tables(k)
+    return with_table(table, bins, np.frombuffer(rows).reshape(-1, 3).copy())
+
+
+def tables_of(k: float, rows: NDArray[np.float64] | None = None) -> tuple[Any, NDArray[np.float64]]:
+    """Return the tables of an exponent, the second with that of a series if there are many harmonics."""
+    table, bins = _tables(k)
+    if rows is None or not has_table(rows):
+        return table, bins.ravel()
+    return table, _waves(k, rows.tobytes())
 
 
 def rows_of(profile: Profile) -> NDArray[np.float64]:
@@ -134,7 +149,7 @@ def solve_general(
     amplitude = scenes.amplitude if series.size else 0.0 * scenes.amplitude
 
     def work(exponent: float, index: NDArray[np.int64]) -> None:
-        table, cosines = tables_of(exponent)
+        table, cosines = tables_of(exponent, series)
         front = front_of(exponent, profile.exponent)
         arrays = (scenes.stretch, scenes.wavelength, amplitude, scenes.compliance, scenes.rim)
         solve_scenes(table, cosines, series, profile.exponent, front, index, *arrays, slots, out, status)

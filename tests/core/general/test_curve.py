@@ -9,10 +9,8 @@ import pytest
 from gradhesion.core import Harmonic, Profile
 from gradhesion.core.general.curve import coordinate, slope, state
 from gradhesion.core.general.scene import curve_of
-from gradhesion.core.general.sweep import front_of, rows_of
+from gradhesion.core.general.sweep import front_of, rows_of, tables_of
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.cosine_bins import build_cosine_bins
-from gradhesion.core.struve.table import build_table
 
 EPS = float(np.finfo(float).eps)
 SQUARE = tuple(Harmonic(n=n, cos=0.0, sin=1.0 / n) for n in (1, 3, 5, 7))
@@ -43,7 +41,7 @@ def _integral(k: float, m: float, harmonics: tuple[Harmonic, ...], a: float, j: 
 @pytest.mark.parametrize("k", [0.0, 0.3, 0.9, 1.0])
 @pytest.mark.parametrize("m", [1.0, 1.5, 2.0, 3.0, 4.0, 6.5])
 def test_against_quadrature(m: float, k: float, harmonics: tuple[Harmonic, ...]) -> None:
-    basis = (build_table(k), build_cosine_bins(k), rows_of(Profile(exponent=m, harmonics=harmonics)))
+    basis = (*tables_of(k), rows_of(Profile(exponent=m, harmonics=harmonics)))
     curve, length, unit = curve_of(k, m, front_of(k, m), STRETCH, WAVELENGTH, AMPLITUDE, 0.0)
     for x in (0.11, 0.93):
         a = x * WAVELENGTH
@@ -64,7 +62,7 @@ def test_against_quadrature(m: float, k: float, harmonics: tuple[Harmonic, ...])
 @pytest.mark.parametrize("compliance", [0.0, 0.7, 1e3, math.inf])
 @pytest.mark.parametrize("k", [0.0, 0.4, 1.0])
 def test_slopes_are_derivatives(k: float, compliance: float) -> None:
-    basis = (build_table(k), build_cosine_bins(k), rows_of(Profile(harmonics=MIXED)))
+    basis = (*tables_of(k), rows_of(Profile(harmonics=MIXED)))
     curve, _, _ = curve_of(k, 2.6, front_of(k, 2.6), STRETCH, WAVELENGTH, AMPLITUDE, compliance)
     for x in (0.05, 0.4, 3.3, 11.7):
         h = 1e-3

@@ -10,11 +10,10 @@ from gradhesion.core import Harmonic, Profile
 from gradhesion.core.general import pull_off, window
 from gradhesion.core.general.curve import slope
 from gradhesion.core.general.scene import curve_of
-from gradhesion.core.general.sweep import front_of, rows_of
+from gradhesion.core.general.sweep import front_of, rows_of, tables_of
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.cosine_bins import build_cosine_bins, integral_at_zero
-from gradhesion.core.struve.table import build_table
+from gradhesion.core.struve.cosine_bins import integral_at_zero
 
 EXPONENTS = [0.0, 1e-6, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0 - 1e-9, 1.0]
 Y = np.concatenate([np.geomspace(1e-6, 0.5, 200), np.linspace(0.5, 150.0, 20_000)])
@@ -68,7 +67,7 @@ def test_bounds_of_the_waves_of_the_load(k: float) -> None:
 @pytest.mark.parametrize("k", [0.0, 0.3, 0.9, 1.0])
 def test_all_folds_stand_between_the_bounds(k: float, profile: Profile, compliance: float) -> None:
     """On radii so close that no fold is missed the coordinate falls before the first bound and rises beyond the last."""
-    basis = (build_table(k), build_cosine_bins(k), rows_of(profile))
+    basis = (*tables_of(k), rows_of(profile))
     m = profile.exponent
     within = 0
     for wave in (0.02, 0.3):
