@@ -1,0 +1,109 @@
+"""Datasets that differ along one axis make one: that of the study with all values."""
+
+import re
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+from click.testing import Result
+
+from gradhesion.cli.study import study_from
+from gradhesion.cli.writer import write
+
+Call = Callable[..., Result]
+
+
+@pytest.fixture
+def written(data: dict[str, Any], tmp_path: Path) -> Callable[..., Path]:
+    """Write the dataset of the small study with other keys."""
+
+    def make(name: str, *, parameters: dict[str, Any] | None = None, **changes: Any) -> Path:
+        path = tmp_path / f"{name}.nc"
+        table = data["parameters"] | (parameters or {})
+        write(study_from(data | changes | {"parameters": table}), path, history=f"made {name}")
+        return path
+
+    return make
+
+
+def same_values(one: Path, other: Path) -> None:
+    with xarray.open_dataset(one) as first, xarray.open_dataset(other) as second:
+        assert first.sizes == second.sizes
+        xarray.testing.assert_identical(first.drop_attrs(deep=False), second.drop_attrs(deep=False))
+
+
+@pytest.mark.parametrize("cells", [2, 100])
+def test_values_of_an_axis_are_joined_in_their_order(
+    cells: int, gradhesion: Call, written: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("gradhesion.cli.blocks.CHUNK", cells)
+    whole = written("whole", parameters={"A": [0.0, 0.01, 0.02, 0.023, 0.05]})
+    parts = [written("low", parameters={"A": [0.0, 0.02]}), written("high", parameters={"A": [0.01, 0.02, 0.05]}), written("one", parameters={"A": 0.023})]  # fmt: skip
+    result = gradhesion("merge", *parts, "-o", tmp_path / "joined.nc")
+    assert result.exit_code == 0, result.stderr
+    same_values(tmp_path / "joined.nc", whole)
+    with xarray.open_dataset(tmp_path / "joined.nc") as dataset:
+        assert dataset.attrs["history"].splitlines()[:3] == ["made low", "made high", "made one"]
+        again = study_from(tomllib.loads(dataset.attrs["study"]))
+        np.testing.assert_array_equal(again.parameters["A"], [0.0, 0.01, 0.02, 0.023, 0.05])
+    told = gradhesion("info", tmp_path / "joined.nc")
+    assert told.exit_code == 0
+
+
+def test_fixed_values_become_an_axis_and_solvers_stay(
+    gradhesion: Call, written: Callable[..., Path], tmp_path: Path
+) -> None:
+    method = {"solver": ["exact", "envelope"]}
+    whole = written("whole", parameters={"nu": [-0.2, 0.27]}, method=method)
+    parts = [
+        written("one", parameters={"nu": 0.27}, method=method),
+        written("two", parameters={"nu": -0.2}, method=method),
+    ]
+    assert gradhesion("merge", *parts, "-o", tmp_path / "joined.nc", "--quiet").exit_code == 0
+    same_values(tmp_path / "joined.nc", whole)
+
+
+def test_quantities_keep_their_unit(gradhesion: Call, data: dict[str, Any], tmp_path: Path) -> None:
+    units = {"R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "13 nm", "wavelength": "200 nm"}
+    study = data | {"parameters": {"k": 0.3, "nu": 0.27, "A": [0.0, 0.02]}}
+    files = {"near": ["1 um", "0.1 mm"], "far": ["2 um", "inf"], "all": ["1 um", "2 um", "100 um", "inf"]}
+    for name, rims in files.items():
+        write(study_from(study | {"physical": units | {"a_max": rims}}), tmp_path / f"{name}.nc", history="")
+    result = gradhesion("merge", tmp_path / "near.nc", tmp_path / "far.nc", "-o", tmp_path / "joined.nc")
+    assert result.exit_code == 0, result.stderr
+    same_values(tmp_path / "joined.nc", tmp_path / "all.nc")
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({}, "have the same scenes; join datasets that differ along one axis"),
+        ({"parameters": {"A": 0.5, "k": 0.5}}, "differ in k and A; join datasets that differ along one axis"),
+        ({"parameters": {"A": 0.5}, "outputs": ["pull_off_force"]}, "has another output than .*; join datasets that share it"),
+        ({"parameters": {"A": 0.5}, "method": {"solver": "envelope"}, "outputs": ["pull_off_force", "dissipated_energy"]}, "has another output"),
+        ({"parameters": {"A": 0.5}, "profile": {"exponent": 3.0}}, "has another profile than"),
+        ({"kind": "curve", "outputs": ["path"]}, "only maps on a grid can be joined"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_joined_is_told(
+    change: dict[str, Any], sentence: str, gradhesion: Call, written: Callable[..., Path], tmp_path: Path
+) -> None:
+    one, other, output = written("one"), written("other", **change), tmp_path / "joined.nc"
+    result = gradhesion("merge", one, other, "-o", output)
+    assert result.exit_code == 2
+    assert re.search(sentence, result.stderr)
+    assert not output.exists()
+
+
+def test_the_output_is_named_and_stays(gradhesion: Call, written: Callable[..., Path], tmp_path: Path) -> None:
+    one, other = written("one"), written("other", parameters={"A": 0.5})
+    assert "-o names" in gradhesion("merge", one, other).stderr
+    assert "named twice" in gradhesion("merge", one, one, "-o", tmp_path / "x.nc").stderr
+    before = one.read_bytes()
+    result = gradhesion("merge", one, other, "-o", one)
+    assert result.exit_code == 4
+    assert one.read_bytes() == before
