@@ -1,7 +1,7 @@
 PYTHON ?= python3
 sources := $(shell find cli core twin -name '*.py')
 drawing := $(wildcard figures/*.py figures/*.mplstyle cli/*.mplstyle)
-checked := $(sources) $(drawing) $(shell find tests benchmarks docs configs -type f -not -path '*/__pycache__/*' -not -name '*.png' 2>/dev/null) README.md Makefile
+checked := $(sources) $(drawing) $(shell find tests benchmarks docs configs -type f -not -path '*/__pycache__/*' -not -name '*.png' 2>/dev/null) README.md CITATION.cff Makefile
 pictures := $(addprefix fig,2a 2b 3a 3b 3c 4a 4b 4c 5a 5b 5c 6 7a 7b 7c 8 9 9a 9b)
 
 help: ## show the targets
@@ -14,6 +14,12 @@ figures: $(foreach form,png pdf,$(pictures:%=outputs/figures/%.$(form))) ## draw
 docs-figures: $(pictures:%=docs/figures/paper/%.png) ## draw them small for docs/paper.md
 
 test: build/tested ## lint, types and tests
+
+reference: .venv/installed ## write the generated pages of the manual, docs/reference/, anew
+	.venv/bin/python -m docs
+
+docs: .venv/installed ## build the manual into build/docs/, offline, a warning being an error
+	.venv/bin/python -m sphinx -E -a -q -W --keep-going -d build/doctrees docs build/docs
 
 stress: .venv/installed ## the long form of the stress suite (minutes)
 	.venv/bin/python -m tests.stress.long
@@ -29,7 +35,7 @@ clean: ## remove the virtual environment and what was built (outputs stay)
 
 .venv/installed: pyproject.toml constraints.txt
 	$(PYTHON) -m venv .venv
-	.venv/bin/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[test]'
+	.venv/bin/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[docs,test]'
 	touch $@
 
 outputs/maps.nc: configs/maps.toml $(sources) .venv/installed
@@ -52,6 +58,7 @@ docs/figures/paper/%.png: $$(call dataset,$$*) $(drawing)
 	.venv/bin/python -m figures $* $< $@ --dpi 120
 
 .PRECIOUS: outputs/figures/%.nc
+
 build/types/gradhesion:
 	mkdir -p $@
 	ln -s ../../../core ../../../cli ../../../configs ../../../twin $@
@@ -63,4 +70,4 @@ build/tested: $(checked) .venv/installed | build/types/gradhesion
 	.venv/bin/pytest
 	touch $@
 
-.PHONY: help maps figures docs-figures test stress faults bench clean
+.PHONY: docs reference help maps figures docs-figures test stress faults bench clean

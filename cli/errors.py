@@ -1,11 +1,23 @@
 """The ways to fail: one exception and one exit code each; every message tells what to do next."""
 
 from collections.abc import Sequence
-from typing import IO, Any
+from typing import IO, Any, Final
 
 import click
 
 from gradhesion.cli import messages
+
+EXIT_CODES: Final = {
+    0: "fine",
+    2: "the command, the study or the dataset is wrong; no scheduler answers, or no worker can do the work",
+    3: "written, but some scenes have failed (their `status` says why); or `verify` has found a value beyond its "
+    "stated error",
+    4: "the output cannot be written (it exists, no space, no right, another run is at work on it, or parts of another "
+    "study are kept), or the scheduler has gone; what stood there is untouched",
+    130: "interrupted; what stood there is untouched, finished parts are kept, and the same command goes on",
+    141: "nobody reads on what is told, as with `| head`; nothing is said about it",
+}
+"""What every exit code means."""
 
 
 class GradhesionError(click.ClickException):

@@ -47,6 +47,31 @@ ROLES: Final = {
 }
 """What the parameters stand for that can be given by another key."""
 
+SETTINGS: Final = {
+    "title": "what the dataset is called; the name of the file if left out",
+    "kind": "one value a scene, or one curve a scene",
+    "layout": "every combination of the axes is a scene, or all lists go together, item by item",
+    "outputs": "what is computed of every scene",
+    "parameters": "the parameters of a scene, each a number or an axis",
+    "physical": "quantities with units in the place of ratios",
+    "profile": "the shape of the punch: a power, and a series of waves",
+    "loading": "what drives the punch",
+    "method": "how the scenes are solved",
+    "start": "the first value",
+    "stop": "the last value",
+    "num": "the number of values",
+    "spacing": "whether differences or ratios of neighbours are equal",
+    "exponent": "the power m of the punch without waves: 2 is a paraboloid, 1 a cone",
+    "harmonics": "the waves of the series; one cosine if left out",
+    "n": "the number of the wave: its wavelength is lambda/n",
+    "cos": "the cosine of the wave, in units of the amplitude",
+    "sin": "the sine of the wave, in units of the amplitude",
+    "control": "what is prescribed: the depth, the load, or the far end of a spring",
+    "solver": "the exact solution, or an approximation for short waves; a list puts several side by side",
+    "check_contact": "whether `status` tells where loading does not keep the contact one disc",
+}
+"""Every key of a study that gives no parameter, and every table, with what it is."""
+
 RIM_KEYS: Final = ("a_max_over_R", "a_max_over_L", "a_max_over_a2")
 """The keys that give the radius of the punch, which may be infinite."""
 

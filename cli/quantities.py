@@ -25,7 +25,7 @@ LONGEST: Final = 60
 _QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,4})?|[+-]?inf|nan)\s*\*?\s*(.*)")
 _POWER: Final = re.compile(r"([^\W\d_])([+-]?\d)")
 """A power as UDUNITS writes it, `m-2`."""
-_WORDS: Final = {"m": "a length", "Pa": "a pressure", "J m-2": "an energy per area", "N m-1": "a force per length"}
+WORDS: Final = {"m": "a length", "Pa": "a pressure", "J m-2": "an energy per area", "N m-1": "a force per length"}
 """What is expected of a quantity, by its unit in SI."""
 _NO_UNIT: Final = (
     ArithmeticError,
@@ -109,11 +109,11 @@ def si_value(value: object, name: str) -> float:
     else:
         problem = "" if factor else f'"{written}" is the unit of something else'
     if problem or not factor:
-        raise ValueError(f"{problem}; {_WORDS[unit]} is expected; {example(('physical', name))}")
+        raise ValueError(f"{problem}; {WORDS[unit]} is expected; {example(('physical', name))}")
     result = float(Decimal(number) * factor) + 0.0
     bounds, allowed = BOUNDS[name]
     if not (result > 0.0 or result == bounds.get("ge")) or (result == math.inf and name != "a_max"):
-        raise ValueError(f"out of range; choose {_WORDS[unit]} with {allowed}")
+        raise ValueError(f"out of range; choose {WORDS[unit]} with {allowed}")
     return result
 
 

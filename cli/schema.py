@@ -15,7 +15,7 @@ from typing import Annotated, Any, Final, Literal, Union
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, create_model
 from pydantic_core import ErrorDetails
 
-from gradhesion.cli.names import KEYS, MACHINE, OUTPUTS, PARAMETERS, PHYSICAL, RIM_KEYS, ROLES, TIED, table_of
+from gradhesion.cli.names import KEYS, MACHINE, OUTPUTS, PARAMETERS, PHYSICAL, RIM_KEYS, ROLES, SETTINGS, TIED, table_of
 from gradhesion.cli.places import Path, dotted
 from gradhesion.core.profile import MOST_HARMONICS
 
@@ -70,23 +70,27 @@ class _Method(_Table):
     solver: Annotated[
         Annotated[str, Tag("name")] | Annotated[list[str], Field(min_length=1), Tag("list")],
         Discriminator(lambda value: "list" if isinstance(value, list) else "name"),
+        Field(description=SETTINGS["solver"]),
     ] = "exact"
-    check_contact: bool = True
+    check_contact: Annotated[bool, Field(description=SETTINGS["check_contact"])] = True
 
 
 class _Harmonic(_Table):
     """One wave of the series of a profile."""
 
-    n: Annotated[int, Field(ge=1, le=MOST_WAVES)]
-    cos: Annotated[float, Field(allow_inf_nan=False)] = 0.0
-    sin: Annotated[float, Field(allow_inf_nan=False)] = 0.0
+    n: Annotated[int, Field(ge=1, le=MOST_WAVES, description=SETTINGS["n"])]
+    cos: Annotated[float, Field(allow_inf_nan=False, description=SETTINGS["cos"])] = 0.0
+    sin: Annotated[float, Field(allow_inf_nan=False, description=SETTINGS["sin"])] = 0.0
 
 
 class _Profile(_Table):
     """The shape of the punch."""
 
-    exponent: Annotated[float, Field(ge=1.0, allow_inf_nan=False)] = 2.0
-    harmonics: Annotated[list[_Harmonic], Field(min_length=1, max_length=MOST_HARMONICS)] | None = None
+    exponent: Annotated[float, Field(ge=1.0, allow_inf_nan=False, description=SETTINGS["exponent"])] = 2.0
+    harmonics: Annotated[
+        Annotated[list[_Harmonic], Field(min_length=1, max_length=MOST_HARMONICS)] | None,
+        Field(description=SETTINGS["harmonics"]),
+    ] = None
 
 
 def _form(value: object) -> str:
@@ -113,10 +117,10 @@ def _forms(name: str, number: Any, end: Any) -> Any:
     range_table: Any = create_model(
         f"Range_{name}",
         __base__=_Table,
-        start=(end, ...),
-        stop=(end, ...),
-        num=(Annotated[int, Field(ge=1)], ...),
-        spacing=(spacing, "linear"),
+        start=(_told(end, "start"), ...),
+        stop=(_told(end, "stop"), ...),
+        num=(_told(Annotated[int, Field(ge=1)], "num"), ...),
+        spacing=(_told(spacing, "spacing"), "linear"),
     )
     forms: Any = Union[  # noqa: UP007 (made at run time)
         Annotated[number, Tag("number")],
@@ -124,6 +128,11 @@ def _forms(name: str, number: Any, end: Any) -> Any:
         Annotated[range_table, Tag("range")],
     ]
     return Annotated[forms, Discriminator(_form), Field(description=KEYS[name])]
+
+
+def _told(kind: Any, name: str) -> Any:
+    """Make a type tell what its key is."""
+    return Annotated[kind, Field(description=SETTINGS[name])]
 
 
 @cache
@@ -135,19 +144,19 @@ def study_model() -> type[BaseModel]:
         if table_of(name) == "parameters"
     }
     physical: dict[str, Any] = {name: (_quantity(name), None) for name in PHYSICAL}
-    loading: dict[str, Any] = {"control": (str, "displacement"), MACHINE: (_parameter(MACHINE), None)}
+    loading: dict[str, Any] = {"control": (_told(str, "control"), "displacement"), MACHINE: (_parameter(MACHINE), None)}
     return create_model(
         "Study",
         __base__=_Table,
-        title=(str, ""),
-        kind=(str, "map"),
-        layout=(str, "grid"),
-        outputs=(Annotated[list[str], Field(min_length=1)], ...),
-        parameters=(create_model("Parameters", __base__=_Table, **parameters), ...),
-        physical=(create_model("Physical", __base__=_Table, **physical), None),
-        profile=(_Profile, None),
-        loading=(create_model("Loading", __base__=_Table, **loading), None),
-        method=(_Method, _Method()),
+        title=(_told(str, "title"), ""),
+        kind=(_told(str, "kind"), "map"),
+        layout=(_told(str, "layout"), "grid"),
+        outputs=(_told(Annotated[list[str], Field(min_length=1)], "outputs"), ...),
+        parameters=(_told(create_model("Parameters", __base__=_Table, **parameters), "parameters"), ...),
+        physical=(_told(create_model("Physical", __base__=_Table, **physical), "physical"), None),
+        profile=(_told(_Profile, "profile"), None),
+        loading=(_told(create_model("Loading", __base__=_Table, **loading), "loading"), None),
+        method=(_told(_Method, "method"), _Method()),
     )
 
 
@@ -209,7 +218,7 @@ def _mistakes_of_roles(parameters: object, physical: object, excused: set[Path])
             mistakes.append(("both", Mistake(path, tables[str(path[0])][path[1]], sentence)))
         if not given and not excused & {*paths}:
             instead = " or ".join(
-                _line(path) + (f" under [{path[0]}]" if path[0] != paths[0][0] else "") for path in paths[1:]
+                line_of(path) + (f" under [{path[0]}]" if path[0] != paths[0][0] else "") for path in paths[1:]
             )
             what = "quantity" if paths[0][0] == "physical" else "parameter"
             sentence = f"this {what} is required; {example(paths[0])}" + (f", or instead {instead}" if instead else "")
@@ -350,10 +359,10 @@ def _profile_sentence(kind: str, path: Path) -> str:
 
 def example(path: Path) -> str:
     """Show a line that would do."""
-    return f"write for example {_line(path)}"
+    return f"write for example {line_of(path)}"
 
 
-def _line(path: Path) -> str:
+def line_of(path: Path) -> str:
     """Write a line that would do."""
     examples: dict[str, str] = {
         "title": 'title = "Pull-off force against wavelength"',

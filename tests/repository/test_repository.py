@@ -62,15 +62,13 @@ def test_every_module_says_what_it_is_for(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", sorted(cli.commands))
-def test_every_command_has_help_and_stands_in_the_readme(name: str, gradhesion: Callable[..., Result]) -> None:
+def test_every_command_and_every_option_has_help(name: str, gradhesion: Callable[..., Result]) -> None:
     result = gradhesion(name, "--help")
     assert result.exit_code == 0
     assert cli.commands[name].help
     for option in cli.commands[name].params:
         if isinstance(option, click.Option):
             assert option.help, option.name
-            assert option.opts[-1] in README, f"{name} {option.opts[-1]}"
-    assert f"gradhesion {name}" in README
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["run", "--help"], ["--version"]])
@@ -183,52 +181,13 @@ def test_every_dependency_is_pinned_and_none_by_an_address() -> None:
     assert {re.split("[<>=]", name)[0].lower() for name in wanted} <= pinned
 
 
-def test_the_study_of_the_readme_works(
-    gradhesion: Callable[..., Result], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_study_of_the_readme_is_short() -> None:
     study, *_ = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
     assert len([line for line in study.splitlines() if line.strip()]) <= 12
-    monkeypatch.chdir(tmp_path)
-    Path("fig4a.toml").write_text(study)
-    assert gradhesion("run", "fig4a.toml").exit_code == 0
-    assert gradhesion("info", "outputs/fig4a.nc").exit_code == 0
-    assert gradhesion("plot", "outputs/fig4a.nc", "-o", "fig4a.pdf").exit_code == 0
-
-
-def test_the_tables_of_the_readme_are_valid() -> None:
-    from gradhesion.cli.study import study_from
-
-    plain, *tables = (tomllib.loads(text) for text in re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL))
-    assert tables
-    for table in tables:
-        study = {**plain, **table}
-        if "physical" in table:
-            study["parameters"] = {"k": 0.3, "nu": 0.3, "A": 0.02}
-        assert study_from(study).scenes > 1
-
-
-def test_the_python_of_the_readme_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    study, *_ = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
-    (code,) = re.findall(r"```python\n(.*?)```", README, flags=re.DOTALL)
-    monkeypatch.chdir(tmp_path)
-    Path("fig4a.toml").write_text(study)
-    found: dict[str, object] = {}
-    exec(code, found)  # noqa: S102 (our own text)
-    assert isinstance(found["dataset"], xarray.Dataset)
-    assert math.isclose(float(found["force"]), 1.0, rel_tol=1e-13)  # type: ignore[arg-type]
-
-
-def test_the_exit_codes_of_the_readme_are_those_of_the_errors() -> None:
-    from gradhesion.cli import errors, main
-
-    told = {int(code) for code in re.findall(r"^\| (\d+) \|", README, flags=re.MULTILINE)}
-    classes = [one for one in vars(errors).values() if isinstance(one, type) and one is not errors.GradhesionError]
-    codes = {one.exit_code for one in classes if issubclass(one, errors.GradhesionError)}
-    assert told == codes | {0, main.INTERRUPTED, main.UNHEARD}
 
 
 def test_make_alone_prints_the_targets() -> None:
     done = subprocess.run(["make", "-C", ROOT], capture_output=True, text=True, check=True)
-    for target in ("maps", "test"):
+    for target in ("docs", "maps", "test"):
         assert re.search(rf"^{target}\t", done.stdout, flags=re.MULTILINE)
         assert f"make {target}" in README

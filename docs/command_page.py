@@ -1,0 +1,60 @@
+"""The page of every command with its options, from the tree of commands itself."""
+
+from collections.abc import Iterator
+
+import click
+
+from docs.tables import code, table
+from gradhesion.cli.errors import EXIT_CODES
+from gradhesion.cli.main import cli
+
+
+def page() -> str:
+    """Write the page."""
+    sections = [section for name, command in cli.commands.items() for section in _of(name, command)]
+    return "\n\n".join(
+        [
+            "# Every command",
+            "This page is written from the commands themselves; `gradhesion COMMAND --help` tells the same.",
+            table(
+                ("command", "what it does"),
+                ([f"[{name}](#gradhesion-{name})", _first(one)] for name, one in cli.commands.items()),
+            ),
+            *sections,
+            "## Exit codes",
+            table(("exit code", "meaning"), ([str(number), words] for number, words in EXIT_CODES.items())),
+            "Data goes to files and what was asked for to stdout; all messages go to stderr.",
+        ]
+    )
+
+
+def _of(name: str, command: click.Command) -> Iterator[str]:
+    """Write the section of a command."""
+    context = click.Context(command, info_name=f"gradhesion {name}")
+    yield f"## gradhesion {name}"
+    yield f"```text\n{context.command_path} {' '.join(command.collect_usage_pieces(context))}\n```"
+    yield _told(command)
+    rows = [
+        _row(option, context)
+        for option in command.get_params(context)
+        if isinstance(option, click.Option) and option.name != "help"
+    ]
+    if rows:
+        yield table(("option", "what it does"), rows)
+
+
+def _row(option: click.Option, context: click.Context) -> list[str]:
+    """Write the row of an option."""
+    record = option.get_help_record(context)
+    assert record
+    return [code(record[0]), record[1]]
+
+
+def _told(command: click.Command) -> str:
+    """Take the help of a command out of its indentation."""
+    return "\n\n".join(" ".join(part.split()) for part in (command.help or "").split("\n\n"))
+
+
+def _first(command: click.Command) -> str:
+    """Take the first sentence of the help of a command."""
+    return _told(command).partition("\n\n")[0]

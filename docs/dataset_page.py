@@ -1,0 +1,123 @@
+"""The page of what a dataset holds, from the names that are written into it."""
+
+import ast
+import inspect
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Final
+
+from docs.tables import code, table
+from gradhesion.cli import names
+from gradhesion.cli.dataset import attributes
+from gradhesion.cli.study import study_from
+from gradhesion.core import DOUBTFUL, FAILED, FLAGS, REPORTS
+from gradhesion.core import status as status_module
+
+NO_FLAGS: Final = ("FLAGS", "DOUBTFUL", "FAILED")
+"""What `core.status` defines beside its flags."""
+
+ATTRIBUTES: Final = {
+    "Conventions": "the conventions of names and units",
+    "title": "the title of the study",
+    "source": "the program and its version",
+    "history": "when and how it was computed",
+    "references": "the theory behind the values",
+    "profile": "the shape of the punch, in words",
+    "control": "what was prescribed",
+    "study": "the whole study in TOML: `gradhesion run` of it makes the dataset again",
+    "study_sha256": "its fingerprint",
+    "python_version": "the versions that computed it",
+    "numpy_version": "",
+    "numba_version": "",
+    "scipy_version": "",
+}
+"""What the attributes of a dataset are."""
+
+
+def page() -> str:
+    """Write the page."""
+    return "\n\n".join(_sections())
+
+
+def _sections() -> Iterator[str]:
+    """Write the sections."""
+    yield "# What a dataset holds"
+    yield (
+        "This page is written from the names that the program itself goes by. Datasets are NetCDF-4 by CF-1.11, and "
+        "the same in a file and in xarray. Missing values are NaN."
+    )
+    yield "## Dimensions and coordinates"
+    yield (
+        "Each axis of a study is a dimension with a coordinate of its name; a fixed parameter is a coordinate without "
+        f'a dimension. With `layout = "points"` there is one dimension, `{names.SCENE}`. Several solvers are the first '
+        f"dimension, `{names.SOLVER}`. Dimensions stand in the order below. A parameter that was given by another key "
+        "is there as well, beside that key."
+    )
+    coordinates = ([code(key), code(names.unit_of(key)), words] for key, words in names.KEYS.items())
+    yield table(("coordinate", "units", "long_name"), coordinates)
+    yield "## Variables of a map"
+    yield (
+        "One value a scene. Of a study in units, those with a unit stand there once more in SI, with the ending "
+        f"`{names.SI}`. Those marked in the last column come with the exact solver alone."
+    )
+    yield table(("variable", "long_name", "in SI", "exact solver only"), _outputs())
+    yield "## Variables of curves"
+    yield (
+        "Each curve has a dimension of its own, along which shorter ones are padded with missing values; jumps are a "
+        "contiguous ragged array. A curve is asked for by its name, or by single variables of it."
+    )
+    yield table(("curve", "dimension", "variable", "long_name", "0 and 1 mean"), _curves())
+    yield "## Status"
+    yield (
+        f"Every dataset has `status`, {names.STATUS}. Each bit is a flag. A scene with {_named(FAILED)} has failed. "
+        f"Values may not hold with {_named(DOUBTFUL)}. The approximate solvers set the last flag only."
+    )
+    yield table(("flag", "bit", "in words", "of a scene"), _flags())
+    yield "## Global attributes"
+    yield table(("attribute", "what it is"), ([code(name), ATTRIBUTES[name]] for name in _attributes()))
+
+
+def _outputs() -> list[list[str]]:
+    """Write a row for each output of a map."""
+    return [
+        [code(name), words, code(names.UNITS.get(name, "")), "yes" if name in REPORTS else ""]
+        for name, words in names.OUTPUTS.items()
+    ]
+
+
+def _curves() -> list[list[str]]:
+    """Write a row for each variable of a curve."""
+    return [
+        [
+            code(curve),
+            "" if name in names.RAGGED.values() else code(names.EXTENTS[curve]),
+            code(name),
+            words,
+            code(names.MEANINGS.get(name, "")),
+        ]
+        for curve, own in names.CURVES.items()
+        for name, words in own.items()
+    ]
+
+
+def _flags() -> list[list[str]]:
+    """Write a row for each flag, with what its definition says of it."""
+    said: dict[str, str] = {}
+    statements = ast.parse(inspect.getsource(status_module)).body
+    for definition, words in pairwise(statements):
+        match definition, words:
+            case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=str(text))):
+                said[name] = " ".join(text.split())
+    constants = {getattr(status_module, constant): text for constant, text in said.items() if constant not in NO_FLAGS}
+    return [[code(name), str(bit), names.FLAGS[name], constants[bit]] for name, bit in FLAGS.items()]
+
+
+def _named(bits: int) -> str:
+    """Name the flags of some bits."""
+    return " or ".join(code(name) for name, bit in FLAGS.items() if bit & bits)
+
+
+def _attributes() -> list[str]:
+    """List the global attributes of a dataset."""
+    parameters = dict.fromkeys(names.PARAMETERS, 0.5)
+    return list(attributes(study_from({"outputs": ["pull_off_force"], "parameters": parameters}), ""))

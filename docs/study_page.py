@@ -1,0 +1,150 @@
+"""The page of every key of a study, from the model that validation goes by."""
+
+import json
+from collections.abc import Iterator, Mapping
+from typing import Any, Final
+
+from docs.tables import code, table
+from gradhesion.cli.names import OUTPUTS, PHYSICAL, ROLES, SETTINGS, TIED
+from gradhesion.cli.quantities import WORDS
+from gradhesion.cli.schema import BOUNDS, KINDS, LAYOUTS, line_of, study_model
+from gradhesion.core import CONTROLS, SOLVERS
+
+CHOICES: Final = {"kind": KINDS, "layout": LAYOUTS, "solver": tuple(SOLVERS), "control": tuple(CONTROLS)}
+"""The words that a key takes."""
+
+TYPES: Final = {"string": "string", "number": "number", "integer": "integer", "boolean": "true or false"}
+
+HEADS: Final = ("key", "type", "allowed", "default", "meaning")
+
+
+def page() -> str:
+    """Write the page."""
+    return "\n\n".join(_sections())
+
+
+def _sections() -> Iterator[str]:
+    """Write the sections."""
+    schema = study_model().model_json_schema()
+    tables = {name: _target(entry, schema) for name, entry in schema["properties"].items()}
+    yield "# Every key of a study"
+    yield (
+        "This page is written from the model that `gradhesion validate` goes by. `gradhesion schema` prints the same "
+        "as a JSON Schema, for editors."
+    )
+    yield "## At the top"
+    yield table(HEADS, (_row(name, schema) for name, own in tables.items() if own is None))
+    yield (
+        "Outputs of a map are listed under [variables of a map](dataset.md#variables-of-a-map), those of a curve study "
+        "under [variables of curves](dataset.md#variables-of-curves)."
+    )
+    yield from _of_parameters(tables["parameters"])
+    yield from _of_quantities()
+    yield from _of_table("profile", tables["profile"])
+    yield "What they stand for: [other punches and machines](../punches.md). Each item of `harmonics`:"
+    yield table(HEADS, _rows(schema["$defs"]["_Harmonic"]))
+    yield from _of_table("loading", tables["loading"])
+    yield from _of_table("method", tables["method"])
+    yield "## Axes"
+    yield (
+        "A number is fixed. A list of numbers is an axis, and so is a range, a table with the keys below. A range ends "
+        "at finite values; `inf` may stand in a list. No value may stand twice in an axis."
+    )
+    yield table(HEADS, _rows(schema["$defs"]["Range_k"], bounds=False))
+
+
+def _target(entry: Mapping[str, Any], schema: Mapping[str, Any]) -> Mapping[str, Any] | None:
+    """Find what a key of the top stands for if it is a table."""
+    name = str(entry.get("$ref", "")).rpartition("/")[2]
+    return schema["$defs"][name] if name else None
+
+
+def _of_parameters(own: Mapping[str, Any] | None) -> Iterator[str]:
+    """Write the table [parameters]."""
+    assert own
+    yield "## [parameters]"
+    yield f"Required: {SETTINGS['parameters']}."
+    rows = [_row(name, own) for name in own["properties"] if name not in TIED]
+    yield table(HEADS, rows)
+    yield "In reduced variables, each in the place of another:"
+    yield table(
+        ("key", "in the place of", "allowed", "meaning"),
+        ([code(name), code(role), code(BOUNDS[name][1]), words] for name, (role, words) in TIED.items()),
+    )
+
+
+def _of_quantities() -> Iterator[str]:
+    """Write the table [physical]."""
+    yield "## [physical]"
+    yield (
+        f"Optional: {SETTINGS['physical']}. Each is a string with a number and a unit, a list of them, or a range from "
+        "one to another. With this table, `R`, `E_star` and `work_of_adhesion` are required, and `modulus`, "
+        "`c0_over_R`, `lambda_over_R` and `a_max_over_R` do not stand under `[parameters]`."
+    )
+    yield table(
+        ("key", "what", "unit in the dataset", "allowed", "for example", "meaning"),
+        (
+            [code(name), WORDS[unit], code(unit), code(BOUNDS[name][1]), code(line_of(("physical", name))), words]
+            for name, (_, unit, words) in PHYSICAL.items()
+        ),
+    )
+
+
+def _of_table(name: str, own: Mapping[str, Any] | None) -> Iterator[str]:
+    """Write one of the other tables."""
+    assert own
+    yield f"## [{name}]"
+    yield f"Optional: {SETTINGS[name]}."
+    yield table(HEADS, _rows(own))
+
+
+def _rows(own: Mapping[str, Any], *, bounds: bool = True) -> Iterator[list[str]]:
+    """Write the rows of all keys of a table, without the bounds of numbers where these are those of another key."""
+    for name in own["properties"]:
+        row = _row(name, own)
+        if not bounds and name in ("start", "stop"):
+            row[2] = "as the key"
+        yield row
+
+
+def _row(name: str, own: Mapping[str, Any]) -> list[str]:
+    """Write the row of a key."""
+    entry = own["properties"][name]
+    default = "required" if name in own.get("required", ()) else _default(name, entry)
+    return [code(name), _type(entry), _allowed(name, entry), default, entry["description"]]
+
+
+def _default(name: str, entry: Mapping[str, Any]) -> str:
+    """Tell what holds where a key is left out."""
+    if name in ROLES:
+        tied = [code(key) for key, (role, _) in TIED.items() if role == name]
+        united = [code(key) for key, (role, *_) in PHYSICAL.items() if role == name]
+        return ", ".join(["this", *tied]) + f" or {' and '.join(united)} under `[physical]`"
+    default = entry.get("default")
+    return "" if default in (None, "") else code(json.dumps(default))
+
+
+def _type(entry: Mapping[str, Any]) -> str:
+    """Tell the forms that a value takes."""
+    forms = [form for form in entry.get("oneOf", entry.get("anyOf", [entry])) if form.get("type") != "null"]
+    if any("Range_" in str(form.get("$ref")) for form in forms):
+        return "number, list or range"
+    return " or ".join("list" if form["type"] == "array" else TYPES[form["type"]] for form in forms)
+
+
+def _allowed(name: str, entry: Mapping[str, Any]) -> str:
+    """Tell which values are allowed."""
+    if name in BOUNDS:
+        return code(BOUNDS[name][1])
+    words = CHOICES.get(name, entry.get("enum", ()))
+    if words:
+        return ", ".join(code(json.dumps(word)) for word in words)
+    if name == "outputs":
+        return f"{len(OUTPUTS)} names of a map, or curves"
+    least, most = entry.get("minimum"), entry.get("maximum")
+    items = [form["maxItems"] for form in entry.get("anyOf", ()) if "maxItems" in form]
+    if items:
+        return f"1 to {items[0]} waves"
+    if least is None:
+        return ""
+    return f"{least:,} or more" if most is None else f"{least:,} to {most:,}"

@@ -1,0 +1,110 @@
+"""Every command and every example of the README and of the manual runs, and prints what the page shows."""
+
+import contextlib
+import io
+import os
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from gradhesion.cli.study import study_from
+
+from .pages import PAGES, ROOT, Block, blocks_of, commands_of, made_smaller, same
+
+BLOCKS = [block for page in PAGES for block in blocks_of(page)]
+SHOWN = ("", "json", "mermaid", "output", "text", "{eval-rst}", "{toctree}")
+"""Languages of blocks that are looked at only."""
+RUN = ("bash", "console", "python", "sh", "toml")
+
+NOT_RUN = {
+    "README.md": {"make sets up an environment of its own"},
+    "docs/cluster.md": {"needs several machines", "tests/repository/test_cluster.py runs the scripts"},
+    "docs/pictures.md": {"for start-up files of shells"},
+    "docs/tutorial.md": {"installs"},
+}
+"""Every page with blocks that are not run, and why: these are all."""
+
+WHOLE = tomllib.loads(next(block.text for block in BLOCKS if block.language == "toml"))
+"""The study of the README, which the parts of studies are added to."""
+
+
+def _environment(folder: Path) -> dict[str, str]:
+    """Find the installed command first, and write nothing outside of the folder."""
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    return os.environ | {"PATH": path, "HOME": os.environ.get("HOME", str(folder)), "MPLBACKEND": "agg"}
+
+
+def _run_commands(block: Block, folder: Path) -> None:
+    for command in commands_of(block):
+        line = made_smaller(command.line, block)
+        done = subprocess.run(
+            ["bash", "-euo", "pipefail", "-c", line],
+            cwd=folder,
+            env=_environment(folder),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=600,
+            check=False,
+        )
+        assert done.returncode == command.code, f"{block.place}: {line}\n{done.stdout}"
+        if command.printed.strip():
+            assert same(command.printed, done.stdout), f"{block.place}: {line}\n{done.stdout}"
+
+
+def _run_python(block: Block, namespace: dict[str, object]) -> str:
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        exec(compile(block.text, block.place, "exec"), namespace)  # noqa: S102 (our own text)
+    return printed.getvalue()
+
+
+def _check_study(block: Block) -> None:
+    table = tomllib.loads(block.text)
+    study = {**WHOLE, **table}
+    if "physical" in table and "parameters" not in table:
+        study["parameters"] = {"k": 0.3, "nu": 0.3, "A": 0.02}
+    assert study_from(study).scenes >= 1, block.place
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_a_page_does_what_it_says(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "configs").symlink_to(ROOT / "configs")  # as in a clone
+    namespace: dict[str, object] = {}
+    printed = ""
+    for block in blocks_of(page):
+        if "not run" in block.marks:
+            continue
+        if block.language in ("bash", "console", "sh"):
+            _run_commands(block, tmp_path)
+        elif block.language == "python":
+            printed = _run_python(block, namespace)
+        elif block.language == "output":
+            assert same(block.text, printed), f"{block.place}:\n{printed}"
+        elif "file" in block.marks:
+            (tmp_path / block.marks["file"]).write_text(block.text, encoding="utf-8")
+        elif block.language == "toml":
+            _check_study(block)
+
+
+def test_every_block_is_run_or_says_why_not() -> None:
+    reasons: dict[str, set[str]] = {}
+    for block in BLOCKS:
+        assert block.language in (*RUN, *SHOWN), block.place
+        if "not run" in block.marks:
+            reasons.setdefault(str(block.page.relative_to(ROOT)), set()).add(block.marks["not run"])
+    assert reasons == NOT_RUN
+    run = [block for block in BLOCKS if block.language in RUN and "not run" not in block.marks]
+    assert len(run) >= 40
+
+
+def test_no_command_hides_in_an_indented_block() -> None:
+    for page in PAGES:
+        outside = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+        assert not re.search(r"^    (gradhesion|make|pip|python) ", outside, flags=re.MULTILINE), page

@@ -1,0 +1,69 @@
+"""The manual is whole: it builds, what is generated is up to date, and every command and key stands in it."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import click
+import pytest
+
+ROOT = Path(__file__).parents[2]
+if str(ROOT) not in sys.path:
+    sys.path.append(str(ROOT))  # the scripts of the manual are not installed
+
+from docs.__main__ import FOLDER, PAGES  # noqa: E402
+from gradhesion.cli import errors, main  # noqa: E402
+from gradhesion.cli.names import CURVES, KEYS, OUTPUTS, SETTINGS  # noqa: E402
+from gradhesion.core import FLAGS  # noqa: E402
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_a_generated_page_is_up_to_date(name: str) -> None:
+    committed = (FOLDER / name).read_text(encoding="utf-8")
+    assert committed == PAGES[name]() + "\n", "the program has changed: run `make reference` and commit the pages"
+
+
+def test_every_command_and_option_stands_in_the_manual() -> None:
+    page = (FOLDER / "reference" / "commands.md").read_text(encoding="utf-8")
+    for name, command in main.cli.commands.items():
+        section = page.partition(f"\n## gradhesion {name}\n")[2].partition("\n## ")[0]
+        options = [option for option in command.params if isinstance(option, click.Option)]
+        assert section
+        assert all(re.search(rf"`[^`]*{option.opts[-1]}\b[^`]*` \| \w", section) for option in options), name
+
+
+def test_every_key_output_and_flag_stands_in_the_manual() -> None:
+    study, dataset = (
+        (FOLDER / "reference" / f"{name}.md").read_text(encoding="utf-8") for name in ("study", "dataset")
+    )
+    tables = ("parameters", "physical", "profile", "loading", "method")
+    assert all(f"\n| `{key}` |" in study for key in (*KEYS, *SETTINGS) if key not in tables)
+    assert all(f"\n## [{name}]\n" in study for name in tables)
+    assert all(f"| `{name}` |" in dataset for name in (*KEYS, *OUTPUTS, *FLAGS, *CURVES))
+    assert all(f"| `{name}` |" in dataset for own in CURVES.values() for name in own)
+
+
+def test_exit_codes_are_those_of_the_errors() -> None:
+    classes = [one for one in vars(errors).values() if isinstance(one, type) and one is not errors.GradhesionError]
+    codes = {one.exit_code for one in classes if issubclass(one, errors.GradhesionError)}
+    assert set(errors.EXIT_CODES) == codes | {0, main.INTERRUPTED, main.UNHEARD}
+
+
+def test_the_manual_builds_without_a_warning_and_loads_nothing_from_elsewhere(tmp_path: Path) -> None:
+    sphinx = [sys.executable, "-m", "sphinx", "-E", "-q", "-W", "--keep-going", "-d", tmp_path / "trees"]
+    done = subprocess.run([*sphinx, ROOT / "docs", tmp_path / "html"], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    pages = sorted((tmp_path / "html").rglob("*.html"))
+    assert {page.stem for page in pages} >= {page.stem for page in (ROOT / "docs").rglob("*.md")}
+    loaded = re.compile(r"<(?:script|img|link|iframe)\b[^>]*\b(?:src|href)=\"(https?:)?//", re.IGNORECASE)
+    assert not [page.name for page in pages if loaded.search(page.read_text(encoding="utf-8"))]
+    assert "<math" in (tmp_path / "html" / "theory.html").read_text(encoding="utf-8")
+
+
+def test_every_page_is_in_the_table_of_contents() -> None:
+    index = (ROOT / "docs" / "index.md").read_text(encoding="utf-8")
+    trees = re.findall(r"```{toctree}(.*?)```", index, flags=re.DOTALL)
+    listed = {line.strip() for tree in trees for line in tree.splitlines()}
+    pages = {str(page.relative_to(ROOT / "docs").with_suffix("")) for page in (ROOT / "docs").rglob("*.md")}
+    assert pages - {"index"} <= listed

@@ -1,0 +1,124 @@
+"""What is built holds all of the program and nothing else, and works away from the repository."""
+
+import os
+import subprocess
+import sys
+import tarfile
+import tomllib
+import zipfile
+from email import message_from_bytes
+from email.message import Message
+from pathlib import Path
+from shutil import copytree, ignore_patterns
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+CONFIGURATION = tomllib.loads((ROOT / "pyproject.toml").read_text())
+PROJECT = CONFIGURATION["project"]
+FOLDERS = CONFIGURATION["tool"]["setuptools"]["package-dir"]
+TOPS = sorted({folder.split("/")[0] for folder in FOLDERS.values()})
+LEFT_OUT = ignore_patterns(".*", "__pycache__", "build", "dist", "outputs", "*.egg-info", "figures", "images")
+
+
+def _files() -> set[str]:
+    """List what belongs into a wheel, as it stands in the tree."""
+    return {
+        f"gradhesion/{path.relative_to(ROOT).as_posix()}"
+        for top in TOPS
+        for path in (ROOT / top).rglob("*")
+        if path.is_file() and "__pycache__" not in path.parts
+    }
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Build the wheel and the source distribution, from a copy: a build leaves folders behind."""
+    folder = tmp_path_factory.mktemp("built")
+    copytree(ROOT, folder / "tree", ignore=LEFT_OUT)
+    code = (
+        "from setuptools import build_meta as backend; "
+        f"backend.build_sdist({str(folder)!r}); backend.build_wheel({str(folder)!r})"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=folder / "tree", capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+@pytest.fixture(scope="module")
+def wheel(built: Path) -> Path:
+    """The wheel."""
+    (path,) = built.glob("*.whl")
+    return path
+
+
+def _metadata(wheel: Path) -> Message:
+    with zipfile.ZipFile(wheel) as archive:
+        (name,) = [name for name in archive.namelist() if name.endswith(".dist-info/METADATA")]
+        return message_from_bytes(archive.read(name))
+
+
+def test_the_wheel_has_the_program_and_nothing_else(wheel: Path) -> None:
+    with zipfile.ZipFile(wheel) as archive:
+        names = {name for name in archive.namelist() if not name.endswith("/")}
+    information = {name for name in names if ".dist-info/" in name}
+    assert names - information == _files()
+    assert {name.rpartition("/")[2] for name in information} == {
+        "LICENSE", "METADATA", "RECORD", "WHEEL", "entry_points.txt", "top_level.txt",
+    }  # fmt: skip
+
+
+def test_the_source_has_what_a_build_needs_and_no_outputs(built: Path) -> None:
+    (path,) = built.glob("*.tar.gz")
+    with tarfile.open(path) as archive:
+        names = {member.name.partition("/")[2] for member in archive.getmembers() if member.isfile()}
+    assert names >= {name.removeprefix("gradhesion/") for name in _files()} | {"pyproject.toml", "README.md", "LICENSE"}
+    assert not [name for name in names if name.startswith(("outputs", "build", "."))]
+
+
+def test_the_metadata_are_those_of_the_project(wheel: Path) -> None:
+    metadata = _metadata(wheel)
+    assert (metadata["Name"], metadata["Version"]) == (PROJECT["name"], PROJECT["version"])
+    assert metadata["License-Expression"] == "BSD-3-Clause"
+    assert metadata["Requires-Python"] == PROJECT["requires-python"]
+    assert metadata.get_all("Classifier") == PROJECT["classifiers"]
+    assert {*(metadata.get_all("Provides-Extra") or ())} == {*PROJECT["optional-dependencies"]}
+    plain = [name for name in metadata.get_all("Requires-Dist") or () if "extra ==" not in name]
+    assert sorted(plain) == sorted(PROJECT["dependencies"])
+    assert "make maps" in metadata.get_payload()  # the README
+    with zipfile.ZipFile(wheel) as archive:
+        (entry,) = [archive.read(name).decode() for name in archive.namelist() if name.endswith("entry_points.txt")]
+    assert entry.split() == ["[console_scripts]", "gradhesion", "=", "gradhesion.cli.main:main"]
+
+
+def test_the_installed_program_works_away_from_the_repository(wheel: Path, tmp_path: Path) -> None:
+    installed, elsewhere = tmp_path / "installed", tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--target", installed, wheel]
+    subprocess.run(pip, check=True, capture_output=True)
+    assert sorted(path.name for path in installed.iterdir() if path.suffix != ".dist-info") == ["bin", "gradhesion"]
+
+    def call(*arguments: str) -> str:
+        done = subprocess.run(
+            [sys.executable, *arguments],
+            cwd=elsewhere,
+            env=os.environ | {"PYTHONPATH": str(installed), "XDG_CACHE_HOME": str(tmp_path / "cache")},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
+    where = call(
+        "-c", "import gradhesion.cli, gradhesion.core; print(gradhesion.cli.__file__, gradhesion.core.__file__)"
+    )
+    assert where.count(str(installed)) == 2
+    assert "run" in call("-m", "gradhesion.cli", "--help")
+    call("-m", "gradhesion.cli", "init", "smoke")
+    sets = ["parameters.k=0.5", "parameters.A=0.0", 'outputs=["pull_off_force"]']
+    sets.append('method={ solver = "envelope" }')  # which compiles in a third of the time
+    call("-m", "gradhesion.cli", "run", "smoke.toml", "-o", "smoke.nc", *(f"--set={entry}" for entry in sets))
+    assert "1.166667" in call("-m", "gradhesion.cli", "info", "smoke.nc")  # (3 + k)/3
