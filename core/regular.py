@@ -37,7 +37,7 @@ _WEAK: Final = 0.2
 _WIDE: Final = 2.2
 """Half the width of a branch, in radians, from which on both its folds are found."""
 FAR: Final = 4.0e6
-"""Waves from which on z e_j is taken for its limit: the phase of a float would fade, and 1/z is below 1e-7."""
+"""Waves beyond which e_j/z is extrapolated in 1/z, from FAR and half of it: the phase of a float would fade."""
 _REMOTE: Final = 1e8
 """End of the folds over the last wave of a sum, from which on it makes no difference where they end."""
 
@@ -108,31 +108,46 @@ def branch_of_wave(table: Any, curve: Curve, wave: float) -> tuple[float, float,
 
 
 @kernel()
-def _shifted(table: Any, curve: Curve, wave: float) -> tuple[Curve, float, float]:
+def _shifted(table: Any, curve: Curve, wave: float, far: float) -> tuple[Curve, float, float]:
     """Return a curve that lags, the number of one of its waves that is like this one, and the scale between the two."""
     b, g, _ = curve
     scale = 1.0
     whole = np.floor(wave)
     lag = wave - whole
-    if whole > FAR:  # the same cosine at the folds, nearer to zero
-        scale = wave / (FAR + lag)
+    if whole > far:  # the same cosine at the folds, nearer to zero
+        scale = wave / (far + lag)
         b *= scale ** (0.5 * (1.0 + table.k))
-        whole = FAR
+        whole = far
     return (b, g, lag), whole, scale
 
 
 @kernel()
 def end_of_wave(table: Any, curve: Curve, wave: float) -> tuple[Curve, float]:
     """Return where the branch of a wave ends, on a curve that lags; `wave` is any real number."""
-    shifted, whole, _ = _shifted(table, curve, wave)
+    shifted, whole, _ = _shifted(table, curve, wave, FAR)
     x, _ = fold_of_wave(table, shifted, whole, False)
     return shifted, x
 
 
 @kernel()
 def jump_of_wave(table: Any, curve: Curve, wave: float, outwards: bool, trace: Any) -> tuple[float, float]:
-    """Return where the jump from a wave to the next one lands, and what it loses; `wave` is any real number."""
-    shifted, whole, scale = _shifted(table, curve, wave)
+    """Return where the jump from a wave to the next one lands, and what it loses; `wave` is any real number.
+
+    Beyond FAR the loss over z is what it would be at infinity and a part that falls as 1/z: two waves tell both.
+    """
+    landing, loss = _jump_of_wave_within(table, curve, wave, outwards, trace, FAR)
+    if np.floor(wave) > FAR:
+        _, nearer = _jump_of_wave_within(table, curve, wave, outwards, trace, 0.5 * FAR)
+        loss += (loss - nearer) * (1.0 - FAR / wave)
+    return landing, loss
+
+
+@kernel()
+def _jump_of_wave_within(
+    table: Any, curve: Curve, wave: float, outwards: bool, trace: Any, far: float
+) -> tuple[float, float]:
+    """Return the same by a wave no further out than `far` that has the same cosine at its folds."""
+    shifted, whole, scale = _shifted(table, curve, wave, far)
     left, depth = fold_of_wave(table, shifted, whole, not outwards)
     target = whole + 1.0 if outwards else whole - 1.0
     fold = _fold_near(table, shifted, target, not outwards, left + (target - whole))

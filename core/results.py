@@ -5,6 +5,9 @@ Results go to `out[slots[row], rim]`, where `slots` holds -1 for what nobody ask
 
 from typing import Any, Final
 
+import numpy as np
+from numpy.typing import NDArray
+
 from gradhesion.core._jit import kernel
 
 OUTPUTS: Final = (
@@ -23,6 +26,13 @@ FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST = 0, 1, 2, 3, 4, 5, 6
 """The rows."""
 CONTACT = 7
 """One more slot, not -1 if the status shall tell where loading does not keep the contact one disc."""
+
+
+def typed(name: str, values: NDArray[np.float64]) -> NDArray[Any]:
+    """Return values as the type of their result: counts as int32, -1 for NaN, 2^31 - 1 for more."""
+    if name not in INTEGERS:
+        return values
+    return np.where(np.isnan(values), -1.0, np.minimum(values, np.iinfo(np.int32).max)).astype(np.int32)
 
 
 @kernel()

@@ -23,7 +23,7 @@ from gradhesion.core.loading_control import Loading
 from gradhesion.core.material import fill_stiffness
 from gradhesion.core.profile import Profile
 from gradhesion.core.report import NEEDED, REPORTS, report_curves
-from gradhesion.core.results import INTEGERS, OUTPUTS
+from gradhesion.core.results import OUTPUTS, typed
 from gradhesion.core.solvers import LOOPS, SOLVERS
 from gradhesion.core.status import NO_VALUE
 from gradhesion.core.struve.table import build_table
@@ -218,10 +218,7 @@ def solve(
         status[np.broadcast_to(without_rim, status.shape)] = NO_VALUE
     result: dict[str, NDArray[Any]] = {}
     for name in outputs:
-        values = out[rows.index(name)]
-        if name in INTEGERS:
-            values = np.where(np.isnan(values), -1.0, np.minimum(values, np.iinfo(np.int32).max)).astype(np.int32)
-        result[name] = values.reshape(shape)
+        result[name] = typed(name, out[rows.index(name)]).reshape(shape)
     result["status"] = status.reshape(shape)
     return result
 

@@ -17,7 +17,7 @@ from gradhesion.core.general.series_table import has_table
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.material import stiffness
 from gradhesion.core.profile import Profile
-from gradhesion.core.results import INTEGERS, OUTPUTS
+from gradhesion.core.results import OUTPUTS, typed
 from gradhesion.core.struve.cosine_bins import build_cosine_bins
 from gradhesion.core.struve.table import build_table
 
@@ -157,9 +157,6 @@ def solve_general(
     run_by_exponent(scenes.k, work, workers)
     result: dict[str, NDArray[Any]] = {}
     for name in outputs:
-        values: NDArray[Any] = out[rows.index(name)]
-        if name in INTEGERS:
-            values = np.where(np.isnan(values), -1.0, values).astype(np.int32)
-        result[name] = values.reshape(scenes.shape)
+        result[name] = typed(name, out[rows.index(name)]).reshape(scenes.shape)
     result["status"] = status.reshape(scenes.shape)
     return result

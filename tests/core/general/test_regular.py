@@ -77,6 +77,17 @@ def test_one_cosine_is_what_its_own_solver_finds(k: float, wavelength: float) ->
         np.testing.assert_allclose(general[name], special[name], rtol=1e-14, atol=4 * EPS, err_msg=name)
 
 
+@pytest.mark.parametrize("wavelength", [1e-7, 1e-8])
+@pytest.mark.parametrize("k", [0.0, 0.8, 1.0])
+def test_beyond_four_million_waves_both_solvers_agree(k: float, wavelength: float) -> None:
+    """The other solver extrapolates there from two waves nearer to zero; this one keeps the phase of whole waves."""
+    scene = SCENE | {"k": k, "nu": 0.5 if k == 1.0 else 0.27, "lambda_over_R": wavelength}
+    scenes: Any = scene | {"A": [_amplitude(chi, scene) for chi in (0.3, 0.8, 1.5)]}
+    special = solve(scenes, ["dissipated_energy"])["dissipated_energy"]
+    general = solve_general(scenes, PARAMETERS, ["dissipated_energy"], Profile(), Loading(), 1)["dissipated_energy"]
+    np.testing.assert_allclose(special, general, rtol=1e-10)
+
+
 @pytest.mark.parametrize(
     ("k", "m", "harmonics", "control", "waves", "chi"),
     [
