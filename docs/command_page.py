@@ -34,11 +34,7 @@ def _of(name: str, command: click.Command) -> Iterator[str]:
     yield f"## gradhesion {name}"
     yield f"```text\n{context.command_path} {' '.join(command.collect_usage_pieces(context))}\n```"
     yield _told(command)
-    rows = [
-        _row(option, context)
-        for option in command.get_params(context)
-        if isinstance(option, click.Option) and option.name != "help"
-    ]
+    rows = [_row(option, context) for option in command.params if isinstance(option, click.Option)]  # `--help` is none
     if rows:
         yield table(("option", "what it does"), rows)
 

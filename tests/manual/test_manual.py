@@ -4,13 +4,16 @@ import contextlib
 import io
 import os
 import re
+import shlex
 import subprocess
 import sys
 import tomllib
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 
+from gradhesion.cli.main import cli
 from gradhesion.cli.study import study_from
 
 from .pages import PAGES, ROOT, Block, blocks_of, commands_of, made_smaller, same
@@ -28,6 +31,9 @@ NOT_RUN = {
 }
 """Every page with blocks that are not run, and why: these are all."""
 
+IN_A_SHELL = (ROOT / "README.md", ROOT / "docs" / "tutorial.md")
+"""Pages for beginners, whose every command is that of the shell; a second each, so that others are spared it."""
+
 WHOLE = tomllib.loads(next(block.text for block in BLOCKS if block.language == "toml"))
 """The study of the README, which the parts of studies are added to."""
 
@@ -41,20 +47,33 @@ def _environment(folder: Path) -> dict[str, str]:
 def _run_commands(block: Block, folder: Path) -> None:
     for command in commands_of(block):
         line = made_smaller(command.line, block)
-        done = subprocess.run(
-            ["bash", "-euo", "pipefail", "-c", line],
-            cwd=folder,
-            env=_environment(folder),
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            timeout=600,
-            check=False,
-        )
-        assert done.returncode == command.code, f"{block.place}: {line}\n{done.stdout}"
+        plain = line.startswith("gradhesion ") and not re.search(r"[|&;<>$`~]", line)
+        code, printed = _in_process(line) if plain and block.page not in IN_A_SHELL else _in_a_shell(line, folder)
+        assert code == command.code, f"{block.place}: {line}\n{printed}"
         if command.printed.strip():
-            assert same(command.printed, done.stdout), f"{block.place}: {line}\n{done.stdout}"
+            assert same(command.printed, printed), f"{block.place}: {line}\n{printed}"
+
+
+def _in_a_shell(line: str, folder: Path) -> tuple[int, str]:
+    done = subprocess.run(
+        ["bash", "-euo", "pipefail", "-c", line],
+        cwd=folder,
+        env=_environment(folder),
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=600,
+        check=False,
+    )
+    return done.returncode, done.stdout
+
+
+def _in_process(line: str) -> tuple[int, str]:
+    result = CliRunner().invoke(cli, shlex.split(line)[1:])
+    if result.exception is not None and not isinstance(result.exception, SystemExit):
+        raise result.exception
+    return result.exit_code, result.output
 
 
 def _run_python(block: Block, namespace: dict[str, object]) -> str:
