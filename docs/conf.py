@@ -4,6 +4,8 @@ import sys
 from importlib.metadata import version as version_of
 from pathlib import Path
 
+from sphinx.application import Sphinx
+
 sys.path.insert(0, str(Path(__file__).parent))  # for mathml
 
 project = "gradhesion"
@@ -29,7 +31,20 @@ html_show_sphinx = False
 
 default_role = "code"  # docstrings have single backticks around code
 autodoc_member_order = "bysource"
-autodoc_typehints = "description"
-autodoc_typehints_description_target = "documented"
+autodoc_typehints = "none"  # docstrings tell types in words, where numpy's would be spelt out over three lines
 napoleon_google_docstring = False
 napoleon_use_rtype = False
+
+
+def _without_type(_app: Sphinx, _what: str, _name: str, _object: object, _options: object, lines: list[str]) -> None:
+    """Make a section of what is returned, which has no type here, a description: it would be taken for types."""
+    for i, line in enumerate(lines[:-2]):
+        if line == "Returns" and lines[i + 1] == "-------":
+            end = next((j for j in range(i + 2, len(lines)) if not lines[j]), len(lines))
+            lines[i + 2 : end] = [":", *(f"    {told}" for told in lines[i + 2 : end])]
+            return
+
+
+def setup(app: Sphinx) -> None:
+    """Have docstrings changed before napoleon reads them."""
+    app.connect("autodoc-process-docstring", _without_type, priority=400)
