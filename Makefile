@@ -67,7 +67,7 @@ build/tested: $(checked) .venv/installed | build/types/gradhesion
 	.venv/bin/ruff check
 	.venv/bin/ruff format --check
 	.venv/bin/mypy
-	.venv/bin/pytest
+	.venv/bin/pytest -n auto --dist loadfile
 	touch $@
 
 .PHONY: docs reference help maps figures docs-figures test stress faults bench clean
