@@ -37,8 +37,10 @@ def test_controls() -> None:
 
 def test_what_another_profile_does_not_have(scene: dict[str, float]) -> None:
     cone = Profile(exponent=1.0)
+    with pytest.raises(ValueError, match="asymptotic"):
+        solve(scene, solver="asymptotic", profile=cone)
     with pytest.raises(ValueError, match="envelope"):
-        solve(scene, solver="envelope", profile=cone)
+        solve(scene, solver="envelope", loading=Loading(control="load"))
     with pytest.raises(ValueError, match="energy_residual"):
         solve(scene, ["energy_residual"], loading=Loading(control="load"))
     with pytest.raises(ValueError, match="machine_stiffness"):
