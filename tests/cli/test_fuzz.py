@@ -26,7 +26,9 @@ PIECES = [
     "nan", "-inf", "inf", "true", '"x"', "[", "]", "{", "}", "=", ".", ",", "#", "\n", "'", '"""', "1e999", "-0.0", "0x1F",
     "1979-05-27", "[[1], [2]]", "{}", "[{}]", "{a = {b = 1}}", "99999999999999999999", "\\", "\u00e9", "\u2028", "\x0b",
 ]  # fmt: skip
-SENTENCE = re.compile(r"(:\d+: .*|--set .*: .*|: not valid TOML, .*|: [\w.]+: .* (required|needs this key)); .*|... and .*", re.DOTALL)
+SENTENCE = re.compile(
+    r"(:\d+: .*|--set .*: .*|: not valid TOML, .*|: [\w.]+: .* (required|needs this key)); .*|... and .*", re.DOTALL
+)
 """The place, what is wrong, and what to do about it."""
 CONFIGS = [path.read_text(encoding="utf-8").splitlines() for path in sorted((ROOT / "configs").glob("*.toml"))]
 pieces = st.one_of(st.sampled_from(PIECES), st.text(max_size=4))
