@@ -34,7 +34,7 @@ from gradhesion.cli.labels import equation, given
 from gradhesion.cli.names import CURVES, RAGGED, SCENE
 from gradhesion.cli.panels import COLOURS
 from gradhesion.cli.pictured import heading, in_lines, styled
-from gradhesion.cli.schema import did_you_mean
+from gradhesion.cli.wording import did_you_mean
 
 PLANES: Final = (("indentation", "load"), ("contact_radius", "indentation"), ("contact_radius", "load"))
 """What each panel has along and up."""

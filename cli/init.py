@@ -34,7 +34,7 @@ def init(name: str, output: Path | None, overwrite: bool, listed: bool) -> None:
             click.echo(f"{each:{width}}  {text.splitlines()[0].removeprefix('# ')}")
         return
     if name not in known:
-        from gradhesion.cli.schema import did_you_mean
+        from gradhesion.cli.wording import did_you_mean
 
         raise click.UsageError(f'there is no study "{name}"; {did_you_mean(name, list(known))}')
     path = output or Path(f"{name}.toml")

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from gradhesion.cli.axes import Values
 from gradhesion.cli.blocks import count_of
 from gradhesion.cli.errors import DatasetError, OutputError, StudyError
 from gradhesion.cli.folder import Folder, read_json, write_json
 from gradhesion.cli.parts import settings_of, versions
-from gradhesion.cli.rules import Values
 from gradhesion.cli.study import Study, study_from
 
 

@@ -14,8 +14,8 @@ from gradhesion.cli.layout import placed, plan_of
 from gradhesion.cli.names import SCENE, SI
 from gradhesion.cli.pictured import heading, styled
 from gradhesion.cli.points_picture import draw_scenes
-from gradhesion.cli.schema import did_you_mean
 from gradhesion.cli.selection import Selection
+from gradhesion.cli.wording import did_you_mean
 
 LINE: Final = 0.16
 """The height of an entry of the legend below the panels, in inches."""

@@ -12,9 +12,11 @@ from functools import cache
 from tokenize import TokenError
 from typing import TYPE_CHECKING, Any, Final
 
+from gradhesion.cli.mistakes import Mistake
 from gradhesion.cli.names import PHYSICAL
 from gradhesion.cli.places import Path
-from gradhesion.cli.schema import BOUNDS, Mistake, example
+from gradhesion.cli.schema import BOUNDS
+from gradhesion.cli.wording import example
 
 if TYPE_CHECKING:
     from pint import UnitRegistry

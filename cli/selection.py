@@ -15,7 +15,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import KEYS, PHYSICAL, SCENE, SOLVER
 from gradhesion.cli.quantities import si_value
 from gradhesion.cli.reductions import REDUCTIONS, Between, Taken, interpolated, reduced, without_failed
-from gradhesion.cli.schema import did_you_mean
+from gradhesion.cli.wording import did_you_mean
 
 SLACK: Final = 1e-9
 """How far beyond an end of an axis a value may be, over the end: it is typed with fewer digits than it has."""

@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
-from gradhesion.cli import places, schema
+from gradhesion.cli import places, wording
 from gradhesion.cli.errors import StudyError
 
 MOST_BYTES: Final = 2**28
@@ -95,7 +95,7 @@ def _syntax_sentence(path: Path, text: str, problem: str) -> str:
         return f"{path}: not valid TOML, a number of more than 4,300 digits; write it with an exponent, as 1e6"
     lines = text.rstrip().split("\n")
     line = min(int(at[1]) if at[1] else len(lines), len(lines))
-    shown = schema.shown(lines[line - 1].strip())
+    shown = wording.shown(lines[line - 1].strip())
     column = f" (column {at[2]})" if at[2] else ""
     what = problem[: at.start()]
     remedy = next((remedy for start, remedy in _REMEDIES.items() if what.startswith(start)), "mend this line")

@@ -12,8 +12,10 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli import places, rules, schema
+from gradhesion.cli import places, rules, wording
+from gradhesion.cli.axes import Values, expanded
 from gradhesion.cli.errors import StudyError
+from gradhesion.cli.mistakes import mistakes_of_form
 from gradhesion.cli.names import CURVES, KEYS, RAGGED, SCENE, SI, SOLVER, UNITS, table_of
 from gradhesion.cli.quantities import in_si
 from gradhesion.cli.source import Source, read_source
@@ -55,7 +57,7 @@ class Study:
     layout: str
     outputs: tuple[str, ...]
     """What is asked for beside `status`, in the order of the dataset."""
-    parameters: Mapping[str, rules.Values]
+    parameters: Mapping[str, Values]
     """A value for each parameter, under the key that gives it, in the order of the dataset's dimensions."""
     method: Method
     profile: Profile = field(default_factory=Profile)
@@ -146,7 +148,7 @@ def study_from(data: Mapping[str, Any], name: str = "study") -> Study:
 def _study(source: Source) -> Study:
     """Check a study as a whole and expand it."""
     data = source.data
-    found = schema.mistakes_of_form(data)
+    found = mistakes_of_form(data)
     quantities, unreadable = in_si(data.get("physical"), [mistake.path for mistake in found])
     found += unreadable
     wrong = [mistake.path for mistake in found]
@@ -156,7 +158,7 @@ def _study(source: Source) -> Study:
     found += rules.mistakes_between_keys(data, entries, wrong, (*OUTPUTS, *REPORTS), SOLVERS)
     sentences = []
     for mistake in found:
-        value = "" if mistake.value is None else f" = {schema.shown(mistake.value)}"
+        value = "" if mistake.value is None else f" = {wording.shown(mistake.value)}"
         sentences.append(f"{source.place(mistake.path)}: {places.dotted(mistake.path)}{value}: {mistake.sentence}")
     sentences.sort(key=_line)
     mistakes = [*source.mistakes, *sentences]
@@ -166,7 +168,7 @@ def _study(source: Source) -> Study:
     if mistakes:
         raise StudyError(mistakes)
     layout = data.get("layout", "grid")
-    parameters = {key: rules.expanded(entry) for key, entry in entries.items()}
+    parameters = {key: expanded(entry) for key, entry in entries.items()}
     for values in parameters.values():
         if isinstance(values, np.ndarray):
             if layout == "grid" and not (np.all(np.diff(values) > 0) or np.all(np.diff(values) < 0)):

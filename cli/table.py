@@ -10,7 +10,7 @@ import xarray
 from gradhesion.cli.blocks import blocks
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import CURVES, INTEGERS, KEYS, SOLVER
-from gradhesion.cli.schema import did_you_mean
+from gradhesion.cli.wording import did_you_mean
 
 MOST: Final = 1_000_000
 """Lines of a table: what a spreadsheet takes."""

@@ -8,8 +8,8 @@ import xarray
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import RAGGED, SCENE
 from gradhesion.cli.reader import has_curves
-from gradhesion.cli.schema import did_you_mean
 from gradhesion.cli.selection import selection_of
+from gradhesion.cli.wording import did_you_mean
 
 MOST: Final = 20_000_000
 """Values in a page: it is 110 MB then, and takes a browser some seconds to open."""

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from gradhesion.cli.axes import expanded
 from gradhesion.cli.blocks import blocks, chunk_shape, size_of, tile
 from gradhesion.cli.places import lines_of
-from gradhesion.cli.rules import expanded
 from gradhesion.cli.study import Study, load_study, study_from
 
 
