@@ -67,7 +67,8 @@ build/tested: $(checked) .venv/installed | build/types/gradhesion
 	.venv/bin/ruff check
 	.venv/bin/ruff format --check
 	.venv/bin/mypy
-	.venv/bin/pytest -n auto --dist loadfile
+	.venv/bin/python -m tests.compile wave & .venv/bin/python -m tests.compile any; wait
+	.venv/bin/pytest -n auto --dist loadfile --no-loadscope-reorder
 	touch $@
 
 .PHONY: docs reference help maps figures docs-figures test stress faults bench clean
