@@ -90,10 +90,10 @@ or more.
 {engines.engines_table()}"""
     yield f"""### Studies of any size
 
-The same axes with more and more values, computed and written by `gradhesion.cli.writer.write` in a process of its own,
-what a study of 2,000 scenes takes (a file opened, closed and renamed) taken off. Aims: level within 20 %, memory too;
-10^8 scenes in 180 s. `of it solving` is the time of `gradhesion.core.solve` alone on 10^6 of these scenes over that of
-the whole.
+The same axes with more and more values, computed and written by `gradhesion.cli.dataset.writer.write` in a process of
+its own, what a study of 2,000 scenes takes (a file opened, closed and renamed) taken off. Aims: level within 20 %,
+memory too; 10^8 scenes in 180 s. `of it solving` is the time of `gradhesion.core.solve` alone on 10^6 of these scenes
+over that of the whole.
 
 {scale.scale_table(10**5 if quick else 10**8)}"""
     yield f"## Start-up\n\nMedians, the first run apart. Aims: 0.15 s, 1.5 s, 30 s.\n\n{start_up.start_up_table()}"

@@ -13,8 +13,8 @@ from typing import Final
 import numpy as np
 
 from benchmarks.clock import ROOT, seconds_of, table
-from gradhesion.cli.study import study_from
-from gradhesion.cli.writer import write
+from gradhesion.cli.dataset.writer import write
+from gradhesion.cli.study.study import study_from
 from gradhesion.core import solve
 
 OUTPUTS: Final = ("pull_off_force", "dissipated_energy")

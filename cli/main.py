@@ -8,17 +8,17 @@ from typing import NoReturn
 import click
 
 from gradhesion.cli import interrupts, messages
+from gradhesion.cli.commands.explore import explore
+from gradhesion.cli.commands.info import info
+from gradhesion.cli.commands.init import init
+from gradhesion.cli.commands.merge import merge
+from gradhesion.cli.commands.plan import plan
+from gradhesion.cli.commands.plot import plot
+from gradhesion.cli.commands.run import run
+from gradhesion.cli.commands.status import status
+from gradhesion.cli.commands.validate import schema, validate
+from gradhesion.cli.commands.verify import verify
 from gradhesion.cli.errors import GradhesionError
-from gradhesion.cli.explore import explore
-from gradhesion.cli.info import info
-from gradhesion.cli.init import init
-from gradhesion.cli.merge import merge
-from gradhesion.cli.plan import plan
-from gradhesion.cli.plot import plot
-from gradhesion.cli.run import run
-from gradhesion.cli.status import status
-from gradhesion.cli.validate import schema, validate
-from gradhesion.cli.verify import verify
 
 INTERRUPTED = 130
 UNHEARD = 141

@@ -8,8 +8,8 @@ from typing import Final
 
 from docs.tables import code, table
 from gradhesion.cli import names
-from gradhesion.cli.dataset import attributes
-from gradhesion.cli.study import study_from
+from gradhesion.cli.dataset.dataset import attributes
+from gradhesion.cli.study.study import study_from
 from gradhesion.core import DOUBTFUL, FAILED, FLAGS, REPORTS
 from gradhesion.core import status as status_module
 

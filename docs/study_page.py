@@ -6,9 +6,9 @@ from typing import Any, Final
 
 from docs.tables import code, table
 from gradhesion.cli.names import OUTPUTS, PHYSICAL, ROLES, SETTINGS, TIED
-from gradhesion.cli.quantities import WORDS
-from gradhesion.cli.schema import BOUNDS, KINDS, LAYOUTS, study_model
-from gradhesion.cli.wording import line_of
+from gradhesion.cli.study.quantities import WORDS
+from gradhesion.cli.study.schema import BOUNDS, KINDS, LAYOUTS, study_model
+from gradhesion.cli.study.wording import line_of
 from gradhesion.core import CONTROLS, SOLVERS
 
 CHOICES: Final = {"kind": KINDS, "layout": LAYOUTS, "solver": tuple(SOLVERS), "control": tuple(CONTROLS)}

@@ -9,7 +9,7 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from gradhesion.cli import pictured
+from gradhesion.cli.picture import pictured
 
 STYLE: Final = (pictured.STYLE, Path(__file__).with_name("journal.mplstyle"))
 """The style of all pictures, and what differs in a column of a journal."""

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from gradhesion.cli.folder import Folder
-from gradhesion.cli.resume import Solved
-from gradhesion.cli.study import Study
+from gradhesion.cli.study.study import Study
+from gradhesion.cli.work.folder import Folder
+from gradhesion.cli.work.resume import Solved
 
 
 @dataclass(frozen=True)

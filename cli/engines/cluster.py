@@ -4,13 +4,13 @@ import os
 from collections.abc import Generator
 from dataclasses import dataclass
 
-from gradhesion.cli.blocks import block_at
 from gradhesion.cli.engines import Work
 from gradhesion.cli.engines.connection import connected
 from gradhesion.cli.engines.foreman import Foreman
-from gradhesion.cli.kernels import compile_kernels
-from gradhesion.cli.parts import key_of
-from gradhesion.cli.resume import Solved, found
+from gradhesion.cli.work.blocks import block_at
+from gradhesion.cli.work.kernels import compile_kernels
+from gradhesion.cli.work.parts import key_of
+from gradhesion.cli.work.resume import Solved, found
 
 
 @dataclass(frozen=True)

@@ -7,14 +7,14 @@ from queue import Empty, SimpleQueue
 from typing import Any, Final
 
 from gradhesion.cli import interrupts
-from gradhesion.cli.blocks import block_at
 from gradhesion.cli.engines import Work
 from gradhesion.cli.engines.supply import Supply
 from gradhesion.cli.engines.watch import Watch
 from gradhesion.cli.engines.worker import SIGHT, carry_out, needed
 from gradhesion.cli.errors import ClusterError, OutputError
-from gradhesion.cli.parts import Values, key_of
-from gradhesion.cli.resume import Solved, blank, found
+from gradhesion.cli.work.blocks import block_at
+from gradhesion.cli.work.parts import Values, key_of
+from gradhesion.cli.work.resume import Solved, blank, found
 
 FLYING: Final = 256
 """Tasks at least in the hands of the scheduler, so that a cluster that adapts sees what is to be done."""

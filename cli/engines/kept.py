@@ -3,11 +3,11 @@
 from collections.abc import Generator
 from functools import partial
 
-from gradhesion.cli.blocks import block_at, count_of, one_ahead
 from gradhesion.cli.engines import Work
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.parts import key_of
-from gradhesion.cli.resume import Solved, found
+from gradhesion.cli.work.blocks import block_at, count_of, one_ahead
+from gradhesion.cli.work.parts import key_of
+from gradhesion.cli.work.resume import Solved, found
 
 
 class Kept:

@@ -4,11 +4,11 @@ from collections.abc import Generator
 from dataclasses import dataclass
 from functools import partial
 
-from gradhesion.cli.blocks import block_at, one_ahead
 from gradhesion.cli.disk import writing
 from gradhesion.cli.engines import Work
-from gradhesion.cli.parts import key_of, write_part
-from gradhesion.cli.resume import Solved, attempted, found, has_parts
+from gradhesion.cli.work.blocks import block_at, one_ahead
+from gradhesion.cli.work.parts import key_of, write_part
+from gradhesion.cli.work.resume import Solved, attempted, found, has_parts
 
 
 @dataclass(frozen=True)

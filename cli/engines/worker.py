@@ -56,17 +56,17 @@ def needed() -> dict[str, Any]:
     """List the versions that a worker has to share with its client, for one to go on where the other ends."""
     import numpy as np  # noqa: PLC0415 (with what follows, a second: not where a worker only looks up a name)
 
-    from gradhesion.cli.parts import versions  # noqa: PLC0415
+    from gradhesion.cli.work.parts import versions  # noqa: PLC0415
 
     return versions() | {"numpy": np.__version__}
 
 
 def _solved(folder: Path, fingerprint: str, numbers: tuple[int, ...]) -> dict[str, Any]:
     """Solve blocks of the study in a folder."""
-    from gradhesion.cli.blocks import block_at  # noqa: PLC0415
-    from gradhesion.cli.folder import Folder  # noqa: PLC0415
-    from gradhesion.cli.parts import key_of, write_part  # noqa: PLC0415
-    from gradhesion.cli.resume import attempted, found  # noqa: PLC0415
+    from gradhesion.cli.work.blocks import block_at  # noqa: PLC0415
+    from gradhesion.cli.work.folder import Folder  # noqa: PLC0415
+    from gradhesion.cli.work.parts import key_of, write_part  # noqa: PLC0415
+    from gradhesion.cli.work.resume import attempted, found  # noqa: PLC0415
 
     study = _study(folder, fingerprint)
     if study is None:
@@ -93,9 +93,9 @@ def _solved(folder: Path, fingerprint: str, numbers: tuple[int, ...]) -> dict[st
 def _loaded(folder: Path, fingerprint: str) -> Any:
     """Read the study of a folder, and compile what it needs; once in a process."""
     from gradhesion.cli.errors import DatasetError  # noqa: PLC0415
-    from gradhesion.cli.folder import Folder  # noqa: PLC0415
-    from gradhesion.cli.kernels import compile_kernels  # noqa: PLC0415
-    from gradhesion.cli.manifest import study_in  # noqa: PLC0415
+    from gradhesion.cli.work.folder import Folder  # noqa: PLC0415
+    from gradhesion.cli.work.kernels import compile_kernels  # noqa: PLC0415
+    from gradhesion.cli.work.manifest import study_in  # noqa: PLC0415
 
     deadline = time.monotonic() + SIGHT
     while True:

@@ -5,11 +5,11 @@ from typing import Final
 
 import xarray
 
+from gradhesion.cli.dataset.reader import has_curves
+from gradhesion.cli.dataset.selection import selection_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import RAGGED, SCENE
-from gradhesion.cli.reader import has_curves
-from gradhesion.cli.selection import selection_of
-from gradhesion.cli.wording import did_you_mean
+from gradhesion.cli.study.wording import did_you_mean
 
 MOST: Final = 20_000_000
 """Values in a page: it is 110 MB then, and takes a browser some seconds to open."""
@@ -26,7 +26,7 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
 
     See Also
     --------
-    gradhesion.cli.selection : how a value is found on an axis.
+    gradhesion.cli.dataset.dataset.selection : how a value is found on an axis.
     """
     known = [str(name) for name in dataset.data_vars if name != "status" and _is_shown(dataset, str(name))]
     for name in variables:

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from gradhesion.cli import names
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.plain import in_order, symbol, words
-from gradhesion.cli.labels import unit_for
 from gradhesion.cli.names import INTEGERS, SCENE, SOLVER
-from gradhesion.cli.scales import scale
+from gradhesion.cli.picture.labels import unit_for
+from gradhesion.cli.picture.scales import scale
 from gradhesion.core import DOUBTFUL, FAILED, FLAGS, doubts_about
 
 DIGITS: Final = 6

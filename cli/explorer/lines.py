@@ -5,10 +5,10 @@ from typing import Final
 import xarray
 from matplotlib.colors import to_hex
 
-from gradhesion.cli.curve_panels import JUMP, THIN, TRACKS, Dash, Track, faded
-from gradhesion.cli.curve_picture import PLANES
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.data import Entry
+from gradhesion.cli.picture.curve_panels import JUMP, THIN, TRACKS, Dash, Track, faded
+from gradhesion.cli.picture.curve_picture import PLANES
 
 _WIDTH: Final = 1.5
 """Pixels for a point of a picture: lines are seen from farther away."""

@@ -12,6 +12,7 @@ from bokeh.palettes import Viridis256
 from bokeh.resources import INLINE
 from jinja2 import Environment
 
+from gradhesion.cli.dataset.reader import has_curves
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.choice import chosen
 from gradhesion.cli.explorer.data import Entry, study_data
@@ -19,7 +20,6 @@ from gradhesion.cli.explorer.figures import Part, map_of, plane_of, ranges, sect
 from gradhesion.cli.explorer.lines import planes_of
 from gradhesion.cli.explorer.plain import words
 from gradhesion.cli.names import SCENE, SOLVER
-from gradhesion.cli.reader import has_curves
 
 _OWN: Final = Path(__file__).parent
 _SCRIPTS: Final = ("numbers", "scene", "controls", "maps", "sections", "curves", "explorer")

@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from gradhesion.cli.study import study_from
-from gradhesion.cli.writer import write
+from gradhesion.cli.dataset.writer import write
+from gradhesion.cli.study.study import study_from
 
 UNITS = {"R": ["1 um", "2 um"], "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 nm", "a_max": "inf"}
 SHAPE = {"exponent": 2.5, "harmonics": [{"n": 1, "cos": 1.0}, {"n": 2, "sin": 0.2}]}

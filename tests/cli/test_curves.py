@@ -11,9 +11,9 @@ import pytest
 import xarray
 from click.testing import Result
 
-from gradhesion.cli.dataset import compute
+from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.names import CURVES, EXTENTS, GENERAL_CURVES, INTEGERS, KEYS, MEANINGS, PARAMETERS, RAGGED
-from gradhesion.cli.study import load_study, study_from
+from gradhesion.cli.study.study import load_study, study_from
 from gradhesion.core import FAILED, FLAGS, draw_curves, solve
 from gradhesion.core import curves as core_curves
 
@@ -148,7 +148,7 @@ def test_values_do_not_depend_on_threads_or_chunks(
     assert dict(whole["status"].sizes) == ({"scene": 3} if layout == "points" else {"A": 3, "a_max_over_R": 2})
     xarray.testing.assert_identical(compute(study, threads=3), whole)
     (tmp_path / "study.toml").write_text(study.text)
-    monkeypatch.setattr("gradhesion.cli.writer.POINTS", 7)
+    monkeypatch.setattr("gradhesion.cli.dataset.writer.POINTS", 7)
     result = gradhesion("run", tmp_path / "study.toml", "-o", tmp_path / "x.nc", "--threads", "2")
     assert result.exit_code == 0
     with xarray.open_dataset(tmp_path / "x.nc") as written:
@@ -213,12 +213,12 @@ def test_what_stood_there_stays_until_all_is_drawn(
             raise MemoryError
         return draw_curves(*arguments)
 
-    monkeypatch.setattr("gradhesion.cli.curves.draw_curves", failing)
+    monkeypatch.setattr("gradhesion.cli.work.curves.draw_curves", failing)
     with pytest.raises(MemoryError):
         gradhesion("run", curve_file, "-o", folder / "x.nc", "--overwrite", "--threads", "1")
     assert (folder / "x.nc").read_text() == "precious"
     assert os.listdir(folder) == ["x.nc"]
-    monkeypatch.setattr("gradhesion.cli.curves.draw_curves", lambda *_: pytest.fail("nothing is drawn"))
+    monkeypatch.setattr("gradhesion.cli.work.curves.draw_curves", lambda *_: pytest.fail("nothing is drawn"))
     assert gradhesion("run", curve_file, "-o", folder / "x.nc").exit_code == 4
 
 
@@ -240,5 +240,5 @@ def test_info_tells_curves_in_words(gradhesion: Call, dataset_file: Path, monkey
         "origin gradhesion",
     ):
         assert words in told, words
-    monkeypatch.setattr("gradhesion.cli.curve_words.CELLS", 1)
+    monkeypatch.setattr("gradhesion.cli.words.curve_words.CELLS", 1)
     assert " ".join(gradhesion("info", dataset_file).stdout.split()) == told, "read in whatever pieces"

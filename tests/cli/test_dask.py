@@ -18,14 +18,14 @@ import pytest
 from click.testing import Result
 from distributed import LocalCluster, get_worker
 
-from gradhesion.cli.folder import folder_of
+from gradhesion.cli.work.folder import folder_of
 
 Call = Callable[..., Result]
 
 PRELOAD = """
 import json, os, signal, time
 from pathlib import Path
-import gradhesion.cli.blocks as blocks
+import gradhesion.cli.work.blocks as blocks
 
 blocks.CHUNK = 2
 orders = Path({folder!r})
@@ -64,7 +64,7 @@ a_max_over_R = inf
 @pytest.fixture(autouse=True)
 def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """Cut the small study of 24 scenes into 6 blocks."""
-    monkeypatch.setattr("gradhesion.cli.blocks.CHUNK", 2)
+    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 2)
 
 
 SETTINGS: dict[str, Any] = {
@@ -243,7 +243,7 @@ def test_a_local_cluster_comes_and_goes(
 def test_workers_that_come_late_and_leave_early(
     gradhesion: Call, study_file: Path, whole: dict[str, bytes], output: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gradhesion.cli import blocks
+    from gradhesion.cli.work import blocks
 
     really, seen = blocks.solve, set()
 
@@ -405,7 +405,7 @@ def test_mistakes(
 def test_one_block_needs_no_cluster(
     gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gradhesion.cli.blocks.CHUNK", 100)
+    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 100)
     result = gradhesion("run", study_file, "-o", output, "--engine=dask")
     assert result.exit_code == 0
     assert "the study is of one block or of curves, and is solved in this process" in result.stderr

@@ -15,12 +15,12 @@ from matplotlib.figure import Figure
 from matplotlib.path import Path
 
 from gradhesion.cli import names
-from gradhesion.cli.curve_picture import drawn_curves
-from gradhesion.cli.dataset import compute
-from gradhesion.cli.doubts import CROSS, DOUBTS, GAP, GREY, Doubt, doubts_in
-from gradhesion.cli.picture import drawn
-from gradhesion.cli.pictured import save
-from gradhesion.cli.study import study_from
+from gradhesion.cli.dataset.dataset import compute
+from gradhesion.cli.picture.curve_picture import drawn_curves
+from gradhesion.cli.picture.doubts import CROSS, DOUBTS, GAP, GREY, Doubt, doubts_in
+from gradhesion.cli.picture.picture import drawn
+from gradhesion.cli.picture.pictured import save
+from gradhesion.cli.study.study import study_from
 from gradhesion.core import CURVES, DOUBTFUL, FLAGS, OUTPUTS, REPORTS, solve
 
 LOADING, UNLOADING, TOLERANCE = DOUBTS

@@ -11,9 +11,9 @@ from click.testing import Result
 from hypothesis import given
 from hypothesis import strategies as st
 
+from gradhesion.cli.dataset.reader import opened
 from gradhesion.cli.explorer import choice
 from gradhesion.cli.explorer.data import rounded, study_data
-from gradhesion.cli.reader import opened
 
 Call = Callable[..., Result]
 

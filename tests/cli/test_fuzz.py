@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.study import load_study
+from gradhesion.cli.study.study import load_study
 
 ROOT = Path(__file__).parents[2]
 LINES = [

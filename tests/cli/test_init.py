@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 from click.testing import Result
 
-from gradhesion.cli.init import studies
-from gradhesion.cli.study import load_study
+from gradhesion.cli.commands.init import studies
+from gradhesion.cli.study.study import load_study
 
 Call = Callable[..., Result]
 CONFIGS = Path(__file__).parents[2] / "configs"

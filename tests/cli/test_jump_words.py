@@ -11,9 +11,9 @@ import pytest
 import xarray
 from click.testing import Result
 
-from gradhesion.cli.dataset import compute
+from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.names import CURVES, INTEGERS, KEYS
-from gradhesion.cli.study import study_from
+from gradhesion.cli.study.study import study_from
 from gradhesion.core import draw_curves, solve
 
 Call = Callable[..., Result]
@@ -129,7 +129,7 @@ def test_info_tells_them_in_words(
         f", {where} status: 6 of 6 scenes",
     ):
         assert words in told, words
-    monkeypatch.setattr("gradhesion.cli.jump_words.ITEMS", 7)
+    monkeypatch.setattr("gradhesion.cli.words.jump_words.ITEMS", 7)
     assert " ".join(gradhesion("info", path).stdout.split()) == told, "read in whatever pieces"
 
 
@@ -137,7 +137,7 @@ def test_info_lists_them_as_csv_without_losing_a_digit(
     gradhesion: Call, dataset_file: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = dataset_file()
-    monkeypatch.setattr("gradhesion.cli.jump_words.ITEMS", 5)
+    monkeypatch.setattr("gradhesion.cli.words.jump_words.ITEMS", 5)
     result = gradhesion("info", "--jumps", path)
     assert (result.exit_code, result.stderr) == (0, "")
     header, *rows = csv.reader(result.stdout.splitlines())

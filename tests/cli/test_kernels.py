@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from gradhesion.cli import kernels
-from gradhesion.cli.study import study_from
+from gradhesion.cli.study.study import study_from
+from gradhesion.cli.work import kernels
 
 
 @pytest.fixture

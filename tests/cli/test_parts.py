@@ -11,13 +11,13 @@ import numpy as np
 import pytest
 from click.testing import Result
 
-from gradhesion.cli.blocks import blocks, count_of
 from gradhesion.cli.disk import writing
 from gradhesion.cli.errors import OutputError
-from gradhesion.cli.folder import claimed, folder_of
-from gradhesion.cli.parts import PartError, key_of, read_part, write_part
-from gradhesion.cli.resume import blank
-from gradhesion.cli.study import Study, study_from
+from gradhesion.cli.study.study import Study, study_from
+from gradhesion.cli.work.blocks import blocks, count_of
+from gradhesion.cli.work.folder import claimed, folder_of
+from gradhesion.cli.work.parts import PartError, key_of, read_part, write_part
+from gradhesion.cli.work.resume import blank
 from gradhesion.core import solve as real_solve
 
 Call = Callable[..., Result]
@@ -26,7 +26,7 @@ Call = Callable[..., Result]
 @pytest.fixture(autouse=True)
 def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """Cut the small study of 24 scenes into 6 blocks."""
-    monkeypatch.setattr("gradhesion.cli.blocks.CHUNK", 2)
+    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 2)
 
 
 class Power:
@@ -70,7 +70,7 @@ def begun(
 
     def begin(number: int, *options: str) -> int:
         with monkeypatch.context() as patch:
-            patch.setattr("gradhesion.cli.blocks.solve", Power(number).solve)
+            patch.setattr("gradhesion.cli.work.blocks.solve", Power(number).solve)
             assert gradhesion("run", study_file, "-o", output, *options).exit_code == 1, "click's, without main()"
         return len(list(output.parent.glob("out.nc.parts/*.part")))
 
@@ -158,7 +158,7 @@ def test_parts_of_another_version_are_refused(
 ) -> None:
     begun(4)
     for name, value in change.items():
-        monkeypatch.setattr(f"gradhesion.cli.parts.{name}", value)
+        monkeypatch.setattr(f"gradhesion.cli.work.parts.{name}", value)
     result = gradhesion("run", study_file, "-o", output)
     assert result.exit_code == 4
     assert "the sources of the solver have changed" in result.stderr or "format version is 1 there" in result.stderr
@@ -240,7 +240,7 @@ def test_the_key_has_all_that_values_depend_on(data: dict[str, Any], tmp_path: P
 def test_one_block_needs_no_part(
     gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gradhesion.cli.blocks.CHUNK", 100)
+    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 100)
     monkeypatch.setattr("gradhesion.cli.engines.threads.write_part", lambda *_: pytest.fail("there is none"))
     assert gradhesion("run", study_file, "-o", output).exit_code == 0
 
@@ -261,10 +261,10 @@ def test_a_folder_that_is_removed_under_way_is_told(
         for path in folder_of(output).path.glob("*"):
             path.unlink()
         folder_of(output).path.rmdir()
-        monkeypatch.setattr("gradhesion.cli.blocks.solve", real_solve)
+        monkeypatch.setattr("gradhesion.cli.work.blocks.solve", real_solve)
         return real_solve(*arguments, **options)
 
-    monkeypatch.setattr("gradhesion.cli.blocks.solve", removing)
+    monkeypatch.setattr("gradhesion.cli.work.blocks.solve", removing)
     result = gradhesion("run", study_file, "-o", output, "--quiet")
     assert result.exit_code == 4
     assert result.stderr.startswith(f"{output}: cannot be written (No such file or directory)")
@@ -301,7 +301,7 @@ def test_a_block_that_raises_once_is_tried_again(
             raise error
         return real_solve(*arguments, **options)
 
-    monkeypatch.setattr("gradhesion.cli.blocks.solve", once)
+    monkeypatch.setattr("gradhesion.cli.work.blocks.solve", once)
     assert gradhesion("run", study_file, "-o", output).exit_code == 0
     assert values_of(output) == values_of(whole)
 
@@ -311,7 +311,7 @@ def test_a_block_that_always_raises_has_no_value_and_its_neighbours_stay(
 ) -> None:
     power = Power(4, MemoryError)
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.blocks.solve", power.solve)
+        patch.setattr("gradhesion.cli.work.blocks.solve", power.solve)
         result = gradhesion("run", study_file, "-o", output, "--quiet")
     assert result.exit_code == 3
     assert power.calls == 4 + 2 * 2
@@ -330,7 +330,7 @@ def test_a_block_that_always_raises_has_no_value_and_its_neighbours_stay(
 def test_if_no_block_can_be_solved_nothing_is_written(
     gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gradhesion.cli.blocks.solve", Power(0, MemoryError).solve)
+    monkeypatch.setattr("gradhesion.cli.work.blocks.solve", Power(0, MemoryError).solve)
     result = gradhesion("run", study_file, "-o", output)
     assert result.exit_code == 3
     assert "raised MemoryError; nothing is written" in result.stderr
@@ -349,10 +349,10 @@ def test_a_run_killed_after_the_last_rename_is_complete(
     gradhesion: Call, study_file: Path, output: Path, whole: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.folder.Folder.clear", lambda *_: None)
+        patch.setattr("gradhesion.cli.work.folder.Folder.clear", lambda *_: None)
         assert gradhesion("run", study_file, "-o", output).exit_code == 0
     assert json.loads(folder_of(output).finished.read_bytes())["failed"] == 0
-    monkeypatch.setattr("gradhesion.cli.blocks.solve", Power(0).solve)
+    monkeypatch.setattr("gradhesion.cli.work.blocks.solve", Power(0).solve)
     result = gradhesion("run", study_file, "-o", output)
     assert result.exit_code == 0
     assert result.stderr.endswith("were complete already\n")

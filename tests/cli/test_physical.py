@@ -12,10 +12,10 @@ import pytest
 import xarray
 from click.testing import Result
 
-from gradhesion.cli.dataset import compute
+from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.names import CURVES, OUTPUTS, SI, SYMBOLS, UNITS
-from gradhesion.cli.study import load_study, study_from
+from gradhesion.cli.study.study import load_study, study_from
 
 Call = Callable[..., Result]
 EPS = 2.0**-52
@@ -122,7 +122,7 @@ def test_the_file_is_the_same_in_whatever_blocks_and_is_verified(
         physical["physical"] |= {"wavelength": ["110 nm", "200 nm"]}
     study, path = write_study(study_from(physical).text), tmp_path / "x.nc"
     computed = compute(load_study(study))
-    monkeypatch.setattr("gradhesion.cli.blocks.CHUNK", 3)
+    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 3)
     assert gradhesion("run", study, "-o", path).exit_code == 0
     with xarray.open_dataset(path) as written:
         assert set(written.coords) == set(computed.coords)

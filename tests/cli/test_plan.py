@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from click.testing import Result
 
-from gradhesion.cli import probe
-from gradhesion.cli.blocks import block_at, blocks, size_of
-from gradhesion.cli.folder import folder_of
-from gradhesion.cli.study import study_from
+from gradhesion.cli.study.study import study_from
+from gradhesion.cli.work import probe
+from gradhesion.cli.work.blocks import block_at, blocks, size_of
+from gradhesion.cli.work.folder import folder_of
 
 Call = Callable[..., Result]
 
@@ -22,7 +22,7 @@ Call = Callable[..., Result]
 @pytest.fixture(autouse=True)
 def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """Cut the small study of 24 scenes into 6 blocks."""
-    monkeypatch.setattr("gradhesion.cli.blocks.CHUNK", 2)
+    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 2)
 
 
 def planned(gradhesion: Call, *arguments: str | Path) -> dict[str, Any]:
@@ -125,7 +125,7 @@ def test_the_time_is_that_of_the_scenes(data: dict[str, Any], monkeypatch: pytes
 def test_values_compress_as_in_the_file(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
     wide = ["--set=parameters.A={start=0, stop=0.4, num=6000}", '--set=outputs=["pull_off_force"]']
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("gradhesion.cli.blocks.CHUNK", 131_072)
+        patch.setattr("gradhesion.cli.work.blocks.CHUNK", 131_072)
         expected = planned(gradhesion, study_file, "-o", tmp_path / "out.nc", *wide)["bytes_of_file"]
         assert gradhesion("run", study_file, "-o", tmp_path / "out.nc", *wide).exit_code == 0
     assert abs((tmp_path / "out.nc").stat().st_size / expected - 1) < 0.4

@@ -11,9 +11,9 @@ import pytest
 import xarray
 from click.testing import Result
 
-from gradhesion.cli.dataset import compute
+from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.names import CURVES
-from gradhesion.cli.study import load_study, study_from
+from gradhesion.cli.study.study import load_study, study_from
 from gradhesion.core import draw_curves, solve
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.profile import Harmonic, Profile

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradhesion.cli.names import PHYSICAL
-from gradhesion.cli.quantities import in_si, si_value
+from gradhesion.cli.study.quantities import in_si, si_value
 
 UNITS = {"m": "length", "Pa": "pressure", "J m-2": "energy per area", "N m-1": "force per length"}
 

@@ -17,10 +17,10 @@ import pytest
 import xarray
 from click.testing import Result
 
-from gradhesion.cli.dataset import compute
+from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.names import OUTPUTS, PARAMETERS
-from gradhesion.cli.rules import EXACT_ONLY
-from gradhesion.cli.study import load_study, study_from
+from gradhesion.cli.study.rules import EXACT_ONLY
+from gradhesion.cli.study.study import load_study, study_from
 from gradhesion.core import FAILED, FLAGS
 from gradhesion.core import solve as real_solve
 
@@ -115,7 +115,7 @@ def test_values_do_not_depend_on_blocks_or_threads(
         lists = dict(zip(("k", "lambda_over_R", "A", "a_max_over_R"), scenes.tolist(), strict=True))
         data |= {"layout": "points", "parameters": data["parameters"] | lists}
     whole = compute(study_from(data), threads=1)
-    monkeypatch.setattr("gradhesion.cli.blocks.CHUNK", 2)
+    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 2)
     xarray.testing.assert_identical(compute(study_from(data), threads=2), whole)
 
 
@@ -180,7 +180,7 @@ def test_an_existing_output_stays_without_overwrite(
     path = tmp_path / "out.nc"
     path.write_text("precious")
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.blocks.solve", lambda *_, **__: pytest.fail("nothing is computed"))
+        patch.setattr("gradhesion.cli.work.blocks.solve", lambda *_, **__: pytest.fail("nothing is computed"))
         result = gradhesion("run", study_file, "-o", path)
     assert result.exit_code == 4
     assert result.stderr == f"{path}: exists already; add --overwrite to replace it, or name another output with -o\n"
@@ -202,7 +202,7 @@ def test_a_link_is_followed(gradhesion: Call, study_file: Path, tmp_path: Path) 
 def test_an_output_that_cannot_be_is_refused_before_computing(
     output: str, gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gradhesion.cli.blocks.solve", lambda *_, **__: pytest.fail("nothing is computed"))
+    monkeypatch.setattr("gradhesion.cli.work.blocks.solve", lambda *_, **__: pytest.fail("nothing is computed"))
     (tmp_path / "folder").mkdir()
     (tmp_path / "file").touch()
     result = gradhesion("run", study_file, "-o", tmp_path / output, "--overwrite")
@@ -220,7 +220,7 @@ def test_failed_scenes_are_written_and_told(
         values["pull_off_force"].flat[3] = np.nan
         return values
 
-    monkeypatch.setattr("gradhesion.cli.blocks.solve", failing)
+    monkeypatch.setattr("gradhesion.cli.work.blocks.solve", failing)
     result = gradhesion("run", study_file, "-o", tmp_path / "out.nc", "--quiet")
     assert result.exit_code == 3
     assert f"1 of 24 scenes have failed; `gradhesion info {tmp_path}/out.nc` tells why" in result.stderr

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import xarray
 
+from gradhesion.cli.dataset.selection import Selection, axes_of, is_log, selection_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SOLVER
-from gradhesion.cli.selection import Selection, axes_of, is_log, selection_of
 from gradhesion.core import FLAGS
 
 K = np.array([0.0, 0.2, 0.5, 0.9])

@@ -76,11 +76,11 @@ def test_an_interrupt_that_a_library_swallows_is_heard_all_the_same(
     study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from gradhesion.cli import interrupts
-    from gradhesion.cli.study import load_study
-    from gradhesion.cli.writer import write
+    from gradhesion.cli.dataset.writer import write
+    from gradhesion.cli.study.study import load_study
 
     monkeypatch.setattr(interrupts, "_heard", [0.0])
-    monkeypatch.setattr("gradhesion.cli.blocks.solve", lambda *_, **__: time.sleep(0.5))
+    monkeypatch.setattr("gradhesion.cli.work.blocks.solve", lambda *_, **__: time.sleep(0.5))
     with pytest.raises(KeyboardInterrupt):
         write(load_study(study_file), tmp_path / "out" / "out.nc", history="")
     assert os.listdir(tmp_path / "out") == []

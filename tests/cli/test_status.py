@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 from click.testing import Result
 
-from gradhesion.cli.folder import claimed
-from gradhesion.cli.state import Keeper
+from gradhesion.cli.work.folder import claimed
+from gradhesion.cli.work.state import Keeper
 from gradhesion.core import solve as real_solve
 
 Call = Callable[..., Result]
@@ -20,7 +20,7 @@ Call = Callable[..., Result]
 @pytest.fixture(autouse=True)
 def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """Cut the small study of 24 scenes into 6 blocks."""
-    monkeypatch.setattr("gradhesion.cli.blocks.CHUNK", 2)
+    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 2)
 
 
 def test_nothing_is_told_as_a_mistake(gradhesion: Call, tmp_path: Path) -> None:
@@ -47,8 +47,8 @@ def test_under_way_stopped_and_complete(
         return real_solve(*arguments, **options)
 
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.blocks.solve", spying)
-        patch.setattr("gradhesion.cli.state.PERIOD", 0.0)
+        patch.setattr("gradhesion.cli.work.blocks.solve", spying)
+        patch.setattr("gradhesion.cli.work.state.PERIOD", 0.0)
         assert gradhesion("run", study_file, "-o", output).exit_code == 1
     running, words = seen
     assert running["state"] == "running"

@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradhesion.cli.axes import expanded
-from gradhesion.cli.blocks import blocks, chunk_shape, size_of, tile
-from gradhesion.cli.places import lines_of
-from gradhesion.cli.study import Study, load_study, study_from
+from gradhesion.cli.study.axes import expanded
+from gradhesion.cli.study.places import lines_of
+from gradhesion.cli.study.study import Study, load_study, study_from
+from gradhesion.cli.work.blocks import blocks, chunk_shape, size_of, tile
 
 
 def same(one: Study, other: Study) -> bool:
@@ -146,8 +146,8 @@ def test_a_tile_fits_and_cuts_leading_axes_first(shape: tuple[int, ...], cells: 
 @given(shape=shapes, chunk=st.integers(1, 3000), many=st.integers(1, 9))
 def test_blocks_cover_every_cell_once_in_whole_chunks(shape: tuple[int, ...], chunk: int, many: int) -> None:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("gradhesion.cli.blocks.CHUNK", chunk)
-        patch.setattr("gradhesion.cli.blocks.CHUNKS_OF_BLOCK", many)
+        patch.setattr("gradhesion.cli.work.blocks.CHUNK", chunk)
+        patch.setattr("gradhesion.cli.work.blocks.CHUNKS_OF_BLOCK", many)
         parts = chunk_shape(shape)
         count = np.zeros(shape, dtype=int)
         for block in blocks(shape):

@@ -12,9 +12,9 @@ import pytest
 import xarray
 from click.testing import Result
 
-from gradhesion.cli import table
-from gradhesion.cli.study import study_from
-from gradhesion.cli.writer import write
+from gradhesion.cli.dataset.writer import write
+from gradhesion.cli.study.study import study_from
+from gradhesion.cli.words import table
 
 Call = Callable[..., Result]
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from click.testing import Result
 
 from gradhesion.cli.names import KEYS, table_of
-from gradhesion.cli.schema import study_model
+from gradhesion.cli.study.schema import study_model
 
 Call = Callable[..., Result]
 

@@ -22,10 +22,11 @@ from typing import Any
 import netCDF4
 import numpy as np
 
-from gradhesion.cli import blocks, interrupts
-from gradhesion.cli.dataset import compute
+from gradhesion.cli import interrupts
+from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.main import main as gradhesion
-from gradhesion.cli.study import load_study
+from gradhesion.cli.study.study import load_study
+from gradhesion.cli.work import blocks
 
 STUDY = """\
 outputs = ["pull_off_force", "dissipated_energy", "loading_jumps"]

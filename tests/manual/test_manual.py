@@ -14,7 +14,7 @@ import pytest
 from click.testing import CliRunner
 
 from gradhesion.cli.main import cli
-from gradhesion.cli.study import study_from
+from gradhesion.cli.study.study import study_from
 
 from .pages import PAGES, ROOT, Block, blocks_of, commands_of, made_smaller, same
 

@@ -1,0 +1,37 @@
+"""`gradhesion explore`: a dataset as one page for a browser."""
+
+from pathlib import Path
+
+import click
+
+from gradhesion.cli.errors import MissingExtraError
+
+
+@click.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="Page: .html [FILE.html].")
+@click.option("--variable", "variables", multiple=True, metavar="NAME", help="What to take; repeat it [everything].")
+@click.option("--at", multiple=True, metavar="AXIS=VALUE", help="Fix an axis at its value nearest to this one.")
+@click.option("--overwrite", is_flag=True, help="Replace an existing page.")
+def explore(file: Path, output: Path | None, variables: tuple[str, ...], at: tuple[str, ...], overwrite: bool) -> None:
+    """Write the dataset FILE as one page with maps, sections and sliders, for any browser.
+
+    The page holds the data and all that it needs: it opens from a disk without a network. Values have 6 digits.
+    """
+    path = output or file.with_suffix(".html")
+    if path.suffix.lower() not in {".html", ".htm"}:
+        raise click.UsageError(f"{path}: the name of a page ends in .html; name another with -o")
+    names = [name.strip() for word in variables for name in word.split(",")]
+    try:
+        from gradhesion.cli.explorer.page import page
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] not in {"bokeh", "jinja2"}:
+            raise
+        raise MissingExtraError("explore needs Bokeh: install it with `pip install 'gradhesion[explore]'`") from None
+    from gradhesion.cli.dataset.reader import opened
+    from gradhesion.cli.disk import replacement, writing
+
+    with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
+        text = page(dataset, file.name, names, at)
+        with writing(path):
+            temporary.write_text(text, encoding="utf-8")

@@ -1,0 +1,28 @@
+"""`gradhesion info`: what a dataset holds, in words or as a table."""
+
+from pathlib import Path
+
+import click
+
+
+@click.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--format", "form", type=click.Choice(["words", "csv"]), default="words", help="Words, or all values.")
+@click.option("--variable", "variables", multiple=True, metavar="NAME", help="With csv: a variable, or a curve.")
+@click.option("--jumps", is_flag=True, help="List the jumps of all scenes instead, as CSV.")
+def info(file: Path, form: str, variables: tuple[str, ...], jumps: bool) -> None:
+    """Tell in words what the dataset FILE holds, or write a small one as a table (CSV)."""
+    from gradhesion.cli.dataset.reader import opened
+    from gradhesion.cli.words.jump_words import jumps_listed
+    from gradhesion.cli.words.table import tabled
+    from gradhesion.cli.words.words import described
+
+    if variables and (jumps or form != "csv"):
+        raise click.UsageError("--variable chooses what a table has; add --format csv, and leave --jumps out")
+    with opened(file) as dataset:
+        if jumps:
+            lines = jumps_listed(dataset, file)
+        else:
+            lines = tabled(dataset, file, variables) if form == "csv" else described(dataset, file)
+        for line in lines:
+            click.echo(line)

@@ -1,0 +1,48 @@
+"""`gradhesion init`: a study to start from."""
+
+from importlib import resources
+from pathlib import Path
+
+import click
+from click.shell_completion import CompletionItem
+
+from gradhesion.cli.errors import OutputError
+
+
+def studies() -> dict[str, str]:
+    """Read the studies that come with the program, by name."""
+    files = sorted(resources.files("gradhesion.configs").iterdir(), key=lambda file: file.name)
+    return {file.name.removesuffix(".toml"): file.read_text("utf-8") for file in files if file.name.endswith(".toml")}
+
+
+def _names(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Complete the name of a study."""
+    return [CompletionItem(name) for name in studies() if name.startswith(incomplete)]
+
+
+@click.command()
+@click.argument("name", default="map", shell_complete=_names)
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="The file to write; NAME.toml if not given.")
+@click.option("--overwrite", is_flag=True, help="Replace a file that exists.")
+@click.option("--list", "listed", is_flag=True, help="List the studies and write nothing.")
+def init(name: str, output: Path | None, overwrite: bool, listed: bool) -> None:
+    """Write a commented study to start from: NAME is map (the default), curve, physical, or a figure such as fig4a."""
+    known = studies()
+    if listed:
+        width = max(map(len, known))
+        for each, text in known.items():
+            click.echo(f"{each:{width}}  {text.splitlines()[0].removeprefix('# ')}")
+        return
+    if name not in known:
+        from gradhesion.cli.study.wording import did_you_mean
+
+        raise click.UsageError(f'there is no study "{name}"; {did_you_mean(name, list(known))}')
+    path = output or Path(f"{name}.toml")
+    try:
+        with path.open("w" if overwrite else "x", encoding="utf-8") as file:
+            file.write(known[name])
+    except FileExistsError:
+        raise OutputError(f"{path}: exists already; name another file by -o, or add --overwrite") from None
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be written ({error.strerror}); name another file by -o") from None
+    click.echo(f"{path}: written; gradhesion run {path}", err=True)

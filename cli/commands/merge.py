@@ -1,0 +1,81 @@
+"""`gradhesion merge`: join the parts that shards have computed, or datasets that differ along one axis."""
+
+import time
+from contextlib import ExitStack
+from pathlib import Path
+
+import click
+
+from gradhesion.cli import messages
+from gradhesion.cli.commands.run import finish, history_now
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.progress import progress
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="The dataset of several datasets together.")
+@click.option("--overwrite", is_flag=True, help="Replace an existing dataset.")
+@click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
+@click.option("--log-json", is_flag=True, is_eager=True, callback=messages.speak_json, help="One JSON object a line.")
+def merge(
+    files: tuple[Path, ...],
+    output: Path | None,
+    overwrite: bool,
+    quiet: bool,
+    log_json: bool,  # noqa: ARG001 (its callback has it)
+) -> None:
+    """Join the parts of shards into the dataset FILE, or several datasets into one.
+
+    With one FILE: the parts that `gradhesion run STUDY.toml --shard I/N -o FILE` has left. With several, and -o: maps
+    whose studies differ along one axis, which then has the values of all.
+    """
+    start = time.monotonic()
+    if len(files) == 1 and output is None:
+        _merge_shards(files[0], start, overwrite=overwrite, quiet=quiet)
+    elif output is None or len(files) == 1:
+        raise click.UsageError(
+            "several datasets make one that -o names; one FILE alone stands for the parts of its shards"
+        )
+    elif len({*files}) < len(files):
+        raise click.UsageError("the same dataset is named twice; name each once")
+    else:
+        _merge_datasets(files, output, start, overwrite=overwrite, quiet=quiet)
+
+
+def _merge_shards(file: Path, start: float, *, overwrite: bool, quiet: bool) -> None:
+    """Join the parts of shards."""
+    from gradhesion.cli.dataset.writer import write
+    from gradhesion.cli.engines.kept import Kept
+    from gradhesion.cli.work.blocks import count_of
+    from gradhesion.cli.work.folder import folder_of
+    from gradhesion.cli.work.manifest import study_in
+
+    folder = folder_of(file)
+    study = study_in(folder, file)
+    count = count_of(study.shape)
+    missing = [number + 1 for number in range(count) if not folder.part(number).exists()]
+    if missing and not folder.finished.exists():
+        shown = ", ".join(map(str, missing[:8])) + (", ..." if len(missing) > 8 else "")
+        raise DatasetError(
+            f"{file}: {len(missing):,} of {count:,} blocks are missing ({shown}); run the shards that have them, "
+            "or `gradhesion run`, which computes all that is left"
+        )
+    with progress(study.scenes, quiet=quiet) as advance:
+        written = write(study, file, history=history_now(), overwrite=overwrite, engine=Kept(), advance=advance)
+    finish(file, study.scenes, written, time.monotonic() - start, quiet=quiet)
+
+
+def _merge_datasets(files: tuple[Path, ...], output: Path, start: float, *, overwrite: bool, quiet: bool) -> None:
+    """Join datasets along the axis in which they differ."""
+    from gradhesion.cli.dataset.joining import Joined, opened_all, study_of
+    from gradhesion.cli.dataset.writer import write
+
+    with ExitStack() as stack:
+        sources = opened_all(files, stack)
+        study, axis = study_of(sources)
+        history = "\n".join([*(str(source.attrs["history"]) for source in sources.values()), history_now()])
+        with progress(study.scenes, quiet=quiet) as advance:
+            engine = Joined(sources, axis)
+            written = write(study, output, history=history, overwrite=overwrite, engine=engine, advance=advance)
+    finish(output, study.scenes, written, time.monotonic() - start, quiet=quiet)

@@ -1,0 +1,98 @@
+"""`gradhesion plan`: what a run would do and cost; nothing is written."""
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from gradhesion.cli.study.study import Study
+    from gradhesion.cli.work.estimate import Estimate
+
+
+@click.command()
+@click.argument("study", type=click.Path(path_type=Path))
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="Dataset that `run` would write.")
+@click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Set a key of the study, in TOML.")
+@click.option("--threads", type=click.IntRange(min=1), help="Threads that `run` would use [all cores].")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def plan(study: Path, output: Path | None, overrides: tuple[str, ...], threads: int | None, as_json: bool) -> None:
+    """Tell what `gradhesion run STUDY` would do and cost; a second or two of real scenes are timed for it.
+
+    Nothing is written. Scenes and blocks, what is reused of an earlier run and why not the rest, bytes, memory, time.
+    """
+    from gradhesion.cli.study.study import load_study
+
+    asked = load_study(study, overrides)
+    show_plan(asked, output or Path("outputs") / f"{asked.name}.nc", threads, as_json=as_json)
+
+
+def show_plan(study: "Study", output: Path, threads: int | None, *, as_json: bool = False) -> None:
+    """Print the plan of a run."""
+    from gradhesion.cli.work.estimate import estimate
+
+    found = estimate(study, output, threads)
+    if as_json:
+        click.echo(json.dumps(asdict(found), indent=2))
+        return
+    for line in _lines(found):
+        click.echo(line)
+
+
+def _lines(found: "Estimate") -> list[str]:
+    """Describe a plan."""
+    from gradhesion.cli.disk import bytes_in_words
+
+    axes = ", ".join(f"{name} ({size:,})" for name, size in found.sizes.items()) or "none"
+    state = "exists; run needs --overwrite" if found.output_exists else "new"
+    if found.running:
+        state = "a run is at work on it"
+    lines = [
+        f"output    {found.output} ({state})",
+        f"scenes    {found.scenes:,}; axes: {axes}",
+        f"outputs   {', '.join(found.outputs)}",
+    ]
+    if found.kind != "map":
+        return [*lines, "curves    drawn scene by scene; neither parts nor a probe"]
+    why = "; ".join(f"{number:,} {reason}" for reason, number in found.not_reused.items())
+    lines.append(f"blocks    {found.blocks:,}; {found.blocks_reused:,} reused{f'; {why}' if why else ''}")
+    lines += [f"          run would refuse: {difference}" for difference in found.differences]
+    sizes = [f"{bytes_in_words(found.bytes_of_parts)} of parts until it is complete"] if found.bytes_of_parts else []
+    if found.bytes_of_file is not None:
+        sizes.insert(0, f"about {bytes_in_words(found.bytes_of_file)}")
+    if found.bytes_free is not None:
+        sizes.append(f"{bytes_in_words(found.bytes_free)} free")
+    lines.append(f"disk      {'; '.join(sizes)}")
+    if found.bytes_of_memory is not None:
+        lines.append(f"memory    about {bytes_in_words(found.bytes_of_memory)}")
+    if found.seconds is not None and found.seconds_uncertain is not None:
+        lines.append(
+            f"time      about {duration(found.seconds)}, give or take {duration(found.seconds_uncertain)} "
+            f"(by {found.scenes_probed:,} scenes), and a second to start"
+        )
+        if found.seconds_dask is not None and found.seconds_of_block is not None:
+            lines.append(
+                f"engines   with --engine dask about {duration(found.seconds_dask)} on this machine; on N workers "
+                f"elsewhere {duration(found.seconds_of_block * (found.blocks - found.blocks_reused))} / N, "
+                f"{duration(found.seconds_of_block)} a block"
+            )
+    else:
+        lines.append("time      only what writing takes: every block is there")
+    return lines
+
+
+def duration(seconds: float) -> str:
+    """
+    Write a time in the unit that fits.
+
+    >>> duration(0.31), duration(75.0), duration(1e4), duration(float("inf"))
+    ('0.3 s', '75 s', '2.8 h', 'any time')
+    """
+    if seconds > 1e9:
+        return "any time"
+    for unit, size, most in (("s", 1.0, 120.0), ("min", 60.0, 7200.0), ("h", 3600.0, 172_800.0)):
+        if seconds < most:
+            return f"{seconds / size:.{0 if seconds / size >= 10 else 1}f} {unit}"
+    return f"{seconds / 86_400:.0f} d"

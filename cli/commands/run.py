@@ -1,0 +1,186 @@
+"""`gradhesion run`: compute a study into a dataset."""
+
+import re
+import shlex
+import sys
+import time
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from gradhesion.cli import messages
+from gradhesion.cli.commands.plan import show_plan
+from gradhesion.cli.errors import ScenesFailedError
+from gradhesion.cli.progress import progress, rate
+
+if TYPE_CHECKING:
+    from gradhesion.cli.dataset.writer import Written
+    from gradhesion.cli.engines import Engine
+    from gradhesion.cli.study.study import Study
+
+
+def _shard(_context: click.Context, _option: click.Parameter, value: str | None) -> tuple[int, int] | None:
+    """Read I/N."""
+    if value is None:
+        return None
+    found = re.fullmatch(r"(\d{1,9})/(\d{1,9})", value)
+    shard = (int(found[1]), int(found[2])) if found else (0, 0)
+    if not 1 <= shard[0] <= shard[1]:
+        raise click.BadParameter(f"{value} is not of the form I/N with 1 <= I <= N; write for example --shard 3/8")
+    return shard
+
+
+@click.command()
+@click.argument("study", type=click.Path(path_type=Path))
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="Dataset to write [outputs/<study name>.nc].")
+@click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Set a key of the study, in TOML.")
+@click.option("--overwrite", is_flag=True, help="Replace an existing dataset.")
+@click.option("--fresh", is_flag=True, help="Drop the finished parts of an earlier run.")
+@click.option("--fail-fast", is_flag=True, help="Stop at the first block with a failed scene, and write nothing.")
+@click.option("--shard", metavar="I/N", callback=_shard, help="Compute every N-th block only, as parts for `merge`.")
+@click.option("--dry-run", is_flag=True, help="Tell what would be done, as `gradhesion plan`, and write nothing.")
+@click.option(
+    "--engine", type=click.Choice(["threads", "dask"]), default="threads", show_default=True, help="Who solves."
+)
+@click.option("--scheduler", metavar="ADDRESS", help="Of a Dask cluster, or its scheduler file [one on this machine].")
+@click.option("--threads", type=click.IntRange(min=1), help="Threads to use [all cores]; values do not depend on it.")
+@click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
+@click.option(
+    "--log-json", is_flag=True, is_eager=True, callback=messages.speak_json, help="Log one JSON object a line."
+)
+def run(
+    study: Path,
+    output: Path | None,
+    overrides: tuple[str, ...],
+    overwrite: bool,
+    fresh: bool,
+    fail_fast: bool,
+    shard: tuple[int, int] | None,
+    dry_run: bool,
+    engine: str,
+    scheduler: str | None,
+    threads: int | None,
+    quiet: bool,
+    log_json: bool,  # noqa: ARG001 (its callback has it)
+) -> None:
+    """Compute STUDY (TOML) into a dataset (NetCDF). After an interrupt or a crash the same command goes on."""
+    from gradhesion.cli.dataset.writer import write
+    from gradhesion.cli.study.study import load_study
+    from gradhesion.core import compiled_before
+
+    if scheduler is not None and (engine != "dask" or threads is not None):
+        raise click.UsageError("--scheduler goes with --engine dask, and without --threads: its workers have their own")
+    asked = load_study(study, overrides)
+    path = output or Path("outputs") / f"{asked.name}.nc"
+    if dry_run:
+        show_plan(asked, path, threads)
+        return
+    if not quiet and not compiled_before(curves=asked.kind == "curve"):
+        messages.say("compile", "compiling the kernels, once per version")
+    solver = _engine(asked, engine, scheduler, threads, quiet=quiet)
+    if shard is not None:
+        if fresh or fail_fast:
+            raise click.UsageError("--shard goes with neither --fresh nor --fail-fast; run without these two")
+        _run_shard(asked, path, shard, solver, overwrite=overwrite, quiet=quiet)
+        return
+    start = time.monotonic()
+    with progress(asked.scenes, quiet=quiet) as advance:
+        written = write(
+            asked,
+            path,
+            history=history_now(),
+            overwrite=overwrite,
+            fresh=fresh,
+            fail_fast=fail_fast,
+            threads=threads,
+            engine=solver,
+            advance=advance,
+        )
+    finish(path, asked.scenes, written, time.monotonic() - start, quiet=quiet)
+
+
+def history_now() -> str:
+    """Write the line of `history` for this command."""
+    return f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} gradhesion {shlex.join(sys.argv[1:])}"
+
+
+def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet: bool) -> None:
+    """
+    Say what was written, and what has failed.
+
+    Raises
+    ------
+    ScenesFailedError
+        Some scenes have.
+    """
+    if not quiet:
+        counted = {"blocks_reused": written.reused, "blocks_computed": written.computed, "failed": written.failed}
+        messages.say("done", _told(path, scenes, written, seconds), scenes=scenes, seconds=seconds, **counted)
+    for sentence in written.raised:
+        messages.say("raised", f"{path}: {sentence}")
+    if written.raised:
+        raise ScenesFailedError(
+            f"{path}: {len(written.raised):,} blocks could not be solved, and their scenes have no value; the parts of "
+            "the others are kept, and the same command with --overwrite tries these again"
+        )
+    if written.failed:
+        raise ScenesFailedError(
+            f"{path}: {written.failed:,} of {scenes:,} scenes have failed; `gradhesion info {path}` tells why"
+        )
+
+
+def _engine(study: "Study", name: str, scheduler: str | None, threads: int | None, *, quiet: bool) -> "Engine":
+    """Choose who solves the blocks of a study."""
+    from gradhesion.cli.engines.threads import Threads
+    from gradhesion.cli.work.resume import has_parts
+
+    if name == "dask":
+        from gradhesion.cli.engines.connection import require_dask
+
+        require_dask()
+        if has_parts(study):
+            from gradhesion.cli.engines.cluster import Cluster
+
+            return Cluster(scheduler, threads, quiet=quiet)
+        if not quiet:
+            messages.say("engine", "the study is of one block or of curves, and is solved in this process")
+    return Threads(threads)
+
+
+def _run_shard(
+    study: "Study", path: Path, shard: tuple[int, int], engine: "Engine", *, overwrite: bool, quiet: bool
+) -> None:
+    """Compute the parts of a shard."""
+    from gradhesion.cli.dataset.writer import write_shard
+    from gradhesion.cli.work.kernels import compile_kernels
+    from gradhesion.cli.work.resume import has_parts
+
+    if not has_parts(study):
+        raise click.UsageError("--shard: the study has one block only, and needs no shards; run it without --shard")
+    compile_kernels(study)  # the jobs of an array begin at one moment
+    with progress(study.scenes // shard[1], quiet=quiet) as advance:
+        written = write_shard(study, path, shard, overwrite=overwrite, engine=engine, advance=advance)
+    if not quiet:
+        sentence = (
+            f"{path}.parts: shard {shard[0]} of {shard[1]}: reused {written.reused:,} blocks, computed "
+            f"{written.computed:,}; `gradhesion merge {path}` joins them when all shards are done"
+        )
+        messages.say("done", sentence, blocks_reused=written.reused, blocks_computed=written.computed)
+    for sentence in written.raised:
+        messages.say("raised", f"{path}: {sentence}")
+    if written.raised:
+        raise ScenesFailedError(
+            f"{path}: {len(written.raised):,} blocks could not be solved; the same command tries these again"
+        )
+
+
+def _told(path: Path, scenes: int, written: "Written", seconds: float) -> str:
+    """Say what was written, and how much of it an earlier run had done."""
+    size = path.stat().st_size / 1e6
+    if written.complete:
+        return f"{path}: {scenes:,} scenes, {size:.1f} MB, were complete already"
+    speed = rate(scenes, seconds)
+    reused = f"; reused {written.reused:,} blocks, computed {written.computed:,}" if written.reused else ""
+    return f"{path}: {scenes:,} scenes in {seconds:.2f} s ({speed} per s), {size:.1f} MB{reused}"

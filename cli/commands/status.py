@@ -1,0 +1,91 @@
+"""`gradhesion status`: how far a run is, from another shell."""
+
+import json
+import time
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+import click
+
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.progress import rate
+
+
+@click.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def status(file: Path, as_json: bool) -> None:
+    """Tell how far the run is that makes the dataset FILE: running, stopped or complete."""
+    found = status_of(file)
+    if as_json:
+        click.echo(json.dumps(found, indent=2))
+        return
+    if found["state"] == "complete":
+        written = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(found["written"]))
+        click.echo(f"{file}: complete, {found['bytes'] / 1e6:.1f} MB, written {written}")
+        return
+    blocks, scenes = (f"{found[name]:,}" if found[name] else "?" for name in ("blocks", "scenes"))
+    end = "" if found["state"] == "running" else "; the same command goes on"
+    click.echo(f"{file}: {found['state']}; {found['parts']:,} of {blocks} blocks ({scenes} scenes) are kept{end}")
+    for run in found["runs"]:
+        click.echo(f"  {_words(run, running=found['state'] == 'running')}")
+
+
+def status_of(file: Path) -> dict[str, Any]:
+    """
+    Find out how far a run is.
+
+    Raises
+    ------
+    DatasetError
+        There is nothing to tell of.
+    """
+    from gradhesion.cli.work.folder import folder_of, read_json
+
+    folder = folder_of(file)
+    if not folder.path.is_dir():
+        if not file.is_file():
+            raise DatasetError(f"{file}: neither a dataset nor parts of one are there; name the output of a run")
+        found = file.stat()
+        return {"output": str(file), "state": "complete", "bytes": found.st_size, "written": found.st_mtime}
+    study = read_json(folder.study)
+    states = [(path, read_json(path)) for path in folder.states()]
+    runs = [run | {"shard": path.stem[6:]} for path, state in states if (run := _run(state))]
+    return {
+        "output": str(file),
+        "state": "running" if folder.busy() else "stopped",
+        "blocks": study.get("blocks", 0) if isinstance(study, dict) else 0,
+        "scenes": study.get("scenes", 0) if isinstance(study, dict) else 0,
+        "parts": len(folder.parts()),
+        "runs": runs,
+    }
+
+
+def _run(state: Any) -> dict[str, Any]:
+    """Add the rate and the time left to the state of a run; of what is none, there is none."""
+    from gradhesion.cli.work.state import State
+
+    if not isinstance(state, dict) or not {field.name for field in fields(State)} <= state.keys():
+        return {}
+    seconds = state["updated"] - state["started"]
+    solved = state["scenes_done"] - state["scenes_reused"]
+    left = (state["scenes"] - state["scenes_done"]) * seconds / solved if solved else None
+    return {**state, "rate": solved / seconds if seconds > 0 else 0.0, "seconds_left": left}
+
+
+def _words(run: dict[str, Any], *, running: bool) -> str:
+    """Describe the state of a run."""
+    seconds = run["updated"] - run["started"]
+    solved = run["scenes_done"] - run["scenes_reused"]
+    words = [
+        f"process {run['pid']} on {run['host']}: {run['blocks_done']:,} of {run['blocks']:,} blocks done",
+        f"{run['blocks_reused']:,} of them reused",
+        f"{run['scenes_done']:,} of {run['scenes']:,} scenes ({run['scenes_done'] / max(1, run['scenes']):.0%})",
+        f"{run['scenes_failed']:,} failed",
+        f"{rate(solved, seconds)} per s",
+    ]
+    if running and run["seconds_left"] is not None:
+        words.append(f"{run['seconds_left']:.0f} s left")
+    shard = f"shard {run['shard'].replace('-', ' ')}, " if run["shard"] else ""
+    return f"{shard}{', '.join(words)} (told {max(0.0, time.time() - run['updated']):.0f} s ago)"

@@ -1,0 +1,17 @@
+"""A study's dataset: what it holds, how it is written, read, selected from, joined and verified."""
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from gradhesion.cli.dataset.dataset import compute
+
+__all__ = ["compute"]
+
+
+def __getattr__(name: str) -> Any:
+    """Import what is public when it is first asked for."""
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from gradhesion.cli.dataset import dataset  # noqa: PLC0415 (numpy)
+
+    return getattr(dataset, name)

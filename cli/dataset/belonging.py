@@ -1,0 +1,84 @@
+"""Whether a dataset is that of the study in it: the text unchanged, and the coordinates those that it gives."""
+
+import hashlib
+import tomllib
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import xarray
+
+from gradhesion.cli.dataset.dataset import following
+from gradhesion.cli.errors import DatasetError, StudyError
+from gradhesion.cli.names import MACHINE, SOLVER, SPRING
+from gradhesion.cli.study.study import Study, study_from
+from gradhesion.core import PARAMETERS
+
+CLOSE: Final = 16 * 2.0**-52
+"""Of a coordinate: logarithmic spacing may differ by some units in the last place from one numpy to the next."""
+
+
+def study_of(dataset: xarray.Dataset, path: Path) -> Study:
+    """
+    Read the study of a map out of its dataset.
+
+    Raises
+    ------
+    DatasetError
+        The study was edited, is not that of the dataset, or is not one of a map.
+    """
+    text = str(dataset.attrs.get("study", ""))
+    if hashlib.sha256(text.encode()).hexdigest() != dataset.attrs["study_sha256"]:
+        raise _apart(path, "the text of its study was changed: its sha256 is not that of the dataset")
+    try:
+        data = tomllib.loads(text)
+        if data.get("kind", "map") != "map":
+            raise DatasetError(f"{path}: holds a {data['kind']}; `gradhesion verify` takes maps")
+        study = study_from(data, "its study")
+    except (ValueError, RecursionError) as error:
+        raise _apart(path, f"its study is not valid TOML ({error})") from None
+    except StudyError as error:
+        raise DatasetError(f"{path}: its study is none of this version ({error.mistakes[0]}); write it again") from None
+    _check_variables(dataset, study, path)
+    _check_coordinates(dataset, study, path)
+    return study
+
+
+def _check_variables(dataset: xarray.Dataset, study: Study, path: Path) -> None:
+    """Check that a dataset has what its study asks for."""
+    for name in (*study.variables, "status"):
+        if name not in dataset.data_vars:
+            raise _apart(path, f"its study asks for {name}, which it has not")
+        if dict(dataset[name].sizes) != study.sizes:
+            raise _apart(path, f"the axes of {name} are not those of its study")
+    if SOLVER in study.sizes and (
+        SOLVER not in dataset.coords or tuple(dataset[SOLVER].values) != tuple(study.method.solver)
+    ):
+        raise _apart(path, "its solvers are not those of its study")
+
+
+def _check_coordinates(dataset: xarray.Dataset, study: Study, path: Path) -> None:
+    """Check that the parameters of a dataset are those of its study."""
+    for name, values in study.parameters.items():
+        if name not in dataset.coords:
+            raise _apart(path, f"its study has {name}, which it has not")
+        here = np.asarray(dataset[name].values)
+        given = np.broadcast_to(values, tuple(study.axes.values()) if study.layout == "points" else np.shape(values))
+        if here.shape != given.shape:
+            raise _apart(path, f"it has {here.size:,} values of {name}, its study {given.size:,}")
+        wrong = np.flatnonzero(~np.isclose(here, given, rtol=CLOSE, atol=0.0))
+        if wrong.size:
+            at = f"[{wrong[0]}]" if here.ndim else ""
+            both = f"{here.flat[wrong[0]]!s}, in its study {given.flat[wrong[0]]!s}"
+            raise _apart(path, f"{name}{at} is {both}")
+    for name in (*PARAMETERS, *((MACHINE,) if SPRING in study.parameters else ())):
+        if name not in study.parameters and (
+            name not in dataset.coords or dataset[name].dims != following(study, name)
+        ):
+            raise _apart(path, f"the axes of {name} are not those of its study")
+
+
+def _apart(path: Path, what: str) -> DatasetError:
+    return DatasetError(
+        f"{path}: {what}, so that its study and its values do not belong together; write it again with `gradhesion run`"
+    )

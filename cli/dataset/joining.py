@@ -1,0 +1,124 @@
+"""Datasets that differ along one axis, as the dataset of one study whose axis has the values of all."""
+
+import tomllib
+from collections.abc import Generator, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli.engines import Work
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.names import PHYSICAL, table_of
+from gradhesion.cli.study.study import Study, study_from
+from gradhesion.cli.work.blocks import Block, block_at
+from gradhesion.cli.work.parts import types_of
+from gradhesion.cli.work.resume import Solved
+
+if TYPE_CHECKING:
+    import xarray
+
+Sources = Mapping[Path, "xarray.Dataset"]
+
+
+def study_of(sources: Sources) -> tuple[Study, str]:
+    """
+    Make the study of several datasets together, and name the axis along which they differ.
+
+    Raises
+    ------
+    DatasetError
+        They differ in something else, in nothing, or along more than one axis.
+    """
+    texts = {file: tomllib.loads(dataset.attrs["study"]) for file, dataset in sources.items()}
+    studies = {file: study_from(text) for file, text in texts.items()}
+    (first, one), *others = studies.items()
+    for file, other in others:
+        if {one.kind, other.kind} != {"map"} or {one.layout, other.layout} != {"grid"}:
+            raise DatasetError(f"{file}, {first}: only maps on a grid can be joined, not curves or points")
+        for what in ("outputs", "method", "profile", "loading"):
+            if getattr(one, what) != getattr(other, what):
+                raise DatasetError(f"{file}: has another {what.rstrip('s')} than {first}; join datasets that share it")
+        if one.parameters.keys() != other.parameters.keys():
+            keys = ", ".join(sorted(one.parameters.keys() ^ other.parameters.keys()))
+            raise DatasetError(
+                f"{file}: gives its scenes by other keys than {first} ({keys}); join datasets that share them"
+            )
+        written = [sources[each].attrs["source"] for each in (first, file)]
+        if written[0] != written[1]:
+            raise DatasetError(
+                f"{file}: was written by {written[1]}, and {first} by {written[0]}; run one of them again"
+            )
+    differing = [
+        name
+        for name, values in one.parameters.items()
+        if any(not np.array_equal(values, other.parameters[name]) for _, other in others)
+    ]
+    if len(differing) != 1:
+        what = f"differ in {' and '.join(differing)}" if differing else "have the same scenes"
+        raise DatasetError(f"{', '.join(map(str, studies))}: {what}; join datasets that differ along one axis")
+    (axis,) = differing
+    values = np.unique(np.concatenate([np.atleast_1d(study.parameters[axis]) for study in studies.values()]))
+    return study_from(_with_axis(texts[first], axis, values), one.name), axis
+
+
+def _with_axis(data: Mapping[str, Any], axis: str, values: NDArray[np.float64]) -> dict[str, Any]:
+    """Give a study other values of an axis, in the unit of the dataset where it has one."""
+    table = table_of(axis)
+    entry: list[Any] = values.tolist()
+    if axis in PHYSICAL:
+        entry = ["inf" if value == np.inf else f"{value!r} {PHYSICAL[axis][1]}" for value in entry]
+    return {**data, table: {**data[table], axis: entry}}
+
+
+@dataclass(frozen=True)
+class Joined:
+    """An engine that solves nothing: it takes the values of a joined study from its sources."""
+
+    sources: Sources
+    axis: str
+
+    def results(self, work: Work) -> Generator[tuple[int, Solved], None, None]:
+        """Give the blocks in order; where several sources have a value, the first."""
+        owners = _owners(np.asarray(work.study.parameters[self.axis]), self.sources, self.axis)
+        for number in work.numbers:
+            block = block_at(work.study.shape, number)
+            yield number, Solved(block, self._values(work.study, block, owners))
+
+    def _values(self, study: Study, block: Block, owners: NDArray[np.int64]) -> dict[str, NDArray[Any]]:
+        dimensions = list(study.sizes)
+        along = dimensions.index(self.axis)
+        cut = dict(zip(dimensions, block, strict=True))
+        own = owners[:, block[along]]
+        filled = {
+            name: np.empty([part.stop - part.start for part in block], kind) for name, kind in types_of(study).items()
+        }
+        for number, source in enumerate(self.sources.values()):
+            here = np.flatnonzero(own[0] == number)
+            if here.size == 0:
+                continue
+            whole = source if self.axis in source.dims else source.expand_dims(self.axis)
+            part = whole[list(filled)].isel({**cut, self.axis: own[1, here]}).transpose(*dimensions)
+            for name, values in filled.items():
+                np.moveaxis(values, along, 0)[here] = np.moveaxis(part[name].values, along, 0)
+        return filled
+
+
+def _owners(values: NDArray[np.float64], sources: Sources, axis: str) -> NDArray[np.int64]:
+    """Tell which source has each value of the axis, and where on its own axis."""
+    owners = np.full((2, values.size), -1)
+    for number, source in reversed(list(enumerate(sources.values()))):
+        own = np.atleast_1d(source[axis].values)
+        places = np.searchsorted(values, own)
+        owners[0, places], owners[1, places] = number, np.arange(own.size)
+    return owners
+
+
+def opened_all(files: Sequence[Path], stack: ExitStack) -> dict[Path, "xarray.Dataset"]:
+    """Open datasets until the stack is left."""
+    from gradhesion.cli.dataset.reader import opened  # noqa: PLC0415 (xarray, which shards do without)
+
+    return {file: stack.enter_context(opened(file)) for file in files}

@@ -1,0 +1,292 @@
+"""The dataset of a study, written block by block, and the blocks kept until it is complete."""
+
+import os
+import shutil
+from collections.abc import Callable, Generator, Iterable
+from contextlib import ExitStack, closing, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final, NoReturn
+
+import netCDF4
+
+from gradhesion.cli.dataset import dataset
+from gradhesion.cli.disk import bytes_in_words, refuse_existing, to_disk, writing
+from gradhesion.cli.engines import Engine, Work
+from gradhesion.cli.engines.threads import Threads
+from gradhesion.cli.errors import OutputError, ScenesFailedError
+from gradhesion.cli.names import RAGGED
+from gradhesion.cli.study.study import Study
+from gradhesion.cli.work.blocks import block_at, blocks, chunk_shape, count_of, size_of
+from gradhesion.cli.work.curves import within
+from gradhesion.cli.work.folder import Folder, claimed, folder_of, identity, read_json, write_json
+from gradhesion.cli.work.manifest import adopt, manifest_of
+from gradhesion.cli.work.parts import types_of
+from gradhesion.cli.work.resume import Solved, has_parts, place_of
+from gradhesion.cli.work.state import Keeper
+
+LEAST_SHARE: Final = 0.1
+"""Values hardly compress to less than this share: what cannot fit is refused before it is begun."""
+
+CACHE: Final = 2**22
+"""Bytes of chunks to be held of each variable: blocks are whole chunks, so there is nothing to wait for. The
+library's own choice took more memory than all else that a run has."""
+
+POINTS: Final = 1024
+"""Points of a curve in a chunk: most curves have fewer, and unwritten chunks take no room."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Written:
+    """What has become of a study."""
+
+    failed: int = 0
+    """Scenes without value."""
+    reused: int = 0
+    computed: int = 0
+    """Blocks."""
+    raised: tuple[str, ...] = ()
+    """A sentence for each block that could not be solved."""
+    complete: bool = False
+    """Whether an earlier run had written it, and was killed before it could say so."""
+
+
+def write(
+    study: Study,
+    path: Path,
+    *,
+    history: str,
+    overwrite: bool = False,
+    fresh: bool = False,
+    fail_fast: bool = False,
+    threads: int | None = None,
+    engine: Engine | None = None,
+    advance: Callable[..., None] = lambda *_, **__: None,
+) -> Written:
+    """
+    Compute a study into a file; `advance` is told the scenes of each block when they are written.
+
+    The file takes the place of `path` when it is complete and on disk. Until then each finished block of a map of
+    several is a part of its own, which the next call reuses.
+
+    Parameters
+    ----------
+    fresh
+        Drop the parts of an earlier run.
+    fail_fast
+        End at the first block with a failed scene.
+    engine
+        Who solves the blocks of a map, `threads` of this process if not given; curves are drawn here.
+
+    Raises
+    ------
+    GradhesionError
+        The engine gives up: a worker cannot do its work, or a block is no part and is not to be solved.
+    OutputError
+        It cannot be written: it exists, another run is at work on it, parts of another study are kept, the disk.
+    ScenesFailedError
+        No block could be solved, or one has failed and `fail_fast`.
+    """
+    target = Path(os.path.realpath(path))
+    if not os.path.isdir(folder_of(path).path):  # noqa: PTH112 (never an error, whatever the name)
+        refuse_existing(path, target, overwrite=overwrite)
+    with ExitStack() as stack:
+        with writing(path):
+            folder = stack.enter_context(claimed(path))
+            done = _finished(folder, target, study)
+        if done is not None and not fresh:
+            return done
+        refuse_existing(path, target, overwrite=overwrite)
+        with writing(path):
+            if fresh:
+                folder.clear()
+            adopt(study, folder, path)
+        _check_space(study, path, folder)
+        solved = stack.enter_context(closing(_solved(study, path, folder, threads, engine or Threads(threads))))
+        written = _merge(study, path, folder, history, solved, advance, fail_fast=fail_fast)
+        with writing(path):
+            to_disk(folder.merged)
+            if not written.raised:
+                finished = {"file": identity(folder.merged), "study": manifest_of(study), "failed": written.failed}
+                write_json(folder.finished, finished)
+            folder.merged.replace(target)
+        with suppress(OSError):  # some file systems cannot sync a folder
+            to_disk(target.parent)
+        if not written.raised:
+            folder.clear("*.part")
+    return written
+
+
+def _merge(
+    study: Study,
+    path: Path,
+    folder: Folder,
+    history: str,
+    results: Iterable[tuple[int, Solved]],
+    advance: Callable[..., None],
+    *,
+    fail_fast: bool,
+) -> Written:
+    """Write the dataset in the making, block by block, as they are solved or found."""
+    count = count_of(study.shape) if study.kind == "map" else study.scenes
+    keeper = Keeper(folder.path / "state.json", scenes=study.scenes, blocks=count)
+    raised: dict[int, str] = {}
+    with writing(path):
+        file = netCDF4.Dataset(folder.merged, "w", format="NETCDF4")
+    try:
+        with writing(path):
+            _define(file, study, history)
+        begun = 0  # items of ragged curves
+        for number, solved in results:
+            with writing(path):
+                for name, part in solved.values.items():
+                    file[name][within(name, solved.block, part, begun) or ...] = part
+            begun += sum(int(solved.values[one].item()) for one in RAGGED.values() if one in solved.values)
+            if solved.error:
+                raised[number] = _sentence(study, number, solved)
+            scenes, failed = size_of(solved.block), solved.failed
+            keeper.add(scenes=scenes, failed=failed, reused=solved.reused, raised=bool(solved.error))
+            if failed and fail_fast:
+                _give_up(path, raised.get(number), f"block {number + 1:,} of {count:,} has {failed:,} failed scenes")
+            advance(scenes, reused=solved.reused)
+        if len(raised) == count:
+            _give_up(path, raised[number], "")
+    except BaseException:
+        keeper.write()
+        with suppress(OSError, RuntimeError):  # what went wrong first counts
+            file.close()
+        raise
+    with writing(path):
+        file.close()
+    state = keeper.state
+    return Written(
+        failed=state.scenes_failed,
+        reused=state.blocks_reused,
+        computed=state.blocks_done - state.blocks_reused,
+        raised=tuple(raised[number] for number in sorted(raised)),
+    )
+
+
+def write_shard(
+    study: Study,
+    path: Path,
+    shard: tuple[int, int],
+    *,
+    overwrite: bool = False,
+    engine: Engine,
+    advance: Callable[..., None] = lambda *_, **__: None,
+) -> Written:
+    """
+    Solve every N-th block of a study into its part, beside others that do the rest.
+
+    Raises
+    ------
+    OutputError
+        As `write`.
+    """
+    refuse_existing(path, Path(os.path.realpath(path)), overwrite=overwrite)
+    index, count = shard
+    name = f"{index}-of-{count}"
+    mine = range(index - 1, count_of(study.shape), count)
+    scenes = sum(size_of(block_at(study.shape, number)) for number in mine)
+    raised: dict[int, str] = {}
+    with ExitStack() as stack:
+        with writing(path):
+            folder = stack.enter_context(claimed(path, name))
+            adopt(study, folder, path)
+        keeper = Keeper(folder.path / f"state-{name}.json", scenes=scenes, blocks=len(mine))
+        results = stack.enter_context(closing(engine.results(Work(study, path, folder, mine))))
+        for number, solved in results:
+            if solved.error:
+                raised[number] = _sentence(study, number, solved)
+            scenes = size_of(solved.block)
+            keeper.add(scenes=scenes, failed=solved.failed, reused=solved.reused, raised=bool(solved.error))
+            advance(scenes, reused=solved.reused)
+        keeper.write()
+    state = keeper.state
+    computed = state.blocks_done - state.blocks_reused
+    told = tuple(raised[number] for number in sorted(raised))
+    return Written(failed=state.scenes_failed, reused=state.blocks_reused, computed=computed, raised=told)
+
+
+def _sentence(study: Study, number: int, solved: Solved) -> str:
+    """Tell of a block that could not be solved."""
+    return f"block {number + 1:,} of {count_of(study.shape):,} ({place_of(study, solved.block)}) raised {solved.error}"
+
+
+def _give_up(path: Path, raised: str | None, otherwise: str) -> NoReturn:
+    """End a run in which a block has failed, or every one."""
+    raise ScenesFailedError(f"{path}: {raised or otherwise}; nothing is written")
+
+
+def _solved(
+    study: Study, path: Path, folder: Folder, threads: int | None, engine: Engine
+) -> Generator[tuple[int, Solved], None, None]:
+    """Give the blocks of a study with their values; of curves each scene is one."""
+    if study.kind == "map":
+        yield from engine.results(Work(study, path, folder, range(count_of(study.shape))))
+    else:
+        yield from ((i, Solved(*drawing)) for i, drawing in enumerate(dataset.parts(study, threads)))
+
+
+def _finished(folder: Folder, target: Path, study: Study) -> Written | None:
+    """Tell whether the run that left this folder had written the output, and tidy up if so."""
+    finished = read_json(folder.finished)
+    if not isinstance(finished, dict):
+        return None
+    if finished.get("file") != identity(target):
+        folder.clear("finished.json")
+        return None
+    folder.clear()
+    same = finished.get("study") == manifest_of(study)
+    return Written(failed=int(finished.get("failed", 0)), complete=True) if same else None
+
+
+def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
+    """Write all of a dataset but the values of its outputs."""
+    if study.kind == "map":
+        file.set_fill_off()  # every cell is written
+    file.setncatts(dataset.attributes(study, history))
+    for name, size in study.sizes.items():
+        file.createDimension(name, size)
+    for name, described in dataset.variables(study).items():
+        settings: dict[str, Any] = {}
+        if described.dimensions and described.dtype != "str":
+            for dimension in described.dimensions:
+                if dimension not in file.dimensions:
+                    file.createDimension(dimension, None)  # it grows with the longest curve
+            settings |= {"compression": "zlib", "complevel": 1, "shuffle": True}
+            settings["chunksizes"] = _chunks(tuple(file.dimensions[one] for one in described.dimensions))
+        if described.blank is not None:
+            settings["fill_value"] = described.blank
+        dtype = str if described.dtype == "str" else described.dtype
+        variable = file.createVariable(name, dtype, described.dimensions, **settings)
+        if study.kind == "map" and "chunksizes" in settings:
+            variable.set_var_chunk_cache(CACHE)
+        variable.setncatts(described.attributes)
+        if described.values is not None:
+            variable[...] = described.values
+        elif described.made:
+            for block in blocks(variable.shape):
+                variable[block or ...] = described.made(block)
+
+
+def _chunks(dimensions: tuple[netCDF4.Dimension, ...]) -> tuple[int, ...]:
+    """Choose the chunks of a variable: of a curve they are its own, of all else those of the blocks."""
+    if dimensions[-1].isunlimited():
+        return (*(1 for _ in dimensions[:-1]), POINTS)
+    return chunk_shape(tuple(map(len, dimensions)))
+
+
+def _check_space(study: Study, path: Path, folder: Folder) -> None:
+    """Refuse a dataset that cannot fit on its disk, with its parts."""
+    least = study.scenes * LEAST_SHARE * sum(8 for output in study.variables if not output.endswith("_jumps"))
+    if has_parts(study):
+        least += study.scenes * sum(kind.itemsize for kind in types_of(study).values())
+        least -= sum(part.stat().st_size for part in folder.parts())
+    free = shutil.disk_usage(folder.path).free
+    if least > free:
+        raise OutputError(
+            f"{path}: {study.scenes:,} scenes need {bytes_in_words(least)} or more, and {bytes_in_words(free)} are "
+            "free there; use fewer scenes, or name an output on a larger disk with -o"
+        )

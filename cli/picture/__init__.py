@@ -1,0 +1,1 @@
+"""Pictures of datasets by matplotlib: lines, maps, panels, points and curves."""

@@ -1,0 +1,216 @@
+"""The picture of a curve dataset: load over depth, depth over contact radius, load over contact radius."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import xarray
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.names import CURVES, RAGGED, SCENE
+from gradhesion.cli.picture.curve_panels import (
+    JUMP,
+    THIN,
+    TRACKS,
+    TRACKS_OF_MANY,
+    Colour,
+    Dash,
+    Track,
+    Values,
+    draw_arrows,
+    draw_doubt,
+    draw_track,
+    faded,
+    falls_of,
+    jumps_of,
+)
+from gradhesion.cli.picture.doubts import CROSS, DOUBTS, Doubt, doubts_in, entries
+from gradhesion.cli.picture.labels import equation, given
+from gradhesion.cli.picture.panels import COLOURS
+from gradhesion.cli.picture.pictured import heading, in_lines, styled
+from gradhesion.cli.study.wording import did_you_mean
+
+PLANES: Final = (("indentation", "load"), ("contact_radius", "indentation"), ("contact_radius", "load"))
+"""What each panel has along and up."""
+
+LABELS: Final = {
+    "contact_radius": "contact radius $a/R$",
+    "indentation": r"depth $\delta/R$",
+    "load": r"load $P\,/\,\frac{3}{2}\pi R\Delta\gamma$",
+}
+
+SCENES: Final = 5
+"""Scenes in one picture: more could not be told apart."""
+
+INK: Final = to_rgb("0.25")
+"""The colour of lines in a legend where colours tell scenes apart."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Scene:
+    """One scene of a dataset."""
+
+    label: str
+    colour: Colour | None
+    """The colour of all its lines (None: each line has its own)."""
+    values: Mapping[str, Values]
+    """Its curves without padding."""
+    doubts: Sequence[Doubt]
+    """What makes its path doubtful."""
+
+
+def drawn_curves(dataset: xarray.Dataset, asked: Sequence[str]) -> Figure:
+    """
+    Draw curves of a dataset into three panels; without any asked for, all of them.
+
+    Raises
+    ------
+    DatasetError
+        A curve is not there, has no value, or lacks two variables to draw over each other.
+    """
+    chosen = _chosen(dataset, asked)
+    scenes, caption = _scenes(dataset)
+    known = TRACKS_OF_MANY if len(scenes) > 1 else TRACKS
+    planes = []
+    for x, y in PLANES:
+        there = [one for one in known if one.curve in chosen and {getattr(one, x), getattr(one, y)} <= dataset.keys()]
+        if there:
+            planes.append((x, y, there))
+    if not planes:
+        raise DatasetError(
+            f"{', '.join(chosen)}: a picture needs two of contact radius, indentation and load, and this dataset has "
+            f'not; name whole curves in the outputs of the study, as in outputs = ["{chosen[0]}"]'
+        )
+    tracks = [track for track in known if any(track in there for _, _, there in planes)]
+    if not any(values.size for scene in scenes for values in scene.values.values()):
+        raise DatasetError("no value in any scene drawn; `gradhesion info` tells why")
+    with styled():
+        width = max(4.0, 2.5 * len(planes))
+        figure = Figure(figsize=(width, 3.5), layout="constrained")
+        for axes, (x, y, there) in zip(figure.subplots(1, len(planes), squeeze=False)[0], planes, strict=True):
+            for track in there:
+                for scene in scenes:
+                    draw_track(axes, track, scene.values, x, y, scene.colour or track.colour)
+                    if track.curve == "path" and not track.unloading:
+                        for doubt in reversed(scene.doubts):  # the larger ones below
+                            draw_doubt(axes, track, scene.values, x, y, scene.colour or track.colour, doubt)
+            _dress(axes, x, y)
+            arrows: list[Values] = []
+            for track in there:
+                for scene in scenes:
+                    draw_arrows(axes, track, scene.values, x, y, scene.colour or track.colour, arrows)
+        handles = _handles(scenes, tracks)
+        columns = min(len(handles), 4 if len(planes) > 1 else 2)
+        figure.legend(handles=handles, loc="outside lower center", ncols=columns, fontsize=8, frameon=False)
+        figure.suptitle("\n".join(filter(None, (heading(dataset), in_lines(caption, width)))), fontsize=9, wrap=True)
+    return figure
+
+
+def _chosen(dataset: xarray.Dataset, asked: Sequence[str]) -> list[str]:
+    """List the curves to draw; a variable stands for its curve."""
+    there = {curve: [name for name in own if name in dataset] for curve, own in CURVES.items() if curve not in RAGGED}
+    if not any(there.values()):
+        raise DatasetError(
+            "jumps are told and not drawn: `gradhesion info --jumps` lists them; "
+            'for a picture of the cycle add "path" to the outputs of the study'
+        )
+    known = [word for curve, own in there.items() if own for word in (curve, *own)]
+    for name in asked:
+        if name not in known:
+            raise DatasetError(f"--variable {name}: not a curve of this dataset; {did_you_mean(name, known)}")
+    return [curve for curve, own in there.items() if own and (not asked or {curve, *own} & {*asked})]
+
+
+def _scenes(dataset: xarray.Dataset) -> tuple[list[Scene], list[str]]:
+    """Choose the scenes to draw, along the last axis with more than one value; tell what they have in common."""
+    axes = [str(axis) for axis, size in dataset["status"].sizes.items() if size > 1]
+    last = axes[-1] if axes else None
+    first = dataset.isel({axis: 0 for axis in dataset["status"].dims if axis != last})
+    if last is None:
+        return [_scene(first, "", None)], _caption(dataset, axes)
+    size = dataset.sizes[last]
+    items = sorted({round(item) for item in np.linspace(0, size - 1, min(size, SCENES))})
+    scenes = []
+    for place, item in enumerate(items):
+        scene = first.isel({last: item})
+        varying = [last] if last != SCENE else _varying(dataset)
+        label = ", ".join(equation(name, scene[name].item()) for name in varying[:2]) or f"scene {item}"
+        scenes.append(_scene(scene, label, to_rgb(COLOURS(0.75 * place / (len(items) - 1)))))
+    return scenes, _caption(dataset, axes)
+
+
+def _scene(scene: xarray.Dataset, label: str, colour: Colour | None) -> Scene:
+    """Make a scene; one that has no value is grey and says so."""
+    values = _trimmed(scene)
+    if label and not any(row.size for row in values.values()):
+        label, colour = f"{label} (no value)", to_rgb(CROSS)
+    return Scene(label=label, colour=colour, values=values, doubts=doubts_in(scene["status"].values, "path"))
+
+
+def _varying(dataset: xarray.Dataset) -> list[str]:
+    """List the parameters that vary between points."""
+    return [name for name in given(dataset.coords) if np.unique(dataset[name].values).size > 1]
+
+
+def _caption(dataset: xarray.Dataset, axes: Sequence[str]) -> list[str]:
+    """Tell the parameters that are the same in all scenes drawn."""
+    told = []
+    for name in given(dataset.coords):
+        values = np.unique(dataset[name].values)
+        if values.size == 1:
+            told.append(equation(name, values[0]))
+        elif name in axes[:-1]:
+            told.append(f"{equation(name, dataset[name].values[0])} (first of {values.size})")
+    if axes and dataset.sizes[axes[-1]] > SCENES:
+        told.append(f"{SCENES} of {dataset.sizes[axes[-1]]} scenes")
+    return told
+
+
+def _trimmed(scene: xarray.Dataset) -> dict[str, Values]:
+    """Take the curves of a scene without their padding."""
+    curves: dict[str, Values] = {}
+    for curve, own in CURVES.items():
+        if curve in RAGGED:
+            continue
+        rows = {name: np.asarray(scene[name].values, dtype=float) for name in own if name in scene}
+        points = np.flatnonzero(np.any([~np.isnan(row) for row in rows.values()], axis=0)) if rows else np.empty(0)
+        curves |= {name: row[: int(points[-1]) + 1 if points.size else 0] for name, row in rows.items()}
+    return curves
+
+
+def _handles(scenes: Sequence[Scene], tracks: Sequence[Track]) -> list[Artist]:
+    """Make the entries of the legend."""
+
+    def entry(label: str, colour: Colour, dash: Dash = "-", width: float = 1.6) -> Line2D:
+        return Line2D([], [], color=colour, ls=dash, lw=width, label=label)
+
+    made: list[Artist] = [entry(scene.label, scene.colour) for scene in scenes if scene.colour]
+    inked = bool(made)
+    for track in tracks:
+        made.append(entry(track.label, INK if inked else track.colour, track.dash, track.width))
+        if any(falls_of(track, scene.values).any() for scene in scenes):
+            made.append(entry("equilibrium, unstable", faded(INK if inked else track.colour), track.dash, track.width))
+    if any(jumps_of(track, scene.values).any() for track in tracks for scene in scenes):
+        made.append(entry("jump", INK, JUMP, THIN))
+    if any(track.curve == "path" for track in tracks):
+        found = [doubt for doubt in DOUBTS if any(doubt in scene.doubts for scene in scenes)]
+        made += entries(found, in_map=False, gaps=False)
+    return made
+
+
+def _dress(axes: Axes, x: str, y: str) -> None:
+    """Label a panel, and mark where depth and load are zero."""
+    axes.set_xlabel(LABELS[x])
+    axes.set_ylabel(LABELS[y])
+    axes.axhline(0.0, color="0.85", lw=0.6, zorder=0)
+    if x == "indentation":
+        axes.axvline(0.0, color="0.85", lw=0.6, zorder=0)
+    else:
+        axes.set_xlim(left=0.0)
+    axes.locator_params(nbins=5)

@@ -1,0 +1,185 @@
+"""One variable of a grid of scenes: a map, lines, or panels of them over further axes."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.figure import SubFigure
+from numpy.typing import NDArray
+
+from gradhesion.cli.dataset.selection import Selection
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.names import SOLVER, SYMBOLS
+from gradhesion.cli.picture import panels
+from gradhesion.cli.picture.doubts import Doubt, doubts_in, entries
+from gradhesion.cli.picture.labels import Unit, equation, given, label, unit_for
+from gradhesion.cli.picture.layout import PANELS, Plan, items_of
+from gradhesion.cli.picture.pictured import in_lines
+from gradhesion.cli.picture.scales import scale
+
+APART: Final = 0.17
+"""The least distance of numbers at a colour bar, in inches."""
+
+
+def shape_of(sizes: Mapping[str, int], plan: Plan) -> tuple[int, int]:
+    """Tell the rows and columns of panels."""
+    rows, columns = (min(PANELS, sizes[axis]) if axis else 1 for axis in (plan.rows, plan.columns))
+    return rows, columns
+
+
+def draw_grid(
+    part: SubFigure, dataset: xarray.Dataset, name: str, plan: Plan, selection: Selection
+) -> tuple[float, float, list[Any]]:
+    """
+    Draw one variable of a narrowed dataset.
+
+    Returns
+    -------
+    The width and the height that it wants, in inches, and what a legend shall tell of it.
+    """
+    sizes = {str(axis): size for axis, size in dataset["status"].sizes.items()}
+    items = items_of(sizes, plan)
+    taken = selection.taken(*(dataset[one].isel(items) for one in (name, "status")))
+    kept = [axis for axis in (plan.x, plan.second, plan.columns, plan.rows) if axis]
+    cut, status = (one.squeeze([axis for axis in one.dims if axis not in kept]) for one in (taken.values, taken.status))
+    cut = cut.where(np.isfinite(cut))
+    status = status.where(np.isfinite(cut), 0)
+    finite = cut.values[np.isfinite(cut.values)]
+    if not finite.size:
+        raise DatasetError(f"{name}: no value in any scene drawn; `gradhesion info` tells why")
+    doubts = doubts_in(status.values, name)
+    kind = _axis_of_place(selection) or name
+    unit = unit_for(kind, finite)
+    rows, columns = shape_of(sizes, plan)
+    grid = part.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    whole = dataset[name].dtype.kind == "i" and bool((finite == np.round(finite)).all())
+    if whole and name == "status" and plan.is_map:
+        codes = np.unique(finite)
+        cut = cut.copy(data=np.searchsorted(codes, cut)).where(cut.notnull())
+        levels = panels.levels_of_flags(codes)
+    else:
+        levels = panels.levels_of(float(finite.min()), float(finite.max()), whole=whole)
+    for i, line in enumerate(grid):
+        for j, axes in enumerate(line):
+            place = {axis: item for axis, item in ((plan.columns, j), (plan.rows, i)) if axis}
+            _draw_panel(axes, cut.isel(place), status.isel(place), plan, levels, doubts, unit)
+            if plan.columns and i == 0:
+                axes.set_title(equation(plan.columns, cut[plan.columns].values[j]))
+            if plan.rows and j == columns - 1:
+                told = equation(plan.rows, cut[plan.rows].values[i])
+                axes.annotate(told, (1.03, 0.5), xycoords="axes fraction", rotation=-90, va="center")
+            axes.label_outer()
+    width, height = (2.1, 1.8) if columns > 1 else (3.6, 2.9)
+    named = _named(name, selection, unit)
+    _dress(part, grid, plan, cut, named, unit, levels, height * rows)
+    width = width * columns + (2.2 if levels.names else 1.2)
+    caption = in_lines(_caption(dataset, plan, items, selection, taken.left_out), width)
+    part.suptitle(caption, fontsize=8)
+    lines = caption.count("\n") * 0.15 + (0.0 if plan.is_map or not plan.second else 0.3)
+    return width, height * rows + 0.6 + lines, entries(doubts, in_map=plan.is_map, gaps=finite.size < cut.size)
+
+
+def _draw_panel(
+    axes: Axes,
+    panel: xarray.DataArray,
+    status: xarray.DataArray,
+    plan: Plan,
+    levels: panels.Levels,
+    doubts: Sequence[Doubt],
+    unit: Unit,
+) -> None:
+    """Draw one panel of a variable."""
+    x = scale(panel[plan.x].values, plan.x)
+    if plan.second is None:
+        flags = status.values[x.order]
+        doubtful = [(doubt, {"": doubt.marks(flags)}) for doubt in doubts]
+        panels.draw_lines(axes, x, {"": panel.values[x.order].astype(float)}, levels, unit, doubtful)
+        return
+    items = panel[plan.second].values
+    values = panel.transpose(plan.second, plan.x).values.astype(float)[:, x.order]
+    flags = status.transpose(plan.second, plan.x).values[:, x.order]
+    if plan.is_map:
+        second = scale(items, plan.second)
+        marked = [(doubt, doubt.marks(flags)[second.order]) for doubt in doubts]
+        panels.draw_map(axes, x, second, values[second.order], levels, unit, marked)
+        return
+    order = range(items.size) if plan.second == SOLVER else np.argsort(items)
+    labels = {equation(plan.second, items[i]): i for i in order}
+    doubtful = [(doubt, {label: doubt.marks(flags[i]) for label, i in labels.items()}) for doubt in doubts]
+    panels.draw_lines(axes, x, {label: values[i] for label, i in labels.items()}, levels, unit, doubtful)
+
+
+def _dress(
+    part: SubFigure,
+    grid: NDArray[Any],
+    plan: Plan,
+    cut: xarray.DataArray,
+    named: str,
+    unit: Unit,
+    levels: panels.Levels,
+    height: float,
+) -> None:
+    """Put labels, and the colour bar or the legend, around the panels of a variable."""
+    for axes in grid[-1]:
+        axes.set_xlabel(label(plan.x, unit_for(plan.x, cut[plan.x].values)))
+    for axes in grid[:, 0]:
+        axes.set_ylabel(
+            label(plan.second, unit_for(plan.second, cut[plan.second].values)) if plan.is_map and plan.second else named
+        )
+    if plan.is_map:
+        filled = ScalarMappable(norm=levels.norm, cmap=panels.COLOURS)
+        bar = part.colorbar(
+            filled, ax=grid, label="" if levels.names else named, boundaries=levels.levels, fraction=0.06, aspect=30
+        )
+        bar.ax.minorticks_off()
+        if levels.names:
+            bar.ax.set_title(named, loc="left")
+            bar.ax.set_yticks(range(len(levels.names)), levels.names, fontsize=7)
+            return
+        some = levels.levels[:: int(np.ceil(levels.levels.size * APART / height))]
+        bar.ax.set_yticks(some, [unit.number(level) for level in some])
+    elif plan.second:
+        handles, labels = grid[0, 0].get_legend_handles_labels()
+        columns = min(len(labels), 3 if grid.shape[1] == 1 else 5)
+        part.legend(handles, labels, loc="outside lower center", ncols=columns, fontsize=8)
+
+
+def _axis_of_place(selection: Selection) -> str | None:
+    """Tell the axis whose value is drawn, where the place of an extreme is asked for."""
+    return next((axis for axis, how in selection.over.items() if how.startswith("arg")), None)
+
+
+def _named(name: str, selection: Selection, unit: Unit) -> str:
+    """Name what is drawn of a variable."""
+    axis = _axis_of_place(selection)
+    if axis is None:
+        return label(name, unit)
+    extreme = "greatest" if selection.over[axis] == "argmax" else "least"
+    return f"{label(axis, unit)} of the {extreme} {SYMBOLS[name].split(' $')[0]}"
+
+
+def _caption(
+    dataset: xarray.Dataset, plan: Plan, items: Mapping[str, Any], selection: Selection, left_out: int
+) -> list[str]:
+    """Tell the parameters that are not drawn, and what stands for the axes that are fixed or reduced."""
+    told = []
+    between = {one.axis: one.value for one in selection.between}
+    follows = {plan.x, plan.second, plan.columns, plan.rows, *selection.over}
+    for name in (SOLVER, *given(dataset.coords)):
+        values = np.atleast_1d(dataset[name].values) if name in dataset.coords else np.empty(0)
+        if name in between:
+            told.append(f"{equation(name, between[name])} (interpolated)")
+        elif name in plan.middle:
+            told.append(f"{equation(name, values[values.size // 2])} (one of {values.size})")
+        elif values.size == 1 and name not in follows:
+            told.append(equation(name, values.item()))
+    told += [f"{how} over {SYMBOLS[axis]}" for axis, how in selection.over.items()]
+    if left_out:
+        told.append(f"{left_out:,} failed {'scene' if left_out == 1 else 'scenes'} left out")
+    for axis in (plan.x, plan.second):
+        if axis and axis in items and axis not in (plan.columns, plan.rows):
+            told.append(f"{len(items[axis]):,} of {dataset.sizes[axis]:,} values of {SYMBOLS[axis]}")
+    return told

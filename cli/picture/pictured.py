@@ -1,0 +1,65 @@
+"""What the pictures of all datasets have in common: their style, their heading, and how they are saved."""
+
+import re
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import Final
+
+import matplotlib.style
+import xarray
+from matplotlib.figure import Figure
+
+from gradhesion.cli.study.shape_words import shape_told
+from gradhesion.core import Profile
+
+STYLE: Final = Path(__file__).with_name("gradhesion.mplstyle")
+
+LETTER: Final = 0.058
+"""The mean width of a letter of a caption, in inches."""
+
+LONGEST: Final = 110
+"""Letters of a profile that a heading has room for."""
+
+
+def styled() -> AbstractContextManager[None]:
+    """Draw in the style of the project, whatever the user's own is: the same dataset gives the same picture."""
+    return matplotlib.style.context(STYLE, after_reset=True)
+
+
+def save(figure: Figure, file: Path, form: str) -> None:
+    """Save a picture as "png", "svg" or "pdf"; the same picture gives the same file."""
+    undated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
+    with styled():
+        figure.savefig(file, format=form, metadata=undated.get(form))
+
+
+def heading(dataset: xarray.Dataset) -> str:
+    """Tell the title of a dataset, and shape and control where they are not those of the paper."""
+    told = []
+    profile = str(dataset.attrs.get("profile", ""))
+    if profile not in ("", shape_told(Profile())):
+        told.append(f"profile {profile if len(profile) <= LONGEST else profile[:LONGEST] + ' ...'}")
+    control = str(dataset.attrs.get("control", "displacement"))
+    if control != "displacement":
+        told.append({"load": "under controlled load", "machine": "through a machine of finite stiffness"}[control])
+    return "\n".join([str(dataset.attrs["title"]), *told])
+
+
+def in_lines(parts: Sequence[str], width: float) -> str:
+    r"""
+    Put the parts of a caption into lines of a width in inches.
+
+    >>> in_lines([r"$\lambda/R$ = 0.1", "$A$ = 0.02", "$k$ = 0.3"], 1.4)
+    '$\\lambda/R$ = 0.1,  $A$ = 0.02,\n$k$ = 0.3'
+    """
+    lines: list[list[str]] = []
+    room = 0.0
+    for part in parts:
+        letters = len(re.sub(r"\\[a-zA-Z]+|[${}^_]", "x", part).replace("x" * 2, "x")) + 2
+        if not lines or letters * LETTER > room:
+            lines.append([])
+            room = width
+        lines[-1].append(part)
+        room -= letters * LETTER
+    return ",\n".join(",  ".join(line) for line in lines)

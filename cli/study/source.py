@@ -1,0 +1,133 @@
+"""The text of a study: read, parsed, overridden, and where each of its keys comes from."""
+
+import json
+import re
+import tomllib
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any, Final
+
+from gradhesion.cli.errors import StudyError
+from gradhesion.cli.study import places, wording
+
+MOST_BYTES: Final = 2**28
+"""The longest study that is read: far above any that is meant as one."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Source:
+    """What a study is made from, before anything is known of its validity."""
+
+    name: str
+    data: dict[str, Any]
+    text: str
+    """The text that gives just this data, or nothing if there is none."""
+    place: Callable[[places.Path], str]
+    """Tells where a key comes from."""
+    mistakes: tuple[str, ...] = ()
+    """What was wrong with the overrides."""
+
+
+def read_source(path: Path, overrides: Iterable[str]) -> Source:
+    """
+    Read a study file and set what is overridden.
+
+    Raises
+    ------
+    StudyError
+        The file cannot be read, or is not TOML.
+    """
+    text = _text(path)
+    try:
+        data = tomllib.loads(text)
+    except RecursionError:
+        raise StudyError([f"{path}: not valid TOML, brackets are nested too deeply; remove some"]) from None
+    except ValueError as error:
+        raise StudyError([_syntax_sentence(path, text, str(error))]) from None
+    sources, mistakes = _override(data, overrides)
+    lines = cache(lambda: places.lines_of(text))
+
+    def place(key: places.Path) -> str:
+        above = [key[:depth] for depth in range(len(key), 0, -1)]
+        for origin in above:
+            if origin in sources:
+                return f"--set {sources[origin]}"
+        for origin in above:
+            if origin in lines():
+                return f"{path}:{lines()[origin]}"
+        made = next((source for steps, source in sources.items() if steps[: len(key)] == key), None)
+        return f"--set {made}" if made else str(path)
+
+    unchanged = "" if sources else text
+    return Source(name=path.stem, data=data, text=unchanged, place=place, mistakes=tuple(mistakes))
+
+
+def _text(path: Path) -> str:
+    """Read the text of a study file."""
+    try:
+        with path.open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise StudyError([f"{path}: cannot be read ({reason}); name a study in TOML"]) from None
+    if len(content) > MOST_BYTES:
+        raise StudyError([f"{path}: larger than {MOST_BYTES >> 20} MiB, so hardly a study; name a study in TOML"])
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content[: error.start].count(b"\n") + 1
+        raise StudyError([f"{path}:{line}: not text in UTF-8; name a study in TOML, saved as UTF-8"]) from None
+
+
+_REMEDIES: Final = {
+    "Cannot overwrite a value": "the key stands twice, remove one",
+    "Cannot declare": "the table stands twice, join the two",
+}
+"""What to do about problems of TOML that no single line has, by what the parser calls them."""
+
+
+def _syntax_sentence(path: Path, text: str, problem: str) -> str:
+    """Say where a text is not TOML, and show the line."""
+    at = re.search(r" ?\(at (?:line (\d+), column (\d+)|end of document)\)", problem)
+    if not at:  # Python's own limit on integers
+        return f"{path}: not valid TOML, a number of more than 4,300 digits; write it with an exponent, as 1e6"
+    lines = text.rstrip().split("\n")
+    line = min(int(at[1]) if at[1] else len(lines), len(lines))
+    shown = wording.shown(lines[line - 1].strip())
+    column = f" (column {at[2]})" if at[2] else ""
+    what = problem[: at.start()]
+    remedy = next((remedy for start, remedy in _REMEDIES.items() if what.startswith(start)), "mend this line")
+    return f"{path}:{line}: not valid TOML, {what[0].lower()}{what[1:]}{column} in {shown}; {remedy}"
+
+
+def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[places.Path, str], list[str]]:
+    """Set keys by their dotted paths in place; tell which text set each, and what was wrong."""
+    sources: dict[places.Path, str] = {}
+    mistakes = []
+    for override in overrides:
+        key, equals, value = override.partition("=")
+        steps = tuple(step.strip() for step in key.split("."))
+        try:
+            parsed = tomllib.loads(f"value = {value.strip()}")
+        except (ValueError, RecursionError):
+            parsed = {}
+        if not equals or not all(steps):
+            mistakes.append(f"--set {override}: not of the form KEY=VALUE; write for example --set parameters.A=0.02")
+            continue
+        if parsed.keys() != {"value"}:
+            quoted = json.dumps(value.strip(), ensure_ascii=False)
+            mistakes.append(f"--set {override}: the value is not TOML; quote strings, as in --set '{key}={quoted}'")
+            continue
+        table: Any = data
+        for depth, step in enumerate(steps[:-1]):
+            table = table.setdefault(step, {})
+            if not isinstance(table, dict):
+                parent = ".".join(steps[: depth + 1])
+                mistakes.append(f"--set {override}: {parent} is not a table; set it as a whole, --set '{parent}=...'")
+                break
+        else:
+            table[steps[-1]] = parsed["value"]
+            sources[steps] = override
+    return sources, mistakes

@@ -1,0 +1,237 @@
+"""A study: what is asked for, as it is read from TOML or made in Python."""
+
+import hashlib
+import json
+import math
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli.errors import StudyError
+from gradhesion.cli.names import CURVES, KEYS, RAGGED, SCENE, SI, SOLVER, UNITS, table_of
+from gradhesion.cli.study import places, rules, wording
+from gradhesion.cli.study.axes import Values, expanded
+from gradhesion.cli.study.mistakes import mistakes_of_form
+from gradhesion.cli.study.quantities import in_si
+from gradhesion.cli.study.source import Source, read_source
+from gradhesion.core import OUTPUTS, REPORTS, SOLVERS
+from gradhesion.core.loading_control import Loading
+from gradhesion.core.profile import Profile
+
+MOST_MISTAKES: Final = 30
+"""Mistakes to print: whoever has more is served by the first."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Method:
+    """How the scenes are solved."""
+
+    solver: str | tuple[str, ...] = "exact"
+    """One solver, or several that stand side by side in the dataset."""
+    check_contact: bool = True
+    """Whether `status` shall tell where loading does not keep the contact one disc."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Study:
+    """
+    A valid study, its parameters expanded: a float is fixed, an array is an axis (or, in points, a list).
+
+    >>> study = study_from({
+    ...     "outputs": ["pull_off_force"],
+    ...     "parameters": {"k": [0.0, 0.5], "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1,
+    ...                    "A": {"start": 0.0, "stop": 0.1, "num": 3}, "a_max_over_R": float("inf")},
+    ... })
+    >>> study.sizes
+    {'k': 2, 'A': 3}
+    """
+
+    name: str
+    title: str
+    kind: str
+    layout: str
+    outputs: tuple[str, ...]
+    """What is asked for beside `status`, in the order of the dataset."""
+    parameters: Mapping[str, Values]
+    """A value for each parameter, under the key that gives it, in the order of the dataset's dimensions."""
+    method: Method
+    profile: Profile = field(default_factory=Profile)
+    loading: Loading = field(default_factory=Loading)
+    text: str
+    """The study as TOML: reading it again gives the same study."""
+
+    @property
+    def in_si(self) -> tuple[str, ...]:
+        """The outputs that its dataset has in SI units as well: those that have a unit, if the study has units."""
+        return tuple(name for name in self.outputs if name in UNITS) if "R" in self.parameters else ()
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """The names of all variables of its dataset but `status`."""
+        return (*self.outputs, *(name + SI for name in self.in_si))
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """The dimensions of its dataset, with their lengths: that of several solvers, and its axes."""
+        solvers = self.method.solver
+        return self.axes if isinstance(solvers, str) else {SOLVER: len(solvers)} | self.axes
+
+    @property
+    def axes(self) -> dict[str, int]:
+        """The dimensions along which its parameters vary, with their lengths."""
+        axes = {name: values.size for name, values in self.parameters.items() if isinstance(values, np.ndarray)}
+        if self.layout == "points":
+            return {SCENE: next(iter(axes.values()), 1)}
+        return axes
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The lengths of its dimensions."""
+        return tuple(self.sizes.values())
+
+    @property
+    def scenes(self) -> int:
+        """The number of its scenes."""
+        return math.prod(self.shape)
+
+    @property
+    def sha256(self) -> str:
+        """The fingerprint of its text."""
+        return hashlib.sha256(self.text.encode()).hexdigest()
+
+    def parameters_of(self, block: tuple[slice, ...]) -> dict[str, NDArray[np.float64]]:
+        """Cut a block out of the axes: the parameters as arrays that broadcast to the block's shape."""
+        names = list(self.axes)
+        cut = {}
+        for name, values in self.parameters.items():
+            if isinstance(values, float):
+                cut[name] = np.full((1,) * len(names), values)
+            elif self.layout == "points":
+                cut[name] = values[block[0]]
+            else:
+                axis = names.index(name)
+                shape = [1] * len(names)
+                shape[axis] = -1
+                cut[name] = values[block[axis]].reshape(shape)
+        return cut
+
+
+def load_study(path: str | Path, overrides: Iterable[str] = ()) -> Study:
+    """
+    Read a study from a file, with `overrides` as `--set` takes them (`"parameters.A=0.02"`).
+
+    Raises
+    ------
+    StudyError
+        The file cannot be read, or the study is wrong; the error has all mistakes.
+    """
+    return _study(read_source(Path(path), overrides))
+
+
+def study_from(data: Mapping[str, Any], name: str = "study") -> Study:
+    """
+    Make a study from a mapping with the keys of a study file.
+
+    Raises
+    ------
+    StudyError
+        The study is wrong; the error has all mistakes.
+    """
+    return _study(Source(name=name, data=_plain(data), text="", place=lambda _: name))
+
+
+def _study(source: Source) -> Study:
+    """Check a study as a whole and expand it."""
+    data = source.data
+    found = mistakes_of_form(data)
+    quantities, unreadable = in_si(data.get("physical"), [mistake.path for mistake in found])
+    found += unreadable
+    wrong = [mistake.path for mistake in found]
+    tables = {name: data.get(name) for name in ("parameters", "loading")} | {"physical": quantities}
+    homes = {key: tables[table_of(key)] for key in KEYS}
+    entries = {key: home[key] for key, home in homes.items() if isinstance(home, Mapping) and key in home}
+    found += rules.mistakes_between_keys(data, entries, wrong, (*OUTPUTS, *REPORTS), SOLVERS)
+    sentences = []
+    for mistake in found:
+        value = "" if mistake.value is None else f" = {wording.shown(mistake.value)}"
+        sentences.append(f"{source.place(mistake.path)}: {places.dotted(mistake.path)}{value}: {mistake.sentence}")
+    sentences.sort(key=_line)
+    mistakes = [*source.mistakes, *sentences]
+    if len(mistakes) > MOST_MISTAKES:
+        more = f"... and {len(mistakes) - MOST_MISTAKES} more mistakes; mend these first"
+        mistakes = [*mistakes[:MOST_MISTAKES], more]
+    if mistakes:
+        raise StudyError(mistakes)
+    layout = data.get("layout", "grid")
+    parameters = {key: expanded(entry) for key, entry in entries.items()}
+    for values in parameters.values():
+        if isinstance(values, np.ndarray):
+            if layout == "grid" and not (np.all(np.diff(values) > 0) or np.all(np.diff(values) < 0)):
+                values.sort()  # CF wants coordinates that rise or fall
+            values.flags.writeable = False
+    return Study(
+        name=source.name,
+        title=data.get("title", "") or source.name,
+        kind=data.get("kind", "map"),
+        layout=layout,
+        outputs=_outputs(data["outputs"]),
+        parameters=parameters,
+        method=_method(data.get("method", {})),
+        profile=rules.profile_of(data.get("profile", {})),
+        loading=Loading(control=data.get("loading", {}).get("control", "displacement")),
+        text=source.text or _toml(data),
+    )
+
+
+def _outputs(asked: Sequence[str]) -> tuple[str, ...]:
+    """List the variables that are asked for; a curve stands for all of its own, and a ragged one needs its count."""
+    named = {*asked} | {RAGGED[curve] for curve, own in CURVES.items() if curve in RAGGED and own.keys() & {*asked}}
+    of_curves = [name for curve, own in CURVES.items() for name in own if curve in asked or name in named]
+    return (*(output for output in (*OUTPUTS, *REPORTS) if output in asked), *of_curves)
+
+
+def _method(table: Mapping[str, Any]) -> Method:
+    """Make the method of a valid study."""
+    solver = table.get("solver", "exact")
+    return Method(
+        solver=solver if isinstance(solver, str) else tuple(solver), check_contact=table.get("check_contact", True)
+    )
+
+
+def _line(sentence: str) -> tuple[str, int]:
+    """Sort sentences by the line that they name."""
+    at = re.match(r"(.*?):(\d+):", sentence)
+    return (at[1], int(at[2])) if at else ("", 0)
+
+
+def _plain(value: Any) -> Any:
+    """Turn the arrays, tuples and numpy numbers of a mapping made in Python into what TOML would give."""
+    if isinstance(value, Mapping):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return value.tolist()
+    return [_plain(item) for item in value] if isinstance(value, list | tuple) else value
+
+
+def _toml(data: Mapping[str, Any]) -> str:
+    """Write a valid study as TOML."""
+
+    def written(value: Any) -> str:
+        if isinstance(value, str):
+            return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+        if isinstance(value, list):
+            return "[" + ", ".join(map(written, value)) + "]"
+        if isinstance(value, Mapping):
+            return "{ " + ", ".join(f"{key} = {written(item)}" for key, item in value.items()) + " }"
+        return str(value).lower() if isinstance(value, bool) else str(value)
+
+    tables = {key: value for key, value in data.items() if isinstance(value, Mapping)}
+    lines = [f"{key} = {written(value)}" for key, value in data.items() if key not in tables]
+    for key, table in tables.items():
+        lines += ["", f"[{key}]", *(f"{name} = {written(value)}" for name, value in table.items())]
+    return "\n".join(lines) + "\n"

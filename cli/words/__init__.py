@@ -1,0 +1,1 @@
+"""A dataset in words and as a table: what `gradhesion info` prints."""

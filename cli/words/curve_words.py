@@ -1,0 +1,81 @@
+"""Curves told in words: how long they are, how often they fold and jump, and how far they reach."""
+
+from collections.abc import Iterator, Sequence
+from itertools import product
+from typing import Any, Final
+
+import numpy as np
+import xarray
+from numpy.typing import NDArray
+
+from gradhesion.cli.names import CURVES, INTEGERS, RAGGED
+from gradhesion.cli.words.jump_words import jumps_told
+from gradhesion.cli.work.blocks import tile
+
+CELLS: Final = 2**20
+"""Values of a variable that are read at a time, unless a single curve has more."""
+
+Scene = dict[str, NDArray[np.float64]]
+
+
+def curves_told(dataset: xarray.Dataset) -> Iterator[str]:
+    """Tell the curves of a dataset, line by line."""
+    for curve, own in CURVES.items():
+        names = [name for name in own if name in dataset]
+        if not names or curve in RAGGED:
+            continue
+        counts: dict[str, list[int]] = {"points": []}
+        ends = {name: (np.inf, -np.inf) for name in names if name not in INTEGERS}
+        for scene in _scenes(dataset, names):
+            counts["points"].append(int(np.count_nonzero(~np.isnan(scene[names[0]]))))
+            for word, count in _events(scene).items():
+                counts.setdefault(word, []).append(count)
+            for name, (least, greatest) in ends.items():
+                values = scene[name][~np.isnan(scene[name])]
+                ends[name] = float(np.min(values, initial=least)), float(np.max(values, initial=greatest))
+        yield ""
+        yield f"{curve}: {_range(counts.pop('points'))} points a scene"
+        yield from (f"  {word:<30} {_range(numbers)}" for word, numbers in counts.items())
+        for name, (least, greatest) in ends.items():
+            told = f"{least + 0.0:.6g} to {greatest + 0.0:.6g}" if least <= greatest else "no value in any scene"
+            yield f"  {name:<30} {told:<26} {own[name]}"
+    yield from jumps_told(dataset)
+
+
+def _scenes(dataset: xarray.Dataset, names: Sequence[str]) -> Iterator[Scene]:
+    """Give the variables of one curve scene by scene."""
+    *shape, longest = dataset[names[0]].shape
+    steps = tile(tuple(shape), max(1, CELLS // max(1, longest)))
+    starts = (range(0, length, step) for length, step in zip(shape, steps, strict=True))
+    for corner in product(*starts):
+        block = tuple(slice(start, start + step) for start, step in zip(corner, steps, strict=True))
+        loaded = {name: np.asarray(dataset[name][block].values, dtype=float).reshape(-1, longest) for name in names}
+        for i in range(len(loaded[names[0]])):
+            yield {name: values[i] for name, values in loaded.items()}
+
+
+def _events(scene: Scene) -> dict[str, int]:
+    """Count the branches and the jumps of one scene."""
+    counts: dict[str, Any] = {}
+    if "stable" in scene:
+        stable = scene["stable"] == 1.0
+        counts["stable branches"] = stable[:1].sum() + (stable[1:] & ~stable[:-1]).sum()
+    if "path_branch" in scene:
+        visited = np.unique(scene["path_branch"])
+        counts["branches visited, rim counted"] = (visited > 0.0).sum()
+    if {"path_jump", "path_unloading"} <= scene.keys():
+        jumps = scene["path_jump"] == 1.0
+        for word, way in (("loading", 0.0), ("unloading", 1.0)):
+            counts[f"jumps on {word}"] = (jumps & (scene["path_unloading"] == way)).sum()
+    return {word: int(count) for word, count in counts.items()}
+
+
+def _range(numbers: Sequence[int]) -> str:
+    """
+    Tell a number of each scene.
+
+    >>> _range([3, 1200, 4]), _range([5])
+    ('3 to 1,200', '5')
+    """
+    least, greatest = min(numbers), max(numbers)
+    return f"{least:,}" if least == greatest else f"{least:,} to {greatest:,}"

@@ -1,0 +1,69 @@
+"""A small dataset as comma-separated values: a line for each scene, or for each point of a curve."""
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import xarray
+
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.names import CURVES, INTEGERS, KEYS, SOLVER
+from gradhesion.cli.study.wording import did_you_mean
+from gradhesion.cli.work.blocks import blocks
+
+MOST: Final = 1_000_000
+"""Lines of a table: what a spreadsheet takes."""
+
+
+def tabled(dataset: xarray.Dataset, file: Path, chosen: Sequence[str]) -> Iterator[str]:
+    """
+    Write a dataset as CSV, some lines at a time: first the names, then parameters, variables and status.
+
+    Numbers have all their digits. `chosen` are variables, or curves, of a dataset that has several curves one.
+
+    Raises
+    ------
+    DatasetError
+        A variable is not there, the chosen ones have no lines in common, or there are too many lines.
+    """
+    names = _variables(dataset, file, chosen)
+    first = dataset[names[0]]
+    if first.size > MOST:
+        remedy = "read it with xarray or NCO instead"
+        raise DatasetError(f"{file}: {first.size:,} lines, where a table has {MOST:,} at most; {remedy}")
+    beside = [name for name in (SOLVER, *KEYS) if name in dataset.coords]
+    columns = [*beside, *names, "status"]
+    yield ",".join(columns)
+    for block in blocks(first.shape):
+        part = dataset[columns].isel(dict(zip(first.dims, block, strict=True)))
+        lines = part[names[0]]
+        values = [part[name].broadcast_like(lines).transpose(*lines.dims).values.ravel() for name in columns]
+        filled = ~np.isnan(values[len(beside)]) if first.dims != dataset["status"].dims else slice(None)
+        lists = [
+            each[filled].astype(int if name in INTEGERS else each.dtype).tolist()  # read as floats if some are missing
+            for name, each in zip(columns, values, strict=True)
+        ]
+        text = "\n".join(",".join(map(_written, row)) for row in zip(*lists, strict=True))
+        if text:
+            yield text
+
+
+def _written(value: float | str) -> str:
+    return value if isinstance(value, str) else repr(value)
+
+
+def _variables(dataset: xarray.Dataset, file: Path, chosen: Sequence[str]) -> list[str]:
+    """Name the variables of the table but `status`, all of one shape."""
+    own = [str(name) for name in dataset.data_vars if name != "status"]
+    curves = {curve: [name for name in names if name in own] for curve, names in CURVES.items() if {*names} & {*own}}
+    wrong = [name for name in chosen if name not in (*own, *curves)]
+    if wrong:
+        raise DatasetError(f'{file}: there is no variable "{wrong[0]}"; {did_you_mean(wrong[0], [*curves, *own])}')
+    names = list(dict.fromkeys(each for name in chosen or own for each in curves.get(name, [name])))
+    if {*names} & {*CURVES["jumps"]}:
+        raise DatasetError(f"{file}: jumps have a table of their own; write it with gradhesion info --jumps")
+    if len({dataset[name].dims for name in names}) > 1:
+        choices = " or ".join(f"--variable {curve}" for curve in curves)
+        raise DatasetError(f"{file}: each of its curves has its own points; choose one with {choices}")
+    return names

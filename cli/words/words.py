@@ -1,0 +1,175 @@
+"""A dataset told in words: its axes, its extremes and where they are, its failures, its origin."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+import xarray
+from numpy.typing import NDArray
+
+from gradhesion.cli import names
+from gradhesion.cli.dataset.reader import has_curves
+from gradhesion.cli.names import KEYS, SCENE, SOLVER
+from gradhesion.cli.study.shape_words import control_told
+from gradhesion.cli.words.curve_words import curves_told
+from gradhesion.cli.work.blocks import blocks
+from gradhesion.core import FAILED, FLAGS
+from gradhesion.core.loading_control import Loading
+
+FEW: Final = 8
+"""Values of an axis that are listed one by one."""
+
+
+def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
+    """Tell what a dataset holds, line by line."""
+    yield dataset.attrs["title"]
+    yield f"{file}: {dataset['status'].size:,} scenes, {file.stat().st_size / 1e6:.1f} MB"
+    if "profile" in dataset.attrs:
+        yield ""
+        yield f"profile: {dataset.attrs['profile']}"
+        yield f"control: {control_told(Loading(control=dataset.attrs['control']))}"
+    yield from _parameters(dataset)
+    yield from curves_told(dataset) if has_curves(dataset) else _outputs(dataset)
+    yield from _status(dataset)
+    yield from _origin(dataset)
+
+
+def _coordinates(dataset: xarray.Dataset | xarray.DataArray) -> list[str]:
+    """List what tells scenes apart: the solver, and the parameters."""
+    return [name for name in (SOLVER, *KEYS) if name in dataset.coords]
+
+
+def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
+    """Tell the values of the parameters: axes first, then fixed ones, then what follows from them."""
+    points = SCENE in dataset.dims
+    known = [name for name in _coordinates(dataset) if name != SOLVER]
+    varying = [name for name in known if name in dataset.dims or (points and dataset[name].ndim)]
+    if SOLVER in dataset.dims:
+        yield ""
+        yield "solvers, each for all scenes: " + ", ".join(dataset[SOLVER].values)
+    yield ""
+    yield "points: one scene for each item of" if points else "axes"
+    for name in varying:
+        values = dataset[name].values
+        if values.size <= FEW:
+            told = ", ".join(f"{value:g}" for value in values)
+        else:
+            told = f"{values.size:,} values from {np.nanmin(values):g} to {np.nanmax(values):g}"
+            told += "" if points else f", {_spacing(values)}"
+        yield f"  {name:<17} {told}{_unit(dataset[name])}"
+    if not varying:
+        yield "  none: a single scene"
+    fixed = [name for name in known if dataset[name].ndim == 0]
+    if fixed:
+        yield ""
+        yield "fixed"
+        yield from (f"  {name:<17} {dataset[name].item():g}{_unit(dataset[name])}" for name in fixed)
+    following = [name for name in known if name not in (*varying, *fixed)]
+    if following:
+        yield ""
+        yield "following from these"
+    for name in following:
+        extremes = [f"{value:g}" for value, _ in _extremes(dataset[name])]
+        yield f"  {name:<17} {' to '.join(extremes) or 'no finite value in any scene'}"
+
+
+def _unit(variable: xarray.DataArray, before: str = " ") -> str:
+    """Give the unit of a variable, nothing if it has none."""
+    unit = str(variable.attrs.get("units", "1"))
+    return "" if unit == "1" else before + unit
+
+
+def _number(value: float | str) -> str:
+    """Write a value of a coordinate."""
+    return value if isinstance(value, str) else f"{value:g}"
+
+
+def _spacing(values: NDArray[np.float64]) -> str:
+    """
+    Tell how the values of an axis are spaced, inf apart.
+
+    >>> _spacing(np.array([0.01, 0.1, 1.0, np.inf]))
+    'log-spaced'
+    >>> _spacing(np.array([0.0, 0.1, 0.2]))
+    'evenly spaced'
+    """
+    finite = np.sort(values[np.isfinite(values)])
+    if finite.size < 3:
+        return "listed"
+    steps = np.diff(finite)
+    if np.ptp(steps) <= 1e-6 * np.max(steps):
+        return "evenly spaced"
+    if finite[0] > 0 and np.ptp(np.diff(np.log(finite))) <= 1e-6 * np.log(finite[-1] / finite[0]):
+        return "log-spaced"
+    return "listed"
+
+
+def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
+    """Tell the extremes of each output, and where they are."""
+    for name in dataset.data_vars:
+        if name == "status":
+            continue
+        yield ""
+        yield f"{name}: {dataset[name].attrs['long_name']}{_unit(dataset[name], ', in ')}"
+        extremes = _extremes(dataset[name])
+        if not extremes:
+            yield "  no value in any scene"
+        for word, (extreme, place) in zip(("least", "greatest"), extremes, strict=False):
+            where = ", ".join(f"{key} = {_number(value)}" for key, value in place.items())
+            yield f"  {word:<9} {extreme:<12.7g}" + (f" at {where}" if where else "")
+
+
+def _extremes(variable: xarray.DataArray) -> list[tuple[float, dict[str, float | str]]]:
+    """Find the least and the greatest value of a variable with their places, a block at a time."""
+    found: list[tuple[float, dict[str, float | str]]] = []
+    for block in blocks(variable.shape):
+        part = variable[block].load()
+        values = np.asarray(part.values, dtype=float)
+        if not np.any(np.isfinite(values)):
+            continue
+        for i, (position, better) in enumerate(((np.nanargmin(values), np.less), (np.nanargmax(values), np.greater))):
+            index = np.unravel_index(position, values.shape)
+            value = float(values[index])
+            if len(found) < 2 or better(value, found[i][0]):
+                found[i : i + 1] = [(value, _place(part, index))]
+    return found
+
+
+def _place(part: xarray.DataArray, index: tuple[Any, ...]) -> dict[str, float | str]:
+    """Tell the solver and the varying parameters of a cell."""
+    cell = part[index]
+    return {
+        name: cell[name].item()
+        for name in _coordinates(part)
+        if part[name].ndim and (name in part.dims or SCENE in part.dims)  # not what follows from axes
+    }
+
+
+def _status(dataset: xarray.Dataset) -> Iterator[str]:
+    """Tell how many scenes have failed, and what the others report."""
+    counts = dict.fromkeys(FLAGS, 0)
+    failed = 0
+    for block in blocks(dataset["status"].shape):
+        status: NDArray[np.int8] = dataset["status"][block].values
+        failed += int(np.count_nonzero(status & FAILED))
+        for name, bit in FLAGS.items():
+            counts[name] += int(np.count_nonzero(status & bit))
+    scenes = dataset["status"].size
+    yield ""
+    yield f"status: {scenes - failed:,} of {scenes:,} scenes ({(scenes - failed) / scenes:.1%}) have values"
+    for name, count in counts.items():
+        if count:
+            share = f"{count:,} of {scenes:,} scenes ({100 * count / scenes:.2g} %)"
+            yield f"  {name:<30} {share:<26} {names.FLAGS[name]}"
+
+
+def _origin(dataset: xarray.Dataset) -> Iterator[str]:
+    """Tell where a dataset comes from."""
+    attributes = dataset.attrs
+    versions = ", ".join(f"{name} {attributes[f'{name}_version']}" for name in ("python", "numpy", "numba", "scipy"))
+    yield ""
+    yield "origin"
+    yield f"  {attributes['source']} ({versions})"
+    yield from (f"  {line}" for line in str(attributes["history"]).splitlines())
+    yield f"  study with sha256 {attributes['study_sha256']}"

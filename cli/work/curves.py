@@ -1,0 +1,126 @@
+"""The curves of a study: drawn scene by scene, each as long as it needs to be, and padded to the longest."""
+
+import os
+from collections import deque
+from collections.abc import Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from itertools import product
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, RAGGED, SI, UNITS
+from gradhesion.cli.study.study import Study
+from gradhesion.cli.work.blocks import Block, awaited, scales_of, scenes_of
+from gradhesion.core import draw_curves
+
+AHEAD: Final = 2
+"""Scenes drawn ahead a thread."""
+
+Drawing = tuple[Block, dict[str, NDArray[Any]]]
+
+
+def extent_of(variable: str) -> str:
+    """
+    Name the dimension along the curve that a variable belongs to.
+
+    >>> extent_of("path_load")
+    'path_point'
+    """
+    return next(EXTENTS[curve] for curve, own in CURVES.items() if variable.removesuffix(SI) in own)
+
+
+def is_ragged(variable: str) -> bool:
+    """
+    Tell whether a variable has the items of one scene after those of the other.
+
+    >>> is_ragged("jump_energy"), is_ragged("jump_count"), is_ragged("path_load")
+    (True, False, False)
+    """
+    return any(variable.removesuffix(SI) in CURVES[curve] and variable != count for curve, count in RAGGED.items())
+
+
+def blank_of(variable: str) -> float:
+    """Give what stands where a curve has no point."""
+    return -1 if variable in INTEGERS else np.nan
+
+
+def drawn(study: Study, threads: int | None = None) -> Iterator[Drawing]:
+    """
+    Draw a study scene by scene: its curves, along one more dimension than its block, and its `status`.
+
+    Ragged curves have their own dimension alone. Scenes are drawn in threads of their own, some ahead of whoever takes
+    them; they come in order.
+    """
+    workers = min(threads or os.cpu_count() or 1, study.scenes)
+    pool = ThreadPoolExecutor(workers, thread_name_prefix="draw")
+    ahead: deque[Future[Drawing]] = deque()
+    try:
+        for item in product(*(range(length) for length in study.shape)):
+            block = tuple(slice(i, i + 1) for i in item)
+            ahead.append(pool.submit(_draw, study, block))
+            if len(ahead) > AHEAD * workers:
+                yield awaited(ahead.popleft())
+        while ahead:
+            yield awaited(ahead.popleft())
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _draw(study: Study, block: Block) -> Drawing:
+    """Draw the curves of one scene; one that has none is one point without a value."""
+    scene = {name: float(values.item()) for name, values in scenes_of(study, block).items()}
+    curves = [curve for curve, own in CURVES.items() if any(name in own for name in study.outputs)]
+    found, status = draw_curves(scene, curves, study.profile, study.loading)
+    front = (1,) * len(block)
+    parts = {}
+    counts = {
+        count: np.size(found[next(name for name in CURVES[curve] if name in found)])
+        for curve, count in RAGGED.items()
+        if curve in curves
+    }
+    for name in study.outputs:
+        if name in counts:
+            parts[name] = np.full(front, counts[name], dtype=INTEGERS[name])
+        elif is_ragged(name):
+            parts[name] = found[name]
+        else:
+            values = np.asarray(found[name]) if np.size(found[name]) else np.array([blank_of(name)])
+            parts[name] = values.reshape(*front, -1)
+    scales = scales_of(study, block)
+    parts |= {name + SI: parts[name] * scales[UNITS[name]].item() for name in study.in_si}
+    parts["status"] = np.full(front, status, dtype=np.int8)
+    return block, parts
+
+
+def gathered(study: Study, threads: int | None = None) -> dict[str, NDArray[Any]]:
+    """Draw a study in memory, padded to its longest curves."""
+    drawings = list(drawn(study, threads))
+    filled: dict[str, NDArray[Any]] = {"status": np.empty(study.shape, np.int8)}
+    for name in study.variables:
+        parts_of = [parts[name] for _, parts in drawings]
+        if is_ragged(name):
+            filled[name] = np.concatenate(parts_of)
+            continue
+        further = [max(part.shape[-1] for part in parts_of)] if parts_of[0].ndim > len(study.shape) else []
+        filled[name] = np.full((*study.shape, *further), blank_of(name), INTEGERS.get(name, "f8"))
+    for block, parts in drawings:
+        for name, part in parts.items():
+            if not is_ragged(name):
+                filled[name][within(name, block, part)] = part
+    return filled
+
+
+def within(name: str, block: Block, part: NDArray[Any], begun: int = 0) -> Block:
+    """
+    Tell where a part goes that has further dimensions than its block, or none of it after `begun` items.
+
+    >>> within("path_load", (slice(2, 3),), np.zeros((1, 5)))
+    (slice(2, 3, None), slice(0, 5, None))
+    >>> within("jump_energy", (slice(2, 3),), np.zeros(4), 7)
+    (slice(7, 11, None),)
+    """
+    if is_ragged(name):
+        return (slice(begun, begun + part.size),)
+    return (*block, *(slice(0, length) for length in part.shape[len(block) :]))

@@ -1,0 +1,134 @@
+"""What a run would do and cost: blocks, what is kept of them, bytes, memory, and the time by a probe of real scenes."""
+
+import os
+import shutil
+from collections import Counter
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from gradhesion.cli.study.study import Study
+from gradhesion.cli.work.blocks import block_at, count_of, size_of
+from gradhesion.cli.work.folder import Folder, folder_of, read_json
+from gradhesion.cli.work.manifest import differences_of, manifest_of
+from gradhesion.cli.work.parts import bytes_of, key_of
+from gradhesion.cli.work.probe import probe
+from gradhesion.cli.work.resume import found, has_parts
+
+BASE: Final = 205e6
+"""Bytes of the program itself, its libraries and kernels, as measured."""
+START: Final = 3.0
+"""Seconds until the workers of a cluster on this machine are at work: 4 of processor time on two cores, and waiting."""
+OF_CLUSTER: Final = 0.006
+"""Seconds of this process for a block of a cluster, beside writing it: 2 ms to hand it out, and to read its part."""
+COPIES: Final = 8
+"""Times the values of a block, as measured: two blocks are in memory, and one of them at work."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Estimate:
+    """What a run would do and cost; None is not known."""
+
+    output: str
+    output_exists: bool
+    running: bool
+    """Whether a run is at work on this output."""
+    kind: str
+    scenes: int
+    sizes: dict[str, int]
+    outputs: tuple[str, ...]
+    blocks: int
+    blocks_reused: int
+    not_reused: dict[str, int]
+    """Reasons, with the number of blocks."""
+    differences: tuple[str, ...]
+    """How the study differs from that of the parts: a run would refuse."""
+    bytes_of_parts: int
+    """To be written, beside the dataset."""
+    bytes_of_file: int | None
+    bytes_free: int | None
+    bytes_of_memory: int | None
+    seconds: float | None
+    seconds_uncertain: float | None
+    """Two standard errors of the probe."""
+    seconds_dask: float | None
+    """With --engine dask on this machine."""
+    seconds_of_block: float | None
+    """Of one core: what a worker of a cluster needs at a time."""
+    scenes_probed: int
+
+
+def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate:
+    """Find out what a run would do and cost; writes nothing."""
+    folder = folder_of(output)
+    is_map = study.kind == "map"
+    count = count_of(study.shape) if is_map else study.scenes
+    of_block = bytes_of(study, block_at(study.shape, 0)) if is_map else 0
+    old = read_json(folder.study)
+    parts = has_parts(study)
+    differences = differences_of(old, manifest_of(study)) if isinstance(old, dict) and folder.parts() else []
+    reused, reasons = _reused(study, folder, count) if parts and not differences else (set[int](), Counter[str]())
+    if differences:
+        reasons["of another study"] = len(folder.parts())
+    if count - len(reused) - reasons.total():
+        reasons["not computed yet"] += count - len(reused) - reasons.total()
+    left = [number for number in range(count) if number not in reused] if is_map else []
+    scenes_left = study.scenes - sum(size_of(block_at(study.shape, number)) for number in reused)
+    probed = probe(study, left)
+    seconds = uncertain = by_dask = of_one = None
+    if probed:
+        workers = threads or os.cpu_count() or 1
+        writing = probed.compressing * study.scenes
+        seconds = max(probed.solving * scenes_left / workers + writing / workers, writing)
+        uncertain = probed.uncertainty * scenes_left / workers
+        of_one = probed.solving * scenes_left / len(left)
+        if parts:
+            by_dask = START + seconds + OF_CLUSTER * len(left)
+    each = of_block // size_of(block_at(study.shape, 0)) if is_map else 0
+    return Estimate(
+        output=str(output),
+        output_exists=output.exists(),
+        running=folder.busy(),
+        kind=study.kind,
+        scenes=study.scenes,
+        sizes=study.sizes,
+        outputs=study.outputs,
+        blocks=count,
+        blocks_reused=len(reused),
+        not_reused=dict(reasons),
+        differences=tuple(differences),
+        bytes_of_parts=each * scenes_left if parts else 0,
+        bytes_of_file=round(probed.ratio * study.scenes * each) if probed else None,
+        bytes_free=_free(output),
+        bytes_of_memory=round(BASE + COPIES * of_block) if is_map else None,
+        seconds=seconds,
+        seconds_uncertain=uncertain,
+        seconds_dask=by_dask,
+        seconds_of_block=of_one,
+        scenes_probed=probed.scenes if probed else 0,
+    )
+
+
+def _reused(study: Study, folder: Folder, count: int) -> tuple[set[int], Counter[str]]:
+    """Read every part that is there: the numbers of those that a run would reuse, and why not the others."""
+    reused = set()
+    reasons: Counter[str] = Counter()
+    for path in folder.parts():
+        if not path.stem.isdigit() or int(path.stem) >= count:
+            continue
+        block = block_at(study.shape, int(path.stem))
+        values = found(study, folder, int(path.stem), block, key_of(study, block))
+        if isinstance(values, str):
+            reasons[values] += 1
+        else:
+            reused.add(int(path.stem))
+    return reused, reasons
+
+
+def _free(output: Path) -> int | None:
+    """Count the free bytes where the output goes: in its folder, or the one that the folder would be made in."""
+    for folder in output.absolute().parents:
+        with suppress(OSError):
+            return shutil.disk_usage(folder).free
+    return None

@@ -1,0 +1,108 @@
+"""Parts: the finished blocks of a study, each in a file of its own that is trusted only if all of it is right.
+
+A part is the SHA-256 of all that follows, in hexadecimal, on a line; the key of its block, JSON on a line; and its
+arrays one after the other, little-endian, in the order of the key. The key has all that the values depend on, so that
+neither the name of a part nor its age matters.
+"""
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, fields
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, Final
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli.disk import write_whole
+from gradhesion.cli.study.study import Study
+from gradhesion.cli.work.blocks import Block, size_of
+from gradhesion.core import SOURCES
+
+FORMAT: Final = 1
+"""To be raised when parts are written in another way, or blocks are solved in another way by `gradhesion.cli`."""
+
+Values = dict[str, NDArray[Any]]
+
+
+class PartError(ValueError):
+    """A part is damaged, or of another block; the message says which."""
+
+
+def versions() -> dict[str, Any]:
+    """List the versions that values depend on: another one may round another way."""
+    return {"format": FORMAT, "gradhesion": version("gradhesion"), "core": SOURCES, "numba": numba.__version__}
+
+
+def settings_of(study: Study) -> dict[str, Any]:
+    """List all that a study asks for but its parameters; not what it is called, nor how it is written."""
+    aside = ("name", "title", "text", "parameters", "method")
+    settings = {field.name: getattr(study, field.name) for field in fields(study) if field.name not in aside}
+    return settings | {f"method.{name}": value for name, value in asdict(study.method).items()}
+
+
+def types_of(study: Study) -> dict[str, np.dtype[Any]]:
+    """Give the types of the results of a map, in the order of a part."""
+    types = {name: "<i4" if name.endswith("_jumps") else "<f8" for name in study.variables}
+    return {name: np.dtype(kind) for name, kind in (types | {"status": "|i1"}).items()}
+
+
+def bytes_of(study: Study, block: Block) -> int:
+    """Count the bytes of the values of a block."""
+    return size_of(block) * sum(kind.itemsize for kind in types_of(study).values())
+
+
+def key_of(study: Study, block: Block) -> str:
+    """Write down all that the values of a block depend on."""
+    several = not isinstance(study.method.solver, str)
+    axes = block[1:] if several else block
+    digest = hashlib.sha256()
+    for name, values in study.parameters_of(axes).items():
+        digest.update(f"{name} {values.shape} ".encode())
+        digest.update(np.ascontiguousarray(values, "<f8").tobytes())
+    key = versions() | settings_of(study)
+    if several:
+        key["method.solver"] = study.method.solver[block[0]]
+    key["values"] = {name: kind.str for name, kind in types_of(study).items()}
+    key["shape"] = [part.stop - part.start for part in block]
+    key["parameters"] = digest.hexdigest()
+    return json.dumps(key, default=str)
+
+
+def write_part(path: Path, key: str, values: Mapping[str, NDArray[Any]], study: Study) -> None:
+    """Write the values of a block to disk, whole or not at all."""
+    pieces = [memoryview(f"{key}\n".encode())]
+    pieces += [np.ascontiguousarray(values[name], kind).data.cast("B") for name, kind in types_of(study).items()]
+    digest = hashlib.sha256()
+    for piece in pieces:
+        digest.update(piece)
+    write_whole(path, f"{digest.hexdigest()}\n".encode(), *pieces)
+
+
+def read_part(path: Path, key: str, study: Study, block: Block) -> Values:
+    """
+    Read the values of a block from its part.
+
+    Raises
+    ------
+    PartError
+        It is damaged, or belongs to another block.
+    OSError
+        It cannot be read.
+    """
+    content = path.read_bytes()
+    head = content.find(b"\n") + 1
+    if not head or hashlib.sha256(memoryview(content)[head:]).hexdigest() != content[: head - 1].decode("latin-1"):
+        raise PartError("damaged")
+    at = content.find(b"\n", head) + 1
+    if content[head : at - 1] != key.encode():
+        raise PartError("of other scenes or another version")
+    shape = tuple(part.stop - part.start for part in block)
+    values = {}
+    for name, kind in types_of(study).items():
+        values[name] = np.frombuffer(content, kind, size_of(block), at).reshape(shape)
+        at += values[name].nbytes
+    return values

@@ -1,0 +1,82 @@
+"""The blocks of a study, taken from the parts of an earlier run where they are there, and solved where they are not."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from gradhesion.cli.study.study import Study
+from gradhesion.cli.work.blocks import Block, count_of, size_of, solve_block
+from gradhesion.cli.work.folder import Folder
+from gradhesion.cli.work.parts import PartError, Values, read_part, types_of
+from gradhesion.core import FAILED, FLAGS
+
+ATTEMPTS: Final = 2
+"""Times that a block is tried: what raises twice, as for want of memory, hardly ends well a third time."""
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A block with its values."""
+
+    block: Block
+    values: Values
+    key: str = ""
+    """What its part depends on."""
+    reused: bool = False
+    error: str = ""
+    """Why it has none, if it raised each time."""
+
+    @property
+    def failed(self) -> int:
+        """The number of its scenes that have failed."""
+        return int(np.count_nonzero(self.values["status"] & FAILED))
+
+
+def has_parts(study: Study) -> bool:
+    """Tell whether the blocks of a study are kept in parts: one block is done or not."""
+    return study.kind == "map" and count_of(study.shape) > 1
+
+
+def found(study: Study, folder: Folder, number: int, block: Block, key: str) -> Values | str:
+    """Read the part of a block, or tell why it is of no use."""
+    try:
+        return read_part(folder.part(number), key, study, block)
+    except FileNotFoundError:
+        return "not computed yet"
+    except OSError:
+        return "cannot be read"
+    except PartError as error:
+        return str(error)
+
+
+def attempted(study: Study, block: Block, threads: int | None) -> tuple[Values, str]:
+    """Solve a block, again if it raises; then its scenes have no value, and the error is told."""
+    reason = ""
+    for _ in range(ATTEMPTS):
+        try:
+            return solve_block(study, block, threads), ""
+        except Exception as error:  # noqa: BLE001 (its neighbours are not to be lost with it)
+            reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    return blank(study, block), reason
+
+
+def blank(study: Study, block: Block) -> Values:
+    """Make the values of a block that has none."""
+    shape = tuple(part.stop - part.start for part in block)
+    values = {
+        name: np.full(shape, np.nan if kind.kind == "f" else -1, kind)
+        for name, kind in types_of(study).items()
+        if name != "status"
+    }
+    return values | {"status": np.full(shape, FLAGS["no_value"], np.int8)}
+
+
+def place_of(study: Study, block: Block) -> str:
+    """Say which scenes a block has."""
+    axes = [
+        f"{name} {part.start}" + (f" to {part.stop - 1}" if part.stop - part.start > 1 else "")
+        for (name, size), part in zip(study.sizes.items(), block, strict=True)
+        if (part.start, part.stop) != (0, size)
+    ]
+    return f"{size_of(block):,} scenes" + (f", index {', '.join(axes)}" if axes else "")
