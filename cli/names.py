@@ -1,106 +1,8 @@
-"""The names of a study and of its dataset, with what they stand for."""
+"""The names in a dataset, with what they stand for; those of its coordinates are keys of the study."""
 
 from typing import Final
 
-PARAMETERS: Final = {
-    "k": "gradient exponent k of the modulus E0 (z/c0)^k",
-    "nu": "Poisson's ratio",
-    "modulus": "reduced modulus E* R/dgamma, with E* = E0/(1 - nu^2)",
-    "c0_over_R": "characteristic depth c0/R of the gradient",
-    "lambda_over_R": "wavelength lambda/R of the waviness",
-    "A": "amplitude over wavelength of the waviness",
-    "a_max_over_R": "radius a_max/R of the punch (inf: unbounded)",
-}
-"""Every parameter of a scene in the order of a dataset's dimensions, with its `long_name`."""
-
-TIED: Final = {
-    "lambda_over_L": ("lambda_over_R", "wavelength lambda/L of the waviness over the similarity length"),
-    "chi": ("A", "roughness parameter chi = r/s of the waviness"),
-    "a_max_over_L": ("a_max_over_R", "radius a_max/L of the punch over the similarity length (inf: unbounded)"),
-    "a_max_over_a2": ("a_max_over_R", "radius a_max/a_2 of the punch over the jump-in radius of the loading envelope"),
-}
-"""The keys of [parameters] in reduced variables: the parameter that each is given instead of, and its `long_name`."""
-
-MACHINE: Final = "machine_stiffness"
-"""The key of [loading] that is a parameter: its dimension stands before that of the punch's radius."""
-SPRING: Final = "spring_constant"
-"""The key of [physical] that gives the same with its unit."""
-
-PHYSICAL: Final = {
-    "R": ("modulus", "m", "radius R of the punch at its tip"),
-    "E_star": ("modulus", "Pa", "reduced modulus E* = E0/(1 - nu^2) at the depth c0"),
-    "work_of_adhesion": ("modulus", "J m-2", "work of adhesion dgamma"),
-    "c0": ("c0_over_R", "m", "characteristic depth c0 of the gradient"),
-    "wavelength": ("lambda_over_R", "m", "wavelength lambda of the waviness"),
-    "amplitude": ("A", "m", "amplitude A lambda of the waviness"),
-    SPRING: (MACHINE, "N m-1", "spring constant S of the loading machine"),
-    "a_max": ("a_max_over_R", "m", "radius a_max of the punch (inf: unbounded)"),
-}
-"""The keys of [physical]: the parameter that each helps to give, its unit in a dataset, and its `long_name`."""
-
-ROLES: Final = {
-    "modulus": "the reduced modulus",
-    "c0_over_R": "the depth of the gradient",
-    "lambda_over_R": "the wavelength",
-    "A": "the amplitude",
-    "a_max_over_R": "the radius of the punch",
-}
-"""What the parameters stand for that can be given by another key."""
-
-SETTINGS: Final = {
-    "title": "what the dataset is called; the name of the file if left out",
-    "kind": "one value a scene, or one curve a scene",
-    "layout": "every combination of the axes is a scene, or all lists go together, item by item",
-    "outputs": "what is computed of every scene",
-    "parameters": "the parameters of a scene, each a number or an axis",
-    "physical": "quantities with units in the place of ratios",
-    "profile": "the shape of the punch: a power, and a series of waves",
-    "loading": "what drives the punch",
-    "method": "how the scenes are solved",
-    "start": "the first value",
-    "stop": "the last value",
-    "num": "the number of values",
-    "spacing": "whether differences or ratios of neighbours are equal",
-    "exponent": "the power m of the punch without waves: 2 is a paraboloid, 1 a cone",
-    "harmonics": "the waves of the series; one cosine if left out",
-    "n": "the number of the wave: its wavelength is lambda/n",
-    "cos": "the cosine of the wave, in units of the amplitude",
-    "sin": "the sine of the wave, in units of the amplitude",
-    "control": "what is prescribed: the depth, the load, or the far end of a spring",
-    "solver": "the exact solution, or an approximation for short waves; a list puts several side by side",
-    "check_contact": "whether `status` tells where loading does not keep the contact one disc",
-}
-"""Every key of a study that gives no parameter, and every table, with what it is."""
-
-RIM_KEYS: Final = ("a_max_over_R", "a_max_over_L", "a_max_over_a2")
-"""The keys that give the radius of the punch, which may be infinite."""
-
-
-def _ordered() -> dict[str, str]:
-    """Put each key before the parameter in whose place it stands, those with units first."""
-    ordered: dict[str, str] = {}
-    *others, rim = PARAMETERS.items()  # the radius last, since all radii of one curve share its trace
-    for name, long_name in (*others, (MACHINE, "stiffness S/(E* R) of the loading machine"), rim):
-        ordered |= {key: own for key, (parameter, _, own) in PHYSICAL.items() if parameter == name}
-        ordered |= {key: own for key, (parameter, own) in TIED.items() if parameter == name}
-        ordered[name] = long_name
-    return ordered
-
-
-KEYS: Final = _ordered()
-"""Every key that gives parameters, in the order of a dataset's dimensions, with its `long_name`."""
-
-
-def table_of(key: str) -> str:
-    """
-    Name the table of a study that a key stands in.
-
-    >>> table_of("R"), table_of("chi"), table_of("machine_stiffness")
-    ('physical', 'parameters', 'loading')
-    """
-    if key == MACHINE:
-        return "loading"
-    return "physical" if key in PHYSICAL else "parameters"
+from gradhesion.cli.keys import INPUTS
 
 
 def unit_of(name: str) -> str:
@@ -110,8 +12,8 @@ def unit_of(name: str) -> str:
     >>> unit_of("R"), unit_of("chi"), unit_of("dissipated_energy"), unit_of("dissipated_energy_si")
     ('m', '1', '1', 'J')
     """
-    if name in PHYSICAL:
-        return PHYSICAL[name][1]
+    if name in INPUTS:
+        return INPUTS[name].unit
     return UNITS.get(name.removesuffix(SI), "1") if name.endswith(SI) else "1"
 
 
@@ -273,25 +175,7 @@ SOLVERS: Final = "how the scenes are solved"
 """The `long_name` of `solver`."""
 
 SYMBOLS: Final = {
-    "k": "$k$",
-    "nu": r"$\nu$",
-    "modulus": r"$E^{\ast}R/\Delta\gamma$",
-    "c0_over_R": "$c_0/R$",
-    "lambda_over_R": r"$\lambda/R$",
-    "A": "$A$",
-    "a_max_over_R": r"$a_{\max}/R$",
-    "machine_stiffness": r"$S/E^{\ast}R$",
-    "R": "$R$",
-    "E_star": r"$E^{\ast}$",
-    "work_of_adhesion": r"$\Delta\gamma$",
-    "c0": "$c_0$",
-    "wavelength": r"$\lambda$",
-    "amplitude": r"$A\lambda$",
-    "a_max": r"$a_{\max}$",
-    "lambda_over_L": r"$\lambda/L$",
-    "chi": r"$\chi$",
-    "a_max_over_L": r"$a_{\max}/L$",
-    "a_max_over_a2": r"$a_{\max}/a_2$",
+    **{name: key.symbol for name, key in INPUTS.items()},
     "pull_off_force": r"pull-off force $F\,/\,\frac{3}{2}\pi R\Delta\gamma$",
     "pull_off_radius": "radius at pull-off $a/R$",
     "dissipated_energy": r"dissipated energy $H/R^2\Delta\gamma$",

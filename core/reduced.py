@@ -3,6 +3,7 @@
 Each of the parameters of `solve` may be left out where others tell it:
 
     modulus         R, E_star, work_of_adhesion     E* R/dgamma
+                    R, E, work_of_adhesion          with E* = E/(1 - nu^2)
     c0_over_R       c0, R
     lambda_over_R   lambda_over_L                   times L/R of similarity.py
                     wavelength, R
@@ -13,7 +14,7 @@ Each of the parameters of `solve` may be left out where others tell it:
                     a_max, R
     machine_stiffness    spring_constant, E_star, R
 
-R, c0, wavelength, amplitude and a_max are in m, E_star in Pa, work_of_adhesion in J/m^2, spring_constant in N/m.
+R, c0, wavelength, amplitude and a_max are in m, E_star and E in Pa, work_of_adhesion in J/m^2, spring_constant in N/m.
 """
 
 import math
@@ -32,6 +33,7 @@ _MATERIAL: Final = PARAMETERS[:4]
 _MACHINE: Final = "machine_stiffness"
 
 WAYS: Final[dict[str, dict[str, tuple[str, ...]]]] = {
+    "E_star": {"E": ("nu",)},
     "modulus": {"E_star": ("R", "work_of_adhesion")},
     "c0_over_R": {"c0": ("R",)},
     "lambda_over_R": {"lambda_over_L": _MATERIAL, "wavelength": ("R",)},
@@ -42,6 +44,7 @@ WAYS: Final[dict[str, dict[str, tuple[str, ...]]]] = {
 """By what a parameter can be told, and what else that takes; in the order in which they follow from one another."""
 
 _FOLLOWS: Final[dict[str, Callable[..., Any]]] = {
+    "E": lambda E, nu: E / ((1.0 - nu) * (1.0 + nu)),
     "E_star": lambda E_star, R, work_of_adhesion: E_star * R / work_of_adhesion,
     "c0": lambda c0, R: c0 / R,
     "lambda_over_L": lambda ratio, *material: ratio * similarity_length(*material),
@@ -86,7 +89,7 @@ def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
     """
     known = {name: np.asarray(values, dtype=float) for name, values in given.items()}
     wanted = (*PARAMETERS, *((_MACHINE,) if {_MACHINE, "spring_constant"} & known.keys() else ()))
-    for parameter in wanted:
+    for parameter in ("E_star", *wanted) if "E" in known else wanted:
         if parameter not in known:
             way, needed = _way(parameter, known)
             with np.errstate(all="ignore"):  # what overflows has no value
@@ -122,13 +125,18 @@ def sources_of(parameter: str, given: Mapping[str, Any]) -> tuple[str, ...]:
     if parameter in given:
         return (parameter,)
     way, needed = _way(parameter, given)
-    return tuple(dict.fromkeys([way, *(source for name in needed for source in sources_of(name, given))]))
+    return tuple(dict.fromkeys(source for name in (way, *needed) for source in _given_for(name, given)))
+
+
+def _given_for(name: str, given: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return what a name follows from: itself if nothing else gives it."""
+    return sources_of(name, given) if name in WAYS or name in PARAMETERS else (name,)
 
 
 def _way(parameter: str, given: Mapping[str, Any]) -> tuple[str, tuple[str, ...]]:
     """Return by what a parameter is told, and what else that takes."""
     for way, needed in WAYS.get(parameter, {}).items():
-        if way in given:
+        if way in given or any(other in given for other in WAYS.get(way, {})):
             return way, needed
     raise ValueError(f"{parameter} is not given, nor is one of {', '.join(WAYS.get(parameter, {})) or 'its kin'}")
 

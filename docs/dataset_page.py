@@ -9,6 +9,7 @@ from typing import Final
 from docs.tables import code, table
 from gradhesion.cli import names
 from gradhesion.cli.dataset.dataset import attributes
+from gradhesion.cli.keys import INPUTS, PARAMETERS
 from gradhesion.cli.study.study import study_from
 from gradhesion.core import DOUBTFUL, FAILED, FLAGS, REPORTS
 from gradhesion.core import status as status_module
@@ -53,7 +54,7 @@ def _sections() -> Iterator[str]:
         f"dimension, `{names.SOLVER}`. Dimensions stand in the order below. A parameter that was given by another key "
         "is there as well, beside that key."
     )
-    coordinates = ([code(key), code(names.unit_of(key)), words] for key, words in names.KEYS.items())
+    coordinates = ([code(name), code(key.unit), key.about] for name, key in INPUTS.items())
     yield table(("coordinate", "units", "long_name"), coordinates)
     yield "## Variables of a map"
     yield (
@@ -119,5 +120,5 @@ def _named(bits: int) -> str:
 
 def _attributes() -> list[str]:
     """List the global attributes of a dataset."""
-    parameters = dict.fromkeys(names.PARAMETERS, 0.5)
+    parameters = dict.fromkeys(PARAMETERS, 0.5)
     return list(attributes(study_from({"outputs": ["pull_off_force"], "parameters": parameters}), ""))

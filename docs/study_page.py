@@ -5,13 +5,16 @@ from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
 from docs.tables import code, table
-from gradhesion.cli.names import OUTPUTS, PHYSICAL, ROLES, SETTINGS, TIED
+from gradhesion.cli.keys import INPUTS, PHYSICAL, REDUCED, SETTINGS
+from gradhesion.cli.names import OUTPUTS
+from gradhesion.cli.study.form import Form
+from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.quantities import WORDS
-from gradhesion.cli.study.schema import BOUNDS, KINDS, LAYOUTS, study_model
-from gradhesion.cli.study.wording import line_of
+from gradhesion.cli.study.roles import ABSENT
+from gradhesion.cli.study.rules import LAYOUTS
 from gradhesion.core import CONTROLS, SOLVERS
 
-CHOICES: Final = {"kind": KINDS, "layout": LAYOUTS, "solver": tuple(SOLVERS), "control": tuple(CONTROLS)}
+CHOICES: Final = {"kind": tuple(KINDS), "layout": LAYOUTS, "solver": tuple(SOLVERS), "control": tuple(CONTROLS)}
 """The words that a key takes."""
 
 TYPES: Final = {"string": "string", "number": "number", "integer": "integer", "boolean": "true or false"}
@@ -26,7 +29,7 @@ def page() -> str:
 
 def _sections() -> Iterator[str]:
     """Write the sections."""
-    schema = study_model().model_json_schema()
+    schema = Form.model_json_schema()
     tables = {name: _target(entry, schema) for name, entry in schema["properties"].items()}
     yield "# Every key of a study"
     yield (
@@ -43,7 +46,7 @@ def _sections() -> Iterator[str]:
     yield from _of_quantities()
     yield from _of_table("profile", tables["profile"])
     yield "What they stand for: [other punches and machines](../punches.md). Each item of `harmonics`:"
-    yield table(HEADS, _rows(schema["$defs"]["_Harmonic"]))
+    yield table(HEADS, _rows(schema["$defs"]["Wave"]))
     yield from _of_table("loading", tables["loading"])
     yield from _of_table("method", tables["method"])
     yield "## Axes"
@@ -64,13 +67,13 @@ def _of_parameters(own: Mapping[str, Any] | None) -> Iterator[str]:
     """Write the table [parameters]."""
     assert own
     yield "## [parameters]"
-    yield f"Required: {SETTINGS['parameters']}."
-    rows = [_row(name, own) for name in own["properties"] if name not in TIED]
+    yield f"Required: {SETTINGS['parameters'].about}."
+    rows = [_row(name, own) for name in own["properties"] if name not in REDUCED]
     yield table(HEADS, rows)
     yield "In reduced variables, each in the place of another:"
     yield table(
         ("key", "in the place of", "allowed", "meaning"),
-        ([code(name), code(role), code(BOUNDS[name][1]), words] for name, (role, words) in TIED.items()),
+        ([code(name), code(key.gives), code(key.allowed), key.about] for name, key in REDUCED.items()),
     )
 
 
@@ -78,15 +81,15 @@ def _of_quantities() -> Iterator[str]:
     """Write the table [physical]."""
     yield "## [physical]"
     yield (
-        f"Optional: {SETTINGS['physical']}. Each is a string with a number and a unit, a list of them, or a range from "
-        "one to another. With this table, `R`, `E_star` and `work_of_adhesion` are required, and `modulus`, "
-        "`c0_over_R`, `lambda_over_R` and `a_max_over_R` do not stand under `[parameters]`."
+        f"Optional: {SETTINGS['physical'].about}. Each is a string with a number and a unit, a list of them, or a "
+        "range from one to another. With this table, `R`, `E_star` (or `E` in its place) and `work_of_adhesion` are "
+        "required, and `modulus`, `c0_over_R`, `lambda_over_R` and `a_max_over_R` do not stand under `[parameters]`."
     )
     yield table(
         ("key", "what", "unit in the dataset", "allowed", "for example", "meaning"),
         (
-            [code(name), WORDS[unit], code(unit), code(BOUNDS[name][1]), code(line_of(("physical", name))), words]
-            for name, (_, unit, words) in PHYSICAL.items()
+            [code(name), WORDS[key.unit], code(key.unit), code(key.allowed), code(key.example), key.about]
+            for name, key in PHYSICAL.items()
         ),
     )
 
@@ -95,7 +98,7 @@ def _of_table(name: str, own: Mapping[str, Any] | None) -> Iterator[str]:
     """Write one of the other tables."""
     assert own
     yield f"## [{name}]"
-    yield f"Optional: {SETTINGS[name]}."
+    yield f"Optional: {SETTINGS[name].about}."
     yield table(HEADS, _rows(own))
 
 
@@ -117,10 +120,13 @@ def _row(name: str, own: Mapping[str, Any]) -> list[str]:
 
 def _default(name: str, entry: Mapping[str, Any]) -> str:
     """Tell what holds where a key is left out."""
-    if name in ROLES:
-        tied = [code(key) for key, (role, _) in TIED.items() if role == name]
-        united = [code(key) for key, (role, *_) in PHYSICAL.items() if role == name]
-        return ", ".join(["this", *tied]) + f" or {' and '.join(united)} under `[physical]`"
+    if name in INPUTS and INPUTS[name].role:
+        tied = [code(key.name) for key in REDUCED.values() if key.gives == name]
+        united = [code(key.name) for key in PHYSICAL.values() if key.gives == name and not key.instead_of]
+        given = ", ".join(["this", *tied]) + f" or {' and '.join(united)} under `[physical]`"
+        if name == "a_max_over_R":
+            return f"`inf`; {given}"
+        return f"{given}; none where `{ABSENT[name][1]}` everywhere" if name in ABSENT else given
     default = entry.get("default")
     return "" if default in (None, "") else code(json.dumps(default))
 
@@ -135,8 +141,8 @@ def _type(entry: Mapping[str, Any]) -> str:
 
 def _allowed(name: str, entry: Mapping[str, Any]) -> str:
     """Tell which values are allowed."""
-    if name in BOUNDS:
-        return code(BOUNDS[name][1])
+    if name in INPUTS:
+        return code(INPUTS[name].allowed)
     words = CHOICES.get(name, entry.get("enum", ()))
     if words:
         return ", ".join(code(json.dumps(word)) for word in words)

@@ -16,12 +16,19 @@ from gradhesion.cli.progress import progress
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="The dataset of several datasets together.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing dataset.")
+@click.option(
+    "--chunk",
+    type=click.IntRange(min=1),
+    envvar="GRADHESION_CHUNK",
+    help="Cells of a chunk of the file [131072].",
+)
 @click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
 @click.option("--log-json", is_flag=True, is_eager=True, callback=messages.speak_json, help="One JSON object a line.")
 def merge(
     files: tuple[Path, ...],
     output: Path | None,
     overwrite: bool,
+    chunk: int | None,
     quiet: bool,
     log_json: bool,  # noqa: ARG001 (its callback has it)
 ) -> None:
@@ -40,20 +47,19 @@ def merge(
     elif len({*files}) < len(files):
         raise click.UsageError("the same dataset is named twice; name each once")
     else:
-        _merge_datasets(files, output, start, overwrite=overwrite, quiet=quiet)
+        _merge_datasets(files, output, start, chunk, overwrite=overwrite, quiet=quiet)
 
 
 def _merge_shards(file: Path, start: float, *, overwrite: bool, quiet: bool) -> None:
     """Join the parts of shards."""
     from gradhesion.cli.dataset.writer import write
     from gradhesion.cli.engines.kept import Kept
-    from gradhesion.cli.work.blocks import count_of
     from gradhesion.cli.work.folder import folder_of
     from gradhesion.cli.work.manifest import study_in
 
     folder = folder_of(file)
     study = study_in(folder, file)
-    count = count_of(study.shape)
+    count = len(study.tiling)
     missing = [number + 1 for number in range(count) if not folder.part(number).exists()]
     if missing and not folder.finished.exists():
         shown = ", ".join(map(str, missing[:8])) + (", ..." if len(missing) > 8 else "")
@@ -66,7 +72,9 @@ def _merge_shards(file: Path, start: float, *, overwrite: bool, quiet: bool) -> 
     finish(file, study.scenes, written, time.monotonic() - start, quiet=quiet)
 
 
-def _merge_datasets(files: tuple[Path, ...], output: Path, start: float, *, overwrite: bool, quiet: bool) -> None:
+def _merge_datasets(
+    files: tuple[Path, ...], output: Path, start: float, chunk: int | None, *, overwrite: bool, quiet: bool
+) -> None:
     """Join datasets along the axis in which they differ."""
     from gradhesion.cli.dataset.joining import Joined, opened_all, study_of
     from gradhesion.cli.dataset.writer import write
@@ -74,6 +82,7 @@ def _merge_datasets(files: tuple[Path, ...], output: Path, start: float, *, over
     with ExitStack() as stack:
         sources = opened_all(files, stack)
         study, axis = study_of(sources)
+        study = study.chunked(chunk)
         history = "\n".join([*(str(source.attrs["history"]) for source in sources.values()), history_now()])
         with progress(study.scenes, quiet=quiet) as advance:
             engine = Joined(sources, axis)

@@ -17,15 +17,25 @@ if TYPE_CHECKING:
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Dataset that `run` would write.")
 @click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Set a key of the study, in TOML.")
 @click.option("--threads", type=click.IntRange(min=1), help="Threads that `run` would use [all cores].")
+@click.option(
+    "--chunk", type=click.IntRange(min=1), envvar="GRADHESION_CHUNK", help="Cells of a chunk of the file [131072]."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-def plan(study: Path, output: Path | None, overrides: tuple[str, ...], threads: int | None, as_json: bool) -> None:
+def plan(
+    study: Path,
+    output: Path | None,
+    overrides: tuple[str, ...],
+    threads: int | None,
+    chunk: int | None,
+    as_json: bool,
+) -> None:
     """Tell what `gradhesion run STUDY` would do and cost; a second or two of real scenes are timed for it.
 
     Nothing is written. Scenes and blocks, what is reused of an earlier run and why not the rest, bytes, memory, time.
     """
     from gradhesion.cli.study.study import load_study
 
-    asked = load_study(study, overrides)
+    asked = load_study(study, overrides).chunked(chunk)
     show_plan(asked, output or Path("outputs") / f"{asked.name}.nc", threads, as_json=as_json)
 
 

@@ -46,6 +46,9 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
 )
 @click.option("--scheduler", metavar="ADDRESS", help="Of a Dask cluster, or its scheduler file [one on this machine].")
 @click.option("--threads", type=click.IntRange(min=1), help="Threads to use [all cores]; values do not depend on it.")
+@click.option(
+    "--chunk", type=click.IntRange(min=1), envvar="GRADHESION_CHUNK", help="Cells of a chunk of the file [131072]."
+)
 @click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
 @click.option(
     "--log-json", is_flag=True, is_eager=True, callback=messages.speak_json, help="Log one JSON object a line."
@@ -62,6 +65,7 @@ def run(
     engine: str,
     scheduler: str | None,
     threads: int | None,
+    chunk: int | None,
     quiet: bool,
     log_json: bool,  # noqa: ARG001 (its callback has it)
 ) -> None:
@@ -72,7 +76,7 @@ def run(
 
     if scheduler is not None and (engine != "dask" or threads is not None):
         raise click.UsageError("--scheduler goes with --engine dask, and without --threads: its workers have their own")
-    asked = load_study(study, overrides)
+    asked = load_study(study, overrides).chunked(chunk)
     path = output or Path("outputs") / f"{asked.name}.nc"
     if dry_run:
         show_plan(asked, path, threads)
@@ -134,13 +138,12 @@ def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet
 def _engine(study: "Study", name: str, scheduler: str | None, threads: int | None, *, quiet: bool) -> "Engine":
     """Choose who solves the blocks of a study."""
     from gradhesion.cli.engines.threads import Threads
-    from gradhesion.cli.work.resume import has_parts
 
     if name == "dask":
         from gradhesion.cli.engines.connection import require_dask
 
         require_dask()
-        if has_parts(study):
+        if study.has_parts:
             from gradhesion.cli.engines.cluster import Cluster
 
             return Cluster(scheduler, threads, quiet=quiet)
@@ -155,9 +158,8 @@ def _run_shard(
     """Compute the parts of a shard."""
     from gradhesion.cli.dataset.writer import write_shard
     from gradhesion.cli.work.kernels import compile_kernels
-    from gradhesion.cli.work.resume import has_parts
 
-    if not has_parts(study):
+    if not study.has_parts:
         raise click.UsageError("--shard: the study has one block only, and needs no shards; run it without --shard")
     compile_kernels(study)  # the jobs of an array begin at one moment
     with progress(study.scenes // shard[1], quiet=quiet) as advance:

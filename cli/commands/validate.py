@@ -25,7 +25,7 @@ def schema() -> None:
 
     What two keys have to do with each other (unequal lists, repeated values) is beyond it: `gradhesion validate` tells.
     """
-    from gradhesion.cli.study.schema import study_model
+    from gradhesion.cli.study.form import Form
 
-    told = {"$schema": "https://json-schema.org/draft/2020-12/schema", **study_model().model_json_schema()}
+    told = {"$schema": "https://json-schema.org/draft/2020-12/schema", **Form.model_json_schema()}
     click.echo(json.dumps(told, indent=2))

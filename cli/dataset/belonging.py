@@ -8,9 +8,10 @@ from typing import Final
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.dataset import following
+from gradhesion.cli.dataset.coordinates import following
 from gradhesion.cli.errors import DatasetError, StudyError
-from gradhesion.cli.names import MACHINE, SOLVER, SPRING
+from gradhesion.cli.keys import MACHINE, SPRING
+from gradhesion.cli.names import SOLVER
 from gradhesion.cli.study.study import Study, study_from
 from gradhesion.core import PARAMETERS
 

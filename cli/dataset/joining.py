@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.engines import Work
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import PHYSICAL, table_of
+from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.study.study import Study, study_from
-from gradhesion.cli.work.blocks import Block, block_at
+from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work.parts import types_of
 from gradhesion.cli.work.resume import Solved
 
@@ -67,10 +67,10 @@ def study_of(sources: Sources) -> tuple[Study, str]:
 
 def _with_axis(data: Mapping[str, Any], axis: str, values: NDArray[np.float64]) -> dict[str, Any]:
     """Give a study other values of an axis, in the unit of the dataset where it has one."""
-    table = table_of(axis)
+    table = INPUTS[axis].table
     entry: list[Any] = values.tolist()
-    if axis in PHYSICAL:
-        entry = ["inf" if value == np.inf else f"{value!r} {PHYSICAL[axis][1]}" for value in entry]
+    if table == "physical":
+        entry = ["inf" if value == np.inf else f"{value!r} {INPUTS[axis].unit}" for value in entry]
     return {**data, table: {**data[table], axis: entry}}
 
 
@@ -85,7 +85,7 @@ class Joined:
         """Give the blocks in order; where several sources have a value, the first."""
         owners = _owners(np.asarray(work.study.parameters[self.axis]), self.sources, self.axis)
         for number in work.numbers:
-            block = block_at(work.study.shape, number)
+            block = work.study.tiling[number]
             yield number, Solved(block, self._values(work.study, block, owners))
 
     def _values(self, study: Study, block: Block, owners: NDArray[np.int64]) -> dict[str, NDArray[Any]]:

@@ -1,5 +1,6 @@
 """Datasets of ours, opened for reading."""
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -9,6 +10,7 @@ import xarray
 
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import EXTENTS, RAGGED
+from gradhesion.cli.study.tiling import CHUNK, Tiling
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -50,3 +52,9 @@ def has_curves(dataset: "Dataset") -> bool:
     return any(extent in dataset.dims for extent in EXTENTS.values()) or any(
         name in dataset for name in RAGGED.values()
     )
+
+
+def tiling_of(variable: "xarray.DataArray") -> Tiling:
+    """Cut a variable into blocks of the chunks that it has in its file."""
+    chunk = variable.encoding.get("chunksizes") or (CHUNK,)
+    return Tiling(variable.shape, max(1, math.prod(chunk)))

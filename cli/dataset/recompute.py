@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.belonging import study_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import MACHINE, SI, SOLVER
+from gradhesion.cli.keys import MACHINE
+from gradhesion.cli.names import SI, SOLVER
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.core import FAILED, PARAMETERS
 from gradhesion.core.status import CLOSE_TO_A_JUMP, NO_VALUE

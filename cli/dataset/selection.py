@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.reductions import REDUCTIONS, Between, Taken, interpolated, reduced, without_failed
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import KEYS, PHYSICAL, SCENE, SOLVER
+from gradhesion.cli.keys import INPUTS, PHYSICAL
+from gradhesion.cli.names import SCENE, SOLVER
 from gradhesion.cli.study.quantities import si_value
 from gradhesion.cli.study.wording import did_you_mean
 
@@ -159,7 +160,7 @@ def axes_of(dataset: xarray.Dataset) -> list[str]:
     """List the axes of a dataset; of points, the parameters that they have instead, and the solvers."""
     dims = [str(axis) for axis in dataset["status"].dims]
     return [axis for axis in dims if axis != SCENE] + (
-        [name for name in KEYS if name in dataset.coords and dataset[name].dims == (SCENE,)] if SCENE in dims else []
+        [name for name in INPUTS if name in dataset.coords and dataset[name].dims == (SCENE,)] if SCENE in dims else []
     )
 
 
@@ -219,7 +220,7 @@ def _checked(option: str, values: NDArray[np.float64], axis: str, value: float) 
     if not inside:
         told = f"{finite.min():g} to {finite.max():g}" if finite.size else ""
         told = " and ".join(filter(None, (told, "inf" if np.isinf(values).any() else "")))
-        unit = f" {PHYSICAL[axis][1]}" if axis in PHYSICAL else ""
+        unit = f" {PHYSICAL[axis].unit}" if axis in PHYSICAL else ""
         raise DatasetError(f"{option}: outside the axis, which has values of {told}{unit}; choose one within")
     return value
 

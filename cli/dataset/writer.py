@@ -11,18 +11,20 @@ from typing import Any, Final, NoReturn
 import netCDF4
 
 from gradhesion.cli.dataset import dataset
+from gradhesion.cli.dataset.values import VALUES
 from gradhesion.cli.disk import bytes_in_words, refuse_existing, to_disk, writing
 from gradhesion.cli.engines import Engine, Work
 from gradhesion.cli.engines.threads import Threads
 from gradhesion.cli.errors import OutputError, ScenesFailedError
 from gradhesion.cli.names import RAGGED
+from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.work.blocks import block_at, blocks, chunk_shape, count_of, size_of
+from gradhesion.cli.study.tiling import Tiling, size_of
 from gradhesion.cli.work.curves import within
 from gradhesion.cli.work.folder import Folder, claimed, folder_of, identity, read_json, write_json
 from gradhesion.cli.work.manifest import adopt, manifest_of
 from gradhesion.cli.work.parts import types_of
-from gradhesion.cli.work.resume import Solved, has_parts, place_of
+from gradhesion.cli.work.resume import Solved, place_of
 from gradhesion.cli.work.state import Keeper
 
 LEAST_SHARE: Final = 0.1
@@ -128,7 +130,7 @@ def _merge(
     fail_fast: bool,
 ) -> Written:
     """Write the dataset in the making, block by block, as they are solved or found."""
-    count = count_of(study.shape) if study.kind == "map" else study.scenes
+    count = len(study.tiling)
     keeper = Keeper(folder.path / "state.json", scenes=study.scenes, blocks=count)
     raised: dict[int, str] = {}
     with writing(path):
@@ -187,8 +189,8 @@ def write_shard(
     refuse_existing(path, Path(os.path.realpath(path)), overwrite=overwrite)
     index, count = shard
     name = f"{index}-of-{count}"
-    mine = range(index - 1, count_of(study.shape), count)
-    scenes = sum(size_of(block_at(study.shape, number)) for number in mine)
+    mine = range(index - 1, len(study.tiling), count)
+    scenes = sum(size_of(study.tiling[number]) for number in mine)
     raised: dict[int, str] = {}
     with ExitStack() as stack:
         with writing(path):
@@ -211,7 +213,7 @@ def write_shard(
 
 def _sentence(study: Study, number: int, solved: Solved) -> str:
     """Tell of a block that could not be solved."""
-    return f"block {number + 1:,} of {count_of(study.shape):,} ({place_of(study, solved.block)}) raised {solved.error}"
+    return f"block {number + 1:,} of {len(study.tiling):,} ({place_of(study, solved.block)}) raised {solved.error}"
 
 
 def _give_up(path: Path, raised: str | None, otherwise: str) -> NoReturn:
@@ -223,10 +225,10 @@ def _solved(
     study: Study, path: Path, folder: Folder, threads: int | None, engine: Engine
 ) -> Generator[tuple[int, Solved], None, None]:
     """Give the blocks of a study with their values; of curves each scene is one."""
-    if study.kind == "map":
-        yield from engine.results(Work(study, path, folder, range(count_of(study.shape))))
+    if KINDS[study.kind].has_parts:
+        yield from engine.results(Work(study, path, folder, range(len(study.tiling))))
     else:
-        yield from ((i, Solved(*drawing)) for i, drawing in enumerate(dataset.parts(study, threads)))
+        yield from ((i, Solved(*part)) for i, part in enumerate(VALUES[study.kind].parts(study, threads)))
 
 
 def _finished(folder: Folder, target: Path, study: Study) -> Written | None:
@@ -244,8 +246,9 @@ def _finished(folder: Folder, target: Path, study: Study) -> Written | None:
 
 def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
     """Write all of a dataset but the values of its outputs."""
-    if study.kind == "map":
-        file.set_fill_off()  # every cell is written
+    filled = VALUES[study.kind].filled
+    if filled:
+        file.set_fill_off()
     file.setncatts(dataset.attributes(study, history))
     for name, size in study.sizes.items():
         file.createDimension(name, size)
@@ -256,32 +259,32 @@ def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
                 if dimension not in file.dimensions:
                     file.createDimension(dimension, None)  # it grows with the longest curve
             settings |= {"compression": "zlib", "complevel": 1, "shuffle": True}
-            settings["chunksizes"] = _chunks(tuple(file.dimensions[one] for one in described.dimensions))
+            settings["chunksizes"] = _chunks(tuple(file.dimensions[one] for one in described.dimensions), study.chunk)
         if described.blank is not None:
             settings["fill_value"] = described.blank
         dtype = str if described.dtype == "str" else described.dtype
         variable = file.createVariable(name, dtype, described.dimensions, **settings)
-        if study.kind == "map" and "chunksizes" in settings:
+        if filled and "chunksizes" in settings:
             variable.set_var_chunk_cache(CACHE)
         variable.setncatts(described.attributes)
         if described.values is not None:
             variable[...] = described.values
         elif described.made:
-            for block in blocks(variable.shape):
+            for block in Tiling(variable.shape, study.chunk):
                 variable[block or ...] = described.made(block)
 
 
-def _chunks(dimensions: tuple[netCDF4.Dimension, ...]) -> tuple[int, ...]:
+def _chunks(dimensions: tuple[netCDF4.Dimension, ...], cells: int) -> tuple[int, ...]:
     """Choose the chunks of a variable: of a curve they are its own, of all else those of the blocks."""
     if dimensions[-1].isunlimited():
         return (*(1 for _ in dimensions[:-1]), POINTS)
-    return chunk_shape(tuple(map(len, dimensions)))
+    return Tiling(tuple(map(len, dimensions)), cells).chunk
 
 
 def _check_space(study: Study, path: Path, folder: Folder) -> None:
     """Refuse a dataset that cannot fit on its disk, with its parts."""
     least = study.scenes * LEAST_SHARE * sum(8 for output in study.variables if not output.endswith("_jumps"))
-    if has_parts(study):
+    if study.has_parts:
         least += study.scenes * sum(kind.itemsize for kind in types_of(study).values())
         least -= sum(part.stat().st_size for part in folder.parts())
     free = shutil.disk_usage(folder.path).free

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from gradhesion.cli.engines import Work
 from gradhesion.cli.engines.connection import connected
 from gradhesion.cli.engines.foreman import Foreman
-from gradhesion.cli.work.blocks import block_at
 from gradhesion.cli.work.kernels import compile_kernels
 from gradhesion.cli.work.parts import key_of
 from gradhesion.cli.work.resume import Solved, found
@@ -36,7 +35,7 @@ class Cluster:
         """
         study, left = work.study, []
         for number in work.numbers:
-            block = block_at(study.shape, number)
+            block = study.tiling[number]
             key = key_of(study, block)
             values = found(study, work.folder, number, block, key)
             if isinstance(values, dict):

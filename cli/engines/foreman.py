@@ -12,7 +12,6 @@ from gradhesion.cli.engines.supply import Supply
 from gradhesion.cli.engines.watch import Watch
 from gradhesion.cli.engines.worker import SIGHT, carry_out, needed
 from gradhesion.cli.errors import ClusterError, OutputError
-from gradhesion.cli.work.blocks import block_at
 from gradhesion.cli.work.parts import Values, key_of
 from gradhesion.cli.work.resume import Solved, blank, found
 
@@ -138,7 +137,7 @@ class Foreman:
             if number in told["errors"]:
                 yield from self._given_up((number,), told["errors"][number])
                 continue
-            block = block_at(self._work.study.shape, number)
+            block = self._work.study.tiling[number]
             key = key_of(self._work.study, block)
             values = self._seen(number, block, key)
             if isinstance(values, dict):
@@ -161,7 +160,7 @@ class Foreman:
     def _given_up(self, numbers: Iterable[int], reason: str) -> Generator[tuple[int, Solved], None, None]:
         """Give blocks that have no values."""
         for number in numbers:
-            block = block_at(self._work.study.shape, number)
+            block = self._work.study.tiling[number]
             yield number, Solved(block, blank(self._work.study, block), error=reason)
 
     def _call_back_strays(self) -> None:

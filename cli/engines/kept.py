@@ -5,7 +5,7 @@ from functools import partial
 
 from gradhesion.cli.engines import Work
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.work.blocks import block_at, count_of, one_ahead
+from gradhesion.cli.work.blocks import one_ahead
 from gradhesion.cli.work.parts import key_of
 from gradhesion.cli.work.resume import Solved, found
 
@@ -25,13 +25,13 @@ class Kept:
         study = work.study
 
         def task(number: int) -> tuple[int, Solved]:
-            block = block_at(study.shape, number)
+            block = study.tiling[number]
             key = key_of(study, block)
             values = found(study, work.folder, number, block, key)
             if isinstance(values, dict):
                 return number, Solved(block, values, key, reused=True)
             raise DatasetError(
-                f"{work.path}: block {number + 1:,} of {count_of(study.shape):,} is {values}; compute its shard "
+                f"{work.path}: block {number + 1:,} of {len(study.tiling):,} is {values}; compute its shard "
                 "again, or all that is left with `gradhesion run`"
             )
 

@@ -6,9 +6,9 @@ from functools import partial
 
 from gradhesion.cli.disk import writing
 from gradhesion.cli.engines import Work
-from gradhesion.cli.work.blocks import block_at, one_ahead
+from gradhesion.cli.work.blocks import one_ahead
 from gradhesion.cli.work.parts import key_of, write_part
-from gradhesion.cli.work.resume import Solved, attempted, found, has_parts
+from gradhesion.cli.work.resume import Solved, attempted, found
 
 
 @dataclass(frozen=True)
@@ -20,10 +20,10 @@ class Threads:
 
     def results(self, work: Work) -> Generator[tuple[int, Solved], None, None]:
         """Give the blocks in order."""
-        study, kept = work.study, has_parts(work.study)
+        study, kept = work.study, work.study.has_parts
 
         def task(number: int) -> tuple[int, Solved]:
-            block = block_at(study.shape, number)
+            block = study.tiling[number]
             key = key_of(study, block) if kept else ""
             values = found(study, work.folder, number, block, key) if kept else None
             if isinstance(values, dict):

@@ -63,7 +63,6 @@ def needed() -> dict[str, Any]:
 
 def _solved(folder: Path, fingerprint: str, numbers: tuple[int, ...]) -> dict[str, Any]:
     """Solve blocks of the study in a folder."""
-    from gradhesion.cli.work.blocks import block_at  # noqa: PLC0415
     from gradhesion.cli.work.folder import Folder  # noqa: PLC0415
     from gradhesion.cli.work.parts import key_of, write_part  # noqa: PLC0415
     from gradhesion.cli.work.resume import attempted, found  # noqa: PLC0415
@@ -74,7 +73,7 @@ def _solved(folder: Path, fingerprint: str, numbers: tuple[int, ...]) -> dict[st
     start = time.monotonic()
     errors = {}
     for number in numbers:
-        block = block_at(study.shape, number)
+        block = study.tiling[number]
         key = key_of(study, block)
         if isinstance(found(study, Folder(folder), number, block, key), dict):
             continue  # a worker that was lost had done it

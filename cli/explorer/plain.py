@@ -3,7 +3,8 @@
 import re
 from typing import Final
 
-from gradhesion.cli.names import KEYS, SYMBOLS
+from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.names import SYMBOLS
 
 _TEX: Final = (
     (r"\frac{3}{2}\pi R\Delta\gamma", "1.5 πRΔγ"),
@@ -59,4 +60,4 @@ def words(long_name: str) -> str:
 
 def in_order(names: list[str]) -> list[str]:
     """Put parameters into the order of a dataset."""
-    return [name for name in KEYS if name in names]
+    return [name for name in INPUTS if name in names]

@@ -7,7 +7,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import KEYS, PHYSICAL, SYMBOLS, TIED, unit_of
+from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.names import SYMBOLS, unit_of
 
 UNIT_SYMBOLS: Final = {"m": "m", "Pa": "Pa", "J m-2": "J/m$^2$", "N": "N", "J": "J", "N m-1": "N/m"}
 """Units as a picture writes them."""
@@ -99,6 +100,6 @@ def given(names: Any) -> list[str]:
     >>> given(["k", "modulus", "lambda_over_R", "lambda_over_L", "pull_off_force"])
     ['k', 'modulus', 'lambda_over_L']
     """
-    known = [key for key in KEYS if key in names]
-    follow = {TIED[key][0] for key in known if key in TIED} | {PHYSICAL[key][0] for key in known if key in PHYSICAL}
-    return [key for key in known if key not in follow]
+    known = [key for name, key in INPUTS.items() if name in names]
+    follow = {key.gives for key in known if not key.is_parameter}
+    return [key.name for key in known if key.name not in follow]

@@ -1,21 +1,29 @@
 """What is wrong with the form of a study, each key for itself, in sentences that say what to write instead."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from typing import Any, Final
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from gradhesion.cli.names import KEYS, MACHINE, PHYSICAL, ROLES, TIED, table_of
+from gradhesion.cli.keys import INPUTS, keys_of
+from gradhesion.cli.study.form import MOST_WAVES, Form
 from gradhesion.cli.study.places import Path, dotted
-from gradhesion.cli.study.schema import BOUNDS, MOST_WAVES, study_model
-from gradhesion.cli.study.wording import did_you_mean, example, line_of, nearest
+from gradhesion.cli.study.wording import did_you_mean, example, nearest
 from gradhesion.core.profile import MOST_HARMONICS
 
-_OF_PARAMETERS: Final = ("parameters", "physical", "loading")
-"""The tables whose keys are parameters."""
+_OF_INPUTS: Final = ("parameters", "physical", "loading")
+"""The tables whose keys are inputs."""
+
+_REQUIRED: Final[dict[Path, Any]] = {
+    ("outputs",): ["pull_off_force"],
+    ("parameters",): {},
+    ("parameters", "k"): 0.5,
+    ("parameters", "nu"): 0.3,
+}
+"""The keys that a form needs, with valid values: they stand for wrong ones, so that all else can be read."""
 
 
 @dataclass(frozen=True)
@@ -27,70 +35,64 @@ class Mistake:
     sentence: str
 
 
-def mistakes_of_form(data: Mapping[str, Any]) -> list[Mistake]:
-    """List what is wrong with the form of a study, each key for itself."""
+@dataclass(frozen=True, kw_only=True)
+class Checked:
+    """A study whose keys have been looked at one by one."""
+
+    form: Form
+    """The study, but for what is wrong."""
+    data: Mapping[str, Any]
+    """The study as it is written."""
+    mistakes: tuple[Mistake, ...]
+    wrong: frozenset[Path]
+    """The keys that are wrong or missing: the key itself, where an item of its value is."""
+    meant: frozenset[Path]
+    """The keys that are not missing, but misspelt or in the wrong table."""
+
+
+def checked(data: Mapping[str, Any]) -> Checked:
+    """Check the form of a study, each key for itself."""
     try:
-        study_model().model_validate(data)
+        form = Form.model_validate(data)
     except ValidationError as error:
         details = error.errors(include_url=False, include_context=True)
     else:
-        details = []
-    mistakes: list[tuple[str, Mistake]] = []
-    excused: set[Path] = set()
+        return Checked(form=form, data=data, mistakes=(), wrong=frozenset(), meant=frozenset())
+    mistakes: list[Mistake] = []
+    meant: set[Path] = set()
+    missing: dict[Path, Mistake] = {}
     for detail in details:
         path = _path(detail)
         if detail["type"] == "extra_forbidden":
-            meant, sentence = _unknown_key(path)
-            excused.add(meant)  # it is not missing, but misspelt or misplaced
+            key, sentence = _unknown_key(path)
+            meant.add(key)
+            mistakes.append(Mistake(path, detail["input"], sentence))
+        elif detail["type"] == "missing":
+            missing[path] = Mistake(path, None, _sentence(detail, path))
         else:
-            sentence = _sentence(detail, path)
-        mistakes.append((detail["type"], Mistake(path, detail["input"], sentence)))
-    mistakes += _mistakes_of_roles(data.get("parameters"), data.get("physical"), excused)
-    return [
-        replace(mistake, value=None) if kind == "missing" else mistake
-        for kind, mistake in mistakes
-        if not (kind == "missing" and mistake.path in excused)
-    ]
+            mistakes.append(Mistake(path, detail["input"], _sentence(detail, path)))
+    mistakes += [mistake for path, mistake in missing.items() if path not in meant]
+    wrong = {path[: _depth(path)] for path in (*missing, *(mistake.path for mistake in mistakes))}
+    form = Form.model_validate(_without(data, wrong))
+    return Checked(form=form, data=data, mistakes=tuple(mistakes), wrong=frozenset(wrong), meant=frozenset(meant))
 
 
-def _mistakes_of_roles(parameters: object, physical: object, excused: set[Path]) -> list[tuple[str, Mistake]]:
-    """Check that exactly one key gives each parameter that more than one can give."""
-    if not isinstance(parameters, Mapping):
-        return []
-    mistakes = []
-    with_units = isinstance(physical, Mapping)
-    tables = {"parameters": parameters, "physical": physical if isinstance(physical, Mapping) else {}}
-    for role, words in ROLES.items():
-        plain: Path = ("parameters", role)
-        tied: list[Path] = [("parameters", key) for key, (parameter, _) in TIED.items() if parameter == role]
-        united: list[Path] = [("physical", key) for key, (parameter, *_) in PHYSICAL.items() if parameter == role]
-        if with_units and role != "A":
-            if role in parameters:
-                sentence = (
-                    "a ratio, where [physical] gives quantities with units, and the two ways do not mix; remove it "
-                    f"and give {', '.join(str(path[1]) for path in united)} under [physical], or remove [physical]"
-                )
-                mistakes.append(("both", Mistake(plain, parameters[role], sentence)))
-            paths = [*united, *tied]
-        else:
-            paths = [plain, *tied, *(united if with_units else [])]
-        if role == "modulus" and with_units:
-            absent = [path for path in united if path[1] not in tables["physical"] and path not in excused]
-            sentences = [(path, f"this quantity is required; {example(path)}") for path in absent]
-            mistakes += [("missing", Mistake(path, None, sentence)) for path, sentence in sentences]
-            continue
-        given = [path for path in paths if path[1] in tables[str(path[0])]]
-        for path in given[1:]:
-            sentence = f"{given[0][1]} gives {words} already; keep one of the two and remove the other"
-            mistakes.append(("both", Mistake(path, tables[str(path[0])][path[1]], sentence)))
-        if not given and not excused & {*paths}:
-            instead = " or ".join(
-                line_of(path) + (f" under [{path[0]}]" if path[0] != paths[0][0] else "") for path in paths[1:]
-            )
-            what = "quantity" if paths[0][0] == "physical" else "parameter"
-            sentence = f"this {what} is required; {example(paths[0])}" + (f", or instead {instead}" if instead else "")
-            mistakes.append(("missing", Mistake(paths[0], None, sentence)))
-    return mistakes
+def _depth(path: Path) -> int:
+    """Tell how much of a path is the key whose value is wrong."""
+    return 2 if len(path) > 1 and isinstance(path[1], str) else 1
+
+
+def _without(data: Mapping[str, Any], wrong: Iterable[Path]) -> dict[str, Any]:
+    """Leave out the keys that are wrong, but for those that a form needs."""
+    sound = {key: {**value} if isinstance(value, Mapping) else value for key, value in data.items()}
+    for path in wrong:
+        table: Any = sound if len(path) == 1 else sound.get(str(path[0]), {})
+        if isinstance(table, dict):
+            table.pop(path[-1], None)
+    for path, value in _REQUIRED.items():
+        table = sound if len(path) == 1 else sound[str(path[0])]
+        table.setdefault(str(path[-1]), {**value} if isinstance(value, dict) else value)
+    return sound
 
 
 def _path(detail: ErrorDetails) -> Path:
@@ -102,16 +104,11 @@ def _path(detail: ErrorDetails) -> Path:
 def _unknown_key(path: Path) -> tuple[Path, str]:
     """Tell which key was meant, and say so."""
     tables: dict[Path, tuple[str, ...]] = {
-        (): ("title", "kind", "layout", "outputs", "parameters", "physical", "profile", "loading", "method"),
-        ("parameters",): tuple(key for key in KEYS if table_of(key) == "parameters"),
-        ("physical",): tuple(PHYSICAL),
-        ("profile",): ("exponent", "harmonics"),
-        ("loading",): ("control", MACHINE),
-        ("method",): ("solver", "check_contact"),
+        (): keys_of(""),
+        **{(name,): keys_of(name) for name in ("parameters", "physical", "profile", "loading", "method")},
     }
     table, key = path[:-1], str(path[-1])
-    inner = ("n", "cos", "sin") if table[:1] == ("profile",) else ("start", "stop", "num", "spacing")
-    known = tables.get(table, inner)
+    known = tables.get(table, keys_of("harmonics" if table[:1] == ("profile",) else "range"))
     for other, keys in tables.items():
         if other != table and key in keys:
             home = f"under [{dotted(other)}]" if other else "at the top, before the first [table]"
@@ -125,11 +122,13 @@ def _sentence(detail: ErrorDetails, path: Path) -> str:
     kind = detail["type"]
     value = detail["input"]
     last = path[-1]
+    if kind == "value_error":  # of a quantity, in a sentence already
+        return str(detail["ctx"]["error"])
     if path[0] == "profile" and len(path) > 1:
         return _profile_sentence(kind, path)
     if (
         path[:2] != ("loading", "control")
-        and path[0] in _OF_PARAMETERS
+        and path[0] in _OF_INPUTS
         and len(path) > 1
         and last not in ("num", "spacing")
     ):
@@ -159,7 +158,7 @@ def _parameter_sentence(kind: str, value: object, path: Path) -> str:
         return f"this parameter is required; {example(path)}"
     if kind == "too_short":
         return "an axis needs at least one value; put values into the list, or write a single number to fix it"
-    allowed = BOUNDS[name][1]
+    allowed = INPUTS[name].allowed
     if kind == "float_type" and not (isinstance(value, int) and not isinstance(value, bool)):
         forms = "" if len(path) > 2 else ", a list of numbers or a range table"
         return f"this must be a number{forms}, with {allowed}; {example(path[:2])}"

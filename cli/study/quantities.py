@@ -6,16 +6,12 @@ to 10^-6, as if it had been written in metres.
 
 import math
 import re
-from collections.abc import Collection, Mapping
 from decimal import Decimal
 from functools import cache
 from tokenize import TokenError
 from typing import TYPE_CHECKING, Any, Final
 
-from gradhesion.cli.names import PHYSICAL
-from gradhesion.cli.study.mistakes import Mistake
-from gradhesion.cli.study.places import Path
-from gradhesion.cli.study.schema import BOUNDS
+from gradhesion.cli.keys import KEYS
 from gradhesion.cli.study.wording import example
 
 if TYPE_CHECKING:
@@ -43,46 +39,6 @@ _NO_UNIT: Final = (
 """What pint raises where it is given no unit."""
 
 
-def in_si(table: object, wrong: Collection[Path]) -> tuple[dict[str, Any], list[Mistake]]:
-    """
-    Give the entries of [physical] as entries of numbers in SI units, leaving out those whose form is `wrong` already.
-
-    >>> in_si({"R": ["1 mm", "1 um"], "E_star": "3 m"}, [])[0]
-    {'R': [0.001, 1e-06]}
-    """
-    entries: dict[str, Any] = {}
-    mistakes: list[Mistake] = []
-
-    def number(value: object, path: Path) -> float:
-        try:
-            return si_value(value, str(path[1]))
-        except ValueError as error:
-            mistakes.append(Mistake(path, value, str(error)))
-            return math.nan
-
-    named = {path[:2] for path in wrong}
-    for name, entry in table.items() if isinstance(table, Mapping) and ("physical",) not in wrong else ():
-        path: Path = ("physical", name)
-        if path in named:
-            continue
-        known = len(mistakes)
-        if isinstance(entry, Mapping):
-            ends = {end: number(entry[end], (*path, end)) for end in ("start", "stop")}
-            plain: Any = {**entry, **ends}
-            for end, value in ends.items():
-                if math.isinf(value):
-                    mistakes.append(
-                        Mistake((*path, end), entry[end], "a range must end at finite values; write a list")
-                    )
-        elif isinstance(entry, list):
-            plain = [number(value, (*path, i)) for i, value in enumerate(entry)]
-        else:
-            plain = number(entry, path)
-        if len(mistakes) == known:
-            entries[name] = plain
-    return entries, mistakes
-
-
 def si_value(value: object, name: str) -> float:
     """
     Give a quantity of [physical] in its unit in SI; an infinite one needs no unit.
@@ -95,11 +51,11 @@ def si_value(value: object, name: str) -> float:
     >>> si_value("1 um", "R"), si_value("20 mJ/m^2", "work_of_adhesion"), si_value("20 mN m-1", "work_of_adhesion")
     (1e-06, 0.02, 0.02)
     """
-    unit = PHYSICAL[name][1]
+    key = KEYS[name]
     text = str(value) if isinstance(value, str | float) else ""
     parts = _QUANTITY.fullmatch(text.strip()) if len(text) <= LONGEST else None
     number, written = parts.groups() if parts else ("", "")
-    factor = _factor(written, unit) if written else Decimal(1)
+    factor = _factor(written, key.unit) if written else Decimal(1)
     if isinstance(value, int | float) and not isinstance(value, bool) and "inf" not in number:
         problem = "a number without a unit"
     elif not parts:
@@ -111,11 +67,10 @@ def si_value(value: object, name: str) -> float:
     else:
         problem = "" if factor else f'"{written}" is the unit of something else'
     if problem or not factor:
-        raise ValueError(f"{problem}; {WORDS[unit]} is expected; {example(('physical', name))}")
+        raise ValueError(f"{problem}; {WORDS[key.unit]} is expected; {example(('physical', name))}")
     result = float(Decimal(number) * factor) + 0.0
-    bounds, allowed = BOUNDS[name]
-    if not (result > 0.0 or result == bounds.get("ge")) or (result == math.inf and name != "a_max"):
-        raise ValueError(f"out of range; choose {WORDS[unit]} with {allowed}")
+    if not (result > 0.0 or result == key.bounds.get("ge")) or (result == math.inf and not key.infinite):
+        raise ValueError(f"out of range; choose {WORDS[key.unit]} with {key.allowed}")
     return result
 
 

@@ -4,8 +4,9 @@ import hashlib
 import json
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Final
 
@@ -13,13 +14,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.names import CURVES, KEYS, RAGGED, SCENE, SI, SOLVER, UNITS, table_of
-from gradhesion.cli.study import places, rules, wording
-from gradhesion.cli.study.axes import Values, expanded
-from gradhesion.cli.study.mistakes import mistakes_of_form
-from gradhesion.cli.study.quantities import in_si
+from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.names import SCENE, SI, SOLVER, UNITS
+from gradhesion.cli.study import places, wording
+from gradhesion.cli.study.axes import Values
+from gradhesion.cli.study.kinds import KINDS
+from gradhesion.cli.study.mistakes import checked
+from gradhesion.cli.study.punch import profile_of
+from gradhesion.cli.study.roles import left_out
+from gradhesion.cli.study.rules import mistakes_between_keys
 from gradhesion.cli.study.source import Source, read_source
-from gradhesion.core import OUTPUTS, REPORTS, SOLVERS
+from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.profile import Profile
 
@@ -64,6 +69,10 @@ class Study:
     loading: Loading = field(default_factory=Loading)
     text: str
     """The study as TOML: reading it again gives the same study."""
+    left_out: frozenset[str] = frozenset()
+    """The parameters that it does not give since they have no effect; they have a value all the same."""
+    chunk: int = CHUNK
+    """Cells of a chunk of the dataset of a map, at most; a block that is computed at a time has two."""
 
     @property
     def in_si(self) -> tuple[str, ...]:
@@ -100,11 +109,25 @@ class Study:
         return math.prod(self.shape)
 
     @property
+    def has_parts(self) -> bool:
+        """Whether finished blocks are kept: one block is done or not."""
+        return KINDS[self.kind].has_parts and len(self.tiling) > 1
+
+    @cached_property
+    def tiling(self) -> Tiling:
+        """The blocks of its scenes."""
+        return KINDS[self.kind].tiling(self.shape, self.chunk)
+
+    @property
     def sha256(self) -> str:
         """The fingerprint of its text."""
         return hashlib.sha256(self.text.encode()).hexdigest()
 
-    def parameters_of(self, block: tuple[slice, ...]) -> dict[str, NDArray[np.float64]]:
+    def chunked(self, cells: int | None) -> "Study":
+        """Give the same study with other chunks, unless `cells` is None."""
+        return self if cells is None else replace(self, chunk=cells)
+
+    def parameters_of(self, block: Block) -> dict[str, NDArray[np.float64]]:
         """Cut a block out of the axes: the parameters as arrays that broadcast to the block's shape."""
         names = list(self.axes)
         cut = {}
@@ -147,17 +170,10 @@ def study_from(data: Mapping[str, Any], name: str = "study") -> Study:
 
 def _study(source: Source) -> Study:
     """Check a study as a whole and expand it."""
-    data = source.data
-    found = mistakes_of_form(data)
-    quantities, unreadable = in_si(data.get("physical"), [mistake.path for mistake in found])
-    found += unreadable
-    wrong = [mistake.path for mistake in found]
-    tables = {name: data.get(name) for name in ("parameters", "loading")} | {"physical": quantities}
-    homes = {key: tables[table_of(key)] for key in KEYS}
-    entries = {key: home[key] for key, home in homes.items() if isinstance(home, Mapping) and key in home}
-    found += rules.mistakes_between_keys(data, entries, wrong, (*OUTPUTS, *REPORTS), SOLVERS)
+    found = checked(source.data)
+    sound, between = mistakes_between_keys(found)
     sentences = []
-    for mistake in found:
+    for mistake in (*found.mistakes, *between):
         value = "" if mistake.value is None else f" = {wording.shown(mistake.value)}"
         sentences.append(f"{source.place(mistake.path)}: {places.dotted(mistake.path)}{value}: {mistake.sentence}")
     sentences.sort(key=_line)
@@ -167,39 +183,30 @@ def _study(source: Source) -> Study:
         mistakes = [*mistakes[:MOST_MISTAKES], more]
     if mistakes:
         raise StudyError(mistakes)
-    layout = data.get("layout", "grid")
-    parameters = {key: expanded(entry) for key, entry in entries.items()}
+    form = found.form
+    absent = left_out(sound, with_units=form.physical is not None)
+    given = sound | absent
+    parameters = {name: given[name] for name in INPUTS if name in given}
     for values in parameters.values():
         if isinstance(values, np.ndarray):
-            if layout == "grid" and not (np.all(np.diff(values) > 0) or np.all(np.diff(values) < 0)):
+            if form.layout == "grid" and not (np.all(np.diff(values) > 0) or np.all(np.diff(values) < 0)):
                 values.sort()  # CF wants coordinates that rise or fall
             values.flags.writeable = False
+    solver = form.method.solver
     return Study(
         name=source.name,
-        title=data.get("title", "") or source.name,
-        kind=data.get("kind", "map"),
-        layout=layout,
-        outputs=_outputs(data["outputs"]),
+        title=form.title or source.name,
+        kind=form.kind,
+        layout=form.layout,
+        outputs=KINDS[form.kind].variables(form.outputs),
         parameters=parameters,
-        method=_method(data.get("method", {})),
-        profile=rules.profile_of(data.get("profile", {})),
-        loading=Loading(control=data.get("loading", {}).get("control", "displacement")),
-        text=source.text or _toml(data),
-    )
-
-
-def _outputs(asked: Sequence[str]) -> tuple[str, ...]:
-    """List the variables that are asked for; a curve stands for all of its own, and a ragged one needs its count."""
-    named = {*asked} | {RAGGED[curve] for curve, own in CURVES.items() if curve in RAGGED and own.keys() & {*asked}}
-    of_curves = [name for curve, own in CURVES.items() for name in own if curve in asked or name in named]
-    return (*(output for output in (*OUTPUTS, *REPORTS) if output in asked), *of_curves)
-
-
-def _method(table: Mapping[str, Any]) -> Method:
-    """Make the method of a valid study."""
-    solver = table.get("solver", "exact")
-    return Method(
-        solver=solver if isinstance(solver, str) else tuple(solver), check_contact=table.get("check_contact", True)
+        method=Method(
+            solver=solver if isinstance(solver, str) else tuple(solver), check_contact=form.method.check_contact
+        ),
+        profile=profile_of(form.profile),
+        loading=Loading(control=form.loading.control),
+        text=source.text or _toml(source.data),
+        left_out=frozenset(absent.keys() - {"a_max", "a_max_over_R"}),
     )
 
 

@@ -9,8 +9,8 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.names import CURVES, INTEGERS, RAGGED
+from gradhesion.cli.study.tiling import tile
 from gradhesion.cli.words.jump_words import jumps_told
-from gradhesion.cli.work.blocks import tile
 
 CELLS: Final = 2**20
 """Values of a variable that are read at a time, unless a single curve has more."""

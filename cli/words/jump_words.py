@@ -9,7 +9,8 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, KEYS, RAGGED
+from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, RAGGED
 
 ITEMS: Final = 2**16
 """Jumps that are read at a time."""
@@ -74,7 +75,7 @@ def _pieces(dataset: xarray.Dataset) -> Iterator[Piece]:
     counts = dataset[COUNT].values.ravel()
     scenes = {
         name: dataset[name].broadcast_like(status).transpose(*status.dims).values.ravel()
-        for name in KEYS
+        for name in INPUTS
         if name in dataset and dataset[name].ndim
     }
     own = [name for name in CURVES["jumps"] if name in dataset and name != COUNT]
@@ -97,5 +98,5 @@ def _where(jump: dict[str, Any]) -> str:
         told.append(f"at the depth {jump['jump_indentation'] + 0.0:.6g}")
     if {"jump_radius_before", "jump_radius_after"} <= jump.keys():
         told.append(f"from the radius {jump['jump_radius_before']:.6g} to {jump['jump_radius_after']:.6g}")
-    told += [f"{name} = {jump[name]:g}" for name in KEYS if name in jump]
+    told += [f"{name} = {jump[name]:g}" for name in INPUTS if name in jump]
     return ", " + ", ".join(told) if told else ""

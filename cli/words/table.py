@@ -7,10 +7,11 @@ from typing import Final
 import numpy as np
 import xarray
 
+from gradhesion.cli.dataset.reader import tiling_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import CURVES, INTEGERS, KEYS, SOLVER
+from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.names import CURVES, INTEGERS, SOLVER
 from gradhesion.cli.study.wording import did_you_mean
-from gradhesion.cli.work.blocks import blocks
 
 MOST: Final = 1_000_000
 """Lines of a table: what a spreadsheet takes."""
@@ -32,10 +33,10 @@ def tabled(dataset: xarray.Dataset, file: Path, chosen: Sequence[str]) -> Iterat
     if first.size > MOST:
         remedy = "read it with xarray or NCO instead"
         raise DatasetError(f"{file}: {first.size:,} lines, where a table has {MOST:,} at most; {remedy}")
-    beside = [name for name in (SOLVER, *KEYS) if name in dataset.coords]
+    beside = [name for name in (SOLVER, *INPUTS) if name in dataset.coords]
     columns = [*beside, *names, "status"]
     yield ",".join(columns)
-    for block in blocks(first.shape):
+    for block in tiling_of(first):
         part = dataset[columns].isel(dict(zip(first.dims, block, strict=True)))
         lines = part[names[0]]
         values = [part[name].broadcast_like(lines).transpose(*lines.dims).values.ravel() for name in columns]

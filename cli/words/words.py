@@ -9,11 +9,11 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli import names
-from gradhesion.cli.dataset.reader import has_curves
-from gradhesion.cli.names import KEYS, SCENE, SOLVER
+from gradhesion.cli.dataset.reader import has_curves, tiling_of
+from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.names import SCENE, SOLVER
 from gradhesion.cli.study.shape_words import control_told
 from gradhesion.cli.words.curve_words import curves_told
-from gradhesion.cli.work.blocks import blocks
 from gradhesion.core import FAILED, FLAGS
 from gradhesion.core.loading_control import Loading
 
@@ -37,7 +37,7 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
 
 def _coordinates(dataset: xarray.Dataset | xarray.DataArray) -> list[str]:
     """List what tells scenes apart: the solver, and the parameters."""
-    return [name for name in (SOLVER, *KEYS) if name in dataset.coords]
+    return [name for name in (SOLVER, *INPUTS) if name in dataset.coords]
 
 
 def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
@@ -123,7 +123,7 @@ def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
 def _extremes(variable: xarray.DataArray) -> list[tuple[float, dict[str, float | str]]]:
     """Find the least and the greatest value of a variable with their places, a block at a time."""
     found: list[tuple[float, dict[str, float | str]]] = []
-    for block in blocks(variable.shape):
+    for block in tiling_of(variable):
         part = variable[block].load()
         values = np.asarray(part.values, dtype=float)
         if not np.any(np.isfinite(values)):
@@ -150,7 +150,7 @@ def _status(dataset: xarray.Dataset) -> Iterator[str]:
     """Tell how many scenes have failed, and what the others report."""
     counts = dict.fromkeys(FLAGS, 0)
     failed = 0
-    for block in blocks(dataset["status"].shape):
+    for block in tiling_of(dataset["status"]):
         status: NDArray[np.int8] = dataset["status"][block].values
         failed += int(np.count_nonzero(status & FAILED))
         for name, bit in FLAGS.items():

@@ -2,9 +2,8 @@
 
 import os
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from itertools import product
 from typing import Any, Final
 
 import numpy as np
@@ -12,7 +11,8 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, RAGGED, SI, UNITS
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.work.blocks import Block, awaited, scales_of, scenes_of
+from gradhesion.cli.study.tiling import Block
+from gradhesion.cli.work.blocks import awaited, scales_of, scenes_of
 from gradhesion.core import draw_curves
 
 AHEAD: Final = 2
@@ -57,8 +57,7 @@ def drawn(study: Study, threads: int | None = None) -> Iterator[Drawing]:
     pool = ThreadPoolExecutor(workers, thread_name_prefix="draw")
     ahead: deque[Future[Drawing]] = deque()
     try:
-        for item in product(*(range(length) for length in study.shape)):
-            block = tuple(slice(i, i + 1) for i in item)
+        for block in study.tiling:
             ahead.append(pool.submit(_draw, study, block))
             if len(ahead) > AHEAD * workers:
                 yield awaited(ahead.popleft())
@@ -94,9 +93,8 @@ def _draw(study: Study, block: Block) -> Drawing:
     return block, parts
 
 
-def gathered(study: Study, threads: int | None = None) -> dict[str, NDArray[Any]]:
-    """Draw a study in memory, padded to its longest curves."""
-    drawings = list(drawn(study, threads))
+def gathered(study: Study, drawings: Sequence[Drawing]) -> dict[str, NDArray[Any]]:
+    """Put the drawings of a study together, padded to the longest curves."""
     filled: dict[str, NDArray[Any]] = {"status": np.empty(study.shape, np.int8)}
     for name in study.variables:
         parts_of = [parts[name] for _, parts in drawings]

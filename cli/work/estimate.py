@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Final
 
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.work.blocks import block_at, count_of, size_of
+from gradhesion.cli.study.tiling import size_of
 from gradhesion.cli.work.folder import Folder, folder_of, read_json
 from gradhesion.cli.work.manifest import differences_of, manifest_of
 from gradhesion.cli.work.parts import bytes_of, key_of
 from gradhesion.cli.work.probe import probe
-from gradhesion.cli.work.resume import found, has_parts
+from gradhesion.cli.work.resume import found
 
 BASE: Final = 205e6
 """Bytes of the program itself, its libraries and kernels, as measured."""
@@ -63,10 +63,10 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
     """Find out what a run would do and cost; writes nothing."""
     folder = folder_of(output)
     is_map = study.kind == "map"
-    count = count_of(study.shape) if is_map else study.scenes
-    of_block = bytes_of(study, block_at(study.shape, 0)) if is_map else 0
+    count = len(study.tiling) if is_map else study.scenes
+    of_block = bytes_of(study, study.tiling[0]) if is_map else 0
     old = read_json(folder.study)
-    parts = has_parts(study)
+    parts = study.has_parts
     differences = differences_of(old, manifest_of(study)) if isinstance(old, dict) and folder.parts() else []
     reused, reasons = _reused(study, folder, count) if parts and not differences else (set[int](), Counter[str]())
     if differences:
@@ -74,7 +74,7 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
     if count - len(reused) - reasons.total():
         reasons["not computed yet"] += count - len(reused) - reasons.total()
     left = [number for number in range(count) if number not in reused] if is_map else []
-    scenes_left = study.scenes - sum(size_of(block_at(study.shape, number)) for number in reused)
+    scenes_left = study.scenes - sum(size_of(study.tiling[number]) for number in reused)
     probed = probe(study, left)
     seconds = uncertain = by_dask = of_one = None
     if probed:
@@ -85,7 +85,7 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
         of_one = probed.solving * scenes_left / len(left)
         if parts:
             by_dask = START + seconds + OF_CLUSTER * len(left)
-    each = of_block // size_of(block_at(study.shape, 0)) if is_map else 0
+    each = of_block // size_of(study.tiling[0]) if is_map else 0
     return Estimate(
         output=str(output),
         output_exists=output.exists(),
@@ -117,7 +117,7 @@ def _reused(study: Study, folder: Folder, count: int) -> tuple[set[int], Counter
     for path in folder.parts():
         if not path.stem.isdigit() or int(path.stem) >= count:
             continue
-        block = block_at(study.shape, int(path.stem))
+        block = study.tiling[int(path.stem)]
         values = found(study, folder, int(path.stem), block, key_of(study, block))
         if isinstance(values, str):
             reasons[values] += 1

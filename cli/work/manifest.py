@@ -12,7 +12,6 @@ import numpy as np
 from gradhesion.cli.errors import DatasetError, OutputError, StudyError
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.study import Study, study_from
-from gradhesion.cli.work.blocks import count_of
 from gradhesion.cli.work.folder import Folder, read_json, write_json
 from gradhesion.cli.work.parts import settings_of, versions
 
@@ -24,7 +23,8 @@ def manifest_of(study: Study) -> dict[str, Any]:
         "versions": versions(),
         "settings": settings_of(study),
         "parameters": parameters,
-        "blocks": count_of(study.shape) if study.kind == "map" else study.scenes,
+        "blocks": len(study.tiling),
+        "chunk": study.chunk,
         "scenes": study.scenes,
         "title": study.title,
         "name": study.name,
@@ -73,7 +73,7 @@ def study_in(folder: Folder, output: Path) -> Study:
         raise DatasetError(
             f"{output}: no study with parts is in {output}.parts; compute them first, with `gradhesion run --shard`"
         ) from None
-    return replace(study, text=content["text"], title=content["title"])
+    return replace(study, text=content["text"], title=content["title"], chunk=int(content.get("chunk", study.chunk)))
 
 
 def differences_of(old: dict[str, Any], new: dict[str, Any]) -> list[str]:

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.disk import write_whole
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.work.blocks import Block, size_of
+from gradhesion.cli.study.tiling import Block, shape_of, size_of
 from gradhesion.core import SOURCES
 
 FORMAT: Final = 1
@@ -39,7 +39,7 @@ def versions() -> dict[str, Any]:
 
 def settings_of(study: Study) -> dict[str, Any]:
     """List all that a study asks for but its parameters; not what it is called, nor how it is written."""
-    aside = ("name", "title", "text", "parameters", "method")
+    aside = ("name", "title", "text", "parameters", "method", "left_out", "chunk")
     settings = {field.name: getattr(study, field.name) for field in fields(study) if field.name not in aside}
     return settings | {f"method.{name}": value for name, value in asdict(study.method).items()}
 
@@ -67,7 +67,7 @@ def key_of(study: Study, block: Block) -> str:
     if several:
         key["method.solver"] = study.method.solver[block[0]]
     key["values"] = {name: kind.str for name, kind in types_of(study).items()}
-    key["shape"] = [part.stop - part.start for part in block]
+    key["shape"] = list(shape_of(block))
     key["parameters"] = digest.hexdigest()
     return json.dumps(key, default=str)
 
@@ -100,7 +100,7 @@ def read_part(path: Path, key: str, study: Study, block: Block) -> Values:
     at = content.find(b"\n", head) + 1
     if content[head : at - 1] != key.encode():
         raise PartError("of other scenes or another version")
-    shape = tuple(part.stop - part.start for part in block)
+    shape = shape_of(block)
     values = {}
     for name, kind in types_of(study).items():
         values[name] = np.frombuffer(content, kind, size_of(block), at).reshape(shape)

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.work.blocks import Block, block_at, size_of, solve_block, tile
+from gradhesion.cli.study.tiling import Block, shape_of, size_of, tile
+from gradhesion.cli.work.blocks import solve_block
 
 SECONDS: Final = 2.0
 """For all pieces together."""
@@ -44,13 +45,13 @@ def probe(study: Study, numbers: Sequence[int]) -> Probe | None:
     place = _spread(PIECES)
     cells = FIRST_CELLS
     start = time.monotonic()
-    solve_block(study, _piece(block_at(study.shape, spread[0]), 1, 0.0), 1)  # compiles, if need be
+    solve_block(study, _piece(study.tiling[spread[0]], 1, 0.0), 1)  # compiles, if need be
     rates: list[float] = []
     scenes = compressed = plain = 0
     compressing = 0.0
     begun = time.monotonic()
     for number in spread:
-        piece = _piece(block_at(study.shape, number), cells, next(place))
+        piece = _piece(study.tiling[number], cells, next(place))
         solve_block(study, tuple(slice(part.start, part.start + 1) for part in piece), 1)  # its table is kept then
         start = time.perf_counter()
         values = solve_block(study, piece, 1)
@@ -85,7 +86,7 @@ def _spread(count: int) -> Iterator[float]:
 
 def _piece(block: Block, cells: int, place: float) -> Block:
     """Cut a piece out of a block, as blocks are cut themselves: what scenes share, they share in a piece."""
-    shape = tuple(part.stop - part.start for part in block)
+    shape = shape_of(block)
     piece = []
     for part, size in zip(block, tile(shape, cells), strict=True):
         free = part.stop - part.start - size + 1

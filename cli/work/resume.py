@@ -6,7 +6,8 @@ from typing import Final
 import numpy as np
 
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.work.blocks import Block, count_of, size_of, solve_block
+from gradhesion.cli.study.tiling import Block, shape_of, size_of
+from gradhesion.cli.work.blocks import solve_block
 from gradhesion.cli.work.folder import Folder
 from gradhesion.cli.work.parts import PartError, Values, read_part, types_of
 from gradhesion.core import FAILED, FLAGS
@@ -31,11 +32,6 @@ class Solved:
     def failed(self) -> int:
         """The number of its scenes that have failed."""
         return int(np.count_nonzero(self.values["status"] & FAILED))
-
-
-def has_parts(study: Study) -> bool:
-    """Tell whether the blocks of a study are kept in parts: one block is done or not."""
-    return study.kind == "map" and count_of(study.shape) > 1
 
 
 def found(study: Study, folder: Folder, number: int, block: Block, key: str) -> Values | str:
@@ -63,7 +59,7 @@ def attempted(study: Study, block: Block, threads: int | None) -> tuple[Values, 
 
 def blank(study: Study, block: Block) -> Values:
     """Make the values of a block that has none."""
-    shape = tuple(part.stop - part.start for part in block)
+    shape = shape_of(block)
     values = {
         name: np.full(shape, np.nan if kind.kind == "f" else -1, kind)
         for name, kind in types_of(study).items()

@@ -12,7 +12,8 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.names import CURVES, EXTENTS, GENERAL_CURVES, INTEGERS, KEYS, MEANINGS, PARAMETERS, RAGGED
+from gradhesion.cli.keys import INPUTS, PARAMETERS
+from gradhesion.cli.names import CURVES, EXTENTS, GENERAL_CURVES, INTEGERS, MEANINGS, RAGGED
 from gradhesion.cli.study.study import load_study, study_from
 from gradhesion.core import FAILED, FLAGS, draw_curves, solve
 from gradhesion.core import curves as core_curves
@@ -91,7 +92,7 @@ def test_each_scene_is_the_curve_of_the_core_padded_to_the_longest(dataset_file:
         for i in range(3):
             for j in range(2):
                 scene = dataset.isel(A=i, a_max_over_R=j)
-                found, status = draw_curves({name: scene[name].item() for name in KEYS if name in scene}, PADDED)
+                found, status = draw_curves({name: scene[name].item() for name in INPUTS if name in scene}, PADDED)
                 assert scene["status"] == status
                 for name, values in found.items():
                     row = scene[name].values
@@ -108,7 +109,7 @@ def test_each_scene_is_the_curve_of_the_core_padded_to_the_longest(dataset_file:
 
 def test_the_path_is_that_of_the_map(curve_data: dict[str, Any]) -> None:
     dataset = compute(study_from(curve_data))
-    parameters = {name: dataset[name].values for name in KEYS if name in dataset}
+    parameters = {name: dataset[name].values for name in INPUTS if name in dataset}
     parameters["A"] = parameters["A"][:, None]
     expected = solve(parameters, ["pull_off_force", "loading_jumps", "unloading_jumps", "delta_jump_out"])
     jumps = dataset["path_jump"] == 1

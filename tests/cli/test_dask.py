@@ -64,7 +64,7 @@ a_max_over_R = inf
 @pytest.fixture(autouse=True)
 def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """Cut the small study of 24 scenes into 6 blocks."""
-    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 2)
+    monkeypatch.setenv("GRADHESION_CHUNK", "2")
 
 
 SETTINGS: dict[str, Any] = {
@@ -405,7 +405,7 @@ def test_mistakes(
 def test_one_block_needs_no_cluster(
     gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 100)
+    monkeypatch.setenv("GRADHESION_CHUNK", "100")
     result = gradhesion("run", study_file, "-o", output, "--engine=dask")
     assert result.exit_code == 0
     assert "the study is of one block or of curves, and is solved in this process" in result.stderr

@@ -46,7 +46,7 @@ def test_long_axes_are_told_by_their_ends_and_spacing(gradhesion: Call, study_fi
 def test_extremes_are_found_across_blocks(
     gradhesion: Call, dataset_file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 1)
+    monkeypatch.setenv("GRADHESION_CHUNK", "1")
     with netCDF4.Dataset(dataset_file, "a") as file:
         values = np.ones((2, 3, 2, 2))
         values[1, 2, 0, 1], values[0, 1, 1, 0], values[0, 0, 0, 0] = 9.0, -2.0, np.nan
@@ -68,7 +68,7 @@ def test_every_flag_that_occurs_is_told_with_its_count_and_share_in_words(
     with netCDF4.Dataset(dataset_file, "a") as file:
         file["status"][:] = status.reshape(file["status"].shape)
     for chunk in (131_072, 1):
-        monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", chunk)
+        monkeypatch.setenv("GRADHESION_CHUNK", str(chunk))
         lines = [" ".join(line.split()) for line in gradhesion("info", dataset_file).stdout.splitlines()]
         first = lines.index("status: 6 of 24 scenes (25.0%) have values")  # the last flag, no_value, is set in 18
         told = [

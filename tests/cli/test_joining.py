@@ -40,7 +40,7 @@ def same_values(one: Path, other: Path) -> None:
 def test_values_of_an_axis_are_joined_in_their_order(
     cells: int, gradhesion: Call, written: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", cells)
+    monkeypatch.setenv("GRADHESION_CHUNK", str(cells))
     whole = written("whole", parameters={"A": [0.0, 0.01, 0.02, 0.023, 0.05]})
     parts = [written("low", parameters={"A": [0.0, 0.02]}), written("high", parameters={"A": [0.01, 0.02, 0.05]}), written("one", parameters={"A": 0.023})]  # fmt: skip
     result = gradhesion("merge", *parts, "-o", tmp_path / "joined.nc")

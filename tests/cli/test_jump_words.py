@@ -12,7 +12,8 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.names import CURVES, INTEGERS, KEYS
+from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.names import CURVES, INTEGERS
 from gradhesion.cli.study.study import study_from
 from gradhesion.core import draw_curves, solve
 
@@ -63,7 +64,7 @@ def test_each_scene_has_its_jumps_in_the_order_of_the_scenes(dataset_file: Calla
         for i in range(3):
             for j in range(2):
                 scene = dataset.isel(A=i, a_max_over_R=j)
-                parameters = {name: scene[name].item() for name in KEYS if name in scene}
+                parameters = {name: scene[name].item() for name in INPUTS if name in scene}
                 found, _ = draw_curves(parameters, ["jumps"])
                 items = slice(begun, begun + scene["jump_count"].item())
                 for name in VARIABLES:

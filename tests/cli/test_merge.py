@@ -17,7 +17,7 @@ Call = Callable[..., Result]
 @pytest.fixture(autouse=True)
 def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """Cut the small study of 24 scenes into 6 blocks."""
-    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 2)
+    monkeypatch.setenv("GRADHESION_CHUNK", "2")
 
 
 def values_of(path: Path) -> dict[str, bytes]:
@@ -91,6 +91,6 @@ def test_mistakes(gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatc
     none = gradhesion("merge", output)
     assert none.exit_code == 2
     assert "no study with parts" in none.stderr
-    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 100)
+    monkeypatch.setenv("GRADHESION_CHUNK", "100")
     assert "run it without --shard" in gradhesion("run", study_file, "-o", output, "--shard", "1/2").stderr
     assert os.listdir(tmp_path) == ["study.toml"]

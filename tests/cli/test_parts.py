@@ -14,7 +14,6 @@ from click.testing import Result
 from gradhesion.cli.disk import writing
 from gradhesion.cli.errors import OutputError
 from gradhesion.cli.study.study import Study, study_from
-from gradhesion.cli.work.blocks import blocks, count_of
 from gradhesion.cli.work.folder import claimed, folder_of
 from gradhesion.cli.work.parts import PartError, key_of, read_part, write_part
 from gradhesion.cli.work.resume import blank
@@ -26,7 +25,7 @@ Call = Callable[..., Result]
 @pytest.fixture(autouse=True)
 def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """Cut the small study of 24 scenes into 6 blocks."""
-    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 2)
+    monkeypatch.setenv("GRADHESION_CHUNK", "2")
 
 
 class Power:
@@ -88,7 +87,7 @@ def whole(gradhesion: Call, study_file: Path, tmp_path: Path) -> Path:
 
 def test_the_study_has_six_blocks(data: dict[str, Any]) -> None:
     study = study_from(data)
-    assert count_of(study.shape) == len(list(blocks(study.shape))) == 6
+    assert len(study.tiling) == len(list(study.tiling)) == 6
 
 
 @pytest.mark.parametrize("number", range(1, 6))
@@ -203,7 +202,7 @@ def test_a_part_in_the_place_of_another_is_computed_again(
 
 def test_a_part_gives_back_every_bit(data: dict[str, Any], tmp_path: Path) -> None:
     study = study_from(data)
-    block = next(blocks(study.shape))
+    block = study.tiling[0]
     values = blank(study, block)
     values["pull_off_force"].view("u8").flat[:2] = [0x7FF8_0000_0000_0123, 0x8000_0000_0000_0000]  # a NaN, and -0
     write_part(tmp_path / "part", key_of(study, block), values, study)
@@ -215,7 +214,7 @@ def test_a_part_gives_back_every_bit(data: dict[str, Any], tmp_path: Path) -> No
 
 def test_the_key_has_all_that_values_depend_on(data: dict[str, Any], tmp_path: Path) -> None:
     def keys(study: Study) -> list[str]:
-        return [key_of(study, block) for block in blocks(study.shape)]
+        return [key_of(study, block) for block in study.tiling]
 
     study = study_from(data)
     own = keys(study)
@@ -232,15 +231,15 @@ def test_the_key_has_all_that_values_depend_on(data: dict[str, Any], tmp_path: P
         assert not {*keys(study_from(other))} & {*own}
     both = keys(study_from(others[3]))
     assert len({*both}) == len(both) == 12
-    write_part(tmp_path / "part", own[0], blank(study, next(blocks(study.shape))), study)
+    write_part(tmp_path / "part", own[0], blank(study, study.tiling[0]), study)
     with pytest.raises(PartError, match="of other scenes"):
-        read_part(tmp_path / "part", own[1], study, next(blocks(study.shape)))
+        read_part(tmp_path / "part", own[1], study, study.tiling[0])
 
 
 def test_one_block_needs_no_part(
     gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 100)
+    monkeypatch.setenv("GRADHESION_CHUNK", "100")
     monkeypatch.setattr("gradhesion.cli.engines.threads.write_part", lambda *_: pytest.fail("there is none"))
     assert gradhesion("run", study_file, "-o", output).exit_code == 0
 

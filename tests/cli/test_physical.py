@@ -122,7 +122,7 @@ def test_the_file_is_the_same_in_whatever_blocks_and_is_verified(
         physical["physical"] |= {"wavelength": ["110 nm", "200 nm"]}
     study, path = write_study(study_from(physical).text), tmp_path / "x.nc"
     computed = compute(load_study(study))
-    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 3)
+    monkeypatch.setenv("GRADHESION_CHUNK", "3")
     assert gradhesion("run", study, "-o", path).exit_code == 0
     with xarray.open_dataset(path) as written:
         assert set(written.coords) == set(computed.coords)

@@ -12,8 +12,8 @@ import pytest
 from click.testing import Result
 
 from gradhesion.cli.study.study import study_from
+from gradhesion.cli.study.tiling import Tiling, size_of
 from gradhesion.cli.work import probe
-from gradhesion.cli.work.blocks import block_at, blocks, size_of
 from gradhesion.cli.work.folder import folder_of
 
 Call = Callable[..., Result]
@@ -22,7 +22,7 @@ Call = Callable[..., Result]
 @pytest.fixture(autouse=True)
 def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """Cut the small study of 24 scenes into 6 blocks."""
-    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 2)
+    monkeypatch.setenv("GRADHESION_CHUNK", "2")
 
 
 def planned(gradhesion: Call, *arguments: str | Path) -> dict[str, Any]:
@@ -35,8 +35,8 @@ def planned(gradhesion: Call, *arguments: str | Path) -> dict[str, Any]:
 
 @pytest.mark.parametrize("shape", [(5, 131), (2, 3, 2, 2), (7,), ()])
 def test_a_block_by_its_number(shape: tuple[int, ...]) -> None:
-    every = list(blocks(shape))
-    assert [block_at(shape, number) for number in range(len(every))] == every
+    tiling = Tiling(shape, 2)
+    assert [tiling[number] for number in range(len(tiling))] == list(tiling)
 
 
 def test_nothing_is_written(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
@@ -115,17 +115,17 @@ def test_the_time_is_that_of_the_scenes(data: dict[str, Any], monkeypatch: pytes
     monkeypatch.setattr(probe, "solve_block", solve_block)
     monkeypatch.setattr(probe.time, "perf_counter", lambda: clock)
     monkeypatch.setattr(probe.time, "monotonic", lambda: clock)
-    count = len(list(blocks(study.shape)))
+    count = len(study.tiling)
     found = probe.probe(study, range(count))
     assert found is not None
-    exact = sum(map(cost_of, blocks(study.shape))) / study.scenes
+    exact = sum(map(cost_of, study.tiling)) / study.scenes
     assert abs(found.solving - exact) < found.uncertainty < 0.5 * exact
 
 
 def test_values_compress_as_in_the_file(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
     wide = ["--set=parameters.A={start=0, stop=0.4, num=6000}", '--set=outputs=["pull_off_force"]']
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("gradhesion.cli.work.blocks.CHUNK", 131_072)
+        patch.setenv("GRADHESION_CHUNK", "131072")
         expected = planned(gradhesion, study_file, "-o", tmp_path / "out.nc", *wide)["bytes_of_file"]
         assert gradhesion("run", study_file, "-o", tmp_path / "out.nc", *wide).exit_code == 0
     assert abs((tmp_path / "out.nc").stat().st_size / expected - 1) < 0.4

@@ -6,8 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradhesion.cli.names import PHYSICAL
-from gradhesion.cli.study.quantities import in_si, si_value
+from gradhesion.cli.keys import INPUTS, PHYSICAL
+from gradhesion.cli.study.form import Range
+from gradhesion.cli.study.mistakes import checked
+from gradhesion.cli.study.quantities import si_value
 
 UNITS = {"m": "length", "Pa": "pressure", "J m-2": "energy per area", "N m-1": "force per length"}
 
@@ -72,14 +74,14 @@ def test_what_is_no_quantity_is_told_with_what_is_expected(case: str, name: str)
         si_value(value, name)
     sentence = str(caught.value)
     assert message in sentence
-    assert f"{UNITS[PHYSICAL[name][1]]} is expected; write for example {name} = " in sentence
+    assert f"{UNITS[PHYSICAL[name].unit]} is expected; write for example {name} = " in sentence
     assert "\n" not in sentence
 
 
 @pytest.mark.parametrize("name", PHYSICAL)
 @pytest.mark.parametrize("number", ["-1", "nan", "-inf", "1e-9999", "1e9999", "inf", "0"])
 def test_the_range_of_each(name: str, number: str) -> None:
-    text = f"{number} {PHYSICAL[name][1]}"
+    text = f"{number} {PHYSICAL[name].unit}"
     allowed = {"amplitude": ("0", "1e-9999"), "a_max": ("inf", "1e9999")}.get(name, ())
     if number in allowed:
         si_value(text, name)
@@ -147,14 +149,19 @@ def test_tables_keep_their_form_and_all_mistakes_are_told() -> None:
         "wavelength": {"start": "1 J", "stop": 3, "num": 2},
         "amplitude": "wrong by its form already",
     }
-    entries, mistakes = in_si(table, [("physical", "amplitude")])
+    found = checked({"outputs": ["pull_off_force"], "parameters": {"k": 0.5, "nu": 0.3}, "physical": table})
+    entries = {name: entry for name, entry in found.form.entries.items() if INPUTS[name].table == "physical"}
     assert entries == {
         "R": [0.001, 0.002],
-        "c0": {"start": 1e-6, "stop": 1e-3, "num": 3, "spacing": "log"},
+        "c0": Range(start=1e-6, stop=1e-3, num=3, spacing="log"),
         "a_max": [0.003, float("inf")],
     }
-    assert [mistake.path for mistake in mistakes] == [
-        ("physical", "E_star", 1), ("physical", "E_star", 2), ("physical", "wavelength", "start"), ("physical", "wavelength", "stop")
+    assert [mistake.path for mistake in found.mistakes] == [
+        ("physical", "E_star", 1), ("physical", "E_star", 2), ("physical", "wavelength", "start"),
+        ("physical", "wavelength", "stop"), ("physical", "amplitude"),
     ]  # fmt: skip
-    assert in_si(None, []) == ({}, [])
-    assert in_si("no table", []) == ({}, [])
+    assert found.wrong == {("physical", name) for name in ("E_star", "wavelength", "amplitude")}
+    (mistake,) = checked(
+        {"outputs": ["pull_off_force"], "parameters": {"k": 0.5, "nu": 0.3}, "physical": "no table"}
+    ).mistakes
+    assert mistake.path == ("physical",)

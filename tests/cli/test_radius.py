@@ -61,7 +61,7 @@ def test_the_file_has_it_as_well_in_whatever_blocks(
 ) -> None:
     study = write_study(study_from(over_a2).text)
     computed = compute(load_study(study))
-    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 2)
+    monkeypatch.setenv("GRADHESION_CHUNK", "2")
     assert gradhesion("run", study, "-o", tmp_path / "x.nc").exit_code == 0
     with xarray.open_dataset(tmp_path / "x.nc") as written:
         assert set(written.coords) == set(computed.coords)

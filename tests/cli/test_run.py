@@ -18,7 +18,8 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.names import OUTPUTS, PARAMETERS
+from gradhesion.cli.keys import PARAMETERS
+from gradhesion.cli.names import OUTPUTS
 from gradhesion.cli.study.rules import EXACT_ONLY
 from gradhesion.cli.study.study import load_study, study_from
 from gradhesion.core import FAILED, FLAGS
@@ -107,16 +108,13 @@ def test_chunks_are_near_one_megabyte(gradhesion: Call, study_file: Path, tmp_pa
 
 
 @pytest.mark.parametrize("layout", ["grid", "points"])
-def test_values_do_not_depend_on_blocks_or_threads(
-    layout: str, data: dict[str, Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_values_do_not_depend_on_blocks_or_threads(layout: str, data: dict[str, Any]) -> None:
     if layout == "points":
         scenes = np.random.default_rng(7).uniform(0.05, 0.45, (4, 150))
         lists = dict(zip(("k", "lambda_over_R", "A", "a_max_over_R"), scenes.tolist(), strict=True))
         data |= {"layout": "points", "parameters": data["parameters"] | lists}
     whole = compute(study_from(data), threads=1)
-    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 2)
-    xarray.testing.assert_identical(compute(study_from(data), threads=2), whole)
+    xarray.testing.assert_identical(compute(study_from(data).chunked(2), threads=2), whole)
 
 
 def test_an_axis_of_one_value_stays_and_a_number_is_scalar(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:

@@ -46,7 +46,7 @@ def test_the_file_is_the_same_in_whatever_blocks(
         data["parameters"] |= {"k": [0.0, 0.1, 0.2], "A": [0.1, 0.0, 0.2], "a_max_over_R": [1.0, 2.0, float("inf")]}
     study = write_study(study_from(data).text)
     computed = compute(load_study(study))
-    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 2)
+    monkeypatch.setenv("GRADHESION_CHUNK", "2")
     result = gradhesion("run", study, "-o", tmp_path / "x.nc")
     assert result.exit_code == 0
     scenes = computed["status"].size

@@ -20,7 +20,7 @@ Call = Callable[..., Result]
 @pytest.fixture(autouse=True)
 def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """Cut the small study of 24 scenes into 6 blocks."""
-    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 2)
+    monkeypatch.setenv("GRADHESION_CHUNK", "2")
 
 
 def test_nothing_is_told_as_a_mistake(gradhesion: Call, tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from gradhesion.cli.study.axes import expanded
 from gradhesion.cli.study.places import lines_of
 from gradhesion.cli.study.study import Study, load_study, study_from
-from gradhesion.cli.work.blocks import blocks, chunk_shape, size_of, tile
+from gradhesion.cli.study.tiling import Tiling, size_of, tile
 
 
 def same(one: Study, other: Study) -> bool:
@@ -145,16 +145,15 @@ def test_a_tile_fits_and_cuts_leading_axes_first(shape: tuple[int, ...], cells: 
 
 @given(shape=shapes, chunk=st.integers(1, 3000), many=st.integers(1, 9))
 def test_blocks_cover_every_cell_once_in_whole_chunks(shape: tuple[int, ...], chunk: int, many: int) -> None:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("gradhesion.cli.work.blocks.CHUNK", chunk)
-        patch.setattr("gradhesion.cli.work.blocks.CHUNKS_OF_BLOCK", many)
-        parts = chunk_shape(shape)
-        count = np.zeros(shape, dtype=int)
-        for block in blocks(shape):
-            count[block] += 1
-            assert size_of(block) <= chunk * many
-            assert all(cut.start % part == 0 for cut, part in zip(block, parts, strict=True))
-        assert (count == 1).all()
+    tiling = Tiling(shape, chunk, many)
+    count = np.zeros(shape, dtype=int)
+    for number, block in enumerate(tiling):
+        assert tiling[number] == block
+        count[block] += 1
+        assert size_of(block) <= chunk * many
+        assert all(cut.start % part == 0 for cut, part in zip(block, tiling.chunk, strict=True))
+    assert (count == 1).all()
+    assert len(tiling) == number + 1
 
 
 def test_lines_are_those_of_the_text() -> None:

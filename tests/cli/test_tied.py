@@ -60,7 +60,7 @@ def test_the_file_is_the_same_in_whatever_blocks_and_is_verified(
         tied["parameters"] |= {"k": 0.31, "chi": [0.0, 0.4]}
     study, path = write_study(study_from(tied | {"layout": layout}).text), tmp_path / "x.nc"
     computed = compute(load_study(study))
-    monkeypatch.setattr("gradhesion.cli.work.blocks.CHUNK", 2)
+    monkeypatch.setenv("GRADHESION_CHUNK", "2")
     assert gradhesion("run", study, "-o", path).exit_code == 0
     with xarray.open_dataset(path) as written:
         assert set(written.coords) == set(computed.coords)

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from click.testing import Result
 
-from gradhesion.cli.names import KEYS, table_of
-from gradhesion.cli.study.schema import study_model
+from gradhesion.cli.keys import keys_of
+from gradhesion.cli.study.form import Form
 
 Call = Callable[..., Result]
 
@@ -32,9 +32,9 @@ def test_all_mistakes_of_a_study(gradhesion: Call, study_file: Path) -> None:
 def test_the_schema_is_that_of_validation(gradhesion: Call, root: Path) -> None:
     told = json.loads(gradhesion("schema").stdout)
     assert told.pop("$schema").startswith("https://json-schema.org/")
-    assert told == study_model().model_json_schema()
+    assert told == Form.model_json_schema()
     parameters = told["$defs"]["Parameters"]
-    assert set(parameters["properties"]) == {key for key in KEYS if table_of(key) == "parameters"}
+    assert set(parameters["properties"]) == {*keys_of("parameters")}
     assert parameters["additionalProperties"] is False
     for config in (root / "configs").glob("*.toml"):
         keys = tomllib.loads(config.read_text())

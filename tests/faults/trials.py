@@ -26,7 +26,6 @@ from gradhesion.cli import interrupts
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.main import main as gradhesion
 from gradhesion.cli.study.study import load_study
-from gradhesion.cli.work import blocks
 
 STUDY = """\
 outputs = ["pull_off_force", "dissipated_energy", "loading_jumps"]
@@ -96,7 +95,7 @@ class Trials:
     """A study, its dataset in a single go, and a folder for trials."""
 
     def __init__(self, folder: Path) -> None:
-        blocks.CHUNK = 2  # type: ignore[misc]
+        os.environ["GRADHESION_CHUNK"] = "2"
         self.study = folder / "study.toml"
         self.study.write_text(STUDY)
         self.folder = folder / "data"

@@ -14,7 +14,8 @@ if str(ROOT) not in sys.path:
 
 from docs.__main__ import FOLDER, PAGES  # noqa: E402
 from gradhesion.cli import errors, main  # noqa: E402
-from gradhesion.cli.names import CURVES, KEYS, OUTPUTS, SETTINGS  # noqa: E402
+from gradhesion.cli.keys import INPUTS, SETTINGS  # noqa: E402
+from gradhesion.cli.names import CURVES, OUTPUTS  # noqa: E402
 from gradhesion.core import FLAGS  # noqa: E402
 
 
@@ -38,9 +39,9 @@ def test_every_key_output_and_flag_stands_in_the_manual() -> None:
         (FOLDER / "reference" / f"{name}.md").read_text(encoding="utf-8") for name in ("study", "dataset")
     )
     tables = ("parameters", "physical", "profile", "loading", "method")
-    assert all(f"\n| `{key}` |" in study for key in (*KEYS, *SETTINGS) if key not in tables)
+    assert all(f"\n| `{key}` |" in study for key in (*INPUTS, *SETTINGS) if key not in tables)
     assert all(f"\n## [{name}]\n" in study for name in tables)
-    assert all(f"| `{name}` |" in dataset for name in (*KEYS, *OUTPUTS, *FLAGS, *CURVES))
+    assert all(f"| `{name}` |" in dataset for name in (*INPUTS, *OUTPUTS, *FLAGS, *CURVES))
     assert all(f"| `{name}` |" in dataset for own in CURVES.values() for name in own)
 
 

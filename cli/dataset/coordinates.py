@@ -1,0 +1,59 @@
+"""The coordinates of a study's dataset: its solvers, if there are several, and the parameters of its scenes."""
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli import names
+from gradhesion.cli.dataset.variable import Variable
+from gradhesion.cli.keys import INPUTS, MACHINE, REDUCED, SPRING
+from gradhesion.cli.study.roles import ABSENT
+from gradhesion.cli.study.study import Study
+from gradhesion.cli.study.tiling import Block, shape_of
+from gradhesion.cli.work.blocks import scenes_of
+from gradhesion.core import PARAMETERS
+
+
+def coordinates(study: Study) -> dict[str, Variable]:
+    """Describe the coordinates of a study's dataset."""
+    axes = tuple(study.axes)
+    described = {}
+    if names.SOLVER in study.sizes:
+        solvers = np.array(study.method.solver, dtype=object)
+        described[names.SOLVER] = Variable(
+            dimensions=(names.SOLVER,), dtype="str", attributes={"long_name": names.SOLVERS}, values=solvers
+        )
+    for name, key in INPUTS.items():
+        attributes = {"units": key.unit, "long_name": key.about}
+        if name in study.left_out:
+            attributes["comment"] = f"without effect where {ABSENT[name][1]}; the study leaves it out"
+        if name in study.parameters:
+            values = np.asarray(study.parameters[name])
+            if study.layout == "points":
+                own, values = axes, np.broadcast_to(values, tuple(study.axes.values()))
+            else:
+                own = (name,) if name in axes else ()
+            described[name] = Variable(dimensions=own, dtype="f8", attributes=attributes, values=values)
+        elif name in PARAMETERS or (name == MACHINE and SPRING in study.parameters):
+            own = following(study, name)
+            made = partial(_made, study, name, own)
+            blank = np.nan if REDUCED.keys() & study.parameters.keys() else None  # where there is no a_2
+            described[name] = Variable(dimensions=own, dtype="f8", attributes=attributes, made=made, blank=blank)
+    return described
+
+
+def following(study: Study, name: str) -> tuple[str, ...]:
+    """Name the axes along which a parameter varies that is not given but made from others."""
+    from gradhesion.core.reduced import sources_of  # noqa: PLC0415 (300 ms for SciPy)
+
+    sources = sources_of(name, study.parameters)
+    return tuple(axis for axis in study.axes if axis in sources or study.layout == "points")
+
+
+def _made(study: Study, name: str, own: tuple[str, ...], block: Block) -> NDArray[Any]:
+    """Compute a block, of its own axes, of a parameter that is made from others."""
+    cuts = dict(zip(own, block, strict=True))
+    whole = tuple(cuts.get(axis, slice(0, 1)) for axis in study.axes)
+    return np.broadcast_to(scenes_of(study, whole)[name], shape_of(whole)).reshape(shape_of(block))

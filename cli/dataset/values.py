@@ -1,0 +1,92 @@
+"""How the variables of a map and of a curve study are described and computed: one value, or one curve, a scene."""
+
+from collections.abc import Iterable, Iterator
+from typing import Any, Final, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli import names
+from gradhesion.cli.dataset.variable import Variable
+from gradhesion.cli.study.study import Study
+from gradhesion.cli.study.tiling import Block
+from gradhesion.cli.work import curves
+from gradhesion.cli.work.blocks import solved
+
+Part = tuple[Block, dict[str, NDArray[Any]]]
+"""A block of scenes with the values of its variables."""
+
+
+class Values(Protocol):
+    """What the dataset of one kind of study asks of its kind."""
+
+    filled: bool
+    """Whether every cell of its variables is written."""
+
+    def described(self, study: Study, name: str) -> Variable:
+        """Describe a variable, in the units of the theory."""
+
+    def parts(self, study: Study, threads: int | None) -> Iterator[Part]:
+        """Compute the values, part by part, in the order of the blocks."""
+
+    def joined(self, study: Study, parts: Iterable[Part]) -> dict[str, NDArray[Any]]:
+        """Join parts in memory."""
+
+
+class _OfMap:
+    """One value a scene."""
+
+    filled = True
+
+    def described(self, study: Study, name: str) -> Variable:
+        attributes = {"units": "1", "ancillary_variables": "status", "long_name": names.OUTPUTS[name]}
+        if name == "dissipated_energy" and study.loading.control == "load":
+            attributes["long_name"] = names.OUTPUTS[name].replace(",", " without its jump-out, which has no bound,")
+        if name.endswith("_jumps"):
+            return Variable(dimensions=tuple(study.sizes), dtype="i4", attributes=attributes)
+        return Variable(dimensions=tuple(study.sizes), dtype="f8", attributes=attributes, blank=np.nan)
+
+    def parts(self, study: Study, threads: int | None) -> Iterator[Part]:
+        return solved(study, threads)
+
+    def joined(self, study: Study, parts: Iterable[Part]) -> dict[str, NDArray[Any]]:
+        whole: dict[str, NDArray[Any]] = {}
+        for block, values in parts:
+            for name, part in values.items():
+                if name not in whole:
+                    whole[name] = np.empty(study.shape, part.dtype)
+                whole[name][block] = part
+        return whole
+
+
+class _OfCurves:
+    """One curve a scene, along a dimension of its own."""
+
+    filled = False
+
+    def described(self, study: Study, name: str) -> Variable:
+        dimensions, dtype = tuple(study.sizes), names.INTEGERS.get(name, "f8")
+        attributes: dict[str, Any] = {"units": "1", "ancillary_variables": "status"}
+        attributes["long_name"] = next(own[name] for own in names.CURVES.values() if name in own)
+        if name in names.MEANINGS:
+            attributes |= {"flag_values": np.array([0, 1], dtype=dtype), "flag_meanings": names.MEANINGS[name]}
+        if name in names.RAGGED.values():
+            attributes["sample_dimension"] = next(
+                names.EXTENTS[one] for one in names.RAGGED if name in names.CURVES[one]
+            )
+            return Variable(dimensions=dimensions, dtype=dtype, attributes=attributes)
+        if curves.is_ragged(name):
+            del attributes["ancillary_variables"]  # `status` has other dimensions
+            return Variable(dimensions=(curves.extent_of(name),), dtype=dtype, attributes=attributes)
+        dimensions = (*dimensions, curves.extent_of(name))
+        return Variable(dimensions=dimensions, dtype=dtype, attributes=attributes, blank=curves.blank_of(name))
+
+    def parts(self, study: Study, threads: int | None) -> Iterator[Part]:
+        return curves.drawn(study, threads)
+
+    def joined(self, study: Study, parts: Iterable[Part]) -> dict[str, NDArray[Any]]:
+        return curves.gathered(study, list(parts))
+
+
+VALUES: Final[dict[str, Values]] = {"map": _OfMap(), "curve": _OfCurves()}
+"""By the kind of a study."""

@@ -1,0 +1,155 @@
+"""The form of a study: which keys there are, and which values each of them takes.
+
+pydantic checks the form of the whole study at once and gives its JSON Schema; a valid form is what a `Study` is made
+from. Its findings become sentences in `gradhesion.cli.study.mistakes`. What two keys have to do with each other is in
+`gradhesion.cli.study.rules`.
+"""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, Union
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, create_model
+
+from gradhesion.cli.keys import INPUTS, KEYS, MACHINE, Key
+from gradhesion.cli.study.quantities import si_value
+from gradhesion.core.profile import MOST_HARMONICS
+
+MOST_WAVES: Final = 10_000
+"""The shortest wave of a series, in waves a wavelength: beyond it hardly any scene can be followed."""
+
+
+class Table(BaseModel):
+    """A table of a study: no unknown keys, no silent conversions."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+
+def _of(name: str, kind: Any, **limits: Any) -> Any:
+    """Make the type of a key, with what it is about."""
+    return Annotated[kind, Field(description=KEYS[name].about, **limits)]
+
+
+class Range(Table):
+    """An axis by its ends and its number of values."""
+
+    start: float
+    stop: float
+    num: Annotated[int, Field(ge=1, description=KEYS["num"].about)]
+    spacing: Annotated[Literal["linear", "log"], Field(description=KEYS["spacing"].about)] = "linear"
+
+
+Entry = float | list[float] | Range
+"""What a study gives for an input: a number, a list, or a range; quantities in SI units."""
+
+
+class MethodTable(Table):
+    """How the scenes are solved."""
+
+    solver: Annotated[
+        Annotated[str, Tag("name")] | Annotated[list[str], Field(min_length=1), Tag("list")],
+        Discriminator(lambda value: "list" if isinstance(value, list) else "name"),
+        Field(description=KEYS["solver"].about),
+    ] = "exact"
+    check_contact: Annotated[bool, Field(description=KEYS["check_contact"].about)] = True
+
+    @property
+    def solvers(self) -> list[str]:
+        """All solvers that are asked for."""
+        return [self.solver] if isinstance(self.solver, str) else self.solver
+
+
+class Wave(Table):
+    """One wave of the series of a profile."""
+
+    n: Annotated[int, Field(ge=1, le=MOST_WAVES, description=KEYS["n"].about)]
+    cos: Annotated[float, Field(allow_inf_nan=False, description=KEYS["cos"].about)] = 0.0
+    sin: Annotated[float, Field(allow_inf_nan=False, description=KEYS["sin"].about)] = 0.0
+
+
+class ProfileTable(Table):
+    """The shape of the punch."""
+
+    exponent: Annotated[float, Field(ge=1.0, allow_inf_nan=False, description=KEYS["exponent"].about)] = 2.0
+    harmonics: Annotated[
+        Annotated[list[Wave], Field(min_length=1, max_length=MOST_HARMONICS)] | None,
+        Field(description=KEYS["harmonics"].about),
+    ] = None
+
+
+def _shape_of(value: object) -> str:
+    """Tell which of the three forms of an input is meant."""
+    return "range" if isinstance(value, Mapping) else "list" if isinstance(value, list) else "number"
+
+
+def _input(key: Key) -> Any:
+    """Make the type of an input: a number, a list of numbers, or a range table; quantities become numbers in SI."""
+    bounds: dict[str, Any] = dict(key.bounds)
+    number: Any
+    end: Any
+    if key.table == "physical":
+        schema: Any = Field(json_schema_extra={"type": ["string", "number"]})
+        number = Annotated[float, BeforeValidator(lambda value: si_value(value, key.name)), schema]
+        end = Annotated[number, Field(allow_inf_nan=False)]
+    else:
+        end = Annotated[float, Field(strict=True, allow_inf_nan=False, **bounds)]
+        number = Annotated[float, Field(strict=True, **bounds)] if key.infinite else end
+    range_table: Any = create_model(
+        f"Range_{key.name}", __base__=Range, start=(_of("start", end), ...), stop=(_of("stop", end), ...)
+    )
+    shapes: Any = Union[  # noqa: UP007 (made at run time)
+        Annotated[number, Tag("number")],
+        Annotated[list[number], Field(min_length=1), Tag("list")],
+        Annotated[range_table, Tag("range")],
+    ]
+    return _of(key.name, Annotated[shapes, Discriminator(_shape_of)])
+
+
+def _table(name: str, *, required: tuple[str, ...] = ()) -> type[Table]:
+    """Make the table of inputs of one name."""
+    fields: Any = {
+        key.name: (_input(key), ... if key.name in required else None) for key in INPUTS.values() if key.table == name
+    }
+    return create_model(name.capitalize(), __base__=Table, **fields)
+
+
+if TYPE_CHECKING:  # made from the keys, which the types cannot show
+
+    class ParametersTable(Table):
+        """The inputs without units."""
+
+    class PhysicalTable(Table):
+        """The inputs with units."""
+
+    MachineStiffness = Entry | None
+else:
+    ParametersTable = _table("parameters", required=("k", "nu"))
+    PhysicalTable = _table("physical")
+    MachineStiffness = _input(INPUTS[MACHINE])
+
+
+class LoadingTable(Table):
+    """What drives the punch."""
+
+    control: Annotated[str, Field(description=KEYS["control"].about)] = "displacement"
+    machine_stiffness: MachineStiffness = None
+
+
+class Form(Table):
+    """A whole study, each key for itself."""
+
+    title: Annotated[str, Field(description=KEYS["title"].about)] = ""
+    kind: Annotated[str, Field(description=KEYS["kind"].about)] = "map"
+    layout: Annotated[str, Field(description=KEYS["layout"].about)] = "grid"
+    outputs: Annotated[list[str], Field(min_length=1, description=KEYS["outputs"].about)]
+    parameters: Annotated[ParametersTable, Field(description=KEYS["parameters"].about)]
+    physical: Annotated[PhysicalTable | None, Field(description=KEYS["physical"].about)] = None
+    profile: Annotated[ProfileTable, Field(description=KEYS["profile"].about)] = ProfileTable()
+    loading: Annotated[LoadingTable, Field(description=KEYS["loading"].about)] = LoadingTable()
+    method: Annotated[MethodTable, Field(description=KEYS["method"].about)] = MethodTable()
+
+    @property
+    def entries(self) -> dict[str, Entry]:
+        """What is given for the inputs, in the order of a dataset's dimensions."""
+        tables = {"parameters": self.parameters, "physical": self.physical, "loading": self.loading}
+        given = {name: getattr(tables[key.table], name, None) for name, key in INPUTS.items()}
+        return {name: entry for name, entry in given.items() if entry is not None}

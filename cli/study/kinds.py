@@ -1,0 +1,67 @@
+"""The kinds of a study: a map has one value a scene, a curve study one curve a scene."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from gradhesion.cli.names import CURVES, OUTPUTS, RAGGED
+from gradhesion.cli.study.tiling import CHUNK, Tiling
+
+
+@dataclass(frozen=True, kw_only=True)
+class Kind:
+    """What studies of one kind have in common before anything is computed."""
+
+    name: str
+    outputs: tuple[str, ...]
+    """All that can be asked for."""
+    most_scenes: int
+    why: str
+    """Why no more."""
+    has_parts: bool
+    """Whether finished blocks are kept, so that an interrupted run resumes where it stopped."""
+    has_solver: bool
+    """Whether the study chooses how its scenes are solved."""
+
+    def variables(self, asked: Sequence[str]) -> tuple[str, ...]:
+        """Give the variables that are asked for, in the order of the dataset."""
+        return tuple(output for output in self.outputs if output in asked)
+
+    def tiling(self, shape: tuple[int, ...], chunk: int = CHUNK) -> Tiling:
+        """Cut the scenes into blocks."""
+        return Tiling(shape, chunk)
+
+
+class _Curves(Kind):
+    """Curves are drawn scene by scene: a block has one."""
+
+    def variables(self, asked: Sequence[str]) -> tuple[str, ...]:
+        """Give the variables asked for: a curve stands for all of its own, and a ragged one needs its count."""
+        counts = {RAGGED[curve] for curve, own in CURVES.items() if curve in RAGGED and own.keys() & {*asked}}
+        wanted = {*asked} | counts
+        return tuple(name for curve, own in CURVES.items() for name in own if curve in asked or name in wanted)
+
+    def tiling(self, shape: tuple[int, ...], chunk: int = 1) -> Tiling:  # noqa: ARG002 (the chunks of curves are their own)
+        """Cut the scenes into blocks of one."""
+        return Tiling(shape, cells=1, chunks=1)
+
+
+KINDS: Final[dict[str, Kind]] = {
+    "map": Kind(
+        name="map",
+        outputs=tuple(OUTPUTS),
+        most_scenes=2**31,
+        why="beyond it a dataset can no longer be handled as one file",
+        has_parts=True,
+        has_solver=True,
+    ),
+    "curve": _Curves(
+        name="curve",
+        outputs=(*CURVES, *(name for own in CURVES.values() for name in own)),
+        most_scenes=1_000,
+        why='curves are for looking at, and each has thousands of values, unlike kind = "map"',
+        has_parts=False,
+        has_solver=False,
+    ),
+}
+"""Every kind, by the word in a study."""

@@ -1,0 +1,126 @@
+"""The punch and its loading: which profiles and controls are allowed, and what goes with them."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any, Final
+
+import numpy as np
+
+from gradhesion.cli.keys import MACHINE, SPRING
+from gradhesion.cli.names import CURVES, GENERAL_CURVES
+from gradhesion.cli.study.axes import Values
+from gradhesion.cli.study.form import ProfileTable
+from gradhesion.cli.study.mistakes import Checked, Mistake
+from gradhesion.cli.study.places import Path
+from gradhesion.cli.study.wording import did_you_mean, example
+from gradhesion.core.loading_control import CONTROLS
+from gradhesion.core.profile import Harmonic, Profile
+
+_SERIES: Final[Path] = ("profile", "harmonics")
+_CONTROL: Final[Path] = ("loading", "control")
+
+
+def profile_of(table: ProfileTable) -> Profile:
+    """
+    Make the shape of the punch; what a wave does not have is zero.
+
+    >>> profile_of(ProfileTable.model_validate({"harmonics": [{"n": 2, "sin": 0.5}]})).harmonics
+    (Harmonic(n=2, cos=0.0, sin=0.5),)
+    """
+    if table.harmonics is None:
+        return Profile(exponent=table.exponent)
+    waves = (Harmonic(n=wave.n, cos=wave.cos, sin=wave.sin) for wave in table.harmonics)
+    return Profile(exponent=table.exponent, harmonics=tuple(waves))
+
+
+def mistakes_of_punch(checked: Checked, sound: Mapping[str, Values]) -> Iterator[Mistake]:
+    """Check the profile, the control, and what is asked of them."""
+    series = list(_mistakes_of_series(checked, sound))
+    yield from series
+    yield from _mistakes_of_control(checked)
+    yield from _mistakes_of_default_only(checked, sound_series=not series)
+
+
+def _mistakes_of_series(checked: Checked, sound: Mapping[str, Values]) -> Iterator[Mistake]:
+    """Check the waves of a profile: each n once, each with an amplitude, and not all of them zero if A is not."""
+    wrong = {mistake.path[:3] for mistake in checked.mistakes}
+    if _SERIES in wrong or ("profile",) in checked.wrong:
+        return
+    waves: list[Any] = (checked.data.get("profile") or {}).get("harmonics", [])
+    first: dict[int, int] = {}
+    sizes = []
+    for i, wave in enumerate(waves):
+        if (*_SERIES, i) in wrong:
+            sizes.append(1.0)  # not known
+            continue
+        if wave["n"] in first:
+            sentence = f"the wave n = {wave['n']} is given already, as item {first[wave['n']]}; join the two"
+            yield Mistake((*_SERIES, i, "n"), wave["n"], sentence)
+        first.setdefault(wave["n"], i)
+        if not wave.keys() & {"cos", "sin"}:
+            sentence = "the wave has no amplitude; add cos, sin or both, as in { n = 1, cos = 1.0 }"
+            yield Mistake((*_SERIES, i), wave, sentence)
+            sizes.append(1.0)
+        sizes += [abs(wave.get(name, 0.0)) for name in ("cos", "sin")]
+    for name in ("A", "chi", "amplitude"):
+        if sizes and max(sizes) == 0.0 and name in sound and np.any(np.asarray(sound[name]) > 0.0):
+            sentence = f"all cos and sin are zero, so that {name} has no effect; give one a value, or use {name} = 0"
+            yield Mistake(_SERIES, waves, sentence)
+
+
+def _mistakes_of_control(checked: Checked) -> Iterator[Mistake]:
+    """Check the control of the loading, and that one stiffness of a machine goes with it alone."""
+    if _CONTROL in checked.wrong:
+        return
+    control, with_units = checked.form.loading.control, "physical" in checked.data
+    keys: tuple[Path, ...] = (("loading", MACHINE), ("physical", SPRING))
+    given = [path for path in keys if path not in checked.wrong and path[1] in checked.form.entries]
+    if control not in CONTROLS:
+        yield Mistake(_CONTROL, control, f"not a control; {did_you_mean(control, CONTROLS)}")
+    elif control == "machine" and not given and not checked.wrong & {*keys}:
+        key = f"{example(keys[1])} under [physical]" if with_units else f"add {MACHINE} = 10.0 to [loading]"
+        yield Mistake(_CONTROL, control, f"a machine needs its stiffness {'S' if with_units else 'S/(E* R)'}; {key}")
+    elif control == "machine":
+        for path in given[1:]:
+            sentence = f"{MACHINE} gives the stiffness of the machine already; keep one of the two and remove the other"
+            yield Mistake(path, checked.data[str(path[0])][path[1]], sentence)
+    else:
+        for path in given:
+            sentence = (
+                f'control = "{control}" has no machine; remove this key, or write control = "machine" under [loading]'
+            )
+            yield Mistake(path, checked.data[str(path[0])][path[1]], sentence)
+
+
+def _mistakes_of_default_only(checked: Checked, *, sound_series: bool) -> Iterator[Mistake]:
+    """Check that another profile or control is asked for only where it is known."""
+    form = checked.form
+    others = ["[profile]"] if sound_series and profile_of(form.profile) != Profile() else []
+    others += ["[loading]"] if form.loading.control in CONTROLS[1:] else []
+    if not others:
+        return
+    known = "known of a paraboloid with one cosine wave under controlled displacement only"
+    remedy = f"or remove {' and '.join(others)}"
+    special = [name for one, own in CURVES.items() if one not in GENERAL_CURVES for name in (one, *own)]
+    for i, name in enumerate(form.outputs):
+        if name in special and form.kind == "curve":
+            yield Mistake(("outputs", i), name, f"this curve is {known}; remove it, {remedy}")
+        if name == "energy_residual" and form.loading.control == "load":
+            sentence = (
+                'a dead load closes no loop, so that there is no residual; remove it, or write control = "machine"'
+            )
+            yield Mistake(("outputs", i), name, sentence)
+    for one in form.method.solvers:
+        if one == "envelope" and "[loading]" in others:
+            sentence = (
+                'the solver "envelope" is known under controlled displacement only: contact through a spring begins '
+                'and ends where no closed form is known; write solver = "exact", or remove [loading]'
+            )
+            yield Mistake(("method", "solver"), form.method.solver, sentence)
+        elif one == "asymptotic":
+            sentence = f'the solver "{one}" is {known}; write solver = "exact", {remedy}'
+            yield Mistake(("method", "solver"), form.method.solver, sentence)
+    if "[profile]" in others and "a_max_over_a2" in form.entries:
+        sentence = (
+            "a_2 is that of a paraboloid with one cosine wave; give a_max_over_R or a_max_over_L, or remove [profile]"
+        )
+        yield Mistake(("parameters", "a_max_over_a2"), checked.data["parameters"]["a_max_over_a2"], sentence)

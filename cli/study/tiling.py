@@ -1,0 +1,92 @@
+"""How the scenes of a study are cut: into chunks of the file, and blocks of whole chunks that are solved one by one."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+from typing import Final
+
+CHUNK: Final = 131_072
+"""Cells of a chunk in the file: one MiB of float64."""
+
+CHUNKS_OF_BLOCK: Final = 2
+"""Chunks of a block: a second or so of the slowest work, so that progress shows and an interrupt is heard."""
+
+Block = tuple[slice, ...]
+
+
+@dataclass(frozen=True)
+class Tiling:
+    """
+    A shape cut into blocks of whole chunks, so that no chunk is written twice; blocks have numbers in C order.
+
+    >>> tiling = Tiling((5, 131_072))
+    >>> len(tiling), tiling.chunk, tiling[2]
+    (3, (1, 131072), (slice(4, 5, None), slice(0, 131072, None)))
+    >>> [block[0] for block in tiling]
+    [slice(0, 2, None), slice(2, 4, None), slice(4, 5, None)]
+    """
+
+    shape: tuple[int, ...]
+    cells: int = CHUNK
+    """Cells of a chunk, at most."""
+    chunks: int = CHUNKS_OF_BLOCK
+    """Chunks of a block, at most."""
+
+    @cached_property
+    def chunk(self) -> tuple[int, ...]:
+        """The shape of a chunk."""
+        return tile(self.shape, self.cells)
+
+    @cached_property
+    def _cuts(self) -> tuple[range, ...]:
+        """Where the blocks begin along each axis; the steps are their lengths."""
+        counts = tuple(-(-length // part) for length, part in zip(self.shape, self.chunk, strict=True))
+        steps = (n * part for n, part in zip(tile(counts, self.chunks), self.chunk, strict=True))
+        return tuple(range(0, length, step) for length, step in zip(self.shape, steps, strict=True))
+
+    def __len__(self) -> int:
+        """Count the blocks."""
+        return math.prod(map(len, self._cuts))
+
+    def __iter__(self) -> Iterator[Block]:
+        """Give the blocks in the order of their numbers."""
+        yield from product(*([slice(at, min(at + cut.step, cut.stop)) for at in cut] for cut in self._cuts))
+
+    def __getitem__(self, number: int) -> Block:
+        """Give a block by its number, from 0."""
+        if not 0 <= number < len(self):
+            raise IndexError(number)
+        block = []
+        for cut in reversed(self._cuts):
+            number, place = divmod(number, len(cut))
+            block.append(slice(cut[place], min(cut[place] + cut.step, cut.stop)))
+        return tuple(reversed(block))
+
+
+def tile(shape: tuple[int, ...], cells: int) -> tuple[int, ...]:
+    """
+    Cut a shape into even tiles of at most `cells` cells, the trailing axes whole as long as they fit.
+
+    Leading axes are cut first, since all a_max (the last axis) of one curve share its trace.
+
+    >>> tile((19, 4, 60, 5, 6), 131_072)
+    (10, 4, 60, 5, 6)
+    """
+    size = []
+    for length in reversed(shape):
+        parts = -(-length // max(1, min(length, cells)))
+        size.append(-(-length // parts))
+        cells = cells // length if parts == 1 else 1
+    return tuple(reversed(size))
+
+
+def shape_of(block: Block) -> tuple[int, ...]:
+    """Give the shape of a block."""
+    return tuple(part.stop - part.start for part in block)
+
+
+def size_of(block: Block) -> int:
+    """Count the cells of a block."""
+    return math.prod(shape_of(block))
