@@ -34,8 +34,9 @@ def expanded(entry: Entry) -> Values:
     if isinstance(entry, Range):
         space = np.geomspace if entry.spacing == "log" else np.linspace
         low, high = sorted((entry.start, entry.stop))
-        values = np.clip(space(entry.start, entry.stop, entry.num), low, high)
+        values = space(entry.start, entry.stop, entry.num)
         values = _shortest(values, np.abs(values) if entry.spacing == "log" else max(abs(entry.start), abs(entry.stop)))
+        values = np.clip(values, low, high)
         values[0], values[-1] = entry.start, entry.stop
         return values + 0.0  # no negative zeros
     if isinstance(entry, list):
@@ -53,7 +54,7 @@ def _shortest(values: NDArray[np.float64], size: NDArray[np.float64] | float) ->
     0.69
     """
     with np.errstate(all="ignore"):
-        places = np.clip(DIGITS - 1 - np.floor(np.log10(np.abs(values))), -22, 22)
+        places = np.clip(DIGITS - 1 - np.floor(np.log10(size)), -22, 22)
         power = 10.0 ** np.abs(places)  # exact to 10^22
         decimals = np.where(places >= 0, np.rint(values * power) / power, np.rint(values / power) * power)
         near = np.abs(decimals - values) <= 4 * np.finfo(float).eps * size  # of a few roundings in making the range

@@ -16,8 +16,8 @@ class Kind:
     outputs: tuple[str, ...]
     """All that can be asked for."""
     most_scenes: int
-    why: str
-    """Why no more."""
+    remedy: str
+    """What to do about more."""
     has_parts: bool
     """Whether finished blocks are kept, so that an interrupted run resumes where it stopped."""
     has_solver: bool
@@ -50,16 +50,16 @@ KINDS: Final[dict[str, Kind]] = {
     "map": Kind(
         name="map",
         outputs=tuple(OUTPUTS),
-        most_scenes=2**31,
-        why="beyond it a dataset can no longer be handled as one file",
+        most_scenes=2**31,  # beyond it a dataset can no longer be handled as one file
+        remedy="use fewer values, or split the study",
         has_parts=True,
         has_solver=True,
     ),
     "curve": _Curves(
         name="curve",
         outputs=(*CURVES, *(name for own in CURVES.values() for name in own)),
-        most_scenes=1_000,
-        why='curves are for looking at, and each has thousands of values, unlike kind = "map"',
+        most_scenes=1_000,  # curves are for looking at, and each has thousands of values
+        remedy='use fewer values, split the study, or write kind = "map"',
         has_parts=False,
         has_solver=False,
     ),

