@@ -142,10 +142,10 @@ class Form(Table):
     layout: Annotated[str, Field(description=KEYS["layout"].about)] = "grid"
     outputs: Annotated[list[str], Field(min_length=1, description=KEYS["outputs"].about)]
     parameters: Annotated[ParametersTable, Field(description=KEYS["parameters"].about)]
-    physical: Annotated[PhysicalTable | None, Field(description=KEYS["physical"].about)] = None
-    profile: Annotated[ProfileTable, Field(description=KEYS["profile"].about)] = ProfileTable()
-    loading: Annotated[LoadingTable, Field(description=KEYS["loading"].about)] = LoadingTable()
-    method: Annotated[MethodTable, Field(description=KEYS["method"].about)] = MethodTable()
+    physical: Annotated[PhysicalTable, Field(description=KEYS["physical"].about, default_factory=PhysicalTable)]
+    profile: Annotated[ProfileTable, Field(description=KEYS["profile"].about, default_factory=ProfileTable)]
+    loading: Annotated[LoadingTable, Field(description=KEYS["loading"].about, default_factory=LoadingTable)]
+    method: Annotated[MethodTable, Field(description=KEYS["method"].about, default_factory=MethodTable)]
 
     @property
     def entries(self) -> dict[str, Entry]:

@@ -184,7 +184,7 @@ def _study(source: Source) -> Study:
     if mistakes:
         raise StudyError(mistakes)
     form = found.form
-    absent = left_out(sound, with_units=form.physical is not None)
+    absent = left_out(sound, with_units="physical" in form.model_fields_set)
     given = sound | absent
     parameters = {name: given[name] for name in INPUTS if name in given}
     for values in parameters.values():

@@ -171,13 +171,12 @@ def test_a_tile_fits_and_cuts_leading_axes_first(shape: tuple[int, ...], cells: 
 def test_blocks_cover_every_cell_once_in_whole_chunks(shape: tuple[int, ...], chunk: int, many: int) -> None:
     tiling = Tiling(shape, chunk, many)
     count = np.zeros(shape, dtype=int)
-    for number, block in enumerate(tiling):
-        assert block == block
+    for block in tiling:
         count[block] += 1
         assert size_of(block) <= chunk * many
         assert all(cut.start % part == 0 for cut, part in zip(block, tiling.chunk, strict=True))
     assert (count == 1).all()
-    assert len(tiling) == number + 1
+    assert [tiling[number] for number in range(len(tiling))] == list(tiling)
 
 
 def test_lines_are_those_of_the_text() -> None:
