@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gradhesion.cli import names
+from gradhesion.cli.dataset.contents import CONTENTS
 from gradhesion.cli.dataset.coordinates import coordinates
-from gradhesion.cli.dataset.values import VALUES
 from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.study.shape_words import shape_told
 from gradhesion.cli.study.study import Study
@@ -35,7 +35,7 @@ def variables(study: Study) -> dict[str, Variable]:
 
 def _output(study: Study, name: str) -> Variable:
     """Describe a result, perhaps in SI units."""
-    plain = VALUES[study.kind].described(study, name.removesuffix(names.SI))
+    plain = CONTENTS[study.kind].described(study, name.removesuffix(names.SI))
     if not name.endswith(names.SI):
         return plain
     long_name = names.long_name_in_si(plain.attributes["long_name"])
@@ -88,7 +88,7 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
     import xarray  # noqa: PLC0415 (450 ms that `run` does not need)
 
     described = variables(study)
-    kind = VALUES[study.kind]
+    kind = CONTENTS[study.kind]
     found = kind.joined(study, kind.parts(study, threads))
     made = {}
     for name, variable in described.items():

@@ -11,7 +11,7 @@ from typing import Any, Final, NoReturn
 import netCDF4
 
 from gradhesion.cli.dataset import dataset
-from gradhesion.cli.dataset.values import VALUES
+from gradhesion.cli.dataset.contents import CONTENTS
 from gradhesion.cli.disk import bytes_in_words, refuse_existing, to_disk, writing
 from gradhesion.cli.engines import Engine, Work
 from gradhesion.cli.engines.threads import Threads
@@ -228,7 +228,7 @@ def _solved(
     if KINDS[study.kind].has_parts:
         yield from engine.results(Work(study, path, folder, range(len(study.tiling))))
     else:
-        yield from ((i, Solved(*part)) for i, part in enumerate(VALUES[study.kind].parts(study, threads)))
+        yield from ((i, Solved(*part)) for i, part in enumerate(CONTENTS[study.kind].parts(study, threads)))
 
 
 def _finished(folder: Folder, target: Path, study: Study) -> Written | None:
@@ -246,7 +246,7 @@ def _finished(folder: Folder, target: Path, study: Study) -> Written | None:
 
 def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
     """Write all of a dataset but the values of its outputs."""
-    filled = VALUES[study.kind].filled
+    filled = CONTENTS[study.kind].filled
     if filled:
         file.set_fill_off()
     file.setncatts(dataset.attributes(study, history))

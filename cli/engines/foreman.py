@@ -12,7 +12,7 @@ from gradhesion.cli.engines.supply import Supply
 from gradhesion.cli.engines.watch import Watch
 from gradhesion.cli.engines.worker import SIGHT, carry_out, needed
 from gradhesion.cli.errors import ClusterError, OutputError
-from gradhesion.cli.work.parts import Values, key_of
+from gradhesion.cli.work.parts import Results, key_of
 from gradhesion.cli.work.resume import Solved, blank, found
 
 FLYING: Final = 256
@@ -146,7 +146,7 @@ class Foreman:
                 reason = f"PartError: the part that worker {told['worker']} has written is {values}"
                 yield from self._given_up(self._supply.back((number,)), reason)
 
-    def _seen(self, number: int, block: tuple[slice, ...], key: str) -> Values | str:
+    def _seen(self, number: int, block: tuple[slice, ...], key: str) -> Results | str:
         """Read a part; on a network file system it may be seen a little late."""
         deadline = time.monotonic() + SIGHT
         while True:

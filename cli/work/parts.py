@@ -25,7 +25,7 @@ from gradhesion.core import SOURCES
 FORMAT: Final = 1
 """To be raised when parts are written in another way, or blocks are solved in another way by `gradhesion.cli`."""
 
-Values = dict[str, NDArray[Any]]
+Results = dict[str, NDArray[Any]]
 
 
 class PartError(ValueError):
@@ -82,7 +82,7 @@ def write_part(path: Path, key: str, values: Mapping[str, NDArray[Any]], study: 
     write_whole(path, f"{digest.hexdigest()}\n".encode(), *pieces)
 
 
-def read_part(path: Path, key: str, study: Study, block: Block) -> Values:
+def read_part(path: Path, key: str, study: Study, block: Block) -> Results:
     """
     Read the values of a block from its part.
 

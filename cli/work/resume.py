@@ -9,7 +9,7 @@ from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of, size_of
 from gradhesion.cli.work.blocks import solve_block
 from gradhesion.cli.work.folder import Folder
-from gradhesion.cli.work.parts import PartError, Values, read_part, types_of
+from gradhesion.cli.work.parts import PartError, Results, read_part, types_of
 from gradhesion.core import FAILED, FLAGS
 
 ATTEMPTS: Final = 2
@@ -21,7 +21,7 @@ class Solved:
     """A block with its values."""
 
     block: Block
-    values: Values
+    values: Results
     key: str = ""
     """What its part depends on."""
     reused: bool = False
@@ -34,7 +34,7 @@ class Solved:
         return int(np.count_nonzero(self.values["status"] & FAILED))
 
 
-def found(study: Study, folder: Folder, number: int, block: Block, key: str) -> Values | str:
+def found(study: Study, folder: Folder, number: int, block: Block, key: str) -> Results | str:
     """Read the part of a block, or tell why it is of no use."""
     try:
         return read_part(folder.part(number), key, study, block)
@@ -46,7 +46,7 @@ def found(study: Study, folder: Folder, number: int, block: Block, key: str) -> 
         return str(error)
 
 
-def attempted(study: Study, block: Block, threads: int | None) -> tuple[Values, str]:
+def attempted(study: Study, block: Block, threads: int | None) -> tuple[Results, str]:
     """Solve a block, again if it raises; then its scenes have no value, and the error is told."""
     reason = ""
     for _ in range(ATTEMPTS):
@@ -57,7 +57,7 @@ def attempted(study: Study, block: Block, threads: int | None) -> tuple[Values, 
     return blank(study, block), reason
 
 
-def blank(study: Study, block: Block) -> Values:
+def blank(study: Study, block: Block) -> Results:
     """Make the values of a block that has none."""
     shape = shape_of(block)
     values = {

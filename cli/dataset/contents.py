@@ -17,7 +17,7 @@ Part = tuple[Block, dict[str, NDArray[Any]]]
 """A block of scenes with the values of its variables."""
 
 
-class Values(Protocol):
+class Contents(Protocol):
     """What the dataset of one kind of study asks of its kind."""
 
     filled: bool
@@ -88,5 +88,5 @@ class _OfCurves:
         return curves.gathered(study, list(parts))
 
 
-VALUES: Final[dict[str, Values]] = {"map": _OfMap(), "curve": _OfCurves()}
+CONTENTS: Final[dict[str, Contents]] = {"map": _OfMap(), "curve": _OfCurves()}
 """By the kind of a study."""
