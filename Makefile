@@ -67,7 +67,7 @@ build/tested: $(checked) .venv/installed | build/types/gradhesion
 	.venv/bin/ruff check
 	.venv/bin/ruff format --check
 	.venv/bin/mypy
-	.venv/bin/python -m tests.compile wave & .venv/bin/python -m tests.compile any; wait
+	.venv/bin/python -m tests.compile
 	.venv/bin/pytest -n auto --dist loadfile --no-loadscope-reorder
 	touch $@
 

@@ -1,14 +1,23 @@
-"""Adhesive contact of a wavy axisymmetric punch on a power-law graded half-space: arrays in, arrays out."""
+"""Adhesive contact of a wavy axisymmetric punch on a power-law graded half-space: arrays in, arrays out.
 
-from gradhesion.core._jit import CACHE_FOLDER, SOURCES
-from gradhesion.core.curves import CURVES, draw_curves
-from gradhesion.core.loading_control import CONTROLS, Loading
-from gradhesion.core.profile import Harmonic, Profile
-from gradhesion.core.report import REPORTS
-from gradhesion.core.results import OUTPUTS
-from gradhesion.core.solvers import SOLVERS
-from gradhesion.core.status import DOUBTFUL, FAILED, FLAGS, doubts_about
-from gradhesion.core.sweep import PARAMETERS, compiled_before, solve
+A name is imported when it is first used: neither a name of a parameter nor a profile needs the compiler.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    from gradhesion.core._jit import watch_compilation
+    from gradhesion.core.cache import CACHE_FOLDER, compiled_before, place
+    from gradhesion.core.curves import draw_curves
+    from gradhesion.core.kinds import KERNELS, KINDS, NEEDS, kind_of_curves, kind_of_map
+    from gradhesion.core.loading_control import CONTROLS, Loading
+    from gradhesion.core.names import CURVES, OUTPUTS, PARAMETERS, REPORTS, SOLVERS
+    from gradhesion.core.profile import Harmonic, Profile
+    from gradhesion.core.sources import SOURCES
+    from gradhesion.core.status import DOUBTFUL, FAILED, FLAGS, doubts_about
+    from gradhesion.core.sweep import solve
+    from gradhesion.core.warmup import compile_kind
 
 __all__ = [
     "CACHE_FOLDER",
@@ -17,6 +26,9 @@ __all__ = [
     "DOUBTFUL",
     "FAILED",
     "FLAGS",
+    "KERNELS",
+    "KINDS",
+    "NEEDS",
     "OUTPUTS",
     "PARAMETERS",
     "REPORTS",
@@ -25,8 +37,42 @@ __all__ = [
     "Harmonic",
     "Loading",
     "Profile",
+    "compile_kind",
     "compiled_before",
     "doubts_about",
     "draw_curves",
+    "kind_of_curves",
+    "kind_of_map",
+    "place",
     "solve",
+    "watch_compilation",
 ]
+
+_HOMES: Final = {
+    "_jit": ("watch_compilation",),
+    "cache": ("CACHE_FOLDER", "compiled_before", "place"),
+    "curves": ("draw_curves",),
+    "kinds": ("KERNELS", "KINDS", "NEEDS", "kind_of_curves", "kind_of_map"),
+    "loading_control": ("CONTROLS", "Loading"),
+    "names": ("CURVES", "OUTPUTS", "PARAMETERS", "REPORTS", "SOLVERS"),
+    "profile": ("Harmonic", "Profile"),
+    "sources": ("SOURCES",),
+    "status": ("DOUBTFUL", "FAILED", "FLAGS", "doubts_about"),
+    "sweep": ("solve",),
+    "warmup": ("compile_kind",),
+}
+_HOME_OF: Final = {name: home for home, names in _HOMES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    """Import a name from where it stands."""
+    if name not in _HOME_OF:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f"{__name__}.{_HOME_OF[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """List all names, also those that nobody has used yet."""
+    return sorted({*globals(), *__all__})

@@ -1,42 +1,37 @@
-"""The one decorator of every kernel, and the one place that knows where compiled code is kept.
+"""The one decorator of every kernel, and what is heard of their compilation."""
 
-Numba notices an edit in the file of a kernel, but not in the files of the kernels that it calls. The folder of the
-compiled code is therefore named after a digest of all sources of the core and of where they stand (numba keeps code of
-one place for that place alone): an edit anywhere compiles all of it anew.
-"""
-
-import hashlib
-from collections.abc import Callable
-from pathlib import Path
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, Final, TypeVar
 
 import numba
-import platformdirs
+import numpy as np
+from numba.core import event
+
+from gradhesion.core import cache
 
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
-_CORE: Final = Path(__file__).parent
+
+def constant(value: int) -> Any:
+    """Return a flag or a whole number that numba takes for a variable: it compiles a kernel anew for each literal."""
+    return np.bool_(value) if isinstance(value, bool) else np.int64(value)
 
 
-def _digest_of_sources() -> str:
-    digest = hashlib.sha256()
-    for source in sorted(_CORE.rglob("*.py")):
-        digest.update(source.relative_to(_CORE).as_posix().encode())
-        digest.update(source.read_bytes())
-    return digest.hexdigest()
+YES: Final = constant(True)
+NO: Final = constant(False)
+NONE: Final = constant(0)
+"""The number of what there is none of yet."""
+
+_setting: Final = threading.Lock()
 
 
-SOURCES: Final = _digest_of_sources()
-"""A digest of all sources of the core, wherever they stand: results of one are comparable bit by bit."""
-
-_PLACE: Final = hashlib.sha256(f"{_CORE}{SOURCES}".encode()).hexdigest()[:16]
-
-CACHE_FOLDER: Final = Path(platformdirs.user_cache_dir("gradhesion")) / f"kernels-{_PLACE}"
-"""Where the compiled kernels of exactly these sources are kept (numba falls back to its own choice if it cannot)."""
-
-
-def kernel(*, contract: bool = False, inline: bool = False) -> Callable[[Kernel], Kernel]:
+def kernel(*, contract: bool = False, inline: bool = False, entry: bool = False) -> Callable[[Kernel], Kernel]:
     """Compile a function to machine code that releases the GIL and follows IEEE arithmetic.
+
+    A kernel whose name begins with an underscore is called by kernels alone, and is compiled without what lets Python
+    call it (a tenth of the time): such a call ends the process. Other kernels can be called from Python as well.
 
     Parameters
     ----------
@@ -45,25 +40,90 @@ def kernel(*, contract: bool = False, inline: bool = False) -> Callable[[Kernel]
         false, and the exact argument reductions of the wave break.
     inline
         Insert the function into its callers: for one so short that handing its arrays over is a good part of its cost.
+    entry
+        Let Python call it, whatever its name.
     """
 
     def decorate(function: Kernel) -> Kernel:
-        previous = numba.config.CACHE_DIR
-        try:
-            CACHE_FOLDER.mkdir(parents=True, exist_ok=True)
-            numba.config.CACHE_DIR = str(CACHE_FOLDER)
-        except OSError:  # a read-only home: numba looks for a place of its own
-            pass
-        try:
-            compiled: Kernel = numba.njit(
-                cache=True,
-                nogil=True,
-                error_model="numpy",
-                fastmath={"contract"} if contract else False,
-                inline="always" if inline else "never",
-            )(function)
-        finally:
-            numba.config.CACHE_DIR = previous
+        options = {
+            "nogil": True,
+            "error_model": "numpy",
+            "fastmath": {"contract"} if contract else False,
+            "inline": "always" if inline else "never",
+            "no_cfunc_wrapper": True,  # none is handed over as a function
+            "no_cpython_wrapper": function.__name__.startswith("_") and not entry,
+        }
+        folder = cache.place().folder
+        if folder is not None:
+            with _setting:
+                previous = numba.config.CACHE_DIR
+                try:
+                    numba.config.CACHE_DIR = str(folder)
+                    kept: Kernel = numba.njit(cache=True, **options)(function)
+                except (OSError, RuntimeError):  # the folder has gone, or is full
+                    pass
+                else:
+                    return kept
+                finally:
+                    numba.config.CACHE_DIR = previous
+        compiled: Kernel = numba.njit(**options)(function)
         return compiled
 
     return decorate
+
+
+class _Compilation(event.Listener):  # type: ignore[misc] # numba has no types
+    """Hears of every kernel that is compiled; one that is read from the cache is none."""
+
+    def __init__(self) -> None:
+        self.begun = False
+        self.listeners: list[Callable[[str], None]] = []
+
+    def on_start(self, _event: Any) -> None:
+        """Clear away other versions, once in a process that compiles."""
+        if self.begun:
+            return
+        self.begun = True
+        folder = cache.place().folder
+        if folder is not None:
+            cache.remove_unused(folder)
+
+    def on_end(self, finished: Any) -> None:
+        """Pass on the name of a kernel."""
+        function = finished.data["dispatcher"].py_func
+        if function.__module__.startswith("gradhesion.core."):
+            for listener in (*self.listeners,):
+                listener(function.__name__)
+
+
+_compilation: Final = _Compilation()
+event.register("numba:compile", _compilation)
+
+
+@contextmanager
+def watch_compilation(listener: Callable[[str], None]) -> Iterator[None]:
+    """Call `listener` with the name of each kernel that is compiled within the block, by any thread.
+
+    Parameters
+    ----------
+    listener
+        It gets the name when the kernel is done. What it raises ends the compilation. `KERNELS` (kinds.py) has the
+        number to expect.
+
+    Examples
+    --------
+    >>> from gradhesion.core import solve
+    >>> names = []
+    >>> with watch_compilation(names.append):
+    ...     _ = solve(dict(k=0, nu=0.3, modulus=500, c0_over_R=1, lambda_over_R=1, A=0, a_max_over_R=1), threads=1)
+    >>> with watch_compilation(names.append):  # the same again: nothing is left to compile
+    ...     names.clear()
+    ...     _ = solve(dict(k=0, nu=0.3, modulus=500, c0_over_R=1, lambda_over_R=1, A=0, a_max_over_R=1), threads=1)
+    >>> names
+    []
+    """
+    _compilation.listeners.append(listener)
+    try:
+        yield
+    finally:
+        _compilation.listeners.remove(listener)

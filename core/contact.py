@@ -170,7 +170,7 @@ def least_opening(table: Any, curve: Curve, start: float, end: float, heights: A
     return least
 
 
-@kernel()
+@kernel(entry=True)
 def _least_of_wave(table: Any, curve: Curve, wave: float, heights: Any, openings: Any) -> float:
     """Return the least opening outside the end of a wave's branch; `wave` is any real number."""
     shifted, x = end_of_wave(table, curve, wave)

@@ -12,7 +12,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import NO, NONE, YES, kernel
 from gradhesion.core.branches import (
     ARRIVAL,
     END,
@@ -104,7 +104,7 @@ def walk(
     """Walk a curve of moderate length outwards to `furthest`; return the number of its branches and the trace."""
     first, final = arches
     trace = room_for(trace, min(final, 2.0 * furthest) - first + 8.0)
-    count = append_branches(table, curve, int(min(first, COUNTABLE)), final, furthest, trace, 0)
+    count = append_branches(table, curve, int(min(first, COUNTABLE)), final, furthest, trace, NONE)
     trace[RUN, GAP] = math.inf
     load_up(table, curve, count, trace, furthest, losses)
     return count, trace
@@ -135,7 +135,7 @@ def _first_wave_above(table: Any, curve: Curve, low: float, high: float, level: 
         if high - low <= 1.0:
             break
         middle = max(low + 1.0, min(high - 1.0, middle))
-        _, end_depth = fold_of_wave(table, curve, middle, False)
+        _, end_depth = fold_of_wave(table, curve, middle, NO)
         if end_depth > level:
             high, middle = middle, middle - step
         else:
@@ -161,8 +161,8 @@ def _lowest_wave(table: Any, curve: Curve, low: float, high: float) -> float:
         if high <= low:
             break
         middle = max(low, min(high - 1.0, middle))
-        _, here = fold_of_wave(table, curve, middle, True)
-        _, beyond = fold_of_wave(table, curve, middle + 1.0, True)
+        _, here = fold_of_wave(table, curve, middle, YES)
+        _, beyond = fold_of_wave(table, curve, middle + 1.0, YES)
         if beyond < here:
             low, middle = middle + 1.0, middle + step
         else:
@@ -201,8 +201,8 @@ def _load_through(
         if wave < after:
             trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST], trace[RUN, RUN_LANDING] = wave, after - 1.0, x
             if losses:
-                loss += sum_of_waves(table, curve, wave, after - 1.0, True, final, trace)
-            x, _ = jump_of_wave(table, curve, after - 1.0, True, trace)
+                loss += sum_of_waves(table, curve, wave, after - 1.0, YES, final, trace)
+            x, _ = jump_of_wave(table, curve, after - 1.0, YES, trace)
             jumps += after - wave
         arrive(trace, near, x, loss, jumps)
         now = near
@@ -239,7 +239,7 @@ def _unload_through(table: Any, curve: Curve, near: int, waves: Any, trace: Any,
         else:
             loss, last = -energy_from_zero(table, curve, start, level) if losses else 0.0, level
     if losses:
-        loss += sum_of_waves(table, curve, lowest + 1.0, after, False, final, trace)
+        loss += sum_of_waves(table, curve, lowest + 1.0, after, NO, final, trace)
     leave(trace, near, loss, jumps + after - lowest, last)
 
 
@@ -263,7 +263,7 @@ def _nominal_branch(table: Any, curve: Curve, rim: float, final: float, trace: A
 
 @kernel()
 def stride(
-    table: Any, curve: Curve, arches: tuple[float, float], rim: float, trace: Any, losses: bool, reach: float = 1.0
+    table: Any, curve: Curve, arches: tuple[float, float], rim: float, trace: Any, losses: bool, reach: float
 ) -> tuple[int, Any]:
     """Do what `walk` does for one rim of a long curve, leaving out the regular waves in the middle.
 
@@ -276,7 +276,7 @@ def stride(
     near, before = 0, 0.5 * first
     if first < MOST_ARCHES:
         beginning = (0.5 * first + reach * BEGINNING) + table.phase / TWO_PI
-        near = append_branches(table, curve, int(first), final, beginning, trace, 0)
+        near = append_branches(table, curve, int(first), final, beginning, trace, NONE)
         before = _wave_of(table, trace[START, near - 1]) if near > 0 else before
     count = near
     if last < MOST_ARCHES:

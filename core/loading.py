@@ -1,9 +1,9 @@
 """Loading: up a branch to its end, then outwards at that depth to the next branch that reaches higher."""
 
 import math
-from typing import Any
+from typing import Any, Final
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import constant, kernel
 from gradhesion.core.branches import (
     ARRIVAL,
     END,
@@ -17,6 +17,9 @@ from gradhesion.core.branches import (
 )
 from gradhesion.core.curve import Curve
 from gradhesion.core.jump_energy import energy_from_zero, jump_energy
+
+NOWHERE: Final = constant(-1)
+"""The branch of no contact."""
 
 
 @kernel()
@@ -59,7 +62,7 @@ def climb(table: Any, curve: Curve, now: int, count: int, trace: Any, furthest: 
 def load_up(table: Any, curve: Curve, count: int, trace: Any, furthest: float, losses: bool) -> int:
     """Follow loading from zero contact; return the last branch that it arrives on, -1 if none."""
     trace[ARRIVAL, :count] = math.inf
-    return climb(table, curve, -1, count, trace, furthest, losses)
+    return climb(table, curve, NOWHERE, count, trace, furthest, losses)
 
 
 @kernel()

@@ -39,7 +39,7 @@ def theta_of(k: float, nu: float) -> float:
     return math.sqrt(math.pi) * (1.0 + k) * gammas * quotient
 
 
-@kernel()
+@kernel(entry=True)
 def _thetas(k: Any, nu: Any, out: Any) -> None:
     for i in range(k.size):
         out[i] = theta_of(k[i], nu[i])

@@ -11,7 +11,7 @@ the best trough found: two or three troughs of a thousand are ever looked at.
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import YES, kernel
 from gradhesion.core.curve import Curve, load, wave
 from gradhesion.core.folds import fold_of_arch, survey_arch
 from gradhesion.core.struve.arches import inner_edge
@@ -37,7 +37,7 @@ def _trough(table: Any, curve: Curve, i: int) -> float:
     survey = survey_arch(table, curve, level, i)
     if survey[0] <= 0:
         return 0.0
-    x, _ = fold_of_arch(table, curve, level, i, survey, True, 0.0)
+    x, _ = fold_of_arch(table, curve, level, i, survey, YES, 0.0)
     return x
 
 

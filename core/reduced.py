@@ -25,8 +25,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.jump_in_radius import jump_in_radius_of_envelope
+from gradhesion.core.names import PARAMETERS
 from gradhesion.core.similarity import amplitude_of_ratio, similarity_length
-from gradhesion.core.sweep import PARAMETERS
 
 _Array = NDArray[np.float64]
 _MATERIAL: Final = PARAMETERS[:4]

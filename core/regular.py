@@ -18,7 +18,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import NO, YES, kernel
 from gradhesion.core.branches import VALUES, WORK, find_depth
 from gradhesion.core.curve import Curve
 from gradhesion.core.folds import find_zero
@@ -57,8 +57,8 @@ def _fold_near(table: Any, curve: Curve, wave: float, rising: bool, guess: float
     level = 0.5 * (1.0 - table.k)
     centre = table.phase / TWO_PI + wave + lag
     if rising:
-        return find_zero(table, curve, level, centre - 0.5, centre, True, guess)
-    return find_zero(table, curve, level, centre, centre + 0.5, False, guess)
+        return find_zero(table, curve, level, centre - 0.5, centre, YES, guess)
+    return find_zero(table, curve, level, centre, centre + 0.5, NO, guess)
 
 
 @kernel(contract=True)
@@ -102,8 +102,8 @@ def _landing(table: Any, curve: Curve, depth: float, fold: tuple[float, float], 
 @kernel()
 def branch_of_wave(table: Any, curve: Curve, wave: float) -> tuple[float, float, float, float]:
     """Return place and depth of the start, and of the end, of the branch of a wave."""
-    start, start_depth = fold_of_wave(table, curve, wave, True)
-    end, end_depth = fold_of_wave(table, curve, wave, False)
+    start, start_depth = fold_of_wave(table, curve, wave, YES)
+    end, end_depth = fold_of_wave(table, curve, wave, NO)
     return start, start_depth, end, end_depth
 
 
@@ -125,7 +125,7 @@ def _shifted(table: Any, curve: Curve, wave: float, far: float) -> tuple[Curve, 
 def end_of_wave(table: Any, curve: Curve, wave: float) -> tuple[Curve, float]:
     """Return where the branch of a wave ends, on a curve that lags; `wave` is any real number."""
     shifted, whole, _ = _shifted(table, curve, wave, FAR)
-    x, _ = fold_of_wave(table, shifted, whole, False)
+    x, _ = fold_of_wave(table, shifted, whole, NO)
     return shifted, x
 
 

@@ -17,7 +17,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core import smooth
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import NO, YES, constant, kernel
 from gradhesion.core.branches import ARRIVAL, END, START
 from gradhesion.core.curve import Curve, curve_of, depth, force_unit, wave
 from gradhesion.core.cycle import MOST_ARCHES, extent, is_endless_wave, is_long, is_smooth, stride, walk
@@ -29,16 +29,6 @@ from gradhesion.core.status import NO_VALUE, TOLERANCE_NOT_MET
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.unloading import unloading_from
 
-REPORTS: Final = (
-    "pull_off_force_error",
-    "dissipated_energy_error",
-    "energy_residual",
-    "roughness_parameter",
-    "saturation_radius",
-    "adhesion_gain",
-    "energy_gain",
-)
-"""All that can be asked for beside the results, in the order of the rows."""
 NEEDED: Final = {
     "pull_off_force_error": "pull_off_radius",
     "dissipated_energy_error": "dissipated_energy",
@@ -47,7 +37,7 @@ NEEDED: Final = {
     "energy_gain": "dissipated_energy",
 }
 """The result that a report starts from."""
-FORCE_ERROR, ENERGY_ERROR, RESIDUAL, ROUGHNESS, SATURATION, ADHESION_GAIN, ENERGY_GAIN = 0, 1, 2, 3, 4, 5, 6
+FORCE_ERROR, ENERGY_ERROR, RESIDUAL, ROUGHNESS, SATURATION, ADHESION_GAIN, ENERGY_GAIN = map(constant, range(7))
 _ROUNDING: Final = 6.0 * 2.0**-52
 _PROMISED: Final = 1e-9
 """Error of the energy, in parts of its terms, above which a scene does not meet the tolerance (docs/accuracy.md)."""
@@ -77,7 +67,7 @@ def last_fold(table: Any, curve: Curve, arches: tuple[float, float]) -> float:
     while i >= max(0, int(first) - 1, int(final) - _ARCHES_BACK):
         survey = survey_arch(table, curve, level, i)
         if survey[0] > 0:
-            x, _ = fold_of_arch(table, curve, level, i, survey, True, 0.0)
+            x, _ = fold_of_arch(table, curve, level, i, survey, YES, 0.0)
             return x
         i -= 1
     return 0.0
@@ -98,8 +88,8 @@ def _outermost(count: int, trace: Any, rim: float) -> float:
 def _energy_at(table: Any, curve: Curve, count: int, trace: Any, rim: float) -> float:
     """Return the reduced energy of a cycle up to the rim."""
     rim_depth = depth(table, curve, rim) if rim < math.inf else math.inf
-    loading, _ = loading_to(table, curve, count, trace, rim, True)
-    unloading, _, _ = unloading_from(table, curve, count, trace, rim, rim_depth, True)
+    loading, _ = loading_to(table, curve, count, trace, rim, YES)
+    unloading, _, _ = unloading_from(table, curve, count, trace, rim, rim_depth, YES)
     return loading + unloading
 
 
@@ -128,10 +118,10 @@ def _report_energy(
     long = is_long(table, arches, x)
     residual = math.nan
     if long:
-        count, trace = stride(table, curve, arches, x, scratch, True, 2.0)
+        count, trace = stride(table, curve, arches, x, scratch, YES, 2.0)
         error = 4.0 * abs(energy - scale * _energy_at(table, curve, count, trace, x))
     else:
-        count, trace = walk(table, curve, arches, x, scratch, True)
+        count, trace = walk(table, curve, arches, x, scratch, YES)
         error = 0.0
     terms = scale * _energy_terms(table, curve, count, trace, x)
     error += _ROUNDING * terms
@@ -140,7 +130,7 @@ def _report_energy(
     waves = _outermost(count, trace, x) - (trace[START, 0] if count > 0 else 0.0)
     if slots[RESIDUAL] >= 0 and max(min(arches[1], 2.0 * x) - arches[0], 2.0 * waves) <= _LOOPED:
         if long:
-            count, trace = walk(table, curve, arches, x, scratch, False)
+            count, trace = walk(table, curve, arches, x, scratch, NO)
         rim_depth = depth(table, curve, x) if x < math.inf else math.inf
         residual = energy - scale * loop_energy(table, curve, count, trace, x, rim_depth)
     put(out, slots, ENERGY_ERROR, i, error)

@@ -8,21 +8,11 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import constant, kernel
 
-OUTPUTS: Final = (
-    "pull_off_force",
-    "pull_off_radius",
-    "dissipated_energy",
-    "loading_jumps",
-    "unloading_jumps",
-    "delta_max",
-    "delta_jump_out",
-)
-"""All results of a scene, in the order of the rows."""
 INTEGERS: Final = ("loading_jumps", "unloading_jumps")
 """Those that count."""
-FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST = 0, 1, 2, 3, 4, 5, 6
+FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST = map(constant, range(7))
 """The rows."""
 CONTACT = 7
 """One more slot, not -1 if the status shall tell where loading does not keep the contact one disc."""

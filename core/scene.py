@@ -175,9 +175,44 @@ def _solve_cycle(
     for i in range(rims.size):
         x = rims[i] / wavelength
         if not is_unresolved(arches, x) and is_long(table, arches, x):
-            count, trace = stride(table, curve, arches, x, scratch, losses)
+            count, trace = stride(table, curve, arches, x, scratch, losses, 1.0)
             limits = _limits(table, curve, count, trace, x, slots)
             _cycle_at_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i)
+
+
+@kernel()
+def _mark_unresolved(wavelength: float, rims: Any, out: Any, status: Any) -> None:
+    """Give no value to rims that have none, or whose size over the wavelength has none."""
+    for i in range(rims.size):
+        if status[i] & NO_VALUE or not rims[i] / wavelength > SMALLEST or LARGEST < rims[i] / wavelength < math.inf:
+            out[:, i] = math.nan
+            status[i] = NO_VALUE
+
+
+@kernel()
+def solve_pull_off(
+    table: Any,
+    constants: Any,
+    stretch: float,
+    wavelength: float,
+    amplitude: float,
+    rims: Any,
+    slots: Any,
+    out: Any,
+    status: Any,
+) -> None:
+    """Do what `solve_curve` does where nothing but the pull-off is asked for: no cycle is compiled with it."""
+    k = table.k
+    if is_endless_wave(wavelength, amplitude):
+        _solve_smooth(k, constants, stretch, rims, slots, out, status)
+        return
+    curve, length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
+    if not (0.0 < curve[0] < LARGEST and curve[1] < LARGEST):
+        out[:, :] = math.nan
+        status[:] = NO_VALUE
+        return
+    _solve_force(table, curve, force_unit(k, length, depth_scale), wavelength, rims, slots, out, status)
+    _mark_unresolved(wavelength, rims, out, status)
 
 
 @kernel()
@@ -213,7 +248,4 @@ def solve_curve(
     if folds:
         scales = (TWO_PI * length * length, depth_scale)
         _solve_cycle(table, curve, arches, scales, wavelength, rims, slots, out, status, scratch)
-    for i in range(rims.size):
-        if status[i] & NO_VALUE or not rims[i] / wavelength > SMALLEST or LARGEST < rims[i] / wavelength < math.inf:
-            out[:, i] = math.nan
-            status[i] = NO_VALUE
+    _mark_unresolved(wavelength, rims, out, status)

@@ -14,7 +14,8 @@ from gradhesion.core._jit import kernel
 from gradhesion.core.smooth import smooth_constants
 from gradhesion.core.status import NO_VALUE
 
-EXACT, ASYMPTOTIC, ENVELOPE = 0, 1, 2
+EXACT, ASYMPTOTIC, ENVELOPE, PULL_OFF = 0, 1, 2, 3
+"""The last one is the exact solver where nothing but the pull-off is asked for: a third of the code to compile."""
 
 
 @kernel()
@@ -57,6 +58,8 @@ def loop_of(solver: int) -> Callable[..., None]:
                 scene.solve_curve(
                     table, constants, stretch, wavelength[i], amplitude[i], row, slots, values, flags, scratch
                 )
+            elif solver == PULL_OFF:
+                scene.solve_pull_off(table, constants, stretch, wavelength[i], amplitude[i], row, slots, values, flags)
             elif solver == ASYMPTOTIC:
                 asymptotic_cycle.solve_curve(table, stretch, wavelength[i], amplitude[i], row, slots, values, flags)
             else:
@@ -66,5 +69,5 @@ def loop_of(solver: int) -> Callable[..., None]:
 
 
 LOOPS: Final = {"exact": loop_of(EXACT), "asymptotic": loop_of(ASYMPTOTIC), "envelope": loop_of(ENVELOPE)}
-SOLVERS: Final = tuple(LOOPS)
-"""For wavelengths far below the contact radius: the leading term (asymptotic.py), and closed forms (envelope.py)."""
+"""The loop of each of names.SOLVERS."""
+PULL_OFF_LOOP: Final = loop_of(PULL_OFF)

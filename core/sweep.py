@@ -14,22 +14,22 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core import _jit
 from gradhesion.core.branches import ROWS
+from gradhesion.core.cache import note_compiled
 from gradhesion.core.general.envelope import solve_envelope
 from gradhesion.core.general.report import report_general
 from gradhesion.core.general.sweep import equivalent_wave, solve_general
+from gradhesion.core.kinds import kind_of_map
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.material import fill_stiffness
+from gradhesion.core.names import OUTPUTS, PARAMETERS, REPORTS, SOLVERS
 from gradhesion.core.profile import Profile
-from gradhesion.core.report import NEEDED, REPORTS, report_curves
-from gradhesion.core.results import OUTPUTS, typed
-from gradhesion.core.solvers import LOOPS, SOLVERS
+from gradhesion.core.report import NEEDED, report_curves
+from gradhesion.core.results import typed
+from gradhesion.core.solvers import LOOPS, PULL_OFF_LOOP
 from gradhesion.core.status import NO_VALUE
 from gradhesion.core.struve.table import build_table
 
-PARAMETERS: Final = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
-"""The seven parameters of a scene, in the order of a dataset's dimensions."""
 _TASK: Final = 2048
 """Scenes a task: some milliseconds, a thousand times the cost of handing it to a thread."""
 _BRANCHES: Final = 192
@@ -37,14 +37,6 @@ _BRANCHES: Final = 192
 
 table_of = lru_cache(maxsize=128)(build_table)
 """The table of an exponent, kept for the next call (56 kB each)."""
-
-
-def compiled_before(*, curves: bool = False) -> bool:
-    """Return whether the kernels of `solve` (or of `draw_curves`) were compiled before; if not, a call is slow."""
-    kernels = ("sample", "find_corners") if curves else ("solve_curves",)
-    return _jit.CACHE_FOLDER.is_dir() and any(
-        next(_jit.CACHE_FOLDER.rglob(f"*.{kernel}-*.nbc"), None) for kernel in kernels
-    )
 
 
 def _shared_axes(shapes: Sequence[tuple[int, ...]], dimensions: int) -> int:
@@ -136,6 +128,7 @@ def solve(
     if reports and solver != "exact":
         raise ValueError(f"outputs {reports} are known of the exact solver only, not of {solver!r}")
     profile, loading = profile or Profile(), loading or Loading()
+    kind = kind_of_map(outputs, solver, profile, loading)
     if ("machine_stiffness" in parameters) != (loading.control == "machine"):
         raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
     if profile != Profile() or loading != Loading():
@@ -148,7 +141,9 @@ def solve(
             )
         alike = equivalent_wave(profile) if loading == Loading() else None
         if alike is None and solver == "envelope":
-            return solve_envelope(parameters, PARAMETERS, outputs, profile)
+            results = solve_envelope(parameters, PARAMETERS, outputs, profile)
+            note_compiled(kind)
+            return results
         if alike is None:
             workers = threads or os.cpu_count() or 1
             wanted = [name for name in outputs if name in OUTPUTS]
@@ -158,6 +153,7 @@ def solve(
             )
             if reports:
                 found |= report_general(parameters, PARAMETERS, reports, found, profile, loading, workers)
+            note_compiled(kind)
             return {name: found[name] for name in (*outputs, "status")}
         wavelengths_a_wave, amplitude_factor = alike
         parameters = {
@@ -192,7 +188,7 @@ def solve(
         _flat(each, curve_shape) for each in (nu, modulus, c0, wavelength, amplitude)
     )
     stiffnesses = np.empty(curves)
-    solve_curves = LOOPS[solver]
+    solve_curves = PULL_OFF_LOOP if kind == "force" else LOOPS[solver]
 
     def work(task: tuple[float, NDArray[np.int64]]) -> None:
         exponent, index = task
@@ -213,6 +209,7 @@ def solve(
         for task in tasks:
             work(task)
 
+    note_compiled(kind)
     if without_rim.any():
         out[:, np.broadcast_to(without_rim, status.shape)] = math.nan
         status[np.broadcast_to(without_rim, status.shape)] = NO_VALUE

@@ -1,40 +1,45 @@
-"""Compile the kernels that most tests need, each once: processes that run tests side by side would compile them twice.
+"""Compile the kernels that tests need, each once: processes that run tests side by side would compile them twice.
 
-`python -m tests.compile wave` and `python -m tests.compile any` share the work.
+`python -m tests.compile` does so in two processes; `python -m tests.compile KIND ...` compiles some kinds in this one.
 """
 
 import argparse
-from typing import Any
+import subprocess
+import sys
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
-import numpy as np
-
-from gradhesion.core import OUTPUTS, REPORTS, Loading, Profile, draw_curves, solve
-
-SCENE: dict[str, Any] = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "A": 0.03}
-SCENE |= {"a_max_over_R": 0.5}
+from gradhesion.core import KINDS, NEEDS, compile_kind
 
 
-def wave() -> None:
-    """Compile what one cosine wave under displacement control needs."""
-    solve(SCENE, (*OUTPUTS, *REPORTS))
-    for solver in ("envelope", "asymptotic"):
-        solve(SCENE, solver=solver)
-    draw_curves(SCENE, ["equilibrium", "path", "asymptotic", "envelope", "effective", "smooth", "jumps"])
+def compile_all(processes: int) -> None:
+    """Compile all kinds, each in a process of its own and after those whose kernels it shares."""
+    waiting, done = dict(NEEDS), set[str]()
+    under_way: dict[Future[None], str] = {}
+    with ThreadPoolExecutor(processes) as pool:
+        while waiting or under_way:
+            ready = [kind for kind, needs in waiting.items() if done.issuperset(needs)]
+            for kind in ready[: processes - len(under_way)]:
+                del waiting[kind]
+                under_way[pool.submit(_in_a_process, kind)] = kind
+            for future in wait(under_way, return_when=FIRST_COMPLETED).done:
+                future.result()
+                done.add(under_way.pop(future))
 
 
-def any_profile() -> None:
-    """Compile what any other profile or control needs."""
-    profile, loading = Profile(exponent=2.5), Loading(control="machine")
-    scene = SCENE | {"machine_stiffness": np.array(3.0)}
-    solve(scene, (*OUTPUTS, *REPORTS), profile=profile, loading=loading)
-    draw_curves(SCENE | {"machine_stiffness": 3.0}, ["equilibrium", "path", "smooth", "jumps"], profile, loading)
+def _in_a_process(kind: str) -> None:
+    subprocess.run([sys.executable, "-m", "tests.compile", kind], check=True)
 
 
 def main() -> None:
-    """Compile one half."""
+    """Compile some kinds, or all."""
     parser = argparse.ArgumentParser(prog="python -m tests.compile", description=__doc__)
-    parser.add_argument("half", choices=["wave", "any"])
-    {"wave": wave, "any": any_profile}[parser.parse_args().half]()
+    parser.add_argument("kinds", nargs="*", metavar="KIND", help=f"out of {', '.join(KINDS)} [all]")
+    parser.add_argument("--processes", type=int, default=2, help="side by side [%(default)s]")
+    asked = parser.parse_args()
+    for kind in asked.kinds:
+        compile_kind(kind)
+    if not asked.kinds:
+        compile_all(asked.processes)
 
 
 if __name__ == "__main__":

@@ -72,7 +72,8 @@ def run(
     """Compute STUDY (TOML) into a dataset (NetCDF). After an interrupt or a crash the same command goes on."""
     from gradhesion.cli.dataset.writer import write
     from gradhesion.cli.study.study import load_study
-    from gradhesion.core import compiled_before
+    from gradhesion.cli.work.kernels import kinds_of
+    from gradhesion.core import compile_kind, compiled_before
 
     if scheduler is not None and (engine != "dask" or threads is not None):
         raise click.UsageError("--scheduler goes with --engine dask, and without --threads: its workers have their own")
@@ -81,8 +82,12 @@ def run(
     if dry_run:
         show_plan(asked, path, threads)
         return
-    if not quiet and not compiled_before(curves=asked.kind == "curve"):
-        messages.say("compile", "compiling the kernels, once per version")
+    missing = [kind for kind in kinds_of(asked) if not compiled_before(kind)]
+    if missing and not quiet:
+        messages.say("compile", "compiling the kernels, once per version and kind of study")
+    if engine == "threads" and shard is None:
+        for kind in missing:
+            compile_kind(kind)
     solver = _engine(asked, engine, scheduler, threads, quiet=quiet)
     if shard is not None:
         if fresh or fail_fast:

@@ -23,12 +23,21 @@ from gradhesion.cli.names import SOLVER
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.work.blocks import solve_block
 from gradhesion.cli.work.parts import settings_of
-from gradhesion.core import CACHE_FOLDER
+from gradhesion.core import CACHE_FOLDER, kind_of_curves, kind_of_map
 
 PAUSE: Final = 0.2
 """Seconds between two looks at what another process compiles."""
 
 _one_of_us: Final = threading.Lock()
+
+
+def kinds_of(study: Study) -> tuple[str, ...]:
+    """Give the kinds of work of a study, each of which has kernels of its own (core/kinds.py)."""
+    if study.kind == "curve":
+        return (kind_of_curves(study.profile, study.loading),)
+    solvers = study.method.solver
+    solvers = (solvers,) if isinstance(solvers, str) else solvers
+    return tuple(kind_of_map(study.outputs, solver, study.profile, study.loading) for solver in solvers)
 
 
 def compile_kernels(study: Study) -> None:

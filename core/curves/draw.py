@@ -17,42 +17,11 @@ from gradhesion.core.curves.path import draw_path
 from gradhesion.core.curves.smooth import draw_smooth
 from gradhesion.core.curves.subject import Subject, subject_of
 from gradhesion.core.loading_control import Loading
+from gradhesion.core.names import CURVES, PARAMETERS
 from gradhesion.core.profile import Profile
 from gradhesion.core.status import FAILED, NO_VALUE
-from gradhesion.core.sweep import PARAMETERS, solve
+from gradhesion.core.sweep import solve
 
-CURVES: Final[dict[str, tuple[str, ...]]] = {
-    "equilibrium": ("contact_radius", "indentation", "load", "stable"),
-    "path": (
-        "path_contact_radius",
-        "path_indentation",
-        "path_load",
-        "path_branch",
-        "path_jump",
-        "path_unloading",
-    ),
-    "asymptotic": ("asymptotic_contact_radius", "asymptotic_indentation", "asymptotic_load"),
-    "envelope": (
-        "envelope_contact_radius",
-        "loading_envelope_indentation",
-        "loading_envelope_load",
-        "unloading_envelope_indentation",
-        "unloading_envelope_load",
-    ),
-    "effective": ("effective_contact_radius", "effective_indentation", "effective_load", "effective_jump"),
-    "smooth": ("smooth_contact_radius", "smooth_indentation", "smooth_load"),
-    "jumps": (
-        "jump_indentation",
-        "jump_radius_before",
-        "jump_radius_after",
-        "jump_energy",
-        "jump_load_before",
-        "jump_load_after",
-        "jump_unloading",
-        "jump_at_rim",
-    ),
-}
-"""The variables of every curve, in order; those of the jumps have an item a jump, the others a point."""
 _TYPES: Final[dict[str, type[np.signedinteger[Any]]]] = {
     "stable": np.int8,
     "path_branch": np.int32,

@@ -29,7 +29,7 @@ def scales_of(knots: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.divide(1.0, spans, out=np.zeros(3), where=spans > 0.0)
 
 
-@kernel()
+@kernel(entry=True)
 def _mark_stable(trace: Any, places: Any, stable: Any) -> None:
     """Mark places in the inside of a branch; the start of the first branch of k = 1 is no fold."""
     branch = 0

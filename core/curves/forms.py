@@ -59,7 +59,7 @@ def _general_point(basis: Any, numbers: Any, x: float) -> tuple[float, float]:
     """Return depth and load of general/curve.py."""
     if x == 0.0:
         return (-1.0 if basis[0].k == 1.0 else 0.0), 0.0
-    _, _, _, depth, load = state(basis, numbers[:5], x)
+    _, _, _, depth, load = state(basis, numbers[:5], x, 0.0)
     return depth, load
 
 

@@ -24,9 +24,9 @@ from gradhesion.core.general.sweep import compliance_of, front_of, rows_of, tabl
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.material import stiffness
+from gradhesion.core.names import PARAMETERS
 from gradhesion.core.profile import Profile
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.sweep import PARAMETERS
 
 MOST_FOLDS: Final = 20_000
 """Folds of a curve that is drawn."""
@@ -38,7 +38,7 @@ def _folds(basis: Basis, numbers: Numbers, furthest: float) -> tuple[NDArray[np.
     zeros = np.empty(MOST_FOLDS)
     count, rises, last = 0, False, min(furthest, end)
     if first < last < math.inf:
-        count, rises, _ = find_folds(basis, numbers, first, last, room(), zeros)
+        count, rises, _ = find_folds(basis, numbers, first, last, room(), zeros, 0.0)
     if count < 0 or last == math.inf:
         return None
     return zeros[:count], rises
@@ -54,7 +54,7 @@ def _trace(
         return None, np.empty(0)
     zeros, rises = folds
     rows = np.empty((zeros.size // 2 + 2, 4))
-    branches = fill_branches(basis, numbers, zeros, zeros.size, rises, furthest, rows)
+    branches = fill_branches(basis, numbers, zeros, zeros.size, rises, furthest, rows, 0.0)
     others = np.setdiff1d(np.concatenate([turns[0][0], turns[1][0]]), zeros)
     trace = np.ascontiguousarray(rows[:branches].T)
     trace[END, trace[END] == furthest] = math.inf  # the rim is no fold
@@ -112,7 +112,9 @@ def subject_of(scene: Mapping[str, float], profile: Profile, loading: Loading) -
     if not rim < math.inf:
         places = [BEYOND_SMOOTH * smooth_place(form, profile.exponent) / TWO_PI, *BEYOND * turns[-1:]]
         if trace is not None:
-            arrival = find_level(basis, curve, float(np.max(trace[END_LEVEL, :-1], initial=0.0)), trace[:, -1])
+            arrival = find_level(
+                basis, curve, float(np.max(trace[END_LEVEL, :-1], initial=0.0)), trace[:, -1].copy(), 0.0
+            )
             places += [BEYOND * trace[START, -1], BEYOND * arrival]
         end = wavelength * max(places)
     return Subject(table, stretch, wavelength, math.nan, amplitude * wavelength, rim, end, form, trace, turns)

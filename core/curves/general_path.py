@@ -51,7 +51,7 @@ class _Walk:
 
     def land(self, branch: NDArray[np.float64], level: float, number: float, unloading: bool) -> None:
         """Jump to a branch at a level."""
-        place = find_level(self.form.table, self.curve, level, branch)
+        place = find_level(self.form.table, self.curve, level, branch.copy(), 0.0)
         self.put(place, *self.kept(*self.at(place)), False, number, True, unloading)
 
     def along(self, place: float, number: float, unloading: bool) -> None:
@@ -136,7 +136,7 @@ def list_jumps(subject: Subject) -> dict[str, NDArray[Any]]:
         elif end == 0.0:
             energies[i] = -energy_from_zero(form.table, curve, start, levels[i])
         else:
-            energies[i] = jump_energy(form.table, curve, start, end)
+            energies[i] = jump_energy(form.table, curve, start, end, 0.0)
     length = form.radius_scale / TWO_PI
     at_rim = ((left == rim) | (reached == rim)) & subject.bounded
     return {

@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import NO, NONE, YES, kernel
 from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, START, START_DEPTH, ends, find_depth
 from gradhesion.core.curve import Curve
 from gradhesion.core.curves.equilibrium import scales_of
@@ -55,7 +55,7 @@ def _along(
     low, high = min(start, place), max(start, place)
     first = np.searchsorted(load_folds, low, side="right")
     last = np.searchsorted(load_folds, high, side="left")
-    flags = (True, branch, False, unloading)
+    flags = (YES, branch, NO, unloading)
     for j in range(last - first):
         fold = load_folds[last - 1 - j] if unloading else load_folds[first + j]
         fold_depth, fold_load = point(kind, table, numbers, fold)
@@ -74,7 +74,7 @@ def _land(
     level = corners[DEPTH, count - 1]
     place = landed(table, (numbers[0], numbers[1], 0.0), level, guess) if kind == EXACT else guess
     _, load = point(kind, table, numbers, place)
-    return _put(corners, count, place, level, load, (False, branch, True, unloading))
+    return _put(corners, count, place, level, load, (NO, branch, YES, unloading))
 
 
 @kernel()
@@ -90,7 +90,7 @@ def find_corners(kind: int, table: Any, numbers: Numbers, trace: Any, load_folds
     at_rim = branches + 1.0
     rim_depth, rim_load = point(kind, table, numbers, rim)
     corners = np.empty((_ROWS, 2 * load_folds.size + 4 * branches + 8))
-    count = _put(corners, 0, 0.0, 0.0, 0.0, (False, 0.0, False, False))
+    count = _put(corners, NONE, 0.0, 0.0, 0.0, (NO, 0.0, NO, NO))
 
     # loading: up each branch that it arrives on, to its end or to the rim
     left, level = 0.0, 0.0
@@ -98,17 +98,17 @@ def find_corners(kind: int, table: Any, numbers: Numbers, trace: Any, load_folds
         arrival = trace[ARRIVAL, branch]
         if not arrival <= rim:
             continue
-        count = _land(kind, table, numbers, corners, count, arrival, branch + 1.0, False)
+        count = _land(kind, table, numbers, corners, count, arrival, branch + 1.0, NO)
         if trace[END, branch] < rim:
             left, level = trace[END, branch], trace[END_DEPTH, branch]
         else:
             left, level = rim, rim_depth
-        count = _along(kind, table, numbers, load_folds, corners, count, (left, level), branch + 1.0, False)
+        count = _along(kind, table, numbers, load_folds, corners, count, (left, level), branch + 1.0, NO)
     if left < rim:  # no branch within the rim reaches higher
         load = pinned_load(kind, table.k, rim, rim_depth, rim_load, level)
-        count = _put(corners, count, rim, level, load, (False, at_rim, True, False))
+        count = _put(corners, count, rim, level, load, (NO, at_rim, YES, NO))
     if pinned and level > rim_depth:
-        count = _put(corners, count, rim, rim_depth, rim_load, (False, at_rim, False, True))
+        count = _put(corners, count, rim, rim_depth, rim_load, (NO, at_rim, NO, YES))
 
     # unloading: down each branch to its start
     now = branches - 1
@@ -117,16 +117,16 @@ def find_corners(kind: int, table: Any, numbers: Numbers, trace: Any, load_folds
         now = next_lower(trace, now, rim_depth)
         if now >= 0:
             place = find_depth(table, curve, level, ends(trace, now))
-            count = _land(kind, table, numbers, corners, count, place, now + 1.0, True)
+            count = _land(kind, table, numbers, corners, count, place, now + 1.0, YES)
     while now >= 0:
         place, level = trace[START, now], trace[START_DEPTH, now]
-        count = _along(kind, table, numbers, load_folds, corners, count, (place, level), now + 1.0, True)
+        count = _along(kind, table, numbers, load_folds, corners, count, (place, level), now + 1.0, YES)
         now = next_lower(trace, now - 1, level)
         if now >= 0:
             place = find_depth(table, curve, level, ends(trace, now))
-            count = _land(kind, table, numbers, corners, count, place, now + 1.0, True)
+            count = _land(kind, table, numbers, corners, count, place, now + 1.0, YES)
     if place > 0.0:  # else the contact has shrunk to a point (k = 1)
-        count = _put(corners, count, 0.0, level, 0.0, (False, 0.0, True, True))
+        count = _put(corners, count, 0.0, level, 0.0, (NO, 0.0, YES, YES))
     return corners[:, :count]
 
 

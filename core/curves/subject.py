@@ -15,7 +15,8 @@ from gradhesion.core.curves import knots
 from gradhesion.core.curves.forms import EXACT, PLAIN, Numbers
 from gradhesion.core.cycle import extent, is_endless_wave, is_smooth, walk
 from gradhesion.core.material import stiffness
-from gradhesion.core.sweep import PARAMETERS, table_of
+from gradhesion.core.names import PARAMETERS
+from gradhesion.core.sweep import table_of
 
 BEYOND: Final = 1.05
 """How far an unbounded punch is drawn beyond the last that happens to it."""

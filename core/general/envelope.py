@@ -22,8 +22,9 @@ from gradhesion.core.equations.envelopes import waviness_strength
 from gradhesion.core.general.crest import swings
 from gradhesion.core.general.sweep import rows_of
 from gradhesion.core.material import stiffness
+from gradhesion.core.names import OUTPUTS
 from gradhesion.core.profile import Profile
-from gradhesion.core.results import INTEGERS, OUTPUTS
+from gradhesion.core.results import INTEGERS
 from gradhesion.core.status import NO_VALUE
 
 _Array = NDArray[np.float64]

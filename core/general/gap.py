@@ -60,7 +60,7 @@ def edge_at(basis: Basis, curve: Curve, x: float) -> Edge:
     table, cosines, series = basis
     B, m, g, _, _ = curve
     z = TWO_PI * x
-    w0, _, _, _ = sums(table, cosines, series, x)
+    w0, _, _, _ = sums(table, cosines, series, x, 0.0)
     return x, B * z**m, g * z * w0, z * amplitude_power(table, z)
 
 
@@ -70,7 +70,7 @@ def _excess(basis: Basis, curve: Curve, edge: Edge, x: float) -> float:
     table, cosines, series = basis
     _, m, g, _, _ = curve
     x1, bend1, wave1, stretch1 = edge
-    w0, _, _, _ = sums(table, cosines, series, x)
+    w0, _, _, _ = sums(table, cosines, series, x, 0.0)
     # each term's difference first, as in energy.py
     return bend1 * math.expm1(m * math.log1p((x - x1) / x1)) + (g * (TWO_PI * x) * w0 - wave1) + stretch1
 

@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import YES, kernel
 from gradhesion.core.general.curve import Basis, Curve
 from gradhesion.core.general.energy import Left, drop, energy_from_zero, jump_energy, place_left
 from gradhesion.core.general.summation import sum_of_waves
@@ -25,7 +25,7 @@ def _pass(basis: Basis, curve: Curve, left: Left, low: float, high: float, whole
     inner, outer = begin - 1.0, end + 1.0
     total = drop(basis, curve, left, (whole - inner) + low, 1.0, inner)
     total += drop(basis, curve, left, 0.0, (whole - outer) + high, outer)
-    middle, _ = sum_of_waves(PASSING, basis, curve, 0.0, left, begin, end, room_for_waves(series), True)
+    middle, _ = sum_of_waves(PASSING, basis, curve, 0.0, left, begin, end, room_for_waves(series), YES)
     return total * TWO_PI * TWO_PI + middle
 
 

@@ -9,7 +9,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import NO, kernel
 from gradhesion.core.folds import CLOSE
 from gradhesion.core.general.branches import END, END_LEVEL, START, START_LEVEL, fill_branches, find_level
 from gradhesion.core.general.contact import loading_is_one_disc
@@ -71,8 +71,8 @@ def reach_rim(basis: Basis, curve: Curve, rim: float, state: State, losses: bool
 def leave_rim(basis: Basis, curve: Curve, count: int, trace: Any, rim: float, whole: float) -> tuple[int, State]:
     """Return the branches of a trace inside of where unloading is when it has left the rim, and its state."""
     if count > 0 and trace[count - 1, END] == rim:
-        return count - 1, (0.0, 0.0, trace[count - 1, START_LEVEL], whole, trace[count - 1, START], False)
-    return count, (0.0, 0.0, coordinate(basis, curve, rim, whole), whole, rim, False)
+        return count - 1, (0.0, 0.0, trace[count - 1, START_LEVEL], whole, trace[count - 1, START], NO)
+    return count, (0.0, 0.0, coordinate(basis, curve, rim, whole), whole, rim, NO)
 
 
 @kernel()
@@ -134,7 +134,7 @@ def walk(basis: Basis, curve: Curve, first: float, last: float, rim: float, task
     the contact stays one disc as far as was asked, and the rim as whole waves (none) and x beyond them.
     """
     losses, last_loss, test = tasks
-    nothing = (0.0, 0.0, 0.0, 0.0, 0.0, False)
+    nothing = (0.0, 0.0, 0.0, 0.0, 0.0, NO)
     zeros = np.empty(MOST_FOLDS)
     count, rises, tangency = 0, False, math.inf
     if first < last:

@@ -17,7 +17,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import NO, YES, kernel
 from gradhesion.core.general.branches import END, END_LEVEL, START, START_LEVEL, fill_branches, find_level
 from gradhesion.core.general.curve import Basis, Curve, coordinate, slope, state
 from gradhesion.core.general.envelope import chis
@@ -95,8 +95,8 @@ def _work(basis: Basis, curve: Curve, low: float, high: float) -> float:
         part = 0.0
         for i in range(NODES.size):
             x = high - width * NODES[i]
-            _, _, _, _, load = state(basis, curve, x)
-            _, _, rate = slope(basis, curve, x)
+            _, _, _, _, load = state(basis, curve, x, 0.0)
+            _, _, rate = slope(basis, curve, x, 0.0)
             part += WEIGHTS[i] * load * rate
         total += width * part
         high = max(low, high - width)
@@ -113,7 +113,7 @@ def loop(basis: Basis, curve: Curve, count: int, trace: Any, rim: float) -> tupl
         top = trace[branch, END_LEVEL]
         if top <= level:
             continue
-        place = find_level(basis, curve, level, trace[branch])
+        place = find_level(basis, curve, level, trace[branch], 0.0)
         outermost = place
         level, left = top, trace[branch, END]
         if left < rim:
@@ -123,11 +123,11 @@ def loop(basis: Basis, curve: Curve, count: int, trace: Any, rim: float) -> tupl
     if not arrives and rim < math.inf:
         outermost = rim
     if rim < math.inf:
-        _, _, front, _, load = state(basis, curve, rim)
-        pinned = max(0.0, level - coordinate(basis, curve, rim))
+        _, _, front, _, load = state(basis, curve, rim, 0.0)
+        pinned = max(0.0, level - coordinate(basis, curve, rim, 0.0))
         total -= pinned * (load + 0.5 * pinned * front / (alpha + beta * front))
     now = count - 1
-    left, level = (trace[now, START], trace[now, START_LEVEL]) if at_rim else (rim, coordinate(basis, curve, rim))
+    left, level = (trace[now, START], trace[now, START_LEVEL]) if at_rim else (rim, coordinate(basis, curve, rim, 0.0))
     if at_rim:
         # loading that lands on this branch as well goes the rest of it both ways
         total -= _work(basis, curve, left, place if arrives else rim)
@@ -137,7 +137,7 @@ def loop(basis: Basis, curve: Curve, count: int, trace: Any, rim: float) -> tupl
             now -= 1
         if now < 0:
             break
-        place = find_level(basis, curve, level, trace[now])
+        place = find_level(basis, curve, level, trace[now], 0.0)
         total -= _work(basis, curve, trace[now, START], place)
         left, level = trace[now, START], trace[now, START_LEVEL]
         now -= 1
@@ -160,8 +160,8 @@ def outermost_fold(basis: Basis, curve: Curve) -> float:
         if not high > first:
             return 0.0
         low = max(first, high - min(cell_width(series, high), _INWARDS * high))
-        value, _, _ = slope(basis, curve, low)
-        found, _, _ = folds_of_cell(basis, curve, low, high, value, work, zeros)
+        value, _, _ = slope(basis, curve, low, 0.0)
+        found, _, _ = folds_of_cell(basis, curve, low, high, value, work, zeros, 0.0)
         if found > 0:
             return zeros[found - 1]
         high = low
@@ -172,7 +172,7 @@ def outermost_fold(basis: Basis, curve: Curve) -> float:
 def _other_sum(basis: Basis, curve: Curve, first: float, last: float, rim: float, rim_low: float) -> float:
     """Return the energy of a long curve over 2 pi l^2 dgamma by other sums, NaN if it cannot be summed."""
     _, _, _, alpha, _ = curve
-    tasks = (True, alpha > 0.0, False)
+    tasks = (YES, alpha > 0.0, NO)
     done, loading, unloading, _, _, _, _ = stride(basis, curve, first, last, rim, rim_low, tasks, _APART)
     return loading[0] + unloading[0] if done else math.nan
 
@@ -199,10 +199,10 @@ def _energy_reports(
         zeros = np.empty(MOST_FOLDS)
         count, rises = 0, False
         if first < last:
-            count, rises, _ = find_folds(basis, curve, first, last, room(), zeros)
+            count, rises, _ = find_folds(basis, curve, first, last, room(), zeros, 0.0)
         if count >= 0:
             trace = np.empty((count // 2 + 2, 4))
-            branches = fill_branches(basis, curve, zeros, count, rises, rim, trace)
+            branches = fill_branches(basis, curve, zeros, count, rises, rim, trace, 0.0)
             total, outermost = loop(basis, curve, branches, trace, rim)
     residual = 2.0 / (1.0 + table.k) * total / alpha if alpha > 0.0 else math.nan
     return (TWO_PI * outermost * (1.0 + _crests(table, series, g))) ** 2, apart, residual

@@ -1,11 +1,12 @@
 """From the numbers of a general scene to its results: one kernel for one scene."""
 
 import math
+from collections.abc import Callable
 from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import NO, kernel
 from gradhesion.core.curve import force_unit
 from gradhesion.core.folds import CLOSE
 from gradhesion.core.general.curve import Basis, Curve, state
@@ -25,7 +26,6 @@ from gradhesion.core.results import (
     RADIUS,
     UNLOADING,
     put,
-    wants_cycle,
     wants_folds,
     wants_force,
 )
@@ -71,6 +71,14 @@ def curve_of(
 
 
 @kernel()
+def _refuse(slots: Any, out: Any, status: Any, i: int) -> None:
+    """Give a scene out of range no value."""
+    for row in range(LAST + 1):
+        put(out, slots, row, i, math.nan)
+    status[i] = NO_VALUE
+
+
+@kernel()
 def _cycle(
     basis: Basis,
     curve: Curve,
@@ -89,16 +97,16 @@ def _cycle(
     first = first_fold_bound(basis, curve) / TWO_PI
     last = min(rim, last_fold_bound(basis, curve) / TWO_PI)
     tasks = (slots[ENERGY] >= 0, alpha > 0.0, slots[CONTACT] >= 0)
-    nothing = (0.0, 0.0, 0.0, 0.0, 0.0, False)
+    nothing = (0.0, 0.0, 0.0, 0.0, 0.0, NO)
     done, loading, unloading, close, one_disc, waves, x = False, nothing, nothing, False, True, 0.0, rim
     if series.shape[0] > 0 and LONGEST_WALK < last - first < math.inf:
-        done, loading, unloading, close, one_disc, waves, x = stride(basis, curve, first, last, rim, rim_low, tasks)
+        done, loading, unloading, close, one_disc, waves, x = stride(
+            basis, curve, first, last, rim, rim_low, tasks, 0.0
+        )
     if not done and (last - first) * highest_harmonic(series) < MOST_CELLS:
         done, loading, unloading, close, one_disc, waves, x = walk(basis, curve, first, last, rim, tasks)
     if not done:
-        for row in range(LAST + 1):
-            put(out, slots, row, i, math.nan)
-        status[i] = NO_VALUE
+        _refuse(slots, out, status, i)
         return
     _, _, level, _, _, _ = loading
     _, _, _, whole, left, _ = unloading
@@ -122,88 +130,78 @@ def _cycle(
 
 
 @kernel()
-def solve_scene(
-    table: Any,
-    cosines: Any,
-    series: Any,
-    exponent: float,
-    front: float,
-    stretch: float,
-    wavelength: float,
-    amplitude: float,
-    compliance: float,
+def _pull_off(
+    basis: Basis,
+    curve: Curve,
+    scales: tuple[float, float],
+    x: float,
+    x_low: float,
     rim: float,
     slots: Any,
     out: Any,
     status: Any,
     i: int,
 ) -> None:
-    """Solve one scene (curve_of tells what its numbers are) and put its results into column i."""
-    basis = (table, cosines, series)
-    curve, length, unit = curve_of(table.k, exponent, front, stretch, wavelength, amplitude, compliance)
-    if not (0.0 < curve[0] < math.inf and 0.0 <= curve[2] < math.inf and rim > 0.0):
-        for row in range(LAST + 1):
-            put(out, slots, row, i, math.nan)
-        status[i] = NO_VALUE
-        return
-    x = rim / wavelength
-    x_low = fma(-x, wavelength, rim) / wavelength if x < math.inf else 0.0
-    if wants_force(slots):
-        lowest, place, second = lowest_load(basis, curve, x, x_low, room())
-        if not lowest < 0.0:
-            status[i] |= NO_VALUE
-            lowest = place = math.nan
-        elif second < lowest * (1.0 - CLOSE):
-            status[i] |= CLOSE_TO_A_JUMP
-        put(out, slots, FORCE, i, -force_unit(table.k, length, unit) * lowest)
-        put(out, slots, RADIUS, i, place * wavelength if place != x else rim)
-        if place == x:
-            status[i] |= PULL_OFF_AT_RIM
-    if wants_folds(slots) or wants_cycle(slots):
-        _cycle(basis, curve, length, unit, x, x_low, slots, out, status, i)
+    """Find the pull-off of a scene up to the rim x + x_low; `scales` are those of its load and of its places."""
+    force_scale, wavelength = scales
+    lowest, place, second = lowest_load(basis, curve, x, x_low, room())
+    if not lowest < 0.0:
+        status[i] |= NO_VALUE
+        lowest = place = math.nan
+    elif second < lowest * (1.0 - CLOSE):
+        status[i] |= CLOSE_TO_A_JUMP
+    put(out, slots, FORCE, i, -force_scale * lowest)
+    put(out, slots, RADIUS, i, place * wavelength if place != x else rim)
+    if place == x:
+        status[i] |= PULL_OFF_AT_RIM
 
 
-@kernel()
-def solve_scenes(
-    table: Any,
-    cosines: Any,
-    series: Any,
-    exponent: float,
-    front: float,
-    index: Any,
-    stretch: Any,
-    wavelength: Any,
-    amplitude: Any,
-    compliance: Any,
-    rim: Any,
-    slots: Any,
-    out: Any,
-    status: Any,
-) -> None:
-    """Solve the scenes `index` of one gradient exponent."""
-    smooth = np.zeros((0, 3))
-    for j in range(index.size):
-        i = index[j]
-        valid = 0.0 < stretch[i] < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf
-        if not (valid and rim[i] > 0.0 and compliance[i] >= 0.0):
-            for row in range(LAST + 1):
-                put(out, slots, row, i, math.nan)
-            status[i] = NO_VALUE
-            continue
-        waves = series if amplitude[i] > 0.0 else smooth
-        solve_scene(
-            table,
-            cosines,
-            waves,
-            exponent,
-            front,
-            stretch[i],
-            wavelength[i],
-            amplitude[i],
-            compliance[i],
-            rim[i],
-            slots,
-            out,
-            status,
-            i,
-        )
+def loop_of(*, cycles: bool) -> Callable[..., None]:
+    """Return the kernel that solves many scenes; without `cycles` it knows the pull-off alone."""
+
+    @kernel()
+    def solve_scenes(
+        table: Any,
+        cosines: Any,
+        series: Any,
+        exponent: float,
+        front: float,
+        index: Any,
+        stretch: Any,
+        wavelength: Any,
+        amplitude: Any,
+        compliance: Any,
+        rim: Any,
+        slots: Any,
+        out: Any,
+        status: Any,
+    ) -> None:
+        """Solve the scenes `index` of one gradient exponent (curve_of tells what their numbers are)."""
+        smooth = np.zeros((0, 3))
+        for j in range(index.size):
+            i = index[j]
+            valid = 0.0 < stretch[i] < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf
+            if not (valid and rim[i] > 0.0 and compliance[i] >= 0.0):
+                _refuse(slots, out, status, i)
+                continue
+            basis = (table, cosines, series if amplitude[i] > 0.0 else smooth)
+            curve, length, unit = curve_of(
+                table.k, exponent, front, stretch[i], wavelength[i], amplitude[i], compliance[i]
+            )
+            if not (0.0 < curve[0] < math.inf and 0.0 <= curve[2] < math.inf):
+                _refuse(slots, out, status, i)
+                continue
+            x = rim[i] / wavelength[i]
+            x_low = fma(-x, wavelength[i], rim[i]) / wavelength[i] if x < math.inf else 0.0
+            if wants_force(slots):
+                scales = (force_unit(table.k, length, unit), wavelength[i])
+                _pull_off(basis, curve, scales, x, x_low, rim[i], slots, out, status, i)
+            if cycles and wants_folds(slots):
+                _cycle(basis, curve, length, unit, x, x_low, slots, out, status, i)
+
+    return solve_scenes
+
+
+solve_scenes: Final = loop_of(cycles=True)
+solve_pull_offs: Final = loop_of(cycles=False)
+"""The same where nothing but the pull-off is asked for."""

@@ -100,7 +100,7 @@ def sums(table: Any, waves: Any, series: Any, x: float, whole: float = 0.0) -> t
     return summed(table, waves, series, x, 0.0, whole)
 
 
-@kernel()
+@kernel(entry=True)
 def _fill_near(table: Any, waves: Any, series: Any, count: float, near: Any) -> None:
     """Fill the bins up to z = 40 and a little more, `count` a wavelength."""
     values = np.empty((TERMS, 4))

@@ -127,7 +127,7 @@ def _orders(k: float, tail: NDArray[np.float64]) -> tuple[NDArray[np.float64], N
     return np.array([cosines, sines]), np.ascontiguousarray(slow[:, ::2].T)
 
 
-@kernel()
+@kernel(entry=True)
 def _fill_far(table: Any, series: Any, orders: Any, far: Any) -> None:
     """Fill the bins of F_j: those of w0, w1, v/z and v1/z."""
     bins = far.shape[0]

@@ -10,7 +10,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import NO, kernel
 from gradhesion.core.general.branches import END, END_LEVEL, START, START_LEVEL, fill_branches
 from gradhesion.core.general.contact import climb_is_one_disc
 from gradhesion.core.general.curve import Basis, Curve
@@ -276,7 +276,7 @@ def stride(
     """
     table, _, series = basis
     losses, last_loss, test = tasks
-    nothing = (0.0, 0.0, 0.0, 0.0, 0.0, False)
+    nothing = (0.0, 0.0, 0.0, 0.0, 0.0, NO)
     if last > MOST_WAVES:
         return False, nothing, nothing, False, True, 0.0, rim
     cut = cut_of(table, series)
@@ -322,7 +322,7 @@ def stride(
     loading = reach_rim(basis, curve, x, loading, losses, whole)
     inside, unloading = leave_rim(basis, curve, outer, far, x, whole)
     unloading = descend(basis, curve, inside, far, unloading, losses, whole)
-    unloading, _ = go_through(basis, curve, cut, begin, end, DOWN, unloading, work, losses, False)
+    unloading, _ = go_through(basis, curve, cut, begin, end, DOWN, unloading, work, losses, NO)
     unloading = descend(basis, curve, branches, near, unloading, losses, 0.0)
     unloading = leave(basis, curve, unloading, losses and last_loss)
     done = not (math.isnan(loading[0] + loading[1]) or math.isnan(unloading[0] + unloading[1]))

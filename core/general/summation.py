@@ -19,7 +19,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import NO, kernel
 from gradhesion.core.general.curve import Basis, Curve
 from gradhesion.core.general.energy import Left
 from gradhesion.core.general.waves import step_of_wave
@@ -79,11 +79,11 @@ def _last_of_run(
     kind: int, basis: Basis, curve: Curve, cut: float, left: Left, low: float, high: float, work: Any
 ) -> tuple[float, int]:
     """Return the last wave from `low` on, before `high`, of the pattern that `low` has, and the steps it took."""
-    _, _, pattern = step_of_wave(kind, basis, curve, cut, left, low, work, False)
+    _, _, pattern = step_of_wave(kind, basis, curve, cut, left, low, work, NO)
     steps = 1
     while high - low > 1.0:
         middle = np.floor(0.5 * (low + high))
-        _, _, there = step_of_wave(kind, basis, curve, cut, left, middle, work, False)
+        _, _, there = step_of_wave(kind, basis, curve, cut, left, middle, work, NO)
         steps += 1
         if there == pattern:
             low = middle

@@ -11,13 +11,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import beta
 
-from gradhesion.core.general.scene import solve_scenes
+from gradhesion.core.general.scene import solve_pull_offs, solve_scenes
 from gradhesion.core.general.series import with_table
 from gradhesion.core.general.series_table import has_table
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.material import stiffness
+from gradhesion.core.names import OUTPUTS, PULL_OFF
 from gradhesion.core.profile import Profile
-from gradhesion.core.results import OUTPUTS, typed
+from gradhesion.core.results import typed
 from gradhesion.core.struve.cosine_bins import build_cosine_bins
 from gradhesion.core.struve.table import build_table
 
@@ -148,11 +149,13 @@ def solve_general(
     series = rows_of(profile)
     amplitude = scenes.amplitude if series.size else 0.0 * scenes.amplitude
 
+    solve = solve_pull_offs if set(rows) <= set(PULL_OFF) else solve_scenes
+
     def work(exponent: float, index: NDArray[np.int64]) -> None:
         table, cosines = tables_of(exponent, series)
         front = front_of(exponent, profile.exponent)
         arrays = (scenes.stretch, scenes.wavelength, amplitude, scenes.compliance, scenes.rim)
-        solve_scenes(table, cosines, series, profile.exponent, front, index, *arrays, slots, out, status)
+        solve(table, cosines, series, profile.exponent, front, index, *arrays, slots, out, status)
 
     run_by_exponent(scenes.k, work, workers)
     result: dict[str, NDArray[Any]] = {}

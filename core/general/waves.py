@@ -17,7 +17,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import constant, kernel
 from gradhesion.core.general.branches import END, END_LEVEL, START, START_LEVEL
 from gradhesion.core.general.cells import MOST
 from gradhesion.core.general.curve import Basis, Curve, coordinate, slope
@@ -27,7 +27,7 @@ from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 
 Step: TypeAlias = tuple[float, float, int]
 """What the jumps of a wave lose, their number, and the pattern they make: 0 for none, -1 where they are not regular."""
-UP, DOWN, PASSING = 0, 1, 2
+UP, DOWN, PASSING = map(constant, range(3))
 """Loading through a wave, unloading through it, and a jump that passes it."""
 NEAREST: Final = 8.0
 """The innermost wave: z > 40 there."""

@@ -12,7 +12,7 @@ so that D > 0 wherever, and D < 0 wherever the level is larger than what is left
 import math
 from typing import Any
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import NO, YES, kernel
 from gradhesion.core.general.curve import Basis, Curve
 from gradhesion.core.struve.cosine_bins import integral_at_zero
 
@@ -56,11 +56,11 @@ def first_fold_bound(basis: Basis, curve: Curve) -> float:
     n = 0.5 * (1.0 + k)
     s, push = m - 1.0 + n, m * B
     bounds = wave_bounds(table, series, g)
-    if not _surely_falls(level, push, s, n, bounds, _INNERMOST, False):
+    if not _surely_falls(level, push, s, n, bounds, _INNERMOST, NO):
         return _INNERMOST
     low = _INNERMOST
     for far_out in (False, True):  # both right sides grow, the second from z = 1 on
-        if far_out and (low < 1.0 or not _surely_falls(level, push, s, n, bounds, low, True)):
+        if far_out and (low < 1.0 or not _surely_falls(level, push, s, n, bounds, low, YES)):
             break
         high = 2.0 * low
         while high < _OUTERMOST and _surely_falls(level, push, s, n, bounds, high, far_out):

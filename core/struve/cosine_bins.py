@@ -56,7 +56,7 @@ def _start(k: float, z: float) -> tuple[tuple[float, float], tuple[float, float]
     return value, slope
 
 
-@kernel()
+@kernel(entry=True)
 def _fill(k: float, bins: Any, matrix: Any) -> None:
     half = 0.5 * BIN_WIDTH
     t0 = np.zeros((TAYLOR + 2, 2))

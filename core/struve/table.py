@@ -17,7 +17,7 @@ from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.power import build_power
 
 
-@kernel()
+@kernel(entry=True)
 def _fill(table: Any, k: float, economisation: Any, nodes: Any, fit: Any, moment_economisation: Any) -> None:
     table.k = k
     amplitude = 2.0 ** (0.5 * (k - 1.0)) * math.gamma(0.5 * (k + 1.0))
@@ -42,7 +42,7 @@ def build_table(k: float) -> Any:
     return table
 
 
-@kernel()
+@kernel(entry=True)
 def _pairs(table: Any, x: Any, out: Any) -> None:
     for i in range(x.size):
         out[0, i], out[1, i], out[2, i], out[3, i] = pair(table, x[i])

@@ -167,9 +167,9 @@ def test_quiet_is_silent(gradhesion: Call, study_file: Path, tmp_path: Path) -> 
 def test_a_first_run_says_that_it_compiles(
     gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gradhesion.core.compiled_before", lambda **_: False)
+    monkeypatch.setattr("gradhesion.core.compiled_before", lambda _kind: False)
     result = gradhesion("run", study_file, "-o", tmp_path / "x.nc")
-    assert "compiling the kernels, once per version" in result.stderr
+    assert "compiling the kernels, once per version and kind of study" in result.stderr
 
 
 def test_an_existing_output_stays_without_overwrite(

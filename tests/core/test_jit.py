@@ -2,12 +2,13 @@
 
 import math
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import numba
 import pytest
 
-from gradhesion.core import _jit, compiled_before
+from gradhesion.core import _jit, cache
 
 CORE = Path(_jit.__file__).parent
 
@@ -16,24 +17,8 @@ CORE = Path(_jit.__file__).parent
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A place of its own for what a test compiles."""
     place = tmp_path / "kernels"
-    monkeypatch.setattr(_jit, "CACHE_FOLDER", place)
+    monkeypatch.setattr(cache, "place", lambda: cache.Place(place))
     return place
-
-
-def test_the_digest_follows_every_source(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "inner").mkdir()
-    (tmp_path / "one.py").write_text("a = 1\n")
-    (tmp_path / "inner" / "two.py").write_text("b = 2\n")
-    monkeypatch.setattr(_jit, "_CORE", tmp_path)
-    digests = [_jit._digest_of_sources()]
-    assert _jit._digest_of_sources() == digests[0]
-    (tmp_path / "inner" / "two.py").write_text("b = 3\n")
-    digests.append(_jit._digest_of_sources())
-    (tmp_path / "inner" / "two.py").rename(tmp_path / "inner" / "three.py")
-    digests.append(_jit._digest_of_sources())
-    (tmp_path / "four.py").touch()
-    digests.append(_jit._digest_of_sources())
-    assert len(set(digests)) == 4
 
 
 def test_compiled_code_is_kept_there_and_the_setting_is_put_back(folder: Path) -> None:
@@ -49,10 +34,11 @@ def test_compiled_code_is_kept_there_and_the_setting_is_put_back(folder: Path) -
     assert list(folder.rglob("*.nbc"))
 
 
-def test_a_home_that_cannot_be_written_is_no_mistake(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("folder", [None, "file/kernels"])
+def test_a_kernel_needs_no_folder(folder: str | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "file").touch()
-    monkeypatch.setattr(_jit, "CACHE_FOLDER", tmp_path / "file" / "kernels")
-    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path / "other"))
+    monkeypatch.setattr(cache, "place", lambda: cache.Place(folder and tmp_path / folder))
+    monkeypatch.setattr(numba.core.caching.CacheImpl, "_locator_classes", [])  # nor may it take one of numba's own
 
     @_jit.kernel()
     def triple(x: float) -> float:
@@ -92,9 +78,45 @@ def test_nobody_else_compiles() -> None:
             assert not re.search(r"\b(njit|jit|vectorize|guvectorize|fastmath)\b\s*[(=]", source.read_text()), source
 
 
-def test_solving_leaves_compiled_kernels() -> None:
-    from gradhesion.core import solve
+@pytest.mark.usefixtures("folder")
+def test_a_constant_is_no_literal() -> None:
+    one, two = _jit.constant(1), _jit.constant(2)
 
-    names = {"k": 0.2, "nu": 0.3, "modulus": 90.0, "c0_over_R": 1.1, "lambda_over_R": 0.4, "A": 0.01}
-    solve(names | {"a_max_over_R": 0.7})
-    assert compiled_before() or not _jit.CACHE_FOLDER.is_dir()
+    @_jit.kernel()
+    def inner(x: float, n: int, flag: bool) -> float:
+        return n * x if flag else -n * x
+
+    @_jit.kernel()
+    def outer(x: float) -> float:
+        return inner(x, one, _jit.YES) + inner(x, two, _jit.NO)
+
+    assert outer(3.0) == 3.0 - 6.0
+    assert len(inner.signatures) == 1
+
+
+def test_what_is_compiled_is_heard_of(folder: Path) -> None:
+    def make() -> Callable[[float], float]:
+        @_jit.kernel()
+        def half(x: float) -> float:
+            return 0.5 * x
+
+        half.py_func.__module__ = "gradhesion.core.nowhere"
+        return half
+
+    names: list[str] = []
+    with _jit.watch_compilation(names.append):
+        assert make()(3.0) == 1.5
+        assert names == ["half"]
+        assert make()(5.0) == 2.5  # from the cache
+    assert names == ["half"]
+    assert make()(7.0) == 3.5  # nobody listens any more
+    assert list(folder.rglob("*.nbc"))
+
+
+def test_a_process_that_compiles_clears_away_other_versions_once(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    cleared: list[Path] = []
+    monkeypatch.setattr(cache, "remove_unused", cleared.append)
+    heard = _jit._Compilation()
+    heard.on_start(None)
+    heard.on_start(None)
+    assert cleared == [folder]

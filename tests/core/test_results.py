@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from gradhesion.core import results
-from gradhesion.core.results import INTEGERS, OUTPUTS, put, put_all, wants_cycle, wants_folds, wants_force
+from gradhesion.core.names import OUTPUTS
+from gradhesion.core.results import INTEGERS, put, put_all, wants_cycle, wants_folds, wants_force
 
 ROWS = {
     "pull_off_force": results.FORCE,

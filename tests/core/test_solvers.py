@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import OUTPUTS, SOLVERS, _jit, asymptotic_cycle, scene, solve, solvers
+from gradhesion.core import OUTPUTS, SOLVERS, asymptotic_cycle, cache, scene, solve, solvers
 from gradhesion.core.branches import ROWS
 from gradhesion.core.status import NO_VALUE
 from gradhesion.core.sweep import table_of
@@ -37,7 +37,7 @@ def test_the_order_is_that_of_the_codes() -> None:
 
 
 def test_a_loop_compiles_its_own_solver_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(_jit, "CACHE_FOLDER", tmp_path)
+    monkeypatch.setattr(cache, "place", lambda: cache.Place(tmp_path))
     monkeypatch.setattr(scene, "solve_curve", None)  # to compile this would be an error
     monkeypatch.setattr(asymptotic_cycle, "solve_curve", None)
     out, _ = run(solvers.loop_of(solvers.ENVELOPE), np.array([[0.3, 0.7]]))
@@ -47,7 +47,7 @@ def test_a_loop_compiles_its_own_solver_alone(tmp_path: Path, monkeypatch: pytes
 def test_loops_are_kept_on_disk() -> None:
     for solver in SOLVERS:
         solve(SCENE, OUTPUTS, solver=solver)
-    if not _jit.CACHE_FOLDER.is_dir():
+    if not cache.CACHE_FOLDER.is_dir():
         pytest.skip("no folder for compiled code")
     code = (
         "from gradhesion.core import OUTPUTS, solve, solvers\n"

@@ -7,9 +7,8 @@ import pytest
 
 from gradhesion.core import OUTPUTS, Harmonic, Loading, Profile, solve
 from gradhesion.core.general.sweep import solve_general
-from gradhesion.core.report import REPORTS
+from gradhesion.core.names import PARAMETERS, REPORTS
 from gradhesion.core.status import FAILED
-from gradhesion.core.sweep import PARAMETERS
 from gradhesion.twin import stated
 from gradhesion.twin.path import cycle
 from gradhesion.twin.scene import curve_of, waves_to_follow

@@ -1,0 +1,206 @@
+"""Where compiled kernels are kept, what has been compiled there, and the removal of what no version uses any more.
+
+Numba notices an edit in the file of a kernel, but not in the files of the kernels that it calls. The folder of the
+compiled code is therefore named after a digest of all sources of the core and of where they stand (numba keeps code of
+one place for that place alone): an edit anywhere compiles all of it anew.
+
+The folder is the first of these that can be written: in `NUMBA_CACHE_DIR`, if that is set; in the user's cache; in the
+folder for temporary files, if nobody else can write there. Without any of them nothing is kept.
+"""
+
+import getpass
+import hashlib
+import os
+import re
+import stat
+import sys
+import tempfile
+import time
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Final
+
+import numba
+import platformdirs
+from llvmlite import binding
+
+from gradhesion.core.sources import CORE, SOURCES
+
+_NAME: Final = f"kernels-{hashlib.sha256(f'{CORE}{SOURCES}'.encode()).hexdigest()[:16]}"
+_OURS: Final = re.compile(r"kernels-[0-9a-f]{16}")
+_KEPT: Final = re.compile(r".*\.(nbi|nbc)(\.tmp\..*)?|compiled-.*|lock")
+"""The files of such a folder: numba's index and code, finished or not, and the marks of what is compiled."""
+_UNUSED: Final = 30 * 86400.0
+"""Seconds after which the folder of another version is removed."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where compiled kernels are kept.
+
+    Parameters
+    ----------
+    folder
+        The folder; None if nothing can be kept.
+    why
+        "" for the usual folder, else one sentence: what could not be written, and what is used instead.
+    """
+
+    folder: Path | None
+    why: str = ""
+
+
+def _is_writable(folder: Path) -> bool:
+    """Make a folder, and try whether a file can be written there."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError:
+        return False
+    return True
+
+
+def _private(folder: Path) -> bool:
+    """Make a folder that only this user can write, whoever may write around it; return whether it is so."""
+    try:
+        folder.mkdir(mode=0o700, exist_ok=True)
+        found = folder.lstat()
+    except OSError:
+        return False
+    if not stat.S_ISDIR(found.st_mode):  # a link could lead anywhere
+        return False
+    if sys.platform == "win32":  # the folder for temporary files is the user's own
+        return True
+    return found.st_uid == os.getuid() and not found.st_mode & 0o077
+
+
+def _temporary() -> Path:
+    """Return this user's folder among the temporary ones."""
+    try:
+        user = getpass.getuser() if sys.platform == "win32" else str(os.getuid())
+    except (KeyError, OSError):
+        user = "user"
+    return Path(tempfile.gettempdir()) / f"gradhesion-{user}"
+
+
+def choose(given: str) -> Place:
+    """Return where kernels are kept, if `given` is what NUMBA_CACHE_DIR says ("" where it is not set)."""
+    usual = Path(platformdirs.user_cache_dir("gradhesion"))
+    tried: list[str] = []
+    if given:
+        if _is_writable(Path(given) / _NAME):
+            return Place(Path(given) / _NAME)
+        tried.append(f"NUMBA_CACHE_DIR = {given}")
+    if _is_writable(usual / _NAME):
+        return Place(
+            usual / _NAME, f"{tried[0]} cannot be written; compiled kernels are kept in {usual}" if tried else ""
+        )
+    tried.append(str(usual))
+    because = f"{' and '.join(tried)} cannot be written"
+    try:
+        temporary = _temporary()
+    except OSError:  # no folder for temporary files
+        temporary = None
+    if temporary and _private(temporary) and _is_writable(temporary / _NAME):
+        return Place(temporary / _NAME, f"{because}; compiled kernels are kept in {temporary}")
+    return Place(
+        None,
+        f"{because}, and nothing is kept in the folder for temporary files either: every process compiles anew; "
+        "set NUMBA_CACHE_DIR to a folder that can be written",
+    )
+
+
+@lru_cache(maxsize=1)
+def place() -> Place:
+    """Return where this process keeps compiled kernels, and why there.
+
+    Examples
+    --------
+    >>> isinstance(place().why, str)
+    True
+    """
+    chosen = choose(numba.config.CACHE_DIR)
+    if chosen.folder is not None:
+        with suppress(OSError):
+            os.utime(chosen.folder)  # the time of its last use
+    return chosen
+
+
+CACHE_FOLDER: Final = place().folder or Path(platformdirs.user_cache_dir("gradhesion")) / _NAME
+"""The folder of `place`; where nothing can be kept, one that cannot be written."""
+
+
+def _last_use(folder: Path) -> float:
+    """Return when anything of a folder was last written or used."""
+    return max(path.lstat().st_mtime for path in (folder, *folder.rglob("*")))
+
+
+def _remove(folder: Path) -> None:
+    """Remove what is known of a folder, and the folder if nothing else is in it."""
+    for path in sorted(folder.rglob("*"), reverse=True):  # what is in a folder before the folder
+        with suppress(OSError):
+            if path.is_dir() and not path.is_symlink():
+                path.rmdir()
+            elif _KEPT.fullmatch(path.name):
+                path.unlink()
+    folder.rmdir()
+
+
+def remove_unused(folder: Path, now: float | None = None) -> None:
+    """Remove the folders of other versions beside `folder` that nobody has used for 30 days.
+
+    Only folders of this user with names of ours are touched, no links are followed, and files that are not ours stay.
+
+    Parameters
+    ----------
+    folder
+        The folder in use.
+    now
+        Seconds since 1970; the present if not given.
+    """
+    now = time.time() if now is None else now
+    with suppress(OSError):
+        for other in folder.parent.iterdir():
+            with suppress(OSError):  # another process may remove it too
+                found = other.lstat()
+                if other == folder or not _OURS.fullmatch(other.name) or not stat.S_ISDIR(found.st_mode):
+                    continue
+                if sys.platform != "win32" and found.st_uid != os.getuid():
+                    continue
+                if now - found.st_mtime > _UNUSED and now - _last_use(other) > _UNUSED:
+                    _remove(other)
+
+
+@lru_cache(maxsize=1)
+def _machine() -> str:
+    """Return a digest of all that compiled code depends on beside the sources."""
+    processor = (binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten())
+    return hashlib.sha256(repr((sys.version, numba.__version__, processor)).encode()).hexdigest()[:16]
+
+
+def _mark(kind: str) -> Path | None:
+    folder = place().folder
+    return None if folder is None else folder / f"compiled-{kind}-{_machine()}"
+
+
+_here: Final[set[str]] = set()
+"""The kinds of work that this process has done, whose kernels are in memory."""
+
+
+def compiled_before(kind: str) -> bool:
+    """Return whether the kernels of a kind of work (one of `KINDS`) need no compiling; else the first call is slow."""
+    mark = _mark(kind)
+    return kind in _here or (mark is not None and mark.exists())
+
+
+def note_compiled(kind: str) -> None:
+    """Keep that the kernels of a kind of work have been compiled, for this process and those after it."""
+    if kind in _here:
+        return
+    _here.add(kind)
+    mark = _mark(kind)
+    if mark is not None:
+        with suppress(OSError):
+            mark.touch()

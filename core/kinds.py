@@ -1,0 +1,86 @@
+"""The kinds of work: each has kernels of its own, that are compiled when it is first done.
+
+    force              the pull-off of one cosine wave under displacement control, by the exact solver
+    energy             anything else of `OUTPUTS` of it
+    reports            `REPORTS` of it
+    asymptotic         the two other solvers of it
+    envelope
+    curves             the curves of it
+    general_force      the same of any other profile or control
+    general_energy
+    general_reports
+    general_envelope
+    general_curves
+
+and `tables` is what all of them share.
+"""
+
+from collections.abc import Sequence
+from typing import Final
+
+from gradhesion.core.general.sweep import equivalent_wave
+from gradhesion.core.loading_control import Loading
+from gradhesion.core.names import PULL_OFF, REPORTS
+from gradhesion.core.profile import Profile
+
+NEEDS: Final[dict[str, tuple[str, ...]]] = {
+    "tables": (),
+    "force": ("tables",),
+    "energy": ("force",),
+    "reports": ("energy",),
+    "asymptotic": ("tables",),
+    "envelope": ("asymptotic",),
+    "curves": ("energy", "asymptotic"),
+    "general_force": ("tables",),
+    "general_energy": ("general_force",),
+    "general_reports": ("general_energy",),
+    "general_envelope": ("tables",),
+    "general_curves": ("general_energy",),
+}
+"""The kinds whose kernels a kind shares: processes that compile side by side, each kind after those that it needs,
+compile nothing twice."""
+KINDS: Final = tuple(NEEDS)
+"""All kinds, each after those that it needs."""
+KERNELS: Final[dict[str, int]] = dict.fromkeys(KINDS, 0)
+"""About how many kernels a kind compiles beyond those of the kinds that it needs."""
+
+
+def kind_of_map(
+    outputs: Sequence[str], solver: str = "exact", profile: Profile | None = None, loading: Loading | None = None
+) -> str:
+    """Return the kind of work that `solve` does.
+
+    Parameters
+    ----------
+    outputs, solver, profile, loading
+        As those of `solve`.
+
+    Examples
+    --------
+    >>> kind_of_map(["pull_off_force"]), kind_of_map(["pull_off_force"], profile=Profile(exponent=1.5))
+    ('force', 'general_force')
+    """
+    profile, loading = profile or Profile(), loading or Loading()
+    general = "general_" if loading != Loading() or equivalent_wave(profile) is None else ""
+    if solver != "exact":
+        return general + solver
+    if any(name in REPORTS for name in outputs):
+        return general + "reports"
+    return general + ("force" if set(outputs) <= set(PULL_OFF) else "energy")
+
+
+def kind_of_curves(profile: Profile | None = None, loading: Loading | None = None) -> str:
+    """Return the kind of work that `draw_curves` does.
+
+    Parameters
+    ----------
+    profile, loading
+        As those of `draw_curves`.
+
+    Examples
+    --------
+    >>> kind_of_curves(), kind_of_curves(loading=Loading(control="load"))
+    ('curves', 'general_curves')
+    """
+    default = (profile or Profile()) == Profile() and (loading or Loading()) == Loading()
+    return "curves" if default else "general_curves"

@@ -1,0 +1,79 @@
+"""Compilation ahead of the first use: small work of a kind, done for its kernels."""
+
+import math
+from typing import Any, Final
+
+from gradhesion.core.cache import note_compiled
+from gradhesion.core.curves import CURVES, GENERAL_CURVES, draw_curves
+from gradhesion.core.kinds import KINDS
+from gradhesion.core.loading_control import Loading
+from gradhesion.core.material import stiffness
+from gradhesion.core.names import OUTPUTS, REPORTS
+from gradhesion.core.profile import Harmonic, Profile
+from gradhesion.core.struve.table import build_table
+from gradhesion.core.sweep import solve
+
+SCENE: Final[dict[str, float]] = {
+    "k": 0.3,
+    "nu": 0.3,
+    "modulus": 500.0,
+    "c0_over_R": 0.01,
+    "lambda_over_R": 0.1,
+    "A": 0.03,
+    "a_max_over_R": 0.5,
+}
+SPRING: Final[dict[str, float]] = {"machine_stiffness": 3.0}
+MANY: Final = Profile(exponent=2.5, harmonics=tuple(Harmonic(n=n, cos=1.0 / n) for n in range(1, 25)))
+"""More harmonics than are summed one by one (general/series_table.py)."""
+
+
+def _compile_curves() -> None:
+    """Draw a wavy punch with a rim, one without, and a smooth one."""
+    for change in ({}, {"a_max_over_R": math.inf}, {"A": 0.0}):
+        draw_curves(SCENE | change, list(CURVES))
+
+
+def _compile_general_curves() -> None:
+    """Do the same for another profile, by a machine."""
+    for change in ({}, {"a_max_over_R": math.inf}, {"A": 0.0}):
+        draw_curves(SCENE | SPRING | change, list(GENERAL_CURVES), MANY, Loading(control="machine"))
+
+
+def compile_kind(kind: str) -> None:
+    """Compile the kernels of a kind of work, or read them from the cache.
+
+    Processes may do so side by side, each kind after those of `NEEDS`. Two that compile the same kernel at once do no
+    harm to the values, but may leave an index of the cache that forgets one of them.
+
+    Parameters
+    ----------
+    kind
+        One of `KINDS`.
+
+    Raises
+    ------
+    ValueError
+        For an unknown kind.
+    """
+    family: dict[str, Any] = {"profile": MANY} if kind.startswith("general_") else {}
+    driven = family | {"loading": Loading(control="machine")} if family else {}
+    scene = SCENE | SPRING if family else SCENE
+    match kind.removeprefix("general_"):
+        case "tables":
+            stiffness(0.3, 0.3, 500.0, 0.01)
+            build_table(0.3)
+        case "force":
+            solve(scene, ["pull_off_force"], threads=1, **driven)
+        case "energy":
+            solve(scene, OUTPUTS, threads=1, **driven)
+        case "reports":
+            solve(scene, (*OUTPUTS, *REPORTS), threads=1, **driven)
+        case "asymptotic" | "envelope" as solver:
+            solve(SCENE, OUTPUTS, solver=solver, threads=1, **family)
+        case "curves" if family:
+            _compile_general_curves()
+        case "curves":
+            _compile_curves()
+        case _:
+            raise ValueError(f"kind {kind!r}: it is one of {', '.join(KINDS)}")
+    note_compiled(kind)

@@ -1,0 +1,99 @@
+"""Kernels with private names are compiled without what Python calls them by: nobody may."""
+
+import ast
+import importlib
+import pkgutil
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+import gradhesion.core
+from gradhesion.core import _jit
+
+ROOT = Path(__file__).parents[2]
+CORE = Path(_jit.__file__).parent
+MODULES = sorted(
+    module.name for module in pkgutil.walk_packages([str(CORE)], f"{gradhesion.core.__name__}.") if not module.ispkg
+)
+
+
+def is_kernel(thing: Any) -> bool:
+    return hasattr(thing, "targetoptions")
+
+
+def is_inner(thing: Any) -> bool:
+    return is_kernel(thing) and bool(thing.targetoptions["no_cpython_wrapper"])
+
+
+def inner_kernels_named(tree: ast.AST, space: dict[str, Any]) -> set[str]:
+    """Names of inner kernels that code uses, as they stand in its name space or in a module of it."""
+    found = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and is_inner(space.get(node.id)):
+            found.add(node.id)
+        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+            module = space.get(node.value.id)
+            if isinstance(module, ModuleType) and is_inner(getattr(module, node.attr, None)):
+                found.add(f"{node.value.id}.{node.attr}")
+    return found
+
+
+def outside_of_kernels(tree: ast.Module) -> ast.Module:
+    """The statements of a module without its kernels (those inside of functions too)."""
+
+    class Drop(ast.NodeTransformer):
+        def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST | None:
+            names = [ast.unparse(decorator) for decorator in node.decorator_list]
+            if any(name.startswith("kernel(") for name in names):
+                return None
+            return self.generic_visit(node)
+
+    return Drop().visit(tree)
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_python_calls_no_inner_kernel(name: str) -> None:
+    module = importlib.import_module(name)
+    tree = outside_of_kernels(ast.parse(Path(str(module.__file__)).read_text()))
+    assert inner_kernels_named(tree, vars(module)) == set()
+
+
+def test_inner_kernels_are_found() -> None:
+    from gradhesion.core import scene
+
+    code = "def draw():\n    return scene._solve_smooth(0) + _solve_force(1)\n"
+    found = inner_kernels_named(outside_of_kernels(ast.parse(code)), vars(scene) | {"scene": scene})
+    assert found == {"scene._solve_smooth", "_solve_force"}
+
+
+@pytest.mark.parametrize(
+    "path",
+    sorted(
+        path.relative_to(ROOT).as_posix()
+        for folder in ("tests", "benchmarks", "docs", "figures", "twin")
+        for path in (ROOT / folder).rglob("*.py")
+        if "gradhesion.core" in path.read_text(encoding="utf-8")
+    ),
+)
+def test_nobody_else_calls_one(path: str) -> None:
+    tree = ast.parse((ROOT / path).read_text(encoding="utf-8"))
+    space: dict[str, Any] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("gradhesion.core"):
+            home = importlib.import_module(str(node.module))
+            for alias in node.names:
+                submodule = f"{node.module}.{alias.name}"
+                thing = importlib.import_module(submodule) if submodule in MODULES else getattr(home, alias.name)
+                space[alias.asname or alias.name] = thing
+    if path != "tests/core/test_entries.py":
+        assert inner_kernels_named(tree, space) == set()
+
+
+def test_a_kernel_that_python_does_not_call_has_no_wrapper() -> None:
+    from gradhesion.core import contact, scene
+
+    assert is_inner(scene._solve_force)
+    assert not is_inner(scene.solve_curve)
+    assert not is_inner(contact._least_of_wave)  # entry=True
