@@ -5,10 +5,12 @@ from typing import Final
 
 import xarray
 
+from gradhesion.cli.dataset.curve_variables import curve_of
 from gradhesion.cli.dataset.reader import has_curves
 from gradhesion.cli.dataset.selection import selection_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import RAGGED, SCENE
+from gradhesion.cli.names import RAGGED, SCENE, SI
+from gradhesion.cli.picture.curve_units import wants_si
 from gradhesion.cli.study.wording import did_you_mean
 
 MOST: Final = 20_000_000
@@ -34,10 +36,15 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
             raise DatasetError(f"--variable {name}: nothing that a page can show; {did_you_mean(name, known)}")
     if not known:
         raise DatasetError(
-            "jumps are told and not drawn: `gradhesion info --jumps` lists them; "
+            "jumps are not drawn: `gradhesion info --jumps` lists them; "
             'for a page of the cycle add "path" to the outputs of the study'
         )
-    cut = dataset[[*(variables or known), "status"]]
+    if has_curves(dataset):
+        shown = variables or [name for name in known if name + SI not in known]  # curves are drawn in units alone
+        wants_si(shown, variables)
+    else:
+        shown = variables or known
+    cut = dataset[[*shown, "status"]]
     cut = selection_of(cut, places).narrowed(cut)
     size = sum(variable.size for variable in cut.data_vars.values())
     if size > MOST:
@@ -50,9 +57,9 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
 
 
 def _is_shown(dataset: xarray.Dataset, name: str) -> bool:
-    """Tell whether a variable has one value, or one row of values, a scene."""
+    """Check whether a variable has one value, or one row of values, a scene."""
     own, scenes = dataset[name].dims, dataset["status"].dims
-    return own[: len(scenes)] == scenes and not (has_curves(dataset) and name in RAGGED.values())
+    return own[: len(scenes)] == scenes and curve_of(name) not in RAGGED
 
 
 def _example(dataset: xarray.Dataset) -> str:

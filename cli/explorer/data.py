@@ -1,6 +1,7 @@
 """The data of a page: axes, parameters, variables and flags as its script reads them."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
@@ -8,10 +9,11 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli import names
+from gradhesion.cli.dataset.curve_variables import curve_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.plain import in_order, symbol, words
 from gradhesion.cli.names import INTEGERS, SCENE, SOLVER
-from gradhesion.cli.picture.labels import unit_for
+from gradhesion.cli.picture.labels import Unit, unit_for
 from gradhesion.cli.picture.scales import scale
 from gradhesion.core import DOUBTFUL, FAILED, FLAGS, doubts_about
 
@@ -45,9 +47,16 @@ def rounded(values: NDArray[Any]) -> NDArray[np.floating[Any]]:
     return near.astype(np.float32) if fits else near
 
 
-def study_data(dataset: xarray.Dataset) -> tuple[Entry, list[Entry]]:
+def study_data(dataset: xarray.Dataset, units: Mapping[str, Unit] = MappingProxyType({})) -> tuple[Entry, list[Entry]]:
     """
     Make the data of a page from a dataset that is cut down to what it shall show.
+
+    Parameters
+    ----------
+    dataset
+        Of values or curves.
+    units
+        The units of variables, by name; one that suits its values for each of the others.
 
     Returns
     -------
@@ -65,10 +74,10 @@ def study_data(dataset: xarray.Dataset) -> tuple[Entry, list[Entry]]:
     dataset = _rising(dataset)
     axes = [str(axis) for axis in dataset["status"].dims if dataset.sizes[axis] > 1]
     dataset = dataset.isel({axis: 0 for axis in dataset["status"].dims if dataset.sizes[axis] == 1})
-    variables = [_variable(dataset, str(name)) for name in dataset.data_vars if name != "status"]
+    variables = [_variable(dataset, str(name), units) for name in dataset.data_vars if name != "status"]
     if not any(np.isfinite(variable["values"]).any() for variable in variables):
-        told = ", ".join(variable["name"] for variable in variables)
-        raise DatasetError(f"{told}: no value in any scene; `gradhesion info` tells why")
+        listed = ", ".join(variable["name"] for variable in variables)
+        raise DatasetError(f"{listed}: no value in any scene; `gradhesion info` reports why")
     status = dataset["status"].values.astype(np.uint8).ravel()
     known = [str(name) for name in dataset.coords if name not in axes]
     solvers = [SOLVER] if SOLVER in known else []
@@ -136,10 +145,10 @@ def _placed(values: NDArray[np.float64]) -> Entry:
     }
 
 
-def _named(dataset: xarray.Dataset, name: str) -> tuple[Entry, NDArray[Any]]:
-    """Name a variable in its ways, and give its values in the unit that it is told in."""
+def _named(dataset: xarray.Dataset, name: str, unit: Unit | None = None) -> tuple[Entry, NDArray[Any]]:
+    """Name a variable in its ways, and give its values in a unit (one that suits them if None)."""
     values = dataset[name].values
-    own = unit_for(name, values)
+    own = unit_for(name, values) if unit is None else unit
     named = {
         "name": name,
         "symbol": symbol(name),
@@ -172,15 +181,15 @@ def _parameter(dataset: xarray.Dataset, name: str, axes: Sequence[str]) -> Entry
     return entry
 
 
-def _variable(dataset: xarray.Dataset, name: str) -> Entry:
+def _variable(dataset: xarray.Dataset, name: str, units: Mapping[str, Unit]) -> Entry:
     """Describe a variable: its values to 6 digits, and which flags cast doubt on them."""
-    named, values = _named(dataset, name)
+    named, values = _named(dataset, name, units.get(name))
     if values.dtype.kind in "iu" and name not in INTEGERS:
         values = np.where(values < 0, np.nan, values)  # a count that is missing is -1
     flat = rounded(values.ravel())
     finite = flat[np.isfinite(flat)]
     positive = finite[finite > 0]
-    curve = next((one for one, own in names.CURVES.items() if name in own), "")
+    curve = curve_of(name) or ""
     return named | {
         "values": flat,
         "length": values.shape[-1] if curve else 1,

@@ -159,7 +159,7 @@ const explorer = {
       if (what !== "everything") return;
       this.planes.draw(number);
       this.parts.planes.forEach((part, i) => {
-        this.name(part.figure, `plane${i}`, PLANE_WORDS[part.x], PLANE_WORDS[part.y]);
+        this.name(part.figure, `plane${i}`, study.labels[part.x], study.labels[part.y]);
       });
       return;
     }
@@ -252,5 +252,3 @@ const explorer = {
     if (words) words.textContent = held ? "held: tap the cell again to let it go" : "follows the pointer";
   },
 };
-
-const PLANE_WORDS = { indentation: "depth δ/R", load: "load P/1.5 πRΔγ", contact_radius: "contact radius a/R" };

@@ -17,7 +17,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.choice import chosen
 from gradhesion.cli.explorer.data import Entry, study_data
 from gradhesion.cli.explorer.figures import Part, map_of, plane_of, ranges, section_of
-from gradhesion.cli.explorer.lines import planes_of
+from gradhesion.cli.explorer.lines import lines_of
 from gradhesion.cli.explorer.plain import words
 from gradhesion.cli.names import SCENE, SOLVER
 
@@ -45,14 +45,15 @@ def page(dataset: xarray.Dataset, file: str, variables: Sequence[str], places: S
         What was asked for is not there or has no value, or is too large for a page, or nothing varies.
     """
     cut = chosen(dataset, variables, places)
-    study, shown = study_data(cut)
     curves = has_curves(dataset)
+    lines = lines_of(cut) if curves else None
+    study, shown = study_data(cut, lines.units if lines else {})
     kind = "curves" if curves else _kind_of(study)
     document = Document(title=str(dataset.attrs["title"]))
     parts: Part = {}
-    if curves:
-        planes, study["tracks"] = planes_of(cut)
-        parts["planes"] = [plane_of(i, *plane) for i, plane in enumerate(planes)]
+    if lines:
+        study |= {"tracks": lines.tracks, "labels": lines.labels}
+        parts["planes"] = [plane_of(i, *plane) for i, plane in enumerate(lines.planes)]
     else:
         sides = _SIDES if kind == "maps" else ("x",)
         count = min(2, len(shown))

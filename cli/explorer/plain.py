@@ -41,9 +41,18 @@ def symbol(name: str) -> str:
     >>> symbol("a_max_over_R"), symbol("dissipated_energy"), symbol("load")
     ('aₘₐₓ/R', 'dissipated energy H/R²Δγ', 'load')
     """
-    text = SYMBOLS.get(name, name.replace("_", " "))
-    for tex, plain in _TEX:
-        text = text.replace(tex, plain)
+    return plain(SYMBOLS.get(name, name.replace("_", " ")))
+
+
+def plain(text: str) -> str:
+    r"""
+    Write what a picture writes in TeX in Unicode.
+
+    >>> plain(r"load $P\,/\,\frac{3}{2}\pi R\Delta\gamma$"), plain("depth $a$ (nm)")
+    ('load P/1.5 πRΔγ', 'depth a (nm)')
+    """
+    for tex, letters in _TEX:
+        text = text.replace(tex, letters)
     return re.sub(r"  +", " ", text).replace(" / ", "/")
 
 

@@ -175,7 +175,7 @@ def jumps_of(track: Track, scene: Mapping[str, Values]) -> Steps:
 
 def falls_of(track: Track, scene: Mapping[str, Values]) -> Steps:
     """Tell which steps of the equilibrium curve are unstable: depth falls there (none if the dataset does not know)."""
-    depths = scene.get("indentation") if track.curve == "equilibrium" else None
+    depths = scene.get(track.indentation) if track.curve == "equilibrium" else None
     return np.zeros(1, bool) if depths is None else np.diff(depths) < 0.0
 
 

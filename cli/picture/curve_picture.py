@@ -1,7 +1,7 @@
 """The picture of a curve dataset: load over depth, depth over contact radius, load over contact radius."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -12,8 +12,9 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from gradhesion.cli.dataset.curve_variables import variables_of_curves
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import CURVES, RAGGED, SCENE
+from gradhesion.cli.names import RAGGED, SCENE
 from gradhesion.cli.picture.curve_panels import (
     JUMP,
     THIN,
@@ -30,20 +31,15 @@ from gradhesion.cli.picture.curve_panels import (
     falls_of,
     jumps_of,
 )
+from gradhesion.cli.picture.curve_units import axis_label, in_si, in_unit, units_of, wants_si
 from gradhesion.cli.picture.doubts import CROSS, DOUBTS, Doubt, doubts_in, entries
-from gradhesion.cli.picture.labels import equation, given
+from gradhesion.cli.picture.labels import Unit, equation, given
 from gradhesion.cli.picture.panels import COLOURS
 from gradhesion.cli.picture.pictured import heading, in_lines, styled
 from gradhesion.cli.study.wording import did_you_mean
 
 PLANES: Final = (("indentation", "load"), ("contact_radius", "indentation"), ("contact_radius", "load"))
 """What each panel has along and up."""
-
-LABELS: Final = {
-    "contact_radius": "contact radius $a/R$",
-    "indentation": r"depth $\delta/R$",
-    "load": r"load $P\,/\,\frac{3}{2}\pi R\Delta\gamma$",
-}
 
 SCENES: Final = 5
 """Scenes in one picture: more could not be told apart."""
@@ -67,7 +63,7 @@ class Scene:
 
 def drawn_curves(dataset: xarray.Dataset, asked: Sequence[str]) -> Figure:
     """
-    Draw curves of a dataset into three panels; without any asked for, all of them.
+    Draw curves of a dataset into three panels, in units if it has them; without any asked for, all of them.
 
     Raises
     ------
@@ -77,6 +73,8 @@ def drawn_curves(dataset: xarray.Dataset, asked: Sequence[str]) -> Figure:
     chosen = _chosen(dataset, asked)
     scenes, caption = _scenes(dataset)
     known = TRACKS_OF_MANY if len(scenes) > 1 else TRACKS
+    if wants_si(map(str, dataset.data_vars), asked):
+        known = tuple(in_si(track) for track in known)
     planes = []
     for x, y in PLANES:
         there = [one for one in known if one.curve in chosen and {getattr(one, x), getattr(one, y)} <= dataset.keys()]
@@ -89,7 +87,9 @@ def drawn_curves(dataset: xarray.Dataset, asked: Sequence[str]) -> Figure:
         )
     tracks = [track for track in known if any(track in there for _, _, there in planes)]
     if not any(values.size for scene in scenes for values in scene.values.values()):
-        raise DatasetError("no value in any scene drawn; `gradhesion info` tells why")
+        raise DatasetError("no value in any scene drawn; `gradhesion info` reports why")
+    units = units_of(tracks, [scene.values for scene in scenes])
+    scenes = [replace(scene, values=in_unit(tracks, scene.values, units)) for scene in scenes]
     with styled():
         width = max(4.0, 2.5 * len(planes))
         figure = Figure(figsize=(width, 3.5), layout="constrained")
@@ -100,7 +100,7 @@ def drawn_curves(dataset: xarray.Dataset, asked: Sequence[str]) -> Figure:
                     if track.curve == "path" and not track.unloading:
                         for doubt in reversed(scene.doubts):  # the larger ones below
                             draw_doubt(axes, track, scene.values, x, y, scene.colour or track.colour, doubt)
-            _dress(axes, x, y)
+            _dress(axes, x, y, units)
             arrows: list[Values] = []
             for track in there:
                 for scene in scenes:
@@ -114,17 +114,17 @@ def drawn_curves(dataset: xarray.Dataset, asked: Sequence[str]) -> Figure:
 
 def _chosen(dataset: xarray.Dataset, asked: Sequence[str]) -> list[str]:
     """List the curves to draw; a variable stands for its curve."""
-    there = {curve: [name for name in own if name in dataset] for curve, own in CURVES.items() if curve not in RAGGED}
-    if not any(there.values()):
+    there = {curve: own for curve, own in variables_of_curves(dataset).items() if curve not in RAGGED}
+    if not there:
         raise DatasetError(
-            "jumps are told and not drawn: `gradhesion info --jumps` lists them; "
+            "jumps are not drawn: `gradhesion info --jumps` lists them; "
             'for a picture of the cycle add "path" to the outputs of the study'
         )
-    known = [word for curve, own in there.items() if own for word in (curve, *own)]
+    known = [word for curve, own in there.items() for word in (curve, *own)]
     for name in asked:
         if name not in known:
             raise DatasetError(f"--variable {name}: not a curve of this dataset; {did_you_mean(name, known)}")
-    return [curve for curve, own in there.items() if own and (not asked or {curve, *own} & {*asked})]
+    return [curve for curve, own in there.items() if not asked or {curve, *own} & {*asked}]
 
 
 def _scenes(dataset: xarray.Dataset) -> tuple[list[Scene], list[str]]:
@@ -175,11 +175,11 @@ def _caption(dataset: xarray.Dataset, axes: Sequence[str]) -> list[str]:
 def _trimmed(scene: xarray.Dataset) -> dict[str, Values]:
     """Take the curves of a scene without their padding."""
     curves: dict[str, Values] = {}
-    for curve, own in CURVES.items():
+    for curve, own in variables_of_curves(scene).items():
         if curve in RAGGED:
             continue
-        rows = {name: np.asarray(scene[name].values, dtype=float) for name in own if name in scene}
-        points = np.flatnonzero(np.any([~np.isnan(row) for row in rows.values()], axis=0)) if rows else np.empty(0)
+        rows = {name: np.asarray(scene[name].values, dtype=float) for name in own}
+        points = np.flatnonzero(np.any([~np.isnan(row) for row in rows.values()], axis=0))
         curves |= {name: row[: int(points[-1]) + 1 if points.size else 0] for name, row in rows.items()}
     return curves
 
@@ -204,10 +204,10 @@ def _handles(scenes: Sequence[Scene], tracks: Sequence[Track]) -> list[Artist]:
     return made
 
 
-def _dress(axes: Axes, x: str, y: str) -> None:
+def _dress(axes: Axes, x: str, y: str, units: Mapping[str, Unit]) -> None:
     """Label a panel, and mark where depth and load are zero."""
-    axes.set_xlabel(LABELS[x])
-    axes.set_ylabel(LABELS[y])
+    axes.set_xlabel(axis_label(x, units[x]))
+    axes.set_ylabel(axis_label(y, units[y]))
     axes.axhline(0.0, color="0.85", lw=0.6, zorder=0)
     if x == "indentation":
         axes.axvline(0.0, color="0.85", lw=0.6, zorder=0)

@@ -8,9 +8,10 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import CURVES, INTEGERS, RAGGED
+from gradhesion.cli.dataset.curve_variables import variables_of_curves
+from gradhesion.cli.names import INTEGERS, RAGGED
 from gradhesion.cli.study.tiling import tile
-from gradhesion.cli.words.jump_words import jumps_told
+from gradhesion.cli.words.jump_words import jumps_told, meaning_of
 
 CELLS: Final = 2**20
 """Values of a variable that are read at a time, unless a single curve has more."""
@@ -20,9 +21,8 @@ Scene = dict[str, NDArray[np.float64]]
 
 def curves_told(dataset: xarray.Dataset) -> Iterator[str]:
     """Tell the curves of a dataset, line by line."""
-    for curve, own in CURVES.items():
-        names = [name for name in own if name in dataset]
-        if not names or curve in RAGGED:
+    for curve, names in variables_of_curves(dataset).items():
+        if curve in RAGGED:
             continue
         counts: dict[str, list[int]] = {"points": []}
         ends = {name: (np.inf, -np.inf) for name in names if name not in INTEGERS}
@@ -37,8 +37,8 @@ def curves_told(dataset: xarray.Dataset) -> Iterator[str]:
         yield f"{curve}: {_range(counts.pop('points'))} points a scene"
         yield from (f"  {word:<30} {_range(numbers)}" for word, numbers in counts.items())
         for name, (least, greatest) in ends.items():
-            told = f"{least + 0.0:.6g} to {greatest + 0.0:.6g}" if least <= greatest else "no value in any scene"
-            yield f"  {name:<30} {told:<26} {own[name]}"
+            extent = f"{least + 0.0:.6g} to {greatest + 0.0:.6g}" if least <= greatest else "no value in any scene"
+            yield f"  {name:<30} {extent:<26} {meaning_of(dataset[name])}"
     yield from jumps_told(dataset)
 
 

@@ -8,9 +8,10 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.curve_variables import curve_of, variables_of_curves
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, RAGGED
+from gradhesion.cli.names import EXTENTS, INTEGERS, RAGGED
 
 ITEMS: Final = 2**16
 """Jumps that are read at a time."""
@@ -42,7 +43,7 @@ def jumps_told(dataset: xarray.Dataset) -> Iterator[str]:
             ("that gain energy", piece.get("jump_energy", np.empty(0)) < 0.0),
         ):
             numbers[word] += int(np.count_nonzero(flags))
-        for name in [name for name in CURVES["jumps"] if name in piece and name not in INTEGERS]:
+        for name in [name for name in piece if curve_of(name) == "jumps" and name not in INTEGERS]:
             low, high = ends.get(name, (np.inf, -np.inf))
             ends[name] = min(low, float(piece[name].min())), max(high, float(piece[name].max()))
         if "jump_energy" in piece:
@@ -51,7 +52,7 @@ def jumps_told(dataset: xarray.Dataset) -> Iterator[str]:
                 largest = {name: values[item].item() for name, values in piece.items()}
     yield from (f"  {word:<30} {number:,}" for word, number in numbers.items() if number)
     for name, (low, high) in ends.items():
-        yield f"  {name:<30} {f'{low + 0.0:.6g} to {high + 0.0:.6g}':<26} {CURVES['jumps'][name]}"
+        yield f"  {name:<30} {f'{low + 0.0:.6g} to {high + 0.0:.6g}':<26} {meaning_of(dataset[name])}"
     if largest:
         yield f"  the largest dissipates {largest['jump_energy']:.6g}{_where(largest)}"
 
@@ -69,6 +70,12 @@ def jumps_listed(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
             yield lines
 
 
+def meaning_of(variable: xarray.DataArray) -> str:
+    """Give the long name of a variable, with its unit if it has one."""
+    unit = variable.attrs["units"]
+    return str(variable.attrs["long_name"]) + ("" if unit == "1" else f", in {unit}")
+
+
 def _pieces(dataset: xarray.Dataset) -> Iterator[Piece]:
     """Read some jumps at a time, none if there is none: the parameters that vary, and the variables of each jump."""
     status = dataset["status"]
@@ -78,7 +85,7 @@ def _pieces(dataset: xarray.Dataset) -> Iterator[Piece]:
         for name in INPUTS
         if name in dataset and dataset[name].ndim
     }
-    own = [name for name in CURVES["jumps"] if name in dataset and name != COUNT]
+    own = [name for name in variables_of_curves(dataset)["jumps"] if name != COUNT]
     ends = np.cumsum(counts, dtype=np.int64)
     total = int(ends[-1]) if own else 0
     for start in range(0, max(1, total), ITEMS):

@@ -7,10 +7,11 @@ from typing import Final
 import numpy as np
 import xarray
 
+from gradhesion.cli.dataset.curve_variables import variables_of_curves
 from gradhesion.cli.dataset.reader import tiling_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import CURVES, INTEGERS, SOLVER
+from gradhesion.cli.names import INTEGERS, SOLVER
 from gradhesion.cli.study.wording import did_you_mean
 
 MOST: Final = 1_000_000
@@ -57,12 +58,12 @@ def _written(value: float | str) -> str:
 def _variables(dataset: xarray.Dataset, file: Path, chosen: Sequence[str]) -> list[str]:
     """Name the variables of the table but `status`, all of one shape."""
     own = [str(name) for name in dataset.data_vars if name != "status"]
-    curves = {curve: [name for name in names if name in own] for curve, names in CURVES.items() if {*names} & {*own}}
+    curves = variables_of_curves(own)
     wrong = [name for name in chosen if name not in (*own, *curves)]
     if wrong:
         raise DatasetError(f'{file}: there is no variable "{wrong[0]}"; {did_you_mean(wrong[0], [*curves, *own])}')
     names = list(dict.fromkeys(each for name in chosen or own for each in curves.get(name, [name])))
-    if {*names} & {*CURVES["jumps"]}:
+    if {*names} & {*curves.get("jumps", ())}:
         raise DatasetError(f"{file}: jumps have a table of their own; write it with gradhesion info --jumps")
     if len({dataset[name].dims for name in names}) > 1:
         choices = " or ".join(f"--variable {curve}" for curve in curves)

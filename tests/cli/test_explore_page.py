@@ -70,6 +70,23 @@ A = [0.0, 0.023, 0.07]
 a_max_over_R = 0.4
 """
 
+CURVES_IN_UNITS = """
+title = "Curves in units"
+kind = "curve"
+outputs = ["equilibrium", "path"]
+[parameters]
+k = 0.3
+nu = 0.27
+A = [0.0, 0.07]
+[physical]
+R = "1 um"
+E_star = "1 GPa"
+work_of_adhesion = "50 mJ/m^2"
+c0 = "13 nm"
+wavelength = "0.2 um"
+a_max = "0.4 um"
+"""
+
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
@@ -421,3 +438,22 @@ def test_curves_are_those_of_the_scene_on_the_sliders(tmp_path: Path, open_page:
         looks = page.page.evaluate("explorer.parts.planes[0].lines.data.width")
         thin = page.page.evaluate("explorer.study.tracks[0].jumpWidth")
         assert looks.count(thin) == jumps
+
+
+def test_curves_in_units_are_those_of_the_scene(tmp_path: Path, open_page: Callable[..., Opened]) -> None:
+    page = open_page(_made(tmp_path, CURVES_IN_UNITS))
+    page.press("A", "End")
+    with xarray.open_dataset(tmp_path / "data.nc") as dataset:
+        scene = dataset.isel(A=1)
+        lines = page.page.evaluate("explorer.parts.planes[0].lines.data")
+        for side, name in (("xs", "indentation_si"), ("ys", "load_si")):
+            drawn = np.concatenate(lines[side])
+            unit = {"xs": 1e-9, "ys": 1e-6}[side]
+            expected = np.concatenate([scene[name].values, scene[f"path_{name}"].values]) / unit
+            ends = np.nanmin(expected), np.nanmax(expected)
+            assert np.allclose([drawn.min(), drawn.max()], ends, rtol=5e-6, atol=0.0)
+    axis = page.page.evaluate("explorer.parts.planes[0].figure.left[0].axis_label")
+    assert axis == "load P (µN)"
+    falls = page.page.evaluate("explorer.study.tracks.find((track) => track.curve === 'equilibrium').faded")
+    assert falls in lines["colour"], "unstable parts are faded in units too"
+    assert page.page.locator("#value-path_load_si").count() == 0

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,8 +14,12 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.errors import StudyError
+from gradhesion.cli.errors import DatasetError, StudyError
+from gradhesion.cli.explorer import choice
+from gradhesion.cli.explorer.data import study_data
+from gradhesion.cli.explorer.lines import lines_of
 from gradhesion.cli.names import CURVES, OUTPUTS, SI, SYMBOLS, UNITS
+from gradhesion.cli.picture.curve_picture import drawn_curves
 from gradhesion.cli.study.study import load_study, study_from
 
 Call = Callable[..., Result]
@@ -167,7 +172,62 @@ def test_curves_have_units_too(
         assert dataset["jump_energy_si"].units == "J"
         assert dataset["jump_energy_si"].dims == ("jump",)
         assert "path_branch_si" not in dataset
-    assert gradhesion("info", path).exit_code == gradhesion("plot", path).exit_code == 0
+    told = " ".join(gradhesion("info", path).stdout.split())
+    assert re.search(r"path_load_si \S+ to \S+ load P on the path of a loading cycle, in N", told)
+    assert re.search(r"jump_energy_si \S+ to \S+ energy dissipated by the jump \(negative: gained\), in J", told)
+    assert ",jump_energy,jump_load_before" in (header := gradhesion("info", path, "--jumps").stdout.splitlines()[0])
+    assert "jump_energy_si" in header
+    assert "path_load_si" in gradhesion("info", path, "--format", "csv", "--variable", "path").stdout.splitlines()[0]
+    result = gradhesion("plot", path, "--variable", "path_load_si")
+    assert result.exit_code == 0, result.stderr
+
+
+@pytest.fixture
+def curves_in_units(physical: dict[str, Any]) -> xarray.Dataset:
+    """Curves of a tip of 1 um, whose depths are nanometres and whose loads are micronewtons."""
+    physical |= {"kind": "curve", "outputs": ["equilibrium", "path", "smooth", "jumps"]}
+    physical["physical"] |= {"R": "1 um", "wavelength": "0.2 um", "a_max": "0.4 um"}
+    return compute(study_from(physical))
+
+
+def test_curves_in_units_are_drawn_in_units(curves_in_units: xarray.Dataset) -> None:
+    figure = drawn_curves(curves_in_units, [])
+    labels = [(axes.get_xlabel(), axes.get_ylabel()) for axes in figure.axes]
+    assert labels == [
+        (r"depth $\delta$ (nm)", "load $P$ (µN)"),
+        ("contact radius $a$ (nm)", r"depth $\delta$ (nm)"),
+        ("contact radius $a$ (nm)", "load $P$ (µN)"),
+    ]
+    path = drawn_curves(curves_in_units.isel(k=0), ["path_load_si"]).axes[0]
+    shown = np.concatenate([line.get_ydata() for line in path.get_lines() if len(line.get_xdata()) > 2])
+    expected = curves_in_units["path_load_si"].isel(k=0) / 1e-6
+    assert (np.nanmin(shown), np.nanmax(shown)) == (float(expected.min()), float(expected.max()))
+    reduced = drawn_curves(curves_in_units, ["path_load"])
+    assert reduced.axes[0].get_xlabel() == r"depth $\delta/R$"
+    with pytest.raises(DatasetError, match="path_load has no unit and path_indentation_si has one"):
+        drawn_curves(curves_in_units, ["path_load", "path_indentation_si"])
+
+
+def test_a_page_of_curves_in_units_has_rows_of_them(curves_in_units: xarray.Dataset) -> None:
+    """A variable of a curve once stood among the scalars: the second point of its first curve."""
+    cut = choice.chosen(curves_in_units, [], [])
+    lines = lines_of(cut)
+    _, variables = study_data(cut, lines.units)
+    rows = {variable["name"]: variable for variable in variables}
+    assert {name for name, row in rows.items() if row["length"] == 1} == set()
+    assert {(row["curve"] != "") for row in rows.values()} == {True}
+    assert "path_load" not in rows
+    drawn = {track[quantity] for track in lines.tracks for quantity in lines.labels}
+    assert drawn <= {*rows}
+    assert all(name.endswith(SI) for name in drawn)
+    assert lines.labels == {
+        "contact_radius": "contact radius a (nm)",
+        "indentation": "depth δ (nm)",
+        "load": "load P (µN)",
+    }
+    for name in ("path_load_si", "smooth_load_si", "load_si"):  # one unit, though their sizes differ
+        expected = curves_in_units[name].values.ravel() / 1e-6
+        np.testing.assert_allclose(rows[name]["values"], expected, rtol=5e-6, atol=0.0)
 
 
 def test_every_output_over_something_has_its_unit_and_every_variable_its_symbol() -> None:
