@@ -81,7 +81,7 @@ def write_whole(path: Path, *pieces: bytes | memoryview, sync: bool = True) -> N
 
 def to_disk(path: Path) -> None:
     """Wait until a file or folder is on disk."""
-    handle = os.open(path, os.O_RDONLY)
+    handle = os.open(path, os.O_RDONLY if path.is_dir() else os.O_RDWR)  # Windows syncs only what may be written
     try:
         os.fsync(handle)
     finally:

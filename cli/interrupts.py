@@ -16,8 +16,9 @@ def listen() -> None:
     """Turn the signals that ask a program to end into KeyboardInterrupt."""
     signal.signal(signal.SIGINT, _hear)
     signal.signal(signal.SIGTERM, _hear)
-    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # nohup stays in force
-        signal.signal(signal.SIGHUP, _hear)
+    hangup = getattr(signal, "SIGHUP", None)  # none on Windows
+    if hangup is not None and signal.getsignal(hangup) is not signal.SIG_IGN:  # nohup stays in force
+        signal.signal(hangup, _hear)
 
 
 def heard() -> bool:

@@ -1,6 +1,7 @@
 """The folder of a run, FILE.nc.parts beside its output: its lock, its parts, and what a killed run has left there.
 
-lock            held by the system for as long as a run lives (shards share it, and have one each beside it)
+lock            held for as long as a run lives; a shard holds it for the moment in which it takes its own
+lock-1-of-8     held for as long as this shard lives
 study.json      the study whose parts these are
 000012.part     a block that is done
 state.json      how far the run is, for `gradhesion status`
@@ -8,12 +9,11 @@ merged.nc       the dataset in the making
 finished.json   which file is to take the output's place: if it has, what is left here is of no use
 """
 
-import fcntl
 import json
 import os
 import time
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -21,9 +21,13 @@ from typing import Any, Final
 from gradhesion.cli import interrupts
 from gradhesion.cli.disk import write_whole
 from gradhesion.cli.errors import OutputError
+from gradhesion.cli.work.locks import closing, is_locked, try_lock
 
 PATIENCE: Final = 0.5
-"""Seconds to wait for the lock: `gradhesion status` takes it for a moment to see whether it is free."""
+"""Seconds to wait for a lock: `gradhesion status` takes it for a moment to see whether it is free."""
+
+PATIENCE_OF_SHARDS: Final = 3.0
+"""The same of a shard: the jobs of an array start at one moment, and take the lock one after the other."""
 
 _OURS: Final = ("*.part", "*.tmp", "merged.nc", "state*.json", "study.json")
 
@@ -69,15 +73,8 @@ class Folder:
                     path.unlink()
 
     def busy(self) -> bool:
-        """Tell whether a run is at work here."""
-        try:
-            with (self.path / "lock").open("r+b") as file:
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return True
-        except OSError:
-            return False
-        return False
+        """Check whether a run, or a shard of one, is at work here."""
+        return any(is_locked(path) for path in self.path.glob("lock*"))
 
 
 def folder_of(output: Path) -> Folder:
@@ -119,73 +116,74 @@ def claimed(output: Path, shard: str | None = None) -> Iterator[Folder]:
         The folder cannot be made.
     """
     folder = folder_of(output)
-    with ExitStack() as stack:
-        lock = stack.enter_context(_locked(folder, "lock", output, shared=shard is not None))
-        if shard is not None:
-            stack.enter_context(_locked(folder, f"lock-{shard}", output, shared=False))
-        try:
-            if shard is None:
-                folder.clear("*.tmp", "merged.nc", "lock-*")
-            yield folder
-        finally:
-            kept = len(folder.parts())
-            if kept:
-                name = f"{output}.parts"
-                many = "part is" if kept == 1 else "parts are"
-                interrupts.keep(f"{kept:,} finished {many} kept in {name}, and the same command goes on from there")
-            if shard is None:
-                folder.clear("*.tmp", "merged.nc")
-                if not kept:
-                    _remove(folder, lock)
+    lock = _lock(folder, output, shard)
+    try:
+        if shard is None:
+            folder.clear("*.tmp", "merged.nc", "lock-*")
+        yield folder
+    finally:
+        kept = len(folder.parts())
+        if kept:
+            name = f"{output}.parts"
+            many = "part is" if kept == 1 else "parts are"
+            interrupts.keep(f"{kept:,} finished {many} kept in {name}, and the same command goes on from there")
+        if shard is None:
+            folder.clear("*.tmp", "merged.nc")
+        if shard is None and not kept:
+            _remove(folder, lock)
+        else:
+            os.close(lock)
 
 
-def _remove(folder: Folder, lock: Callable[[], None]) -> None:
-    """Remove the folder; a file in it that is not ours keeps it."""
+def _remove(folder: Folder, lock: int) -> None:
+    """Remove the folder, and close its lock; a file in it that is not ours keeps it."""
     folder.clear()
-    folder.clear("lock-*", "lock")
-    folder.clear("finished.json")  # last of all: it tells that the rest is of no use
-    lock()
+    folder.clear("lock-*")
+    path = folder.path / "lock"
+    try:
+        path.unlink()
+        unlinked = True
+    except OSError:  # as on Windows, where the file is open
+        unlinked = False
     with suppress(OSError):
+        folder.finished.unlink()  # last of all: it says that the rest is of no use
+    os.close(lock)
+    with suppress(OSError):
+        if not unlinked:
+            path.unlink()
         folder.path.rmdir()
 
 
-@contextmanager
-def _locked(folder: Folder, name: str, output: Path, *, shared: bool) -> Iterator[Callable[[], None]]:
-    """Hold a lock, which the system releases when the process dies; gives what releases it."""
-    deadline = time.monotonic() + PATIENCE
-    path = folder.path / name
-    kind = fcntl.LOCK_SH if shared else fcntl.LOCK_EX
+def _lock(folder: Folder, output: Path, shard: str | None) -> int:
+    """Take the lock of a run or of a shard; give the handle that holds it."""
+    deadline = time.monotonic() + (PATIENCE if shard is None else PATIENCE_OF_SHARDS)
     while True:
         folder.path.mkdir(parents=True, exist_ok=True)
-        handle = -1
         try:
-            handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
-            try:
-                fcntl.flock(handle, kind | fcntl.LOCK_NB)
-            except BlockingIOError:
-                raise
-            except OSError:  # a file system without locks
-                break
-            if os.path.samestat(os.fstat(handle), path.stat()):
-                break
-        except (BlockingIOError, FileNotFoundError) as error:  # held; or its holder has just removed the folder
+            handle = _locked(folder, shard)
+        except FileNotFoundError:  # a run has just removed the folder
             if time.monotonic() > deadline:
-                if isinstance(error, FileNotFoundError):
-                    raise
-                raise OutputError(_taken(folder, output)) from None
-            time.sleep(PATIENCE / 20)
-        if handle >= 0:
-            os.close(handle)
-    open_handles = [handle]
+                raise
+        else:
+            if handle is not None:
+                return handle
+        if time.monotonic() > deadline:
+            raise OutputError(_taken(folder, output))
+        time.sleep(PATIENCE / 20)
 
-    def release() -> None:
-        while open_handles:
-            os.close(open_handles.pop())
 
-    try:
-        yield release
-    finally:
-        release()
+def _locked(folder: Folder, shard: str | None) -> int | None:
+    """Try once to take the lock of a run, which no shard may be at work beside, or that of a shard."""
+    lock = try_lock(folder.path / "lock")
+    if lock is None:
+        return None
+    if shard is not None:
+        with closing(lock):
+            return try_lock(folder.path / f"lock-{shard}")
+    if any(is_locked(path) for path in folder.path.glob("lock-*")):
+        os.close(lock)
+        return None
+    return lock
 
 
 def _taken(folder: Folder, output: Path) -> str:
@@ -194,5 +192,5 @@ def _taken(folder: Folder, output: Path) -> str:
     who = ", ".join(f"process {state.get('pid')} on {state.get('host')}" for state in states)
     return (
         f"{output}: another run is at work on it{f' ({who})' if who else ''}; wait for it "
-        f"(`gradhesion status {output}` tells how far it is), or name another output with -o"
+        f"(`gradhesion status {output}` shows how far it is), or name another output with -o"
     )

@@ -3,15 +3,13 @@
 Two processes that do so at once can leave an index that points at the other's code.
 """
 
-import fcntl
 import hashlib
 import json
-import os
 import sys
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import Final
 
@@ -22,6 +20,7 @@ from gradhesion.cli import interrupts
 from gradhesion.cli.names import SOLVER
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.work.blocks import solve_block
+from gradhesion.cli.work.locks import closing, try_lock
 from gradhesion.cli.work.parts import settings_of
 from gradhesion.core import CACHE_FOLDER, kind_of_curves, kind_of_map
 
@@ -60,22 +59,11 @@ def compile_kernels(study: Study) -> None:
 @contextmanager
 def _alone(lock: Path, compiled: Path) -> Iterator[None]:
     """Hold a lock, unless `compiled` exists; without it where there is no such file, or no locks."""
-    handle = -1
-    try:
-        with suppress(OSError):
-            lock.parent.mkdir(parents=True, exist_ok=True)
-            handle = os.open(lock, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
-        while handle >= 0 and not compiled.exists():
-            try:
-                fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                interrupts.check()
-                time.sleep(PAUSE)
-                continue
-            except OSError:
-                pass
-            break
+    handle = None
+    with suppress(OSError):
+        lock.parent.mkdir(parents=True, exist_ok=True)
+        while not compiled.exists() and (handle := try_lock(lock)) is None:
+            interrupts.check()
+            time.sleep(PAUSE)
+    with nullcontext() if handle is None else closing(handle):
         yield
-    finally:
-        if handle >= 0:
-            os.close(handle)
