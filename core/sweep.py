@@ -5,7 +5,6 @@ what is computed. The work is cut into tasks of a fixed size, so that results do
 """
 
 import math
-import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import lru_cache
@@ -23,6 +22,7 @@ from gradhesion.core.kinds import kind_of_map
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.material import fill_stiffness
 from gradhesion.core.names import OUTPUTS, PARAMETERS, REPORTS, SOLVERS
+from gradhesion.core.processors import processors
 from gradhesion.core.profile import Profile
 from gradhesion.core.report import NEEDED, report_curves
 from gradhesion.core.results import typed
@@ -145,7 +145,7 @@ def solve(
             note_compiled(kind)
             return results
         if alike is None:
-            workers = threads or os.cpu_count() or 1
+            workers = threads or processors()
             wanted = [name for name in outputs if name in OUTPUTS]
             wanted += [NEEDED[name] for name in reports if name in NEEDED]
             found = solve_general(
@@ -201,7 +201,7 @@ def solve(
             report_curves(*curves_of, slots, slots_of_reports, out, status, scratch)
 
     tasks = list(_tasks(exponents, max(1, _TASK // max(1, rims.shape[1]))))
-    workers = min(threads or os.cpu_count() or 1, len(tasks))
+    workers = min(threads or processors(), len(tasks))
     if workers > 1:
         with ThreadPoolExecutor(workers) as pool:
             list(pool.map(work, tasks))

@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 @click.argument("study", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Dataset that `run` would write.")
 @click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Set a key of the study, in TOML.")
-@click.option("--threads", type=click.IntRange(min=1), help="Threads that `run` would use [all cores].")
+@click.option(
+    "--threads", type=click.IntRange(min=1), help="Threads that `run` would use [all that the process may use]."
+)
 @click.option(
     "--chunk", type=click.IntRange(min=1), envvar="GRADHESION_CHUNK", help="Cells of a chunk of the file [131072]."
 )

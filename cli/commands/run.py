@@ -45,7 +45,11 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
     "--engine", type=click.Choice(["threads", "dask"]), default="threads", show_default=True, help="Who solves."
 )
 @click.option("--scheduler", metavar="ADDRESS", help="Of a Dask cluster, or its scheduler file [one on this machine].")
-@click.option("--threads", type=click.IntRange(min=1), help="Threads to use [all cores]; values do not depend on it.")
+@click.option(
+    "--threads",
+    type=click.IntRange(min=1),
+    help="Threads to use [all that the process may use]; values do not depend on it.",
+)
 @click.option(
     "--chunk", type=click.IntRange(min=1), envvar="GRADHESION_CHUNK", help="Cells of a chunk of the file [131072]."
 )

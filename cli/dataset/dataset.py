@@ -79,7 +79,7 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
     study
         From `load_study` or `study_from`.
     threads
-        Threads to use, all cores if None; the values do not depend on it.
+        Threads to use, as many as the process may use if None; the values do not depend on it.
 
     Returns
     -------

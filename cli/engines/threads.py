@@ -16,7 +16,7 @@ class Threads:
     """Solves blocks here."""
 
     threads: int | None = None
-    """All cores if None."""
+    """As many as the process may use if None."""
 
     def results(self, work: Work) -> Generator[tuple[int, Solved], None, None]:
         """Give the blocks in order."""

@@ -1,6 +1,5 @@
 """The curves of a study: drawn scene by scene, each as long as it needs to be, and padded to the longest."""
 
-import os
 from collections import deque
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -14,6 +13,7 @@ from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work.blocks import awaited, scales_of, scenes_of
 from gradhesion.core import draw_curves
+from gradhesion.core.processors import processors
 
 AHEAD: Final = 2
 """Scenes drawn ahead a thread."""
@@ -53,7 +53,7 @@ def drawn(study: Study, threads: int | None = None) -> Iterator[Drawing]:
     Ragged curves have their own dimension alone. Scenes are drawn in threads of their own, some ahead of whoever takes
     them; they come in order.
     """
-    workers = min(threads or os.cpu_count() or 1, study.scenes)
+    workers = min(threads or processors(), study.scenes)
     pool = ThreadPoolExecutor(workers, thread_name_prefix="draw")
     ahead: deque[Future[Drawing]] = deque()
     try:

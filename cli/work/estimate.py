@@ -1,6 +1,5 @@
 """What a run would do and cost: blocks, what is kept of them, bytes, memory, and the time by a probe of real scenes."""
 
-import os
 import shutil
 from collections import Counter
 from contextlib import suppress
@@ -15,6 +14,7 @@ from gradhesion.cli.work.manifest import differences_of, manifest_of
 from gradhesion.cli.work.parts import bytes_of, key_of
 from gradhesion.cli.work.probe import probe
 from gradhesion.cli.work.resume import found
+from gradhesion.core.processors import processors
 
 BASE: Final = 205e6
 """Bytes of the program itself, its libraries and kernels, as measured."""
@@ -78,7 +78,7 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
     probed = probe(study, left)
     seconds = uncertain = by_dask = of_one = None
     if probed:
-        workers = threads or os.cpu_count() or 1
+        workers = threads or processors()
         writing = probed.compressing * study.scenes
         seconds = max(probed.solving * scenes_left / workers + writing / workers, writing)
         uncertain = probed.uncertainty * scenes_left / workers
