@@ -15,27 +15,33 @@ docs-figures: $(pictures:%=docs/figures/paper/%.png) ## draw them small for docs
 
 test: build/tested ## lint, types and tests
 
-reference: .venv/installed ## write the generated pages of the manual, docs/reference/, anew
+reference: .venv/complete ## write the generated pages of the manual, docs/reference/, anew
 	.venv/bin/python -m docs
 
-docs: .venv/installed ## build the manual into build/docs/, offline, a warning being an error
+docs: .venv/complete ## build the manual into build/docs/, offline, a warning being an error
 	.venv/bin/python -m sphinx -E -a -q -W --keep-going -d build/doctrees docs build/docs
 
-stress: .venv/installed ## the long form of the stress suite (minutes)
+stress: .venv/complete ## the long form of the stress suite (minutes)
 	.venv/bin/python -m tests.stress.long
 
-faults: .venv/installed ## kill runs at 200 random moments and at every rename, and go on with them (a minute)
+faults: .venv/complete ## kill runs at 200 random moments and at every rename, and go on with them (a minute)
 	.venv/bin/python -m tests.faults.trials --random 200
 
-bench: .venv/installed ## measure time and error (minutes), and write docs/benchmarks.md and its figures
+bench: .venv/complete ## measure time and error (minutes), and write docs/benchmarks.md and its figures
 	.venv/bin/python -m benchmarks
 
 clean: ## remove the virtual environment and what was built (outputs stay)
 	rm -rf .venv build .mypy_cache .ruff_cache .pytest_cache
 
+install = .venv/bin/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
+
 .venv/installed: pyproject.toml constraints.txt
 	$(PYTHON) -m venv .venv
-	.venv/bin/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[docs,test]'
+	$(install) -e .
+	touch $@
+
+.venv/complete: .venv/installed
+	$(install) -e '.[docs,test]'
 	touch $@
 
 outputs/maps.nc: configs/maps.toml $(sources) .venv/installed
@@ -63,7 +69,7 @@ build/types/gradhesion:
 	mkdir -p $@
 	ln -s ../../../core ../../../cli ../../../configs ../../../twin $@
 
-build/tested: $(checked) .venv/installed | build/types/gradhesion
+build/tested: $(checked) .venv/complete | build/types/gradhesion
 	.venv/bin/ruff check
 	.venv/bin/ruff format --check
 	.venv/bin/mypy

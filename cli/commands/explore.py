@@ -4,8 +4,6 @@ from pathlib import Path
 
 import click
 
-from gradhesion.cli.errors import MissingExtraError
-
 
 @click.command()
 @click.argument("file", type=click.Path(path_type=Path))
@@ -22,14 +20,10 @@ def explore(file: Path, output: Path | None, variables: tuple[str, ...], at: tup
     if path.suffix.lower() not in {".html", ".htm"}:
         raise click.UsageError(f"{path}: the name of a page ends in .html; name another with -o")
     names = [name.strip() for word in variables for name in word.split(",")]
-    try:
-        from gradhesion.cli.explorer.page import page
-    except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] not in {"bokeh", "jinja2"}:
-            raise
-        raise MissingExtraError("explore needs Bokeh: install it with `pip install 'gradhesion[explore]'`") from None
+
     from gradhesion.cli.dataset.reader import opened
     from gradhesion.cli.disk import replacement, writing
+    from gradhesion.cli.explorer.page import page
 
     with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
         text = page(dataset, file.name, names, at)

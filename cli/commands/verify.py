@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from gradhesion.cli.errors import DeviationError, MissingExtraError
+from gradhesion.cli.errors import DeviationError
 from gradhesion.cli.progress import progress
 
 
@@ -23,16 +23,9 @@ def verify(file: Path, sample: int, seed: int | None, digits: bool) -> None:
 
     Exit code 3 if a value deviates by more than the error that is stated for it.
     """
-    try:
-        from gradhesion.cli.dataset.recompute import recompute
-    except ModuleNotFoundError as error:
-        if error.name != "flint":
-            raise
-        raise MissingExtraError(
-            "verify needs python-flint: install it with `pip install 'gradhesion[verify]'`"
-        ) from None
     from gradhesion.cli.dataset.deviations import told
     from gradhesion.cli.dataset.reader import opened
+    from gradhesion.cli.dataset.recompute import recompute
 
     with opened(file) as dataset:
         found = recompute(dataset, file, sample=sample, seed=seed, progress=lambda total: progress(total, quiet=False))

@@ -1,6 +1,5 @@
 """`gradhesion explore` writes a page of every kind of dataset, and says so where there is nothing to write."""
 
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -160,14 +159,3 @@ def test_jumps_alone_are_no_page(gradhesion: Call, study_file: Path, tmp_path: P
     result = gradhesion("explore", path)
     assert result.exit_code == 2
     assert "`gradhesion info --jumps` lists them" in result.stderr
-
-
-def test_without_bokeh_the_command_says_what_to_install(
-    gradhesion: Call, dataset_file: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for name in [name for name in sys.modules if name.startswith(("bokeh", "gradhesion.cli.explorer"))]:
-        monkeypatch.delitem(sys.modules, name)
-    monkeypatch.setitem(sys.modules, "bokeh", None)
-    result = gradhesion("explore", dataset_file)
-    assert result.exit_code == 2
-    assert "pip install 'gradhesion[explore]'" in result.stderr

@@ -3,7 +3,6 @@
 import hashlib
 import math
 import re
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -158,22 +157,6 @@ def test_a_file_that_is_no_dataset_of_ours(damage: str, gradhesion: Call, datase
     assert "gradhesion run" in result.stderr
     assert result.stderr.count("\n") == 1
     assert result.stdout == ""
-
-
-def test_without_flint_it_tells_how_to_install_it(
-    gradhesion: Call, dataset_file: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for name in [
-        name
-        for name in sys.modules
-        if name.startswith(("gradhesion.twin", "flint", "gradhesion.cli.dataset.recompute"))
-    ]:
-        monkeypatch.delitem(sys.modules, name)
-    monkeypatch.setitem(sys.modules, "flint", None)
-    result = gradhesion("verify", dataset_file)
-    assert result.exit_code == 2
-    assert "pip install 'gradhesion[verify]'" in result.stderr
-    assert result.stderr.count("\n") == 1
 
 
 def test_scenes_without_a_value_must_have_none(gradhesion: Call, dataset_file: Path) -> None:

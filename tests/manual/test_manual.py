@@ -17,6 +17,7 @@ from gradhesion.cli.main import cli
 from gradhesion.cli.study.study import study_from
 
 from .pages import PAGES, ROOT, Block, blocks_of, commands_of, made_smaller, same
+from .plain import HIDE, hidden
 
 BLOCKS = [block for page in PAGES for block in blocks_of(page)]
 SHOWN = ("", "json", "mermaid", "output", "text", "{eval-rst}", "{toctree}")
@@ -24,8 +25,9 @@ SHOWN = ("", "json", "mermaid", "output", "text", "{eval-rst}", "{toctree}")
 RUN = ("bash", "console", "python", "sh", "toml")
 
 NOT_RUN = {
-    "README.md": {"make sets up an environment of its own"},
+    "README.md": {"sets up an environment of its own"},
     "docs/cluster.md": {"needs several machines", "tests/repository/test_cluster.py runs the scripts"},
+    "docs/installation.md": {"installs"},
     "docs/pictures.md": {"for start-up files of shells"},
     "docs/tutorial.md": {"installs"},
 }
@@ -39,9 +41,12 @@ WHOLE = tomllib.loads(next(block.text for block in BLOCKS if block.language == "
 
 
 def _environment(folder: Path) -> dict[str, str]:
-    """Find the installed command first, and write nothing outside of the folder."""
+    """Find the installed command first, write nothing outside of the folder, and have no more than is installed plainly."""
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-    return os.environ | {"PATH": path, "HOME": os.environ.get("HOME", str(folder)), "MPLBACKEND": "agg"}
+    (folder / "hide").mkdir(exist_ok=True)
+    (folder / "hide" / "sitecustomize.py").write_text(HIDE, encoding="utf-8")
+    own = {"PATH": path, "HOME": os.environ.get("HOME", str(folder)), "MPLBACKEND": "agg"}
+    return os.environ | own | {"PYTHONPATH": str(folder / "hide"), "HIDDEN": " ".join(hidden())}
 
 
 def _run_commands(block: Block, folder: Path) -> None:

@@ -1,5 +1,6 @@
 """What is built holds all of the program and nothing else, and works away from the repository."""
 
+import ast
 import os
 import subprocess
 import sys
@@ -8,10 +9,13 @@ import tomllib
 import zipfile
 from email import message_from_bytes
 from email.message import Message
+from importlib.metadata import packages_distributions
 from pathlib import Path
 from shutil import copytree, ignore_patterns
 
 import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 
 ROOT = Path(__file__).parents[2]
 CONFIGURATION = tomllib.loads((ROOT / "pyproject.toml").read_text())
@@ -92,6 +96,36 @@ def test_the_metadata_are_those_of_the_project(wheel: Path) -> None:
     with zipfile.ZipFile(wheel) as archive:
         (entry,) = [archive.read(name).decode() for name in archive.namelist() if name.endswith("entry_points.txt")]
     assert entry.split() == ["[console_scripts]", "gradhesion", "=", "gradhesion.cli.main:main"]
+
+
+def _imported(folder: str) -> set[str]:
+    """List the top-level modules that the files of a folder import, at any depth."""
+    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in (ROOT / folder).rglob("*.py")]
+    nodes = [node for tree in trees for node in ast.walk(tree)]
+    plain = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
+    named = {str(node.module) for node in nodes if isinstance(node, ast.ImportFrom) and not node.level}
+    return {name.partition(".")[0] for name in plain | named}
+
+
+def test_every_package_that_is_imported_is_declared() -> None:
+    declared = {canonicalize_name(Requirement(each).name) for each in PROJECT["dependencies"]}
+    of_cluster = {canonicalize_name(Requirement(each).name) for each in PROJECT["optional-dependencies"]["cluster"]}
+    homes = packages_distributions()
+    used = {name for top in TOPS for name in _imported(top)} - {"gradhesion"} - sys.stdlib_module_names
+    owners = {canonicalize_name(homes[name][0]) for name in used}
+    assert owners == declared | of_cluster
+
+
+def test_a_map_needs_no_package_of_the_tests() -> None:
+    """`make maps` installs what a map needs, `make test` the rest: a third of the packages, and of the time."""
+
+    def installs(target: str) -> list[str]:
+        make = ["make", "--dry-run", "--what-if=pyproject.toml", target]
+        done = subprocess.run(make, cwd=ROOT, capture_output=True, text=True, check=True)
+        return [line.rpartition(" -e ")[2] for line in done.stdout.splitlines() if "pip install" in line]
+
+    assert installs("maps") == installs("figures") == ["."]
+    assert installs("test") == installs("docs") == [".", "'.[docs,test]'"]
 
 
 def test_the_installed_program_works_away_from_the_repository(wheel: Path, tmp_path: Path) -> None:
