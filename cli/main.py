@@ -18,6 +18,7 @@ from gradhesion.cli.commands.run import run
 from gradhesion.cli.commands.status import status
 from gradhesion.cli.commands.validate import schema, validate
 from gradhesion.cli.commands.verify import verify
+from gradhesion.cli.commands.warmup import warmup
 from gradhesion.cli.errors import GradhesionError
 
 INTERRUPTED = 130
@@ -49,6 +50,7 @@ cli.add_command(info)
 cli.add_command(plot)
 cli.add_command(explore)
 cli.add_command(verify)
+cli.add_command(warmup)
 
 
 def main() -> NoReturn:

@@ -43,8 +43,11 @@ def plan(
 
 def show_plan(study: "Study", output: Path, threads: int | None, *, as_json: bool = False) -> None:
     """Print the plan of a run."""
+    from gradhesion.cli.work.compiling import prepare
     from gradhesion.cli.work.estimate import estimate
+    from gradhesion.cli.work.kernels import kinds_of
 
+    prepare(kinds_of(study), quiet=as_json)
     found = estimate(study, output, threads)
     if as_json:
         click.echo(json.dumps(asdict(found), indent=2))

@@ -53,7 +53,7 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
 @click.option(
     "--chunk", type=click.IntRange(min=1), envvar="GRADHESION_CHUNK", help="Cells of a chunk of the file [131072]."
 )
-@click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
+@click.option("--quiet", is_flag=True, help="Print errors only, and one line where kernels are compiled.")
 @click.option(
     "--log-json", is_flag=True, is_eager=True, callback=messages.speak_json, help="Log one JSON object a line."
 )
@@ -76,8 +76,8 @@ def run(
     """Compute STUDY (TOML) into a dataset (NetCDF). After an interrupt or a crash the same command goes on."""
     from gradhesion.cli.dataset.writer import write
     from gradhesion.cli.study.study import load_study
+    from gradhesion.cli.work.compiling import prepare
     from gradhesion.cli.work.kernels import kinds_of
-    from gradhesion.core import compile_kind, compiled_before
 
     if scheduler is not None and (engine != "dask" or threads is not None):
         raise click.UsageError("--scheduler goes with --engine dask, and without --threads: its workers have their own")
@@ -86,12 +86,8 @@ def run(
     if dry_run:
         show_plan(asked, path, threads)
         return
-    missing = [kind for kind in kinds_of(asked) if not compiled_before(kind)]
-    if missing and not quiet:
-        messages.say("compile", "compiling the kernels, once per version and kind of study")
-    if engine == "threads" and shard is None:
-        for kind in missing:
-            compile_kind(kind)
+    if engine == "threads":  # the workers of a cluster have caches of their own
+        prepare(kinds_of(asked), quiet=quiet)
     solver = _engine(asked, engine, scheduler, threads, quiet=quiet)
     if shard is not None:
         if fresh or fail_fast:
@@ -166,11 +162,9 @@ def _run_shard(
 ) -> None:
     """Compute the parts of a shard."""
     from gradhesion.cli.dataset.writer import write_shard
-    from gradhesion.cli.work.kernels import compile_kernels
 
     if not study.has_parts:
         raise click.UsageError("--shard: the study has one block only, and needs no shards; run it without --shard")
-    compile_kernels(study)  # the jobs of an array begin at one moment
     with progress(study.scenes // shard[1], quiet=quiet) as advance:
         written = write_shard(study, path, shard, overwrite=overwrite, engine=engine, advance=advance)
     if not quiet:

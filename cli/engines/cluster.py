@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from gradhesion.cli.engines import Work
 from gradhesion.cli.engines.connection import connected
 from gradhesion.cli.engines.foreman import Foreman
-from gradhesion.cli.work.kernels import compile_kernels
+from gradhesion.cli.work.kernels import compile_kinds, kinds_of
 from gradhesion.cli.work.parts import key_of
 from gradhesion.cli.work.resume import Solved, found
 
@@ -45,7 +45,7 @@ class Cluster:
         if not left:
             return
         if self.scheduler is None:
-            compile_kernels(study)  # before there are processes that would all do so
+            compile_kinds(kinds_of(study))  # before there are processes that would all do so
         workers = min(self.workers or len(os.sched_getaffinity(0)), len(left))
         with connected(self.scheduler, workers) as client:
             yield from Foreman(client, work, left, quiet=self.quiet).results()

@@ -93,7 +93,7 @@ def _loaded(folder: Path, fingerprint: str) -> Any:
     """Read the study of a folder, and compile what it needs; once in a process."""
     from gradhesion.cli.errors import DatasetError  # noqa: PLC0415
     from gradhesion.cli.work.folder import Folder  # noqa: PLC0415
-    from gradhesion.cli.work.kernels import compile_kernels  # noqa: PLC0415
+    from gradhesion.cli.work.kernels import compile_kinds, kinds_of  # noqa: PLC0415
     from gradhesion.cli.work.manifest import study_in  # noqa: PLC0415
 
     deadline = time.monotonic() + SIGHT
@@ -102,7 +102,7 @@ def _loaded(folder: Path, fingerprint: str) -> Any:
             study = study_in(Folder(folder), folder)
             if study.sha256 == fingerprint:
                 with suppress(Exception):  # the block that is asked for will tell
-                    compile_kernels(study)
+                    compile_kinds(kinds_of(study))
                 return study
         if time.monotonic() > deadline:
             raise FileNotFoundError(folder)

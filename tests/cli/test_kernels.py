@@ -1,6 +1,8 @@
 """One process compiles at a time; those that find all compiled do not wait for each other."""
 
-import fcntl
+import os
+import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -8,52 +10,111 @@ from typing import Any
 
 import pytest
 
-from gradhesion.cli.study.study import study_from
-from gradhesion.cli.work import kernels
+from gradhesion.cli.study import study_from
+from gradhesion.cli.work import compiling, kernels
+from gradhesion.cli.work.locks import closing, try_lock
+from gradhesion.core import KINDS, NEEDS
+from gradhesion.core.cache import Place
 
 
 @pytest.fixture
-def solved(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[tuple[slice, ...]]:
-    """The blocks that are solved in order to compile."""
-    blocks: list[tuple[slice, ...]] = []
-    monkeypatch.setattr(kernels, "solve_block", lambda _study, block, _threads: blocks.append(block))
-    monkeypatch.setattr(kernels, "CACHE_FOLDER", tmp_path / "cache")
+def compiled(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[str]:
+    """The kinds of work that are compiled, none at first."""
+    kinds: list[str] = []
+    monkeypatch.setattr(kernels, "compile_kind", kinds.append)
+    monkeypatch.setattr(kernels, "compiled_before", lambda kind: kind in kinds)
+    for module in (kernels, compiling):
+        monkeypatch.setattr(module, "place", lambda: Place(tmp_path))
     monkeypatch.setattr(kernels, "PAUSE", 0.01)
-    return blocks
+    return kinds
 
 
-def test_the_second_waits_for_the_first(data: dict[str, Any], solved: list[Any], tmp_path: Path) -> None:
-    study = study_from(data)
-    (tmp_path / "cache").mkdir()
-    with (tmp_path / "cache" / "lock").open("wb") as other:
-        fcntl.flock(other, fcntl.LOCK_EX)
-        thread = threading.Thread(target=kernels.compile_kernels, args=[study])
+def test_the_second_waits_for_the_first(compiled: list[str], tmp_path: Path) -> None:
+    handle = try_lock(tmp_path / "lock")
+    assert handle is not None
+    with closing(handle):
+        thread = threading.Thread(target=kernels.compile_kinds, args=[["force"]])
         thread.start()
         time.sleep(0.1)
-        assert solved == []
+        assert compiled == []
     thread.join(10)
-    assert solved == [(slice(0, 1),) * 4]
-    with (tmp_path / "cache" / "lock").open("rb") as other:
-        fcntl.flock(other, fcntl.LOCK_EX)
-        kernels.compile_kernels(study)
-    assert len(solved) == 2, "all is compiled, and nobody waits"
+    assert compiled == ["tables", "force"]
+    handle = try_lock(tmp_path / "lock")
+    assert handle is not None
+    with closing(handle):
+        kernels.compile_kinds(["force"])
+    assert compiled == ["tables", "force"], "all is compiled, and nobody waits"
 
 
-def test_each_kind_of_study_and_every_solver(data: dict[str, Any], solved: list[Any], tmp_path: Path) -> None:
-    kernels.compile_kernels(study_from(data))
-    kernels.compile_kernels(study_from(data | {"title": "Another"}))
-    assert len(list(tmp_path.glob("cache/compiled-*"))) == 1
-    kernels.compile_kernels(
-        study_from(data | {"outputs": ["pull_off_force"], "method": {"solver": ["exact", "envelope"]}})
-    )
-    assert len(list(tmp_path.glob("cache/compiled-*"))) == 2
-    assert solved[-1] == (slice(0, 2), *(slice(0, 1),) * 4)
+def test_each_kind_comes_once_and_after_those_that_it_needs(compiled: list[str]) -> None:
+    kernels.compile_kinds(KINDS[::-1])
+    assert sorted(compiled) == sorted(KINDS)
+    for place, kind in enumerate(compiled):
+        assert {*NEEDS[kind]} <= {*compiled[:place]}
 
 
-def test_without_a_place_for_the_lock(
-    data: dict[str, Any], solved: list[Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+@pytest.mark.parametrize(
+    ("changes", "kinds"),
+    [
+        ({"outputs": ["pull_off_force"]}, ("force",)),
+        ({}, ("energy",)),
+        ({"outputs": ["pull_off_force"], "method": {"solver": ["exact", "envelope"]}}, ("force", "envelope")),
+        ({"outputs": ["energy_residual"]}, ("reports",)),
+        ({"profile": {"exponent": 1.5}}, ("general_energy",)),
+        ({"loading": {"control": "load"}, "outputs": ["pull_off_force"]}, ("general_force",)),
+        ({"kind": "curve", "outputs": ["path"]}, ("curves",)),
+    ],
+)
+def test_a_study_has_its_kinds(data: dict[str, Any], changes: dict[str, Any], kinds: tuple[str, ...]) -> None:
+    assert kernels.kinds_of(study_from(data | changes)) == kinds
+
+
+def test_without_a_place_for_the_lock(compiled: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "file").touch()
-    monkeypatch.setattr(kernels, "CACHE_FOLDER", tmp_path / "file" / "cache")
-    kernels.compile_kernels(study_from(data))
-    assert len(solved) == 1
+    monkeypatch.setattr(kernels, "place", lambda: Place(tmp_path / "file" / "cache"))
+    kernels.compile_kinds(["force"])
+    monkeypatch.setattr(kernels, "place", lambda: Place(None))
+    kernels.compile_kinds(["envelope"])
+    assert compiled == ["tables", "force", "asymptotic", "envelope"]
+
+
+def test_it_says_what_is_compiled_and_when_it_is_done(compiled: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    compiling.prepare(["energy"])
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[0].endswith(
+        "kernels for tables, the pull-off force, cycles and energies, once per version and kind of work"
+    )
+    assert lines[1].startswith("compiled in ")
+    compiling.prepare(["energy"])
+    assert capsys.readouterr().err == ""
+    compiling.prepare(["general_force"], quiet=True)
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "the pull-off force of other profiles and controls" in line
+    assert compiled == ["tables", "force", "energy", "general_force"]
+
+
+def test_where_nothing_can_be_kept_it_says_so(
+    compiled: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(compiling, "place", lambda: Place(None, "nothing can be written"))
+    compiling.prepare(["force"])
+    assert capsys.readouterr().err.splitlines()[0] == "nothing can be written"
+    assert compiled == ["tables", "force"]
+
+
+def test_processes_side_by_side_compile_no_kernel_twice(tmp_path: Path) -> None:
+    code = (
+        "from gradhesion.cli.work.warming import warm\n"
+        "if __name__ == '__main__':\n"
+        "    found = {}\n"
+        "    warm(['force', 'asymptotic'], 2, lambda kind, names: found.update({kind: names}))\n"
+        "    print(list(found), sum(map(len, found.values())))\n"
+    )
+    script = tmp_path / "warm.py"
+    script.write_text(code)
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True, env=environment)
+    kinds, _, count = done.stdout.strip().rpartition(" ")
+    assert kinds.startswith("['tables', ")
+    assert sorted(eval(kinds)) == ["asymptotic", "force", "tables"]  # noqa: S307 (of our own)
+    assert int(count) == len(list(tmp_path.rglob("*.nbc"))) > 20

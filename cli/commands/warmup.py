@@ -1,0 +1,43 @@
+"""`gradhesion warmup`: the kernels compiled ahead, for images, clusters and classrooms."""
+
+import time
+
+import click
+
+from gradhesion.cli import messages
+
+
+@click.command()
+@click.option("--all", "everything", is_flag=True, help="Also for other profiles and controls, and all reports.")
+@click.option("--workers", type=click.IntRange(min=1), help="Processes side by side [all that it may use].")
+@click.option("--quiet", is_flag=True, help="Print nothing unless something is wrong.")
+def warmup(everything: bool, workers: int | None, quiet: bool) -> None:
+    """Compile ahead what runs compile when they first need it.
+
+    Without --all: what maps and curves of a paraboloid with one cosine wave need. Compiled kernels are kept in the
+    user's cache, or in the folder NUMBA_CACHE_DIR, for all runs of this version.
+
+    Example: gradhesion warmup --all
+    """
+    from gradhesion.cli.work.kernels import missing_of
+    from gradhesion.cli.work.warming import warm
+    from gradhesion.core import KINDS, place
+    from gradhesion.core.processors import processors
+
+    kinds = KINDS if everything else ("energy", "envelope", "curves")
+    missing, folder, count, start = missing_of(kinds), place().folder, 0, time.monotonic()
+    if place().why:
+        messages.say("cache", place().why)
+
+    def done(kind: str, names: list[str]) -> None:
+        nonlocal count
+        count += len(names)
+        if not quiet:
+            messages.say("compiled", f"{kind}: {len(names)} kernels, {time.monotonic() - start:.0f} s", kind=kind)
+
+    if missing:
+        warm(kinds, workers or processors(), done)
+    if not quiet:
+        where = f", kept in {folder}" if folder else ""
+        what = f"{count} kernels compiled in {time.monotonic() - start:.0f} s" if missing else "all compiled already"
+        messages.say("done", what + where, kernels=count)

@@ -1,0 +1,79 @@
+"""Compiling that explains itself: what is compiled, how far it is, and how long it took."""
+
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+
+from gradhesion.cli import messages
+from gradhesion.cli.work.kernels import compile_kinds, missing_of
+from gradhesion.core import KERNELS, place
+
+WORDS = {
+    "tables": "tables",
+    "force": "the pull-off force",
+    "energy": "cycles and energies",
+    "reports": "errors and gains",
+    "asymptotic": "the asymptotic solver",
+    "envelope": "the envelope solver",
+    "curves": "curves",
+}
+"""The kinds of work, in words."""
+
+
+def prepare(kinds: Sequence[str], *, quiet: bool = False) -> None:
+    """
+    Compile the kernels of some kinds of work that no process has compiled before, and show how far that is.
+
+    With `quiet` one line says so, and nothing else. What follows can be timed: it compiles nothing.
+    """
+    missing = missing_of(kinds)
+    if place().folder is None:
+        messages.say("cache", place().why)
+    if not missing:
+        return
+    total = sum(KERNELS[kind] for kind in missing)
+    what = _in_words(missing)
+    messages.say("compile", f"compiling about {total} kernels for {what}, once per version and kind of work")
+    if place().folder is not None and place().why:
+        messages.say("cache", place().why)
+    start = time.monotonic()
+    with _shown(total, quiet=quiet) as done:
+        compile_kinds(kinds, done)
+    if not quiet:
+        seconds = time.monotonic() - start
+        messages.say("compiled", f"compiled in {seconds:.0f} s", seconds=seconds, kinds=missing)
+
+
+def _in_words(kinds: Sequence[str]) -> str:
+    """
+    Write down what is compiled.
+
+    >>> _in_words(["tables", "force", "energy"]), _in_words(["general_force"])
+    ('tables, the pull-off force, cycles and energies', 'the pull-off force of other profiles and controls')
+    """
+    plain = [WORDS[kind] for kind in kinds if not kind.startswith("general_")]
+    general = [WORDS[kind.removeprefix("general_")] for kind in kinds if kind.startswith("general_")]
+    if general:
+        general[-1] += " of other profiles and controls"
+    return ", ".join([*plain, *general])
+
+
+@contextmanager
+def _shown(total: int, *, quiet: bool) -> Iterator[Callable[[str], None]]:
+    """Draw a bar on a terminal; elsewhere nothing."""
+    if quiet or messages.in_json() or not sys.stderr.isatty():
+        yield lambda _: None
+        return
+    from rich.console import Console  # noqa: PLC0415 (a run that compiles nothing draws no bar)
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn  # noqa: PLC0415
+
+    columns = (BarColumn(), TextColumn("{task.completed} of about {task.total} kernels"), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("kernels", total=total)
+
+        def done(_name: str) -> None:
+            finished = int(bar.tasks[0].completed) + 1
+            bar.update(task, completed=finished, total=max(total, finished))
+
+        yield done

@@ -1,0 +1,46 @@
+"""All kinds of work compiled ahead, by processes side by side that compile no kernel twice."""
+
+import multiprocessing
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+
+from gradhesion.cli import interrupts
+from gradhesion.cli.work.kernels import compile_kinds, missing_of
+from gradhesion.core import NEEDS, compile_kind, watch_compilation
+
+
+def warm(kinds: Sequence[str], workers: int, done: Callable[[str, list[str]], None] = lambda *_: None) -> None:
+    """
+    Compile the kernels of some kinds of work by several processes.
+
+    A kind is begun when those that it needs are done, so that no two processes compile the same kernel. `done` gets
+    each kind with the names of the kernels that were compiled for it.
+    """
+    left = missing_of(kinds)
+    if workers == 1 or len(left) < 2:
+        names: list[str] = []
+        compile_kinds(kinds, names.append)
+        done(", ".join(left), names)
+        return
+    running: dict[Future[list[str]], str] = {}
+    pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
+    try:
+        while left or running:
+            begun = {*left, *running.values()}
+            for kind in [kind for kind in left if not begun & {*NEEDS[kind]}]:
+                running[pool.submit(_compile, kind)] = kind
+                left.remove(kind)
+            finished, _ = wait(running, timeout=0.2, return_when=FIRST_COMPLETED)
+            interrupts.check()
+            for future in finished:
+                done(running.pop(future), future.result())
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _compile(kind: str) -> list[str]:
+    """Compile the kernels of a kind in a process of its own, and name them."""
+    names: list[str] = []
+    with watch_compilation(names.append):
+        compile_kind(kind)
+    return names
