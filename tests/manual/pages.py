@@ -1,6 +1,6 @@
 """Take the pages of the manual apart into what can be run, and run it.
 
-What a page holds, in order, in one folder of its own:
+What a page holds, in order, in the folder where the pages before it were done:
 
 - ```` ```sh ````: commands, one a line (a `\\` at its end goes on), each ending with exit code 0.
 - ```` ```console ````: commands after `$ `, each with what it prints below; `...` stands for anything. A command that
@@ -19,7 +19,17 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-PAGES = (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
+
+
+def _in_order() -> tuple[Path, ...]:
+    """List the README and the pages of the manual, in the order of its table of contents."""
+    index = ROOT / "docs" / "index.md"
+    trees = re.findall(r"^```\{toctree\}(.*?)^```", index.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+    names = [line for tree in trees for line in tree.split() if (ROOT / "docs" / f"{line}.md").is_file()]
+    return (ROOT / "README.md", index, *(ROOT / "docs" / f"{name}.md" for name in names))
+
+
+PAGES = _in_order()
 
 _BLOCK = re.compile(r"((?:^<!--[^\n]*-->\n)*)^```([a-z{}_-]*)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _MARK = re.compile(r"<!-- (file|not run|smaller): (.*?) -->")

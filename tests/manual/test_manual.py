@@ -96,23 +96,38 @@ def _check_study(block: Block) -> None:
     assert study_from(study).scenes >= 1, block.place
 
 
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder in which a reader does one page after the other."""
+    made = tmp_path_factory.mktemp("reader")
+    (made / "configs").symlink_to(ROOT / "configs")  # as in a clone
+    return made
+
+
+def _files(folder: Path) -> set[str]:
+    return {path.name for path in folder.rglob("*") if path.is_file() and path.suffix != ".py"}
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
-def test_a_page_does_what_it_says(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "configs").symlink_to(ROOT / "configs")  # as in a clone
+def test_a_page_does_what_it_says(page: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In the folder of the pages before it, whose files it neither needs nor meets."""
+    monkeypatch.chdir(folder)
+    before = _files(folder)
+    done = "\n".join(block.text for block in blocks_of(page) if block.language in RUN and "not run" not in block.marks)
+    assert [name for name in before if re.search(rf"(?<![\w.]){re.escape(name)}(?!\w)", done)] == []
     namespace: dict[str, object] = {}
     printed = ""
     for block in blocks_of(page):
         if "not run" in block.marks:
             continue
         if block.language in ("bash", "console", "sh"):
-            _run_commands(block, tmp_path)
+            _run_commands(block, folder)
         elif block.language == "python":
             printed = _run_python(block, namespace)
         elif block.language == "output":
             assert same(block.text, printed), f"{block.place}:\n{printed}"
         elif "file" in block.marks:
-            (tmp_path / block.marks["file"]).write_text(block.text, encoding="utf-8")
+            (folder / block.marks["file"]).write_text(block.text, encoding="utf-8")
         elif block.language == "toml":
             _check_study(block)
 
@@ -132,3 +147,11 @@ def test_no_command_hides_in_an_indented_block() -> None:
     for page in PAGES:
         outside = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
         assert not re.search(r"^    (gradhesion|make|pip|python) ", outside, flags=re.MULTILINE), page
+
+
+def test_the_waves_of_the_tutorial_are_as_high_as_it_says() -> None:
+    """From crest to trough a wave A lambda cos(2 pi r/lambda) is 2 A lambda."""
+    page = next(page for page in PAGES if page.stem == "tutorial")
+    (study,) = [tomllib.loads(block.text) for block in blocks_of(page) if block.language == "toml"]
+    (said,) = re.findall(r"waves of a (\w+) of their length in height", page.read_text(encoding="utf-8"))
+    assert 2.0 * study["parameters"]["A"] == {"tenth": 0.1, "twentieth": 0.05}[said]
