@@ -319,7 +319,7 @@ _SETTINGS: Final = (
     Key(
         name="cos",
         table="harmonics",
-        about="the cosine of the wave, in units of the amplitude",
+        about="the cosine of the wave, in units of the amplitude; without cos and sin it is 1",
         example="cos = 1.0",
     ),
     Key(

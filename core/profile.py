@@ -14,7 +14,7 @@ HIGHEST: Final = 10_000
 MOST_HARMONICS: Final = 64
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, init=False)
 class Harmonic:
     """One wave of the series, n times shorter than the wavelength.
 
@@ -23,19 +23,28 @@ class Harmonic:
     n
         Waves a wavelength, a whole number from 1 to 10,000.
     cos, sin
-        Amplitudes of 1 - cos and of sin, in units of A; finite.
+        Amplitudes of 1 - cos and of sin, in units of A; finite. One that is left out is 0; where both are, cos is 1.
 
     Raises
     ------
     ValueError
         For a number out of range.
+
+    Examples
+    --------
+    >>> Harmonic(n=1), Harmonic(n=3, sin=0.2)
+    (Harmonic(n=1, cos=1.0, sin=0.0), Harmonic(n=3, cos=0.0, sin=0.2))
     """
 
     n: int
-    cos: float = 1.0
-    sin: float = 0.0
+    cos: float
+    sin: float
 
-    def __post_init__(self) -> None:
+    def __init__(self, *, n: int, cos: float | None = None, sin: float | None = None) -> None:
+        if cos is None:
+            cos = 1.0 if sin is None else 0.0
+        for name, value in (("n", n), ("cos", cos), ("sin", 0.0 if sin is None else sin)):
+            object.__setattr__(self, name, value)
         if not (1 <= self.n <= HIGHEST and self.n == int(self.n)):
             raise ValueError(f"harmonic n = {self.n}: n is a whole number from 1 on, {HIGHEST:,} at most")
         if not (math.isfinite(self.cos) and math.isfinite(self.sin)):

@@ -62,8 +62,8 @@ class Wave(Table):
     """One wave of the series of a profile."""
 
     n: Annotated[int, Field(ge=1, le=MOST_WAVES, description=KEYS["n"].about)]
-    cos: Annotated[float, Field(allow_inf_nan=False, description=KEYS["cos"].about)] = 0.0
-    sin: Annotated[float, Field(allow_inf_nan=False, description=KEYS["sin"].about)] = 0.0
+    cos: Annotated[float | None, Field(allow_inf_nan=False, description=KEYS["cos"].about)] = None
+    sin: Annotated[float | None, Field(allow_inf_nan=False, description=KEYS["sin"].about)] = None
 
 
 class ProfileTable(Table):

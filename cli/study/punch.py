@@ -21,7 +21,7 @@ _CONTROL: Final[Path] = ("loading", "control")
 
 def profile_of(table: ProfileTable) -> Profile:
     """
-    Make the shape of the punch; what a wave does not have is zero.
+    Make the shape of the punch.
 
     >>> profile_of(ProfileTable.model_validate({"harmonics": [{"n": 2, "sin": 0.5}]})).harmonics
     (Harmonic(n=2, cos=0.0, sin=0.5),)
@@ -41,7 +41,7 @@ def mistakes_of_punch(checked: Checked, sound: Mapping[str, Values]) -> Iterator
 
 
 def _mistakes_of_series(checked: Checked, sound: Mapping[str, Values]) -> Iterator[Mistake]:
-    """Check the waves of a profile: each n once, each with an amplitude, and not all of them zero if A is not."""
+    """Check the waves of a profile: each n once, and not all of them zero if A is not."""
     wrong = {mistake.path[:3] for mistake in checked.mistakes}
     if _SERIES in wrong or ("profile",) in checked.wrong:
         return
@@ -56,11 +56,7 @@ def _mistakes_of_series(checked: Checked, sound: Mapping[str, Values]) -> Iterat
             sentence = f"the wave n = {wave['n']} is given already, as item {first[wave['n']]}; join the two"
             yield Mistake((*_SERIES, i, "n"), wave["n"], sentence)
         first.setdefault(wave["n"], i)
-        if not wave.keys() & {"cos", "sin"}:
-            sentence = "the wave has no amplitude; add cos, sin or both, as in { n = 1, cos = 1.0 }"
-            yield Mistake((*_SERIES, i), wave, sentence)
-            sizes.append(1.0)
-        sizes += [abs(wave.get(name, 0.0)) for name in ("cos", "sin")]
+        sizes += [abs(wave[name]) for name in ("cos", "sin") if name in wave] or [1.0]
     for name in ("A", "chi", "amplitude"):
         if sizes and max(sizes) == 0.0 and name in sound and np.any(np.asarray(sound[name]) > 0.0):
             sentence = f"all cos and sin are zero, so that {name} has no effect; give one a value, or use {name} = 0"

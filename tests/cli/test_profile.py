@@ -1,6 +1,7 @@
 """Studies with another shape of punch and another control of its loading: [profile] and [loading]."""
 
 import json
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -165,7 +166,6 @@ MISTAKES = {
     "n large": ("profile.harmonics=[{n=10001, cos=1}]", "an integer from 1 to 10,000; write for example n = 1"),
     "no n": ("profile.harmonics=[{cos=1}]", "profile.harmonics[0].n: n is the number of waves"),
     "n repeated": ("profile.harmonics=[{n=2, cos=1}, {n=3, cos=1}, {n=2, sin=1}]", "profile.harmonics[2].n = 2: the wave n = 2 is given already, as item 0; join"),
-    "no amplitude": ("profile.harmonics=[{n=1}]", "profile.harmonics[0] = { n = 1 }: the wave has no amplitude; add cos, sin or both"),
     "infinite": ("profile.harmonics=[{n=1, cos=inf}]", "profile.harmonics[0].cos = inf: this must be a number, and finite"),
     "all zero": ("profile.harmonics=[{n=1, cos=0.0}, {n=2, sin=0}]", "all cos and sin are zero, so that A has no effect; give one a value, or use A = 0"),
     "unknown key": ("profile.harmonic=[]", 'profile.harmonic = []: unknown key; did you mean "harmonics"?'),
@@ -239,3 +239,10 @@ def test_curves_of_one_cosine_are_refused(shaped: dict[str, Any]) -> None:
     known = "this curve is known of a paraboloid with one cosine wave under controlled displacement only; remove it, "
     assert [known in sentence for sentence in caught.value.mistakes] == [True, True]
     assert ["outputs[1]" in caught.value.mistakes[0], "outputs[2]" in caught.value.mistakes[1]] == [True, True]
+
+
+@pytest.mark.parametrize("amplitudes", [{}, {"cos": 0.3}, {"sin": 0.2}, {"cos": 0.3, "sin": 0.2}])
+def test_a_wave_is_the_same_in_a_study_and_in_python(amplitudes: dict[str, float], data: dict[str, Any]) -> None:
+    text = ", ".join(f"{name} = {value}" for name, value in ({"n": 3} | amplitudes).items())
+    read = study_from(data | {"profile": tomllib.loads(f"harmonics = [{{ {text} }}]")})
+    assert read.profile.harmonics == (Harmonic(n=3, **amplitudes),)

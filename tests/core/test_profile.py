@@ -1,5 +1,6 @@
 """Profiles and controls: what is refused, and with what words."""
 
+import dataclasses
 import math
 from typing import Any
 
@@ -53,3 +54,15 @@ def test_the_default_profile_and_control_change_nothing(scene: dict[str, float])
     plain = solve(scene)
     other = solve(scene, profile=Profile(), loading=Loading())
     assert all(plain[name].tobytes() == other[name].tobytes() for name in plain)
+
+
+@pytest.mark.parametrize(
+    ("given", "cos", "sin"),
+    [({}, 1.0, 0.0), ({"sin": 0.2}, 0.0, 0.2), ({"cos": 0.3}, 0.3, 0.0), ({"cos": 0.0}, 0.0, 0.0), ({"cos": 0.3, "sin": 0.2}, 0.3, 0.2)],
+)  # fmt: skip
+def test_what_a_harmonic_leaves_out(given: dict[str, float], cos: float, sin: float) -> None:
+    harmonic = Harmonic(n=3, **given)
+    assert (harmonic.cos, harmonic.sin) == (cos, sin)
+    assert dataclasses.replace(harmonic, n=3) == harmonic
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        harmonic.cos = 2.0  # type: ignore[misc]

@@ -22,7 +22,7 @@ SCENE = {
     "A": 0.02,
     "a_max_over_R": 0.8,
 }
-ROUGH = Profile(exponent=1.5, harmonics=(Harmonic(n=1, sin=0.3), Harmonic(n=3, cos=0.2, sin=-0.1)))
+ROUGH = Profile(exponent=1.5, harmonics=(Harmonic(n=1, cos=1.0, sin=0.3), Harmonic(n=3, cos=0.2, sin=-0.1)))
 
 
 @pytest.mark.parametrize("rim", [0.02, 0.5, 0.83, math.inf])

@@ -22,7 +22,7 @@ SCENE = {
     "A": 0.02,
     "a_max_over_R": 0.8,
 }
-ROUGH = Profile(exponent=1.5, harmonics=(Harmonic(n=1, sin=0.3), Harmonic(n=3, cos=0.2, sin=-0.1)))
+ROUGH = Profile(exponent=1.5, harmonics=(Harmonic(n=1, cos=1.0, sin=0.3), Harmonic(n=3, cos=0.2, sin=-0.1)))
 CONTROLS = [("displacement", None), ("machine", 1e3), ("machine", 2.0), ("machine", 0.1), ("load", None)]
 
 

@@ -26,8 +26,8 @@ from gradhesion.core.struve.circle import TWO_PI
 EPS = float(np.finfo(float).eps)
 SCENE = {"k": 0.3, "nu": 0.27, "modulus": 1e3, "c0_over_R": 0.1, "lambda_over_R": 1e-3, "A": 1e-2, "a_max_over_R": 0.7}
 PAIR = (Harmonic(n=1, cos=0.6, sin=-0.3), Harmonic(n=2, cos=-0.2, sin=0.25))
-ODD = (Harmonic(n=1, sin=0.4), Harmonic(n=3, cos=0.3, sin=0.1), Harmonic(n=5, cos=-0.1))
-HIGH = (Harmonic(n=2, cos=0.5), Harmonic(n=7, cos=0.1, sin=0.1), Harmonic(n=8, sin=-0.1))
+ODD = (Harmonic(n=1, cos=1.0, sin=0.4), Harmonic(n=3, cos=0.3, sin=0.1), Harmonic(n=5, cos=-0.1))
+HIGH = (Harmonic(n=2, cos=0.5), Harmonic(n=7, cos=0.1, sin=0.1), Harmonic(n=8, cos=1.0, sin=-0.1))
 ROUGH = tuple(Harmonic(n=n, cos=math.cos(n * n) * n**-1.6, sin=math.sin(n * n) * n**-1.6) for n in range(1, 9))
 
 
