@@ -1,11 +1,11 @@
-"""The ways to fail: one exception and one exit code each; every message tells what to do next."""
+"""
+The ways to fail: one exception and one exit code each; every message says what to do next.
+
+They are plain exceptions, for the command line (`gradhesion.cli.main` prints them) as for a notebook.
+"""
 
 from collections.abc import Sequence
-from typing import IO, Any, Final
-
-import click
-
-from gradhesion.cli import messages
+from typing import Final
 
 EXIT_CODES: Final = {
     0: "fine",
@@ -20,31 +20,35 @@ EXIT_CODES: Final = {
 """What every exit code means."""
 
 
-class GradhesionError(click.ClickException):
-    """A failure that the user can mend; `str()` of it is the message, `exit_code` what the command returns."""
+class GradhesionError(Exception):
+    """
+    A failure that the user can mend: `mistakes` has a sentence for each thing that is wrong, `str()` all of them.
 
-    exit_code = 1
+    Parameters
+    ----------
+    mistakes
+        The sentence, or several of them.
+    """
 
-    def show(self, file: IO[Any] | None = None) -> None:
-        """Print the message to `file` (stderr if None)."""
-        if messages.in_json() and file is None:
-            messages.say_json("error", exit_code=self.exit_code, message=self.message)
-        else:
-            click.echo(self.message, file=file, err=file is None)
+    exit_code: int = 1
+    """What the command line returns for it."""
+
+    def __init__(self, mistakes: str | Sequence[str]) -> None:
+        super().__init__(mistakes)
+        self.mistakes = (mistakes,) if isinstance(mistakes, str) else tuple(mistakes)
+
+    def __str__(self) -> str:
+        return "\n".join(self.mistakes)
 
 
-class StudyError(GradhesionError):
-    """The study is wrong: `mistakes` has a sentence for each of its mistakes."""
+class StudyError(GradhesionError, ValueError):
+    """A study, or what is asked of a function in the place of one, is wrong."""
 
     exit_code = 2
 
-    def __init__(self, mistakes: Sequence[str]) -> None:
-        super().__init__("\n".join(mistakes))
-        self.mistakes = tuple(mistakes)
 
-
-class DatasetError(GradhesionError):
-    """A dataset cannot be read, or has not what was asked for."""
+class DatasetError(GradhesionError, ValueError):
+    """A dataset cannot be read, or lacks what was asked for."""
 
     exit_code = 2
 

@@ -3,7 +3,7 @@
 import os
 import sys
 from contextlib import suppress
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import click
 
@@ -26,7 +26,18 @@ UNHEARD = 141
 """As of a program that SIGPIPE ends."""
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+class _Group(click.Group):
+    """The commands; what a user can mend is printed without a traceback."""
+
+    def invoke(self, context: click.Context) -> Any:
+        """Run a command."""
+        try:
+            return super().invoke(context)
+        except GradhesionError as error:
+            raise messages.Failure(error) from error
+
+
+@click.group(cls=_Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
 @click.version_option(package_name="gradhesion")
 def cli() -> None:
     """Exact maps of the adhesion of wavy punches on power-law graded materials.
@@ -80,7 +91,7 @@ def _code_of(error: BaseException) -> int:
         return INTERRUPTED
     if isinstance(error, click.ClickException):
         with suppress(BrokenPipeError):
-            if messages.in_json() and not isinstance(error, GradhesionError):
+            if messages.in_json() and not isinstance(error, messages.Failure):
                 messages.say_json("error", exit_code=error.exit_code, message=error.format_message())
             else:
                 error.show()

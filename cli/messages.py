@@ -2,9 +2,11 @@
 
 import json
 import time
-from typing import Any
+from typing import IO, Any
 
 import click
+
+from gradhesion.cli.errors import GradhesionError
 
 _json: list[bool] = []
 
@@ -31,3 +33,18 @@ def say(event: str, sentence: str, **fields: Any) -> None:
 def say_json(event: str, **fields: Any) -> None:
     """Print one JSON object on a line of stderr."""
     click.echo(json.dumps({"event": event, "time": round(time.time(), 3), **fields}), err=True)
+
+
+class Failure(click.ClickException):
+    """A failure that the user can mend, as click prints it and ends with its exit code."""
+
+    def __init__(self, error: GradhesionError) -> None:
+        super().__init__(str(error))
+        vars(self)["exit_code"] = error.exit_code  # of the class, for click
+
+    def show(self, file: IO[Any] | None = None) -> None:
+        """Print the message to `file` (stderr if None)."""
+        if in_json() and file is None:
+            say_json("error", exit_code=self.exit_code, message=self.message)
+        else:
+            click.echo(self.message, file=file, err=file is None)

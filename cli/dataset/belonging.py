@@ -9,6 +9,7 @@ import numpy as np
 import xarray
 
 from gradhesion.cli.dataset.coordinates import following
+from gradhesion.cli.dataset.reader import study_text
 from gradhesion.cli.errors import DatasetError, StudyError
 from gradhesion.cli.keys import MACHINE, SPRING
 from gradhesion.cli.names import SOLVER
@@ -28,18 +29,18 @@ def study_of(dataset: xarray.Dataset, path: Path) -> Study:
     DatasetError
         The study was edited, is not that of the dataset, or is not one of a map.
     """
-    text = str(dataset.attrs.get("study", ""))
+    text = study_text(dataset, path)
     if hashlib.sha256(text.encode()).hexdigest() != dataset.attrs["study_sha256"]:
         raise _apart(path, "the text of its study was changed: its sha256 is not that of the dataset")
     try:
         data = tomllib.loads(text)
-        if data.get("kind", "map") != "map":
-            raise DatasetError(f"{path}: holds a {data['kind']}; `gradhesion verify` takes maps")
         study = study_from(data, "its study")
-    except (ValueError, RecursionError) as error:
-        raise _apart(path, f"its study is not valid TOML ({error})") from None
     except StudyError as error:
         raise DatasetError(f"{path}: its study is none of this version ({error.mistakes[0]}); write it again") from None
+    except (ValueError, RecursionError) as error:
+        raise _apart(path, f"its study is not valid TOML ({error})") from None
+    if study.kind != "map":
+        raise DatasetError(f"{path}: holds a {study.kind}; `gradhesion verify` takes maps")
     _check_variables(dataset, study, path)
     _check_coordinates(dataset, study, path)
     return study

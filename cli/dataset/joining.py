@@ -33,7 +33,9 @@ def study_of(sources: Sources) -> tuple[Study, str]:
     DatasetError
         They differ in something else, in nothing, or along more than one axis.
     """
-    texts = {file: tomllib.loads(dataset.attrs["study"]) for file, dataset in sources.items()}
+    from gradhesion.cli.dataset.reader import study_text  # noqa: PLC0415 (xarray, which shards do without)
+
+    texts = {file: tomllib.loads(study_text(dataset, file)) for file, dataset in sources.items()}
     studies = {file: study_from(text) for file, text in texts.items()}
     (first, one), *others = studies.items()
     for file, other in others:

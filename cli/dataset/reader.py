@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import xarray
 
 from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.files import kind_of
 from gradhesion.cli.names import EXTENTS, RAGGED
 from gradhesion.cli.study.tiling import CHUNK, Tiling
 
@@ -26,25 +27,82 @@ def opened(path: Path) -> Iterator["Dataset"]:
     DatasetError
         The file is missing, damaged or not ours.
     """
-    if not path.is_file():
-        what = "is not a file" if path.exists() else "does not exist"
-        raise DatasetError(f"{path}: {what}; name a dataset that `gradhesion run` wrote")
-    try:
-        dataset = xarray.open_dataset(path, engine="netcdf4", cache=False)
-    except (OSError, ValueError, RuntimeError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise DatasetError(
-            f"{path}: cannot be read as NetCDF ({reason}); write it again with `gradhesion run`"
-        ) from error
-    with dataset:
-        if "study_sha256" not in dataset.attrs or "status" not in dataset:
-            raise DatasetError(f"{path}: is not a dataset of gradhesion; name one that `gradhesion run` wrote")
+    with found(path, cache=False) as dataset:
+        check_ours(dataset, path)
         try:
             yield dataset
         except BrokenPipeError:  # of what is told about it
             raise
         except (OSError, RuntimeError) as error:
             raise DatasetError(f"{path}: is damaged ({error}); write it again with `gradhesion run`") from error
+
+
+def found(path: Path, *, cache: bool) -> "Dataset":
+    """
+    Open a dataset; it is the caller's to close.
+
+    Parameters
+    ----------
+    path
+        Of a file in NetCDF.
+    cache
+        Whether values that were read are kept.
+
+    Raises
+    ------
+    DatasetError
+        The file is missing, damaged or none in NetCDF; the message says what it is instead.
+    """
+    kind = kind_of(path)
+    if not path.is_file():
+        what = f"is not a file, but {kind}" if path.exists() else "does not exist"
+        raise DatasetError(f"{path}: {what}; name a dataset that `gradhesion run` wrote")
+    try:
+        return xarray.open_dataset(path, engine="netcdf4", cache=cache)
+    except (OSError, ValueError, RuntimeError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        other = kind and not kind.startswith("a dataset")
+        what, remedy = (f"it is {kind}", "name a dataset that") if other else (reason, "write it again with")
+        wrote = " wrote" if other else ""
+        raise DatasetError(f"{path}: cannot be read as NetCDF ({what}); {remedy} `gradhesion run`{wrote}") from error
+
+
+def check_ours(dataset: "Dataset", path: Path | str = "this") -> None:
+    """
+    Check that a dataset is one of this program.
+
+    Raises
+    ------
+    DatasetError
+        It is not; the message says what is missing.
+    """
+    missing = [f"the attribute {name}" for name in ("title", "source") if name not in dataset.attrs]
+    if "status" not in dataset:
+        missing.append("the variable status")
+    elif "flag_meanings" not in dataset["status"].attrs:
+        missing.append("the attribute flag_meanings of status")
+    source = str(dataset.attrs.get("source", "gradhesion"))
+    if not missing and source.startswith("gradhesion"):
+        return
+    lack = f"it lacks {' and '.join(missing)}" if missing else f"its source is {source}"
+    raise DatasetError(f"{path}: is not a dataset of gradhesion; name one that `gradhesion run` wrote ({lack})")
+
+
+def study_text(dataset: "Dataset", path: Path | str) -> str:
+    """
+    Give the text of the study in a dataset.
+
+    Raises
+    ------
+    DatasetError
+        There is none, as in what `gradhesion.solve` computes of more than a study can say.
+    """
+    if not {"study", "study_sha256"} <= dataset.attrs.keys():
+        raise DatasetError(
+            f"{path}: has no study, which would be its attributes study and study_sha256; compute it from a study, "
+            "with `gradhesion run`"
+        )
+    return str(dataset.attrs["study"])
 
 
 def has_curves(dataset: "Dataset") -> bool:

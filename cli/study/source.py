@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from gradhesion.cli.errors import StudyError
+from gradhesion.cli.files import kind_of
 from gradhesion.cli.study import places, wording
 
 MOST_BYTES: Final = 2**28
@@ -45,6 +46,7 @@ def read_source(path: Path, overrides: Iterable[str]) -> Source:
     except RecursionError:
         raise StudyError([f"{path}: not valid TOML, brackets are nested too deeply; remove some"]) from None
     except ValueError as error:
+        _check_kind(path)
         raise StudyError([_syntax_sentence(path, text, str(error))]) from None
     sources, mistakes = _override(data, overrides)
     lines = cache(lambda: places.lines_of(text))
@@ -77,8 +79,17 @@ def _text(path: Path) -> str:
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
+        _check_kind(path)
         line = content[: error.start].count(b"\n") + 1
         raise StudyError([f"{path}:{line}: not text in UTF-8; name a study in TOML, saved as UTF-8"]) from None
+
+
+def _check_kind(path: Path) -> None:
+    """Say what a file is that is no study, if that can be seen."""
+    kind = kind_of(path)
+    if kind and path.suffix.lower() != ".toml":
+        remedy = ", which `gradhesion info` and `gradhesion.open` read" if kind.startswith("a dataset") else ""
+        raise StudyError([f"{path}: is {kind}{remedy}, not a study; name a study in TOML"]) from None
 
 
 _REMEDIES: Final = {

@@ -172,4 +172,5 @@ def _origin(dataset: xarray.Dataset) -> Iterator[str]:
     yield "origin"
     yield f"  {attributes['source']} ({versions})"
     yield from (f"  {line}" for line in str(attributes["history"]).splitlines())
-    yield f"  study with sha256 {attributes['study_sha256']}"
+    if "study_sha256" in attributes:
+        yield f"  study with sha256 {attributes['study_sha256']}"

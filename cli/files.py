@@ -1,0 +1,46 @@
+"""What a file is, for whoever named it in the place of another."""
+
+from pathlib import Path
+from typing import Final
+
+_MAGIC: Final = {
+    b"\x89HDF\r\n\x1a\n": "a dataset (NetCDF or HDF5)",
+    b"CDF": "a dataset (NetCDF)",
+    b"\x89PNG": "a picture (PNG)",
+    b"%PDF": "a document (PDF)",
+    b"PK\x03\x04": "an archive (ZIP, or a workbook)",
+    b"\x1f\x8b": "a compressed file (gzip)",
+}
+"""How files begin that no text does."""
+
+_ENDINGS: Final = {
+    ".toml": "a study (TOML)",
+    ".csv": "a table (CSV)",
+    ".tsv": "a table (TSV)",
+    ".json": "a file in JSON",
+    ".html": "a page (HTML)",
+    ".svg": "a picture (SVG)",
+    ".py": "a program in Python",
+    ".md": "a text in Markdown",
+}
+"""What files are by their names."""
+
+
+def kind_of(path: Path) -> str:
+    """
+    Say what stands at a path, by how it begins and by its name; "" where nothing is known of it.
+
+    >>> kind_of(Path("/"))
+    'a directory'
+    """
+    try:
+        if path.is_dir():
+            return "a directory"
+        if not path.is_file():
+            return "no regular file" if path.exists() else ""
+        with path.open("rb") as file:
+            begins = file.read(8)
+    except (OSError, ValueError):
+        return ""
+    by_magic = next((kind for magic, kind in _MAGIC.items() if begins.startswith(magic)), "")
+    return by_magic or _ENDINGS.get(path.suffix.lower(), "")
