@@ -1,5 +1,5 @@
 PYTHON ?= python3
-sources := $(shell find cli core twin -name '*.py')
+sources := $(shell find api cli core twin -name '*.py')
 drawing := $(wildcard figures/*.py figures/*.mplstyle cli/picture/*.mplstyle)
 checked := $(sources) $(drawing) $(shell find tests benchmarks docs configs -type f -not -path '*/__pycache__/*' -not -name '*.png' 2>/dev/null) README.md CITATION.cff Makefile
 pictures := $(addprefix fig,2a 2b 3a 3b 3c 4a 4b 4c 5a 5b 5c 6 7a 7b 7c 8 9 9a 9b)
@@ -65,9 +65,11 @@ docs/figures/paper/%.png: $$(call dataset,$$*) $(drawing)
 
 .PRECIOUS: outputs/figures/%.nc
 
-build/types/gradhesion:
+# What mypy reads: the package as it is installed, by links. Files that come or go change the date of api/.
+build/types/gradhesion: api
+	rm -rf $@
 	mkdir -p $@
-	ln -s ../../../core ../../../cli ../../../configs ../../../twin $@
+	ln -s $(addprefix ../../../,cli configs core twin $(wildcard api/*.py) api/py.typed) $@
 
 build/tested: $(checked) .venv/complete | build/types/gradhesion
 	.venv/bin/ruff check

@@ -4,6 +4,7 @@ import ast
 import os
 import subprocess
 import sys
+import sysconfig
 import tarfile
 import tomllib
 import zipfile
@@ -26,9 +27,14 @@ LEFT_OUT = ignore_patterns(".*", "__pycache__", "build", "dist", "outputs", "*.e
 
 
 def _files() -> set[str]:
-    """List what belongs into a wheel, as it stands in the tree."""
+    """List what belongs into a wheel; the folder api/ is the package itself, the others are its sub-packages."""
+    return {f"gradhesion/{name.removeprefix('api/')}" for name in _sources()}
+
+
+def _sources() -> set[str]:
+    """List the same as it stands in the tree."""
     return {
-        f"gradhesion/{path.relative_to(ROOT).as_posix()}"
+        path.relative_to(ROOT).as_posix()
         for top in TOPS
         for path in (ROOT / top).rglob("*")
         if path.is_file() and "__pycache__" not in path.parts
@@ -79,7 +85,7 @@ def test_the_source_has_what_a_build_needs_and_no_outputs(built: Path) -> None:
     (path,) = built.glob("*.tar.gz")
     with tarfile.open(path) as archive:
         names = {member.name.partition("/")[2] for member in archive.getmembers() if member.isfile()}
-    assert names >= {name.removeprefix("gradhesion/") for name in _files()} | {"pyproject.toml", "README.md", "LICENSE"}
+    assert names >= _sources() | {"pyproject.toml", "README.md", "LICENSE"}
     assert not [name for name in names if name.startswith(("outputs", "build", "."))]
 
 
@@ -148,12 +154,46 @@ def test_the_installed_program_works_away_from_the_repository(wheel: Path, tmp_p
         return done.stdout
 
     where = call(
-        "-c", "import gradhesion.cli, gradhesion.core; print(gradhesion.cli.__file__, gradhesion.core.__file__)"
+        "-c",
+        "import gradhesion, gradhesion.cli, gradhesion.core, gradhesion.scenes as scenes; "
+        "print(*(one.__file__ for one in (gradhesion, gradhesion.cli, gradhesion.core, scenes)))",
     )
-    assert where.count(str(installed)) == 2
+    assert where.count(str(installed)) == 4
     assert "run" in call("-m", "gradhesion.cli", "--help")
+    assert "run" in call("-m", "gradhesion", "--help")
     call("-m", "gradhesion.cli", "init", "smoke")
     sets = ["parameters.k=0.5", "parameters.A=0.0", 'outputs=["pull_off_force"]']
     sets.append('method={ solver = "envelope" }')  # which compiles in a third of the time
     call("-m", "gradhesion.cli", "run", "smoke.toml", "-o", "smoke.nc", *(f"--set={entry}" for entry in sets))
     assert "1.166667" in call("-m", "gradhesion.cli", "info", "smoke.nc")  # (3 + k)/3
+    code = "import gradhesion as gr; print(gr.open('smoke.nc').gr.valid().all().item(), gr.load('smoke.toml').kind)"
+    assert call("-c", code).split() == ["True", "map"]
+
+
+def test_an_editable_installation_has_the_same_package_and_sees_new_modules(tmp_path: Path) -> None:
+    pytest.importorskip("setuptools", minversion="77")
+    tree, elsewhere, installed = tmp_path / "tree", tmp_path / "elsewhere", tmp_path / "installed"
+    copytree(ROOT, tree, ignore=LEFT_OUT)
+    elsewhere.mkdir()
+    installed.mkdir()
+    code = f"from setuptools import build_meta as backend; backend.build_editable({str(installed)!r})"
+    done = subprocess.run([sys.executable, "-c", code], cwd=tree, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    (wheel,) = installed.glob("*.whl")
+    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--target", installed, wheel]
+    subprocess.run(pip, check=True, capture_output=True)
+    (tree / "api" / "added.py").write_text('"""Added later."""\n')
+    # -S, and other packages by their path alone: the editable installation of this very environment must not answer.
+    code = (
+        f"import sys, site; site.addsitedir({str(installed)!r}); sys.path.append({sysconfig.get_path('purelib')!r}); "
+        "import gradhesion, gradhesion.added, gradhesion.core.status, gradhesion.configs, gradhesion.cli.study.study; "
+        "print(gradhesion.__file__, gradhesion.added.__file__, gradhesion.core.status.__file__, "
+        "gradhesion.cli.study.study.__file__, gradhesion.configs.__file__, gradhesion.load.__module__)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-S", "-c", code], cwd=elsewhere, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    *files, module = done.stdout.split()
+    assert [Path(file).relative_to(tree).parts[0] for file in files] == ["api", "api", "core", "cli", "configs"]
+    assert module == "gradhesion.studies"

@@ -18,6 +18,7 @@ import pytest
 import xarray
 from click.testing import Result
 
+import gradhesion
 import gradhesion.cli
 import gradhesion.core
 import gradhesion.twin
@@ -27,10 +28,15 @@ ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text()
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 MODULES = sorted(
-    module.name
-    for package in (gradhesion.cli, gradhesion.core, gradhesion.twin)
-    for module in pkgutil.walk_packages(package.__path__, package.__name__ + ".")
-    if not module.name.endswith("__main__")
+    {
+        "gradhesion",
+        *(
+            module.name
+            for package in (gradhesion, gradhesion.cli, gradhesion.core, gradhesion.twin)
+            for module in pkgutil.walk_packages(package.__path__, package.__name__ + ".")
+            if not module.name.endswith("__main__")
+        ),
+    }
 )
 HEAVY = (
     "bokeh",
@@ -160,20 +166,24 @@ def test_the_maps_are_a_real_study_over_all_five_axes() -> None:
     assert np.isinf(np.max(study.parameters["a_max_over_R"]))
 
 
+PACKAGES = {"api": "gradhesion"}
+"""Folders that are not named as their package."""
+
+
 def test_every_folder_of_modules_is_packaged() -> None:
     listed = PROJECT["tool"]["setuptools"]["package-dir"]
-    tops = ("cli", "configs", "core", "twin")
+    tops = ("api", "cli", "configs", "core", "twin")
     folders = {path.parent.relative_to(ROOT) for top in tops for path in (ROOT / top).rglob("*.py")}
     assert {Path(folder) for folder in listed.values()} == folders
     assert sorted(listed) == sorted(PROJECT["tool"]["setuptools"]["packages"])
-    assert all(name == "gradhesion." + folder.replace("/", ".") for name, folder in listed.items())
+    assert all(
+        name == PACKAGES.get(folder, "gradhesion." + folder.replace("/", ".")) for name, folder in listed.items()
+    )
     assert all((ROOT / folder / "__init__.py").exists() for folder in listed.values())
-    assert all((ROOT / top / "py.typed").exists() for top in ("cli", "core", "twin"))
+    assert all((ROOT / top / "py.typed").exists() for top in ("api", "cli", "core", "twin"))
     data = PROJECT["tool"]["setuptools"]["package-data"]
     packed = {file for name, globs in data.items() for glob in globs for file in (ROOT / listed[name]).glob(glob)}
-    others = {
-        file for top in ("cli", "configs", "core", "twin") for file in (ROOT / top).rglob("*.*") if file.is_file()
-    }
+    others = {file for top in tops for file in (ROOT / top).rglob("*.*") if file.is_file()}
     assert packed == {file for file in others if file.suffix not in {".py", ".pyc"} and "__pycache__" not in file.parts}
 
 

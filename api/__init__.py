@@ -1,0 +1,112 @@
+"""
+Adhesive contact of wavy punches on power-law graded materials, for scripts and notebooks: `import gradhesion as gr`.
+
+Names are imported when they are first asked for, so that the import itself costs next to nothing. Datasets of xarray
+have the accessor `dataset.gr` from the first call of a function of this package on, or from its import on where xarray
+is imported before it.
+
+>>> import gradhesion as gr
+>>> smooth = gr.solve(k=[0.0, 0.5], nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.1, A=0.0, a_max_over_R=1.0)
+>>> smooth["pull_off_force"].sel(k=0.5).round(12).item()  # (3 + k)/3
+1.166666666667
+"""
+
+import importlib
+import sys
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    from gradhesion.cli.errors import (
+        DatasetError,
+        GradhesionError,
+        MissingExtraError,
+        OutputError,
+        StudyError,
+    )
+    from gradhesion.cli.names import CURVES, OUTPUTS, PARAMETERS
+    from gradhesion.cli.study.study import Study
+    from gradhesion.core.loading_control import CONTROLS
+    from gradhesion.core.profile import Harmonic, Profile
+    from gradhesion.core.solvers import SOLVERS
+    from gradhesion.core.status import FLAGS
+    from gradhesion.datasets import open_dataset as open  # noqa: A004 (gr.open)
+    from gradhesion.datasets import verify
+    from gradhesion.pictures import explore, plot
+    from gradhesion.scenes import curves, solve
+    from gradhesion.studies import load, run
+
+    __version__: str
+
+__all__ = [
+    "CONTROLS",
+    "CURVES",
+    "FLAGS",
+    "OUTPUTS",
+    "PARAMETERS",
+    "SOLVERS",
+    "DatasetError",
+    "GradhesionError",
+    "Harmonic",
+    "MissingExtraError",
+    "OutputError",
+    "Profile",
+    "Study",
+    "StudyError",
+    "__version__",
+    "curves",
+    "explore",
+    "load",
+    "open",
+    "plot",
+    "run",
+    "solve",
+    "verify",
+]
+
+_HOMES: Final = {
+    "cli.errors": (
+        "DatasetError",
+        "GradhesionError",
+        "MissingExtraError",
+        "OutputError",
+        "StudyError",
+    ),
+    "cli.names": ("CURVES", "OUTPUTS", "PARAMETERS"),
+    "cli.study.study": ("Study",),
+    "core.loading_control": ("CONTROLS",),
+    "core.profile": ("Harmonic", "Profile"),
+    "core.solvers": ("SOLVERS",),
+    "core.status": ("FLAGS",),
+    "datasets": ("open", "verify"),
+    "pictures": ("explore", "plot"),
+    "scenes": ("curves", "solve"),
+    "studies": ("load", "run"),
+}
+"""The module that each public name comes from."""
+
+_OWN_NAMES: Final = {"open": "open_dataset"}
+"""What a name is called in its module, where that is another."""
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first asked for."""
+    if name == "__version__":
+        from importlib.metadata import version
+
+        value: Any = version("gradhesion")
+    else:
+        home = next((module for module, own in _HOMES.items() if name in own), None)
+        if home is None:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        value = getattr(importlib.import_module(f"{__name__}.{home}"), _OWN_NAMES.get(name, name))
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """List the public names, imported or not."""
+    return sorted({*globals(), *__all__})
+
+
+if hasattr(sys.modules.get("xarray"), "register_dataset_accessor"):
+    importlib.import_module(f"{__name__}.accessor")

@@ -1,0 +1,94 @@
+"""The accessor `dataset.gr` of xarray: what the status of a dataset's scenes means."""
+
+from typing import Any
+
+import xarray
+
+from gradhesion.cli.dataset.reader import check_ours
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.names import CURVES, SI
+from gradhesion.cli.study.wording import did_you_mean
+from gradhesion.core.status import FAILED, FLAGS, doubts_about
+
+
+@xarray.register_dataset_accessor("gr")  # type: ignore[no-untyped-call]
+class Accessor:
+    """
+    What the bits of `status` say, scene by scene; `dataset.gr` of any dataset of this program.
+
+    Raises
+    ------
+    DatasetError
+        The dataset is of another program.
+
+    Examples
+    --------
+    >>> import gradhesion as gr
+    >>> punch = dict(k=0.0, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.1, a_max_over_R=1.0)
+    >>> rough = gr.solve(punch, A=[0.0, 0.1])
+    >>> rough.gr.flagged("loading_contact_not_one_disc").values.tolist()
+    [False, True]
+    >>> rough.gr.valid("dissipated_energy").values.tolist(), rough.gr.valid("pull_off_force").values.tolist()
+    ([True, False], [True, True])
+    """
+
+    def __init__(self, dataset: xarray.Dataset) -> None:
+        check_ours(dataset)
+        self._dataset = dataset
+
+    def valid(self, variable: str | None = None) -> xarray.DataArray:
+        """
+        Report which scenes have values that hold.
+
+        Parameters
+        ----------
+        variable
+            A variable of the dataset: True where it has a value and no flag casts doubt on it. Without one: True where
+            the scene has values at all.
+
+        Returns
+        -------
+        Booleans over the dimensions of `status`, for `where`: `dataset["dissipated_energy"].where(dataset.gr.valid(
+        "dissipated_energy"))`.
+
+        Raises
+        ------
+        DatasetError
+            The dataset has no such variable.
+        """
+        bits = FAILED
+        if variable is not None:
+            known = [str(name) for name in self._dataset.data_vars if name != "status"]
+            if variable not in known:
+                raise DatasetError(f"{variable}: no variable of this dataset; {did_you_mean(variable, known)}")
+            plain = variable.removesuffix(SI)
+            bits |= doubts_about(next((curve for curve, own in CURVES.items() if plain in own), plain))
+        return (self._dataset["status"] & bits) == 0
+
+    def flagged(self, flag: str) -> xarray.DataArray:
+        """
+        Report which scenes have a flag.
+
+        Parameters
+        ----------
+        flag
+            A name out of `FLAGS`.
+
+        Returns
+        -------
+        Booleans over the dimensions of `status`.
+
+        Raises
+        ------
+        DatasetError
+            There is no such flag.
+        """
+        if flag not in FLAGS:
+            raise DatasetError(f"{flag}: no flag of status; {did_you_mean(flag, list(FLAGS))}")
+        return (self._dataset["status"] & FLAGS[flag]) != 0
+
+    def plot(self, variables: Any = None, **choices: Any) -> Any:
+        """Draw the dataset, as `gradhesion.plot(dataset, variables, ...)`; the figure of matplotlib is returned."""
+        from gradhesion.pictures import plot  # noqa: PLC0415 (matplotlib)
+
+        return plot(self._dataset, variables, **choices)

@@ -1,0 +1,92 @@
+"""Datasets of this program: opened, and verified."""
+
+from contextlib import nullcontext
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import xarray
+
+import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
+from gradhesion.cli.dataset.reader import check_ours, found, opened
+from gradhesion.cli.errors import MissingExtraError, StudyError
+from gradhesion.wording import in_python
+
+if TYPE_CHECKING:
+    from gradhesion.cli.dataset.recompute import Recomputed
+
+
+def open_dataset(file: str | Path) -> xarray.Dataset:
+    """
+    Open a dataset that `gradhesion run` wrote, or `dataset.to_netcdf`; values are read when they are used.
+
+    Parameters
+    ----------
+    file
+        Of NetCDF.
+
+    Returns
+    -------
+    The dataset; `with gr.open(...) as dataset` closes its file, as with `xarray.open_dataset`.
+
+    Raises
+    ------
+    DatasetError
+        The file is missing or damaged, or something else than a dataset of this program; the message says what it is,
+        or what it lacks.
+    """
+    dataset = found(Path(file), cache=True)
+    try:
+        check_ours(dataset, Path(file))
+    except BaseException:
+        dataset.close()
+        raise
+    return dataset
+
+
+def verify(dataset: xarray.Dataset | str | Path, *, sample: int = 20, seed: int | None = None) -> "Recomputed":
+    """
+    Recompute a random sample of a map's scenes to 30 digits by other means, and compare.
+
+    Parameters
+    ----------
+    dataset
+        A dataset with its study in it, or the path of its file.
+    sample
+        Scenes to recompute, 1 or more.
+    seed
+        Draws the same sample again; a new one each time if None.
+
+    Returns
+    -------
+    What was found: `deviations` (the worst first, each with `output`, `scene`, `value`, `expected`, `deviation`,
+    `stated` and its `share` of what is stated), the number `exceeding` their stated errors, and what was left out.
+
+    Raises
+    ------
+    DatasetError
+        The dataset has no study, does not belong to it, or holds nothing that can be recomputed.
+    MissingExtraError
+        python-flint is not installed.
+
+    Examples
+    --------
+    >>> import gradhesion as gr
+    >>> punch = dict(nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.2, A=0.01, a_max_over_R=1.0)
+    >>> found = gr.verify(gr.solve(punch, k=[0.0, 0.5]), seed=7)
+    >>> len(found.deviations), found.exceeding
+    (4, 0)
+    """
+    if sample < 1 or (seed is not None and seed < 0):
+        raise StudyError(
+            f"gr.verify: sample = {sample}, seed = {seed}: a sample of 1 scene or more, a seed of 0 or more"
+        )
+    try:
+        from gradhesion.cli.dataset.recompute import recompute  # noqa: PLC0415 (python-flint)
+    except ModuleNotFoundError as error:
+        if error.name != "flint":
+            raise
+        raise MissingExtraError("verify needs python-flint: install it with `pip install python-flint`") from None
+    path = Path("the dataset" if isinstance(dataset, xarray.Dataset) else dataset)
+    with in_python(), nullcontext(dataset) if isinstance(dataset, xarray.Dataset) else opened(path) as values:
+        check_ours(values, path)
+        return recompute(values, path, sample=sample, seed=seed, progress=lambda _: nullcontext(lambda _: None))

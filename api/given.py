@@ -1,0 +1,306 @@
+"""Parameters as a call in Python gives them: numbers, quantities with units, axes, and arrays over named dimensions."""
+
+import math
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+import numpy as np
+import xarray
+from numpy.typing import NDArray
+
+from gradhesion.cli.errors import StudyError
+from gradhesion.cli.names import KEYS, OUTPUTS, PHYSICAL, SCENE, SETTINGS, SOLVER, table_of, unit_of
+from gradhesion.cli.study.axes import MOST_SCENES, Values, mistakes_of_grid
+from gradhesion.cli.study.quantities import si_value
+from gradhesion.cli.study.study import Study, study_from
+from gradhesion.cli.study.wording import did_you_mean, nearest
+from gradhesion.core.profile import Profile
+from gradhesion.wording import without_tables
+
+ARGUMENTS: Final = ("outputs", "profile", "control", "solver", "check_contact", "threads", "title")
+"""What `solve` takes beside parameters; they are no parameters themselves."""
+
+MOST_LISTED: Final = 10_000
+"""Values of all axes together up to which a dataset keeps them in the text of its study as well."""
+
+_TABLES: Final = ("parameters", "physical", "loading", "method")
+
+
+@dataclass(kw_only=True, eq=False)
+class Given:
+    """What a call gives: arrays over named dimensions, and everything else as a study has it."""
+
+    caller: str
+    arrays: dict[str, xarray.DataArray] = field(default_factory=dict)
+    """Parameters over named dimensions, as numbers (in SI units); an axis has the name of its parameter."""
+    fixed: dict[str, Any] = field(default_factory=dict)
+    """Parameters that are no arrays: numbers, quantities with units, ranges, and what is none of these."""
+    settings: dict[str, Any] = field(default_factory=dict)
+    """The other keys of a study, in their tables."""
+    mistakes: list[str] = field(default_factory=list)
+
+    @property
+    def is_grid(self) -> bool:
+        """Whether every array is an axis, as in a study."""
+        return all(array.dims == (name,) for name, array in self.arrays.items())
+
+    @property
+    def is_points(self) -> bool:
+        """Whether all arrays are lists of points, as in a study."""
+        return bool(self.arrays) and all(array.dims == (SCENE,) for array in self.arrays.values())
+
+    def refuse(self, what: str, sentence: str) -> None:
+        """Note a mistake."""
+        self.mistakes.append(f"{self.caller}: {what}: {sentence}")
+
+    def study(self) -> Study:
+        """
+        Check everything as a study is checked; of long arrays the ends of their values stand in it.
+
+        Raises
+        ------
+        StudyError
+            Something is wrong; the error has all mistakes.
+        """
+        ends = {name: _ends(array) for name, array in self.arrays.items()}
+        short = {name: [array.values.flat[i] for i in ends[name]] for name, array in self.arrays.items()}
+        if not self.is_grid and "k" in short:  # whether k = 1 meets nu = 1/2 is asked of each scene instead
+            short["k"] = list(dict.fromkeys(0.5 if value == 1.0 else value for value in short["k"]))
+            self._check_stiffness()
+        try:
+            study = study_from(self._data(short), self.caller)
+        except StudyError as error:
+            found = [_with_own_index(without_tables(sentence), self.arrays, ends) for sentence in error.mistakes]
+            raise StudyError([*self.mistakes, *found]) from None
+        if self.mistakes:
+            raise StudyError(self.mistakes)
+        return study
+
+    def parameters(self, study: Study) -> dict[str, xarray.DataArray]:
+        """Give every parameter of the checked study over its dimensions; of points all of them over all points."""
+        found = {name: self.arrays.get(name, _named(name, values)) for name, values in study.parameters.items()}
+        return {
+            name: array.broadcast_like(next(iter(self.arrays.values()))) if self.is_points else array
+            for name, array in found.items()
+        }
+
+    def text(self) -> str:
+        """Write the study in TOML that gives just these scenes; nothing where there is none, or none that is short."""
+        values = [array.values for array in self.arrays.values()]
+        ordered = self.is_points or (
+            self.is_grid and all(np.all(np.diff(axis) > 0) or np.all(np.diff(axis) < 0) for axis in values)
+        )
+        if not ordered or sum(axis.size for axis in values) > MOST_LISTED:
+            return ""
+        return study_from(self.whole()).text
+
+    def whole(self) -> dict[str, Any]:
+        """Give all of it as the keys of a study; every array is an axis, or all are lists of points."""
+        layout = "points" if self.is_points else "grid"
+        return self._data({name: array.values.tolist() for name, array in self.arrays.items()}, layout)
+
+    def check_threads(self, threads: int | None) -> None:
+        """Check the number of threads."""
+        if threads is not None and threads < 1:
+            self.refuse(f"threads = {threads!r}", "the number of threads is 1 or more, or None for all processors")
+
+    def _data(self, arrays: Mapping[str, Sequence[float]], layout: str = "grid") -> dict[str, Any]:
+        """Give the keys of a study, with these values for the arrays."""
+        data = {key: {**value} if isinstance(value, Mapping) else value for key, value in self.settings.items()}
+        data.setdefault("parameters", {})
+        if layout != "grid":
+            data["layout"] = layout
+        given = {name: arrays.get(name, self.fixed.get(name)) for name in (*self.fixed, *arrays)}
+        for name, value in sorted(given.items(), key=lambda item: [*KEYS, item[0]].index(item[0])):
+            key = name if name in KEYS else nearest(name, list(KEYS)) or "k"
+            data.setdefault(table_of(key), {})[name] = _with_unit(name, value)
+        return data
+
+    def _check_stiffness(self) -> None:
+        """Check that the surface has a stiffness in every scene."""
+        k, nu = (self.arrays.get(name, self.fixed.get(name)) for name in ("k", "nu"))
+        if self.mistakes or not isinstance(nu, float | xarray.DataArray):
+            return
+        wrong = (k == 1.0) & (nu != 0.5)
+        if bool(np.any(wrong)):
+            self.refuse(
+                "k = 1.0", "with k = 1 and another nu than 0.5 the surface has no stiffness; use nu = 0.5 there"
+            )
+
+
+def given_in(
+    caller: str, parameters: Mapping[str, Any] | None, more: Mapping[str, Any], settings: Mapping[str, Any]
+) -> Given:
+    """
+    Take the parameters of a call apart.
+
+    Parameters
+    ----------
+    caller
+        The function that is called, for messages.
+    parameters, more
+        Parameters by name, in a mapping and as keywords; these stand in the place of those in the mapping.
+    settings
+        The arguments that stand for keys of a study: outputs, profile, control, solver, check_contact, title, kind.
+    """
+    given = Given(caller=caller, settings=_settings(settings))
+    for name, value in {**(parameters or {}), **more}.items():
+        _take(given, str(name), value)
+    _align(given)
+    count = math.prod(dict(_sizes(given)).values())
+    if count > MOST_SCENES:
+        given.refuse("parameters", f"they make {count:,} scenes, more than {MOST_SCENES:,}; use fewer values")
+    return given
+
+
+def _take(given: Given, name: str, value: Any) -> None:
+    """Take one parameter."""
+    if name not in KEYS and (name in SETTINGS or name in ARGUMENTS or name in _TABLES):
+        given.refuse(name, "a key of a study and no parameter; give it as a keyword, or call gr.run with the study")
+    elif name not in KEYS and (near := nearest(name, [*KEYS, *ARGUMENTS])) in ARGUMENTS:
+        given.refuse(name, f'unknown argument; did you mean "{near}"?')
+    elif name not in KEYS and near is None:
+        given.refuse(name, f"unknown parameter; {did_you_mean(name, list(KEYS))}")
+    elif name not in KEYS or isinstance(value, str | Mapping) or value is None:
+        given.fixed[name] = value if isinstance(value, Mapping) else np.asarray(value).tolist()
+    else:
+        _take_values(given, name, value)
+
+
+def _take_values(given: Given, name: str, value: Any) -> None:
+    """Take a parameter that is known and no string: a number, an axis, or an array over named dimensions."""
+    array = value if isinstance(value, xarray.DataArray) else np.asarray(value)
+    numbers = _numbers(name, np.asarray(array))
+    if isinstance(value, xarray.DataArray):
+        numbers = _in_si(given, name, value, numbers)
+    if numbers is None or array.size == 0:
+        given.fixed[name] = array.tolist() if isinstance(array, np.ndarray) else array.values.tolist()
+    elif array.ndim == 0:
+        given.fixed[name] = float(numbers)
+    elif isinstance(value, xarray.DataArray):
+        taken = value.copy(data=numbers)
+        given.arrays[name] = taken.assign_coords({name: numbers}) if value.dims == (name,) else taken
+    elif array.ndim == 1:
+        given.arrays[name] = xarray.DataArray(numbers, dims=(name,), coords={name: numbers})
+        for mistake in mistakes_of_grid({name: numbers}):
+            given.refuse(name, mistake.sentence)
+    else:
+        shape = " x ".join(map(str, array.shape))
+        names = ", ".join(f'"{letter}"' for letter in ("x", "y", "z", "u", "v", "w")[: array.ndim])
+        given.refuse(
+            name,
+            f"an array of {shape} values without names for its dimensions; write for example "
+            f"xarray.DataArray({name}, dims=[{names}]), and arrays with equal names go together",
+        )
+        given.fixed[name] = float(numbers.flat[0])
+
+
+def _numbers(name: str, values: NDArray[Any]) -> NDArray[np.float64] | None:
+    """Give values as numbers, quantities with units in SI; None where they are neither."""
+    if values.dtype.kind in "iuf":
+        return values.astype(np.float64) + 0.0  # no negative zeros
+    if name not in PHYSICAL or values.dtype.kind not in "UO":
+        return None
+    try:
+        return np.array([si_value(value, name) for value in values.ravel().tolist()]).reshape(values.shape)
+    except ValueError:
+        return None
+
+
+def _in_si(
+    given: Given, name: str, array: xarray.DataArray, numbers: NDArray[np.float64] | None
+) -> NDArray[np.float64] | None:
+    """Mind the attribute `units` of an array."""
+    units = str(array.attrs.get("units", ""))
+    if numbers is None or array.dtype.kind not in "iuf" or units in ("", unit_of(name)):
+        return numbers
+    if name in PHYSICAL:
+        try:
+            return numbers * si_value(f"1 {units}", name)
+        except ValueError as error:
+            given.refuse(name, f'its attribute units = "{units}": {error}')
+    else:
+        given.refuse(name, f'its attribute units = "{units}", where a number without a unit is expected; convert it')
+    return numbers
+
+
+def _align(given: Given) -> None:
+    """Check that the dimensions of all arrays go together."""
+    taken = {*OUTPUTS, SOLVER, "status"}
+    for name, array in given.arrays.items():
+        for dim in map(str, array.dims):
+            if dim in taken:
+                given.refuse(name, f'its dimension "{dim}" has the name of a variable; rename it')
+            elif dim in KEYS and (dim not in given.arrays or given.arrays[dim].dims != (dim,)):
+                sentence = (
+                    f'its dimension "{dim}" has the name of a parameter that is no axis; rename it, or give {dim}'
+                )
+                given.refuse(name, f"{sentence} as a list")
+    arrays = {name: array.drop_vars([one for one in array.coords if one not in array.dims]) for name, array in
+              given.arrays.items()}  # fmt: skip
+    try:
+        xarray.align(*arrays.values(), join="exact", copy=False)
+    except ValueError:
+        sizes = "; ".join(
+            f"{name} over {', '.join(f'{dim} ({size})' for dim, size in array.sizes.items())}"
+            for name, array in arrays.items()
+        )
+        given.refuse(
+            "parameters",
+            f"dimensions of one name have other lengths or other coordinates ({sizes}); rename one of them",
+        )
+
+
+def _sizes(given: Given) -> list[tuple[str, int]]:
+    """Give the lengths of all dimensions."""
+    return [(str(dim), size) for array in given.arrays.values() for dim, size in array.sizes.items()]
+
+
+def _settings(settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Put the arguments of a call into the tables of a study, leaving out those that are None."""
+    found = {key: value for key, value in settings.items() if value is not None}
+    if isinstance(outputs := found["outputs"], str):
+        found["outputs"] = [outputs]
+    elif isinstance(outputs, Iterable):
+        found["outputs"] = list(outputs)
+    if isinstance(profile := found.get("profile"), Profile):
+        waves = [{"n": wave.n, "cos": wave.cos, "sin": wave.sin} for wave in profile.harmonics]
+        found["profile"] = {"exponent": profile.exponent, "harmonics": waves}
+    for key, table in (("control", "loading"), ("solver", "method"), ("check_contact", "method")):
+        if key in found:
+            found.setdefault(table, {})[key] = found.pop(key)
+    return found
+
+
+def _named(name: str, values: Values) -> xarray.DataArray:
+    """Give a parameter of a study its dimension."""
+    if isinstance(values, float):
+        return xarray.DataArray(values)
+    return xarray.DataArray(values, dims=(name,), coords={name: values})
+
+
+def _ends(array: xarray.DataArray) -> list[int]:
+    """Find the least and the greatest value, or the first that is not a number."""
+    return [*dict.fromkeys((int(np.argmin(array.values)), int(np.argmax(array.values))))]
+
+
+def _with_unit(name: str, value: Any) -> Any:
+    """Write numbers in SI units as a study has them: with the unit."""
+    if isinstance(value, list):
+        return [_with_unit(name, one) for one in value]
+    if isinstance(value, Mapping):
+        return {key: _with_unit(name, one) if key in ("start", "stop") else one for key, one in value.items()}
+    if name in PHYSICAL and isinstance(value, int | float | np.number) and not isinstance(value, bool):
+        return f"{float(value)!r} {PHYSICAL[name][1]}"
+    return value
+
+
+def _with_own_index(sentence: str, arrays: Mapping[str, xarray.DataArray], ends: Mapping[str, Sequence[int]]) -> str:
+    """Name the item of an array, not that of its ends."""
+    found = re.match(r"(gr\.\w+: (\w+))\[(\d)\]", sentence)
+    if not found or found[2] not in arrays:
+        return sentence
+    index = np.unravel_index(ends[found[2]][int(found[3])], arrays[found[2]].shape)
+    return f"{found[1]}[{', '.join(map(str, index))}]{sentence[found.end() :]}"

@@ -1,0 +1,171 @@
+"""Scenes solved, or drawn, without a file: parameters in, a dataset of xarray out."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Final
+
+import numpy as np
+import xarray
+
+import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
+from gradhesion.cli.dataset.dataset import compute
+from gradhesion.cli.names import SCENE
+from gradhesion.cli.study.study import study_from
+from gradhesion.core.profile import Profile
+from gradhesion.given import given_in
+from gradhesion.solved import solved
+
+FORCE_AND_ENERGY: Final = ("pull_off_force", "dissipated_energy")
+
+
+def solve(
+    parameters: Mapping[str, Any] | None = None,
+    outputs: Sequence[str] | str = FORCE_AND_ENERGY,
+    *,
+    profile: Profile | Mapping[str, Any] | None = None,
+    control: str | None = None,
+    solver: str | Sequence[str] | None = None,
+    check_contact: bool | None = None,
+    threads: int | None = None,
+    title: str | None = None,
+    **more: Any,
+) -> xarray.Dataset:
+    """
+    Solve scenes: every combination of axes, or arrays over named dimensions.
+
+    Parameters
+    ----------
+    parameters, **more
+        The parameters of a study by name, in a mapping, as keywords, or both (a keyword stands in the place of what the
+        mapping has, as in `dict(parameters, **more)`): k in [0, 1], nu in (-1, 0.5], modulus E* R/dgamma > 0, c0_over_R
+        > 0, lambda_over_R > 0, A >= 0, a_max_over_R > 0 or inf; their reduced forms (chi, lambda_over_L, ...); or
+        quantities with units, such as R = "1 um" (a plain number is in SI units: R = 1e-6); and machine_stiffness S/(E*
+        R) > 0, or spring_constant, with control "machine". Each of them is
+
+        - a number (or a quantity with its unit): the same in all scenes;
+        - a list, a plain array of one dimension, or a range {"start": .., "stop": .., "num": .., "spacing": "log"}: an
+          axis of the name of the parameter, as in a study. Two lists make a grid, whatever their lengths;
+        - an xarray.DataArray: arrays broadcast by the names of their dimensions, so that A and k over the same
+          dimension vary together. One over a single dimension of its own name is an axis.
+
+        A plain array of two or more dimensions is refused: their names are missing.
+    outputs
+        Names out of `OUTPUTS`.
+    profile
+        The shape of the punch, a `Profile` or the table of a study; a paraboloid with one cosine wave if left out.
+    control
+        "displacement" (if left out), "load" or "machine".
+    solver
+        One of `SOLVERS`, "exact" if left out; a list puts several side by side along the dimension `solver`.
+    check_contact
+        Whether `status` reports where loading does not keep the contact one disc; True if left out.
+    threads
+        Threads to use, all processors if None; the values do not depend on it.
+    title
+        The title of the dataset; the names of the outputs if left out.
+
+    Returns
+    -------
+    A dataset as `gradhesion run` writes it, with units, long names and flags: outputs and `status` over the named
+    dimensions, in the order in which they are met, then over the axes in the order of a study; the values of an axis
+    stay in the order in which they are given. Parameters are coordinates over their own dimensions. A scene without a
+    value is NaN (counts of jumps: -1), and its status says so. The attribute `study` is there where a study of 10,000
+    values at most gives the same dataset, so that `verify` can recompute it.
+
+    Raises
+    ------
+    StudyError
+        Parameters, outputs or settings are unknown, missing or out of range, or dimensions do not go together; the
+        error has all mistakes.
+
+    Notes
+    -----
+    A call costs some milliseconds more than `gradhesion.core.solve`, which takes and gives plain arrays that broadcast
+    by position, and is the one for the inside of a loop. Accuracy and equations are the same, and are given there.
+
+    Examples
+    --------
+    A grid of two amplitudes and three wavelengths:
+
+    >>> import gradhesion as gr
+    >>> punch = dict(k=0.5, nu=0.3, modulus=500.0, c0_over_R=0.01, a_max_over_R=1.0)
+    >>> grid = gr.solve(punch, "pull_off_force", A=[0.0, 0.02], lambda_over_R=[0.1, 0.2, 0.4])
+    >>> dict(grid["pull_off_force"].sizes)
+    {'lambda_over_R': 3, 'A': 2}
+
+    Pairs, by a dimension that both share:
+
+    >>> import xarray
+    >>> A, wavelength = xarray.DataArray([0.0, 0.02], dims="test"), xarray.DataArray([0.1, 0.2], dims="test")
+    >>> pairs = gr.solve(punch, "pull_off_force", A=A, lambda_over_R=wavelength)
+    >>> dict(pairs["pull_off_force"].sizes)
+    {'test': 2}
+    >>> bool(pairs["pull_off_force"][1] == grid["pull_off_force"].sel(lambda_over_R=0.2, A=0.02))
+    True
+    """
+    settings: dict[str, Any] = {"outputs": outputs, "profile": profile, "control": control, "solver": solver}
+    settings |= {"check_contact": check_contact, "title": title or _title(outputs)}
+    given = given_in("gr.solve", parameters, more, settings)
+    given.check_threads(threads)
+    study = given.study()
+    return solved(replace(study, text=given.text()), given.parameters(study), threads)
+
+
+def curves(
+    parameters: Mapping[str, Any] | None = None,
+    outputs: Sequence[str] | str = ("equilibrium", "path"),
+    *,
+    profile: Profile | Mapping[str, Any] | None = None,
+    control: str | None = None,
+    threads: int | None = None,
+    title: str | None = None,
+    **more: Any,
+) -> xarray.Dataset:
+    """
+    Draw the curves of scenes: contact radius, depth and load at points that adapt to them.
+
+    Parameters
+    ----------
+    parameters, **more
+        As in `solve`, but for arrays over named dimensions, which are axes, or all of them over the one dimension
+        `scene`; 1,000 scenes at most. The values of an axis rise or fall.
+    outputs
+        Names out of `CURVES`, such as "path", or single variables of theirs, such as "path_load".
+    profile, control, threads, title
+        As in `solve`.
+
+    Returns
+    -------
+    A dataset as `gradhesion run` writes it for a study of kind "curve": each curve along a dimension of its own,
+    shorter ones padded with NaN (-1 where they are integers).
+
+    Raises
+    ------
+    StudyError
+        As `solve`.
+
+    Examples
+    --------
+    >>> import gradhesion as gr
+    >>> punch = dict(k=0.0, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.1, A=0.02, a_max_over_R=0.5)
+    >>> force = gr.solve(punch, "pull_off_force")["pull_off_force"]
+    >>> lowest = gr.curves(punch, "equilibrium")["load"].min()
+    >>> bool(abs(lowest / -force - 1.0) < 1e-12)
+    True
+    """
+    settings = {"kind": "curve", "outputs": outputs, "profile": profile, "control": control}
+    given = given_in("gr.curves", parameters, more, settings | {"title": title or _title(outputs)})
+    given.check_threads(threads)
+    for name, array in given.arrays.items():
+        if not (given.is_grid or given.is_points):
+            if array.dims not in ((name,), (SCENE,)):
+                given.refuse(name, f"curves are drawn over axes, or over one dimension {SCENE}; rename its dimensions")
+        elif given.is_grid and not (np.all(np.diff(array) > 0.0) or np.all(np.diff(array) < 0.0)):
+            given.refuse(name, "the values of an axis of curves rise or fall; sort them")
+    given.study()
+    return compute(study_from(given.whole(), "gr.curves"), threads=threads)
+
+
+def _title(outputs: Sequence[str] | str) -> str:
+    """Name a dataset by what it holds."""
+    return outputs if isinstance(outputs, str) else ", ".join(map(str, outputs))

@@ -1,0 +1,112 @@
+"""The dataset of scenes whose parameters are arrays over named dimensions: as that of a study, over any dimensions."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray
+from numpy.typing import NDArray
+
+from gradhesion.cli.dataset.dataset import attributes, variables
+from gradhesion.cli.names import KEYS, SI, SOLVER, UNITS
+from gradhesion.cli.study.study import Study
+from gradhesion.core import PARAMETERS, solve
+from gradhesion.core.reduced import parameters_from, scales_in_si, sources_of
+
+Arrays = Mapping[str, xarray.DataArray]
+
+
+def solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarray.Dataset:
+    """
+    Solve the scenes of a study whose parameters stand over dimensions of any names.
+
+    Parameters
+    ----------
+    study
+        What is asked for; its own parameters count by their names only. Without a text the dataset has no study.
+    parameters
+        The parameters of the study, in plain numbers (those with a unit in SI).
+    threads
+        Threads to use, all processors if None.
+
+    Returns
+    -------
+    The dataset that `gradhesion.cli.dataset.compute` gives of a grid or of points, if the dimensions are theirs.
+    """
+    dims = dims_of(parameters)
+    arrays = {name: _along(dims, array) for name, array in parameters.items()}
+    scenes = arrays if arrays.keys() >= {*PARAMETERS} else parameters_from(arrays)
+    found = _outputs(study, scenes, threads)
+    if study.in_si:
+        scales = scales_in_si(arrays["R"], arrays["work_of_adhesion"])
+        found |= {name + SI: found[name] * scales[UNITS[name]] for name in study.in_si}
+    described = variables(study)
+    beside = " ".join(name for name in described if name not in found and name not in (*dims, SOLVER))
+    made = {}
+    for name, variable in described.items():
+        own, values = dims, found.get(name)
+        given = {**variable.attributes}
+        given.pop("coordinates", None)
+        if values is not None:
+            own = (SOLVER, *dims) if SOLVER in described else dims
+            given |= {"coordinates": beside} if beside else {}
+        elif name in parameters:
+            own = tuple(dim for dim in dims if dim in parameters[name].dims)
+            values = parameters[name].transpose(*own).values
+        elif name in scenes:
+            sources = [parameters[source] for source in sources_of(name, parameters)]
+            own = tuple(dim for dim in dims if any(dim in source.dims for source in sources))
+            values = scenes[name].reshape([size for dim, size in _sizes(parameters, dims).items() if dim in own])
+        else:
+            own, values = (SOLVER,), variable.values
+        blank = {} if variable.blank is None else {"_FillValue": np.asarray(values).dtype.type(variable.blank)}
+        made[name] = xarray.Variable(own, values, given | blank)
+    about = attributes(study, "computed in memory")
+    if not study.text:
+        del about["study"], about["study_sha256"]
+    dataset = xarray.decode_cf(xarray.Dataset(made, attrs=about))
+    return dataset.assign_coords(_other_coordinates(parameters, dataset))
+
+
+def dims_of(parameters: Arrays) -> tuple[str, ...]:
+    """
+    Name the dimensions of parameters: those of other names as they are met, then the axes as a study orders them.
+
+    >>> A, k = xarray.DataArray([[0.1], [0.2]], dims=["nu", "x"]), xarray.DataArray([0.0, 0.5], dims="k")
+    >>> dims_of({"A": A, "k": k})
+    ('x', 'k', 'nu')
+    """
+    met = dict.fromkeys(str(dim) for array in parameters.values() for dim in array.dims)
+    return (*(dim for dim in met if dim not in KEYS), *(key for key in KEYS if key in met))
+
+
+def _along(dims: tuple[str, ...], array: xarray.DataArray) -> NDArray[np.float64]:
+    """Give the values of an array with an axis for every dimension, of length 1 where it does not vary."""
+    values = array.transpose(*(dim for dim in dims if dim in array.dims)).values
+    return np.asarray(values).reshape([array.sizes.get(dim, 1) for dim in dims])
+
+
+def _sizes(parameters: Arrays, dims: tuple[str, ...]) -> dict[str, int]:
+    """Give the length of every dimension."""
+    return {dim: next(array.sizes[dim] for array in parameters.values() if dim in array.dims) for dim in dims}
+
+
+def _outputs(study: Study, scenes: Mapping[str, NDArray[np.float64]], threads: int | None) -> dict[str, NDArray[Any]]:
+    """Solve the scenes, by one solver or by each of several."""
+    settings: dict[str, Any] = {"check_contact": study.method.check_contact, "threads": threads}
+    settings |= {"profile": study.profile, "loading": study.loading}
+    solvers = study.method.solver
+    if isinstance(solvers, str):
+        return solve(scenes, study.outputs, solver=solvers, **settings)
+    found = [solve(scenes, study.outputs, solver=solver, **settings) for solver in solvers]
+    return {name: np.stack([values[name] for values in found]) for name in found[0]}
+
+
+def _other_coordinates(parameters: Arrays, dataset: xarray.Dataset) -> dict[str, xarray.DataArray]:
+    """Find the coordinates that came with the parameters and are not theirs."""
+    found: dict[str, xarray.DataArray] = {}
+    for array in parameters.values():
+        for name, coordinate in array.coords.items():
+            if name not in dataset.variables:
+                found.setdefault(str(name), coordinate.drop_vars([one for one in coordinate.coords if one != name]))
+    return found

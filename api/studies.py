@@ -1,0 +1,131 @@
+"""Studies from Python: read, changed and computed in memory."""
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray
+
+import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
+from gradhesion.cli.dataset.dataset import compute
+from gradhesion.cli.errors import StudyError
+from gradhesion.cli.study.study import Study, load_study, study_from
+from gradhesion.wording import in_python
+
+
+def load(
+    study: str | Path | Mapping[str, Any],
+    *,
+    set: Mapping[str, Any] | None = None,  # noqa: A002 (as the option --set)
+) -> Study:
+    """
+    Read a study, check it as a whole, and expand its axes.
+
+    Parameters
+    ----------
+    study
+        The path of a study in TOML, or a mapping with its keys; lists may be arrays.
+    set
+        Keys to set, by their dotted paths: {"parameters.A": 0.02, "physical.R": "1 um"}.
+
+    Returns
+    -------
+    The study, frozen: `parameters`, `outputs`, `sizes`, `scenes`, `text` (as TOML) and more.
+
+    Raises
+    ------
+    StudyError
+        It cannot be read or is wrong; the error has all mistakes.
+
+    Examples
+    --------
+    >>> import gradhesion as gr
+    >>> table = {"outputs": ["pull_off_force"], "parameters": {"k": [0.0, 0.5], "nu": 0.3, "modulus": 500.0,
+    ...     "c0_over_R": 0.01, "lambda_over_R": 0.1, "A": 0.02, "a_max_over_R": 1.0}}
+    >>> gr.load(table, set={"parameters.A": [0.0, 0.01, 0.02]}).sizes
+    {'k': 2, 'A': 3}
+    """
+    changes = {} if set is None else set
+    with in_python():
+        if isinstance(study, Mapping):
+            return study_from(_changed(study, changes))
+        return load_study(study, [f"{key}={_toml(value)}" for key, value in changes.items()])
+
+
+def run(
+    study: str | Path | Mapping[str, Any] | Study,
+    *,
+    set: Mapping[str, Any] | None = None,  # noqa: A002 (as the option --set)
+    threads: int | None = None,
+) -> xarray.Dataset:
+    """
+    Compute a study in memory.
+
+    Parameters
+    ----------
+    study, set
+        As `load` takes them, or a study that it gave.
+    threads
+        Threads to use, all processors if None; the values do not depend on it.
+
+    Returns
+    -------
+    The dataset that `gradhesion run` writes to a file.
+
+    Raises
+    ------
+    StudyError
+        The study cannot be read or is wrong; the error has all mistakes.
+
+    Examples
+    --------
+    >>> import gradhesion as gr
+    >>> table = {"outputs": ["pull_off_force"], "parameters": {"k": [0.0, 0.5], "nu": 0.3, "modulus": 500.0,
+    ...     "c0_over_R": 0.01, "lambda_over_R": 0.1, "A": 0.0, "a_max_over_R": 1.0}}
+    >>> gr.run(table)["pull_off_force"].values.round(12).tolist()
+    [1.0, 1.166666666667]
+    """
+    if threads is not None and threads < 1:
+        raise StudyError(f"threads = {threads}: the number of threads is 1 or more, or None for all processors")
+    if not isinstance(study, Study):
+        study = load(study, set=set)
+    elif set:
+        study = load(tomllib.loads(study.text), set=set)
+    return compute(study, threads=threads)
+
+
+def _changed(study: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Set keys of a study by their dotted paths, in a copy."""
+    data = {key: {**value} if isinstance(value, Mapping) else value for key, value in study.items()}
+    for key, value in changes.items():
+        *above, last = key.split(".")
+        table = data
+        for step in above:
+            inner = table.setdefault(step, {})
+            if not isinstance(inner, dict):
+                raise StudyError(f"set {key}: {step} is not a table; set it as a whole")
+            table = inner
+        table[last] = value
+    return data
+
+
+def _toml(value: Any) -> str:
+    """Write a value as TOML."""
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return '"' + "".join(_escaped(letter) for letter in value) + '"'
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + " }"
+    return str(value)
+
+
+def _escaped(letter: str) -> str:
+    """Write a letter of a string."""
+    return f"\\u{ord(letter):04x}" if letter in '"\\' or not letter.isprintable() else letter

@@ -1,0 +1,84 @@
+"""`import gradhesion as gr`: light, whole, typed, and as it is in the manual."""
+
+import subprocess
+import sys
+from importlib.metadata import version
+from pathlib import Path
+
+import pytest
+
+import gradhesion as gr
+
+ROOT = Path(__file__).parents[2]
+
+
+def alone(code: str) -> str:
+    """What a program prints."""
+    done = subprocess.run([sys.executable, "-W", "error", "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.strip()
+
+
+def test_the_import_loads_nothing() -> None:
+    before = "import sys, importlib, typing; before = {*sys.modules}; import gradhesion as gr; gr.__all__, dir(gr); "
+    assert alone(before + "print(sorted({*sys.modules} - before))") == "['gradhesion']"
+
+
+def test_names_alone_load_no_array() -> None:
+    code = "import sys, gradhesion as gr; gr.OUTPUTS, gr.PARAMETERS, gr.CURVES, gr.StudyError, gr.__version__; "
+    code += "print([name for name in ('numpy', 'xarray', 'click', 'numba', 'pydantic') if name in sys.modules])"
+    assert alone(code) == "[]"
+
+
+@pytest.mark.parametrize("name", gr.__all__)
+def test_every_name_is_there_and_says_what_it_is(name: str) -> None:
+    value = getattr(gr, name)
+    assert name in dir(gr)
+    if callable(value):
+        assert value.__doc__
+    assert vars(gr)[name] is value, "it is looked up once"
+
+
+def test_the_names_of_other_modules_are_not_hidden_by_ours() -> None:
+    from gradhesion import datasets, pictures, scenes, studies
+
+    assert gr.solve is scenes.solve
+    assert gr.open is datasets.open_dataset
+    assert gr.plot is pictures.plot
+    assert gr.load is studies.load
+    assert not {*gr.__all__} & {"accessor", "datasets", "given", "pictures", "scenes", "solved", "studies", "wording"}
+
+
+def test_a_name_that_is_not_there() -> None:
+    with pytest.raises(AttributeError, match="module 'gradhesion' has no attribute 'slove'"):
+        gr.slove  # noqa: B018
+
+
+def test_every_name_stands_in_the_reference() -> None:
+    page = (ROOT / "docs" / "reference" / "python.md").read_text(encoding="utf-8")
+    assert all(f"gradhesion.{name}\n" in page or f"`{name}`" in page for name in gr.__all__ if name != "__version__")
+
+
+def test_the_version_is_that_of_the_package() -> None:
+    assert gr.__version__ == version("gradhesion")
+
+
+def test_the_package_runs_as_a_command() -> None:
+    done = subprocess.run([sys.executable, "-m", "gradhesion", "--version"], capture_output=True, text=True, check=True)
+    assert done.stdout.split()[-1] == gr.__version__
+
+
+def test_what_was_imported_before_is_still_there() -> None:
+    code = (
+        "from gradhesion.core import solve, Profile; from gradhesion.cli.study import load_study, study_from, Study; "
+    )
+    code += (
+        "from gradhesion.cli.dataset import compute; from gradhesion.cli.errors import StudyError; import gradhesion; "
+    )
+    assert alone(code + "print(gradhesion.StudyError is StudyError, gradhesion.Study is Study)") == "True True"
+
+
+def test_the_accessor_is_there_where_xarray_was_imported_before() -> None:
+    assert alone("import xarray, gradhesion; print(hasattr(xarray.Dataset, 'gr'))") == "True"
+    assert alone("import gradhesion, xarray; print(hasattr(xarray.Dataset, 'gr'))") == "False"
+    assert alone("import gradhesion, xarray; gradhesion.open; print(hasattr(xarray.Dataset, 'gr'))") == "True"

@@ -1,0 +1,92 @@
+"""`gr.plot` and `gr.explore`."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+import xarray
+from matplotlib.figure import Figure
+
+import gradhesion as gr
+
+PUNCH: dict[str, Any] = {"nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "a_max_over_R": 0.7, "A": 0.01}
+
+
+@pytest.fixture(scope="module")
+def grid() -> xarray.Dataset:
+    """A map over two axes."""
+    return gr.solve(PUNCH, k=[0.0, 0.3, 0.6], lambda_over_R=[0.1, 0.2, 0.4])
+
+
+def test_a_figure_is_that_of_the_command(grid: xarray.Dataset, tmp_path: Path, gradhesion: Any) -> None:
+    grid.to_netcdf(tmp_path / "x.nc")
+    figure = gr.plot(grid, "pull_off_force", at={"k": 0.3})
+    assert isinstance(figure, Figure)
+    options = ["--variable", "pull_off_force", "--at", "k=0.3", "-o", tmp_path / "command.png"]
+    assert gradhesion("plot", tmp_path / "x.nc", *options).exit_code == 0
+    assert figure._repr_png_() == (tmp_path / "command.png").read_bytes()  # type: ignore[attr-defined]
+    (line, *_) = figure.axes[0].get_lines()
+    assert line.get_ydata() == pytest.approx(grid["pull_off_force"].sel(k=0.3).values, rel=1e-15)
+    assert [axes.get_ylabel() for axes in gr.plot(tmp_path / "x.nc", at={"k": 0.3}).axes] == [
+        axes.get_ylabel() for axes in grid.gr.plot(at={"k": 0.3}).axes
+    ]
+
+
+def test_axes_are_reduced_and_given_their_places(grid: xarray.Dataset) -> None:
+    figure = gr.plot(grid, ["pull_off_force"], over={"lambda_over_R": "max"})
+    (line, *_) = figure.axes[0].get_lines()
+    assert line.get_ydata() == pytest.approx(grid["pull_off_force"].max("lambda_over_R").values, rel=1e-15)
+    assert gr.plot(grid, "pull_off_force", x="k", y="lambda_over_R").axes[0].get_xlabel() == "$k$"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ({"variables": "pull_of_force"}, 'variable pull_of_force: not in this dataset; did you mean "pull_off_force"?'),
+        ({"at": {"kk": 0.1}}, 'at kk=0.1: not an axis of this dataset; did you mean "k"?'),
+        ({"at": {"k": 3.0}}, "at k=3.0: outside the axis, which has values of 0 to 0.6; choose one within"),
+        ({"over": {"k": "maximum"}}, "over k=maximum: not a reduction; did you mean"),
+        ({"interpolate": True}, "interpolate: there is nothing to interpolate; add at AXIS=VALUE"),
+    ],
+)
+def test_wishes_that_cannot_be_met(arguments: dict[str, Any], sentence: str, grid: xarray.Dataset) -> None:
+    with pytest.raises(gr.DatasetError) as refused:
+        gr.plot(grid, **arguments)
+    assert sentence in str(refused.value)
+    assert "--" not in str(refused.value)
+
+
+def test_named_dimensions_are_for_xarray() -> None:
+    named = gr.solve(PUNCH, k=0.3, lambda_over_R=xarray.DataArray([0.1, 0.2], dims="x"))
+    with pytest.raises(
+        gr.DatasetError, match="its dimension x is no parameter, and pictures are drawn over parameters"
+    ):
+        named.gr.plot()
+    points = gr.solve(PUNCH, k=0.3, lambda_over_R=xarray.DataArray([0.1, 0.2], dims="scene"))
+    assert points.gr.plot("pull_off_force", x="lambda_over_R").axes
+
+
+def test_curves_are_drawn_as_they_are() -> None:
+    curves = gr.curves(PUNCH, "path", k=0.3, lambda_over_R=0.2)
+    assert len(gr.plot(curves).axes) == 3
+    with pytest.raises(gr.DatasetError, match="x: curves are drawn as they are; choose scenes with at"):
+        gr.plot(curves, x="k")
+
+
+def test_a_page_is_written_once(grid: xarray.Dataset, tmp_path: Path) -> None:
+    pytest.importorskip("bokeh")
+    page = gr.explore(grid, tmp_path / "x.html", variables="pull_off_force")
+    assert page == tmp_path / "x.html"
+    text = page.read_text(encoding="utf-8")
+    assert "<html" in text
+    assert "pull_off_force, dissipated_energy" in text, "its title"
+    with pytest.raises(gr.OutputError, match=r"x\.html"):
+        gr.explore(grid, page)
+    assert gr.explore(grid, page, at={"k": 0.3}, overwrite=True) == page
+    assert page.read_text(encoding="utf-8") != text
+    grid.to_netcdf(tmp_path / "y.nc")
+    assert gr.explore(tmp_path / "y.nc") == tmp_path / "y.html"
+    with pytest.raises(gr.OutputError, match="a page of a dataset in memory needs a name"):
+        gr.explore(grid)
+    with pytest.raises(gr.OutputError, match=r"the name of a page ends in \.html"):
+        gr.explore(grid, tmp_path / "x.png")

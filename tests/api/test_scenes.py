@@ -1,0 +1,216 @@
+"""`gr.solve` and `gr.curves`: what they take, what they give, and what they refuse."""
+
+import math
+import time
+import tomllib
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+
+import gradhesion as gr
+from gradhesion.cli.study import study_from
+
+PUNCH: dict[str, Any] = {"k": 0.31, "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "lambda_over_R": 0.17, "A": 0.023, "a_max_over_R": 1.7}  # fmt: skip
+AFM: dict[str, Any] = {"k": 0.3, "nu": 0.3, "A": 0.02, "R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2"}
+AFM |= {"c0": "10 nm", "wavelength": "100 nm", "a_max": math.inf}
+
+
+def mistakes_of(*arguments: Any, call: Any = gr.solve, **keywords: Any) -> str:
+    """What a call is refused for."""
+    with pytest.raises(gr.StudyError) as refused:
+        call(*arguments, **keywords)
+    assert str(refused.value) == "\n".join(refused.value.mistakes)
+    assert isinstance(refused.value, ValueError)
+    assert all(sentence.startswith(f"gr.{call.__name__}: ") for sentence in refused.value.mistakes)
+    return str(refused.value)
+
+
+def test_smooth_punches_have_the_force_that_is_known() -> None:
+    found = gr.solve(PUNCH | {"A": 0.0, "a_max_over_R": math.inf, "k": [0.0, 0.25, 0.9]}, "pull_off_force")
+    np.testing.assert_allclose(found["pull_off_force"], (3 + found["k"]) / 3, rtol=1e-14)
+    assert found["pull_off_force"].attrs["long_name"] == gr.OUTPUTS["pull_off_force"]
+    assert found["status"].attrs["flag_meanings"].split() == list(gr.FLAGS)
+    assert found.attrs["title"] == "pull_off_force"
+
+
+def test_lists_of_one_length_are_a_grid_and_keep_their_order() -> None:
+    A, wavelength = [0.02, 0.0, 0.01], [0.4, 0.1, 0.2]
+    found = gr.solve(PUNCH | {"A": A, "lambda_over_R": np.array(wavelength)}, "pull_off_force")
+    assert dict(found.sizes) == {"lambda_over_R": 3, "A": 3}
+    assert found["A"].values.tolist() == A
+    assert found["lambda_over_R"].values.tolist() == wavelength
+    one = gr.solve(PUNCH | {"A": 0.02, "lambda_over_R": 0.1}, "pull_off_force")["pull_off_force"]
+    assert found["pull_off_force"].sel(A=0.02, lambda_over_R=0.1).item() == one.item()
+    assert found["pull_off_force"].values[1, 0] == one.item()
+
+
+def test_a_keyword_stands_in_the_place_of_what_the_mapping_has() -> None:
+    xarray.testing.assert_identical(gr.solve(PUNCH, A=[0.0, 0.01]), gr.solve(PUNCH | {"A": [0.0, 0.01]}))
+    assert "A" in PUNCH, "the mapping stays as it is"
+
+
+def test_numbers_of_all_kinds_are_numbers() -> None:
+    plain = gr.solve(PUNCH, "pull_off_force")
+    for k in (np.float64(0.31), np.array(0.31), xarray.DataArray(0.31)):
+        xarray.testing.assert_identical(gr.solve(PUNCH | {"k": k}, "pull_off_force"), plain)
+    one = gr.solve(PUNCH | {"k": 1, "nu": 0.5, "A": [0]}, "pull_off_force")["pull_off_force"]
+    assert one.dims == ("A",)
+    assert one.item() == pytest.approx(4 / 3, rel=1e-14)
+
+
+def test_units_are_strings_or_numbers_in_si_or_attributes() -> None:
+    texts = gr.solve(AFM)
+    lists = gr.solve(AFM | {"R": ["1 um", "2000 nm"], "A": 0.02})
+    numbers = gr.solve(AFM | {"R": 1e-6, "E_star": 1e9, "work_of_adhesion": 0.05, "c0": 1e-8, "wavelength": 1e-7})
+    wavelength = xarray.DataArray([100.0, 200.0], dims="x", attrs={"units": "nm"})
+    attributes = gr.solve(AFM | {"wavelength": wavelength})
+    force = texts["pull_off_force_si"].item()
+    assert texts["pull_off_force_si"].attrs["units"] == "N"
+    assert numbers["pull_off_force_si"].item() == force
+    assert lists["pull_off_force_si"].sel(R=1e-6).item() == force
+    assert attributes["pull_off_force_si"][0].item() == pytest.approx(force, rel=1e-12)
+    assert attributes["wavelength"].attrs["units"] == "m"
+    refused = mistakes_of(AFM | {"wavelength": wavelength.assign_attrs(units="N")})
+    assert 'wavelength: its attribute units = "N": "N" is the unit of something else; a length is expected' in refused
+    refused = mistakes_of(AFM | {"A": wavelength})
+    assert 'A: its attribute units = "nm", where a number without a unit is expected' in refused
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"moduls": 3.0}, 'gr.solve: moduls = 3.0: unknown key; did you mean "modulus"?'),
+        ({"wavelenght": 3.0}, 'gr.solve: wavelenght = 3.0: unknown key; did you mean "wavelength"?'),
+        ({"zzz": np.arange(3)}, 'gr.solve: zzz: unknown parameter; choose from "k"'),
+        ({"profil": None}, 'gr.solve: profil: unknown argument; did you mean "profile"?'),
+        ({"outputs_": ["x"]}, 'gr.solve: outputs_: unknown argument; did you mean "outputs"?'),
+        ({"layout": "points"}, "gr.solve: layout: a key of a study and no parameter"),
+        ({"A": -0.1}, "gr.solve: A = -0.1: out of range; choose a value with A >= 0, and finite"),
+        ({"A": [0.1, 0.2, -0.1, 0.3]}, "gr.solve: A[2] = -0.1: out of range; choose a value with A >= 0"),
+        ({"A": [0.1, math.nan]}, "gr.solve: A[1] = nan: out of range"),
+        ({"A": xarray.DataArray([[0.1, 0.2], [0.3, -0.4]], dims=["x", "y"])}, "gr.solve: A[1, 1] = -0.4: out of range"),
+        ({"A": [0.1, 0.2, 0.1]}, "gr.solve: A: the axis repeats the value 0.1 (items 0 and 2); remove one"),
+        ({"A": []}, "gr.solve: A = []: an axis needs at least one value"),
+        ({"A": "big"}, 'gr.solve: A = "big": this must be a number'),
+        ({"A": True}, "gr.solve: A = true: this must be a number"),
+        ({"A": None}, "gr.solve: A: this must be a number"),
+        ({"A": [0.1, 1j]}, "gr.solve: A[1] = 1j: this must be a number"),
+        ({"A": np.zeros((2, 3))}, 'gr.solve: A: an array of 2 x 3 values without names for its dimensions; write for example xarray.DataArray(A, dims=["x", "y"])'),
+        ({"A": xarray.DataArray([0.1], dims="status")}, 'gr.solve: A: its dimension "status" has the name of a variable; rename it'),
+        ({"A": xarray.DataArray([0.1], dims="k")}, 'gr.solve: A: its dimension "k" has the name of a parameter that is no axis; rename it, or give k as a list'),
+        ({"k": [0.0, 1.0]}, "gr.solve: k = 1.0: with k = 1 and nu = 0.27 the surface has no stiffness"),
+        ({"k": xarray.DataArray([0.0, 1.0], dims="x"), "nu": xarray.DataArray([0.5, 0.3], dims="x")}, "gr.solve: k = 1.0: with k = 1 and another nu"),
+        ({"R": "1 um"}, "gr.solve: modulus = 430.0: a ratio, beside quantities with units, and the two ways do not mix"),
+        ({"machine_stiffness": 3.0}, 'gr.solve: machine_stiffness = 3.0: control = "displacement" has no machine; remove this key, or write control = "machine"'),
+    ],
+)  # fmt: skip
+def test_what_is_refused(changes: dict[str, Any], sentence: str) -> None:
+    refused = mistakes_of(PUNCH, **changes)
+    assert sentence in refused
+    assert "[p" not in refused.replace("[profile", "")
+
+
+def test_what_is_missing_and_unknown_is_said_at_once() -> None:
+    refused = mistakes_of({"k": 0.3, "modulos": 5.0}, ["pull_of_force"], solver="exactly", control="lode")
+    for sentence in (
+        "gr.solve: nu: this parameter is required; write for example nu = 0.3",
+        "gr.solve: lambda_over_R: this parameter is required; write for example lambda_over_R = numpy.geomspace(0.02, 1.0, 200)",
+        'gr.solve: modulos = 5.0: unknown key; did you mean "modulus"?',
+        'gr.solve: outputs[0] = "pull_of_force": not an output; did you mean "pull_off_force"?',
+        'gr.solve: solver = "exactly": not a solver; did you mean "exact"?',
+        'gr.solve: control = "lode": not a control; did you mean "load"?',
+    ):
+        assert sentence in refused
+    assert "gr.solve: modulus" not in refused, "it is misspelt and not missing"
+    assert "threads = 0: the number of threads is 1 or more" in mistakes_of(PUNCH, threads=0)
+    assert "outputs = []: the list is empty" in mistakes_of(PUNCH, [])
+    assert "gr.solve: profile.exponent = 0.5: the power of the punch is a number of 1 or more" in mistakes_of(PUNCH, profile={"exponent": 0.5})  # fmt: skip
+
+
+def test_dimensions_of_one_name_have_one_length_and_one_set_of_coordinates() -> None:
+    A = xarray.DataArray([0.0, 0.01], dims="x", coords={"x": [1, 2]})
+    for other in (
+        xarray.DataArray([0.0, 0.1, 0.2], dims="x"),
+        xarray.DataArray([0.0, 0.1], dims="x", coords={"x": [1, 3]}),
+    ):
+        assert "dimensions of one name have other lengths or other coordinates" in mistakes_of(
+            PUNCH | {"A": A, "k": other}
+        )
+    other = xarray.DataArray([0.0, 0.1], dims="x")
+    assert gr.solve(PUNCH | {"A": A, "k": other}, "pull_off_force")["x"].values.tolist() == [1, 2]
+
+
+def test_an_array_may_follow_an_axis() -> None:
+    k = np.array([0.0, 0.3, 0.6])
+    A = xarray.DataArray(0.01 + 0.01 * k, dims="k")
+    found = gr.solve(PUNCH | {"k": k, "A": A}, "pull_off_force")
+    assert found["pull_off_force"].dims == ("k",)
+    assert found["A"].dims == ("k",)
+    alone = gr.solve(PUNCH | {"k": 0.6, "A": float(A[2])}, "pull_off_force")
+    assert found["pull_off_force"].sel(k=0.6).item() == alone["pull_off_force"].item()
+
+
+def test_k_may_be_1_where_nu_is_a_half() -> None:
+    k, nu = xarray.DataArray([0.2, 1.0], dims="x"), xarray.DataArray([0.3, 0.5], dims="x")
+    found = gr.solve(PUNCH | {"k": k, "nu": nu, "A": 0.0, "a_max_over_R": math.inf}, "pull_off_force")
+    np.testing.assert_allclose(found["pull_off_force"], (3 + k) / 3, rtol=1e-14)
+
+
+def test_a_million_scenes_need_no_text_of_a_million_numbers() -> None:
+    rng = np.random.default_rng(3)
+    arrays = {name: xarray.DataArray(rng.uniform(*ends, 1_000_000), dims="sample") for name, ends in
+              {"A": (0.0, 1e-3), "modulus": (300.0, 500.0)}.items()}  # fmt: skip
+    gr.solve(PUNCH, "pull_off_force", solver="envelope")
+    start = time.perf_counter()
+    found = gr.solve(PUNCH | arrays, "pull_off_force", solver="envelope")
+    seconds = time.perf_counter() - start
+    assert found["pull_off_force"].shape == (1_000_000,)
+    assert bool(np.isfinite(found["pull_off_force"]).all())
+    assert len(repr(found.attrs)) < 5_000
+    tenth = {name: array[:100_000] for name, array in arrays.items()}
+    start = time.perf_counter()
+    gr.solve(PUNCH | tenth, "pull_off_force", solver="envelope")
+    assert seconds < 40 * (time.perf_counter() - start) + 1.0, "the cost is that of the scenes, not of their square"
+    axis = gr.solve(PUNCH | {"A": np.linspace(0.0, 1e-3, 100_000)}, "pull_off_force", solver="envelope")
+    assert "study" not in axis.attrs
+    assert "study" in gr.solve(PUNCH | {"A": np.linspace(0.0, 1e-3, 10_000)}, "pull_off_force", solver="envelope").attrs
+
+
+def test_the_study_of_axes_in_no_order_would_be_another() -> None:
+    assert "study" in gr.solve(PUNCH | {"A": [0.02, 0.01, 0.0]}, "pull_off_force").attrs
+    assert "study" not in gr.solve(PUNCH | {"A": [0.02, 0.0, 0.01]}, "pull_off_force").attrs
+
+
+def test_profiles_are_objects_or_tables() -> None:
+    shape = gr.Profile(exponent=1.7, harmonics=(gr.Harmonic(n=1), gr.Harmonic(n=3, sin=0.2)))
+    table = {"exponent": 1.7, "harmonics": [{"n": 1}, {"n": 3, "sin": 0.2}]}
+    one, other = (gr.solve(PUNCH, "pull_off_force", profile=profile) for profile in (shape, table))
+    assert one["pull_off_force"].item() == other["pull_off_force"].item()
+    assert one.attrs["profile"] == other.attrs["profile"]
+    assert "0.2 sin(6 pi x)" in one.attrs["profile"]
+
+
+def test_curves_are_those_of_a_study() -> None:
+    keys = {"kind": "curve", "outputs": ["path", "jumps"], "title": "path, jumps"}
+    expected = gr.run(keys | {"parameters": PUNCH | {"A": [0.01, 0.03]}})
+    found = gr.curves(PUNCH | {"A": [0.01, 0.03]}, ["path", "jumps"])
+    xarray.testing.assert_identical(found.drop_attrs(), expected.drop_attrs())
+    assert study_from(tomllib.loads(found.attrs["study"])).kind == "curve"
+    pairs = {"A": xarray.DataArray([0.03, 0.01], dims="scene"), "k": xarray.DataArray([0.1, 0.2], dims="scene")}
+    assert gr.curves(PUNCH | pairs, "path")["path_load"].dims == ("scene", "path_point")
+
+
+@pytest.mark.parametrize(
+    ("changes", "outputs", "sentence"),
+    [
+        ({"A": [0.1, 0.0, 0.2]}, "path", "gr.curves: A: the values of an axis of curves rise or fall; sort them"),
+        ({"A": xarray.DataArray([0.1], dims="x")}, "path", "gr.curves: A: curves are drawn over axes, or over one dimension scene"),
+        ({}, "pull_off_force", 'outputs[0] = "pull_off_force": an output of studies of kind "map"'),
+        ({"A": np.linspace(0.0, 0.1, 1001)}, "path", "a curve study has at most 1,000 scenes"),
+        ({}, "pathh", 'not an output; did you mean "path"?'),
+    ],
+)  # fmt: skip
+def test_curves_that_are_refused(changes: dict[str, Any], outputs: str, sentence: str) -> None:
+    assert sentence in mistakes_of(PUNCH | changes, outputs, call=gr.curves)

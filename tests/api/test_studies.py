@@ -1,0 +1,92 @@
+"""`gr.load` and `gr.run`: a study as a file, as a mapping, changed by keys."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+
+import gradhesion as gr
+
+
+def test_a_study_is_a_file_or_a_mapping_or_what_load_gave(study_file: Path, data: dict[str, Any]) -> None:
+    changes = {"outputs": ["pull_off_force"], "title": "x"}
+    ways = [gr.run(study, set=changes) for study in (study_file, str(study_file), data, gr.load(study_file))]
+    assert all(way.drop_attrs().identical(ways[0].drop_attrs()) for way in ways)
+    assert {way.attrs["title"] for way in ways} == {"x"}
+    assert list(ways[0].data_vars) == ["pull_off_force", "status"]
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("parameters.A", 0.02), ("parameters.A", [0.0, 0.01]), ("parameters.A", np.array([0.0, 0.01])), ("parameters.k", np.float64(0.3)),
+        ("parameters.a_max_over_R", float("inf")), ("parameters.A", 1e-7), ("parameters.A", {"start": 0.0, "stop": 0.1, "num": 3}),
+        ("title", 'quotes " and \\ and \n a line'), ("title", "Ångström"), ("method.check_contact", False),
+        ("method.solver", ("exact", "envelope")), ("profile", {"exponent": 1.7, "harmonics": [{"n": 1, "cos": 1.0}]}),
+    ],
+)  # fmt: skip
+def test_a_key_is_set_alike_in_a_file_and_a_mapping(
+    key: str, value: Any, study_file: Path, data: dict[str, Any]
+) -> None:
+    if key == "title" and "\n" in value:
+        for study in (study_file, data):
+            with pytest.raises(gr.StudyError, match="a title is one line of printable characters"):
+                gr.load(study, set={key: value})
+        return
+    one, other = gr.load(study_file, set={key: value}), gr.load(data, set={key: value})
+    assert (one.sizes, one.title, one.method, one.profile) == (other.sizes, other.title, other.method, other.profile)
+    for name, values in one.parameters.items():
+        np.testing.assert_array_equal(values, other.parameters[name])
+
+
+def test_a_mapping_stays_as_it_is(data: dict[str, Any]) -> None:
+    before = repr(data)
+    gr.load(data, set={"parameters.A": 0.02})
+    assert repr(data) == before
+
+
+def test_mistakes_name_the_key_that_was_set(study_file: Path, data: dict[str, Any]) -> None:
+    with pytest.raises(gr.StudyError) as refused:
+        gr.load(study_file, set={"parameters.A": -1.0, "outputs": ["pull_of_force"]})
+    assert refused.value.mistakes == (
+        "set parameters.A=-1.0: parameters.A = -1.0: out of range; choose a value with A >= 0, and finite",
+        'set outputs=["pull_of_force"]: outputs[0] = "pull_of_force": not an output; did you mean "pull_off_force"?',
+    )
+    with pytest.raises(gr.StudyError, match=r"set title\.x: title is not a table; set it as a whole"):
+        gr.load(data, set={"title.x": 1})
+    with pytest.raises(gr.StudyError, match="threads = 0: the number of threads is 1 or more"):
+        gr.run(data, threads=0)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "what"),
+    [
+        ("a.nc", b"\x89HDF\r\n\x1a\n" + b"\xff" * 9, "is a dataset (NetCDF or HDF5), which `gradhesion info` and `gradhesion.open` read, not a study"),
+        ("a.csv", b"k,nu\n0.1,0.3\n", "is a table (CSV), not a study"),
+        ("a.html", b"<!doctype html>", "is a page (HTML), not a study"),
+        ("folder", None, "cannot be read (Is a directory)"),
+        ("a.toml", b"title = ", ":1: not valid TOML"),
+    ],
+)  # fmt: skip
+def test_a_path_that_is_no_study_says_what_it_is(name: str, content: bytes | None, what: str, tmp_path: Path) -> None:
+    path = tmp_path / name
+    if content is None:
+        path.mkdir()
+    else:
+        path.write_bytes(content)
+    with pytest.raises(gr.StudyError) as refused:
+        gr.load(path)
+    assert str(refused.value).startswith(f"{path}")
+    assert what in str(refused.value)
+    assert "name a study in TOML" in str(refused.value) or name == "a.toml"
+
+
+def test_run_is_the_command(study_file: Path, gradhesion: Callable[..., Any], tmp_path: Path) -> None:
+    assert gradhesion("run", study_file, "-o", tmp_path / "x.nc", "--quiet").exit_code == 0
+    with gr.open(tmp_path / "x.nc") as written:
+        xarray.testing.assert_identical(
+            gr.run(study_file, threads=1).drop_attrs(deep=False), written.drop_attrs(deep=False)
+        )
