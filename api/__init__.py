@@ -23,11 +23,11 @@ if TYPE_CHECKING:
         OutputError,
         StudyError,
     )
-    from gradhesion.cli.names import CURVES, OUTPUTS, PARAMETERS
+    from gradhesion.cli.names import CURVES, OUTPUTS
     from gradhesion.cli.study.study import Study
     from gradhesion.core.loading_control import CONTROLS
+    from gradhesion.core.names import PARAMETERS, SOLVERS
     from gradhesion.core.profile import Harmonic, Profile
-    from gradhesion.core.solvers import SOLVERS
     from gradhesion.core.status import FLAGS
     from gradhesion.datasets import open_dataset as open  # noqa: A004 (gr.open)
     from gradhesion.datasets import verify
@@ -71,11 +71,11 @@ _HOMES: Final = {
         "OutputError",
         "StudyError",
     ),
-    "cli.names": ("CURVES", "OUTPUTS", "PARAMETERS"),
+    "cli.names": ("CURVES", "OUTPUTS"),
     "cli.study.study": ("Study",),
     "core.loading_control": ("CONTROLS",),
     "core.profile": ("Harmonic", "Profile"),
-    "core.solvers": ("SOLVERS",),
+    "core.names": ("PARAMETERS", "SOLVERS"),
     "core.status": ("FLAGS",),
     "datasets": ("open", "verify"),
     "pictures": ("explore", "plot"),

@@ -11,8 +11,10 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.names import KEYS, OUTPUTS, PHYSICAL, SCENE, SETTINGS, SOLVER, table_of, unit_of
-from gradhesion.cli.study.axes import MOST_SCENES, Values, mistakes_of_grid
+from gradhesion.cli.keys import INPUTS, PHYSICAL, SETTINGS
+from gradhesion.cli.names import OUTPUTS, SCENE, SOLVER, unit_of
+from gradhesion.cli.study.axes import Values, mistakes_of_grid
+from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.quantities import si_value
 from gradhesion.cli.study.study import Study, study_from
 from gradhesion.cli.study.wording import did_you_mean, nearest
@@ -113,9 +115,9 @@ class Given:
         if layout != "grid":
             data["layout"] = layout
         given = {name: arrays.get(name, self.fixed.get(name)) for name in (*self.fixed, *arrays)}
-        for name, value in sorted(given.items(), key=lambda item: [*KEYS, item[0]].index(item[0])):
-            key = name if name in KEYS else nearest(name, list(KEYS)) or "k"
-            data.setdefault(table_of(key), {})[name] = _with_unit(name, value)
+        for name, value in sorted(given.items(), key=lambda item: [*INPUTS, item[0]].index(item[0])):
+            key = name if name in INPUTS else nearest(name, list(INPUTS)) or "k"
+            data.setdefault(INPUTS[key].table, {})[name] = _with_unit(name, value)
         return data
 
     def _check_stiffness(self) -> None:
@@ -150,20 +152,21 @@ def given_in(
         _take(given, str(name), value)
     _align(given)
     count = math.prod(dict(_sizes(given)).values())
-    if count > MOST_SCENES:
-        given.refuse("parameters", f"they make {count:,} scenes, more than {MOST_SCENES:,}; use fewer values")
+    most = KINDS["map"].most_scenes
+    if count > most:
+        given.refuse("parameters", f"they make {count:,} scenes, more than {most:,}; use fewer values")
     return given
 
 
 def _take(given: Given, name: str, value: Any) -> None:
     """Take one parameter."""
-    if name not in KEYS and (name in SETTINGS or name in ARGUMENTS or name in _TABLES):
+    if name not in INPUTS and (name in SETTINGS or name in ARGUMENTS or name in _TABLES):
         given.refuse(name, "a key of a study and no parameter; give it as a keyword, or call gr.run with the study")
-    elif name not in KEYS and (near := nearest(name, [*KEYS, *ARGUMENTS])) in ARGUMENTS:
+    elif name not in INPUTS and (near := nearest(name, [*INPUTS, *ARGUMENTS])) in ARGUMENTS:
         given.refuse(name, f'unknown argument; did you mean "{near}"?')
-    elif name not in KEYS and near is None:
-        given.refuse(name, f"unknown parameter; {did_you_mean(name, list(KEYS))}")
-    elif name not in KEYS or isinstance(value, str | Mapping) or value is None:
+    elif name not in INPUTS and near is None:
+        given.refuse(name, f"unknown parameter; {did_you_mean(name, list(INPUTS))}")
+    elif name not in INPUTS or isinstance(value, str | Mapping) or value is None:
         given.fixed[name] = value if isinstance(value, Mapping) else np.asarray(value).tolist()
     else:
         _take_values(given, name, value)
@@ -233,7 +236,7 @@ def _align(given: Given) -> None:
         for dim in map(str, array.dims):
             if dim in taken:
                 given.refuse(name, f'its dimension "{dim}" has the name of a variable; rename it')
-            elif dim in KEYS and (dim not in given.arrays or given.arrays[dim].dims != (dim,)):
+            elif dim in INPUTS and (dim not in given.arrays or given.arrays[dim].dims != (dim,)):
                 sentence = (
                     f'its dimension "{dim}" has the name of a parameter that is no axis; rename it, or give {dim}'
                 )
@@ -293,7 +296,7 @@ def _with_unit(name: str, value: Any) -> Any:
     if isinstance(value, Mapping):
         return {key: _with_unit(name, one) if key in ("start", "stop") else one for key, one in value.items()}
     if name in PHYSICAL and isinstance(value, int | float | np.number) and not isinstance(value, bool):
-        return f"{float(value)!r} {PHYSICAL[name][1]}"
+        return f"{float(value)!r} {PHYSICAL[name].unit}"
     return value
 
 

@@ -15,7 +15,8 @@ from gradhesion.cli.dataset.reader import check_ours, has_curves, opened
 from gradhesion.cli.dataset.selection import selection_of
 from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.errors import DatasetError, MissingExtraError, OutputError
-from gradhesion.cli.names import KEYS, SCENE, SOLVER
+from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.names import SCENE, SOLVER
 from gradhesion.cli.picture.curve_picture import drawn_curves
 from gradhesion.cli.picture.picture import drawn
 from gradhesion.cli.picture.pictured import styled
@@ -153,7 +154,7 @@ def _data(dataset: Data) -> AbstractContextManager[xarray.Dataset]:
 
 def _check_dimensions(dataset: xarray.Dataset) -> None:
     """Refuse dimensions that no picture knows."""
-    others = [str(dim) for dim in dataset["status"].dims if dim not in (*KEYS, SCENE, SOLVER)]
+    others = [str(dim) for dim in dataset["status"].dims if dim not in (*INPUTS, SCENE, SOLVER)]
     if others:
         raise DatasetError(
             f"the dataset: its dimension {others[0]} is no parameter, and pictures are drawn over parameters; draw it "

@@ -8,7 +8,8 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.dataset import attributes, variables
-from gradhesion.cli.names import KEYS, SI, SOLVER, UNITS
+from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.names import SI, SOLVER, UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.core import PARAMETERS, solve
 from gradhesion.core.reduced import parameters_from, scales_in_si, sources_of
@@ -77,7 +78,7 @@ def dims_of(parameters: Arrays) -> tuple[str, ...]:
     ('x', 'k', 'nu')
     """
     met = dict.fromkeys(str(dim) for array in parameters.values() for dim in array.dims)
-    return (*(dim for dim in met if dim not in KEYS), *(key for key in KEYS if key in met))
+    return (*(dim for dim in met if dim not in INPUTS), *(key for key in INPUTS if key in met))
 
 
 def _along(dims: tuple[str, ...], array: xarray.DataArray) -> NDArray[np.float64]:
