@@ -1,6 +1,6 @@
 """Datasets of this program: opened, and verified."""
 
-from contextlib import nullcontext
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -8,11 +8,14 @@ import xarray
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.dataset.reader import check_ours, found, opened
-from gradhesion.cli.errors import MissingExtraError, StudyError
+from gradhesion.cli.errors import DatasetError, MissingExtraError, StudyError
 from gradhesion.wording import in_python
 
 if TYPE_CHECKING:
     from gradhesion.cli.dataset.recompute import Recomputed
+
+Data = xarray.Dataset | str | Path
+"""A dataset, or the path of its file."""
 
 
 def open_dataset(file: str | Path) -> xarray.Dataset:
@@ -43,7 +46,7 @@ def open_dataset(file: str | Path) -> xarray.Dataset:
     return dataset
 
 
-def verify(dataset: xarray.Dataset | str | Path, *, sample: int = 20, seed: int | None = None) -> "Recomputed":
+def verify(dataset: Data, *, sample: int = 20, seed: int | None = None) -> "Recomputed":
     """
     Recompute a random sample of a map's scenes to 30 digits by other means, and compare.
 
@@ -86,7 +89,23 @@ def verify(dataset: xarray.Dataset | str | Path, *, sample: int = 20, seed: int 
         if error.name != "flint":
             raise
         raise MissingExtraError("verify needs python-flint: install it with `pip install python-flint`") from None
-    path = Path("the dataset" if isinstance(dataset, xarray.Dataset) else dataset)
-    with in_python(), nullcontext(dataset) if isinstance(dataset, xarray.Dataset) else opened(path) as values:
-        check_ours(values, path)
+    path = Path(dataset) if isinstance(dataset, str | Path) else Path("the dataset")
+    with in_python(), data_of(dataset) as values:
         return recompute(values, path, sample=sample, seed=seed, progress=lambda _: nullcontext(lambda _: None))
+
+
+def data_of(dataset: Data) -> AbstractContextManager[xarray.Dataset]:
+    """
+    Open a dataset, if it is not open.
+
+    Raises
+    ------
+    DatasetError
+        It is none of this program.
+    """
+    if isinstance(dataset, xarray.Dataset):
+        check_ours(dataset, "the dataset")
+        return nullcontext(dataset)
+    if isinstance(dataset, str | Path):
+        return opened(Path(dataset))
+    raise DatasetError(f"a {type(dataset).__name__} is no dataset and no path of one; a variable alone has no status")

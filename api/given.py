@@ -8,17 +8,16 @@ from typing import Any, Final
 
 import numpy as np
 import xarray
-from numpy.typing import NDArray
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.keys import INPUTS, PHYSICAL, SETTINGS
-from gradhesion.cli.names import OUTPUTS, SCENE, SOLVER, unit_of
+from gradhesion.cli.names import OUTPUTS, SCENE, SOLVER
 from gradhesion.cli.study.axes import Values, mistakes_of_grid
 from gradhesion.cli.study.kinds import KINDS
-from gradhesion.cli.study.quantities import si_value
 from gradhesion.cli.study.study import Study, study_from
 from gradhesion.cli.study.wording import did_you_mean, nearest
 from gradhesion.core.profile import Profile
+from gradhesion.values import array_of, numbers_of, of_xarray
 from gradhesion.wording import without_tables
 
 ARGUMENTS: Final = ("outputs", "profile", "control", "solver", "check_contact", "threads", "title")
@@ -42,6 +41,8 @@ class Given:
     settings: dict[str, Any] = field(default_factory=dict)
     """The other keys of a study, in their tables."""
     mistakes: list[str] = field(default_factory=list)
+    unread: set[str] = field(default_factory=set)
+    """Parameters that could not be read, so that they are not missing."""
 
     @property
     def is_grid(self) -> bool:
@@ -51,7 +52,8 @@ class Given:
     @property
     def is_points(self) -> bool:
         """Whether all arrays are lists of points, as in a study."""
-        return bool(self.arrays) and all(array.dims == (SCENE,) for array in self.arrays.values())
+        ranges = any(isinstance(value, Mapping) for value in self.fixed.values())
+        return bool(self.arrays) and not ranges and all(array.dims == (SCENE,) for array in self.arrays.values())
 
     def refuse(self, what: str, sentence: str) -> None:
         """Note a mistake."""
@@ -75,7 +77,8 @@ class Given:
             study = study_from(self._data(short), self.caller)
         except StudyError as error:
             found = [_with_own_index(without_tables(sentence), self.arrays, ends) for sentence in error.mistakes]
-            raise StudyError([*self.mistakes, *found]) from None
+            unread = tuple(f"{self.caller}: {name}: this " for name in self.unread)
+            raise StudyError([*self.mistakes, *(one for one in found if not one.startswith(unread))]) from None
         if self.mistakes:
             raise StudyError(self.mistakes)
         return study
@@ -103,9 +106,9 @@ class Given:
         layout = "points" if self.is_points else "grid"
         return self._data({name: array.values.tolist() for name, array in self.arrays.items()}, layout)
 
-    def check_threads(self, threads: int | None) -> None:
+    def check_threads(self, threads: object) -> None:
         """Check the number of threads."""
-        if threads is not None and threads < 1:
+        if threads is not None and not (isinstance(threads, int) and threads >= 1):
             self.refuse(f"threads = {threads!r}", "the number of threads is 1 or more, or None for all processors")
 
     def _data(self, arrays: Mapping[str, Sequence[float]], layout: str = "grid") -> dict[str, Any]:
@@ -148,7 +151,11 @@ def given_in(
         The arguments that stand for keys of a study: outputs, profile, control, solver, check_contact, title, kind.
     """
     given = Given(caller=caller, settings=_settings(settings))
-    for name, value in {**(parameters or {}), **more}.items():
+    table = {} if parameters is None else of_xarray(parameters)
+    if not isinstance(table, Mapping):
+        given.refuse("parameters", f"a mapping from names to values is expected, not a {type(table).__name__}")
+        table = {}
+    for name, value in {**table, **more}.items():
         _take(given, str(name), value)
     _align(given)
     count = math.prod(dict(_sizes(given)).values())
@@ -174,59 +181,22 @@ def _take(given: Given, name: str, value: Any) -> None:
 
 def _take_values(given: Given, name: str, value: Any) -> None:
     """Take a parameter that is known and no string: a number, an axis, or an array over named dimensions."""
-    array = value if isinstance(value, xarray.DataArray) else np.asarray(value)
-    numbers = _numbers(name, np.asarray(array))
-    if isinstance(value, xarray.DataArray):
-        numbers = _in_si(given, name, value, numbers)
+    try:
+        array = array_of(name, value)
+        numbers = numbers_of(name, array)
+    except ValueError as error:
+        given.refuse(name, str(error))
+        given.unread.add(name)
+        return
     if numbers is None or array.size == 0:
-        given.fixed[name] = array.tolist() if isinstance(array, np.ndarray) else array.values.tolist()
+        given.fixed[name] = array.values.tolist()
     elif array.ndim == 0:
         given.fixed[name] = float(numbers)
-    elif isinstance(value, xarray.DataArray):
-        taken = value.copy(data=numbers)
-        given.arrays[name] = taken.assign_coords({name: numbers}) if value.dims == (name,) else taken
-    elif array.ndim == 1:
-        given.arrays[name] = xarray.DataArray(numbers, dims=(name,), coords={name: numbers})
-        for mistake in mistakes_of_grid({name: numbers}):
+    else:
+        taken = array.copy(data=numbers)
+        given.arrays[name] = taken.assign_coords({name: numbers}) if array.dims == (name,) else taken
+        for mistake in mistakes_of_grid({name: numbers}) if array.dims == (name,) else ():
             given.refuse(name, mistake.sentence)
-    else:
-        shape = " x ".join(map(str, array.shape))
-        names = ", ".join(f'"{letter}"' for letter in ("x", "y", "z", "u", "v", "w")[: array.ndim])
-        given.refuse(
-            name,
-            f"an array of {shape} values without names for its dimensions; write for example "
-            f"xarray.DataArray({name}, dims=[{names}]), and arrays with equal names go together",
-        )
-        given.fixed[name] = float(numbers.flat[0])
-
-
-def _numbers(name: str, values: NDArray[Any]) -> NDArray[np.float64] | None:
-    """Give values as numbers, quantities with units in SI; None where they are neither."""
-    if values.dtype.kind in "iuf":
-        return values.astype(np.float64) + 0.0  # no negative zeros
-    if name not in PHYSICAL or values.dtype.kind not in "UO":
-        return None
-    try:
-        return np.array([si_value(value, name) for value in values.ravel().tolist()]).reshape(values.shape)
-    except ValueError:
-        return None
-
-
-def _in_si(
-    given: Given, name: str, array: xarray.DataArray, numbers: NDArray[np.float64] | None
-) -> NDArray[np.float64] | None:
-    """Mind the attribute `units` of an array."""
-    units = str(array.attrs.get("units", ""))
-    if numbers is None or array.dtype.kind not in "iuf" or units in ("", unit_of(name)):
-        return numbers
-    if name in PHYSICAL:
-        try:
-            return numbers * si_value(f"1 {units}", name)
-        except ValueError as error:
-            given.refuse(name, f'its attribute units = "{units}": {error}')
-    else:
-        given.refuse(name, f'its attribute units = "{units}", where a number without a unit is expected; convert it')
-    return numbers
 
 
 def _align(given: Given) -> None:
@@ -241,8 +211,7 @@ def _align(given: Given) -> None:
                     f'its dimension "{dim}" has the name of a parameter that is no axis; rename it, or give {dim}'
                 )
                 given.refuse(name, f"{sentence} as a list")
-    arrays = {name: array.drop_vars([one for one in array.coords if one not in array.dims]) for name, array in
-              given.arrays.items()}  # fmt: skip
+    arrays = {name: array.reset_coords(drop=True) for name, array in given.arrays.items()}
     try:
         xarray.align(*arrays.values(), join="exact", copy=False)
     except ValueError:
@@ -268,6 +237,8 @@ def _settings(settings: Mapping[str, Any]) -> dict[str, Any]:
         found["outputs"] = [outputs]
     elif isinstance(outputs, Iterable):
         found["outputs"] = list(outputs)
+    if isinstance(found["outputs"], list):
+        found.setdefault("title", ", ".join(map(str, found["outputs"])))
     if isinstance(profile := found.get("profile"), Profile):
         waves = [{"n": wave.n, "cos": wave.cos, "sin": wave.sin} for wave in profile.harmonics]
         found["profile"] = {"exponent": profile.exponent, "harmonics": waves}

@@ -2,7 +2,6 @@
 
 import io
 from collections.abc import Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -11,7 +10,7 @@ import xarray
 from matplotlib.figure import Figure
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
-from gradhesion.cli.dataset.reader import check_ours, has_curves, opened
+from gradhesion.cli.dataset.reader import has_curves
 from gradhesion.cli.dataset.selection import selection_of
 from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.errors import DatasetError, MissingExtraError, OutputError
@@ -20,9 +19,8 @@ from gradhesion.cli.names import SCENE, SOLVER
 from gradhesion.cli.picture.curve_picture import drawn_curves
 from gradhesion.cli.picture.picture import drawn
 from gradhesion.cli.picture.pictured import styled
+from gradhesion.datasets import Data, data_of
 from gradhesion.wording import in_python
-
-Data = xarray.Dataset | str | Path
 
 
 def plot(
@@ -72,7 +70,7 @@ def plot(
     $\lambda/R$
     """
     names = _listed(variables)
-    with in_python(), _data(dataset) as values:
+    with in_python(), data_of(dataset) as values:
         _check_dimensions(values)
         selection = selection_of(values, _wishes(at), _wishes(over), interpolate=interpolate)
         if not has_curves(values):
@@ -135,21 +133,13 @@ def explore(
     path = Path(dataset).with_suffix(".html") if file is None else Path(file)
     if path.suffix.lower() not in {".html", ".htm"}:
         raise OutputError(f"{path}: the name of a page ends in .html")
-    with in_python(), _data(dataset) as values, replacement(path, overwrite=overwrite) as temporary:
+    with in_python(), data_of(dataset) as values, replacement(path, overwrite=overwrite) as temporary:
         _check_dimensions(values)
         name = str(values.attrs["title"]) if isinstance(dataset, xarray.Dataset) else Path(dataset).name
         text = page(values, name, _listed(variables), _wishes(at))
         with writing(path):
             temporary.write_text(text, encoding="utf-8")
     return path
-
-
-def _data(dataset: Data) -> AbstractContextManager[xarray.Dataset]:
-    """Open a dataset, if it is not open."""
-    if not isinstance(dataset, xarray.Dataset):
-        return opened(Path(dataset))
-    check_ours(dataset, "the dataset")
-    return nullcontext(dataset)
 
 
 def _check_dimensions(dataset: xarray.Dataset) -> None:

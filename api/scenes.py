@@ -46,7 +46,8 @@ def solve(
         - a list, a plain array of one dimension, or a range {"start": .., "stop": .., "num": .., "spacing": "log"}: an
           axis of the name of the parameter, as in a study. Two lists make a grid, whatever their lengths;
         - an xarray.DataArray: arrays broadcast by the names of their dimensions, so that A and k over the same
-          dimension vary together. One over a single dimension of its own name is an axis.
+          dimension vary together. One over a single dimension of its own name is an axis;
+        - a column of pandas: an array over the dimension of its index. A DataFrame as `parameters` has a scene a row.
 
         A plain array of two or more dimensions is refused: their names are missing.
     outputs
@@ -104,7 +105,7 @@ def solve(
     True
     """
     settings: dict[str, Any] = {"outputs": outputs, "profile": profile, "control": control, "solver": solver}
-    settings |= {"check_contact": check_contact, "title": title or _title(outputs)}
+    settings |= {"check_contact": check_contact, "title": title}
     given = given_in("gr.solve", parameters, more, settings)
     given.check_threads(threads)
     study = given.study()
@@ -154,7 +155,7 @@ def curves(
     True
     """
     settings = {"kind": "curve", "outputs": outputs, "profile": profile, "control": control}
-    given = given_in("gr.curves", parameters, more, settings | {"title": title or _title(outputs)})
+    given = given_in("gr.curves", parameters, more, settings | {"title": title})
     given.check_threads(threads)
     for name, array in given.arrays.items():
         if not (given.is_grid or given.is_points):
@@ -164,8 +165,3 @@ def curves(
             given.refuse(name, "the values of an axis of curves rise or fall; sort them")
     given.study()
     return compute(study_from(given.whole(), "gr.curves"), threads=threads)
-
-
-def _title(outputs: Sequence[str] | str) -> str:
-    """Name a dataset by what it holds."""
-    return outputs if isinstance(outputs, str) else ", ".join(map(str, outputs))

@@ -109,5 +109,5 @@ def _other_coordinates(parameters: Arrays, dataset: xarray.Dataset) -> dict[str,
     for array in parameters.values():
         for name, coordinate in array.coords.items():
             if name not in dataset.variables:
-                found.setdefault(str(name), coordinate.drop_vars([one for one in coordinate.coords if one != name]))
+                found.setdefault(str(name), coordinate.reset_coords(drop=True))
     return found

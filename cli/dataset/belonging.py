@@ -34,13 +34,14 @@ def study_of(dataset: xarray.Dataset, path: Path) -> Study:
         raise _apart(path, "the text of its study was changed: its sha256 is not that of the dataset")
     try:
         data = tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise _apart(path, f"its study is not valid TOML ({error})") from None
+    if data.get("kind", "map") != "map":
+        raise DatasetError(f"{path}: holds a {data['kind']}; `gradhesion verify` takes maps")
+    try:
         study = study_from(data, "its study")
     except StudyError as error:
         raise DatasetError(f"{path}: its study is none of this version ({error.mistakes[0]}); write it again") from None
-    except (ValueError, RecursionError) as error:
-        raise _apart(path, f"its study is not valid TOML ({error})") from None
-    if study.kind != "map":
-        raise DatasetError(f"{path}: holds a {study.kind}; `gradhesion verify` takes maps")
     _check_variables(dataset, study, path)
     _check_coordinates(dataset, study, path)
     return study

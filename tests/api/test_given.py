@@ -1,6 +1,7 @@
 """What a call gives is taken apart into arrays, other values and settings."""
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray
 
@@ -19,7 +20,7 @@ def test_values_go_where_they_belong() -> None:
     taken = given(A=[0.1, 0.2], k=xarray.DataArray([[0.0]], dims=["x", "y"]), nu=np.float32(0.25))
     assert {name: array.dims for name, array in taken.arrays.items()} == {"A": ("A",), "k": ("x", "y")}
     assert taken.fixed["nu"] == 0.25
-    assert taken.settings == {"outputs": ["pull_off_force"]}
+    assert taken.settings == {"outputs": ["pull_off_force"], "title": "pull_off_force"}
     assert (taken.is_grid, taken.is_points) == (False, False)
 
 
@@ -40,6 +41,34 @@ def test_points_are_all_over_all_points() -> None:
     assert taken.is_points
     assert {array.dims for array in taken.parameters(taken.study()).values()} == {("scene",)}
     assert 'layout = "points"' in taken.text()
+
+
+def test_a_range_beside_points_is_an_axis_of_its_own() -> None:
+    taken = given(A=xarray.DataArray([0.1, 0.2], dims="scene"), nu={"start": 0.1, "stop": 0.3, "num": 2})
+    dims = {name: array.dims for name, array in taken.parameters(taken.study()).items() if array.dims}
+    assert dims == {"A": ("scene",), "nu": ("nu",)}
+    assert not taken.text(), "a study would pair them"
+
+
+def test_a_table_of_pandas_has_a_scene_a_row() -> None:
+    frame = pd.DataFrame({"A": [0.0, 0.01], "k": [0.1, 0.2]}, index=pd.Index([7, 8], name="test"))
+    for taken in (
+        given(**{name: frame[name] for name in frame}),
+        given_in("gr.solve", frame, {"nu": 0.3}, {"outputs": []}),
+    ):
+        assert {name: array.dims for name, array in taken.arrays.items()} == {"A": ("test",), "k": ("test",)}
+        assert taken.arrays["A"]["test"].values.tolist() == [7, 8]
+
+
+def test_parameters_are_a_mapping() -> None:
+    with pytest.raises(StudyError, match="parameters: a mapping from names to values is expected, not a list"):
+        given_in("gr.solve", [0.1], {}, {"outputs": []}).study()
+
+
+def test_a_value_that_cannot_be_read_is_not_missing_as_well() -> None:
+    with pytest.raises(StudyError) as refused:
+        given(A=[[0.1], [0.1, 0.2]]).study()
+    assert refused.value.mistakes == ("gr.solve: A: rows of different lengths; give a number or one list of them",)
 
 
 def test_negative_zeros_are_zeros() -> None:

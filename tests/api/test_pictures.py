@@ -66,6 +66,12 @@ def test_named_dimensions_are_for_xarray() -> None:
     assert points.gr.plot("pull_off_force", x="lambda_over_R").axes
 
 
+def test_a_variable_alone_is_not_drawn(grid: xarray.Dataset) -> None:
+    for call in (gr.plot, gr.verify):
+        with pytest.raises(gr.DatasetError, match="a DataArray is no dataset and no path of one"):
+            call(grid["pull_off_force"])  # type: ignore[arg-type]
+
+
 def test_curves_are_drawn_as_they_are() -> None:
     curves = gr.curves(PUNCH, "path", k=0.3, lambda_over_R=0.2)
     assert len(gr.plot(curves).axes) == 3
