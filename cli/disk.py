@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from gradhesion.cli.amounts import bytes_in_words
 from gradhesion.cli.errors import OutputError
 
 
@@ -99,14 +100,3 @@ def _reason(path: Path, error: Exception) -> str:
         f"{path}: cannot be written ({reason}); what stood there before is untouched; "
         "make room or get the right to write, or name another output with -o"
     )
-
-
-def bytes_in_words(number: float) -> str:
-    """
-    Write a number of bytes in the unit that fits.
-
-    >>> bytes_in_words(2.5e9), bytes_in_words(300)
-    ('2.5 GB', '0.3 kB')
-    """
-    unit, size = next((pair for pair in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6)) if number >= pair[1]), ("kB", 1e3))
-    return f"{number / size:,.1f} {unit}"

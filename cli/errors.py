@@ -15,7 +15,7 @@ EXIT_CODES: Final = {
     4: "the output cannot be written (it exists, no space, no right, another run is at work on it, or parts of another "
     "study are kept), or the scheduler has gone; what stood there is untouched",
     130: "interrupted; what stood there is untouched, finished parts are kept, and the same command goes on",
-    141: "nobody reads on what is told, as with `| head`; nothing is said about it",
+    141: "nobody reads the output on, as with `| head`; nothing is said about it",
 }
 """What every exit code means."""
 

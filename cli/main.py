@@ -3,7 +3,7 @@
 import os
 import sys
 from contextlib import suppress
-from typing import Any, NoReturn
+from typing import Any, Final, NoReturn
 
 import click
 
@@ -26,8 +26,27 @@ UNHEARD = 141
 """As of a program that SIGPIPE ends."""
 
 
-class _Group(click.Group):
-    """The commands; what a user can mend is printed without a traceback."""
+SECTIONS: Final = {
+    "A study, and its run": (init, validate, plan, run, status),
+    "What came out": (info, plot, explore),
+    "Checked and joined": (verify, merge),
+    "More": (warmup, schema),
+}
+"""Every command, in the order of the work."""
+
+EXITS: Final = (
+    (0, "fine"),
+    (2, "the command, the study or the dataset is wrong"),
+    (3, "written, but scenes failed; or values beyond their stated errors"),
+    (4, "the output cannot be written"),
+    (INTERRUPTED, "interrupted; the same command resumes"),
+    (UNHEARD, "nobody reads the output on, as with `| head`"),
+)
+"""The exit codes in short."""
+
+
+class Commands(click.Group):
+    """The commands in sections, and the exit codes after them; what a user can mend is printed without a traceback."""
 
     def invoke(self, context: click.Context) -> Any:
         """Run a command."""
@@ -36,32 +55,34 @@ class _Group(click.Group):
         except GradhesionError as error:
             raise messages.Failure(error) from error
 
+    def list_commands(self, _context: click.Context) -> list[str]:
+        """List the commands in the order of the work."""
+        return list(self.commands)
 
-@click.group(cls=_Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+    def format_commands(self, _context: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the sections."""
+        width = max(map(len, self.commands))
+        for words, commands in SECTIONS.items():
+            with formatter.section(words):
+                rows = [(f"{one.name:{width}}", one.get_short_help_str(formatter.width)) for one in commands]
+                formatter.write_dl(rows)
+        with formatter.section("Exit codes"):
+            formatter.write_dl([(f"{code:<{width}}", words) for code, words in EXITS])
+
+
+@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
 @click.version_option(package_name="gradhesion")
 def cli() -> None:
     """Exact maps of the adhesion of wavy punches on power-law graded materials.
 
-    A study in TOML goes in, a dataset in NetCDF comes out, and a picture of it.
-
-    Exit codes: 0 fine; 2 the command or the study is wrong; 3 written, but some scenes have failed, or values do not
-    stand up to verify; 4 the output cannot be written; 130 interrupted; 141 nobody reads the output on (as with
-    `| head`).
+    A study in TOML goes in, a dataset in NetCDF comes out, and a picture of it. `gradhesion COMMAND --help` shows the
+    options of a command, with an example.
     """
 
 
-cli.add_command(init)
-cli.add_command(run)
-cli.add_command(plan)
-cli.add_command(status)
-cli.add_command(merge)
-cli.add_command(validate)
-cli.add_command(schema)
-cli.add_command(info)
-cli.add_command(plot)
-cli.add_command(explore)
-cli.add_command(verify)
-cli.add_command(warmup)
+for _commands in SECTIONS.values():
+    for _command in _commands:
+        cli.add_command(_command)
 
 
 def main() -> NoReturn:
@@ -83,7 +104,7 @@ def main() -> NoReturn:
 
 
 def _code_of(error: BaseException) -> int:
-    """Tell the user what has ended the command, and the shell by a code; what is no-one's mistake stays an error."""
+    """Report to the user what has ended the command, and to the shell by a code; an error of the program is raised."""
     # What an interrupt breaks can look like anything, an ImportError for one.
     if interrupts.heard() or isinstance(error, KeyboardInterrupt | click.Abort):
         with suppress(BrokenPipeError):

@@ -15,7 +15,7 @@ def page() -> str:
     return "\n\n".join(
         [
             "# Every command",
-            "This page is written from the commands themselves; `gradhesion COMMAND --help` tells the same.",
+            "This page is written from the commands themselves; `gradhesion COMMAND --help` prints the same.",
             table(
                 ("command", "what it does"),
                 ([f"[{name}](#gradhesion-{name})", _first(one)] for name, one in cli.commands.items()),
@@ -34,6 +34,9 @@ def _of(name: str, command: click.Command) -> Iterator[str]:
     yield f"## gradhesion {name}"
     yield f"```text\n{context.command_path} {' '.join(command.collect_usage_pieces(context))}\n```"
     yield _told(command)
+    if command.epilog:
+        calls = "\n".join(line.strip() for line in command.epilog.splitlines()[2:])
+        yield f"```text\n{calls}\n```"
     rows = [_row(option, context) for option in command.params if isinstance(option, click.Option)]  # `--help` is none
     if rows:
         yield table(("option", "what it does"), rows)

@@ -4,17 +4,24 @@ from pathlib import Path
 
 import click
 
+from gradhesion.cli.commands.examples import example
+from gradhesion.cli.commands.written import say_written
 
-@click.command()
+
+@click.command(epilog=example("explore outputs/study.nc", "explore outputs/study.nc -o part.html --at A=0.02"))
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Page: .html [FILE.html].")
 @click.option("--variable", "variables", multiple=True, metavar="NAME", help="What to take; repeat it [everything].")
 @click.option("--at", multiple=True, metavar="AXIS=VALUE", help="Fix an axis at its value nearest to this one.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing page.")
-def explore(file: Path, output: Path | None, variables: tuple[str, ...], at: tuple[str, ...], overwrite: bool) -> None:
-    """Write the dataset FILE as one page with maps, sections and sliders, for any browser.
+@click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
+def explore(
+    file: Path, output: Path | None, variables: tuple[str, ...], at: tuple[str, ...], overwrite: bool, quiet: bool
+) -> None:
+    """Write a dataset as a page with sliders.
 
-    The page holds the data and all that it needs: it opens from a disk without a network. Values have 6 digits.
+    Maps, sections and a slider for each axis of FILE, for any browser. The page holds the data and all that it needs:
+    it opens from a disk without a network. Values have 6 digits.
     """
     path = output or file.with_suffix(".html")
     if path.suffix.lower() not in {".html", ".htm"}:
@@ -22,6 +29,7 @@ def explore(file: Path, output: Path | None, variables: tuple[str, ...], at: tup
     names = [name.strip() for word in variables for name in word.split(",")]
 
     from gradhesion.cli.dataset.reader import opened
+    from gradhesion.cli.dataset.selection import nearest_values
     from gradhesion.cli.disk import replacement, writing
     from gradhesion.cli.explorer.page import page
 
@@ -29,3 +37,6 @@ def explore(file: Path, output: Path | None, variables: tuple[str, ...], at: tup
         text = page(dataset, file.name, names, at)
         with writing(path):
             temporary.write_text(text, encoding="utf-8")
+        notes = nearest_values(dataset, at)
+    if not quiet:
+        say_written(path, notes)

@@ -4,14 +4,19 @@ from pathlib import Path
 
 import click
 
+from gradhesion.cli.commands.examples import example
 
-@click.command()
+
+@click.command(epilog=example("info outputs/study.nc", "info outputs/study.nc --format csv > study.csv"))
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--format", "form", type=click.Choice(["words", "csv"]), default="words", help="Words, or all values.")
 @click.option("--variable", "variables", multiple=True, metavar="NAME", help="With csv: a variable, or a curve.")
 @click.option("--jumps", is_flag=True, help="List the jumps of all scenes instead, as CSV.")
 def info(file: Path, form: str, variables: tuple[str, ...], jumps: bool) -> None:
-    """Tell in words what the dataset FILE holds, or write a small one as a table (CSV)."""
+    """Describe a dataset, or print it as CSV.
+
+    Of FILE: parameters, extremes of each variable with their places, scenes that failed or may not hold, its origin.
+    """
     from gradhesion.cli.dataset.reader import opened
     from gradhesion.cli.words.jump_words import jumps_listed
     from gradhesion.cli.words.table import tabled

@@ -6,6 +6,7 @@ from pathlib import Path
 import click
 from click.shell_completion import CompletionItem
 
+from gradhesion.cli.commands.examples import example
 from gradhesion.cli.errors import OutputError
 
 
@@ -20,13 +21,16 @@ def _names(_context: click.Context, _parameter: click.Parameter, incomplete: str
     return [CompletionItem(name) for name in studies() if name.startswith(incomplete)]
 
 
-@click.command()
+@click.command(epilog=example("init", "init curve -o tip.toml"))
 @click.argument("name", default="map", shell_complete=_names)
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="The file to write; NAME.toml if not given.")
 @click.option("--overwrite", is_flag=True, help="Replace a file that exists.")
 @click.option("--list", "listed", is_flag=True, help="List the studies and write nothing.")
 def init(name: str, output: Path | None, overwrite: bool, listed: bool) -> None:
-    """Write a commented study to start from: NAME is map (the default), curve, physical, or a figure such as fig4a."""
+    """Write a commented study to start from.
+
+    NAME is map (the default), curve, physical, or a figure such as fig4a; --list shows all.
+    """
     known = studies()
     if listed:
         width = max(map(len, known))

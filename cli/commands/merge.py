@@ -7,12 +7,14 @@ from pathlib import Path
 import click
 
 from gradhesion.cli import messages
+from gradhesion.cli.amounts import counted
+from gradhesion.cli.commands.examples import example
 from gradhesion.cli.commands.run import finish, history_now
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.progress import progress
 
 
-@click.command()
+@click.command(epilog=example("merge big.nc", "merge first.nc second.nc -o all.nc"))
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="The dataset of several datasets together.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing dataset.")
@@ -32,7 +34,7 @@ def merge(
     quiet: bool,
     log_json: bool,  # noqa: ARG001 (its callback has it)
 ) -> None:
-    """Join the parts of shards into the dataset FILE, or several datasets into one.
+    """Join the parts of shards, or datasets.
 
     With one FILE: the parts that `gradhesion run STUDY.toml --shard I/N -o FILE` has left. With several, and -o: maps
     whose studies differ along one axis, which then has the values of all.
@@ -64,8 +66,8 @@ def _merge_shards(file: Path, start: float, *, overwrite: bool, quiet: bool) -> 
     if missing and not folder.finished.exists():
         shown = ", ".join(map(str, missing[:8])) + (", ..." if len(missing) > 8 else "")
         raise DatasetError(
-            f"{file}: {len(missing):,} of {count:,} blocks are missing ({shown}); run the shards that have them, "
-            "or `gradhesion run`, which computes all that is left"
+            f"{file}: {len(missing):,} of {counted(count, 'block')} are missing ({shown}); run the shards that have "
+            "them, or `gradhesion run`, which computes all that is left"
         )
     with progress(study.scenes, quiet=quiet) as advance:
         written = write(study, file, history=history_now(), overwrite=overwrite, engine=Kept(), advance=advance)

@@ -7,12 +7,15 @@ from typing import TYPE_CHECKING
 
 import click
 
+from gradhesion.cli.amounts import bytes_in_words, counted
+from gradhesion.cli.commands.examples import example
+
 if TYPE_CHECKING:
     from gradhesion.cli.study.study import Study
     from gradhesion.cli.work.estimate import Estimate
 
 
-@click.command()
+@click.command(epilog=example("plan study.toml"))
 @click.argument("study", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Dataset that `run` would write.")
 @click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Set a key of the study, in TOML.")
@@ -31,9 +34,10 @@ def plan(
     chunk: int | None,
     as_json: bool,
 ) -> None:
-    """Tell what `gradhesion run STUDY` would do and cost; a second or two of real scenes are timed for it.
+    """Show what a run would do and cost.
 
-    Nothing is written. Scenes and blocks, what is reused of an earlier run and why not the rest, bytes, memory, time.
+    Scenes and blocks, what is reused of an earlier run and why not the rest, bytes, memory, and the time, from a second
+    or two of scenes of STUDY that are solved for it. Nothing is written.
     """
     from gradhesion.cli.study.study import load_study
 
@@ -58,8 +62,6 @@ def show_plan(study: "Study", output: Path, threads: int | None, *, as_json: boo
 
 def _lines(found: "Estimate") -> list[str]:
     """Describe a plan."""
-    from gradhesion.cli.disk import bytes_in_words
-
     axes = ", ".join(f"{name} ({size:,})" for name, size in found.sizes.items()) or "none"
     state = "exists; run needs --overwrite" if found.output_exists else "new"
     if found.running:
@@ -85,7 +87,7 @@ def _lines(found: "Estimate") -> list[str]:
     if found.seconds is not None and found.seconds_uncertain is not None:
         lines.append(
             f"time      about {duration(found.seconds)}, give or take {duration(found.seconds_uncertain)} "
-            f"(by {found.scenes_probed:,} scenes), and a second to start"
+            f"(by {counted(found.scenes_probed, 'scene')}), and a second to start"
         )
         if found.seconds_dask is not None and found.seconds_of_block is not None:
             lines.append(

@@ -5,10 +5,13 @@ from typing import Final
 
 import click
 
+from gradhesion.cli.commands.examples import example
+from gradhesion.cli.commands.written import say_written
+
 FORMS: Final = ("png", "svg", "pdf")
 
 
-@click.command()
+@click.command(epilog=example("plot outputs/study.nc", "plot outputs/study.nc -o map.pdf --at A=0.02 --over k=max"))
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Picture: .png, .svg or .pdf [FILE.png].")
 @click.option("--variable", "variables", multiple=True, metavar="NAME", help="What to draw; repeat it for several.")
@@ -20,6 +23,7 @@ FORMS: Final = ("png", "svg", "pdf")
 @click.option("--x", metavar="AXIS", help="The axis along the abscissa.")
 @click.option("--y", metavar="AXIS", help="The axis along the ordinate of a map.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing picture.")
+@click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
 def plot(
     file: Path,
     output: Path | None,
@@ -30,10 +34,11 @@ def plot(
     x: str | None,
     y: str | None,
     overwrite: bool,
+    quiet: bool,
 ) -> None:
-    """
-    Draw the dataset FILE: lines over one axis, a map over two, panels of maps over more; curves as curves.
+    """Draw a dataset: lines, maps, panels or curves.
 
+    What suits the shape of FILE: lines over one axis, a map over two, panels of maps over more; curves as curves.
     Options choose what of it: an axis is fixed (--at A=0.02), reduced (--over k=max) or given its place (--x, --y).
     """
     path = output or file.with_suffix(".png")
@@ -43,7 +48,7 @@ def plot(
     names = [name.strip() for word in variables for name in word.split(",")]
 
     from gradhesion.cli.dataset.reader import has_curves, opened
-    from gradhesion.cli.dataset.selection import selection_of
+    from gradhesion.cli.dataset.selection import nearest_values, selection_of
     from gradhesion.cli.disk import replacement, writing
     from gradhesion.cli.errors import DatasetError
     from gradhesion.cli.picture.curve_picture import drawn_curves
@@ -62,3 +67,6 @@ def plot(
             figure = drawn_curves(selection.narrowed(dataset), names)
         with writing(path):
             save(figure, temporary, form)
+        notes = [] if interpolate else nearest_values(dataset, at)
+    if not quiet:
+        say_written(path, notes)

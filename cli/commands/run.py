@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 import click
 
 from gradhesion.cli import messages
+from gradhesion.cli.amounts import bytes_in_words, counted
+from gradhesion.cli.commands.examples import example
 from gradhesion.cli.commands.plan import show_plan
 from gradhesion.cli.errors import ScenesFailedError
 from gradhesion.cli.progress import progress, rate
@@ -32,7 +34,7 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
     return shard
 
 
-@click.command()
+@click.command(epilog=example("run study.toml", "run study.toml -o wavier.nc --set parameters.A=0.05"))
 @click.argument("study", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Dataset to write [outputs/<study name>.nc].")
 @click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Set a key of the study, in TOML.")
@@ -40,9 +42,13 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
 @click.option("--fresh", is_flag=True, help="Drop the finished parts of an earlier run.")
 @click.option("--fail-fast", is_flag=True, help="Stop at the first block with a failed scene, and write nothing.")
 @click.option("--shard", metavar="I/N", callback=_shard, help="Compute every N-th block only, as parts for `merge`.")
-@click.option("--dry-run", is_flag=True, help="Tell what would be done, as `gradhesion plan`, and write nothing.")
+@click.option("--dry-run", is_flag=True, help="Show what would be done, as `gradhesion plan`, and write nothing.")
 @click.option(
-    "--engine", type=click.Choice(["threads", "dask"]), default="threads", show_default=True, help="Who solves."
+    "--engine",
+    type=click.Choice(["threads", "dask"]),
+    default="threads",
+    show_default=True,
+    help="Where blocks are computed: local threads, or a Dask cluster.",
 )
 @click.option("--scheduler", metavar="ADDRESS", help="Of a Dask cluster, or its scheduler file [one on this machine].")
 @click.option(
@@ -73,7 +79,10 @@ def run(
     quiet: bool,
     log_json: bool,  # noqa: ARG001 (its callback has it)
 ) -> None:
-    """Compute STUDY (TOML) into a dataset (NetCDF). After an interrupt or a crash the same command goes on."""
+    """Compute a study into a dataset (NetCDF).
+
+    STUDY is a file in TOML. An interrupted run resumes where it stopped: give the same command again.
+    """
     from gradhesion.cli.dataset.writer import write
     from gradhesion.cli.study.study import load_study
     from gradhesion.cli.work.compiling import prepare
@@ -125,18 +134,18 @@ def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet
         Some scenes have.
     """
     if not quiet:
-        counted = {"blocks_reused": written.reused, "blocks_computed": written.computed, "failed": written.failed}
-        messages.say("done", _told(path, scenes, written, seconds), scenes=scenes, seconds=seconds, **counted)
+        numbers = {"blocks_reused": written.reused, "blocks_computed": written.computed, "failed": written.failed}
+        messages.say("done", _told(path, scenes, written, seconds), scenes=scenes, seconds=seconds, **numbers)
     for sentence in written.raised:
         messages.say("raised", f"{path}: {sentence}")
     if written.raised:
         raise ScenesFailedError(
-            f"{path}: {len(written.raised):,} blocks could not be solved, and their scenes have no value; the parts of "
-            "the others are kept, and the same command with --overwrite tries these again"
+            f"{path}: {counted(len(written.raised), 'block')} could not be solved, and their scenes have no value; the "
+            "parts of the others are kept, and the same command with --overwrite tries these again"
         )
     if written.failed:
         raise ScenesFailedError(
-            f"{path}: {written.failed:,} of {scenes:,} scenes have failed; `gradhesion info {path}` tells why"
+            f"{path}: {written.failed:,} of {counted(scenes, 'scene')} have failed; `gradhesion info {path}` says why"
         )
 
 
@@ -169,7 +178,7 @@ def _run_shard(
         written = write_shard(study, path, shard, overwrite=overwrite, engine=engine, advance=advance)
     if not quiet:
         sentence = (
-            f"{path}.parts: shard {shard[0]} of {shard[1]}: reused {written.reused:,} blocks, computed "
+            f"{path}.parts: shard {shard[0]} of {shard[1]}: reused {counted(written.reused, 'block')}, computed "
             f"{written.computed:,}; `gradhesion merge {path}` joins them when all shards are done"
         )
         messages.say("done", sentence, blocks_reused=written.reused, blocks_computed=written.computed)
@@ -177,15 +186,15 @@ def _run_shard(
         messages.say("raised", f"{path}: {sentence}")
     if written.raised:
         raise ScenesFailedError(
-            f"{path}: {len(written.raised):,} blocks could not be solved; the same command tries these again"
+            f"{path}: {counted(len(written.raised), 'block')} could not be solved; the same command tries these again"
         )
 
 
 def _told(path: Path, scenes: int, written: "Written", seconds: float) -> str:
     """Say what was written, and how much of it an earlier run had done."""
-    size = path.stat().st_size / 1e6
+    size, count = bytes_in_words(path.stat().st_size), counted(scenes, "scene")
     if written.complete:
-        return f"{path}: {scenes:,} scenes, {size:.1f} MB, were complete already"
+        return f"{path}: {count}, {size}, were complete already"
     speed = rate(scenes, seconds)
-    reused = f"; reused {written.reused:,} blocks, computed {written.computed:,}" if written.reused else ""
-    return f"{path}: {scenes:,} scenes in {seconds:.2f} s ({speed} per s), {size:.1f} MB{reused}"
+    reused = f"; reused {counted(written.reused, 'block')}, computed {written.computed:,}" if written.reused else ""
+    return f"{path}: {count} in {seconds:.2f} s ({speed} per s), {size}{reused}"

@@ -8,22 +8,27 @@ from typing import Any
 
 import click
 
+from gradhesion.cli.amounts import bytes_in_words, counted
+from gradhesion.cli.commands.examples import example
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.progress import rate
 
 
-@click.command()
+@click.command(epilog=example("status outputs/study.nc"))
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def status(file: Path, as_json: bool) -> None:
-    """Tell how far the run is that makes the dataset FILE: running, stopped or complete."""
+    """Show how far a run is.
+
+    FILE is the dataset that it makes, or will have made; the run is running, stopped or complete.
+    """
     found = status_of(file)
     if as_json:
         click.echo(json.dumps(found, indent=2))
         return
     if found["state"] == "complete":
         written = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(found["written"]))
-        click.echo(f"{file}: complete, {found['bytes'] / 1e6:.1f} MB, written {written}")
+        click.echo(f"{file}: complete, {bytes_in_words(found['bytes'])}, written {written}")
         return
     blocks, scenes = (f"{found[name]:,}" if found[name] else "?" for name in ("blocks", "scenes"))
     end = "" if found["state"] == "running" else "; the same command goes on"
@@ -39,7 +44,7 @@ def status_of(file: Path) -> dict[str, Any]:
     Raises
     ------
     DatasetError
-        There is nothing to tell of.
+        Neither a dataset nor a run is there.
     """
     from gradhesion.cli.work.folder import folder_of, read_json
 
@@ -78,14 +83,15 @@ def _words(run: dict[str, Any], *, running: bool) -> str:
     """Describe the state of a run."""
     seconds = run["updated"] - run["started"]
     solved = run["scenes_done"] - run["scenes_reused"]
+    share = run["scenes_done"] / max(1, run["scenes"])
     words = [
-        f"process {run['pid']} on {run['host']}: {run['blocks_done']:,} of {run['blocks']:,} blocks done",
+        f"process {run['pid']} on {run['host']}: {run['blocks_done']:,} of {counted(run['blocks'], 'block')} done",
         f"{run['blocks_reused']:,} of them reused",
-        f"{run['scenes_done']:,} of {run['scenes']:,} scenes ({run['scenes_done'] / max(1, run['scenes']):.0%})",
+        f"{run['scenes_done']:,} of {counted(run['scenes'], 'scene')} ({share:.0%})",
         f"{run['scenes_failed']:,} failed",
         f"{rate(solved, seconds)} per s",
     ]
     if running and run["seconds_left"] is not None:
         words.append(f"{run['seconds_left']:.0f} s left")
     shard = f"shard {run['shard'].replace('-', ' ')}, " if run["shard"] else ""
-    return f"{shard}{', '.join(words)} (told {max(0.0, time.time() - run['updated']):.0f} s ago)"
+    return f"{shard}{', '.join(words)} (reported {max(0.0, time.time() - run['updated']):.0f} s ago)"

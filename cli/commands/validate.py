@@ -5,27 +5,34 @@ from pathlib import Path
 
 import click
 
+from gradhesion.cli.amounts import counted
+from gradhesion.cli.commands.examples import example
 
-@click.command()
+
+@click.command(epilog=example("validate study.toml", "validate study.toml --set parameters.A=0.02"))
 @click.argument("study", type=click.Path(path_type=Path))
 @click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Set a key of the study, in TOML.")
 def validate(study: Path, overrides: tuple[str, ...]) -> None:
-    """Check STUDY (TOML) and tell all of its mistakes; nothing is computed."""
+    """Check a study and report every error.
+
+    STUDY is a file in TOML. Each error has its line, and what to write instead; nothing is computed.
+    """
     from gradhesion.cli.study.study import load_study
 
     asked = load_study(study, overrides)
     axes = ", ".join(f"{name} ({size:,})" for name, size in asked.sizes.items()) or "none"
-    click.echo(f"{study}: valid; a {asked.kind} of {asked.scenes:,} scenes; axes: {axes}; outputs: ", nl=False)
+    click.echo(f"{study}: valid; a {asked.kind} of {counted(asked.scenes, 'scene')}; axes: {axes}; outputs: ", nl=False)
     click.echo(", ".join(asked.outputs))
 
 
-@click.command()
+@click.command(epilog=example("schema > study.schema.json"))
 def schema() -> None:
-    """Print the JSON Schema of a study, for editors; it is the one that `run` and `validate` go by.
+    """Print the JSON Schema of a study.
 
-    What two keys have to do with each other (unequal lists, repeated values) is beyond it: `gradhesion validate` tells.
+    Editors complete and check studies by it; it is the one that `run` and `validate` go by. What two keys have to do
+    with each other (unequal lists, repeated values) is beyond it: `gradhesion validate` reports that.
     """
     from gradhesion.cli.study.form import Form
 
-    told = {"$schema": "https://json-schema.org/draft/2020-12/schema", **Form.model_json_schema()}
-    click.echo(json.dumps(told, indent=2))
+    document = {"$schema": "https://json-schema.org/draft/2020-12/schema", **Form.model_json_schema()}
+    click.echo(json.dumps(document, indent=2))

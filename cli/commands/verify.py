@@ -4,20 +4,23 @@ from pathlib import Path
 
 import click
 
+from gradhesion.cli.amounts import counted
+from gradhesion.cli.commands.examples import example
 from gradhesion.cli.errors import DeviationError
 from gradhesion.cli.progress import progress
 
 
-@click.command()
+@click.command(epilog=example("verify outputs/study.nc --sample 50"))
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--sample", type=click.IntRange(min=1), default=20, show_default=True, help="Scenes to recompute.")
 @click.option("--seed", type=click.IntRange(min=0), help="Draw the sample of this seed [a new one each time].")
 @click.option("--digits", is_flag=True, help="Show the values themselves as well, to 30 digits.")
 def verify(file: Path, sample: int, seed: int | None, digits: bool) -> None:
-    """Recompute scenes of the dataset FILE from the integral definitions, and compare.
+    """Recompute scenes to 30 digits and compare.
 
-    The study in the dataset must be unchanged and give its coordinates. Then a random sample of its scenes is solved in
-    arithmetic of 51 digits, without the kernels that made the dataset; the deviations are told, the worst first. A
+    The study in the dataset FILE must be unchanged and give its coordinates. Then a random sample of its scenes is
+    solved from the integral definitions, in arithmetic of 51 digits and without the kernels that made the dataset; the
+    deviations are printed, the worst first. A
     scene takes less than 0.1 s as a rule and 15 s at most: one of more than 1,000 waves (of the shortest of a series,
     each counted once more for every 16 harmonics) is left out, and another is drawn instead.
 
@@ -34,6 +37,6 @@ def verify(file: Path, sample: int, seed: int | None, digits: bool) -> None:
         click.echo(line)
     if found.exceeding:
         raise DeviationError(
-            f"{file}: {found.exceeding:,} of {len(found.deviations):,} values deviate by more than their stated "
-            "errors; write it again with `gradhesion run`, and report it if they still do"
+            f"{file}: {found.exceeding:,} of {counted(len(found.deviations), 'value')} deviate by more than their "
+            "stated errors; write it again with `gradhesion run`, and report it if they still do"
         )

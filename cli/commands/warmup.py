@@ -5,19 +5,20 @@ import time
 import click
 
 from gradhesion.cli import messages
+from gradhesion.cli.amounts import counted
+from gradhesion.cli.commands.examples import example
 
 
-@click.command()
+@click.command(epilog=example("warmup --all"))
 @click.option("--all", "everything", is_flag=True, help="Also for other profiles and controls, and all reports.")
 @click.option("--workers", type=click.IntRange(min=1), help="Processes side by side [all that it may use].")
 @click.option("--quiet", is_flag=True, help="Print nothing unless something is wrong.")
 def warmup(everything: bool, workers: int | None, quiet: bool) -> None:
-    """Compile ahead what runs compile when they first need it.
+    """Compile the solver ahead of the first run.
 
-    Without --all: what maps and curves of a paraboloid with one cosine wave need. Compiled kernels are kept in the
-    user's cache, or in the folder NUMBA_CACHE_DIR, for all runs of this version.
-
-    Example: gradhesion warmup --all
+    Runs compile what they need when they first need it. Without --all: what maps and curves of a paraboloid with one
+    cosine wave need. Compiled kernels are kept in the user's cache, or in the folder NUMBA_CACHE_DIR, for all runs of
+    this version.
     """
     from gradhesion.cli.work.kernels import missing_of
     from gradhesion.cli.work.warming import warm
@@ -33,11 +34,17 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:
         nonlocal count
         count += len(names)
         if not quiet:
-            messages.say("compiled", f"{kind}: {len(names)} kernels, {time.monotonic() - start:.0f} s", kind=kind)
+            messages.say(
+                "compiled", f"{kind}: {counted(len(names), 'kernel')}, {time.monotonic() - start:.0f} s", kind=kind
+            )
 
     if missing:
         warm(kinds, workers or processors(), done)
     if not quiet:
         where = f", kept in {folder}" if folder else ""
-        what = f"{count} kernels compiled in {time.monotonic() - start:.0f} s" if missing else "all compiled already"
+        what = (
+            f"{counted(count, 'kernel')} compiled in {time.monotonic() - start:.0f} s"
+            if missing
+            else "all compiled already"
+        )
         messages.say("done", what + where, kernels=count)

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
 
+from gradhesion.cli.amounts import counted
 from gradhesion.cli.dataset.recompute import Deviation, Recomputed
 
 ROWS: Final = 12
@@ -14,8 +15,8 @@ def told(found: Recomputed, title: str, file: Path, *, digits: bool) -> Iterator
     """Tell what was found, line by line."""
     yield title
     yield (
-        f"{file}: {found.scenes:,} of {found.total:,} scenes recomputed (--seed {found.seed}), "
-        f"{len(found.deviations):,} values, solver {' and '.join(found.solvers)}"
+        f"{file}: {found.scenes:,} of {counted(found.total, 'scene')} recomputed (--seed {found.seed}), "
+        f"{counted(len(found.deviations), 'value')}, solver {' and '.join(found.solvers)}"
     )
     yield ""
     yield f"{'worst first':<18} {'deviation':<10} {'stated':<10} {'share':<9} scene"
@@ -35,7 +36,8 @@ def told(found: Recomputed, title: str, file: Path, *, digits: bool) -> Iterator
     yield from _left_out(found)
     yield ""
     if found.exceeding:
-        yield f"{found.exceeding:,} of {len(found.deviations):,} values deviate by more than their stated errors"
+        values = counted(len(found.deviations), "value")
+        yield f"{found.exceeding:,} of {values} deviate by more than their stated errors"
     else:
         yield f"all {len(found.deviations):,} values are within their stated errors"
 

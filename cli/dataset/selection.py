@@ -118,6 +118,21 @@ def selection_of(
     return Selection(fixed=fixed, between=tuple(between), scenes=scenes, over=_reductions(dataset, over, named))
 
 
+def nearest_values(dataset: xarray.Dataset, at: Sequence[str]) -> list[str]:
+    """Say which wishes of `--at` are met by another value, the nearest of the axis."""
+    notes = []
+    for option, axis, text in _wishes("--at", at, "AXIS=VALUE"):
+        if axis == SOLVER:
+            continue
+        values = np.asarray(dataset[axis].values, dtype=float)
+        value = _number(option, axis, text)
+        near = float(values[_nearest(values, value)])
+        if not np.isinf(value) and abs(near - value) > SAME * abs(value):
+            unit = f" {PHYSICAL[axis].unit}" if axis in PHYSICAL else ""
+            notes.append(f"{option}: shows {axis} = {near:.10g}{unit}, its nearest value")
+    return notes
+
+
 def is_log(values: NDArray[np.float64]) -> bool:
     """Tell whether the ratios of the finite values of an axis are more even than their differences."""
     finite = np.unique(values[np.isfinite(values)])

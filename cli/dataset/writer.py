@@ -10,9 +10,10 @@ from typing import Any, Final, NoReturn
 
 import netCDF4
 
+from gradhesion.cli.amounts import bytes_in_words, counted
 from gradhesion.cli.dataset import dataset
 from gradhesion.cli.dataset.contents import CONTENTS
-from gradhesion.cli.disk import bytes_in_words, refuse_existing, to_disk, writing
+from gradhesion.cli.disk import refuse_existing, to_disk, writing
 from gradhesion.cli.engines import Engine, Work
 from gradhesion.cli.engines.threads import Threads
 from gradhesion.cli.errors import OutputError, ScenesFailedError
@@ -290,6 +291,6 @@ def _check_space(study: Study, path: Path, folder: Folder) -> None:
     free = shutil.disk_usage(folder.path).free
     if least > free:
         raise OutputError(
-            f"{path}: {study.scenes:,} scenes need {bytes_in_words(least)} or more, and {bytes_in_words(free)} are "
-            "free there; use fewer scenes, or name an output on a larger disk with -o"
+            f"{path}: {counted(study.scenes, 'scene')} need {bytes_in_words(least)} or more, and "
+            f"{bytes_in_words(free)} are free there; use fewer scenes, or name an output on a larger disk with -o"
         )

@@ -2,6 +2,7 @@
 
 import json
 import re
+import shlex
 import tomllib
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from typing import Any, Final
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.files import kind_of
+from gradhesion.cli.keys import KEYS
 from gradhesion.cli.study import places, wording
 
 MOST_BYTES: Final = 2**28
@@ -113,6 +115,11 @@ def _syntax_sentence(path: Path, text: str, problem: str) -> str:
     return f"{path}:{line}: not valid TOML, {what[0].lower()}{what[1:]}{column} in {shown}; {remedy}"
 
 
+_TABLES: Final = ("parameters", "physical", "profile", "loading", "method")
+_HOMES: Final = {name: key.table for name, key in KEYS.items() if key.table in _TABLES}
+"""The table of each key that is not at the top."""
+
+
 def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[places.Path, str], list[str]]:
     """Set keys by their dotted paths in place; tell which text set each, and what was wrong."""
     sources: dict[places.Path, str] = {}
@@ -124,6 +131,11 @@ def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[plac
             parsed = tomllib.loads(f"value = {value.strip()}")
         except (ValueError, RecursionError):
             parsed = {}
+        if equals and len(steps) == 1 and key.strip() in _HOMES:
+            home = _HOMES[key.strip()]
+            again = shlex.quote(f"{home}.{override.strip()}")
+            mistakes.append(f"--set {override}: {key.strip()} belongs under [{home}]; write --set {again}")
+            continue
         if not equals or not all(steps):
             mistakes.append(f"--set {override}: not of the form KEY=VALUE; write for example --set parameters.A=0.02")
             continue

@@ -3,9 +3,13 @@
 import difflib
 import json
 from collections.abc import Mapping, Sequence
+from typing import Final
 
 from gradhesion.cli.keys import KEYS
 from gradhesion.cli.study.places import Path
+
+SLIP: Final = 0.8
+"""How like each other two words are, from 0 to 1, of which one is the other with a letter or two wrong."""
 
 
 def did_you_mean(word: str, known: Sequence[str]) -> str:
@@ -22,9 +26,17 @@ def did_you_mean(word: str, known: Sequence[str]) -> str:
 
 
 def nearest(word: str, known: Sequence[str]) -> str | None:
-    """Find the known word that is most like this one, if any is."""
+    """
+    Find the known word that is most like this one, if any is: a slip of the pen, or the first with this part.
+
+    >>> known = ["dissipated_energy", "energy_gain"]
+    >>> nearest("energy", known), nearest("energy_gian", known)
+    ('dissipated_energy', 'energy_gain')
+    """
     lower = {name.lower(): name for name in known}
-    near = difflib.get_close_matches(word.lower(), lower, n=1, cutoff=0.6)
+    slips = difflib.get_close_matches(word.lower(), lower, n=1, cutoff=SLIP)
+    parts = [name for name in lower if f"_{word.lower()}_" in f"_{name}_"] if word else []
+    near = [*slips, *parts, *difflib.get_close_matches(word.lower(), lower, n=1, cutoff=0.6)]
     return lower[near[0]] if near else None
 
 

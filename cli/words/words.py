@@ -9,6 +9,7 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli import names
+from gradhesion.cli.amounts import bytes_in_words, counted
 from gradhesion.cli.dataset.reader import has_curves, tiling_of
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import SCENE, SOLVER
@@ -24,7 +25,7 @@ FEW: Final = 8
 def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
     """Tell what a dataset holds, line by line."""
     yield dataset.attrs["title"]
-    yield f"{file}: {dataset['status'].size:,} scenes, {file.stat().st_size / 1e6:.1f} MB"
+    yield f"{file}: {counted(dataset['status'].size, 'scene')}, {bytes_in_words(file.stat().st_size)}"
     if "profile" in dataset.attrs:
         yield ""
         yield f"profile: {dataset.attrs['profile']}"
@@ -157,10 +158,10 @@ def _status(dataset: xarray.Dataset) -> Iterator[str]:
             counts[name] += int(np.count_nonzero(status & bit))
     scenes = dataset["status"].size
     yield ""
-    yield f"status: {scenes - failed:,} of {scenes:,} scenes ({(scenes - failed) / scenes:.1%}) have values"
+    yield f"status: {scenes - failed:,} of {counted(scenes, 'scene')} ({(scenes - failed) / scenes:.1%}) have values"
     for name, count in counts.items():
         if count:
-            share = f"{count:,} of {scenes:,} scenes ({100 * count / scenes:.2g} %)"
+            share = f"{count:,} of {counted(scenes, 'scene')} ({100 * count / scenes:.2g} %)"
             yield f"  {name:<30} {share:<26} {names.FLAGS[name]}"
 
 

@@ -163,7 +163,7 @@ def test_a_single_scene_has_no_dimension_but_those_of_its_curves(
     single = ["--set=parameters.A=0.02", "--set=parameters.a_max_over_R=0.3", "--set=outputs=['envelope']"]
     result = gradhesion("run", curve_file, "-o", tmp_path / "x.nc", *single)
     assert result.exit_code == 0
-    assert "1 scenes in" in result.stderr
+    assert "1 scene in" in result.stderr
     with xarray.open_dataset(tmp_path / "x.nc") as dataset:
         assert set(dataset.sizes) == {"envelope_point"}
         assert dataset["status"].shape == ()

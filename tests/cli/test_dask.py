@@ -203,8 +203,7 @@ def test_a_block_that_kills_its_workers_takes_no_other_along(
     assert result.exit_code == 3
     assert "block 3 of 6 (4 scenes, index k 0, lambda_over_R 2) raised KilledWorker" in result.stderr
     assert (
-        "1 blocks could not be solved, and their scenes have no value; the parts of the others are kept"
-        in result.stderr
+        "1 block could not be solved, and their scenes have no value; the parts of the others are kept" in result.stderr
     )
     assert len(folder_of(output).parts()) == 5
     orders.give()

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from click.testing import Result
 
+from gradhesion.cli.amounts import counted
 from gradhesion.cli.disk import writing
 from gradhesion.cli.errors import OutputError
 from gradhesion.cli.study.study import Study, study_from
@@ -100,7 +101,7 @@ def test_a_run_goes_on_where_it_was_interrupted(
     result = gradhesion("run", study_file, "-o", output)
     assert result.exit_code == 0
     if kept:
-        assert result.stderr.endswith(f"; reused {kept} blocks, computed {6 - kept}\n")
+        assert result.stderr.endswith(f"; reused {counted(kept, 'block')}, computed {6 - kept}\n")
     assert values_of(output) == values_of(whole)
     assert attributes_of(output) == attributes_of(whole)
     assert os.listdir(output.parent) == ["out.nc"]
@@ -142,7 +143,7 @@ def test_a_changed_study_is_refused_with_the_difference(
 def test_another_title_goes_on(begun: Callable[..., int], gradhesion: Call, study_file: Path, output: Path) -> None:
     kept = begun(4)
     result = gradhesion("run", study_file, "-o", output, "--set=title='Another'")
-    assert f"reused {kept} blocks" in result.stderr
+    assert f"reused {counted(kept, 'block')}" in result.stderr
     assert attributes_of(output)["title"] == "Another"
 
 
@@ -185,7 +186,7 @@ def test_a_damaged_part_is_computed_again(
     part = folder_of(output).part(1)
     part.write_bytes(damages()[damage](part.read_bytes()))
     result = gradhesion("run", study_file, "-o", output)
-    assert f"reused {kept - 1} blocks, computed {7 - kept}" in result.stderr
+    assert f"reused {counted(kept - 1, 'block')}, computed {7 - kept}" in result.stderr
     assert values_of(output) == values_of(whole)
 
 

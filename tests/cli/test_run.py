@@ -152,7 +152,7 @@ def test_the_default_output_and_its_message(
     result = gradhesion("run", study_file)
     assert result.exit_code == 0
     assert result.stdout == ""
-    assert re.search(r"outputs/study.nc: 24 scenes in [\d.]+ s \([\d,]+ per s\), [\d.]+ MB\n$", result.stderr)
+    assert re.search(r"outputs/study.nc: 24 scenes in [\d.]+ s \([\d,]+ per s\), [\d.]+ kB\n$", result.stderr)
     assert os.listdir("outputs") == ["study.nc"]
     mask = os.umask(0)
     os.umask(mask)
@@ -225,7 +225,7 @@ def test_failed_scenes_are_written_and_told(
     monkeypatch.setattr("gradhesion.cli.work.blocks.solve", failing)
     result = gradhesion("run", study_file, "-o", tmp_path / "out.nc", "--quiet")
     assert result.exit_code == 3
-    assert f"1 of 24 scenes have failed; `gradhesion info {tmp_path}/out.nc` tells why" in result.stderr
+    assert f"1 of 24 scenes have failed; `gradhesion info {tmp_path}/out.nc` says why" in result.stderr
     with xarray.open_dataset(tmp_path / "out.nc") as dataset:
         assert int(dataset["pull_off_force"].isnull().sum()) == 1
     told = gradhesion("info", tmp_path / "out.nc").stdout

@@ -1,0 +1,105 @@
+"""What a user meets in a terminal: the list of commands, examples that work, what was written, and what was meant."""
+
+import re
+import shlex
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from gradhesion.cli.errors import EXIT_CODES
+from gradhesion.cli.main import EXITS, SECTIONS, cli
+
+Call = Callable[..., Result]
+
+
+@pytest.fixture
+def dataset_file(gradhesion: Call, study_file: Path, tmp_path: Path) -> Path:
+    path = tmp_path / "out.nc"
+    assert gradhesion("run", study_file, "-o", path, "--quiet").exit_code == 0
+    return path
+
+
+def test_commands_are_listed_in_the_order_of_the_work_and_not_cut() -> None:
+    text = CliRunner().invoke(cli, ["--help"], terminal_width=80).output
+    order = ["init", "validate", "plan", "run", "status", "info", "plot", "explore", "verify", "merge"]
+    listed = re.findall(r"^  (\w+) +(\S.*)$", text.partition("A study, and its run:")[2], flags=re.MULTILINE)
+    assert [name for name, _ in listed][:10] == order
+    assert [name for name, _ in listed[: len(cli.commands)]] == list(cli.commands)
+    assert {command for commands in SECTIONS.values() for command in commands} == {*cli.commands.values()}
+    for _, words in listed[: len(cli.commands)]:
+        assert len(words) <= 50
+        assert words.endswith(".")
+        assert not words.endswith("...")
+
+
+def test_exit_codes_come_after_the_commands_and_are_all() -> None:
+    text = CliRunner().invoke(cli, ["--help"]).output
+    assert text.index("schema") < text.index("Exit codes:")
+    assert {code for code, _ in EXITS} == {*EXIT_CODES}
+
+
+@pytest.mark.parametrize("name", cli.commands)
+def test_every_command_has_an_example_that_it_takes(name: str, gradhesion: Call) -> None:
+    shown = gradhesion(name, "--help").stdout.partition("Example")[2]
+    calls = re.findall(r"^  +gradhesion (.*)$", shown, flags=re.MULTILINE)
+    assert calls
+    for call in calls:
+        first, *arguments = shlex.split(call.partition(" > ")[0])
+        assert first == name
+        cli.commands[name].make_context(name, arguments)  # raises what is wrong with options and arguments
+
+
+def test_a_picture_and_a_page_say_what_they_wrote(gradhesion: Call, dataset_file: Path) -> None:
+    for command, ending in (("plot", ".png"), ("explore", ".html")):
+        path = dataset_file.with_suffix(ending)
+        result = gradhesion(command, dataset_file)
+        assert result.stdout == ""
+        assert re.fullmatch(rf"{re.escape(str(path))}: written, [\d.]+ [kM]B\n", result.stderr)
+        assert gradhesion(command, dataset_file, "--overwrite", "--quiet").stderr == ""
+
+
+def test_another_value_than_the_one_asked_for_is_named(gradhesion: Call, dataset_file: Path) -> None:
+    for command in ("plot", "explore"):
+        lines = gradhesion(command, dataset_file, "--at", "k=0.2", "--at", "A=0.023", "--overwrite").stderr.splitlines()
+        assert lines[:-1] == ["--at k=0.2: shows k = 0.31, its nearest value"]
+    assert (
+        len(gradhesion("plot", dataset_file, "--at", "k=0.2", "--interpolate", "--overwrite").stderr.splitlines()) == 1
+    )
+
+
+@pytest.mark.parametrize(
+    ("override", "answer"),
+    [
+        ("A=0.1", "--set A=0.1: A belongs under [parameters]; write --set parameters.A=0.1"),
+        ("solver='envelope'", "solver belongs under [method]; write --set"),
+        ("R='1 mm'", "R belongs under [physical]; write --set"),
+        ("machine_stiffness=2.0", "write --set loading.machine_stiffness=2.0"),
+        ('outputs=["energy"]', 'did you mean "dissipated_energy"?'),
+        ('outputs=["force"]', 'did you mean "pull_off_force"?'),
+        ('outputs=["energy_gian"]', 'did you mean "energy_gain"?'),
+    ],
+)
+def test_a_key_or_output_that_is_nearly_right_is_answered_by_the_right_one(
+    override: str, answer: str, gradhesion: Call, study_file: Path
+) -> None:
+    result = gradhesion("validate", study_file, "--set", override)
+    assert result.exit_code == 2
+    assert answer in result.stderr
+
+
+def test_what_is_suggested_for_a_key_without_its_table_works(gradhesion: Call, study_file: Path) -> None:
+    wrong = gradhesion("validate", study_file, "--set", "lambda_over_R={ start = 0.1, stop = 0.5, num = 3 }").stderr
+    (suggested,) = re.findall(r"write (--set .*)$", wrong, flags=re.MULTILINE)
+    assert gradhesion("validate", study_file, *shlex.split(suggested)).exit_code == 0
+
+
+def test_one_of_something_is_no_plural(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
+    single = [f"--set=parameters.{key}" for key in ("k=0.3", "lambda_over_R=0.2", "A=0.02", "a_max_over_R=1.0")]
+    assert "a map of 1 scene;" in gradhesion("validate", study_file, *single).stdout
+    ran = gradhesion("run", study_file, "-o", tmp_path / "one.nc", *single).stderr
+    assert re.search(r"one\.nc: 1 scene in .* per s\), [\d.]+ kB$", ran, flags=re.MULTILINE)
+    told = gradhesion("info", tmp_path / "one.nc").stdout
+    assert re.search(r"one\.nc: 1 scene, [\d.]+ kB\n", told)
+    assert "status: 1 of 1 scene (100.0%)" in told
