@@ -24,6 +24,7 @@ NO: Final = constant(False)
 NONE: Final = constant(0)
 """The number of what there is none of yet."""
 
+_PACKAGE: Final = "gradhesion.core."
 _setting: Final = threading.Lock()
 
 
@@ -91,9 +92,9 @@ class _Compilation(event.Listener):  # type: ignore[misc] # numba has no types
     def on_end(self, finished: Any) -> None:
         """Pass on the name of a kernel."""
         function = finished.data["dispatcher"].py_func
-        if function.__module__.startswith("gradhesion.core."):
+        if function.__module__.startswith(_PACKAGE):
             for listener in (*self.listeners,):
-                listener(function.__name__)
+                listener(f"{function.__module__.removeprefix(_PACKAGE)}.{function.__name__}")
 
 
 _compilation: Final = _Compilation()
@@ -107,8 +108,8 @@ def watch_compilation(listener: Callable[[str], None]) -> Iterator[None]:
     Parameters
     ----------
     listener
-        It gets the name when the kernel is done. What it raises ends the compilation. `KERNELS` (kinds.py) has the
-        number to expect.
+        It gets the name, as "scene.solve_curve", when the kernel is done. What it raises ends the compilation.
+        `KERNELS` (kinds.py) has the number to expect.
 
     Examples
     --------

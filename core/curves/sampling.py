@@ -55,7 +55,10 @@ def _grown(points: Any, owners: Any) -> tuple[Any, Any]:
     """Return twice the room."""
     room = owners.size
     more_points, more_owners = np.empty((3, 2 * room)), np.empty(2 * room, np.int64)
-    more_points[:, :room], more_owners[:room] = points, owners
+    for i in range(room):  # numba checks the shapes of whole arrays, by a text that takes seconds to compile
+        for row in range(3):
+            more_points[row, i] = points[row, i]
+        more_owners[i] = owners[i]
     return more_points, more_owners
 
 
@@ -83,9 +86,9 @@ def sample(kind: int, table: Any, numbers: Numbers, knots: Any, joined: Any, sca
     for i in range(count):
         top = 0
         if joined[i]:
-            start[:] = knots[:, i - 1]
-            ends[:, 0], levels[0] = knots[:, i], 0
-            top = 1
+            for row in range(3):
+                start[row], ends[row, 0] = knots[row, i - 1], knots[row, i]
+            levels[0], top = 0, 1
         while top > 0:  # the ends on the stack go towards the start
             end, level = ends[:, top - 1], levels[top - 1]
             if level == _HALVINGS or _is_straight(kind, table, numbers, start, end, scales):
@@ -93,9 +96,10 @@ def sample(kind: int, table: Any, numbers: Numbers, knots: Any, joined: Any, sca
                 if top > 0:  # the last end is the knot itself
                     if size == owners.size:
                         points, owners = _grown(points, owners)
-                    points[:, size], owners[size] = end, i
+                    for row in range(3):
+                        points[row, size] = start[row] = end[row]
+                    owners[size] = i
                     size += 1
-                    start[:] = end
             else:
                 levels[top - 1] = level + 1
                 middle = 0.5 * (start[0] + end[0])
@@ -104,6 +108,8 @@ def sample(kind: int, table: Any, numbers: Numbers, knots: Any, joined: Any, sca
                 top += 1
         if size == owners.size:
             points, owners = _grown(points, owners)
-        points[:, size], owners[size] = knots[:, i], i
+        for row in range(3):
+            points[row, size] = knots[row, i]
+        owners[size] = i
         size += 1
     return points[:, :size], owners[:size]

@@ -1,0 +1,71 @@
+"""The kinds of work: which one a call is, and which kernels it compiles."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from gradhesion.core import KERNELS, KINDS, NEEDS, OUTPUTS, REPORTS, Harmonic, Loading, Profile
+from gradhesion.core.kinds import kind_of_curves, kind_of_map
+
+
+@pytest.mark.parametrize(
+    ("outputs", "kind"),
+    [
+        ((), "force"),
+        (("pull_off_radius", "pull_off_force"), "force"),
+        (("pull_off_force", "dissipated_energy"), "energy"),
+        (("delta_max",), "energy"),
+        (("pull_off_force", "adhesion_gain"), "reports"),
+    ],
+)
+def test_by_outputs(outputs: tuple[str, ...], kind: str) -> None:
+    assert kind_of_map(outputs) == kind
+    assert kind_of_map(outputs, profile=Profile(exponent=1.5)) == f"general_{kind}"
+    assert kind_of_map(outputs, loading=Loading(control="load")) == f"general_{kind}"
+
+
+@pytest.mark.parametrize("solver", ["asymptotic", "envelope"])
+def test_by_solver(solver: str) -> None:
+    assert kind_of_map(OUTPUTS, solver) == solver
+    assert kind_of_map(OUTPUTS, solver, Profile(exponent=1.5)) == f"general_{solver}"
+
+
+def test_another_profile_may_be_one_wave() -> None:
+    assert kind_of_map(["pull_off_force"], profile=Profile(harmonics=(Harmonic(n=3),))) == "force"
+    assert kind_of_curves() == "curves"
+    assert kind_of_curves(Profile(harmonics=(Harmonic(n=3),))) == "general_curves", "it is drawn as any profile"
+    assert kind_of_curves(loading=Loading(control="machine")) == "general_curves"
+
+
+def test_every_kind_comes_after_those_that_it_needs() -> None:
+    for place, kind in enumerate(KINDS):
+        assert set(NEEDS[kind]) <= set(KINDS[:place])
+    assert KERNELS.keys() == NEEDS.keys()
+    kinds = {kind_of_map(outputs) for outputs in (["pull_off_force"], OUTPUTS, REPORTS)}
+    assert kinds | {"general_" + kind for kind in kinds} <= set(KINDS)
+
+
+def compiled_by(folder: Path, code: str) -> list[str]:
+    """Names of the kernels that a process compiles."""
+    code = (
+        "from gradhesion.core import compile_kind, solve, watch_compilation\n"
+        "from gradhesion.core.warmup import SCENE\n"
+        f"names = []\nwith watch_compilation(names.append):\n    {code}\nprint(*names)"
+    )
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder)}
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    return done.stdout.split()
+
+
+def test_a_force_compiles_what_a_force_needs(tmp_path: Path) -> None:
+    tables = compiled_by(tmp_path, "compile_kind('tables')")
+    force = compiled_by(tmp_path, "compile_kind('force')")
+    assert "scene.solve_pull_off" in force
+    cycle = {"scene.solve_curve", "cycle.walk", "cycle.stride", "jump_energy.jump_energy", "contact.disc_limits"}
+    assert not cycle & {*tables, *force}
+    assert (len(tables), len(force)) == (KERNELS["tables"], KERNELS["force"])
+    assert len({*force}) == len(force), "no kernel for two types"
+    assert compiled_by(tmp_path, "solve(SCENE, ['pull_off_radius'])") == [], "all of it is kept"

@@ -1,0 +1,68 @@
+"""What is compiled ahead is all that is used then."""
+
+import math
+from typing import Any
+
+import pytest
+
+from gradhesion.core import (
+    CURVES,
+    KINDS,
+    OUTPUTS,
+    REPORTS,
+    Harmonic,
+    Loading,
+    Profile,
+    compile_kind,
+    compiled_before,
+    draw_curves,
+    solve,
+    watch_compilation,
+)
+from gradhesion.core.curves import GENERAL_CURVES
+from gradhesion.core.warmup import SCENE, SPRING
+
+OTHERS = {"profile": Profile(exponent=1.0, harmonics=(Harmonic(n=2, cos=0.3, sin=0.4), Harmonic(n=5, cos=0.1)))}
+BY_LOAD = {"profile": Profile(exponent=2.5), "loading": Loading(control="load")}
+NOT_OF_A_LOAD = tuple(name for name in REPORTS if name != "energy_residual")
+
+
+@pytest.mark.parametrize(
+    ("kind", "works"),
+    [
+        ("force", [lambda s: solve(s, ["pull_off_force", "pull_off_radius"])]),
+        ("energy", [solve, lambda s: solve(s | {"a_max_over_R": [0.3, 0.5, math.inf]}, OUTPUTS)]),
+        ("reports", [lambda s: solve(s, REPORTS), lambda s: solve(s, ["roughness_parameter"])]),
+        ("asymptotic", [lambda s: solve(s, solver="asymptotic")]),
+        ("envelope", [lambda s: solve(s, solver="envelope")]),
+        ("curves", [lambda s: draw_curves(s, list(CURVES))]),
+        ("general_force", [lambda s: solve(s, ["pull_off_force"], **OTHERS)]),
+        ("general_energy", [lambda s: solve(s, OUTPUTS, **OTHERS), lambda s: solve(s, OUTPUTS, **BY_LOAD)]),
+        ("general_reports", [lambda s: solve(s, REPORTS, **OTHERS), lambda s: solve(s, NOT_OF_A_LOAD, **BY_LOAD)]),
+        ("general_envelope", [lambda s: solve(s, solver="envelope", **OTHERS)]),
+        (
+            "general_curves",
+            [
+                lambda s: draw_curves(s, list(GENERAL_CURVES), **OTHERS),
+                lambda s: draw_curves(s | SPRING, list(GENERAL_CURVES), None, Loading(control="machine")),
+            ],
+        ),
+    ],
+)
+def test_nothing_is_left_to_compile(kind: str, works: list[Any]) -> None:
+    compile_kind(kind)
+    assert compiled_before(kind)
+    with watch_compilation(lambda name: pytest.fail(f"{name} is compiled by another scene of the kind")):
+        for work in works:
+            for change in ({}, {"k": 0.0, "A": 0.0}, {"k": 1.0, "nu": 0.5, "a_max_over_R": math.inf}):
+                work(SCENE | change)
+
+
+def test_an_unknown_kind() -> None:
+    with pytest.raises(ValueError, match="kind 'all': it is one of tables, force, energy, "):
+        compile_kind("all")
+
+
+def test_every_kind_has_a_test_above() -> None:
+    (mark,) = test_nothing_is_left_to_compile.pytestmark  # type: ignore[attr-defined]
+    assert ["tables", *(kind for kind, _ in mark.args[1])] == list(KINDS)
