@@ -11,6 +11,8 @@ import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.names import SCENE
 from gradhesion.cli.study.study import study_from
+from gradhesion.cli.work.compiling import prepare
+from gradhesion.cli.work.kernels import kinds_of
 from gradhesion.core.profile import Profile
 from gradhesion.given import given_in
 from gradhesion.solved import solved
@@ -109,6 +111,7 @@ def solve(
     given = given_in("gr.solve", parameters, more, settings)
     given.check_threads(threads)
     study = given.study()
+    prepare(kinds_of(study))
     return solved(replace(study, text=given.text()), given.parameters(study), threads)
 
 

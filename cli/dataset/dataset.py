@@ -14,6 +14,8 @@ from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.study.shape_words import shape_told
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.work import curves
+from gradhesion.cli.work.compiling import prepare
+from gradhesion.cli.work.kernels import kinds_of
 from gradhesion.core import FLAGS
 
 if TYPE_CHECKING:
@@ -84,9 +86,14 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
     Returns
     -------
     The dataset that `gradhesion run` writes to a file, as xarray reads it.
+
+    Notes
+    -----
+    The first study of a kind compiles its kernels, as a line on stderr says.
     """
     import xarray  # noqa: PLC0415 (450 ms that `run` does not need)
 
+    prepare(kinds_of(study))
     described = variables(study)
     kind = CONTENTS[study.kind]
     found = kind.joined(study, kind.parts(study, threads))
