@@ -88,6 +88,26 @@ def test_help_imports_nothing_heavy(arguments: list[str]) -> None:
     assert done.stdout.splitlines()[-1] == "[]"
 
 
+@pytest.mark.parametrize(
+    "arguments",
+    [["validate", "STUDY"], ["schema"], ["init", "--list"], ["info", "FILE"], ["plot", "FILE", "-o", "PICTURE"]],
+)
+def test_what_computes_nothing_imports_no_compiler(
+    arguments: list[str], gradhesion: Callable[..., Result], tmp_path: Path
+) -> None:
+    config, file = ROOT / "configs" / "smoke.toml", tmp_path / "x.nc"
+    if "FILE" in arguments:
+        assert gradhesion("run", config, "-o", file, "--quiet").exit_code == 0
+    words = {"STUDY": str(config), "FILE": str(file), "PICTURE": str(tmp_path / "x.png")}
+    code = (
+        "import sys; from gradhesion.cli.main import cli; "
+        f"cli.main({[words.get(word, word) for word in arguments]!r}, standalone_mode=False); "
+        "print([name for name in ('numba', 'llvmlite', 'flint') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
+
+
 def test_run_imports_neither_xarray_nor_matplotlib(tmp_path: Path) -> None:
     code = (
         "import sys; from gradhesion.cli.main import cli; "
