@@ -26,11 +26,12 @@ if TYPE_CHECKING:
     from gradhesion.cli.names import CURVES, OUTPUTS
     from gradhesion.cli.study.study import Study
     from gradhesion.core.loading_control import CONTROLS
-    from gradhesion.core.names import PARAMETERS, SOLVERS
+    from gradhesion.core.names import SOLVERS
     from gradhesion.core.profile import Harmonic, Profile
     from gradhesion.core.status import FLAGS
     from gradhesion.datasets import open_dataset as open  # noqa: A004 (gr.open)
     from gradhesion.datasets import verify
+    from gradhesion.names import PARAMETERS
     from gradhesion.pictures import explore, plot
     from gradhesion.scenes import curves, solve
     from gradhesion.studies import load, run
@@ -74,10 +75,11 @@ _HOMES: Final = {
     "cli.names": ("CURVES", "OUTPUTS"),
     "cli.study.study": ("Study",),
     "core.loading_control": ("CONTROLS",),
+    "core.names": ("SOLVERS",),
     "core.profile": ("Harmonic", "Profile"),
-    "core.names": ("PARAMETERS", "SOLVERS"),
     "core.status": ("FLAGS",),
     "datasets": ("open", "verify"),
+    "names": ("PARAMETERS",),
     "pictures": ("explore", "plot"),
     "scenes": ("curves", "solve"),
     "studies": ("load", "run"),

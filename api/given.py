@@ -159,7 +159,7 @@ def given_in(
         _take(given, str(name), value)
     _align(given)
     count = math.prod(dict(_sizes(given)).values())
-    most = KINDS["map"].most_scenes
+    most = KINDS[settings.get("kind", "map")].most_scenes
     if count > most:
         given.refuse("parameters", f"they make {count:,} scenes, more than {most:,}; use fewer values")
     return given

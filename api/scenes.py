@@ -39,10 +39,11 @@ def solve(
     ----------
     parameters, **more
         The parameters of a study by name, in a mapping, as keywords, or both (a keyword stands in the place of what the
-        mapping has, as in `dict(parameters, **more)`): k in [0, 1], nu in (-1, 0.5], modulus E* R/dgamma > 0, c0_over_R
-        > 0, lambda_over_R > 0, A >= 0, a_max_over_R > 0 or inf; their reduced forms (chi, lambda_over_L, ...); or
-        quantities with units, such as R = "1 um" (a plain number is in SI units: R = 1e-6); and machine_stiffness S/(E*
-        R) > 0, or spring_constant, with control "machine". Each of them is
+        mapping has, as in `dict(parameters, **more)`): k in [0, 1], nu in (-1, 0.5], the positive ratios modulus E*
+        R/dgamma, c0_over_R (needless where k = 0) and lambda_over_R (needless where A = 0), A >= 0, and a_max_over_R >
+        0, inf if left out; their reduced forms (chi, lambda_over_L, ...); quantities with units, such as R = "1 um" (a
+        plain number is in SI units: R = 1e-6); and machine_stiffness S/(E* R), or spring_constant, with control
+        "machine". Each of them is
 
         - a number (or a quantity with its unit): the same in all scenes;
         - a list, a plain array of one dimension, or a range {"start": .., "stop": .., "num": .., "spacing": "log"}: an

@@ -6,8 +6,7 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.keys import PHYSICAL
-from gradhesion.cli.names import unit_of
+from gradhesion.cli.keys import INPUTS, PHYSICAL
 from gradhesion.cli.study.quantities import si_value
 
 
@@ -76,7 +75,7 @@ def numbers_of(name: str, array: xarray.DataArray) -> NDArray[np.float64] | None
             return None  # a study says why, item by item
     numbers = np.asarray(values, dtype=np.float64) + 0.0  # no negative zeros
     units = str(array.attrs.get("units", ""))
-    if units in ("", unit_of(name)):
+    if units in ("", INPUTS[name].unit):
         return numbers
     if name not in PHYSICAL:
         raise ValueError(f'its attribute units = "{units}", where a number without a unit is expected; convert it')

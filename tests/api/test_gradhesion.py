@@ -4,6 +4,7 @@ import subprocess
 import sys
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -30,6 +31,15 @@ def test_names_alone_load_no_array() -> None:
     assert alone(code) == "[]"
 
 
+@pytest.mark.parametrize("call", ["load('study.toml')", "open('x.nc').gr.valid()", "plot('x.nc')"])
+def test_what_computes_nothing_needs_no_compiler(call: str, data: dict[str, Any], tmp_path: Path) -> None:
+    data["method"] = {"solver": "envelope"}
+    gr.run(data).to_netcdf(tmp_path / "x.nc")
+    (tmp_path / "study.toml").write_text(gr.load(data).text)
+    code = f"import os, sys, gradhesion as gr; os.chdir({str(tmp_path)!r}); gr.{call}; "
+    assert alone(code + "print([name for name in ('numba', 'llvmlite') if name in sys.modules])") == "[]"
+
+
 @pytest.mark.parametrize("name", gr.__all__)
 def test_every_name_is_there_and_says_what_it_is(name: str) -> None:
     value = getattr(gr, name)
@@ -40,13 +50,24 @@ def test_every_name_is_there_and_says_what_it_is(name: str) -> None:
 
 
 def test_the_names_of_other_modules_are_not_hidden_by_ours() -> None:
-    from gradhesion import datasets, pictures, scenes, studies
+    from gradhesion import core, datasets, pictures, scenes, studies
 
     assert gr.solve is scenes.solve
     assert gr.open is datasets.open_dataset
     assert gr.plot is pictures.plot
     assert gr.load is studies.load
-    assert not {*gr.__all__} & {"accessor", "datasets", "given", "pictures", "scenes", "solved", "studies", "wording"}
+    assert gr.PARAMETERS.keys() == {*core.PARAMETERS}
+    assert not {*gr.__all__} & {
+        "accessor",
+        "datasets",
+        "given",
+        "names",
+        "pictures",
+        "scenes",
+        "solved",
+        "studies",
+        "wording",
+    }
 
 
 def test_a_name_that_is_not_there() -> None:

@@ -192,6 +192,15 @@ def test_profiles_are_objects_or_tables() -> None:
     assert "0.2 sin(6 pi x)" in one.attrs["profile"]
 
 
+def test_what_has_no_effect_may_be_left_out() -> None:
+    found = gr.solve(k=[0.0], nu=0.3, A=xarray.DataArray([0.0, 0.0], dims="x"), modulus=400.0, outputs="pull_off_force")
+    np.testing.assert_allclose(found["pull_off_force"], 1.0, rtol=1e-14)
+    assert found["a_max_over_R"].item() == math.inf
+    assert found["c0_over_R"].attrs["comment"] == "without effect where k = 0; the study leaves it out"
+    refused = mistakes_of(k=[0.0], nu=0.3, A=xarray.DataArray([0.0, 0.1], dims="x"), modulus=400.0)
+    assert "gr.solve: lambda_over_R: this parameter is required, but where A = 0 everywhere" in refused
+
+
 def test_curves_are_those_of_a_study() -> None:
     keys = {"kind": "curve", "outputs": ["path", "jumps"], "title": "path, jumps"}
     expected = gr.run(keys | {"parameters": PUNCH | {"A": [0.01, 0.03]}})
@@ -208,7 +217,7 @@ def test_curves_are_those_of_a_study() -> None:
         ({"A": [0.1, 0.0, 0.2]}, "path", "gr.curves: A: the values of an axis of curves rise or fall; sort them"),
         ({"A": xarray.DataArray([0.1], dims="x")}, "path", "gr.curves: A: curves are drawn over axes, or over one dimension scene"),
         ({}, "pull_off_force", 'outputs[0] = "pull_off_force": an output of studies of kind "map"'),
-        ({"A": np.linspace(0.0, 0.1, 1001)}, "path", "a curve study has at most 1,000 scenes"),
+        ({"A": np.linspace(0.0, 0.1, 1001)}, "path", "gr.curves: parameters: they make 1,001 scenes, more than 1,000; use fewer values"),
         ({}, "pathh", 'not an output; did you mean "path"?'),
     ],
 )  # fmt: skip
