@@ -9,7 +9,6 @@ import numpy as np
 import xarray
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
-from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.study import Study, load_study, study_from
 from gradhesion.wording import in_python
@@ -93,6 +92,8 @@ def run(
         study = load(study, set=set)
     elif set:
         study = load(tomllib.loads(study.text), set=set)
+    from gradhesion.cli.dataset.dataset import compute  # noqa: PLC0415 (the compiler, which `load` does not need)
+
     return compute(study, threads=threads)
 
 
