@@ -154,7 +154,7 @@ def _engine(study: "Study", name: str, scheduler: str | None, threads: int | Non
     from gradhesion.cli.engines.threads import Threads
 
     if name == "dask":
-        from gradhesion.cli.engines.connection import require_dask
+        from gradhesion.cli.engines.scheduler import require_dask
 
         require_dask()
         if study.has_parts:

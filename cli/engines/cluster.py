@@ -1,12 +1,14 @@
 """The engine that hands blocks to the workers of a Dask cluster, and reads the parts that they write."""
 
-import os
 from collections.abc import Generator
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
+from typing import Any
 
 from gradhesion.cli.engines import Work
-from gradhesion.cli.engines.connection import connected
-from gradhesion.cli.engines.foreman import Foreman
+from gradhesion.cli.engines.dispatch import Dispatch
+from gradhesion.cli.engines.local import local_client
+from gradhesion.cli.engines.scheduler import client_of, silent
 from gradhesion.cli.work.kernels import compile_kinds, kinds_of
 from gradhesion.cli.work.parts import key_of
 from gradhesion.cli.work.resume import Solved, found
@@ -31,7 +33,7 @@ class Cluster:
         ClusterError
             No scheduler answers, or no worker can do the work.
         OutputError
-            A part cannot be written, or the scheduler has gone.
+            A part cannot be written, or the scheduler is lost.
         """
         study, left = work.study, []
         for number in work.numbers:
@@ -46,6 +48,9 @@ class Cluster:
             return
         if self.scheduler is None:
             compile_kinds(kinds_of(study))  # before there are processes that would all do so
-        workers = min(self.workers or len(os.sched_getaffinity(0)), len(left))
-        with connected(self.scheduler, workers) as client:
-            yield from Foreman(client, work, left, quiet=self.quiet).results()
+        with silent(), self._client(len(left)) as client:
+            yield from Dispatch(client, work, quiet=self.quiet).results(left)
+
+    def _client(self, most: int) -> AbstractContextManager[Any]:
+        """Make a client of the scheduler, or of a cluster of this machine."""
+        return local_client(self.workers, most) if self.scheduler is None else client_of(self.scheduler)

@@ -1,21 +1,18 @@
-"""An eye on a cluster: which workers are there and fit, and whether anything moves; what is wrong is told."""
+"""An eye on a cluster: which workers are there and fit, and whether anything moves."""
 
 import time
 from typing import Any, Final
 
 from gradhesion.cli import messages
-from gradhesion.cli.errors import ClusterError, OutputError
+from gradhesion.cli.engines.scheduler import asked, patience
+from gradhesion.cli.errors import ClusterError
 
 PERIOD: Final = 1.0
 """Seconds between two looks."""
-ANSWER: Final = 10.0
-"""Seconds that the scheduler has to answer."""
-SILENCE: Final = 30.0
-"""Seconds without a scheduler until the run ends."""
 LONELY: Final = 10.0
-"""Seconds without a worker until it is told; each further word comes after twice the time."""
+"""Seconds without a finished block until a message, if there is no worker; the next comes after twice the time."""
 STILL: Final = 600.0
-"""Seconds without a finished block until it is told."""
+"""The same if there are workers."""
 
 
 class Watch:
@@ -25,28 +22,28 @@ class Watch:
         self._client = client
         self._quiet = quiet
         self._refused: dict[str, str] = {}
-        self._looked = 0.0
-        now = time.monotonic()
-        self._answered = self._peopled = self._moved = now
-        self._next_lonely = LONELY
-        self._next_still = STILL
-        self.present: frozenset[str] = frozenset()
-        self.threads = 0
-        """Of all workers that are fit."""
+        self._workers: dict[str, int] = {}
+        self._looked = -PERIOD
+        self.moved()
 
     @property
-    def fit(self) -> frozenset[str] | None:
-        """The workers to choose from; None if all are fit."""
-        return (self.present - self._refused.keys()) or None if self._refused else None
+    def fit(self) -> list[str]:
+        """The workers that are there and not refused."""
+        return sorted(self._workers.keys() - self._refused.keys())
 
-    def due(self) -> bool:
-        """Tell whether it is time for a look."""
-        return time.monotonic() - self._looked > PERIOD
+    @property
+    def choice(self) -> list[str] | None:
+        """The workers to choose from; None if all are fit."""
+        return self.fit if self._refused else None
+
+    @property
+    def threads(self) -> int:
+        """Of all workers that are fit."""
+        return sum(self._workers[worker] for worker in self.fit)
 
     def moved(self) -> None:
-        """Note that a task has come back."""
-        self._moved = time.monotonic()
-        self._next_still = STILL
+        """Note that a block has come back."""
+        self._moved, self._next = time.monotonic(), LONELY
 
     def refuse(self, worker: str, reason: str) -> None:
         """
@@ -58,62 +55,45 @@ class Watch:
             There is no other.
         """
         if worker not in self._refused:
-            self._refused[worker] = reason
             self._say("refused", f"worker {worker} {reason}; it gets no blocks", worker=worker)
+        self._refused[worker] = reason
+        self._looked = -PERIOD
         self.look()
-        self._refuse_all()
 
     def look(self) -> None:
         """
-        See who is there.
+        See who is there, once a period.
 
         Raises
         ------
         ClusterError
             All that are there are refused.
         OutputError
-            The scheduler has gone.
+            The scheduler is lost.
         """
-        self._looked = now = time.monotonic()
-        try:
-            workers = self._client.sync(self._client.scheduler.ncores, callback_timeout=ANSWER)
-        except (OSError, RuntimeError, AttributeError):  # whatever a connection breaks with
-            if self._client.status == "closed" or now - self._answered > SILENCE:
-                raise OutputError(
-                    "--engine dask: the scheduler does not answer any more; finished parts are kept, and the same "
-                    "command goes on from there when there is a scheduler again"
-                ) from None
+        if time.monotonic() - self._looked < PERIOD:
             return
-        self._answered = now
-        self.present = frozenset(workers)
-        self.threads = sum(many for worker, many in workers.items() if worker not in self._refused)
-        self._refuse_all()
-        if workers:
-            self._peopled, self._next_lonely = now, LONELY
-        elif now - self._peopled > self._next_lonely:
-            seconds = now - self._peopled
-            self._next_lonely = 2 * seconds
-            self._say("waiting", f"waiting for workers: there have been none for {seconds:.0f} s", seconds=seconds)
-        if workers and now - self._moved > self._next_still:
-            seconds = now - self._moved
-            self._next_still = 2 * seconds
-            self._say(
-                "waiting",
-                f"no block has been finished for {seconds:.0f} s, with {len(workers):,} workers there; a block takes "
-                "as long as `gradhesion plan` tells, and workers whose lifetime is shorter finish none",
-                seconds=seconds,
-            )
-
-    def _refuse_all(self) -> None:
-        """End where no worker is fit."""
-        if self.present and self.present <= self._refused.keys():
-            worker = next(iter(self.present))
+        client = self._client
+        self._workers = asked(client, lambda: client.sync(client.scheduler.ncores, callback_timeout=patience()))
+        self._looked = time.monotonic()
+        many = len(self._workers)
+        if many and not self.fit:
+            worker = min(self._workers)
             raise ClusterError(
                 f"--engine dask: no worker can do the work: worker {worker} {self._refused[worker]}; start workers "
                 "in the environment and on the file system of this command"
             )
+        seconds = self._looked - self._moved
+        if seconds > (max(self._next, STILL) if many else self._next):
+            self._next = 2 * seconds
+            why = (
+                f"with {many:,} workers there; a block takes as long as `gradhesion plan` shows, and workers whose "
+                "lifetime is shorter finish none"
+            )
+            sentence = f"no block has been finished for {seconds:.0f} s, {why if many else 'waiting for workers'}"
+            self._say("waiting", sentence, seconds=seconds, workers=many)
 
     def _say(self, event: str, sentence: str, **fields: Any) -> None:
-        """Tell something, unless all is to be quiet."""
+        """Print a message, unless all is to be quiet."""
         if not self._quiet:
             messages.say(event, sentence, **fields)

@@ -1,55 +1,74 @@
-"""What a worker of a cluster does: it solves blocks into parts, and returns a few words about them.
+"""What a worker of a cluster does: it solves a block into its part, and returns nothing, or raises why not.
 
-It is told a folder and the numbers of blocks; the study it reads there. So little goes through the scheduler, and
-nothing of the values. It refuses where it could not do the work as it is meant.
+A task is a folder and the number of a block; the study is read there. So little goes through the scheduler, and
+nothing of the values.
 """
 
 import os
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, TypeVar
+
+from gradhesion.cli import interrupts
 
 SIGHT: Final = 20.0
 """Seconds until a new file is seen on every machine: network file systems look for one a few seconds late."""
 
+_T = TypeVar("_T")
 
-def carry_out(folder: str, fingerprint: str, numbers: tuple[int, ...], versions: dict[str, Any]) -> dict[str, Any]:
+
+class RefusedError(Exception):
+    """A worker, by its address, cannot do this work as it is meant, and why."""
+
+
+class UnwritableError(Exception):
+    """A worker, by its address, cannot write a part, and why."""
+
+
+class UnsolvedError(Exception):
+    """A block cannot be solved, and why."""
+
+
+def carry_out(folder: str, fingerprint: str, number: int, versions: dict[str, Any]) -> None:
     """
-    Solve blocks of the study in a folder, each into its part.
+    Solve a block of the study in a folder, into its part.
 
     Parameters
     ----------
     fingerprint
         Of the study's text.
-    numbers
-        Of the blocks.
+    number
+        Of the block.
     versions
         Those that are needed, as `needed`.
 
-    Returns
-    -------
-    `worker`, its address; `refused`, why it cannot do this work; or `seconds` that it took, and `errors`, by block,
-    of those that could not be solved. `unwritable`: why a part could not be written.
+    Raises
+    ------
+    RefusedError
+        This worker has other versions, or does not see the folder.
+    UnwritableError
+        The part cannot be written.
+    UnsolvedError
+        The block raised an exception; not every one can travel.
     """
     from distributed import get_worker  # noqa: PLC0415 (known where there is a cluster)
 
-    told: dict[str, Any] = {"worker": get_worker().address, "refused": "", "unwritable": "", "errors": {}, "seconds": 0}
+    address = get_worker().address
     try:
-        reason = _differences(needed(), versions)
-        return told | ({"refused": reason} if reason else _solved(Path(folder), fingerprint, numbers))
+        reason = _differences(needed(), versions) or _solve(Path(folder), fingerprint, number)
     except ImportError as error:
-        return told | {"refused": f"cannot load gradhesion ({error})"}
-    except Exception as error:  # noqa: BLE001 (not every error can travel)
-        return told | {"errors": dict.fromkeys(numbers, f"{type(error).__name__}: {error}")}
-
-
-def _differences(here: dict[str, Any], there: dict[str, Any]) -> str:
-    """Say which versions are others than needed."""
-    names = sorted(name for name in {*here, *there} if here.get(name) != there.get(name))
-    words = [f"has {name} {here.get(name)} instead of {there.get(name)}" for name in names if name != "core"]
-    return ", ".join(words) or ("has other sources of the solver" if names else "")
+        reason = f"cannot load gradhesion ({error})"
+    except OSError as error:
+        raise UnwritableError(address, error.strerror or str(error)) from None
+    except UnsolvedError:
+        raise
+    except Exception as error:  # noqa: BLE001 (whatever it is, the other blocks go on)
+        raise UnsolvedError(f"{type(error).__name__}: {error}") from None
+    if reason:
+        raise RefusedError(address, reason)
 
 
 def needed() -> dict[str, Any]:
@@ -61,31 +80,51 @@ def needed() -> dict[str, Any]:
     return versions() | {"numpy": np.__version__}
 
 
-def _solved(folder: Path, fingerprint: str, numbers: tuple[int, ...]) -> dict[str, Any]:
-    """Solve blocks of the study in a folder."""
+def seen(look: Callable[[], _T | str], folder: Path) -> _T | str:
+    """Look at files until they are seen; if they are not for as long as that may take, give the last reason why."""
+    deadline = time.monotonic() + SIGHT
+    while isinstance(result := look(), str) and time.monotonic() < deadline:
+        interrupts.check()
+        with suppress(OSError):
+            os.listdir(folder)  # noqa: PTH208 (makes a network file system look)
+        time.sleep(SIGHT / 100)
+    return result
+
+
+def _differences(here: dict[str, Any], there: dict[str, Any]) -> str:
+    """Say which versions are others than needed."""
+    names = sorted(name for name in {*here, *there} if here.get(name) != there.get(name))
+    words = [f"has {name} {here.get(name)} instead of {there.get(name)}" for name in names if name != "core"]
+    return ", ".join(words) or ("has other sources of the solver" if names else "")
+
+
+def _solve(folder: Path, fingerprint: str, number: int) -> str:
+    """Solve a block into its part, or say why this worker cannot."""
     from gradhesion.cli.work.folder import Folder  # noqa: PLC0415
     from gradhesion.cli.work.parts import key_of, write_part  # noqa: PLC0415
     from gradhesion.cli.work.resume import attempted, found  # noqa: PLC0415
 
-    study = _study(folder, fingerprint)
-    if study is None:
-        return {"refused": f"does not see {folder}, where the parts go: it needs the file system of the output"}
-    start = time.monotonic()
-    errors = {}
-    for number in numbers:
-        block = study.tiling[number]
-        key = key_of(study, block)
-        if isinstance(found(study, Folder(folder), number, block, key), dict):
-            continue  # a worker that was lost had done it
-        values, error = attempted(study, block, 1)
-        if error:
-            errors[number] = error
-            continue
-        try:
-            write_part(Folder(folder).part(number), key, values, study)
-        except OSError as failure:
-            return {"unwritable": failure.strerror or str(failure)}
-    return {"errors": errors, "seconds": time.monotonic() - start}
+    study = seen(lambda: _study(folder, fingerprint), folder.parent)
+    if isinstance(study, str):
+        return study
+    block = study.tiling[number]
+    key = key_of(study, block)
+    if isinstance(found(study, Folder(folder), number, block, key), dict):
+        return ""  # a worker that was lost had done it
+    values, error = attempted(study, block, 1)
+    if error:
+        raise UnsolvedError(error)
+    write_part(Folder(folder).part(number), key, values, study)
+    return ""
+
+
+def _study(folder: Path, fingerprint: str) -> Any:
+    """Give the study of a folder, or say that it is not there."""
+    from gradhesion.cli.errors import DatasetError  # noqa: PLC0415
+
+    with suppress(DatasetError):
+        return _loaded(folder, fingerprint)
+    return f"does not see {folder}, where the parts go: it needs the file system of the output"
 
 
 @lru_cache(maxsize=4)
@@ -96,23 +135,9 @@ def _loaded(folder: Path, fingerprint: str) -> Any:
     from gradhesion.cli.work.kernels import compile_kinds, kinds_of  # noqa: PLC0415
     from gradhesion.cli.work.manifest import study_in  # noqa: PLC0415
 
-    deadline = time.monotonic() + SIGHT
-    while True:
-        with suppress(DatasetError):
-            study = study_in(Folder(folder), folder)
-            if study.sha256 == fingerprint:
-                with suppress(Exception):  # the block that is asked for will tell
-                    compile_kinds(kinds_of(study))
-                return study
-        if time.monotonic() > deadline:
-            raise FileNotFoundError(folder)
-        with suppress(OSError):
-            os.listdir(folder.parent)  # noqa: PTH208 (makes a network file system look)
-        time.sleep(SIGHT / 100)
-
-
-def _study(folder: Path, fingerprint: str) -> Any:
-    """Give the study of a folder, if it is there."""
-    with suppress(FileNotFoundError):
-        return _loaded(folder, fingerprint)
-    return None
+    study = study_in(Folder(folder), folder)
+    if study.sha256 != fingerprint:
+        raise DatasetError(f"{folder}: of another study")
+    with suppress(Exception):  # the block that is asked for will show it
+        compile_kinds(kinds_of(study))
+    return study

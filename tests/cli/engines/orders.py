@@ -1,0 +1,95 @@
+"""Workers that suffer what they are ordered to, and a scheduler that a test can kill."""
+
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import numpy as np
+from click.testing import Result
+
+Call = Callable[..., Result]
+
+PRELOAD = """
+import json, os, signal, time
+from pathlib import Path
+import gradhesion.cli.work.blocks as blocks
+
+orders = Path({folder!r})
+really = getattr(blocks.solve, "really", blocks.solve)  # it may be imported again
+
+def solve(parameters, *arguments, **options):
+    order = json.loads((orders / "order.json").read_text())
+    (orders / f"{{os.getpid()}}.busy").touch()
+    block = [round(float(parameters[name].flat[0]), 6) for name in ("k", "lambda_over_R")]
+    if order.get("poison") == block:
+        os.kill(os.getpid(), signal.SIGKILL)
+    if order.get("broken") == block:
+        raise MemoryError("no room")
+    time.sleep(order.get("sleep", 0.0))
+    return really(parameters, *arguments, **options)
+
+blocks.solve, solve.really = solve, really
+if "OTHER_NUMPY" in os.environ:
+    import numpy
+    numpy.__version__ = "1.0"
+"""
+
+
+class Orders:
+    """What the workers are told to suffer."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.preload = folder / "preload.py"
+        self.preload.write_text(PRELOAD.format(folder=str(folder)))
+        self.give()
+
+    def give(self, **order: Any) -> None:
+        (self.folder / "new.json").write_text(json.dumps(order))
+        (self.folder / "new.json").replace(self.folder / "order.json")
+        for path in self.folder.glob("*.busy"):
+            path.unlink()
+
+    def busy(self) -> list[int]:
+        """The processes that have begun a block."""
+        return [int(path.stem) for path in self.folder.glob("*.busy")]
+
+
+class ByHand:
+    """A scheduler and workers that are started by hand."""
+
+    def __init__(self, folder: Path, orders: Orders) -> None:
+        self.file = folder / "scheduler.json"
+        self.orders = orders
+        self.processes: list[subprocess.Popen[bytes]] = []
+        self.scheduler = self.start("scheduler", "--host=127.0.0.1", "--port=0", "--dashboard-address=127.0.0.1:0")
+        deadline = time.monotonic() + 60
+        while not self.file.exists() and time.monotonic() < deadline:
+            time.sleep(0.01)
+
+    def start(self, kind: str, *options: str, **environment: str) -> subprocess.Popen[bytes]:
+        command = [sys.executable, "-m", "dask", kind, "--scheduler-file", str(self.file), "--no-dashboard", *options]
+        process = subprocess.Popen(command, env=os.environ | environment, stderr=subprocess.DEVNULL)
+        self.processes.append(process)
+        return process
+
+    def worker(self, **environment: str) -> None:
+        self.start("worker", "--nthreads=1", "--no-nanny", f"--preload={self.orders.preload}", **environment)
+
+    def end(self) -> None:
+        for process in self.processes:
+            process.kill()
+            process.wait()
+
+
+def values_of(path: Path) -> dict[str, bytes]:
+    """Read all bytes of all variables."""
+    with netCDF4.Dataset(path) as file:
+        file.set_auto_mask(False)
+        return {name: np.asarray(variable[...]).tobytes() for name, variable in file.variables.items()}

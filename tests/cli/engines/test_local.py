@@ -1,0 +1,126 @@
+"""A cluster of this machine: it comes and goes, hears Ctrl-C at once, and serves nobody else."""
+
+import asyncio
+import os
+import signal
+import subprocess
+import sys
+import time
+from itertools import product
+from pathlib import Path
+from typing import Any
+from urllib.error import HTTPError
+from urllib.request import urlopen
+
+import psutil
+import pytest
+from distributed import Security
+from distributed.comm import CommClosedError, connect
+
+from gradhesion.cli.engines.local import local_client
+from gradhesion.cli.work.folder import folder_of
+from tests.cli.engines.orders import Call, Orders, values_of
+
+HUGE = """\
+outputs = ["pull_off_force"]
+[parameters]
+k = { start = 0.0, stop = 0.95, num = 200 }
+nu = 0.27
+modulus = { start = 100.0, stop = 1e4, num = 10 }
+c0_over_R = { start = 0.01, stop = 1.0, num = 50, spacing = "log" }
+lambda_over_R = { start = 0.05, stop = 1.0, num = 100, spacing = "log" }
+A = { start = 0.01, stop = 0.2, num = 10 }
+a_max_over_R = inf
+"""
+
+
+def listening() -> set[tuple[str, int]]:
+    """The addresses at which this process and those that it has started listen."""
+    processes = [psutil.Process(), *psutil.Process().children(recursive=True)]
+    sockets = [socket for process in processes for socket in process.net_connections("inet")]
+    return {(socket.laddr.ip, socket.laddr.port) for socket in sockets if socket.status == psutil.CONN_LISTEN}
+
+
+def test_it_listens_on_the_loopback_and_to_its_own_certificate_alone() -> None:
+    """On a login node every user reaches the ports of the loopback; Dask runs the code of whoever gets through."""
+
+    async def knock(address: str, security: Security | None) -> Any:
+        arguments = security.get_connection_args("client") if security else {}
+        comm = await connect(address, timeout="5s", **arguments)
+        await comm.write({"op": "identity", "reply": True})
+        try:
+            return (await comm.read())["type"]
+        finally:
+            comm.abort()
+
+    before = listening()
+    with local_client(2, 2) as client:
+        opened = listening() - before
+        assert {ip for ip, _ in opened} == {"127.0.0.1"}
+        own, stranger = client.security, Security.temporary()
+        servers = {client.scheduler.address, *client.nthreads(), *(n.address for n in client.cluster.workers.values())}
+        found = [asyncio.run(knock(address, own)) for address in servers]
+        assert sorted(found) == ["Nanny", "Nanny", "Scheduler", "Worker", "Worker"]
+        for address in servers:
+            with pytest.raises(CommClosedError, match="TLS certificate does not match"):
+                asyncio.run(knock(address, stranger))
+            with pytest.raises(CommClosedError, match="in <TCP"):
+                asyncio.run(knock(address.replace("tls", "tcp"), None))
+
+        pages = {port for _, port in opened} - {int(address.rpartition(":")[2]) for address in servers}
+        assert len(pages) == 3, "of the scheduler and the workers; Dask leaves no choice but of what they show"
+        for port, page in product(pages, ("", "info/main/workers.html", "json/counts.json", "metrics", "health")):
+            with pytest.raises(HTTPError, match="404"):
+                urlopen(f"http://127.0.0.1:{port}/{page}", timeout=5)
+
+
+def test_the_cores_are_counted_on_every_system(
+    gradhesion: Call, study_file: Path, output: Path, orders: Orders, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    orders.give()
+    for name in ("sched_getaffinity", "process_cpu_count"):  # which macOS has not, nor older Pythons
+        monkeypatch.delattr(os, name, raising=False)
+    result = gradhesion("run", study_file, "-o", output, "--engine=dask")
+    assert result.exit_code == 0, result.stderr
+
+
+def test_a_local_cluster_comes_and_goes(
+    gradhesion: Call, study_file: Path, whole: dict[str, bytes], output: Path, orders: Orders
+) -> None:
+    orders.give()
+    result = gradhesion("run", study_file, "-o", output, "--engine=dask", "--threads=1")
+    assert result.exit_code == 0
+    assert result.stderr.startswith(f"{output}: 24 scenes in"), "nothing of Dask's own is told"
+    assert values_of(output) == whole
+    (worker,) = orders.busy()
+    with pytest.raises(ProcessLookupError):
+        os.kill(worker, 0)
+
+
+def test_an_interrupt_ends_workers_and_keeps_parts(tmp_path: Path) -> None:
+    study, output = tmp_path / "huge.toml", tmp_path / "data" / "huge.nc"
+    study.write_text(HUGE)
+    command = [sys.executable, "-m", "gradhesion.cli", "run", study, "-o", output, "--engine=dask"]
+    folder = folder_of(output)
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
+        deadline = time.monotonic() + 120
+        while not folder.parts() and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
+        os.killpg(process.pid, signal.SIGINT)  # as the terminal does: to the workers as well
+        stderr = process.communicate(timeout=60)[1]
+    assert process.returncode == 130, stderr
+    assert "Traceback" not in stderr
+    kept = len(folder.parts())
+    assert kept > 0
+    assert f"kept in {output}.parts, and the same command goes on from there" in stderr.splitlines()[-1]
+    assert not list(folder.path.glob("*.nc"))
+    deadline = time.monotonic() + 10
+    while time.monotonic() < deadline:
+        try:
+            os.killpg(process.pid, 0)
+        except ProcessLookupError:
+            break
+        time.sleep(0.05)
+    else:
+        pytest.fail("a worker lives on")
+    assert len(folder.parts()) <= kept + 2, "what the workers had in hand"

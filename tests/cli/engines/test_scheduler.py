@@ -1,0 +1,118 @@
+"""Schedulers that do not answer, that serve workers of other versions, and that are lost."""
+
+import signal
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import dask
+import numpy as np
+import pytest
+from distributed import Client
+
+from tests.cli.engines.orders import ByHand, Call, values_of
+
+
+def test_workers_of_another_version(
+    gradhesion: Call,
+    study_file: Path,
+    whole: dict[str, bytes],
+    output: Path,
+    by_hand: ByHand,
+) -> None:
+    command = ["run", study_file, "-o", output, "--engine=dask", "--scheduler", by_hand.file]
+    by_hand.orders.give()
+    by_hand.worker(OTHER_NUMPY="1")
+    refused = gradhesion(*command)
+    assert refused.exit_code == 2
+    assert f"has numpy 1.0 instead of {np.__version__}; it gets no blocks" in refused.stderr
+    assert "no worker can do the work: worker tcp://" in refused.stderr
+    assert by_hand.orders.busy() == []
+
+    by_hand.worker()
+    deadline = time.monotonic() + 30
+    while (result := gradhesion(*command)).exit_code == 2 and time.monotonic() < deadline:
+        time.sleep(0.1)
+    assert result.exit_code == 0, result.stderr
+    assert "it gets no blocks" in result.stderr
+    assert "24 scenes in" in result.stderr
+    assert values_of(output) == whole
+
+
+@pytest.mark.parametrize(
+    ("method", "call", "pause", "end"),
+    [
+        ("submit", 1, 0.0, signal.SIGKILL),
+        ("submit", 4, 1.0, signal.SIGKILL),  # when its client has given up
+        ("sync", 2, 0.0, signal.SIGKILL),
+        ("sync", 5, 1.0, signal.SIGKILL),
+        ("sync", 5, 0.0, signal.SIGSTOP),  # connected, and silent
+    ],
+)
+def test_a_scheduler_that_is_lost(
+    gradhesion: Call,
+    study_file: Path,
+    whole: dict[str, bytes],
+    output: Path,
+    by_hand: ByHand,
+    monkeypatch: pytest.MonkeyPatch,
+    method: str,
+    call: int,
+    pause: float,
+    end: signal.Signals,
+) -> None:
+    """The same sentence wherever the client has just been: it ends before the nth call of a method."""
+    really, calls = getattr(Client, method), []
+
+    def killing(self: Client, *arguments: Any, **options: Any) -> Any:
+        calls.append(None)
+        if len(calls) == call:
+            by_hand.scheduler.send_signal(end)
+            if end == signal.SIGKILL:
+                by_hand.scheduler.wait()
+            time.sleep(pause)
+        return really(self, *arguments, **options)
+
+    monkeypatch.setattr(Client, method, killing)
+    monkeypatch.setattr("gradhesion.cli.engines.watch.PERIOD", 0.1)
+    by_hand.orders.give(sleep=0.2)
+    by_hand.worker()
+    with dask.config.set({"distributed.comm.timeouts.connect": "500ms"}):
+        lost = gradhesion("run", study_file, "-o", output, "--engine=dask", "--scheduler", by_hand.file)
+    assert lost.exit_code == 4, lost.stderr
+    assert [line for line in lost.stderr.splitlines() if not line.startswith("waiting")] == [
+        (
+            "--engine dask: the scheduler does not answer any more; finished parts are kept, and the same command goes on "
+            "from there when there is a scheduler again"
+        )
+    ]
+    assert not output.exists()
+    by_hand.orders.give()
+    assert gradhesion("run", study_file, "-o", output).exit_code == 0
+    assert values_of(output) == whole
+
+
+def test_mistakes(
+    gradhesion: Call, study_file: Path, output: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = ["run", study_file, "-o", output]
+    for arguments in (["--scheduler=tcp://127.0.0.1:9"], ["--engine=dask", "--scheduler=f", "--threads=2"]):
+        result = gradhesion(*run, *arguments)
+        assert result.exit_code == 2
+        assert "--scheduler goes with --engine dask, and without --threads" in result.stderr
+    for scheduler, sentence in (
+        ("tcp://127.0.0.1:9", "no Dask scheduler answers"),
+        ("nonsense://1", "no Dask scheduler answers"),
+        (str(tmp_path / "none.json"), "neither an address, as tcp://host:8786, nor the file of a scheduler"),
+    ):
+        with dask.config.set({"distributed.comm.timeouts.connect": "300ms"}):
+            result = gradhesion(*run, "--engine=dask", "--scheduler", scheduler)
+        assert result.exit_code == 2, result.stderr
+        assert f"--scheduler {scheduler}: {sentence}" in result.stderr
+    for package in ("cryptography", "distributed"):
+        monkeypatch.setitem(sys.modules, package, None)
+        result = gradhesion(*run, "--engine=dask")
+        assert result.exit_code == 2
+        assert result.stderr.endswith("--engine dask needs Dask: install it with `pip install 'gradhesion[cluster]'`\n")
+    assert not list(output.parent.glob("*"))

@@ -1,0 +1,161 @@
+"""Blocks solved by the workers of a Dask cluster: the same bytes as by threads, whatever becomes of the workers."""
+
+import json
+import os
+import signal
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import dask
+import pytest
+from click.testing import Result
+from distributed import LocalCluster, get_worker
+
+from gradhesion.cli.work.folder import folder_of
+from tests.cli.engines.orders import Call, Orders, values_of
+
+SETTINGS: dict[str, Any] = {
+    "threads_per_worker": 1,
+    "memory_limit": None,
+    "dashboard_address": "127.0.0.1:0",
+    "scheduler_kwargs": {"dashboard": False},
+    "silence_logs": 60,
+}
+
+
+@pytest.fixture(scope="module")
+def cluster(orders: Orders) -> Iterator[LocalCluster]:
+    """Two workers that stay."""
+    orders.give()
+    with LocalCluster(n_workers=2, **SETTINGS) as cluster:
+        yield cluster
+
+
+@pytest.fixture
+def dask_run(gradhesion: Call, study_file: Path, cluster: LocalCluster, orders: Orders) -> Iterator[Call]:
+    """Run the small study on the two workers."""
+
+    def run(*arguments: str | Path) -> Result:
+        return gradhesion("run", study_file, "--engine=dask", "--scheduler", cluster.scheduler_address, *arguments)
+
+    orders.give()
+    yield run
+    orders.give()
+
+
+def test_workers_give_the_bytes_of_threads(dask_run: Call, whole: dict[str, bytes], output: Path) -> None:
+    result = dask_run("-o", output)
+    assert result.exit_code == 0
+    assert f"{output}: 24 scenes in" in result.stderr
+    assert "reused" not in result.stderr
+    assert values_of(output) == whole
+    assert os.listdir(output.parent) == ["out.nc"]
+
+
+def test_a_run_goes_on_with_the_other_engine(
+    dask_run: Call, gradhesion: Call, study_file: Path, whole: dict[str, bytes], output: Path, orders: Orders
+) -> None:
+    assert gradhesion("run", study_file, "-o", output, "--shard", "1/3").exit_code == 0
+    events = [json.loads(line) for line in dask_run("-o", output, "--log-json").stderr.splitlines()]
+    assert {name: events[-1][name] for name in ("event", "blocks_reused", "blocks_computed", "failed")} == {
+        "event": "done",
+        "blocks_reused": 2,
+        "blocks_computed": 4,
+        "failed": 0,
+    }
+    assert values_of(output) == whole
+    assert len(orders.busy()) == 2, "both workers have worked"
+    assert dask_run("-o", output, "--overwrite", "--quiet").stderr == ""
+
+
+def test_a_killed_worker_loses_nothing(dask_run: Call, whole: dict[str, bytes], output: Path, orders: Orders) -> None:
+    orders.give(sleep=0.3)
+    killed = []
+
+    def kill() -> None:
+        deadline = time.monotonic() + 30
+        while not orders.busy() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        killed.append(orders.busy()[0])
+        os.kill(killed[0], signal.SIGKILL)
+
+    thread = threading.Thread(target=kill)
+    thread.start()
+    result = dask_run("-o", output)
+    thread.join()
+    assert result.exit_code == 0, result.stderr
+    assert killed
+    assert values_of(output) == whole
+
+
+def test_a_block_that_kills_its_workers_takes_no_other_along(
+    dask_run: Call, whole: dict[str, bytes], output: Path, orders: Orders
+) -> None:
+    orders.give(poison=[0.0, 0.47])
+    result = dask_run("-o", output)
+    assert result.exit_code == 3
+    assert "block 3 of 6 (4 scenes, index k 0, lambda_over_R 2) raised KilledWorker" in result.stderr
+    assert (
+        "1 blocks could not be solved, and their scenes have no value; the parts of the others are kept"
+        in result.stderr
+    )
+    assert len(folder_of(output).parts()) == 5
+    orders.give()
+    again = dask_run("-o", output, "--overwrite")
+    assert again.exit_code == 0
+    assert "reused 5 blocks, computed 1" in again.stderr
+    assert values_of(output) == whole
+
+
+def test_a_block_that_raises(dask_run: Call, gradhesion: Call, study_file: Path, output: Path, orders: Orders) -> None:
+    orders.give(broken=[0.31, 0.11])
+    failed = dask_run("-o", output, "--fail-fast")
+    assert failed.exit_code == 3
+    sentence = "block 4 of 6 (4 scenes, index k 1, lambda_over_R 0) raised MemoryError: no room"
+    assert f"{output}: {sentence}; nothing is written" in failed.stderr
+    assert not output.exists()
+    result = dask_run("-o", output)
+    assert result.exit_code == 3
+    assert f"{output}: {sentence}\n" in result.stderr
+    assert "reused 5 blocks, computed 1" in gradhesion("run", study_file, "-o", output, "--overwrite").stderr
+
+
+def test_workers_that_come_late_and_leave_early(
+    gradhesion: Call, study_file: Path, whole: dict[str, bytes], output: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from gradhesion.cli.work import blocks
+
+    really, seen = blocks.solve, set()
+
+    def solve(*arguments: Any, **options: Any) -> dict[str, Any]:
+        seen.add(get_worker().address)
+        time.sleep(0.3)
+        return really(*arguments, **options)
+
+    monkeypatch.setattr(blocks, "solve", solve)
+    monkeypatch.setattr("gradhesion.cli.engines.watch.LONELY", 0.2)
+    monkeypatch.setattr("gradhesion.cli.engines.watch.PERIOD", 0.1)
+    with (
+        dask.config.set({"distributed.worker.preload": [], "distributed.deploy.lost-worker-timeout": "100ms"}),
+        LocalCluster(n_workers=0, processes=False, lifetime="0.8s", **SETTINGS) as cluster,
+    ):
+        cluster.adapt(minimum=0, maximum=2, interval="300ms")
+        scheduler = output.parent.parent / "scheduler.json"
+        scheduler.write_text(json.dumps({"address": cluster.scheduler_address}))
+        result = gradhesion("run", study_file, "-o", output, "--engine=dask", "--scheduler", scheduler)
+    assert result.exit_code == 0, result.stderr
+    assert "waiting for workers" in result.stderr
+    assert len(seen) > 2, "each lives for two blocks or so"
+    assert values_of(output) == whole
+
+
+def test_one_block_needs_no_cluster(
+    gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("GRADHESION_CHUNK", "100")
+    result = gradhesion("run", study_file, "-o", output, "--engine=dask")
+    assert result.exit_code == 0
+    assert "the study is of one block or of curves, and is solved in this process" in result.stderr
