@@ -40,6 +40,19 @@ if "OTHER_NUMPY" in os.environ:
     numpy.__version__ = "1.0"
 """
 
+HUGE = """\
+outputs = ["pull_off_force"]
+[parameters]
+k = { start = 0.0, stop = 0.95, num = 200 }
+nu = 0.27
+modulus = { start = 100.0, stop = 1e4, num = 10 }
+c0_over_R = { start = 0.01, stop = 1.0, num = 50, spacing = "log" }
+lambda_over_R = { start = 0.05, stop = 1.0, num = 100, spacing = "log" }
+A = { start = 0.01, stop = 0.2, num = 10 }
+a_max_over_R = inf
+"""
+"""A study of 600 blocks."""
+
 
 class Orders:
     """What the workers are told to suffer."""

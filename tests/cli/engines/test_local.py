@@ -19,19 +19,7 @@ from distributed.comm import CommClosedError, connect
 
 from gradhesion.cli.engines.local import local_client
 from gradhesion.cli.work.folder import folder_of
-from tests.cli.engines.orders import Call, Orders, values_of
-
-HUGE = """\
-outputs = ["pull_off_force"]
-[parameters]
-k = { start = 0.0, stop = 0.95, num = 200 }
-nu = 0.27
-modulus = { start = 100.0, stop = 1e4, num = 10 }
-c0_over_R = { start = 0.01, stop = 1.0, num = 50, spacing = "log" }
-lambda_over_R = { start = 0.05, stop = 1.0, num = 100, spacing = "log" }
-A = { start = 0.01, stop = 0.2, num = 10 }
-a_max_over_R = inf
-"""
+from tests.cli.engines.orders import HUGE, Call, Orders, values_of
 
 
 def listening() -> set[tuple[str, int]]:

@@ -1,6 +1,7 @@
 """Schedulers that do not answer, that serve workers of other versions, and that are lost."""
 
 import signal
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -11,7 +12,8 @@ import numpy as np
 import pytest
 from distributed import Client
 
-from tests.cli.engines.orders import ByHand, Call, values_of
+from gradhesion.cli.work.folder import folder_of
+from tests.cli.engines.orders import HUGE, ByHand, Call, values_of
 
 
 def test_workers_of_another_version(
@@ -91,6 +93,28 @@ def test_a_scheduler_that_is_lost(
     by_hand.orders.give()
     assert gradhesion("run", study_file, "-o", output).exit_code == 0
     assert values_of(output) == whole
+
+
+def test_an_interrupt_takes_back_what_waits(tmp_path: Path, output: Path, by_hand: ByHand) -> None:
+    study = tmp_path / "huge.toml"
+    study.write_text(HUGE)
+    by_hand.start("worker", "--nthreads=1", "--no-nanny")
+    command = [sys.executable, "-m", "gradhesion.cli", "run", study, "-o", output, "--engine=dask", "--quiet"]
+    with subprocess.Popen([*command, "--scheduler", by_hand.file], stderr=subprocess.PIPE, text=True) as process:
+        deadline = time.monotonic() + 120
+        while not folder_of(output).parts() and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        stderr = process.communicate(timeout=60)[1]
+    assert process.returncode == 130, stderr
+    assert stderr.strip().startswith("interrupted; ")
+    assert "Traceback" not in stderr
+    with Client(scheduler_file=str(by_hand.file), set_as_default=False) as client:
+        deadline = time.monotonic() + 10
+        while any(client.processing().values()) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        assert not any(client.processing().values())
+    assert len(folder_of(output).parts()) < 20, "of 600: what was in hand has been finished, the rest taken back"
 
 
 def test_mistakes(
