@@ -28,8 +28,8 @@ def local_client(workers: int | None, most: int) -> Iterator[Any]:
     """
     Make a client of worker processes of one thread each: so many, or one a core, and not more than `most`.
 
-    They listen on the loopback interface alone, and to those alone who have a certificate that exists only in the
-    memory of these processes: on a machine with several users the others cannot run code as this one.
+    They listen on the loopback interface alone, and to those alone who have a certificate that is made here and that
+    no other user can read: on a machine with several users the others cannot run code as this one.
 
     Raises
     ------
