@@ -88,7 +88,7 @@ def test_a_local_cluster_comes_and_goes(
 def test_an_interrupt_ends_workers_and_keeps_parts(tmp_path: Path) -> None:
     study, output = tmp_path / "huge.toml", tmp_path / "data" / "huge.nc"
     study.write_text(HUGE)
-    command = [sys.executable, "-m", "gradhesion.cli", "run", study, "-o", output, "--engine=dask"]
+    command = [sys.executable, "-m", "gradhesion.cli", "run", study, "-o", output, "--engine=dask", "--chunk=2000"]
     folder = folder_of(output)
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
         deadline = time.monotonic() + 120

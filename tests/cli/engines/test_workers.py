@@ -99,8 +99,7 @@ def test_a_block_that_kills_its_workers_takes_no_other_along(
     assert result.exit_code == 3
     assert "block 3 of 6 (4 scenes, index k 0, lambda_over_R 2) raised KilledWorker" in result.stderr
     assert (
-        "1 blocks could not be solved, and their scenes have no value; the parts of the others are kept"
-        in result.stderr
+        "1 block could not be solved, and their scenes have no value; the parts of the others are kept" in result.stderr
     )
     assert len(folder_of(output).parts()) == 5
     orders.give()
@@ -142,13 +141,13 @@ def test_workers_that_come_late_and_leave_early(
         dask.config.set({"distributed.worker.preload": [], "distributed.deploy.lost-worker-timeout": "100ms"}),
         LocalCluster(n_workers=0, processes=False, lifetime="0.8s", **SETTINGS) as cluster,
     ):
-        cluster.adapt(minimum=0, maximum=2, interval="300ms")
+        cluster.adapt(minimum=0, maximum=1, interval="300ms")
         scheduler = output.parent.parent / "scheduler.json"
         scheduler.write_text(json.dumps({"address": cluster.scheduler_address}))
         result = gradhesion("run", study_file, "-o", output, "--engine=dask", "--scheduler", scheduler)
     assert result.exit_code == 0, result.stderr
     assert "waiting for workers" in result.stderr
-    assert len(seen) > 2, "each lives for two blocks or so"
+    assert len(seen) > 1, "the first left before all was done"
     assert values_of(output) == whole
 
 
