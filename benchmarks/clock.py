@@ -2,12 +2,13 @@
 
 import importlib.metadata
 import math
-import os
 import platform
 import time
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
+
+from gradhesion.core.processors import processors
 
 ROOT = Path(__file__).parents[1]
 FIGURES = ROOT / "docs" / "figures"
@@ -54,5 +55,5 @@ def machine() -> str:
         processor = names[0] if names else processor
     packages = ("gradhesion", "numpy", "numba", "llvmlite", "scipy", "mpmath", "netCDF4")
     versions = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in packages)
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    cores = processors()
     return f"{processor}, {cores} cores, {platform.system()}; Python {platform.python_version()}, {versions}."

@@ -9,6 +9,8 @@ import tempfile
 import time
 from pathlib import Path
 
+from gradhesion.core.processors import processors
+
 STUDY = """title = "Ten million scenes"
 outputs = ["pull_off_force", "dissipated_energy"]
 [parameters]
@@ -33,7 +35,7 @@ def study_sentence() -> str:
         seconds = time.perf_counter() - start
         process.returncode = code
         size = output.stat().st_size / 1e6 if output.exists() else math.nan
-    cores = len(os.sched_getaffinity(0))
+    cores = processors()
     return (
         f"A study of 10,000,000 scenes over 5 axes, both outputs, warm, {cores} cores, from the command to the closed "
         f"file: {seconds:.1f} s, peak memory {usage.ru_maxrss / 2**20:.2f} GiB, file {size:.0f} MB, exit code {code}.\n"

@@ -35,7 +35,7 @@ def require_dask() -> None:
         if error.name not in {"cryptography", "dask", "distributed"}:
             raise
         raise MissingExtraError(
-            "--engine dask needs Dask: install it with `pip install 'gradhesion[cluster]'`"
+            "--engine dask needs Dask: install it with `pip install dask distributed cryptography`"
         ) from None
 
 

@@ -138,5 +138,7 @@ def test_mistakes(
         monkeypatch.setitem(sys.modules, package, None)
         result = gradhesion(*run, "--engine=dask")
         assert result.exit_code == 2
-        assert result.stderr.endswith("--engine dask needs Dask: install it with `pip install 'gradhesion[cluster]'`\n")
+        assert result.stderr.endswith(
+            "--engine dask needs Dask: install it with `pip install dask distributed cryptography`\n"
+        )
     assert not list(output.parent.glob("*"))
