@@ -177,7 +177,7 @@ def _least_of_wave(table: Any, curve: Curve, wave: float, heights: Any, openings
     return least_opening(table, shifted, x, x + 1.0, heights, openings)
 
 
-@kernel()
+@kernel(entry=True)
 def _least_of_run(table: Any, curve: Curve, first: float, last: float, heights: Any, openings: Any) -> float:
     """Return the least opening outside the ends of regular waves: a smooth function of the wave, sampled."""
     first = max(first, 1.0)

@@ -263,7 +263,7 @@ def _nominal_branch(table: Any, curve: Curve, rim: float, final: float, trace: A
 
 @kernel()
 def stride(
-    table: Any, curve: Curve, arches: tuple[float, float], rim: float, trace: Any, losses: bool, reach: float
+    table: Any, curve: Curve, arches: tuple[float, float], rim: float, trace: Any, losses: bool, reach: float = 1.0
 ) -> tuple[int, Any]:
     """Do what `walk` does for one rim of a long curve, leaving out the regular waves in the middle.
 

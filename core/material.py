@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core._jit import kernel
 
 
-@kernel()
+@kernel(entry=True)
 def _sinc(x: float) -> float:
     """Return sin(pi x)/(pi x)."""
     return math.sin(math.pi * x) / (math.pi * x) if x != 0.0 else 1.0

@@ -63,7 +63,7 @@ def refine(basis: Basis, curve: Curve, low: float, high: float, rising: bool, wh
     return x
 
 
-@kernel()
+@kernel(entry=True)
 def _extremum(basis: Basis, curve: Curve, low: float, high: float, whole: float) -> float:
     """Return where D has its extremum between two close radii (regula falsi of its slope, then bisection)."""
     _, first, _ = slope(basis, curve, low, whole)
@@ -124,7 +124,7 @@ def folds_of_cell(
     return count, at_high, miss
 
 
-@kernel()
+@kernel(entry=True)
 def _terms(basis: Basis, curve: Curve, x: float, whole: float) -> float:
     """Return the size of the terms of D."""
     table, _, _ = basis

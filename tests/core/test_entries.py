@@ -2,6 +2,7 @@
 
 import ast
 import importlib
+import inspect
 import pkgutil
 from pathlib import Path
 from types import ModuleType
@@ -27,16 +28,27 @@ def is_inner(thing: Any) -> bool:
     return is_kernel(thing) and bool(thing.targetoptions["no_cpython_wrapper"])
 
 
+def resolved(node: ast.AST, space: dict[str, Any]) -> Any:
+    """What a name stands for, in a name space or in a module of it."""
+    if isinstance(node, ast.Name):
+        return space.get(node.id)
+    if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+        module = space.get(node.value.id)
+        return getattr(module, node.attr, None) if isinstance(module, ModuleType) else None
+    return None
+
+
 def inner_kernels_named(tree: ast.AST, space: dict[str, Any]) -> set[str]:
-    """Names of inner kernels that code uses, as they stand in its name space or in a module of it."""
+    """Names of inner kernels that code uses, and those used by the Python functions of kernels that it uses."""
     found = set()
     for node in ast.walk(tree):
-        if isinstance(node, ast.Name) and is_inner(space.get(node.id)):
-            found.add(node.id)
-        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
-            module = space.get(node.value.id)
-            if isinstance(module, ModuleType) and is_inner(getattr(module, node.attr, None)):
-                found.add(f"{node.value.id}.{node.attr}")
+        if is_inner(resolved(node, space)):
+            found.add(ast.unparse(node))
+        if isinstance(node, ast.Attribute) and node.attr == "py_func" and is_kernel(resolved(node.value, space)):
+            function = resolved(node.value, space).py_func
+            body = ast.parse(inspect.getsource(function)).body[0]
+            assert isinstance(body, ast.FunctionDef)
+            found |= inner_kernels_named(ast.Module(body.body, []), function.__globals__)
     return found
 
 
@@ -66,6 +78,7 @@ def test_inner_kernels_are_found() -> None:
     code = "def draw():\n    return scene._solve_smooth(0) + _solve_force(1)\n"
     found = inner_kernels_named(outside_of_kernels(ast.parse(code)), vars(scene) | {"scene": scene})
     assert found == {"scene._solve_smooth", "_solve_force"}
+    assert "_limits" in inner_kernels_named(ast.parse("solve = scene._solve_cycle.py_func"), {"scene": scene})
 
 
 @pytest.mark.parametrize(
@@ -87,6 +100,8 @@ def test_nobody_else_calls_one(path: str) -> None:
                 submodule = f"{node.module}.{alias.name}"
                 thing = importlib.import_module(submodule) if submodule in MODULES else getattr(home, alias.name)
                 space[alias.asname or alias.name] = thing
+    own = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name.startswith("_")]
+    assert not [node.name for node in own if any("kernel(" in ast.unparse(each) for each in node.decorator_list)]
     if path != "tests/core/test_entries.py":
         assert inner_kernels_named(tree, space) == set()
 

@@ -13,7 +13,7 @@ from gradhesion.core.struve.table import build_table
 
 
 @kernel()
-def _both(table, cosines, x, x_low, out):  # type: ignore[no-untyped-def]
+def both(table, cosines, x, x_low, out):  # type: ignore[no-untyped-def]
     for i in range(x.size):
         _, _, _, _, out[0, i], out[1, i] = integrals(table, cosines, x[i], x_low[i])
 
@@ -42,7 +42,7 @@ def test_against_bessel_functions(k: float) -> None:
     )
     low = x * rng.uniform(-1.0, 1.0, x.size) * 2.0**-54
     out = np.empty((2, x.size))
-    _both(build_table(k), build_cosine_bins(k).ravel(), x, low, out)
+    both(build_table(k), build_cosine_bins(k).ravel(), x, low, out)
     with mpmath.workdps(40):
         for j in (0, 1):
             for place, below, found in zip(x.tolist(), low.tolist(), out[j].tolist(), strict=True):
@@ -55,7 +55,7 @@ def test_phase_far_out() -> None:
     x = np.array([1e6 + 0.1, 12345.678, 1e9 + 0.25])
     low = np.array([1e-11, -1e-13, 0.0])
     out = np.empty((2, 3))
-    _both(build_table(1.0), build_cosine_bins(1.0).ravel(), x, low, out)
+    both(build_table(1.0), build_cosine_bins(1.0).ravel(), x, low, out)
     with mpmath.workdps(40):
         for place, below, found in zip(x.tolist(), low.tolist(), out[0].tolist(), strict=True):
             z = 2 * mpmath.pi * (mpmath.mpf(place) + below)
