@@ -2,8 +2,8 @@
 
 They are kept in a *trace*, an array of one column a branch with the rows named here: the two folds that bound the
 branch, how loading arrives on it, and what unloading loses from its start to the end of contact. Two rows more are
-room for the nodes of jump_energy.py and gap.py and the waves of regular.py, one tells of waves that are not walked, and
-the first column of the last one has the innermost place at which a pair of folds is about to be born (ties.py).
+room for the nodes of jump_energy.py and gap.py and the waves of wave_sum.py, one tells of waves that are not walked,
+and the first column of the last one has the innermost place at which a pair of folds is about to be born (ties.py).
 """
 
 import math

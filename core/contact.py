@@ -28,8 +28,8 @@ from gradhesion.core.branches import (
     WORK,
 )
 from gradhesion.core.curve import Curve, depth
+from gradhesion.core.far_wave import end_of_wave
 from gradhesion.core.gap import Edge, edge_at, opening, openings_between, trough_gap
-from gradhesion.core.regular import end_of_wave
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.fractional import NODES
 from gradhesion.core.struve.power import amplitude_power

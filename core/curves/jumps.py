@@ -58,8 +58,8 @@ def list_jumps(subject: Subject) -> dict[str, NDArray[Any]]:
 
     Notes
     -----
-    The energies sum up to the `dissipated_energy` of `solve`: to 1e-12 where that walks every wave, to what its sums
-    over regular waves hold on longer curves (5e-11 at worst).
+    The energies sum up to the `dissipated_energy` of `solve`: to 1e-12, whether that walks every wave or sums over
+    them.
     """
     form, trace = subject.exact, subject.trace
     assert trace is not None  # noqa: S101 (draw.py asks first)

@@ -16,8 +16,9 @@ from gradhesion.core.jump_energy import NODES, WEIGHTS
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 
-Left: TypeAlias = tuple[float, float, float, float]
-"""A place that is left: whole waves, x beyond them, and there the waves of depth and of load."""
+Left: TypeAlias = tuple[float, float, float, float, float]
+"""A place on the curve that tells the coordinate of a jump: whole waves, x beyond them, there the waves of depth and of
+load, and by how much the coordinate there exceeds that of the jump (0 where the jump leaves the curve there)."""
 _PANEL: Final = 1.25
 """Waves a panel of 16 nodes: they leave 1e-14 of a term cos 2 z, the fastest there is."""
 _NEGLIGIBLE: Final = 1e-18
@@ -35,22 +36,22 @@ def _longest_panel(series: Any) -> float:
 
 
 @kernel()
-def place_left(basis: Basis, curve: Curve, x: float, whole: float) -> Left:
-    """Return a place that a jump leaves."""
+def place_left(basis: Basis, curve: Curve, x: float, whole: float, above: float = 0.0) -> Left:
+    """Return a place that a jump leaves, or one at which the coordinate is above that of the jump."""
     table, cosines, series = basis
     _, _, g, _, _ = curve
     z = TWO_PI * (whole + x)
     w0, w1, _, _ = sums(table, cosines, series, x, whole)
     power = amplitude_power(table, z)
-    return whole, x, g * z * w0, g * z * w1 / (power * power)
+    return whole, x, g * z * w0, g * z * w1 / (power * power), above
 
 
 @kernel(contract=True)
 def _rise(basis: Basis, curve: Curve, left: Left, x: float, whole: float) -> float:
-    """Return [Y(z) - Y(z1)]/((alpha + beta z^(1+k)) z^c); each term's difference first, however large the terms are."""
+    """Return [Y(z) - Y_j]/((alpha + beta z^(1+k)) z^c); each term's difference first, however large the terms are."""
     table, cosines, series = basis
     B, m, g, alpha, beta = curve
-    whole1, x1, wave0, wave1 = left
+    whole1, x1, wave0, wave1, above = left
     k = table.k
     place1 = whole1 + x1
     z, z1 = TWO_PI * (whole + x), TWO_PI * place1
@@ -58,7 +59,7 @@ def _rise(basis: Basis, curve: Curve, left: Left, x: float, whole: float) -> flo
     ratio = math.log1p(((whole - whole1) + (x - x1)) / place1)
     w0, w1, _, _ = sums(table, cosines, series, x, whole)
     bend = B * z1**m * math.expm1(m * ratio)
-    rise = alpha * (bend + g * z * w0 - wave0 - z1 * power1 * math.expm1(0.5 * (1.0 - k) * ratio))
+    rise = above + alpha * (bend + g * z * w0 - wave0 - z1 * power1 * math.expm1(0.5 * (1.0 - k) * ratio))
     front = 0.0
     if beta > 0.0:
         front, front1 = beta / (power * power), beta / (power1 * power1)

@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 
 from gradhesion.core._jit import YES, kernel
-from gradhesion.core.general.curve import Basis, Curve
+from gradhesion.core.general.curve import Basis, Curve, coordinate
 from gradhesion.core.general.energy import Left, drop, energy_from_zero, jump_energy, place_left
 from gradhesion.core.general.summation import sum_of_waves
 from gradhesion.core.general.waves import PASSING, room_for_waves
@@ -47,10 +47,13 @@ def jump_between(basis: Basis, curve: Curve, start: float, end: float, whole: fl
 
 @kernel()
 def jump_from_zero(basis: Basis, curve: Curve, x: float, level: float, whole: float) -> float:
-    """Return e of a jump at Y = level, that of the curve at whole + x, from zero contact to there."""
+    """Return e of a jump at Y = level from zero contact to whole + x.
+
+    Unless it ends at the rim, where contact may be pinned, the level is that of the curve there.
+    """
     _, _, series = basis
     if whole + x <= LONG or series.shape[0] == 0:
         return energy_from_zero(basis, curve, whole + x, level)
-    left = place_left(basis, curve, x, whole)
+    left = place_left(basis, curve, x, whole, coordinate(basis, curve, x, whole) - level)
     inner = energy_from_zero(basis, curve, _INNER, level)
     return inner + _pass(basis, curve, left, _INNER - whole, x, whole)

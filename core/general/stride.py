@@ -225,7 +225,7 @@ def go_through(
     places = _places(begin, end)
     if kind == DOWN:
         places = places[::-1].copy()
-    left = (0.0, 0.0, 0.0, 0.0)
+    left = (0.0, 0.0, 0.0, 0.0, 0.0)
     sign = 1.0 if kind == UP else -1.0
     now, last = places[0], places[places.size - 1]
     rows = work[2][0]

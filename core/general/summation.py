@@ -23,7 +23,7 @@ from gradhesion.core._jit import NO, kernel
 from gradhesion.core.general.curve import Basis, Curve
 from gradhesion.core.general.energy import Left
 from gradhesion.core.general.waves import step_of_wave
-from gradhesion.core.regular import limit_terms
+from gradhesion.core.wave_sum import limit_terms
 
 _POINTS: Final = 17
 _PLACES: Final = np.cos(np.pi * np.arange(_POINTS)[::-1] / (_POINTS - 1))

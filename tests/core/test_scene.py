@@ -23,7 +23,7 @@ FORCE, ENERGY, RADIUS = 24 * EPS, 64 * EPS, 1e-13
 the curve of the scene as many again; the energy is a sum over up to 200 jumps. The radius of pull-off is where a function
 of these is stationary."""
 LONG = 1e-12
-"""The energy of curves of so many waves that those in the middle are summed by an integral (core/regular.py)."""
+"""The energy of curves of so many waves that those in the middle are summed by an integral (core/wave_sum.py)."""
 JUMPS_MAY_DIFFER = 1e-12
 """Below this margin (tests/twin/README.md) a number of jumps is that of a neighbouring scene of doubles."""
 

@@ -7,6 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core import FAILED, OUTPUTS, solve
+from gradhesion.core.equations import saturation
+from gradhesion.core.material import stiffness
 from gradhesion.core.status import LOADING_NOT_ONE_DISC
 
 from .draw import Scenes, groups
@@ -182,6 +184,22 @@ def threads(scenes: Scenes) -> Excess:
     return np.where(same, 0.0, np.inf)
 
 
+def many_waves_lose_what_short_ones_do(scenes: Scenes) -> Excess:
+    """An unbounded punch of more than 10^5 waves loses the closed limit of short waves, to 4/(chi N) of it and 1e-12."""
+    free = _with(scenes, a_max_over_R=np.full(scenes["k"].shape, np.inf))
+    result = solve(free, ("dissipated_energy",))
+    chi = groups(scenes)["chi"]
+    material = stiffness(scenes["k"], scenes["nu"], scenes["modulus"], scenes["c0_over_R"])
+    with np.errstate(all="ignore"):
+        shape = (scenes["k"], material, scenes["lambda_over_R"], scenes["A"], np.inf)
+        off = np.abs(result["dissipated_energy"] / saturation.dissipated_energy(*shape) - 1.0)
+        ends = saturation.end_of_folds(scenes["k"], scenes["lambda_over_R"], scenes["A"])
+        waves = ends / scenes["lambda_over_R"]
+        allowed = 4.0 / (chi * waves) + 1e-12
+    known = _valid(result) & (waves > 1e5) & (chi < 0.9) & (allowed < 0.05)
+    return np.where(known, off / allowed, 0.0)
+
+
 CHECKS: Final[tuple[Callable[[Scenes], Excess], ...]] = (
     values_or_status,
     energy_not_negative,
@@ -190,5 +208,6 @@ CHECKS: Final[tuple[Callable[[Scenes], Excess], ...]] = (
     energy_is_constant_on_branches,
     similarity,
     one_ulp,
+    many_waves_lose_what_short_ones_do,
     threads,
 )

@@ -80,12 +80,12 @@ def test_one_cosine_is_what_its_own_solver_finds(k: float, wavelength: float) ->
 @pytest.mark.parametrize("wavelength", [1e-7, 1e-8])
 @pytest.mark.parametrize("k", [0.0, 0.8, 1.0])
 def test_beyond_four_million_waves_both_solvers_agree(k: float, wavelength: float) -> None:
-    """The other solver extrapolates there from two waves nearer to zero; this one keeps the phase of whole waves."""
+    """Both take phases from the part of a wave alone; folds, landings and sums each has its own way to."""
     scene = SCENE | {"k": k, "nu": 0.5 if k == 1.0 else 0.27, "lambda_over_R": wavelength}
     scenes: Any = scene | {"A": [_amplitude(chi, scene) for chi in (0.3, 0.8, 1.5)]}
     special = solve(scenes, ["dissipated_energy"])["dissipated_energy"]
     general = solve_general(scenes, PARAMETERS, ["dissipated_energy"], Profile(), Loading(), 1)["dissipated_energy"]
-    np.testing.assert_allclose(special, general, rtol=1e-10)
+    np.testing.assert_allclose(special, general, rtol=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -119,6 +119,20 @@ def test_sums_are_walks(k: float, m: float, harmonics: Any, control: str, waves:
         assert loss == pytest.approx(other[0], rel=1e-11)
         assert level == pytest.approx(other[2], rel=1e-12)
         assert whole + left == pytest.approx(other[3] + other[4], rel=1e-12)
+
+
+@pytest.mark.parametrize("waves", [300.0, 1e3, 1e5, 1e7])
+def test_a_jump_from_zero_contact_to_the_rim(waves: float) -> None:
+    """At the depth 0, which is not that of the curve at the rim: what is left of a small punch is 2 pi a^2/(1+k)."""
+    k, rim = 0.7, 1e-6
+    scene: Any = SCENE | {"k": k, "a_max_over_R": rim, "lambda_over_R": rim / waves}
+    scene |= {"A": _amplitude(1e-9, scene)}
+    general = solve_general(scene, PARAMETERS, OUTPUTS, Profile(), Loading(), 1)
+    assert (general["loading_jumps"], general["unloading_jumps"]) == (1, 1)
+    # the punch's own share of the depth is (a/a_in)^((3+k)/2) of the stretch, here 1e-9
+    assert general["dissipated_energy"] == pytest.approx(2.0 * math.pi * rim**2 / (1.0 + k), rel=1e-6)
+    special = solve(scene, ["dissipated_energy"])
+    assert general["dissipated_energy"] == pytest.approx(special["dissipated_energy"], rel=1e-13)
 
 
 @pytest.mark.parametrize("control", ["displacement", "machine", "load"])

@@ -50,7 +50,7 @@ def test_one_cosine_is_what_its_own_solver_finds() -> None:
     general = solve_general(scenes, PARAMETERS, OUTPUTS, Profile(), Loading(), 2)
     found = general["status"] & NO_VALUE == 0
     assert found.all()
-    walked = special["unloading_jumps"] < 100  # beyond, the special solver sums over waves: 5e-11 at worst
+    walked = special["unloading_jumps"] < 100
     sharp = found & ((special["status"] | general["status"]) & CLOSE_TO_A_JUMP == 0)
     for name in OUTPUTS:
         exact = name in {"loading_jumps", "unloading_jumps"}
@@ -59,7 +59,7 @@ def test_one_cosine_is_what_its_own_solver_finds() -> None:
         rtol, atol = (0.0, 0.0) if exact else (1e-13, 1e-15)
         np.testing.assert_allclose(general[name][here], special[name][here], rtol=rtol, atol=atol, err_msg=name)
     energies = (each["dissipated_energy"] for each in (general, special))
-    np.testing.assert_allclose(*energies, rtol=5e-11)
+    np.testing.assert_allclose(*energies, rtol=1e-12)  # either sums over waves in ways of its own
     told = np.int8(~CLOSE_TO_A_JUMP)
     assert np.array_equal(general["status"][found] & told, special["status"][found] & told)
 
