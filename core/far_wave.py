@@ -76,12 +76,17 @@ def _angle(table: Any, curve: Curve, z: float) -> float:
 
 
 @kernel(contract=True)
-def _fold_near(table: Any, curve: Curve, whole: float, centre: float, rising: bool, guess: float) -> float:
-    """Return x of the start (rising) or the end of the branch around a centre, from a guess (Halley, in a bracket)."""
+def _fold_near(
+    table: Any, curve: Curve, whole: float, centre: float, rising: bool, guess: float
+) -> tuple[float, float, float, float, float, float]:
+    """Return x of the start (rising) or the end of the branch around a centre, from a guess (Halley, in a bracket).
+
+    Then x, z, z S0 and z^c of the last place before it, and what the depth gains from there (folds.py).
+    """
     low, high = (centre - 0.5, centre) if rising else (centre, centre + 0.5)
     x = guess if low < guess < high else 0.5 * (low + high)
     for _ in range(_STEPS):
-        d, d1, d2, _, _, _ = _slope(table, curve, whole, x)
+        d, d1, d2, z, wave, stretch = _slope(table, curve, whole, x)
         if d == 0.0:
             break
         if (d < 0.0) == rising:
@@ -91,13 +96,14 @@ def _fold_near(table: Any, curve: Curve, whole: float, centre: float, rising: bo
         step = -d * d1 / (d1 * d1 - 0.5 * d * d2)
         new = x + step / TWO_PI
         if abs(step) * (abs(d2) + abs(d1)) < _LAST_STEP * abs(d1) and low <= new <= high:
-            return new
+            return new, x, z, wave, stretch, step * (d + step * (0.5 * d1 + step * d2 / 6.0))
         if not low < new < high:
             new = 0.5 * (low + high)
             if new <= low or new >= high:
                 break
         x = new
-    return x
+    _, _, _, z, wave, stretch = _slope(table, curve, whole, x)
+    return x, x, z, wave, stretch, 0.0
 
 
 @kernel(contract=True)
@@ -108,7 +114,8 @@ def _fold(table: Any, curve: Curve, whole: float, centre: float, rising: bool) -
     angle = _angle(table, curve, z)
     angle = _angle(table, curve, z - angle if rising else z + angle) / TWO_PI
     shift = (0.5 * (1.0 - k) + 0.125 * (1.0 - k * k)) / (TWO_PI * z)
-    return _fold_near(table, curve, whole, centre, rising, centre + shift - (angle if rising else -angle))
+    x, _, _, _, _, _ = _fold_near(table, curve, whole, centre, rising, centre + shift - (angle if rising else -angle))
+    return x
 
 
 @kernel(contract=True)
@@ -120,15 +127,14 @@ def _landing(table: Any, curve: Curve, whole: float, left: Left, start: float, c
     estimated: depth rises by g C z^c (2 sin u - 2 u cos u) between two folds at the angles -u and u.
     """
     _, g, _ = curve
-    far = _fold_near(table, curve, whole, centre, rising, start + (1.0 if start < centre else -1.0))
-    _, _, _, z, wave, stretch = _slope(table, curve, whole, far)
-    rest = _rise(table, curve, left, far - start, z, wave)
+    guess = start + (1.0 if start < centre else -1.0)
+    far, x, z, wave, stretch, gain = _fold_near(table, curve, whole, centre, rising, guess)
+    rest = _rise(table, curve, left, x - start, z, wave) + gain
     angle = TWO_PI * abs(far - centre)
     near = 2.0 * centre - far
     if angle > _WIDE:
-        near = _fold_near(table, curve, whole, centre, not rising, near)
-        _, _, _, z, wave, _ = _slope(table, curve, whole, near)
-        near_rest = _rise(table, curve, left, near - start, z, wave)
+        near, x, z, wave, _, gain = _fold_near(table, curve, whole, centre, not rising, near)
+        near_rest = _rise(table, curve, left, x - start, z, wave) + gain
     else:
         drop = 2.0 * g * table.amplitude * stretch * (math.sin(angle) - angle * math.cos(angle))
         near_rest = rest + (drop if rising else -drop)
