@@ -1,9 +1,10 @@
 """The branches of a curve: the parts on which depth rises with the radius, where the contact is stable.
 
 They are kept in a *trace*, an array of one column a branch with the rows named here: the two folds that bound the
-branch, how loading arrives on it, and what unloading loses from its start to the end of contact. Two rows more are
-room for the nodes of jump_energy.py and gap.py and the waves of wave_sum.py, one tells of waves that are not walked,
-and the first column of the last one has the innermost place at which a pair of folds is about to be born (ties.py).
+branch, how loading arrives on it, where unloading goes from its start, and what it loses from there to the end of
+contact. Two rows more are room for the nodes of jump_energy.py and gap.py and the waves of wave_sum.py, one tells of
+waves that are not walked, and the first column of the last one has the innermost place at which a pair of folds is
+about to be born (ties.py).
 """
 
 import math
@@ -18,12 +19,14 @@ from gradhesion.core.struve.circle import TWO_PI
 
 START, START_DEPTH, END, END_DEPTH = 0, 1, 2, 3
 ARRIVAL, LOADING_LOSS, LOADING_JUMPS = 4, 5, 6
-UNLOADING_LOSS, UNLOADING_JUMPS, LAST_DEPTH, CALLER = 7, 8, 9, 10
-WORK, VALUES, RUN = 11, 12, 13
+NEXT, LANDING = 7, 8
+"""Where unloading goes from the start of a branch: the next branch that it visits, -1 for none, and where it lands."""
+UNLOADING_LOSS, UNLOADING_JUMPS, LAST_DEPTH, CALLER = 9, 10, 11, 12
+WORK, VALUES, RUN = 13, 14, 15
 GAP, RUN_FIRST, RUN_LAST, RUN_LANDING = 0, 1, 2, 3
 """What the row RUN holds: the first branch beyond waves that were not walked, the first and the last of these waves
 that loading leaves, and where it lands among them (0 if on the way from one wave to the next)."""
-TANGENCY, ROWS = 14, 15
+TANGENCY, ROWS = 16, 17
 UNKNOWN: Final = -1.0
 """Unloading jumps of a branch that unloading has not visited yet."""
 _STEPS: Final = 100

@@ -16,11 +16,11 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
-from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, START, START_DEPTH, ends, find_depth
+from gradhesion.core._jit import NO, kernel
+from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, START_DEPTH
 from gradhesion.core.curve import Curve, depth, load, slope
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.unloading import next_lower
+from gradhesion.core.unloading import descend, leave_rim
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(14)
 _PANEL: Final = 0.5
@@ -99,21 +99,14 @@ def _work_of_cycle(
 def loop_energy(table: Any, curve: Curve, count: int, trace: Any, rim: float, rim_depth: float) -> float:
     """Return the reduced energy of a cycle up to the rim, off a trace that loading has walked."""
     landings = np.full((2, count), -1.0)
-    now = count - 1
-    while now >= 0 and trace[START, now] > rim:
-        now -= 1
+    now, landing = leave_rim(table, curve, count, trace, rim, rim_depth)
+    if now >= 0:
+        descend(table, curve, trace, now, NO)
     level = rim_depth
-    if now >= 0 and trace[END, now] >= rim:
-        landings[0, now] = rim
-        level = trace[START_DEPTH, now]
-        now -= 1
-    while True:
-        now = next_lower(trace, now, level)
-        if now < 0:
-            break
-        landing = find_depth(table, curve, level, ends(trace, now))
-        landings[0, now] = _polished(table, curve, landing, level, trace[START, now], trace[END, now])
-        landings[1, now] = level
-        level = trace[START_DEPTH, now]
-        now -= 1
+    while now >= 0:
+        if landing != rim:
+            landing = _polished(table, curve, landing, level, trace[START, now], trace[END, now])
+        landings[0, now], landings[1, now] = landing, level
+        landing, level = trace[LANDING, now], trace[START_DEPTH, now]
+        now = int(trace[NEXT, now])
     return 2.0 / (1.0 + table.k) * _work_of_cycle(table, curve, count, trace, rim, rim_depth, landings)

@@ -1,7 +1,8 @@
 """Unloading: down a branch to its start, then inwards at that depth to the next branch that reaches lower.
 
-Where unloading goes from the start of a branch does not depend on where it came from, so that the loss from there to
-the end of contact is kept with the branch.
+Where unloading goes from the start of a branch does not depend on where it came from, so that the branch on which it
+lands next, the place there, and the loss from the start to the end of contact are kept with the branch. The loop
+integral and the drawn path read them.
 """
 
 from typing import Any
@@ -10,7 +11,9 @@ from gradhesion.core._jit import kernel
 from gradhesion.core.branches import (
     CALLER,
     END,
+    LANDING,
     LAST_DEPTH,
+    NEXT,
     START,
     START_DEPTH,
     UNLOADING_JUMPS,
@@ -39,11 +42,12 @@ def next_lower(trace: Any, branch: int, level: float) -> int:
 
 @kernel()
 def descend(table: Any, curve: Curve, trace: Any, branch: int, losses: bool) -> None:
-    """Complete what unloading loses from the start of a branch on, for it and for all that it visits."""
+    """Complete where unloading goes from the start of a branch on, and what it loses, for all that it visits."""
     now = branch
     while trace[UNLOADING_JUMPS, now] < 0.0:  # inwards to where it is known, or to the end of contact
         start, level = trace[START, now], trace[START_DEPTH, now]
         lower = next_lower(trace, now - 1, level)
+        trace[NEXT, now] = lower
         if start == 0.0:  # k = 1: the contact shrinks to a point
             leave(trace, now, 0.0, 0.0, level)
         elif lower < 0:
@@ -54,11 +58,26 @@ def descend(table: Any, curve: Curve, trace: Any, branch: int, losses: bool) -> 
     while now != branch:  # and back
         outer = int(trace[CALLER, now])
         loss = trace[UNLOADING_LOSS, now]
+        trace[LANDING, outer] = find_depth(table, curve, trace[START_DEPTH, outer], ends(trace, now))
         if losses:
-            landing = find_depth(table, curve, trace[START_DEPTH, outer], ends(trace, now))
-            loss += jump_energy(table, curve, trace[START, outer], landing, trace[WORK])
+            loss += jump_energy(table, curve, trace[START, outer], trace[LANDING, outer], trace[WORK])
         leave(trace, outer, loss, trace[UNLOADING_JUMPS, now] + 1.0, trace[LAST_DEPTH, now])
         now = outer
+
+
+@kernel()
+def leave_rim(table: Any, curve: Curve, count: int, trace: Any, rim: float, rim_depth: float) -> tuple[int, float]:
+    """Return the branch on which unloading is when it has left the rim, -1 for none, and where it arrives there.
+
+    That is the rim itself where it stands on a branch; else unloading leaves it by a jump.
+    """
+    now = count - 1
+    while now >= 0 and trace[START, now] > rim:
+        now -= 1
+    if now >= 0 and trace[END, now] >= rim:
+        return now, rim
+    now = next_lower(trace, now, rim_depth)
+    return now, find_depth(table, curve, rim_depth, ends(trace, now)) if now >= 0 else 0.0
 
 
 @kernel()
@@ -66,17 +85,12 @@ def unloading_from(
     table: Any, curve: Curve, count: int, trace: Any, rim: float, rim_depth: float, losses: bool
 ) -> tuple[float, float, float]:
     """Return what unloading from the rim loses, its jumps, and the depth at which contact ends."""
-    now = count - 1
-    while now >= 0 and trace[START, now] > rim:
-        now -= 1
+    now, landing = leave_rim(table, curve, count, trace, rim, rim_depth)
+    if now < 0:
+        return -energy_from_zero(table, curve, rim, rim_depth) if losses else 0.0, 1.0, rim_depth
     loss, jumps = 0.0, 0.0
-    if now < 0 or trace[END, now] < rim:  # the rim is on a falling part: unloading leaves it by a jump
-        now = next_lower(trace, now, rim_depth)
-        if now < 0:
-            return -energy_from_zero(table, curve, rim, rim_depth) if losses else 0.0, 1.0, rim_depth
-        if losses:
-            landing = find_depth(table, curve, rim_depth, ends(trace, now))
-            loss = jump_energy(table, curve, rim, landing, trace[WORK])
+    if landing != rim:
+        loss = jump_energy(table, curve, rim, landing, trace[WORK]) if losses else 0.0
         jumps = 1.0
     descend(table, curve, trace, now, losses)
     return loss + trace[UNLOADING_LOSS, now], jumps + trace[UNLOADING_JUMPS, now], trace[LAST_DEPTH, now]

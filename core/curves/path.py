@@ -11,14 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core._jit import NO, NONE, YES, kernel
-from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, START, START_DEPTH, ends, find_depth
+from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, START_DEPTH
 from gradhesion.core.curve import Curve
 from gradhesion.core.curves.equilibrium import scales_of
 from gradhesion.core.curves.forms import EXACT, Numbers, pinned_load, point
 from gradhesion.core.curves.knots import landed
 from gradhesion.core.curves.sampling import sample
 from gradhesion.core.curves.subject import Form, Subject
-from gradhesion.core.unloading import next_lower
+from gradhesion.core.unloading import descend, leave_rim
 
 PLACE, DEPTH, LOAD, JOINED, BRANCH, JUMP, UNLOADING = 0, 1, 2, 3, 4, 5, 6
 """Rows of the corners."""
@@ -111,20 +111,17 @@ def find_corners(kind: int, table: Any, numbers: Numbers, trace: Any, load_folds
         count = _put(corners, count, rim, rim_depth, rim_load, (NO, at_rim, NO, YES))
 
     # unloading: down each branch to its start
-    now = branches - 1
+    now, landing = leave_rim(table, curve, branches, trace, rim, rim_depth)
     place, level = rim, rim_depth
-    if now < 0 or trace[END, now] < rim:  # the rim is on a falling part: unloading leaves it by a jump
-        now = next_lower(trace, now, rim_depth)
-        if now >= 0:
-            place = find_depth(table, curve, level, ends(trace, now))
-            count = _land(kind, table, numbers, corners, count, place, now + 1.0, YES)
+    if now >= 0:
+        descend(table, curve, trace, now, NO)
     while now >= 0:
+        if landing != rim:
+            count = _land(kind, table, numbers, corners, count, landing, now + 1.0, YES)
         place, level = trace[START, now], trace[START_DEPTH, now]
         count = _along(kind, table, numbers, load_folds, corners, count, (place, level), now + 1.0, YES)
-        now = next_lower(trace, now - 1, level)
-        if now >= 0:
-            place = find_depth(table, curve, level, ends(trace, now))
-            count = _land(kind, table, numbers, corners, count, place, now + 1.0, YES)
+        landing = trace[LANDING, now]
+        now = int(trace[NEXT, now])
     if place > 0.0:  # else the contact has shrunk to a point (k = 1)
         count = _put(corners, count, 0.0, level, 0.0, (NO, 0.0, YES, YES))
     return corners[:, :count]

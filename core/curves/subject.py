@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core import smooth
-from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, ROWS, START, START_DEPTH
+from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, ROWS, START, START_DEPTH, UNKNOWN, UNLOADING_JUMPS
 from gradhesion.core.curve import curve_of, force_unit
 from gradhesion.core.curves import knots
 from gradhesion.core.curves.forms import EXACT, PLAIN, Numbers
@@ -100,7 +100,7 @@ def _smooth_trace(k: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     trace = np.full((ROWS, 1), math.nan)
     trace[START], trace[START_DEPTH] = z_out, last_depth
     trace[END] = trace[END_DEPTH] = math.inf
-    trace[ARRIVAL] = z_in
+    trace[ARRIVAL], trace[UNLOADING_JUMPS] = z_in, UNKNOWN
     return trace, np.array([z_pull])
 
 

@@ -8,8 +8,11 @@ import numpy as np
 import pytest
 
 from gradhesion.core.branches import (
+    LANDING,
     LAST_DEPTH,
+    NEXT,
     ROWS,
+    START,
     START_DEPTH,
     UNLOADING_JUMPS,
     UNLOADING_LOSS,
@@ -18,7 +21,7 @@ from gradhesion.core.branches import (
 )
 from gradhesion.core.curve import depth
 from gradhesion.core.folds import last_arch
-from gradhesion.core.unloading import leave, next_lower, unloading_from
+from gradhesion.core.unloading import leave, leave_rim, next_lower, unloading_from
 
 KINDS = [lambda f: f, lambda f: f.py_func]
 CURVES = [(0.03, 0.31, 0.0), (0.9, 3.1, 0.0), (0.07, 0.4, 0.0), (0.3, 8.0, 0.0), (2.7, 0.01, 0.0)]
@@ -96,3 +99,25 @@ def test_every_loss_is_positive(table_of: Callable[[float], Any]) -> None:
             assert loss > 0.0 or (jumps == 0 and loss == 0.0)
             losses = trace[UNLOADING_LOSS, :count][trace[UNLOADING_JUMPS, :count] >= 0.0]
             assert (np.diff(losses) >= 0.0).all()
+
+
+@pytest.mark.parametrize("k", [0.0, 0.29, 1.0])
+@pytest.mark.parametrize("curve", CURVES)
+def test_the_way_is_kept_with_the_branches(k: float, curve: Any, table_of: Callable[[float], Any]) -> None:
+    """From branch to branch: each landing is at the depth of the start before, and as many as the jumps are counted."""
+    table = table_of(k)
+    count, trace = _trace(table, curve)
+    for rim in [0.65, 2.9, 7.7, 23.9]:
+        rim_depth = depth(table, curve, rim)
+        _, jumps, last = unloading_from(table, curve, count, trace, rim, rim_depth, True)
+        now, landing = leave_rim(table, curve, count, trace, rim, rim_depth)
+        level, found, start = rim_depth, 0, rim
+        while now >= 0:
+            found += landing != rim
+            # found to half its digits (branches.py), where the depth rises by the size of the stretch a wave
+            size = (2 * math.pi * landing) ** (0.5 * (1 - k)) + abs(level)
+            assert abs(depth(table, curve, landing) - level) <= 1e-6 * size
+            level, start = trace[START_DEPTH, now], trace[START, now]
+            now, landing = int(trace[NEXT, now]), trace[LANDING, now]
+        assert found + (start > 0.0) == jumps
+        assert level == last
