@@ -160,7 +160,7 @@ def solve_curve(
     shared = count >= 0 or rims.size == 1  # else a rim with fewer waves may still have its own
     for i in range(rims.size):
         z_rim = rims[i] / length
-        lowest = place = loss = loading = unloading = deepest = last = math.nan
+        lowest = place = loss = loss_back = loading = unloading = deepest = last = math.nan
         if force:
             lowest, place = lowest_load(wave, z_rim)
         if folds and not shared:
@@ -168,22 +168,23 @@ def solve_curve(
         if folds and count >= 0:
             loss, loading, deepest = load_to(wave, count, trace, z_rim)
             loss_back, unloading, last = unload_from(wave, count, trace, z_rim)
-            loss += loss_back
-            if loss < 0.0:  # no cycle gains energy: the contact is no larger than a wave, out of range here
-                loss = loading = unloading = deepest = last = math.nan
+            if loss + loss_back < 0.0:  # no cycle gains energy: the contact is no larger than a wave, out of range here
+                loss = loss_back = loading = unloading = deepest = last = math.nan
             elif z_rim < math.inf:
                 deepest = max(deepest, depth(wave, z_rim))
             else:
                 deepest = math.inf
-        fine = (loss >= 0.0 or not folds) and (lowest < 0.0 or not force)
+        fine = (loss + loss_back >= 0.0 or not folds) and (lowest < 0.0 or not force)
         status[i] = 0 if fine else NO_VALUE
         values = (
             -force_scale * lowest,
             place * length if place < z_rim else rims[i],
-            energy_scale * loss,
+            energy_scale * (loss + loss_back),
             loading,
             unloading,
             depth_scale * deepest,
             depth_scale * last,
+            energy_scale * loss,
+            energy_scale * loss_back,
         )
         put_all(out, slots, i, values)

@@ -62,37 +62,46 @@ def _loss_of_jump_out(k: float, chi: float, z: float, depth: float) -> float:
 
 
 @kernel()
-def envelope_cycle(k: float, chi: float, z_rim: float) -> tuple[float, float, float, float, float]:
-    """Return the reduced loss of a cycle, its jumps in and out, the depth of loading at the rim and the last depth."""
+def envelope_cycle(k: float, chi: float, z_rim: float) -> tuple[float, float, float, float, float, float]:
+    """Return what loading and unloading lose, their jumps, the depth of loading at the rim and the last depth.
+
+    The square of the wave, chi^2/2 in the mean, is a part of both and cancels in their sum.
+    """
     power = 2.0 / (3.0 + k)
     z_in = min(z_rim, (2.0 * max(0.0, 1.0 - chi)) ** power)
     z_out = min(z_rim, (0.5 * (1.0 - k) * (1.0 + chi)) ** power)  # 0 at k = 1: the contact shrinks to a point
     last_depth = envelope_depth(k, 1.0 + chi, z_out)
-    loss = _loss_of_jump_in(k, chi, z_in) + _loss_of_jump_out(k, chi, z_out, last_depth)
-    if chi > 0.0:
-        loss += 2.0 * chi * z_rim * z_rim
+    loaded, unloaded = _loss_of_jump_in(k, chi, z_in), _loss_of_jump_out(k, chi, z_out, last_depth)
+    if chi > 0.0 and z_rim < math.inf:
+        loaded += (1.0 - 0.75 * chi) * chi * z_rim * z_rim
+        unloaded += (1.0 + 0.75 * chi) * chi * z_rim * z_rim
+    elif chi > 0.0:
+        loaded = unloaded = math.inf
     jumps_in, jumps_out = 1.0 if z_in > 0.0 else 0.0, 1.0 if z_out > 0.0 else 0.0
-    return loss, jumps_in, jumps_out, envelope_depth(k, 1.0 - chi, z_rim), last_depth
+    return loaded, unloaded, jumps_in, jumps_out, envelope_depth(k, 1.0 - chi, z_rim), last_depth
 
 
 @kernel()
 def solve_rim(
     k: float, stretch: float, chi: float, mean_height: float, rim: float
-) -> tuple[float, float, float, float, float, float, float]:
+) -> tuple[float, float, float, float, float, float, float, float, float]:
     """Return the results of one rim, in the order of results.OUTPUTS; chi = 0 is the smooth punch."""
     length = smooth_length(k, stretch)
     z_rim = rim / length
     force, z = envelope_force(k, chi, z_rim)
-    loss, jumps_in, jumps_out, rim_depth, last_depth = envelope_cycle(k, chi, z_rim)
+    loaded, unloaded, jumps_in, jumps_out, rim_depth, last_depth = envelope_cycle(k, chi, z_rim)
+    energy_scale = TWO_PI * length * length
     depth_scale = 2.0 * length * length / (1.0 + k)
     return (
         force,
         z * length if z < z_rim else rim,
-        TWO_PI * length * length * loss,
+        energy_scale * (loaded + unloaded),
         jumps_in,
         jumps_out,
         max(0.0, mean_height + depth_scale * rim_depth),
         mean_height + depth_scale * last_depth,
+        energy_scale * loaded,
+        energy_scale * unloaded,
     )
 
 

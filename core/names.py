@@ -12,6 +12,8 @@ OUTPUTS: Final = (
     "unloading_jumps",
     "delta_max",
     "delta_jump_out",
+    "loading_energy",
+    "unloading_energy",
 )
 """All results of a scene, in the order of the rows (results.py)."""
 PULL_OFF: Final = ("pull_off_force", "pull_off_radius")

@@ -164,7 +164,8 @@ def _report_gains(k: float, constants: Any, stretch: float, rims: Any, results: 
     for i in range(rims.size):
         z_rim = rims[i] / length
         force, _ = smooth.smooth_force(k, constants[0], z_rim)
-        loss, _, _ = smooth.smooth_cycle(k, constants, z_rim)
+        loaded, unloaded, _, _ = smooth.smooth_cycle(k, constants, z_rim)
+        loss = loaded + unloaded
         if slots[ADHESION_GAIN] >= 0:
             out[slots[ADHESION_GAIN], i] = out[results[FORCE], i] / force
         if slots[ENERGY_GAIN] >= 0:

@@ -12,9 +12,9 @@ from gradhesion.core._jit import constant, kernel
 
 INTEGERS: Final = ("loading_jumps", "unloading_jumps")
 """Those that count."""
-FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST = map(constant, range(7))
+FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST, LOADED, UNLOADED = map(constant, range(9))
 """The rows."""
-CONTACT = 7
+CONTACT = 9
 """One more slot, not -1 if the status shall tell where loading does not keep the contact one disc."""
 
 
@@ -32,9 +32,15 @@ def wants_force(slots: Any) -> bool:
 
 
 @kernel()
+def wants_losses(slots: Any) -> bool:
+    """Return whether anything is asked for that needs what the jumps lose."""
+    return slots[ENERGY] >= 0 or slots[LOADED] >= 0 or slots[UNLOADED] >= 0
+
+
+@kernel()
 def wants_cycle(slots: Any) -> bool:
     """Return whether anything is asked for that needs the jumps."""
-    return slots[ENERGY] >= 0 or slots[LOADING] >= 0 or slots[UNLOADING] >= 0 or slots[LAST] >= 0
+    return wants_losses(slots) or slots[LOADING] >= 0 or slots[UNLOADING] >= 0 or slots[LAST] >= 0
 
 
 @kernel()

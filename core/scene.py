@@ -32,13 +32,16 @@ from gradhesion.core.results import (
     ENERGY,
     FORCE,
     LAST,
+    LOADED,
     LOADING,
     RADIUS,
+    UNLOADED,
     UNLOADING,
     put,
     wants_cycle,
     wants_folds,
     wants_force,
+    wants_losses,
 )
 from gradhesion.core.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.struve.circle import TWO_PI
@@ -61,8 +64,11 @@ def _solve_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: An
             if z == z_rim:
                 status[i] |= PULL_OFF_AT_RIM
         if wants_cycle(slots):
-            loss, unloading_jumps, last = smooth.smooth_cycle(k, constants, z_rim)
-            put(out, slots, ENERGY, i, TWO_PI * length * length * loss)
+            loaded, unloaded, unloading_jumps, last = smooth.smooth_cycle(k, constants, z_rim)
+            scale = TWO_PI * length * length
+            put(out, slots, ENERGY, i, scale * (loaded + unloaded))
+            put(out, slots, LOADED, i, scale * loaded)
+            put(out, slots, UNLOADED, i, scale * unloaded)
             put(out, slots, LOADING, i, 1.0)
             put(out, slots, UNLOADING, i, unloading_jumps)
             put(out, slots, LAST, i, depth_scale * last)
@@ -113,7 +119,7 @@ def _cycle_at_rim(
 ) -> None:
     """Read the cycle of one rim off a trace, and what there is to report."""
     energy_scale, depth_scale = scales
-    losses = slots[ENERGY] >= 0
+    losses = wants_losses(slots)
     rim_depth = depth(table, curve, x) if x < math.inf else math.inf
     if wants_cycle(slots):
         loading_loss, loading_jumps = loading_to(table, curve, count, trace, x, losses)
@@ -125,6 +131,8 @@ def _cycle_at_rim(
         if is_close_to_a_jump(table, curve, count, trace, x, rim_depth):
             status[i] |= CLOSE_TO_A_JUMP
         put(out, slots, ENERGY, i, energy)
+        put(out, slots, LOADED, i, energy_scale * loading_loss)
+        put(out, slots, UNLOADED, i, energy_scale * unloading_loss)
         put(out, slots, LOADING, i, loading_jumps)
         put(out, slots, UNLOADING, i, unloading_jumps)
         put(out, slots, LAST, i, depth_scale * last)
@@ -157,7 +165,7 @@ def _solve_cycle(
     scratch: Any,
 ) -> None:
     """Follow the cycle of a wavy punch for all its rims: those within a walk share one trace."""
-    losses = slots[ENERGY] >= 0
+    losses = wants_losses(slots)
     furthest = 0.0
     for i in range(rims.size):
         x = rims[i] / wavelength

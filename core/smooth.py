@@ -66,12 +66,12 @@ def smooth_constants(k: float) -> tuple[float, float, float, float, float, float
 @kernel()
 def smooth_cycle(
     k: float, constants: tuple[float, float, float, float, float, float], z_rim: float
-) -> tuple[float, float, float]:
-    """Return the reduced loss of a cycle, its unloading jumps, and the depth at which contact ends."""
+) -> tuple[float, float, float, float]:
+    """Return what loading and unloading lose, the jumps of unloading, and the depth at which contact ends."""
     _, z_in, loss, z_out, last_depth, loss_out = constants
     if z_rim < z_in:
         loss = smooth_energy_from_zero(k, z_rim, 0.0)
     if z_rim < z_out:
         last_depth = smooth_depth(k, z_rim)
         loss_out = -smooth_energy_from_zero(k, z_rim, last_depth)
-    return loss + loss_out, 1.0 if z_out > 0.0 else 0.0, last_depth
+    return loss, loss_out, 1.0 if z_out > 0.0 else 0.0, last_depth

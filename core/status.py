@@ -33,7 +33,15 @@ FLAGS: Final = {
 
 DOUBTFUL: Final = LOADING_NOT_ONE_DISC | UNLOADING_NOT_ONE_DISC | TOLERANCE_NOT_MET
 """The bits of a scene whose values are there and may not hold."""
-_OF_LOADING: Final = ("dissipated_energy", "energy_gain", "loading_jumps", "delta_max", "path", "jumps")
+_OF_LOADING: Final = (
+    "dissipated_energy",
+    "loading_energy",
+    "energy_gain",
+    "loading_jumps",
+    "delta_max",
+    "path",
+    "jumps",
+)
 """Results and curves that depend on how full contact is reached (docs/theory.md, section 12)."""
 
 

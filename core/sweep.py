@@ -74,11 +74,12 @@ def solve(
         cycle of displacement-controlled loading to full contact and unloading in R^2 dgamma, loading_jumps and
         unloading_jumps (jump-in and jump-out counted), delta_max and delta_jump_out in R: the
         depths at which full contact is reached, and from which contact ends, also where the displacement is not what is
-        controlled. With the exact solver also
-        those of `REPORTS`: pull_off_force_error and dissipated_energy_error, estimates in the unit of the value (of
-        rounding, and of the sum over waves); energy_residual, the energy less the loop integral of the load, whose own
-        rounding is that of the load (NaN beyond 2,000 waves); roughness_parameter chi = r/s; saturation_radius in R,
-        beyond which there is no fold; adhesion_gain and energy_gain over the smooth punch of the same material and rim.
+        controlled; loading_energy and unloading_energy in R^2 dgamma, the two parts of dissipated_energy. With the
+        exact solver also those of `REPORTS`: pull_off_force_error and dissipated_energy_error, estimates in the unit of
+        the value (of rounding, and of the sum over waves); energy_residual, the energy less the loop integral of the
+        load, whose own rounding is that of the load (NaN beyond 2,000 waves); roughness_parameter chi = r/s;
+        saturation_radius in R, beyond which there is no fold; adhesion_gain and energy_gain over the smooth punch of the
+        same material and rim.
     solver
         One of `SOLVERS`.
     check_contact

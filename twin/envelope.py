@@ -111,6 +111,8 @@ class Envelope:
     unloading_jumps: int
     delta_max: arb | None
     delta_jump_out: arb
+    loading_energy: arb | None
+    unloading_energy: arb | None
     margin_jumps: float
     energy_size: float
     delta_max_size: float
@@ -154,8 +156,14 @@ def solve_envelope(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Env
         pi * ((1 - up / s) * a_in) ** 2,
     ]
     endless = unbounded and bool(up + down > 0)
+    square = (
+        one * one * sum((arb(n) ** (1 - k) * (arb(p) ** 2 + arb(q) ** 2) for n, p, q in shape.harmonics), arb(0)) / 2
+    )
+    parts = [sum(gains[4:], arb(0)), sum(gains[:4], arb(0))]  # of loading and of unloading
     if not unbounded:
         gains.append(pi * (up + down) / s * (2 + (down - up) / s) * rim * rim)
+        parts[0] += pi * (up * (2 * s - up) - square) / (s * s) * rim * rim
+        parts[1] += pi * (down * (2 * s + down) + square) / (s * s) * rim * rim
 
     held = within(((3 + k) * (s + down) / (2 * m * front)) ** power)
     load = stiffness * held ** (1 + k) * (m / (1 + k + m) * front * held**m - (s + down) * held**c)
@@ -167,6 +175,8 @@ def solve_envelope(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Env
         unloading_jumps=1 if a_out > 0 else 0,
         delta_max=greatest,
         delta_jump_out=lowest,
+        loading_energy=None if endless else parts[0],
+        unloading_energy=None if endless else parts[1],
         margin_jumps=float(abs(s - up) / (s + up)),
         energy_size=float(sum((abs(gain) for gain in gains), arb(0))),
         delta_max_size=greatest_size,

@@ -49,6 +49,8 @@ class Solution:
     unloading_jumps: int
     delta_max: arb | None
     delta_jump_out: arb
+    loading_energy: arb
+    unloading_energy: arb
     margin_jumps: float
     margin_radius: float
     energy_condition: float
@@ -96,6 +98,8 @@ def solve(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Solution:
         unloading_jumps=len(path.unloading),
         delta_max=None if curve.rim is None else curve.depth_at_full_contact(path.largest),
         delta_jump_out=curve.delta(path.last),
+        loading_energy=sum(drops[: len(path.loading)], arb(0)),
+        unloading_energy=sum(drops[len(path.loading) :], arb(0)),
         margin_jumps=_margin_jumps(curve, path, made),
         margin_radius=held.margin_radius,
         energy_condition=float(sum((abs(drop) for drop in drops), arb(0)) / abs(lost)) if drops else 1.0,

@@ -33,7 +33,17 @@ MOST_WAVES: Final = 1000.0
 """Waves, of two folds each, that the twin follows: 15 s, 300 MB."""
 ROUNDED: Final = 1e-15
 """Of a value in SI units, besides the error of the same without a unit."""
-CYCLE: Final = frozenset(("dissipated_energy", "loading_jumps", "unloading_jumps", "delta_max", "delta_jump_out"))
+CYCLE: Final = frozenset(
+    (
+        "dissipated_energy",
+        "loading_energy",
+        "unloading_energy",
+        "loading_jumps",
+        "unloading_jumps",
+        "delta_max",
+        "delta_jump_out",
+    )
+)
 """Outputs for which the cycle must be followed."""
 KNOWN: Final = CYCLE | {"pull_off_force", "pull_off_radius"}
 """Outputs that the twin solves."""
@@ -163,6 +173,8 @@ def in_si(found: Mapping[str, Expected], parameters: Mapping[str, float]) -> dic
         "pull_off_force": 1.5 * arb.pi() * radius * work,
         "pull_off_radius": radius,
         "dissipated_energy": radius * radius * work,
+        "loading_energy": radius * radius * work,
+        "unloading_energy": radius * radius * work,
         "delta_max": radius,
         "delta_jump_out": radius,
     }
@@ -199,10 +211,11 @@ def _of_pull_off(solution: PullOff | Solution) -> dict[str, Expected]:
 def _of_cycle(solution: Solution) -> dict[str, Expected]:
     share = WALKED if solution.folded_waves < MOST_WALKED else SUMMED
     near = "a fold is about to be passed" if solution.margin_jumps < NEAR else ""
+    error = _share(share * solution.energy_condition, solution.dissipated_energy)  # of the sizes of all jumps
     return {
-        "dissipated_energy": Expected(
-            solution.dissipated_energy, _share(share * solution.energy_condition, solution.dissipated_energy)
-        ),
+        "dissipated_energy": Expected(solution.dissipated_energy, error),
+        "loading_energy": Expected(solution.loading_energy, error),
+        "unloading_energy": Expected(solution.unloading_energy, error),
         "loading_jumps": Expected(arb(solution.loading_jumps), 0.0, near),
         "unloading_jumps": Expected(arb(solution.unloading_jumps), 0.0, near),
         "delta_max": _depth(solution.delta_max, solution.delta_max_size),
@@ -212,17 +225,22 @@ def _of_cycle(solution: Solution) -> dict[str, Expected]:
 
 def _of_envelope(parameters: Mapping[str, float], shape: Shape) -> dict[str, Expected]:
     solution = solve_envelope(parameters, shape)
-    energy = arb("inf") if solution.dissipated_energy is None else solution.dissipated_energy
     near = "r = s, where jumps into contact end" if solution.margin_jumps < NEAR else ""
     return {
         "pull_off_force": Expected(solution.pull_off_force, _share(FORCE, solution.pull_off_force)),
         "pull_off_radius": Expected(solution.pull_off_radius, _share(RADIUS, solution.pull_off_radius)),
-        "dissipated_energy": Expected(energy, WALKED * solution.energy_size if energy.is_finite() else 0.0),
+        "dissipated_energy": _energy(solution.dissipated_energy, solution.energy_size),
+        "loading_energy": _energy(solution.loading_energy, solution.energy_size),
+        "unloading_energy": _energy(solution.unloading_energy, solution.energy_size),
         "loading_jumps": Expected(arb(solution.loading_jumps), 0.0, near),
         "unloading_jumps": Expected(arb(solution.unloading_jumps), 0.0),
         "delta_max": _depth(solution.delta_max, solution.delta_max_size),
         "delta_jump_out": _depth(solution.delta_jump_out, solution.delta_jump_out_size),
     }
+
+
+def _energy(value: arb | None, size: float) -> Expected:
+    return Expected(arb("inf"), 0.0) if value is None else Expected(value, WALKED * size)
 
 
 def _depth(value: arb | None, size: float) -> Expected:

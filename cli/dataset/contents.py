@@ -40,7 +40,7 @@ class _OfMap:
 
     def described(self, study: Study, name: str) -> Variable:
         attributes = {"units": "1", "ancillary_variables": "status", "long_name": names.OUTPUTS[name]}
-        if name == "dissipated_energy" and study.loading.control == "load":
+        if name in ("dissipated_energy", "unloading_energy") and study.loading.control == "load":
             attributes["long_name"] = names.OUTPUTS[name].replace(",", " without its jump-out, which has no bound,")
         if name.endswith("_jumps"):
             return Variable(dimensions=tuple(study.sizes), dtype="i4", attributes=attributes)

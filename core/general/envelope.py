@@ -32,6 +32,15 @@ _FORCE: Final = 8.0 / 3.0
 """4 pi over the 3 pi/2 of the unit of force."""
 
 
+def _square(k: _Array, stretch: _Array, wavelength: _Array, amplitude: _Array, profile: Profile) -> _Array:
+    """Return the mean square of the waves over s."""
+    total = np.zeros(k.shape)
+    for n, even, odd in rows_of(profile).tolist():
+        total += 0.5 * n ** (1.0 - k) * (even * even + odd * odd)
+    square: _Array = total * (waviness_strength(k, wavelength, amplitude) / stretch) ** 2
+    return square
+
+
 def chis(k: _Array, stretch: _Array, wavelength: _Array, amplitude: _Array, profile: Profile) -> tuple[_Array, _Array]:
     """Return chi_+ and chi_-, by which loading and unloading are off the mean of the waves, over s."""
     rows = tuple((float(n), float(even), float(odd)) for n, even, odd in rows_of(profile))
@@ -48,8 +57,13 @@ def _depth(k: _Array, m: float, pull: _Array, z: _Array) -> _Array:
     return depth
 
 
-def _cycle(k: _Array, m: float, up: _Array, down: _Array, rim: _Array) -> tuple[_Array, _Array, _Array, _Array]:
-    """Return the loss of a cycle over 2 pi l^2 dgamma, z_2, z_4, and the last depth."""
+def _cycle(
+    k: _Array, m: float, up: _Array, down: _Array, wave: _Array, rim: _Array
+) -> tuple[_Array, _Array, _Array, _Array, _Array]:
+    """Return what loading and unloading lose over 2 pi l^2 dgamma, z_2, z_4, and the last depth.
+
+    `wave` is the mean square of the waves over s, which is a part of both and cancels in their sum.
+    """
     c = 0.5 * (1.0 - k)
     power = m - c
     loading, unloading = 1.0 - up, 1.0 + down
@@ -57,12 +71,14 @@ def _cycle(k: _Array, m: float, up: _Array, down: _Array, rim: _Array) -> tuple[
     z_out = np.minimum(rim, (c / m * unloading) ** (1.0 / power))
     last = _depth(k, m, unloading, z_out)
     square = 2.0 * power + 2.0
-    loss = 0.5 * (loading * z_in) ** 2 - z_in**square / square
-    loss += z_out**square / square - 2.0 * last * z_out ** (m + 1.0 + k) / (m + 1.0 + k)
-    loss += last**2 * z_out ** (1.0 + k) / (1.0 + k) - 0.5 * (unloading * z_out) ** 2
-    swing = up + down
-    rest = 0.5 * swing * (2.0 + down - up)
-    return loss + rest * np.where(rest != 0.0, rim, 0.0) ** 2, z_in, z_out, last
+    loaded = 0.5 * (loading * z_in) ** 2 - z_in**square / square
+    unloaded = z_out**square / square - 2.0 * last * z_out ** (m + 1.0 + k) / (m + 1.0 + k)
+    unloaded += last**2 * z_out ** (1.0 + k) / (1.0 + k) - 0.5 * (unloading * z_out) ** 2
+    to_rim = np.where((up + down != 0.0) & (rim < np.inf), rim, 0.0) ** 2
+    endless = np.where((up + down != 0.0) & (rim == np.inf), np.inf, 0.0)
+    loaded += 0.5 * (up * (2.0 - up) - wave) * to_rim + endless
+    unloaded += 0.5 * (down * (2.0 + down) + wave) * to_rim + endless
+    return loaded, unloaded, z_in, z_out, last
 
 
 def solve_envelope(
@@ -88,16 +104,20 @@ def solve_envelope(
         unit = stretch * length**c
         pull = np.minimum(reach, (0.5 * (3.0 + k) / m * (1.0 + down)) ** (1.0 / (m - c)))
         load = pull ** (0.5 * (3.0 + k)) * (1.0 + down - m / (1.0 + k + m) * pull ** (m - c))
-        loss, z_in, z_out, last = _cycle(k, m, up, down, reach)
+        wave = _square(k, stretch, wavelength, amplitude, profile)
+        loaded, unloaded, z_in, z_out, last = _cycle(k, m, up, down, wave, reach)
+        area = 2.0 * math.pi * length**2
         deepest = np.where(np.isinf(rim), np.inf, np.maximum(0.0, mean + unit * _depth(k, m, 1.0 - up, reach)))
         values = (
             _FORCE / (front * (1.0 + k)) * length ** (2.0 - m) * load,
             np.where(pull < reach, pull * length, rim),
-            2.0 * math.pi * length**2 * loss,
+            area * (loaded + unloaded),
             np.where(valid, (z_in > 0.0) * 1.0, np.nan),
             np.where(valid, (z_out > 0.0) * 1.0, np.nan),
             np.where(valid, deepest, np.nan),
             mean + unit * last,
+            area * loaded,
+            area * unloaded,
         )
     found: dict[str, NDArray[Any]] = {}
     for name in outputs:

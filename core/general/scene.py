@@ -22,12 +22,15 @@ from gradhesion.core.results import (
     ENERGY,
     FORCE,
     LAST,
+    LOADED,
     LOADING,
     RADIUS,
+    UNLOADED,
     UNLOADING,
     put,
     wants_folds,
     wants_force,
+    wants_losses,
 )
 from gradhesion.core.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.struve.circle import TWO_PI
@@ -73,7 +76,7 @@ def curve_of(
 @kernel()
 def _refuse(slots: Any, out: Any, status: Any, i: int) -> None:
     """Give a scene out of range no value."""
-    for row in range(LAST + 1):
+    for row in range(CONTACT):
         put(out, slots, row, i, math.nan)
     status[i] = NO_VALUE
 
@@ -96,7 +99,7 @@ def _cycle(
     _, _, _, alpha, _ = curve
     first = first_fold_bound(basis, curve) / TWO_PI
     last = min(rim, last_fold_bound(basis, curve) / TWO_PI)
-    tasks = (slots[ENERGY] >= 0, alpha > 0.0, slots[CONTACT] >= 0)
+    tasks = (wants_losses(slots), alpha > 0.0, slots[CONTACT] >= 0)
     nothing = (0.0, 0.0, 0.0, 0.0, 0.0, NO)
     done, loading, unloading, close, one_disc, waves, x = False, nothing, nothing, False, True, 0.0, rim
     if series.shape[0] > 0 and LONGEST_WALK < last - first < math.inf:
@@ -116,7 +119,10 @@ def _cycle(
         status[i] |= JUMP_IN_TO_RIM
     if not one_disc:
         status[i] |= LOADING_NOT_ONE_DISC
-    put(out, slots, ENERGY, i, TWO_PI * length * length * (loading[0] + unloading[0]))
+    scale = TWO_PI * length * length
+    put(out, slots, ENERGY, i, scale * (loading[0] + unloading[0]))
+    put(out, slots, LOADED, i, scale * loading[0])
+    put(out, slots, UNLOADED, i, scale * unloading[0])
     put(out, slots, LOADING, i, loading[1])
     put(out, slots, UNLOADING, i, unloading[1])
     if slots[LAST] >= 0:

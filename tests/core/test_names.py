@@ -41,6 +41,7 @@ def test_the_order_is_that_of_the_rows() -> None:
     assert [OUTPUTS.index(name) for name in PULL_OFF] == [results.FORCE, results.RADIUS]
     assert OUTPUTS.index("dissipated_energy") == results.ENERGY
     assert OUTPUTS.index("delta_jump_out") == results.LAST
+    assert OUTPUTS.index("unloading_energy") == results.UNLOADED
     assert REPORTS.index("energy_gain") == report.ENERGY_GAIN
     assert tuple(solvers.LOOPS) == SOLVERS
     assert "jump_energy" in CURVES["jumps"]

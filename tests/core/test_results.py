@@ -8,7 +8,7 @@ import pytest
 
 from gradhesion.core import results
 from gradhesion.core.names import OUTPUTS
-from gradhesion.core.results import INTEGERS, put, put_all, wants_cycle, wants_folds, wants_force
+from gradhesion.core.results import INTEGERS, put, put_all, wants_cycle, wants_folds, wants_force, wants_losses
 
 ROWS = {
     "pull_off_force": results.FORCE,
@@ -18,6 +18,8 @@ ROWS = {
     "unloading_jumps": results.UNLOADING,
     "delta_max": results.DEEPEST,
     "delta_jump_out": results.LAST,
+    "loading_energy": results.LOADED,
+    "unloading_energy": results.UNLOADED,
 }
 
 
@@ -37,7 +39,7 @@ def test_only_what_was_asked_for_is_stored_and_where_it_was_asked(plain: bool) -
     one, every = (put.py_func, put_all.py_func) if plain else (put, put_all)
     slots = slots_of("delta_max", "pull_off_force")
     single, together = np.full((2, 3), math.nan), np.full((2, 3), math.nan)
-    values = (1.7, 2.9, 3.1, 4.0, 5.0, 6.3, 7.7)
+    values = (1.7, 2.9, 3.1, 4.0, 5.0, 6.3, 7.7, 8.1, 9.3)
     for row, value in enumerate(values):
         one(single, slots, row, 1, value)
     every(together, slots, 1, values)
@@ -51,6 +53,8 @@ def test_what_is_needed_follows_from_what_is_asked() -> None:
         names = {name for name, wanted in zip(OUTPUTS, chosen, strict=True) if wanted}
         slots = slots_of(*sorted(names))
         assert wants_force(slots) == bool(names & {"pull_off_force", "pull_off_radius"})
-        jumps = names & {"dissipated_energy", "loading_jumps", "unloading_jumps", "delta_jump_out"}
+        losses = names & {"dissipated_energy", "loading_energy", "unloading_energy"}
+        assert wants_losses(slots) == bool(losses)
+        jumps = losses | names & {"loading_jumps", "unloading_jumps", "delta_jump_out"}
         assert wants_cycle(slots) == bool(jumps)
         assert wants_folds(slots) == bool(jumps or "delta_max" in names)
