@@ -78,8 +78,8 @@ def solve(
         exact solver also those of `REPORTS`: pull_off_force_error and dissipated_energy_error, estimates in the unit of
         the value (of rounding, and of the sum over waves); energy_residual, the energy less the loop integral of the
         load, whose own rounding is that of the load (NaN beyond 2,000 waves); roughness_parameter chi = r/s;
-        saturation_radius in R, beyond which there is no fold; adhesion_gain and energy_gain over the smooth punch of the
-        same material and rim.
+        saturation_radius in R, beyond which there is no fold; adhesion_gain and energy_gain over the smooth punch of
+        the same material and rim.
     solver
         One of `SOLVERS`.
     check_contact
