@@ -5,6 +5,7 @@ import secrets
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from itertools import count
 from pathlib import Path
 
 from gradhesion.cli.amounts import bytes_in_words
@@ -31,7 +32,7 @@ def replacement(path: Path, *, overwrite: bool) -> Iterator[Path]:
     ------
     OutputError
         At once, if `path` exists and may not be replaced or its folder cannot be written; later, if it cannot be
-        finished.
+        finished, or if a file has appeared there meanwhile: then the new one is kept beside it.
     """
     target = Path(os.path.realpath(path))
     refuse_existing(path, target, overwrite=overwrite)
@@ -44,9 +45,10 @@ def replacement(path: Path, *, overwrite: bool) -> Iterator[Path]:
         yield temporary
         with writing(path):
             to_disk(temporary)
-            temporary.replace(target)
+            place = settled(temporary, target, overwrite=overwrite)
         with suppress(OSError):  # some file systems cannot sync a folder
             to_disk(target.parent)
+        refuse_beside(path, place, target)
     finally:
         with suppress(OSError):
             temporary.unlink(missing_ok=True)
@@ -60,6 +62,65 @@ def refuse_existing(path: Path, target: Path, *, overwrite: bool) -> None:
         raise OutputError(f"{path}: is not a file, so it cannot be replaced; name another output with -o")
     if exists and not overwrite:
         raise OutputError(f"{path}: exists already; add --overwrite to replace it, or name another output with -o")
+
+
+def settled(temporary: Path, target: Path, *, overwrite: bool) -> Path:
+    """
+    Give a finished file its name, or one beside it if something stands there that may not be replaced.
+
+    Nothing is replaced without `overwrite`, whenever it appears: the system itself refuses a name that is taken.
+
+    Raises
+    ------
+    OSError
+        It cannot be renamed.
+    """
+    try:
+        if overwrite:
+            temporary.replace(target)
+        else:
+            _rename_anew(temporary, target)
+    except (FileExistsError, IsADirectoryError):
+        for number in count(2):
+            beside = target.with_name(f"{target.stem}-{number}{target.suffix}")
+            with suppress(FileExistsError):
+                _rename_anew(temporary, beside)
+                return beside
+    return target
+
+
+def refuse_beside(path: Path, place: Path, target: Path) -> None:
+    """
+    Say where a finished file is that could not have its name.
+
+    Raises
+    ------
+    OutputError
+        It has another.
+    """
+    if place != target:
+        name = place if path.is_symlink() else path.with_name(place.name)
+        raise OutputError(
+            f"{path}: has appeared there meanwhile, and is untouched; what was to take its place is complete, and kept "
+            f"as {name}; move it where it belongs"
+        )
+
+
+def _rename_anew(source: Path, target: Path) -> None:
+    """Rename a file to a name that nothing has; FileExistsError if something has it."""
+    try:
+        target.hardlink_to(source)
+    except FileExistsError:
+        raise
+    except OSError:  # a file system without links: the name is taken by an empty file first
+        os.close(os.open(target, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+        try:
+            source.replace(target)
+        except BaseException:
+            target.unlink()
+            raise
+    else:
+        source.unlink()
 
 
 def write_whole(path: Path, *pieces: bytes | memoryview, sync: bool = True) -> None:

@@ -13,7 +13,7 @@ import netCDF4
 from gradhesion.cli.amounts import bytes_in_words, counted
 from gradhesion.cli.dataset import dataset
 from gradhesion.cli.dataset.contents import CONTENTS
-from gradhesion.cli.disk import refuse_existing, to_disk, writing
+from gradhesion.cli.disk import refuse_beside, refuse_existing, settled, to_disk, writing
 from gradhesion.cli.engines import Engine, Work
 from gradhesion.cli.engines.threads import Threads
 from gradhesion.cli.errors import OutputError, ScenesFailedError
@@ -86,7 +86,8 @@ def write(
     GradhesionError
         The engine gives up: a worker cannot do its work, or a block is no part and is not to be solved.
     OutputError
-        It cannot be written: it exists, another run is at work on it, parts of another study are kept, the disk.
+        It cannot be written: it exists, another run is at work on it, parts of another study are kept, the disk; or it
+        has appeared meanwhile, and the dataset is kept beside it.
     ScenesFailedError
         No block could be solved, or one has failed and `fail_fast`.
     """
@@ -112,11 +113,12 @@ def write(
             if not written.raised:
                 finished = {"file": identity(folder.merged), "study": manifest_of(study), "failed": written.failed}
                 write_json(folder.finished, finished)
-            folder.merged.replace(target)
+            place = settled(folder.merged, target, overwrite=overwrite)
         with suppress(OSError):  # some file systems cannot sync a folder
             to_disk(target.parent)
         if not written.raised:
             folder.clear("*.part")
+        refuse_beside(path, place, target)
     return written
 
 

@@ -42,6 +42,11 @@ def interrupted_at(step: int) -> Iterator[Callable[[], int]]:
         sys.settrace(before)
 
 
+def without_links(_self: Path, _target: Path) -> None:
+    """Refuse a link, as FAT does."""
+    raise PermissionError(1, "Operation not permitted")
+
+
 def test_an_interrupt_at_any_line_leaves_the_old_file_or_the_new_one_and_nothing_else(tmp_path: Path) -> None:
     target = tmp_path / "out.nc"
     found = []
@@ -80,3 +85,71 @@ def test_a_failure_leaves_nothing_behind(tmp_path: Path) -> None:
     (tmp_path / "out.nc").touch()
     with pytest.raises(OutputError, match="exists already"), replacement(tmp_path / "out.nc", overwrite=False):
         pytest.fail("the body does not run")
+
+
+def test_an_interrupt_at_any_line_leaves_no_file_or_the_new_one_where_there_was_none(tmp_path: Path) -> None:
+    target = tmp_path / "out.nc"
+    found = []
+    for step in range(1000):
+        try:
+            with interrupted_at(step) as lines, replacement(target, overwrite=False) as temporary:
+                temporary.write_text("new")
+        except KeyboardInterrupt:
+            pass
+        found.append(os.listdir(tmp_path))
+        assert not target.exists() or target.read_text() == "new"
+        if lines() <= step:
+            break
+        target.unlink(missing_ok=True)
+    assert step > 20
+    assert found == sorted(found), "nothing first, then the file"
+    assert found[-1] == ["out.nc"]
+
+
+def make(target: Path, meanwhile: Callable[[], object], *, overwrite: bool) -> None:
+    """Make a file; something else happens before it is complete."""
+    with replacement(target, overwrite=overwrite) as temporary:
+        temporary.write_text("new")
+        meanwhile()
+
+
+@pytest.mark.parametrize("links", [True, False])
+def test_a_file_that_appears_meanwhile_stays_and_the_new_one_is_kept_beside_it(
+    links: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if not links:
+        monkeypatch.setattr(Path, "hardlink_to", without_links)
+    target = tmp_path / "out.nc"
+    for name in ("out-2.nc", "out-3.nc"):
+        with pytest.raises(OutputError) as caught:
+            make(target, lambda: target.write_text("precious"), overwrite=False)
+        assert str(caught.value).startswith(f"{target}: has appeared there meanwhile, and is untouched; ")
+        assert f"kept as {tmp_path / name}; " in str(caught.value)
+        assert target.read_text() == "precious"
+        assert (tmp_path / name).read_text() == "new"
+        target.unlink()
+    assert sorted(os.listdir(tmp_path)) == ["out-2.nc", "out-3.nc"]
+    with replacement(target, overwrite=False) as temporary:
+        temporary.write_text("new")
+    assert target.read_text() == "new"
+    with replacement(target, overwrite=True) as temporary:
+        temporary.write_text("newer")
+    assert target.read_text() == "newer"
+
+
+def test_a_folder_that_appears_meanwhile_stays_too(tmp_path: Path) -> None:
+    target = tmp_path / "out.nc"
+    with pytest.raises(OutputError, match=r"kept as .*out-2\.nc"):
+        make(target, target.mkdir, overwrite=True)
+    assert (tmp_path / "out-2.nc").read_text() == "new"
+
+
+def test_a_failure_to_rename_takes_no_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(_self: Path, _target: Path) -> None:
+        raise OSError(5, "Input/output error")
+
+    monkeypatch.setattr(Path, "hardlink_to", without_links)
+    monkeypatch.setattr(Path, "replace", fail)
+    with pytest.raises(OutputError, match="Input/output error"), replacement(tmp_path / "out.nc", overwrite=False):
+        pass
+    assert os.listdir(tmp_path) == []

@@ -360,6 +360,28 @@ def test_a_run_killed_after_the_last_rename_is_complete(
     assert values_of(output) == values_of(whole)
 
 
+@pytest.mark.parametrize("cells", ["2", "100"])
+def test_a_file_that_appears_at_the_output_during_a_run_stays_and_the_dataset_is_kept_beside_it(
+    cells: str, gradhesion: Call, study_file: Path, output: Path, whole: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def beside(*arguments: Any, **options: Any) -> dict[str, Any]:
+        output.write_text("precious")
+        return real_solve(*arguments, **options)
+
+    monkeypatch.setenv("GRADHESION_CHUNK", cells)
+    with monkeypatch.context() as patch:
+        patch.setattr("gradhesion.cli.work.blocks.solve", beside)
+        result = gradhesion("run", study_file, "-o", output, "--quiet")
+    assert result.exit_code == 4
+    assert result.stderr == (
+        f"{output}: has appeared there meanwhile, and is untouched; what was to take its place is complete, and kept as "
+        f"{output.with_name('out-2.nc')}; move it where it belongs\n"
+    )
+    assert output.read_text() == "precious"
+    assert values_of(output.with_name("out-2.nc")) == values_of(whole)
+    assert sorted(os.listdir(output.parent)) == ["out-2.nc", "out.nc"]
+
+
 def test_what_is_not_ours_stays(begun: Callable[..., int], gradhesion: Call, study_file: Path, output: Path) -> None:
     begun(3)
     (folder_of(output).path / "notes.txt").write_text("mine")

@@ -1,8 +1,8 @@
 """Runs that are killed at a moment of their life, and gone on with: what is lost, what is left behind.
 
 Each run is a process of its own, forked from one that has the kernels in memory, so that a trial takes a tenth of a
-second and not two. It is killed by SIGKILL before or after its n-th change of a name in the folder (a rename, an
-unlink, a removal of a folder), or by SIGKILL or SIGTERM at a random moment. Then the same command is run to its end.
+second and not two. It is killed by SIGKILL before or after its n-th change of a name in the folder (a rename, a
+link, an unlink, a removal of a folder), or by SIGKILL or SIGTERM at a random moment. Then the same command is run to its end.
 
     python -m tests.faults.trials --random 100 --seed 7        (every change of a name, and 100 random moments)
 """
@@ -87,7 +87,7 @@ def kill_at(number: int, *, after: bool) -> None:
 
         return changed
 
-    for name in ("replace", "unlink", "rmdir", "mkdir"):
+    for name in ("replace", "hardlink_to", "unlink", "rmdir", "mkdir"):
         setattr(Path, name, wrap(getattr(Path, name)))
 
 
