@@ -7,7 +7,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from gradhesion.cli.commands.examples import example
-from gradhesion.cli.errors import OutputError
+from gradhesion.cli.disk import replacement, writing
 
 
 def studies() -> dict[str, str]:
@@ -42,11 +42,6 @@ def init(name: str, output: Path | None, overwrite: bool, listed: bool) -> None:
 
         raise click.UsageError(f'there is no study "{name}"; {did_you_mean(name, list(known))}')
     path = output or Path(f"{name}.toml")
-    try:
-        with path.open("w" if overwrite else "x", encoding="utf-8") as file:
-            file.write(known[name])
-    except FileExistsError:
-        raise OutputError(f"{path}: exists already; name another file by -o, or add --overwrite") from None
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written ({error.strerror}); name another file by -o") from None
+    with replacement(path, overwrite=overwrite) as temporary, writing(path):
+        temporary.write_text(known[name], encoding="utf-8")
     click.echo(f"{path}: written; gradhesion run {path}", err=True)

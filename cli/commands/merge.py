@@ -54,16 +54,23 @@ def merge(
 
 def _merge_shards(file: Path, start: float, *, overwrite: bool, quiet: bool) -> None:
     """Join the parts of shards."""
-    from gradhesion.cli.dataset.writer import write
+    from gradhesion.cli.dataset.writer import Written, write
     from gradhesion.cli.engines.kept import Kept
-    from gradhesion.cli.work.folder import folder_of
+    from gradhesion.cli.work.folder import claimed, folder_of
     from gradhesion.cli.work.manifest import study_in
 
     folder = folder_of(file)
+    if folder.manifest() is None and not folder.foreign() and file.is_file():
+        scenes, failed = _counted(file)
+        if folder.path.is_dir():  # empty: a killed merge had tidied up all else
+            with claimed(file):
+                pass
+        finish(file, scenes, Written(failed=failed, complete=True), 0.0, quiet=quiet)
+        return
     study = study_in(folder, file)
     count = len(study.tiling)
     missing = [number + 1 for number in range(count) if not folder.part(number).exists()]
-    if missing and not folder.finished.exists():
+    if missing and not folder.has_made(file):
         shown = ", ".join(map(str, missing[:8])) + (", ..." if len(missing) > 8 else "")
         raise DatasetError(
             f"{file}: {len(missing):,} of {counted(count, 'block')} are missing ({shown}); run the shards that have "
@@ -72,6 +79,16 @@ def _merge_shards(file: Path, start: float, *, overwrite: bool, quiet: bool) -> 
     with progress(study.scenes, quiet=quiet) as advance:
         written = write(study, file, history=history_now(), overwrite=overwrite, engine=Kept(), advance=advance)
     finish(file, study.scenes, written, time.monotonic() - start, quiet=quiet)
+
+
+def _counted(file: Path) -> tuple[int, int]:
+    """Count the scenes of a dataset, and those that have failed."""
+    from gradhesion.cli.dataset.reader import opened, tiling_of
+    from gradhesion.core.status import FAILED
+
+    with opened(file) as dataset:
+        status = dataset["status"]
+        return status.size, sum(int((status[block].values & FAILED != 0).sum()) for block in tiling_of(status))
 
 
 def _merge_datasets(

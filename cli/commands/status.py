@@ -1,10 +1,11 @@
 """`gradhesion status`: how far a run is, from another shell."""
 
 import json
+import os
 import time
-from dataclasses import fields
+from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -12,6 +13,9 @@ from gradhesion.cli.amounts import bytes_in_words, counted
 from gradhesion.cli.commands.examples import example
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.progress import rate
+
+if TYPE_CHECKING:
+    from gradhesion.cli.work.records import State
 
 
 @click.command(epilog=example("status outputs/study.nc"))
@@ -46,37 +50,35 @@ def status_of(file: Path) -> dict[str, Any]:
     DatasetError
         Neither a dataset nor a run is there.
     """
-    from gradhesion.cli.work.folder import folder_of, read_json
+    from gradhesion.cli.work.folder import folder_of
+    from gradhesion.cli.work.records import State, read_record
 
     folder = folder_of(file)
-    if not folder.path.is_dir():
-        if not file.is_file():
+    study = folder.manifest()
+    running = not folder.foreign() and folder.busy()
+    if not running and (study is None or folder.has_made(file)):
+        if not os.path.isfile(file):  # noqa: PTH113 (never an error, whatever the name)
             raise DatasetError(f"{file}: neither a dataset nor parts of one are there; name the output of a run")
         found = file.stat()
         return {"output": str(file), "state": "complete", "bytes": found.st_size, "written": found.st_mtime}
-    study = read_json(folder.study)
-    states = [(path, read_json(path)) for path in folder.states()]
-    runs = [run | {"shard": path.stem[6:]} for path, state in states if (run := _run(state))]
+    states = [(path, read_record(path, State)) for path in folder.states()]
+    runs = [_run(state) | {"shard": path.stem[6:]} for path, state in states if state]
     return {
         "output": str(file),
-        "state": "running" if folder.busy() else "stopped",
-        "blocks": study.get("blocks", 0) if isinstance(study, dict) else 0,
-        "scenes": study.get("scenes", 0) if isinstance(study, dict) else 0,
+        "state": "running" if running else "stopped",
+        "blocks": study.blocks if study else 0,
+        "scenes": study.scenes if study else 0,
         "parts": len(folder.parts()),
         "runs": runs,
     }
 
 
-def _run(state: Any) -> dict[str, Any]:
-    """Add the rate and the time left to the state of a run; of what is none, there is none."""
-    from gradhesion.cli.work.state import State
-
-    if not isinstance(state, dict) or not {field.name for field in fields(State)} <= state.keys():
-        return {}
-    seconds = state["updated"] - state["started"]
-    solved = state["scenes_done"] - state["scenes_reused"]
-    left = (state["scenes"] - state["scenes_done"]) * seconds / solved if solved else None
-    return {**state, "rate": solved / seconds if seconds > 0 else 0.0, "seconds_left": left}
+def _run(state: "State") -> dict[str, Any]:
+    """Add the rate and the time left to the state of a run."""
+    seconds = state.updated - state.started
+    solved = state.scenes_done - state.scenes_reused
+    left = (state.scenes - state.scenes_done) * seconds / solved if solved else None
+    return {**asdict(state), "rate": solved / seconds if seconds > 0 else 0.0, "seconds_left": left}
 
 
 def _words(run: dict[str, Any], *, running: bool) -> str:

@@ -22,9 +22,10 @@ from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Tiling, size_of
 from gradhesion.cli.work.curves import within
-from gradhesion.cli.work.folder import Folder, claimed, folder_of, identity, read_json, write_json
+from gradhesion.cli.work.folder import Folder, claimed, folder_of, identity
 from gradhesion.cli.work.manifest import adopt, manifest_of
 from gradhesion.cli.work.parts import types_of
+from gradhesion.cli.work.records import Finished, read_record, write_record
 from gradhesion.cli.work.resume import Solved, place_of
 from gradhesion.cli.work.state import Keeper
 
@@ -104,20 +105,20 @@ def write(
         with writing(path):
             if fresh:
                 folder.clear()
+                folder.finished.unlink(missing_ok=True)
             adopt(study, folder, path)
         _check_space(study, path, folder)
         solved = stack.enter_context(closing(_solved(study, path, folder, threads, engine or Threads(threads))))
         written = _merge(study, path, folder, history, solved, advance, fail_fast=fail_fast)
         with writing(path):
             to_disk(folder.merged)
-            if not written.raised:
-                finished = {"file": identity(folder.merged), "study": manifest_of(study), "failed": written.failed}
-                write_json(folder.finished, finished)
+            if not written.raised and (made := identity(folder.merged)):
+                write_record(folder.finished, Finished(made, manifest_of(study), written.failed))
             place = settled(folder.merged, target, overwrite=overwrite)
         with suppress(OSError):  # some file systems cannot sync a folder
             to_disk(target.parent)
         if not written.raised:
-            folder.clear("*.part")
+            folder.clear_parts()
         refuse_beside(path, place, target)
     return written
 
@@ -236,15 +237,17 @@ def _solved(
 
 def _finished(folder: Folder, target: Path, study: Study) -> Written | None:
     """Tell whether the run that left this folder had written the output, and tidy up if so."""
-    finished = read_json(folder.finished)
-    if not isinstance(finished, dict):
+    finished = read_record(folder.finished, Finished)
+    if finished is None:
         return None
-    if finished.get("file") != identity(target):
-        folder.clear("finished.json")
+    if finished.file != identity(target):
+        folder.finished.unlink(missing_ok=True)
         return None
     folder.clear()
-    same = finished.get("study") == manifest_of(study)
-    return Written(failed=int(finished.get("failed", 0)), complete=True) if same else None
+    if finished.study == manifest_of(study):
+        return Written(failed=finished.failed, complete=True)
+    folder.finished.unlink(missing_ok=True)  # or it would say of the parts to come that they are of no use
+    return None
 
 
 def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
@@ -289,7 +292,7 @@ def _check_space(study: Study, path: Path, folder: Folder) -> None:
     least = study.scenes * LEAST_SHARE * sum(8 for output in study.variables if not output.endswith("_jumps"))
     if study.has_parts:
         least += study.scenes * sum(kind.itemsize for kind in types_of(study).values())
-        least -= sum(part.stat().st_size for part in folder.parts())
+        least -= folder.bytes_of_parts()
     free = shutil.disk_usage(folder.path).free
     if least > free:
         raise OutputError(

@@ -9,7 +9,7 @@ from typing import Final
 
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import size_of
-from gradhesion.cli.work.folder import Folder, folder_of, read_json
+from gradhesion.cli.work.folder import Folder, folder_of
 from gradhesion.cli.work.manifest import differences_of, manifest_of
 from gradhesion.cli.work.parts import bytes_of, key_of
 from gradhesion.cli.work.probe import probe
@@ -65,11 +65,13 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
     is_map = study.kind == "map"
     count = len(study.tiling) if is_map else study.scenes
     of_block = bytes_of(study, study.tiling[0]) if is_map else 0
-    old = read_json(folder.study)
+    foreign, old = folder.foreign(), folder.manifest()
     parts = study.has_parts
-    differences = differences_of(old, manifest_of(study)) if isinstance(old, dict) and folder.parts() else []
+    differences = differences_of(old, manifest_of(study)) if old and folder.parts() else []
+    if foreign:
+        differences = [f"{output}.parts {foreign}"]
     reused, reasons = _reused(study, folder, count) if parts and not differences else (set[int](), Counter[str]())
-    if differences:
+    if differences and not foreign:
         reasons["of another study"] = len(folder.parts())
     if count - len(reused) - reasons.total():
         reasons["not computed yet"] += count - len(reused) - reasons.total()
@@ -89,7 +91,7 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
     return Estimate(
         output=str(output),
         output_exists=output.exists(),
-        running=folder.busy(),
+        running=not foreign and folder.busy(),
         kind=study.kind,
         scenes=study.scenes,
         sizes=study.sizes,
@@ -115,7 +117,7 @@ def _reused(study: Study, folder: Folder, count: int) -> tuple[set[int], Counter
     reused = set()
     reasons: Counter[str] = Counter()
     for path in folder.parts():
-        if not path.stem.isdigit() or int(path.stem) >= count:
+        if int(path.stem) >= count:
             continue
         block = study.tiling[int(path.stem)]
         values = found(study, folder, int(path.stem), block, key_of(study, block))

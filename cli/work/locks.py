@@ -21,10 +21,11 @@ def try_lock(path: Path, *, create: bool = True) -> int | None:
     FileNotFoundError
         Its folder is not there, or it is not and shall not be made.
     OSError
-        It cannot be opened.
+        It cannot be opened, or is a link, which could lead to a file of somebody else.
     """
+    flags = os.O_RDWR | getattr(os, "O_NOFOLLOW", 0) | (os.O_CREAT if create else 0)  # Windows has no such flag
     while True:
-        handle = os.open(path, os.O_RDWR | (os.O_CREAT if create else 0), 0o666)
+        handle = os.open(path, flags, 0o666)
         try:
             taken = lock_descriptor(handle, blocking=False)
         except OSError:  # a file system without locks

@@ -3,33 +3,38 @@
 import hashlib
 import json
 import tomllib
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from gradhesion.cli.errors import DatasetError, OutputError, StudyError
+from gradhesion.cli.errors import DatasetError, OutputError
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.study import Study, study_from
-from gradhesion.cli.work.folder import Folder, read_json, write_json
+from gradhesion.cli.work.folder import Folder
 from gradhesion.cli.work.parts import settings_of, versions
+from gradhesion.cli.work.records import Manifest, write_record
 
 
-def manifest_of(study: Study) -> dict[str, Any]:
+def manifest_of(study: Study) -> Manifest:
     """Write down what a study is, what its values depend on first."""
-    parameters = {name: [_words(values), _digest(values)] for name, values in study.parameters.items()}
-    content = {
-        "versions": versions(),
-        "settings": settings_of(study),
-        "parameters": parameters,
-        "blocks": len(study.tiling),
-        "chunk": study.chunk,
-        "scenes": study.scenes,
-        "title": study.title,
-        "name": study.name,
-        "text": study.text,
-    }
+    return Manifest(
+        versions=_plain(versions()),
+        settings=_plain(settings_of(study)),
+        parameters={name: (_words(values), _digest(values)) for name, values in study.parameters.items()},
+        blocks=len(study.tiling),
+        scenes=study.scenes,
+        title=study.title,
+        name=study.name,
+        text=study.text,
+        chunk=study.chunk,
+    )
+
+
+def _plain(content: dict[str, Any]) -> dict[str, Any]:
+    """Give a dictionary as it is read from a file again."""
     plain: dict[str, Any] = json.loads(json.dumps(content, default=str))
     return plain
 
@@ -43,18 +48,18 @@ def adopt(study: Study, folder: Folder, output: Path) -> None:
     OutputError
         It has parts of another study.
     """
-    new, old = manifest_of(study), read_json(folder.study)
-    if old == new:
+    new, old = manifest_of(study), folder.manifest()
+    if old == new and folder.study.exists():
         return
     parts = len(folder.parts())
-    if parts and isinstance(old, dict):
+    if parts and old:
         differences = differences_of(old, new)
         if differences:
             raise OutputError(
                 f"{output}: {parts:,} finished parts of another study are kept in {output}.parts: "
                 f"{'; '.join(differences)}; add --fresh to drop them, or name another output with -o"
             )
-    write_json(folder.study, new)
+    write_record(folder.study, new)
 
 
 def study_in(folder: Folder, output: Path) -> Study:
@@ -66,21 +71,21 @@ def study_in(folder: Folder, output: Path) -> Study:
     DatasetError
         There is none, or none of this version.
     """
-    content = read_json(folder.study)
-    try:
-        study = study_from(tomllib.loads(content["text"]), content["name"])
-    except (TypeError, KeyError, ValueError, RecursionError, StudyError):
-        raise DatasetError(
-            f"{output}: no study with parts is in {output}.parts; compute them first, with `gradhesion run --shard`"
-        ) from None
-    return replace(study, text=content["text"], title=content["title"], chunk=int(content.get("chunk", study.chunk)))
+    manifest = folder.manifest()
+    with suppress(ValueError, RecursionError):  # of which a StudyError is one
+        if manifest:
+            study = study_from(tomllib.loads(manifest.text), manifest.name)
+            return replace(study, text=manifest.text, title=manifest.title, chunk=manifest.chunk)
+    raise DatasetError(
+        f"{output}: no study with parts is in {output}.parts; compute them first, with `gradhesion run --shard`"
+    )
 
 
-def differences_of(old: dict[str, Any], new: dict[str, Any]) -> list[str]:
+def differences_of(old: Manifest, new: Manifest) -> list[str]:
     """Say how another study differs in what values depend on."""
     found = []
     for table in ("versions", "settings", "parameters"):
-        one, other = ({**content.get(table, {})} for content in (old, new))
+        one, other = (dict[str, Any](getattr(content, table)) for content in (old, new))
         for name in [*other, *(name for name in one if name not in other)]:
             if one.get(name) == other.get(name):
                 continue

@@ -4,32 +4,13 @@ import os
 import platform
 import time
 from contextlib import suppress
-from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Final
 
-from gradhesion.cli.work.folder import write_json
+from gradhesion.cli.work.records import State, write_record
 
 PERIOD: Final = 1.0
 """Seconds between two states."""
-
-
-@dataclass
-class State:
-    """How far a run is; times are seconds since 1970."""
-
-    scenes: int
-    blocks: int
-    started: float
-    updated: float = 0.0
-    pid: int = 0
-    host: str = ""
-    blocks_done: int = 0
-    blocks_reused: int = 0
-    scenes_done: int = 0
-    scenes_reused: int = 0
-    scenes_failed: int = 0
-    blocks_raised: int = 0
 
 
 class Keeper:
@@ -58,4 +39,4 @@ class Keeper:
         self.state.updated = time.time()
         self._last = time.monotonic()
         with suppress(OSError):
-            write_json(self._path, asdict(self.state), sync=False)
+            write_record(self._path, self.state, sync=False)

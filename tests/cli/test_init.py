@@ -1,7 +1,9 @@
 """Studies to start from: each is written, valid, and commented; and the shell completes what is typed."""
 
 import os
+import resource
 import shutil
+import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -55,17 +57,37 @@ def test_an_existing_file_stays(gradhesion: Call, tmp_path: Path) -> None:
     result = gradhesion("init", "-o", path)
     assert (result.exit_code, result.stderr) == (
         4,
-        f"{path}: exists already; name another file by -o, or add --overwrite\n",
+        f"{path}: exists already; add --overwrite to replace it, or name another output with -o\n",
     )
     assert path.read_text() == "precious"
     assert gradhesion("init", "-o", path, "--overwrite").exit_code == 0
     assert path.read_text(encoding="utf-8") == studies()["map"]
 
 
-def test_a_folder_that_is_not_there(gradhesion: Call, tmp_path: Path) -> None:
-    result = gradhesion("init", "-o", tmp_path / "none" / "a.toml")
-    assert result.exit_code == 4
-    assert "cannot be written (No such file or directory); name another file by -o" in result.stderr
+def test_a_folder_that_is_not_there_is_made(gradhesion: Call, tmp_path: Path) -> None:
+    assert gradhesion("init", "-o", tmp_path / "new" / "a.toml").exit_code == 0
+    assert (tmp_path / "new" / "a.toml").read_text(encoding="utf-8") == studies()["map"]
+
+
+@pytest.mark.parametrize("old", [None, "precious"])
+def test_a_full_disk_leaves_what_was_there_and_the_same_command_works_later(
+    old: str | None, gradhesion: Call, tmp_path: Path
+) -> None:
+    path = tmp_path / "mine.toml"
+    if old:
+        path.write_text(old)
+
+    def full_disk() -> None:
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
+
+    command = [sys.executable, "-m", "gradhesion.cli", "init", "-o", path, "--overwrite"]
+    done = subprocess.run(command, preexec_fn=full_disk, capture_output=True, text=True, check=False)
+    assert done.returncode == 4
+    assert done.stderr.startswith(f"{path}: cannot be written (File too large)")
+    assert os.listdir(tmp_path) == (["mine.toml"] if old else [])
+    assert not old or path.read_text() == old
+    assert gradhesion("init", "-o", path, *(["--overwrite"] if old else [])).exit_code == 0
 
 
 def test_an_unknown_name_has_a_suggestion(gradhesion: Call) -> None:

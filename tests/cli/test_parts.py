@@ -196,7 +196,6 @@ def test_a_part_in_the_place_of_another_is_computed_again(
     begun(5)
     folder = folder_of(output)
     folder.part(0).write_bytes(folder.part(1).read_bytes())
-    folder.study.unlink()
     assert gradhesion("run", study_file, "-o", output).exit_code == 0
     assert values_of(output) == values_of(whole)
 
@@ -349,7 +348,8 @@ def test_a_run_killed_after_the_last_rename_is_complete(
     gradhesion: Call, study_file: Path, output: Path, whole: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.work.folder.Folder.clear", lambda *_: None)
+        patch.setattr("gradhesion.cli.work.folder._remove", lambda *_: None)
+        patch.setattr("gradhesion.cli.work.folder._give_up", lambda _, lock: os.close(lock))
         assert gradhesion("run", study_file, "-o", output).exit_code == 0
     assert json.loads(folder_of(output).finished.read_bytes())["failed"] == 0
     monkeypatch.setattr("gradhesion.cli.work.blocks.solve", Power(0).solve)
@@ -380,13 +380,6 @@ def test_a_file_that_appears_at_the_output_during_a_run_stays_and_the_dataset_is
     assert output.read_text() == "precious"
     assert values_of(output.with_name("out-2.nc")) == values_of(whole)
     assert sorted(os.listdir(output.parent)) == ["out-2.nc", "out.nc"]
-
-
-def test_what_is_not_ours_stays(begun: Callable[..., int], gradhesion: Call, study_file: Path, output: Path) -> None:
-    begun(3)
-    (folder_of(output).path / "notes.txt").write_text("mine")
-    assert gradhesion("run", study_file, "-o", output).exit_code == 0
-    assert os.listdir(folder_of(output).path) == ["notes.txt"]
 
 
 def test_a_failure_to_write_is_a_sentence(tmp_path: Path) -> None:

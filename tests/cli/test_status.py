@@ -11,7 +11,9 @@ from typing import Any
 import pytest
 from click.testing import Result
 
-from gradhesion.cli.work.folder import claimed
+from gradhesion.cli.study.study import study_from
+from gradhesion.cli.work.folder import claimed, folder_of
+from gradhesion.cli.work.manifest import adopt
 from gradhesion.cli.work.state import Keeper
 from gradhesion.core import solve as real_solve
 
@@ -68,9 +70,10 @@ def test_under_way_stopped_and_complete(
     assert re.match(rf"{re.escape(str(output))}: complete, \d+\.\d kB, written 2", complete)
 
 
-def test_rate_and_time_left_leave_out_what_was_reused(gradhesion: Call, tmp_path: Path) -> None:
+def test_rate_and_time_left_leave_out_what_was_reused(gradhesion: Call, data: dict[str, Any], tmp_path: Path) -> None:
     output = tmp_path / "out.nc"
     with claimed(output) as folder:
+        adopt(study_from(data), folder, output)
         keeper = Keeper(folder.path / "state-2-of-3.json", scenes=1000, blocks=10)
         keeper.add(scenes=600, failed=3, reused=True, raised=False)
         keeper.add(scenes=100, failed=0, reused=False, raised=False)
@@ -81,12 +84,19 @@ def test_rate_and_time_left_leave_out_what_was_reused(gradhesion: Call, tmp_path
     assert "2 of 10 blocks done, 1 of them reused, 700 of 1,000 scenes (70%), 3 failed, 2 per s, 150 s left" in told
 
 
-def test_a_damaged_state_is_no_error(gradhesion: Call, tmp_path: Path) -> None:
-    folder = tmp_path / "out.nc.parts"
-    folder.mkdir()
-    (folder / "state.json").write_text("{")
-    (folder / "state-1-of-2.json").write_text('{"pid": 1}')
-    (folder / "study.json").write_text("[]")
-    result = gradhesion("status", tmp_path / "out.nc")
-    assert result.exit_code == 0
-    assert "stopped; 0 of ? blocks (? scenes) are kept" in result.stdout
+STATES = ["{", "[]", '{"pid": 1}', "null", '{"scenes": -1, "blocks": 1, "started": 1.0}', '{"scenes": 1e99, "blocks": [], "started": NaN}',
+          '{"scenes": 8, "blocks": 2, "started": "1"}', '{"scenes": 8, "blocks": 2, "started": 1.0, "host": 7}', "[" * 100_000,
+          '{"scenes": 8, "blocks": 2, "started": 1e300, "updated": 1e308}', '{"scenes": 8, "blocks": 2, "started": 1.0, "pid": 1' + "0" * 30 + "}"]  # fmt: skip
+
+
+@pytest.mark.parametrize("state", STATES)
+def test_a_damaged_state_is_no_error(state: str, gradhesion: Call, data: dict[str, Any], tmp_path: Path) -> None:
+    folder = folder_of(tmp_path / "out.nc")
+    folder.path.mkdir()
+    adopt(study_from(data).chunked(2), folder, tmp_path / "out.nc")
+    (folder.path / "state.json").write_text(state)
+    for options in ([], ["--json"]):
+        result = gradhesion("status", tmp_path / "out.nc", *options)
+        assert result.exit_code == 0
+    assert json.loads(result.stdout)["runs"] == []
+    assert "stopped; 0 of 6 blocks (24 scenes) are kept" in gradhesion("status", tmp_path / "out.nc").stdout

@@ -16,6 +16,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,7 @@ import netCDF4
 import numpy as np
 
 from gradhesion.cli import interrupts
+from gradhesion.cli.commands.status import status_of
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.main import main as gradhesion
 from gradhesion.cli.study.study import load_study
@@ -50,13 +52,18 @@ def values_of(path: Path) -> dict[str, bytes]:
 
 def run(study: Path, output: Path, *options: str, before: Callable[[], None] = lambda: None) -> int:
     """Start a run in a process of its own; `before` is called there first."""
+    return start("run", study, "-o", output, *options, folder=output.parent.parent, before=before)
+
+
+def start(*words: str | Path, folder: Path, before: Callable[[], None] = lambda: None) -> int:
+    """Start a command in a process of its own; `before` is called there first."""
     pid = os.fork()
     if pid:
         return pid
     try:
-        errors = os.open(output.parent.parent / "stderr", os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+        errors = os.open(folder / "stderr", os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
         os.dup2(errors, 2)
-        sys.argv = ["gradhesion", "run", str(study), "-o", str(output), "--quiet", *options]
+        sys.argv = ["gradhesion", *map(str, words), "--quiet"]
         before()
         gradhesion()
     except SystemExit as ended:
@@ -161,6 +168,26 @@ class Trials:
                     return number - 1
         raise AssertionError("it never ends")
 
+    def merges_at_every_change_of_a_name(self) -> int:
+        """Kill a merge before and after each change of a name, and give the same command again."""
+        for number in range(1, 1000):
+            for after in (False, True):
+                shutil.rmtree(self.folder)
+                self.folder.mkdir()
+                assert ended(run(self.study, self.output, "--shard", "1/1")) == 0
+                command = ("merge", self.output)
+                pid = start(*command, folder=self.folder.parent, before=partial(kill_at, number, after=after))
+                code = ended(pid)
+                if self.output.exists():
+                    assert status_of(self.output)["state"] == "complete"
+                assert ended(start(*command, folder=self.folder.parent)) == 0, self._told()
+                assert status_of(self.output)["state"] == "complete"
+                assert values_of(self.output) == self.whole
+                assert os.listdir(self.folder) == ["out.nc"], os.listdir(self.folder)
+                if code == 0:
+                    return number - 1
+        raise AssertionError("it never ends")
+
     def at_random(self, count: int, seed: int) -> None:
         """Kill runs at random moments of their life, by SIGKILL and SIGTERM in turn."""
         draw = random.Random(seed)
@@ -184,9 +211,10 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         trials = Trials(Path(folder))
         changes = trials.at_every_change_of_a_name()
+        merges = trials.merges_at_every_change_of_a_name()
         trials.at_random(asked.random, asked.seed)
     print(
-        f"killed before and after each of {changes} changes of a name, and at {asked.random} random moments (seed "
+        f"killed before and after each of {changes} changes of a name ({merges} of a merge), and at {asked.random} random moments (seed "
         f"{asked.seed}): {trials.interrupted} runs ended early, {trials.kept} parts kept in all; nothing lost, nothing "
         f"left behind, every resumed dataset the same bit by bit; {time.monotonic() - start:.0f} s"
     )

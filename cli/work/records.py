@@ -1,0 +1,77 @@
+"""The small files of a run's folder, whose fields have types: one that is not whole, or not of ours, reads as None."""
+
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, TypeVar
+
+from pydantic import Field, TypeAdapter
+
+from gradhesion.cli.disk import write_whole
+from gradhesion.cli.study.tiling import CHUNK
+
+Count = Annotated[int, Field(ge=0, lt=2**63)]
+Time = Annotated[float, Field(ge=0.0, lt=1e11)]
+"""Seconds since 1970."""
+
+
+@dataclass(frozen=True)
+class Manifest:
+    """A study as `study.json` has it: what its values depend on first, then how to read it again."""
+
+    versions: dict[str, Any]
+    settings: dict[str, Any]
+    parameters: dict[str, tuple[str, str]]
+    """Each in words, with the digest of its values."""
+    blocks: Count
+    scenes: Count
+    title: str
+    name: str
+    text: str
+    chunk: Annotated[int, Field(ge=1, lt=2**63)] = CHUNK
+
+
+@dataclass(frozen=True)
+class Finished:
+    """Which file is to take the output's place, as `finished.json` has it."""
+
+    file: tuple[int, int, int, int]
+    """Its `identity`."""
+    study: Manifest
+    failed: Count = 0
+    """Scenes without value."""
+
+
+@dataclass
+class State:
+    """How far a run is, as `state.json` has it."""
+
+    scenes: Count
+    blocks: Count
+    started: Time
+    updated: Time = 0.0
+    pid: Count = 0
+    host: str = ""
+    blocks_done: Count = 0
+    blocks_reused: Count = 0
+    scenes_done: Count = 0
+    scenes_reused: Count = 0
+    scenes_failed: Count = 0
+    blocks_raised: Count = 0
+
+
+Record = TypeVar("Record", Manifest, Finished, State)
+
+
+def read_record(path: Path, kind: type[Record]) -> Record | None:
+    """Read a small file; None if it is not there, not whole, a link, or not what it should be."""
+    with suppress(OSError, ValueError):
+        if path.is_symlink():
+            return None
+        return TypeAdapter(kind).validate_json(path.read_bytes(), strict=True)
+    return None
+
+
+def write_record(path: Path, record: Record, *, sync: bool = True) -> None:
+    """Write a small file, whole or not at all."""
+    write_whole(path, TypeAdapter(type(record)).dump_json(record, indent=1), sync=sync)
