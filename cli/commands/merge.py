@@ -95,15 +95,14 @@ def _merge_datasets(
     files: tuple[Path, ...], output: Path, start: float, chunk: int | None, *, overwrite: bool, quiet: bool
 ) -> None:
     """Join datasets along the axis in which they differ."""
-    from gradhesion.cli.dataset.joining import Joined, opened_all, study_of
+    from gradhesion.cli.dataset.joining import joined, opened_all
     from gradhesion.cli.dataset.writer import write
 
     with ExitStack() as stack:
         sources = opened_all(files, stack)
-        study, axis = study_of(sources)
+        study, engine = joined(sources)
         study = study.chunked(chunk)
         history = "\n".join([*(str(source.attrs["history"]) for source in sources.values()), history_now()])
         with progress(study.scenes, quiet=quiet) as advance:
-            engine = Joined(sources, axis)
             written = write(study, output, history=history, overwrite=overwrite, engine=engine, advance=advance)
     finish(output, study.scenes, written, time.monotonic() - start, quiet=quiet)

@@ -20,9 +20,9 @@ CLOSE: Final = 16 * 2.0**-52
 """Of a coordinate: logarithmic spacing may differ by some units in the last place from one numpy to the next."""
 
 
-def study_of(dataset: xarray.Dataset, path: Path) -> Study:
+def study_of(dataset: xarray.Dataset, path: Path, *, wanted: str = "`gradhesion verify` takes maps") -> Study:
     """
-    Read the study of a map out of its dataset.
+    Read the study of a map out of its dataset; `wanted` says of another that it has to be one.
 
     Raises
     ------
@@ -37,7 +37,7 @@ def study_of(dataset: xarray.Dataset, path: Path) -> Study:
     except (ValueError, RecursionError) as error:
         raise _apart(path, f"its study is not valid TOML ({error})") from None
     if data.get("kind", "map") != "map":
-        raise DatasetError(f"{path}: holds a {data['kind']}; `gradhesion verify` takes maps")
+        raise DatasetError(f"{path}: holds a {data['kind']}; {wanted}")
     try:
         study = study_from(data, "its study")
     except StudyError as error:

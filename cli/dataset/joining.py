@@ -15,8 +15,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.study.study import Study, study_from
 from gradhesion.cli.study.tiling import Block
-from gradhesion.cli.work.parts import types_of
-from gradhesion.cli.work.resume import Solved
+from gradhesion.cli.work.resume import Solved, blank
 
 if TYPE_CHECKING:
     import xarray
@@ -24,23 +23,23 @@ if TYPE_CHECKING:
 Sources = Mapping[Path, "xarray.Dataset"]
 
 
-def study_of(sources: Sources) -> tuple[Study, str]:
+def joined(sources: Sources) -> tuple[Study, "Joined"]:
     """
-    Make the study of several datasets together, and name the axis along which they differ.
+    Make the study of several datasets together, and the engine that takes its values from them.
 
     Raises
     ------
     DatasetError
-        They differ in something else, in nothing, or along more than one axis.
+        They differ in something else, in nothing, or along more than one axis; or one was changed since it was written.
     """
-    from gradhesion.cli.dataset.reader import study_text  # noqa: PLC0415 (xarray, which shards do without)
+    from gradhesion.cli.dataset import belonging  # noqa: PLC0415 (xarray, which shards do without)
 
-    texts = {file: tomllib.loads(study_text(dataset, file)) for file, dataset in sources.items()}
-    studies = {file: study_from(text) for file, text in texts.items()}
+    wanted = "only maps on a grid can be joined"
+    studies = {file: belonging.study_of(dataset, file, wanted=wanted) for file, dataset in sources.items()}
     (first, one), *others = studies.items()
     for file, other in others:
-        if {one.kind, other.kind} != {"map"} or {one.layout, other.layout} != {"grid"}:
-            raise DatasetError(f"{file}, {first}: only maps on a grid can be joined, not curves or points")
+        if {one.layout, other.layout} != {"grid"}:
+            raise DatasetError(f"{file}, {first}: {wanted}, not points")
         for what in ("outputs", "method", "profile", "loading"):
             if getattr(one, what) != getattr(other, what):
                 raise DatasetError(f"{file}: has another {what.rstrip('s')} than {first}; join datasets that share it")
@@ -63,8 +62,10 @@ def study_of(sources: Sources) -> tuple[Study, str]:
         what = f"differ in {' and '.join(differing)}" if differing else "have the same scenes"
         raise DatasetError(f"{', '.join(map(str, studies))}: {what}; join datasets that differ along one axis")
     (axis,) = differing
-    values = np.unique(np.concatenate([np.atleast_1d(study.parameters[axis]) for study in studies.values()]))
-    return study_from(_with_axis(texts[first], axis, values), one.name), axis
+    own = [np.atleast_1d(study.parameters[axis]) for study in studies.values()]
+    values = np.unique(np.concatenate(own))
+    study = study_from(_with_axis(tomllib.loads(one.text), axis, values), one.name)
+    return study, Joined(sources, axis, _owners(values, own))
 
 
 def _with_axis(data: Mapping[str, Any], axis: str, values: NDArray[np.float64]) -> dict[str, Any]:
@@ -82,22 +83,21 @@ class Joined:
 
     sources: Sources
     axis: str
+    owners: NDArray[np.int64]
+    """Of each value of the axis: which source has it, and where on its own axis."""
 
     def results(self, work: Work) -> Generator[tuple[int, Solved], None, None]:
         """Give the blocks in order; where several sources have a value, the first."""
-        owners = _owners(np.asarray(work.study.parameters[self.axis]), self.sources, self.axis)
         for number in work.numbers:
             block = work.study.tiling[number]
-            yield number, Solved(block, self._values(work.study, block, owners))
+            yield number, Solved(block, self._values(work.study, block))
 
-    def _values(self, study: Study, block: Block, owners: NDArray[np.int64]) -> dict[str, NDArray[Any]]:
+    def _values(self, study: Study, block: Block) -> dict[str, NDArray[Any]]:
         dimensions = list(study.sizes)
         along = dimensions.index(self.axis)
         cut = dict(zip(dimensions, block, strict=True))
-        own = owners[:, block[along]]
-        filled = {
-            name: np.empty([part.stop - part.start for part in block], kind) for name, kind in types_of(study).items()
-        }
+        own = self.owners[:, block[along]]
+        filled = blank(study, block)
         for number, source in enumerate(self.sources.values()):
             here = np.flatnonzero(own[0] == number)
             if here.size == 0:
@@ -109,11 +109,16 @@ class Joined:
         return filled
 
 
-def _owners(values: NDArray[np.float64], sources: Sources, axis: str) -> NDArray[np.int64]:
-    """Tell which source has each value of the axis, and where on its own axis."""
+def _owners(values: NDArray[np.float64], parts: Sequence[NDArray[np.float64]]) -> NDArray[np.int64]:
+    """
+    Find which of several axes has each of their values together, the first if several have it, and where.
+
+    >>> _owners(np.array([1.0, 2.0, 3.0]), [np.array([3.0, 2.0]), np.array([1.0, 2.0])])
+    array([[1, 0, 0],
+           [0, 1, 0]])
+    """
     owners = np.full((2, values.size), -1)
-    for number, source in reversed(list(enumerate(sources.values()))):
-        own = np.atleast_1d(source[axis].values)
+    for number, own in reversed(list(enumerate(parts))):
         places = np.searchsorted(values, own)
         owners[0, places], owners[1, places] = number, np.arange(own.size)
     return owners

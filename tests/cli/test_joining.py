@@ -1,11 +1,13 @@
 """Datasets that differ along one axis make one: that of the study with all values."""
 
+import hashlib
 import re
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import netCDF4
 import numpy as np
 import pytest
 import xarray
@@ -86,7 +88,7 @@ def test_quantities_keep_their_unit(gradhesion: Call, data: dict[str, Any], tmp_
         ({"parameters": {"A": 0.5}, "outputs": ["pull_off_force"]}, "has another output than .*; join datasets that share it"),
         ({"parameters": {"A": 0.5}, "method": {"solver": "envelope"}, "outputs": ["pull_off_force", "dissipated_energy"]}, "has another output"),
         ({"parameters": {"A": 0.5}, "profile": {"exponent": 3.0}}, "has another profile than"),
-        ({"kind": "curve", "outputs": ["path"]}, "only maps on a grid can be joined"),
+        ({"kind": "curve", "outputs": ["path"]}, "holds a curve; only maps on a grid can be joined"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_joined_is_told(
@@ -97,6 +99,60 @@ def test_what_cannot_be_joined_is_told(
     assert result.exit_code == 2
     assert re.search(sentence, result.stderr)
     assert not output.exists()
+
+
+def changed(path: Path, **attributes: str) -> None:
+    """Change attributes of a dataset."""
+    with netCDF4.Dataset(path, "a") as file:
+        file.setncatts(attributes)
+
+
+def test_a_study_that_does_not_match_its_coordinates_is_refused(
+    gradhesion: Call, written: Callable[..., Path], tmp_path: Path
+) -> None:
+    one, other, output = written("one"), written("other"), tmp_path / "joined.nc"
+    with netCDF4.Dataset(other) as file:
+        text = file.study
+    lie = text.replace("nu = 0.27", "nu = 0.29")
+    assert lie != text
+    changed(other, study=lie)
+    result = gradhesion("merge", one, other, "-o", output)
+    assert result.exit_code == 2
+    assert result.stderr.startswith(f"{other}: the text of its study was changed")
+    changed(other, study=lie, study_sha256=hashlib.sha256(lie.encode()).hexdigest())
+    result = gradhesion("merge", one, other, "-o", output)
+    assert result.exit_code == 2
+    assert result.stderr.startswith(f"{other}: nu is 0.27, in its study 0.29, so that its study and its values do not")
+    assert not output.exists()
+
+
+@pytest.mark.parametrize("text", ["not TOML", "[" * 5000, "outputs = []", 'kind = "map"', "a.b.c = 1"])
+def test_a_study_that_is_none_is_refused(
+    text: str, gradhesion: Call, written: Callable[..., Path], tmp_path: Path
+) -> None:
+    one, other = written("one"), written("other", parameters={"A": 0.5})
+    changed(other, study=text, study_sha256=hashlib.sha256(text.encode()).hexdigest())
+    for command in (["merge", one, other, "-o", tmp_path / "joined.nc"], ["verify", other]):
+        result = gradhesion(*command)
+        assert result.exit_code == 2
+        assert result.stderr.startswith(f"{other}: ")
+    assert not (tmp_path / "joined.nc").exists()
+
+
+def test_a_coordinate_in_the_last_place_apart_takes_its_own_values(
+    gradhesion: Call, written: Callable[..., Path], tmp_path: Path
+) -> None:
+    """As a logarithmic axis is with another numpy: no cell is left without an owner, or has another's values."""
+    whole = written("whole", parameters={"lambda_over_R": [0.11, 0.2, 0.3, 0.47]})
+    one, other = (
+        written("one", parameters={"lambda_over_R": [0.11, 0.3]}),
+        written("other", parameters={"lambda_over_R": [0.2, 0.47]}),
+    )
+    for path, away in ((one, 1.0), (other, 0.0)):
+        with netCDF4.Dataset(path, "a") as file:
+            file["lambda_over_R"][:] = np.nextafter(file["lambda_over_R"][:], away)
+    assert gradhesion("merge", one, other, "-o", tmp_path / "joined.nc").exit_code == 0
+    same_values(tmp_path / "joined.nc", whole)
 
 
 def test_the_output_is_named_and_stays(gradhesion: Call, written: Callable[..., Path], tmp_path: Path) -> None:
