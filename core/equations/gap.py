@@ -10,13 +10,14 @@ Source: Jin, Guo & Wan (2013), section 12 of docs/theory.md.
 """
 
 import math
+from collections.abc import Callable, Sequence
 from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import roots_jacobi, roots_legendre
 
-from gradhesion.core.equations import hertz, profile
+from gradhesion.core.equations import general, hertz, profile
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
 
 _NODES: Final = 24
@@ -79,7 +80,7 @@ def gap(
     for place in np.ndindex(out.shape):
         point = [float(array[place]) for array in arrays]
         if not any(math.isnan(number) for number in point) and point[1] >= point[2]:
-            out[place] = _gap(*point)
+            out[place] = _gap_of_cosine(*point)
     return out
 
 
@@ -116,17 +117,106 @@ def surface(
     return opening + np.asarray(depth, dtype=float) - profile.height(distance, wavelength, amplitude, exponent)
 
 
-def _gap(k: float, r: float, a: float, depth: float, wavelength: float, amplitude: float, m: float) -> float:
-    """Return the gap at one point."""
+def series_gap(
+    k: ArrayLike,
+    distance: ArrayLike,
+    radius: ArrayLike,
+    depth: ArrayLike,
+    wavelength: ArrayLike,
+    cosines: Sequence[float],
+    sines: Sequence[float] = (),
+    exponent: ArrayLike = 2.0,
+) -> Array:
+    """Return gap/R around a punch whose waviness is a Fourier series (2.2).
 
-    def opening(s: Array) -> Array:
-        return hertz.indentation(k, s, wavelength, amplitude, m) - depth
+    Parameters
+    ----------
+    k, distance, radius, depth, exponent
+        As in `gap`.
+    wavelength
+        lambda/R > 0, of the first harmonic.
+    cosines, sines
+        a_1, a_2, ... and b_1, b_2, ..., over the wavelength; [-A] is one cosine wave.
 
+    Returns
+    -------
+    Array of the broadcast shape; NaN outside the ranges.
+
+    Examples
+    --------
+    >>> one, series = gap(0.3, 0.25, 0.2, 0.01, 0.1, 0.02), series_gap(0.3, 0.25, 0.2, 0.01, 0.1, [-0.02])
+    >>> bool(abs(one - series) < 1e-14)
+    True
+    """
+    numbers = (
+        exponent_of(k),
+        positive(distance),
+        positive(radius),
+        np.asarray(depth, dtype=float),
+        positive(wavelength),
+        power_of(exponent),
+    )
+    arrays = np.broadcast_arrays(*numbers)
+    out = np.full(arrays[0].shape, np.nan)
+    shortest = max(1, len(cosines), len(sines))
+    for place in np.ndindex(out.shape):
+        gradient, r, a, level, length, m = (float(array[place]) for array in arrays)
+        if math.isnan(gradient + r + a + level + length + m) or r < a:
+            continue
+
+        def opening(
+            s: Array, gradient: float = gradient, level: float = level, length: float = length, m: float = m
+        ) -> Array:
+            return general.hertz_indentation(gradient, s, length, cosines, sines, m) - level
+
+        out[place] = _gap(gradient, r, a, length / shortest, opening)
+    return out
+
+
+def series_surface(
+    k: ArrayLike,
+    distance: ArrayLike,
+    radius: ArrayLike,
+    depth: ArrayLike,
+    wavelength: ArrayLike,
+    cosines: Sequence[float],
+    sines: Sequence[float] = (),
+    exponent: ArrayLike = 2.0,
+) -> Array:
+    """Return u_z/R, how far the surface is pressed in outside a punch whose waviness is a Fourier series (4.3), (4.10).
+
+    Parameters
+    ----------
+    k, distance, radius, depth, wavelength, cosines, sines, exponent
+        As in `series_gap`.
+
+    Returns
+    -------
+    Array of the broadcast shape; NaN outside the ranges.
+
+    Examples
+    --------
+    >>> float(series_surface(1.0, 0.25, 0.2, 0.03, 0.1, [-0.02], [0.01]).round(12))
+    0.0
+    """
+    opening = series_gap(k, distance, radius, depth, wavelength, cosines, sines, exponent)
+    r, m, length = positive(distance), power_of(exponent), positive(wavelength)
+    height = r**m / m + length * general.waviness(r / length, cosines, sines)
+    return opening + np.asarray(depth, dtype=float) - height
+
+
+def _gap_of_cosine(k: float, r: float, a: float, depth: float, wavelength: float, amplitude: float, m: float) -> float:
+    """Return the gap at one point around one cosine wave."""
+    return _gap(k, r, a, wavelength, lambda s: hertz.indentation(k, s, wavelength, amplitude, m) - depth)
+
+
+def _gap(k: float, r: float, a: float, shortest: float, opening: Callable[[Array], Array]) -> float:
+    """Return the gap at one point, from delta_H - delta."""
     if k == 1.0:  # the surface gives way where it is pressed alone: the integral's weight is all at r
         return float(opening(np.asarray(r)))
     if r == a:
         return 0.0
-    edges = _panels(a, r, 0.5 * wavelength)
+    edges = _panels(a, r, 0.5 * shortest)
     centre, half = 0.5 * (edges[1:] + edges[:-1]), 0.5 * (edges[1:] - edges[:-1])
     nodes, weights = _LEGENDRE
     s = (centre[:-1, None] + half[:-1, None] * nodes).ravel()

@@ -137,7 +137,7 @@ def indentation(
     sines: Sequence[float] = (),
     exponent: ArrayLike = 2.0,
 ) -> Array:
-    """Return the depth delta/R in adhesive equilibrium (4.7), (5.1)-(5.14).
+    """Return the depth delta/R in adhesive equilibrium (4.8), (5.8), (5.12)-(5.14).
 
     Parameters
     ----------
@@ -168,7 +168,7 @@ def load(
     sines: Sequence[float] = (),
     exponent: ArrayLike = 2.0,
 ) -> Array:
-    """Return the load P/(1.5 pi R dgamma) in adhesive equilibrium (4.8), (5.1)-(5.14).
+    """Return the load P/(1.5 pi R dgamma) in adhesive equilibrium (4.7), (5.9), (5.12)-(5.14).
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Contact with adhesion: energy release rate, depth and load in equilibrium, (4.5)-(4.8).
+"""Contact with adhesion: energy release rate, load and depth in equilibrium, (4.4), (4.7), (4.8).
 
     G(a, delta) = dgamma [(delta_H(a) - delta)/Delta(a)]^2,   Delta(a) = sqrt(2^(1+k) pi dgamma a^(1-k)/M)
     equilibrium G = dgamma:   delta = delta_H - Delta,   P = P_H - K a^(1+k) Delta
@@ -54,7 +54,7 @@ def energy_release_rate(
     amplitude: ArrayLike,
     exponent: ArrayLike = 2.0,
 ) -> Array:
-    """Return G/dgamma at the edge of a disc of radius a when the punch is at any depth (4.5); 1 is equilibrium.
+    """Return G/dgamma at the edge of a disc of radius a when the punch is at any depth (4.4); 1 is equilibrium.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def indentation(
     amplitude: ArrayLike,
     exponent: ArrayLike = 2.0,
 ) -> Array:
-    """Return the depth delta/R in equilibrium (4.7).
+    """Return the depth delta/R in equilibrium (4.8).
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ def load(
     amplitude: ArrayLike,
     exponent: ArrayLike = 2.0,
 ) -> Array:
-    """Return the load P/(1.5 pi R dgamma) in equilibrium (4.8); negative where it pulls.
+    """Return the load P/(1.5 pi R dgamma) in equilibrium (4.7); negative where it pulls.
 
     Parameters
     ----------

@@ -112,3 +112,11 @@ def test_broadcasting() -> None:
     assert stiffness(np.full((3, 1), 0.3), 0.1, 1.0, np.full((1, 4), 0.2)).shape == (3, 4)
     assert theta(0.3, 0.1).shape == ()
     assert theta([], 0.1).shape == (0,)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.3, 0.9])
+def test_the_modulus_law_is_the_same_at_every_reference_depth(k: float) -> None:
+    # E = E0 (z/c0)^k is not changed by c0 -> 7 c0, E0 -> 7^k E0
+    assert stiffness(k, 0.3, 7.0**k * 500.0, 7 * 0.02) == pytest.approx(
+        float(stiffness(k, 0.3, 500.0, 0.02)), rel=1e-14
+    )

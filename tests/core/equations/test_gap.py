@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core.equations import gap as module
-from gradhesion.core.equations import hertz, jkr, profile
+from gradhesion.core.equations import general, hertz, jkr, profile
 
 gap, surface = module.gap, module.surface
 
@@ -106,6 +106,51 @@ def test_just_outside_an_adhesive_edge_the_gap_opens_upwards() -> None:
     distance = 1e-9
     expected = 2 / math.pi * float(stretch) * math.sqrt(2 * distance / 0.2)
     assert gap(0.0, 0.2 + distance, 0.2, depth, 0.1, 0.01) == pytest.approx(expected, rel=1e-4)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.37, 0.9])
+def test_the_surface_meets_the_punch_at_the_edge(k: float) -> None:
+    # (3.6), (3.7): u_z(a) = delta - f(a), without adhesion and with it
+    for depth in (hertz.indentation(k, 0.2, 0.1, 0.02), jkr.indentation(k, 300.0, 0.2, 0.1, 0.02)):
+        edge = float(depth - profile.height(0.2, 0.1, 0.02))
+        assert surface(k, 0.2, 0.2, depth, 0.1, 0.02) == pytest.approx(edge, abs=1e-15)
+    # without adhesion continuous and smooth, the gap opening as (r-a)^((3-k)/2)
+    depth = hertz.indentation(k, 0.2, 0.1, 0.02)
+    gaps = gap(k, 0.2 + np.array([1e-6, 1e-5]), 0.2, depth, 0.1, 0.02)
+    assert gaps[1] / gaps[0] == pytest.approx(10 ** (0.5 * (3 - k)), rel=1e-3)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.37, 0.9, 1.0])
+def test_a_series(k: float) -> None:
+    r = np.array([0.2, 0.21, 0.3, 0.9])
+    one, series = gap(k, r, 0.2, 0.03, 0.1, 0.02), module.series_gap(k, r, 0.2, 0.03, 0.1, [-0.02])
+    np.testing.assert_allclose(series, one, atol=1e-15)
+    # the gap is linear in the profile and the depth: sines and cosines by their sum
+    both = module.series_gap(k, r, 0.2, 0.0, 0.1, [-0.02, 0.003], [0.0, 0.01])
+    parts = [
+        module.series_gap(k, r, 0.2, 0.0, 0.1, cosines, sines)
+        for cosines, sines in (([-0.02], []), ([0.0, 0.003], []), ([], [0.0, 0.01]), ([], []))
+    ]
+    np.testing.assert_allclose(both, sum(parts[:3]) - 2 * parts[3], atol=1e-13)
+    flat = module.series_surface(k, r, 0.2, [[0.05], [0.03]], 0.1, [-0.02, 0.003], [0.0, 0.01])
+    disc = surface(k, r, 0.2, 0.05, 0.1, 0.0) - surface(k, r, 0.2, 0.03, 0.1, 0.0)
+    np.testing.assert_allclose(flat[0] - flat[1], disc, atol=1e-13)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.37])
+def test_a_sine_by_quadrature(k: float) -> None:
+    a, r, wave = 0.05, 0.17, (0.1, [-0.01], [0.012])
+    depth = float(general.indentation(k, 300.0, a, *wave))
+
+    def integrand(v: mpmath.mpf) -> mpmath.mpf:  # r^2 - s^2 = (r^2-a^2) v^p, p = 2/(1-k)
+        s = mpmath.sqrt(r * r - (r * r - a * a) * v ** (mpmath.mpf(2) / (1 - k)))
+        return s ** (k - 1) * (float(general.hertz_indentation(k, float(s), *wave)) - depth)
+
+    with mpmath.workdps(15):
+        total = mpmath.quad(integrand, [1 - (1 - i / 12) ** 3 for i in range(13)])
+        total *= mpmath.mpf(r * r - a * a) ** (mpmath.mpf(1 - k) / 2) / (1 - k)
+    expected = float(2 / mpmath.pi * mpmath.cos(mpmath.pi * k / 2) * total)
+    assert module.series_gap(k, r, a, depth, *wave) == pytest.approx(expected, abs=1e-13)
 
 
 def test_ranges_and_shapes() -> None:

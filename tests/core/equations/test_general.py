@@ -45,6 +45,27 @@ def test_depth_and_load_without_adhesion(k: float, a: float, m: float) -> None:
     assert found == pytest.approx(float(load), rel=400 * EPS)
 
 
+@pytest.mark.parametrize("k", [0.0, 0.43, 0.9])
+def test_the_printed_sums(k: float) -> None:
+    # (B1)-(B4), Struve's functions of the cosines and Bessel's of the sines, with pi^((3-k)/2) and pi^((1-k)/2)
+    a, length, M = mpmath.mpf("0.21"), mpmath.mpf("0.13"), 19.0
+    k_, n, pi = mpmath.mpf(k), (1 + mpmath.mpf(k)) / 2, mpmath.pi
+    sums = [mpmath.mpf(0), mpmath.mpf(0)]
+    for j in (0, 1):
+        for m, a_m, b_m in general.harmonics(COSINES, SINES):
+            y, order = 2 * m * pi * a / length, k_ / 2 + j
+            sums[j] += m ** (1 - order) * (-a_m * mpmath.struveh(order, y) + b_m * mpmath.besselj(order, y))
+    wave = a ** (1 - k_ / 2) * mpmath.gamma(n) * pi ** ((3 - k_) / 2) * length ** (k_ / 2) * sums[0]
+    wavy = (float(a), float(length), COSINES, SINES)
+    found = general.hertz_indentation(k, *wavy) - hertz.power_indentation(k, float(a))
+    assert found == pytest.approx(float(wave), rel=1e-12)
+    load = a**2 * mpmath.gamma(n) * pi ** ((3 - k_) / 2) * (length * a) ** (k_ / 2) * sums[0]
+    load -= mpmath.gamma(n + 1) * pi ** ((1 - k_) / 2) * (length * a) ** (1 + k_ / 2) * sums[1]
+    load *= 2 ** (1 - k_) * M / (1 + k_)
+    smooth = hertz.load(k, M, float(a), 1.0, 0.0)
+    assert 1.5 * math.pi * (general.hertz_load(k, M, *wavy) - smooth) == pytest.approx(float(load), rel=1e-11)
+
+
 @pytest.mark.parametrize("scene", SCENES, ids=[str(i) for i in range(len(SCENES))])
 def test_pull_off_of_general_scenes(scene: dict[str, Any]) -> None:
     p, expected = scene["parameters"], scene["expected"]

@@ -41,6 +41,24 @@ def test_adhesive_depth_is_the_printed_root(k: float) -> None:
     assert jkr.adhesive_depth(k, M, 0.3) == pytest.approx(float(exact), rel=1e-15)
 
 
+@pytest.mark.parametrize("k", [0.0, 0.43, 0.9])
+@pytest.mark.parametrize("a", [0.06, 0.31])
+def test_the_printed_struve_functions(k: float, a: float) -> None:
+    # (5.8)-(5.11) term by term, R = dgamma = 1
+    wavelength, amplitude = (mpmath.mpf(one) for one in WAVE)
+    k_, a_, stiff = mpmath.mpf(k), mpmath.mpf(a), mpmath.mpf(M)
+    n, pi = (1 + k_) / 2, mpmath.pi
+    first, second = (mpmath.struveh(k_ / 2 + j, 2 * pi * a_ / wavelength) for j in (0, 1))
+    smooth = a_**2 / (1 + k_) - mpmath.sqrt(2 ** (1 + k_) * pi * a_ ** (1 - k_) / stiff)
+    wave = wavelength * amplitude * mpmath.sqrt(pi) * mpmath.gamma(n) * (pi * a_ / wavelength) ** (1 - k_ / 2) * first
+    assert jkr.indentation(k, M, a, *WAVE) == pytest.approx(float(smooth + wave), rel=1e-13)
+    load = 2 ** (2 - k_) * stiff * a_ ** (3 + k_) / ((1 + k_) ** 2 * (3 + k_))
+    load -= mpmath.sqrt(2 ** (3 - k_) * pi * stiff * a_ ** (3 + k_)) / (1 + k_)
+    front = (2 * mpmath.sqrt(pi)) ** (1 - k_) * stiff / (1 + k_) * amplitude * (wavelength * a_) ** (k_ / 2)
+    load += front * (pi * a_**2 * mpmath.gamma(n) * first - wavelength * a_ * mpmath.gamma(n + 1) * second)
+    assert 1.5 * math.pi * jkr.load(k, M, a, *WAVE) == pytest.approx(float(load), rel=1e-12)
+
+
 @pytest.mark.parametrize("k", [0.0, 0.37, 1.0])
 def test_load_in_equilibrium_is_the_load_at_that_depth(k: float) -> None:
     a = np.linspace(0.01, 0.8, 60)

@@ -58,3 +58,19 @@ def test_a_value_does_not_depend_on_its_company() -> None:
     together = sine_integrals(exponents, points)
     for i in range(4):
         assert np.array_equal(together[:, i], sine_integrals(exponents[i], points[i]))
+
+
+@pytest.mark.parametrize("k", [0.0, 0.37, 1.0])
+def test_far_waves_are_sines(k: float) -> None:
+    # (B5)-(B7): H_nu ~ Y_nu + (z/2)^(nu-1)/(sqrt(pi) Gamma(nu+1/2)), and Y, J ~ sqrt(2/(pi z)) sin, cos of
+    # z - nu pi/2 - pi/4; so S0 = sqrt(pi)/2 Gamma(n) (z/2)^(1/2-n) H and the mean height 1/z are (B8)'s
+    n = 0.5 * (1.0 + k)
+    for x in (200.25, 2000.6):
+        z = 2.0 * math.pi * x
+        phase = 2.0 * math.pi * (x % 1.0) - 0.25 * math.pi * (1.0 + k)
+        size = 0.5 * math.sqrt(math.pi) * math.gamma(n) * (0.5 * z) ** (0.5 - n) * math.sqrt(2.0 / (math.pi * z))
+        s0 = float(sine_integrals(k, x)[0])
+        c0 = float(cosine_integrals(k, x)[0])
+        # the next terms of Y and J are 1/z of the first, that of the mean height (1-k) 1/z^3
+        assert s0 == pytest.approx(size * math.sin(phase) + 1.0 / z, abs=0.2 * size / z + 1.0 / z**3)
+        assert c0 == pytest.approx(size * math.cos(phase), abs=0.2 * size / z)

@@ -2,6 +2,7 @@
 
 import math
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -55,6 +56,48 @@ def test_zeta_has_period_one_and_is_a_sine_for_one_cosine() -> None:
         np.testing.assert_allclose(
             short_waves.zeta(k, xi + 3.0, COSINES, SINES), short_waves.zeta(k, xi, COSINES, SINES), atol=1e-14
         )
+
+
+@pytest.mark.parametrize("k", [0.0, 0.3, 0.7])
+def test_zeta_is_weyls_fractional_derivative(k: float) -> None:
+    # (B11)-(B13): the derivative of order al = (1-k)/2 is d/dx of the integral of order 1-al. As an integral, for Q of
+    # mean zero, Q_be(x) = 1/Gamma(be) int_0^inf t^(be-1) Q(x-t) dt, and the sum over all periods is Hurwitz's zeta:
+    # (2 pi)^be/Gamma(be) int_0^1 zeta(1-be, u) Q(x - 2 pi u) du
+    al = mpmath.mpf(1 - k) / 2
+    be = 1 - al
+
+    def slope(x: mpmath.mpf) -> mpmath.mpf:  # of f2 - a0/2, over x = 2 pi xi
+        return -COSINES[0] * mpmath.sin(x) - 2 * COSINES[1] * mpmath.sin(2 * x) + SINES[0] * mpmath.cos(x)
+
+    with mpmath.workdps(15):
+        turn = 2 * mpmath.pi
+        for xi in (0.13, 0.7):
+            x = turn * mpmath.mpf(xi)
+
+            def integrand(v: mpmath.mpf, x: mpmath.mpf = x) -> mpmath.mpf:  # u = v^(1/be)
+                u = v ** (1 / be)
+                return v ** (1 / be - 1) / be * mpmath.zeta(1 - be, u) * slope(x - turn * u)
+
+            whole = turn**be * mpmath.quad(integrand, mpmath.linspace(0, 1, 5))
+            exact = turn**al * whole / mpmath.gamma(be)  # of xi, not of x
+            found = short_waves.zeta(k, xi, COSINES, SINES[:1])
+            assert float(found) == pytest.approx(float(exact), abs=1e-12)
+            # the sums (B13), their derivative (B12) by a central difference
+            step = mpmath.mpf("1e-5")
+            ahead, behind = (_weyl_integral(be, x + h, COSINES, SINES[:1]) for h in (step, -step))
+            assert float(found) == pytest.approx(float(turn**al * (ahead - behind) / (2 * step)), abs=1e-9)
+
+
+def _weyl_integral(order: mpmath.mpf, x: mpmath.mpf, cosines: list[float], sines: list[float]) -> mpmath.mpf:
+    """Return Q_order(x) as (B13) has it."""
+    total = mpmath.mpf(0)
+    for n, a_n, b_n in general.harmonics(cosines, sines):
+        c, s = mpmath.cos(n * x), mpmath.sin(n * x)
+        half = mpmath.pi * order / 2
+        total += mpmath.mpf(n) ** -order * (
+            mpmath.cos(half) * (a_n * c + b_n * s) + mpmath.sin(half) * (a_n * s - b_n * c)
+        )
+    return total
 
 
 def test_a_smooth_punch_is_left_as_it_is() -> None:

@@ -1,0 +1,225 @@
+"""The pressure under the punch (3.1), (3.4), (4.2), (4.9).
+
+    p(r) = (1+k) K/(2 pi) { int_r^a (s^2-r^2)^((k-1)/2) delta_H'(s) ds - (delta_H - delta) (a^2-r^2)^((k-1)/2) }
+
+for r < a, compression positive. The integral is the contact without adhesion (3.4); the second term is a flat punch
+(3.1) that is pulled out by delta_H - delta, which is Delta in equilibrium (4.9). P = 2 pi int r p dr. For k < 1 the
+pressure is infinite at the edge r = a, unless delta = delta_H; at k = 1 it is finite there. Lengths are in R,
+pressures in dgamma/R, M in dgamma/R^(1+k) (core/material.py). The profile is a power and a Fourier series as in
+general.py; one cosine wave is cosines = [-A]. Source: Jin, Guo & Wan (2013) as corrected in docs/theory.md.
+"""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gradhesion.core.equations import _abel, hertz
+from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
+from gradhesion.core.equations.general import harmonics, hertz_indentation
+from gradhesion.core.equations.pair import cosine_integrals, sine_integrals
+
+
+def flat_pressure(
+    k: ArrayLike, stiffness: ArrayLike, distance: ArrayLike, radius: ArrayLike, depth: ArrayLike
+) -> Array:
+    """Return p R/dgamma under a flat-ended cylinder, pressed in by a depth (3.1).
+
+    Parameters
+    ----------
+    k
+        Gradient exponent, 0 to 1.
+    stiffness
+        M R^(1+k)/dgamma > 0, finite.
+    distance
+        r/R, 0 to a/R.
+    radius
+        a/R > 0, of the cylinder.
+    depth
+        delta/R, any.
+
+    Returns
+    -------
+    Array of the broadcast shape; NaN outside the ranges, infinite at r = a for k < 1. Accurate to a few units in the
+    last place, of r and a that are given.
+
+    Examples
+    --------
+    Boussinesq: E* delta/(pi sqrt(a^2-r^2)) on a homogeneous half-space.
+
+    >>> float((flat_pressure(0.0, 500.0, 0.12, 0.13, 0.02) * np.pi).round(9))
+    200.0
+    """
+    n, r, a = 1.0 + exponent_of(k), not_negative(distance), positive(radius)
+    inside = np.where(r <= a, (a - r) * (a + r), np.nan)
+    pressed = np.asarray(depth, dtype=float)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        root = np.where(n < 2.0, inside ** (0.5 * n - 1.0), 1.0 + 0.0 * inside)
+        return np.where(pressed == 0.0, 0.0 * inside, _front(n - 1.0, positive(stiffness)) * pressed * root)
+
+
+def hertz_pressure(
+    k: ArrayLike,
+    stiffness: ArrayLike,
+    distance: ArrayLike,
+    radius: ArrayLike,
+    wavelength: ArrayLike,
+    cosines: Sequence[float],
+    sines: Sequence[float] = (),
+    exponent: ArrayLike = 2.0,
+) -> Array:
+    """Return p_H R/dgamma of contact without adhesion over a disc of radius a (3.4).
+
+    Parameters
+    ----------
+    k
+        Gradient exponent, 0 to 1.
+    stiffness
+        M R^(1+k)/dgamma > 0, finite.
+    distance
+        r/R, 0 to a/R.
+    radius
+        a/R > 0.
+    wavelength
+        lambda/R > 0, of the first harmonic.
+    cosines, sines
+        a_1, a_2, ... and b_1, b_2, ..., over the wavelength; [-A] is one cosine wave, [] none.
+    exponent
+        m >= 1; 2 is a paraboloid.
+
+    Returns
+    -------
+    Array of the broadcast shape; NaN outside the ranges, 0 at r = a. Accurate to 1e-12 of its largest value. At r = 0
+    it is infinite for k = 0 where the profile has a slope there (a cone, or a series of sines with sum n b_n not 0).
+
+    Examples
+    --------
+    Hertz: 2 E* sqrt(a^2-r^2)/(pi R).
+
+    >>> float((hertz_pressure(0.0, 500.0, 0.12, 0.13, 1.0, []) * np.pi).round(9))
+    50.0
+    """
+    n, r, a = 1.0 + exponent_of(k), not_negative(distance), positive(radius)
+    arrays = np.broadcast_arrays(n - 1.0, r, a, positive(wavelength), power_of(exponent), positive(stiffness))
+    out = np.full(arrays[0].shape, np.nan)
+    waves = harmonics(cosines, sines)
+    for place in np.ndindex(out.shape):
+        gradient, at, edge, length, m, material = (float(array[place]) for array in arrays)
+        if not math.isnan(gradient + at + edge + length + m + material) and at <= edge:
+            value = _integral(gradient, at, edge, length, waves, m)
+            out[place] = float(_front(gradient, material)) * value
+    return out
+
+
+def pressure(
+    k: ArrayLike,
+    stiffness: ArrayLike,
+    distance: ArrayLike,
+    radius: ArrayLike,
+    depth: ArrayLike,
+    wavelength: ArrayLike,
+    cosines: Sequence[float],
+    sines: Sequence[float] = (),
+    exponent: ArrayLike = 2.0,
+) -> Array:
+    """Return p R/dgamma under a punch at any depth, over a disc of radius a (4.2); in equilibrium (4.9).
+
+    Parameters
+    ----------
+    k, stiffness, distance, radius, wavelength, cosines, sines, exponent
+        As in `hertz_pressure`.
+    depth
+        delta/R, any: `general.indentation` is equilibrium, `general.hertz_indentation` contact without adhesion.
+
+    Returns
+    -------
+    Array of the broadcast shape, positive in compression; NaN outside the ranges. For k < 1 it is minus infinity at
+    r = a where delta < delta_H, as in equilibrium, plus infinity where delta > delta_H. Accurate to 1e-12 of the
+    largest of both terms.
+
+    Examples
+    --------
+    An adhesive contact is pulled at its edge:
+
+    >>> from gradhesion.core.equations import general
+    >>> depth = general.indentation(0.3, 500.0, 0.2, 0.1, [-0.02])
+    >>> pressure(0.3, 500.0, [0.0, 0.19, 0.2], 0.2, depth, 0.1, [-0.02]).round(1).tolist()
+    [-3.4, -59.0, -inf]
+    """
+    lowered = np.asarray(depth, dtype=float) - hertz_indentation(k, radius, wavelength, cosines, sines, exponent)
+    flat = flat_pressure(k, stiffness, distance, radius, lowered)
+    return hertz_pressure(k, stiffness, distance, radius, wavelength, cosines, sines, exponent) + flat
+
+
+def indentation_slope(
+    k: ArrayLike,
+    radius: ArrayLike,
+    wavelength: ArrayLike,
+    cosines: Sequence[float],
+    sines: Sequence[float] = (),
+    exponent: ArrayLike = 2.0,
+) -> Array:
+    """Return delta_H'(a), the slope of the depth of contact without adhesion over the contact radius.
+
+    Parameters
+    ----------
+    k, wavelength, cosines, sines, exponent
+        As in `hertz_pressure`.
+    radius
+        a/R > 0.
+
+    Returns
+    -------
+    Array of the broadcast shape; NaN outside the ranges.
+
+    Examples
+    --------
+    >>> float(indentation_slope(0.5, 0.3, 0.1, []).round(12))
+    0.4
+    """
+    a, m = positive(radius), power_of(exponent)
+    smooth = m * hertz.power_indentation(k, a, m) / a
+    return smooth + _wave_slope(k, a, wavelength, harmonics(cosines, sines))
+
+
+def _front(k: ArrayLike, stiffness: ArrayLike) -> Array:
+    """Return (1+k) K/(2 pi)."""
+    return 2.0 ** (1.0 - np.asarray(k)) * np.asarray(stiffness) / (2.0 * math.pi)
+
+
+def _wave_slope(k: ArrayLike, a: ArrayLike, wavelength: ArrayLike, waves: list[tuple[int, float, float]]) -> Array:
+    """Return the part of delta_H' that the waves add."""
+    x = np.asarray(a, dtype=float) / positive(wavelength)
+    total = np.zeros(np.broadcast_shapes(np.shape(k), x.shape))
+    for n, a_n, b_n in waves:
+        y = 2.0 * math.pi * n * x
+        if a_n != 0.0:
+            s0, _, slope, _ = sine_integrals(k, n * x)
+            total = total - 2.0 * math.pi * n * a_n * (s0 + y * slope)
+        if b_n != 0.0:
+            c0, c1 = cosine_integrals(k, n * x)
+            total = total + 2.0 * math.pi * n * b_n * (c0 - y * y * c1 / (1.0 + np.asarray(k)))
+    return total
+
+
+def _integral(k: float, r: float, a: float, length: float, waves: list[tuple[int, float, float]], m: float) -> float:
+    """Return int_r^a (s^2-r^2)^((k-1)/2) delta_H'(s) ds."""
+    if r == a:
+        return 0.0
+    shown = [wave for wave in waves if wave[1] != 0.0 or wave[2] != 0.0]
+    widest = 0.5 * length / shown[-1][0] if shown else math.inf
+    front = m * float(hertz.power_indentation(k, 1.0, m))
+    if r > 0.0:
+        s, weights = _abel.beyond(r, a, 0.5 * (k - 1.0), widest)
+        slope = front * s ** (m - 1.0) + (_wave_slope(k, s, length, shown) if shown else 0.0)
+        return float(np.sum(weights * slope))
+    smooth = front * a ** (k + m - 1.0) / (k + m - 1.0) if k + m > 1.0 else math.inf
+    if not shown:
+        return smooth
+    first = float(_wave_slope(k, 0.0, length, shown))  # of the profile's own slope at its apex
+    if first != 0.0 and k == 0.0:
+        return math.copysign(math.inf, first) + smooth
+    s, weights = _abel.from_zero(a, k, widest)
+    rest = float(np.sum(weights * (_wave_slope(k, s, length, shown) - first) / s))
+    return smooth + rest + (first * a**k / k if first != 0.0 else 0.0)
