@@ -290,6 +290,11 @@ _SETTINGS: Final = (
         example='a table [loading] with control = "displacement", "load" or "machine"',
     ),
     Key(
+        name="states",
+        about='the states of contact whose pressure and surface are drawn, for kind = "curve"',
+        example="a table [states] with contact_radius_over_R",
+    ),
+    Key(
         name="method",
         about="how the scenes are solved",
         example='a table [method] with solver = "exact", "asymptotic" or "envelope"',
@@ -333,6 +338,12 @@ _SETTINGS: Final = (
         table="loading",
         about="what is prescribed: the depth, the load, or the far end of a spring",
         example='control = "load"',
+    ),
+    Key(
+        name="contact_radius_over_R",
+        table="states",
+        about="contact radii a/R of states of equilibrium; left out: turning point, pull-off and jump-out",
+        example="contact_radius_over_R = [0.1, 0.2]",
     ),
     Key(
         name="solver",

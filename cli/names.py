@@ -45,10 +45,21 @@ EXTENTS: Final = {
     "effective": "effective_point",
     "smooth": "smooth_point",
     "jumps": "jump",
+    "pressure": "pressure_point",
+    "surface": "surface_point",
 }
 """Every curve of a curve study, with the dimension along it."""
 
-GENERAL_CURVES: Final = ("equilibrium", "path", "smooth", "jumps")
+STATE: Final = "state"
+"""The dimension of the states whose curves are asked for, before that along the curve."""
+
+NAMED_STATES: Final = ("turning_point", "pull_off", "jump_out")
+"""The states of a cycle that are drawn where a study gives no radii."""
+
+STATE_CURVES: Final = ("pressure", "surface")
+"""Curves of a state of contact, along the radius, in the place of curves of a scene."""
+
+GENERAL_CURVES: Final = ("equilibrium", "path", "smooth", "jumps", *STATE_CURVES)
 """Curves of any profile under any control; the others are closed forms of one cosine wave on a paraboloid."""
 
 RAGGED: Final = {"jumps": "jump_count"}
@@ -103,6 +114,15 @@ CURVES: Final = {
         "jump_unloading": "whether the jump is on loading or on unloading",
         "jump_at_rim": "whether the jump starts or ends at the rim",
     },
+    "pressure": {
+        "pressure_radius": "distance r/R from the axis under the punch",
+        "pressure": "contact pressure p R/dgamma, positive in compression",
+    },
+    "surface": {
+        "surface_radius": "distance r/R from the axis",
+        "surface_displacement": "displacement u_z/R of the surface, positive into the half-space",
+        "surface_gap": "gap/R between the surfaces (missing beyond the rim)",
+    },
 }
 """Every curve of a curve study: its variables, with their `long_name`."""
 
@@ -110,9 +130,19 @@ SI: Final = "_si"
 """What is added to the name of an output, for the variable that has it in SI units."""
 
 
+def is_of_a_state(variable: str) -> bool:
+    """
+    Tell whether a variable belongs to a curve of a state.
+
+    >>> is_of_a_state("surface_gap_si"), is_of_a_state("path_load")
+    (True, False)
+    """
+    return any(variable.removesuffix(SI) in CURVES[curve] for curve in STATE_CURVES)
+
+
 def _units() -> dict[str, str]:
     """Find the unit of each output by what it is over in the dataset."""
-    signs = {"(1.5 pi R dgamma)": "N", "R^2 dgamma": "J", "/R": "m"}
+    signs = {"R/dgamma": "Pa", "(1.5 pi R dgamma)": "N", "R^2 dgamma": "J", "/R": "m"}
     own = OUTPUTS | {name: long_name for curve in CURVES.values() for name, long_name in curve.items()}
     return {
         name: next(unit for sign, unit in signs.items() if sign in long_name)
@@ -132,7 +162,7 @@ def long_name_in_si(long_name: str) -> str:
     >>> long_name_in_si("energy dissipated in a loading cycle, H/(R^2 dgamma)")
     'energy dissipated in a loading cycle, H'
     """
-    for over in ("/(1.5 pi R dgamma)", "/(R^2 dgamma)", ", in R^2 dgamma", " over R^2 dgamma", "/R"):
+    for over in (" R/dgamma", "/(1.5 pi R dgamma)", "/(R^2 dgamma)", ", in R^2 dgamma", " over R^2 dgamma", "/R"):
         long_name = long_name.replace(over, "")
     return long_name
 

@@ -48,6 +48,7 @@ def _sections() -> Iterator[str]:
     yield "What they stand for: [other punches and machines](../punches.md). Each item of `harmonics`:"
     yield table(HEADS, _rows(schema["$defs"]["Wave"]))
     yield from _of_table("loading", tables["loading"])
+    yield from _of_table("states", tables["states"])
     yield from _of_table("method", tables["method"])
     yield "## Axes"
     yield (
@@ -151,7 +152,7 @@ def _allowed(name: str, entry: Mapping[str, Any]) -> str:
     least, most = entry.get("minimum"), entry.get("maximum")
     items = [form["maxItems"] for form in entry.get("anyOf", ()) if "maxItems" in form]
     if items:
-        return f"1 to {items[0]} waves"
+        return f"1 to {items[0]} waves" if name == "harmonics" else f"1 to {items[0]} values > 0"
     if least is None:
         return ""
     return f"{least:,} or more" if most is None else f"{least:,} to {most:,}"

@@ -78,7 +78,8 @@ class _OfCurves:
         if curves.is_ragged(name):
             del attributes["ancillary_variables"]  # `status` has other dimensions
             return Variable(dimensions=(curves.extent_of(name),), dtype=dtype, attributes=attributes)
-        dimensions = (*dimensions, curves.extent_of(name))
+        states = (names.STATE,) if names.is_of_a_state(name) else ()
+        dimensions = (*dimensions, *states, curves.extent_of(name))
         return Variable(dimensions=dimensions, dtype=dtype, attributes=attributes, blank=curves.blank_of(name))
 
     def parts(self, study: Study, threads: int | None) -> Iterator[Part]:

@@ -25,6 +25,8 @@ def coordinates(study: Study) -> dict[str, Variable]:
         described[names.SOLVER] = Variable(
             dimensions=(names.SOLVER,), dtype="str", attributes={"long_name": names.SOLVERS}, values=solvers
         )
+    if any(names.is_of_a_state(name) for name in study.outputs):
+        described[names.STATE] = _states(study)
     for name, key in INPUTS.items():
         attributes = {"units": key.unit, "long_name": key.about}
         if name in study.left_out:
@@ -42,6 +44,16 @@ def coordinates(study: Study) -> dict[str, Variable]:
             blank = np.nan if REDUCED.keys() & study.parameters.keys() else None  # where there is no a_2
             described[name] = Variable(dimensions=own, dtype="f8", attributes=attributes, made=made, blank=blank)
     return described
+
+
+def _states(study: Study) -> Variable:
+    """Describe the states whose curves are drawn: their contact radii, or their names."""
+    if study.states:
+        attributes = {"units": "1", "long_name": "contact radius a/R of a state of equilibrium"}
+        return Variable(dimensions=(names.STATE,), dtype="f8", attributes=attributes, values=np.array(study.states))
+    attributes = {"long_name": "state of a loading cycle"}
+    values = np.array(names.NAMED_STATES, dtype=object)
+    return Variable(dimensions=(names.STATE,), dtype="str", attributes=attributes, values=values)
 
 
 def following(study: Study, name: str) -> tuple[str, ...]:

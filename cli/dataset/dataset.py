@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 def variables(study: Study) -> dict[str, Variable]:
     """Describe the variables of a study's dataset, coordinates first."""
     described = coordinates(study)
-    beside = " ".join(name for name in described if name not in study.sizes)
+    beside = " ".join(name for name in described if name not in (*study.sizes, names.STATE))
     outputs = {name: _output(study, name) for name in study.variables}
     outputs["status"] = _status(study)
     if beside:

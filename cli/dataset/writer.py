@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Final, NoReturn
 
 import netCDF4
+import numpy as np
 
 from gradhesion.cli.amounts import bytes_in_words, counted
 from gradhesion.cli.dataset import dataset
@@ -17,7 +18,7 @@ from gradhesion.cli.disk import refuse_beside, refuse_existing, settled, to_disk
 from gradhesion.cli.engines import Engine, Work
 from gradhesion.cli.engines.threads import Threads
 from gradhesion.cli.errors import OutputError, ScenesFailedError
-from gradhesion.cli.names import RAGGED
+from gradhesion.cli.names import RAGGED, STATE
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Tiling, size_of
@@ -258,7 +259,10 @@ def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
     file.setncatts(dataset.attributes(study, history))
     for name, size in study.sizes.items():
         file.createDimension(name, size)
-    for name, described in dataset.variables(study).items():
+    described_all = dataset.variables(study)
+    if STATE in described_all:
+        file.createDimension(STATE, np.size(np.asarray(described_all[STATE].values)))
+    for name, described in described_all.items():
         settings: dict[str, Any] = {}
         if described.dimensions and described.dtype != "str":
             for dimension in described.dimensions:

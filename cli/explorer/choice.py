@@ -9,7 +9,7 @@ from gradhesion.cli.dataset.curve_variables import curve_of
 from gradhesion.cli.dataset.reader import has_curves
 from gradhesion.cli.dataset.selection import selection_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import RAGGED, SCENE, SI
+from gradhesion.cli.names import RAGGED, SCENE, SI, STATE_CURVES
 from gradhesion.cli.picture.curve_units import wants_si
 from gradhesion.cli.study.wording import did_you_mean
 
@@ -59,7 +59,7 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
 def _is_shown(dataset: xarray.Dataset, name: str) -> bool:
     """Check whether a variable has one value, or one row of values, a scene."""
     own, scenes = dataset[name].dims, dataset["status"].dims
-    return own[: len(scenes)] == scenes and curve_of(name) not in RAGGED
+    return own[: len(scenes)] == scenes and curve_of(name) not in (*RAGGED, *STATE_CURVES)
 
 
 def _example(dataset: xarray.Dataset) -> str:

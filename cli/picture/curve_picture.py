@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 
 from gradhesion.cli.dataset.curve_variables import variables_of_curves
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import RAGGED, SCENE
+from gradhesion.cli.names import RAGGED, SCENE, STATE_CURVES
 from gradhesion.cli.picture.curve_panels import (
     JUMP,
     THIN,
@@ -36,6 +36,7 @@ from gradhesion.cli.picture.doubts import CROSS, DOUBTS, Doubt, doubts_in, entri
 from gradhesion.cli.picture.labels import Unit, equation, given
 from gradhesion.cli.picture.panels import COLOURS
 from gradhesion.cli.picture.pictured import heading, in_lines, styled
+from gradhesion.cli.picture.state_picture import draw_states
 from gradhesion.cli.study.wording import did_you_mean
 
 PLANES: Final = (("indentation", "load"), ("contact_radius", "indentation"), ("contact_radius", "load"))
@@ -65,12 +66,24 @@ def drawn_curves(dataset: xarray.Dataset, asked: Sequence[str]) -> Figure:
     """
     Draw curves of a dataset into three panels, in units if it has them; without any asked for, all of them.
 
+    Curves of states, over the distance from the axis, are drawn where they alone are asked for or there.
+
     Raises
     ------
     DatasetError
         A curve is not there, has no value, or lacks two variables to draw over each other.
     """
     chosen = _chosen(dataset, asked)
+    of_states = [curve for curve in chosen if curve in STATE_CURVES]
+    if of_states == chosen:
+        return draw_states(dataset, chosen)
+    if of_states and asked:
+        other = next(curve for curve in chosen if curve not in of_states)
+        raise DatasetError(
+            f"--variable {of_states[0]} is drawn over the distance from the axis, and {other} is not: they have no "
+            "axis in common; ask for one after the other"
+        )
+    chosen = [curve for curve in chosen if curve not in of_states]
     scenes, caption = _scenes(dataset)
     known = TRACKS_OF_MANY if len(scenes) > 1 else TRACKS
     if wants_si(map(str, dataset.data_vars), asked):
@@ -176,7 +189,7 @@ def _trimmed(scene: xarray.Dataset) -> dict[str, Values]:
     """Take the curves of a scene without their padding."""
     curves: dict[str, Values] = {}
     for curve, own in variables_of_curves(scene).items():
-        if curve in RAGGED:
+        if curve in (*RAGGED, *STATE_CURVES):
             continue
         rows = {name: np.asarray(scene[name].values, dtype=float) for name in own}
         points = np.flatnonzero(np.any([~np.isnan(row) for row in rows.values()], axis=0))

@@ -18,6 +18,10 @@ MOST_WAVES: Final = 10_000
 """The shortest wave of a series, in waves a wavelength: beyond it hardly any scene can be followed."""
 
 
+MOST_STATES: Final = 100
+"""States of one study: their curves are for looking at."""
+
+
 class Table(BaseModel):
     """A table of a study: no unknown keys, no silent conversions."""
 
@@ -134,6 +138,20 @@ class LoadingTable(Table):
     machine_stiffness: MachineStiffness = None
 
 
+class StatesTable(Table):
+    """The states whose pressure and surface are drawn."""
+
+    contact_radius_over_R: Annotated[  # noqa: N815 (the key of a study)
+        list[Annotated[float, Field(gt=0.0, allow_inf_nan=False)]] | None,
+        Field(min_length=1, max_length=MOST_STATES, description=KEYS["contact_radius_over_R"].about),
+    ] = None
+
+    @property
+    def radii(self) -> tuple[float, ...]:
+        """The contact radii that are given."""
+        return tuple(self.contact_radius_over_R or ())
+
+
 class Form(Table):
     """A whole study, each key for itself."""
 
@@ -145,6 +163,7 @@ class Form(Table):
     physical: Annotated[PhysicalTable, Field(description=KEYS["physical"].about, default_factory=PhysicalTable)]
     profile: Annotated[ProfileTable, Field(description=KEYS["profile"].about, default_factory=ProfileTable)]
     loading: Annotated[LoadingTable, Field(description=KEYS["loading"].about, default_factory=LoadingTable)]
+    states: Annotated[StatesTable, Field(description=KEYS["states"].about, default_factory=StatesTable)]
     method: Annotated[MethodTable, Field(description=KEYS["method"].about, default_factory=MethodTable)]
 
     @property

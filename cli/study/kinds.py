@@ -57,7 +57,7 @@ KINDS: Final[dict[str, Kind]] = {
     ),
     "curve": _Curves(
         name="curve",
-        outputs=(*CURVES, *(name for own in CURVES.values() for name in own)),
+        outputs=tuple(dict.fromkeys((*CURVES, *(name for own in CURVES.values() for name in own)))),
         most_scenes=1_000,  # curves are for looking at, and each has thousands of values
         remedy='use fewer values, split the study, or write kind = "map"',
         has_parts=False,

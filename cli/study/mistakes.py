@@ -105,7 +105,7 @@ def _unknown_key(path: Path) -> tuple[Path, str]:
     """Tell which key was meant, and say so."""
     tables: dict[Path, tuple[str, ...]] = {
         (): keys_of(""),
-        **{(name,): keys_of(name) for name in ("parameters", "physical", "profile", "loading", "method")},
+        **{(name,): keys_of(name) for name in ("parameters", "physical", "profile", "loading", "states", "method")},
     }
     table, key = path[:-1], str(path[-1])
     known = tables.get(table, keys_of("harmonics" if table[:1] == ("profile",) else "range"))

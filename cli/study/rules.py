@@ -14,6 +14,7 @@ from gradhesion.cli.study.mistakes import Checked, Mistake
 from gradhesion.cli.study.places import Path
 from gradhesion.cli.study.punch import mistakes_of_punch
 from gradhesion.cli.study.roles import mistakes_of_roles
+from gradhesion.cli.study.states import mistakes_of_states
 from gradhesion.cli.study.wording import did_you_mean, nearest
 from gradhesion.core import SOLVERS
 
@@ -40,6 +41,7 @@ def mistakes_between_keys(checked: Checked) -> tuple[dict[str, Values], list[Mis
     mistakes += mistakes_of_points(sound) if points else mistakes_of_grid(sound)
     mistakes += mistakes_of_roles(checked, sound)
     mistakes += mistakes_of_punch(checked, sound)
+    mistakes += mistakes_of_states(checked, sound)
     mistakes += _mistakes_of_size(checked, [np.size(values) for values in sound.values()], points=points)
     return sound, mistakes
 
@@ -77,7 +79,7 @@ def _mistakes_of_outputs(checked: Checked) -> Iterator[Mistake]:
         if name in kind.outputs and name in asked[:i]:
             yield Mistake(path, name, "this output is asked for twice; remove one of the two")
         elif name in kind.outputs:
-            curve = next((one for one, own in CURVES.items() if name in own and one in asked), None)
+            curve = next((one for one, own in CURVES.items() if name in own and one in asked and one != name), None)
             if curve is not None:
                 yield Mistake(
                     path, name, f'a variable of "{curve}", which is asked for as a whole; remove one of the two'

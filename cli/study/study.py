@@ -67,6 +67,8 @@ class Study:
     method: Method
     profile: Profile = field(default_factory=Profile)
     loading: Loading = field(default_factory=Loading)
+    states: tuple[float, ...] = ()
+    """The contact radii a/R whose pressure and surface are drawn; empty: the named states of the cycle."""
     text: str
     """The study as TOML: reading it again gives the same study."""
     left_out: frozenset[str] = frozenset()
@@ -205,6 +207,7 @@ def _study(source: Source) -> Study:
         ),
         profile=profile_of(form.profile),
         loading=Loading(control=form.loading.control),
+        states=form.states.radii,
         text=source.text or _toml(source.data),
         left_out=frozenset(absent.keys() - {"a_max", "a_max_over_R"}),
     )

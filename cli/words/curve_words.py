@@ -9,7 +9,7 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.curve_variables import variables_of_curves
-from gradhesion.cli.names import INTEGERS, RAGGED
+from gradhesion.cli.names import INTEGERS, RAGGED, STATE_CURVES
 from gradhesion.cli.study.tiling import tile
 from gradhesion.cli.words.jump_words import jumps_told, meaning_of
 
@@ -34,7 +34,8 @@ def curves_told(dataset: xarray.Dataset) -> Iterator[str]:
                 values = scene[name][~np.isnan(scene[name])]
                 ends[name] = float(np.min(values, initial=least)), float(np.max(values, initial=greatest))
         yield ""
-        yield f"{curve}: {_range(counts.pop('points'))} points a scene"
+        which = "state" if curve in STATE_CURVES else "scene"
+        yield f"{curve}: {_range(counts.pop('points'))} points a {which}"
         yield from (f"  {word:<30} {_range(numbers)}" for word, numbers in counts.items())
         for name, (least, greatest) in ends.items():
             extent = f"{least + 0.0:.6g} to {greatest + 0.0:.6g}" if least <= greatest else "no value in any scene"

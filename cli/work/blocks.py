@@ -41,7 +41,12 @@ def scales_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
     from gradhesion.core.reduced import scales_in_si  # noqa: PLC0415 (300 ms for SciPy)
 
     given = study.parameters_of(block)
-    return scales_in_si(given["R"], given["work_of_adhesion"])
+    scales = scales_in_si(given["R"], given["work_of_adhesion"])
+    if any(UNITS[name] == "Pa" for name in study.in_si):
+        from gradhesion.core.equations.pressure import pressure_unit  # noqa: PLC0415 (300 ms for SciPy)
+
+        scales["Pa"] = pressure_unit(given["R"], given["work_of_adhesion"])
+    return scales
 
 
 def _solved(study: Study, block: Block, threads: int | None) -> dict[str, NDArray[Any]]:

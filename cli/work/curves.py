@@ -1,19 +1,20 @@
 """The curves of a study: drawn scene by scene, each as long as it needs to be, and padded to the longest."""
 
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, RAGGED, SI, UNITS
+from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, RAGGED, SI, STATE_CURVES, UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work.blocks import awaited, scales_of, scenes_of
 from gradhesion.core import draw_curves
 from gradhesion.core.processors import processors
+from gradhesion.core.status import NO_VALUE
 
 AHEAD: Final = 2
 """Scenes drawn ahead a thread."""
@@ -70,8 +71,13 @@ def drawn(study: Study, threads: int | None = None) -> Iterator[Drawing]:
 def _draw(study: Study, block: Block) -> Drawing:
     """Draw the curves of one scene; one that has none is one point without a value."""
     scene = {name: float(values.item()) for name, values in scenes_of(study, block).items()}
-    curves = [curve for curve, own in CURVES.items() if any(name in own for name in study.outputs)]
+    asked = [curve for curve, own in CURVES.items() if any(name in own for name in study.outputs)]
+    curves = [curve for curve in asked if curve not in STATE_CURVES]
     found, status = draw_curves(scene, curves, study.profile, study.loading)
+    if curves != asked:
+        of_states, more = _of_states(study, scene, [curve for curve in asked if curve in STATE_CURVES])
+        found |= of_states
+        status |= more
     front = (1,) * len(block)
     parts = {}
     counts = {
@@ -86,11 +92,24 @@ def _draw(study: Study, block: Block) -> Drawing:
             parts[name] = found[name]
         else:
             values = np.asarray(found[name]) if np.size(found[name]) else np.array([blank_of(name)])
-            parts[name] = values.reshape(*front, -1)
+            parts[name] = values.reshape(*front, *values.shape)
     scales = scales_of(study, block)
     parts |= {name + SI: parts[name] * scales[UNITS[name]].item() for name in study.in_si}
     parts["status"] = np.full(front, status, dtype=np.int8)
     return block, parts
+
+
+def _of_states(study: Study, scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict[str, NDArray[Any]], int]:
+    """Draw the curves of the states of one scene: those of given radii, or the named ones of its cycle."""
+    from gradhesion.core.equations import states  # noqa: PLC0415 (300 ms for SciPy)
+
+    if study.states:
+        chosen, status = states.equilibrium_states(scene, study.states, study.profile), 0
+        if np.isnan(chosen).all():
+            status = NO_VALUE
+    else:
+        chosen, status = states.named_states(scene, study.profile, study.loading)
+    return states.draw_states(scene, chosen, curves, study.profile), status
 
 
 def gathered(study: Study, drawings: Sequence[Drawing]) -> dict[str, NDArray[Any]]:
@@ -101,7 +120,7 @@ def gathered(study: Study, drawings: Sequence[Drawing]) -> dict[str, NDArray[Any
         if is_ragged(name):
             filled[name] = np.concatenate(parts_of)
             continue
-        further = [max(part.shape[-1] for part in parts_of)] if parts_of[0].ndim > len(study.shape) else []
+        further = [max(lengths) for lengths in zip(*(part.shape[len(study.shape) :] for part in parts_of), strict=True)]
         filled[name] = np.full((*study.shape, *further), blank_of(name), INTEGERS.get(name, "f8"))
     for block, parts in drawings:
         for name, part in parts.items():

@@ -21,6 +21,24 @@ from gradhesion.core.equations.general import harmonics, hertz_indentation
 from gradhesion.core.equations.pair import cosine_integrals, sine_integrals
 
 
+def pressure_unit(radius_of_punch: ArrayLike, work_of_adhesion: ArrayLike) -> Array:
+    """Return dgamma/R in Pa, by which pressures are multiplied for SI units.
+
+    Parameters
+    ----------
+    radius_of_punch
+        R in m.
+    work_of_adhesion
+        dgamma in J/m^2.
+
+    Examples
+    --------
+    >>> float(pressure_unit(1e-6, 0.05).round(6))
+    50000.0
+    """
+    return np.asarray(work_of_adhesion, dtype=float) / np.asarray(radius_of_punch, dtype=float)
+
+
 def flat_pressure(
     k: ArrayLike, stiffness: ArrayLike, distance: ArrayLike, radius: ArrayLike, depth: ArrayLike
 ) -> Array:

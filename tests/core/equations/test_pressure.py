@@ -20,10 +20,10 @@ PROFILES = [
     ([-0.01], [0.02], 1.0),
     ([0.0, 0.0, 0.005], [], 2.9),
 ]
-EXPONENTS = [0.0, 0.1, 0.43, 0.9, 1.0]
+EXPONENTS = [0.0, 0.43, 0.9, 1.0]
 
 
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 
 def _panels(edges: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -39,7 +39,7 @@ def _integral(k: float, a: float, power: float, values: Callable[[NDArray[np.flo
     within = float(np.sum(weights / n * values(w ** (1.0 / n))))
     # beyond: a^2 - r^2 = X v^q, q = 2/(1+k), makes the edge smooth
     q, span = 2.0 / (1.0 + k), 0.75 * a * a
-    v, weights = _panels(np.linspace(0.0, 1.0, 25))
+    v, weights = _panels(np.linspace(0.0, 1.0, 17))
     r = np.sqrt(a * a - span * v**q)
     return within + float(np.sum(weights * 0.5 * span * q * v ** (q - 1.0) * r ** (power - 1.0) * values(r)))
 
@@ -57,7 +57,7 @@ def test_the_integral_of_the_pressure_is_the_load(k: float, cosines: list[float]
         assert found == pytest.approx(load, rel=1e-10, abs=1e-10 * disc * stretch)
 
 
-@pytest.mark.parametrize("k", [0.0, 0.1, 0.43, 0.8])
+@pytest.mark.parametrize("k", [0.0, 0.43, 0.8])
 @pytest.mark.parametrize(("cosines", "sines", "m"), PROFILES)
 def test_the_pressure_presses_the_middle_in_by_the_depth(
     k: float, cosines: list[float], sines: list[float], m: float

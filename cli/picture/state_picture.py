@@ -1,0 +1,128 @@
+"""The picture of states of contact: the pressure under the punch, and the surface around it."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import cycle
+from typing import Final
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.names import CURVES, SI, STATE
+from gradhesion.cli.picture.labels import Unit, equation, given, number, unit_for
+from gradhesion.cli.picture.panels import COLOURS
+from gradhesion.cli.picture.pictured import heading, in_lines, styled
+
+Values = NDArray[np.float64]
+
+LABELS: Final = {
+    "pressure_radius": ("distance $r/R$", "distance $r$"),
+    "pressure": (r"pressure $pR/\Delta\gamma$", "pressure $p$"),
+    "surface_radius": ("distance $r/R$", "distance $r$"),
+    "surface_displacement": ("surface $u_z/R$", "surface $u_z$"),
+}
+"""What an axis shows, without a unit and with one."""
+
+PANELS: Final = (("pressure", "pressure_radius", "pressure"), ("surface", "surface_radius", "surface_displacement"))
+"""The curve of each panel, and what it has along and up."""
+
+DASHES: Final = ("-", (0, (5, 1.5)), (0, (2, 1)), (0, (6, 1.5, 1, 1.5)))
+"""What tells states apart where colours do not print."""
+
+SHOWN: Final = 0.95
+"""The share of a contact up to which the pressure sets the limits of its panel: it has no bound at the edge."""
+
+
+def draw_states(dataset: xarray.Dataset, chosen: Sequence[str]) -> Figure:
+    """
+    Draw pressure and surface of the states of one scene, the first of a dataset of several; in units if it has them.
+
+    Raises
+    ------
+    DatasetError
+        A radius is missing that the curve is drawn over, or no state has a value.
+    """
+    scene = dataset.isel(dict.fromkeys(dataset["status"].dims, 0))
+    panels = [(curve, x, y) for curve, x, y in PANELS if curve in chosen and y in scene]
+    for curve, x, _ in panels:
+        if x not in scene:
+            raise DatasetError(f'{curve}: needs {x}, which this dataset has not; write outputs = ["{curve}"]')
+    if not panels:
+        needed = CURVES["surface"]
+        raise DatasetError(f'surface: needs {", ".join(needed)} for a picture; write outputs = ["surface"]')
+    if all(bool(np.isnan(scene[y].values).all()) for _, _, y in panels):
+        raise DatasetError("no value in any state drawn; `gradhesion info` reports why")
+    with styled():
+        width = 4.0 * len(panels)
+        figure = Figure(figsize=(width, 3.4), layout="constrained")
+        for axes, (curve, x, y) in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
+            units = {name: _unit(scene, name) for name in (x, y)}
+            _draw(axes, scene, curve, x, y, units)
+            for name, put in ((x, axes.set_xlabel), (y, axes.set_ylabel)):
+                put(LABELS[name][1] + f" ({units[name].symbol})" if units[name].symbol else LABELS[name][0])
+        handles, labels = axes.get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=min(4, len(labels)), fontsize=8, frameon=False)
+        caption = in_lines(list(_caption(dataset)), width)
+        figure.suptitle("\n".join(filter(None, (heading(dataset), caption))), fontsize=9, wrap=True)
+    return figure
+
+
+def _rows(scene: xarray.Dataset, name: str) -> Values:
+    """Take a variable of every state, in SI if it is there."""
+    return np.atleast_2d(scene[name + SI if name + SI in scene else name].values)
+
+
+def _unit(scene: xarray.Dataset, name: str) -> Unit:
+    """Choose the unit of an axis."""
+    if name + SI not in scene:
+        return Unit()
+    values = _rows(scene, name)
+    return unit_for(name + SI, values[np.isfinite(values)])
+
+
+def _draw(axes: Axes, scene: xarray.Dataset, curve: str, x: str, y: str, units: Mapping[str, Unit]) -> None:
+    """Draw one curve of every state."""
+    along, up = (_rows(scene, name) / 10.0 ** units[name].power for name in (x, y))
+    gaps = (
+        _rows(scene, "surface_gap") / 10.0 ** units[y].power if curve == "surface" and "surface_gap" in scene else None
+    )
+    labels = _labels(scene)
+    limits = []
+    for i, (label, dash) in enumerate(zip(labels, cycle(DASHES), strict=False)):
+        colour = COLOURS(0.75 * i / max(1, len(labels) - 1))
+        if not np.isfinite(up[i]).any():
+            axes.plot([], [], color=colour, ls=dash, label=f"{label} (absent)")
+            continue
+        axes.plot(along[i], up[i], color=colour, ls=dash, lw=1.2, label=label)
+        if gaps is not None:  # the punch itself, where it does not touch
+            axes.plot(
+                along[i], np.where(gaps[i] > 0.0, up[i] - gaps[i], np.nan), color=colour, lw=0.6, ls=(0, (1, 1.5))
+            )
+        inner = up[i][along[i] <= SHOWN * np.nanmax(along[i])]
+        limits += [np.nanmin(inner), np.nanmax(inner)]
+    axes.axhline(0.0, color="0.85", lw=0.6, zorder=0)
+    axes.set_xlim(left=0.0)
+    if curve == "pressure":
+        room = 0.08 * (max(limits) - min(limits)) or 1.0
+        axes.set_ylim(min(limits) - room, max(limits) + room)
+    else:
+        axes.invert_yaxis()  # into the half-space is downwards
+
+
+def _labels(scene: xarray.Dataset) -> list[str]:
+    """Name the states."""
+    return [
+        value.replace("_", " ") if isinstance(value, str) else f"$a/R$ = {number(float(value))}"
+        for value in scene[STATE].values.tolist()
+    ]
+
+
+def _caption(dataset: xarray.Dataset) -> Iterable[str]:
+    """Tell the parameters of the scene."""
+    for name in given(dataset.coords):
+        values = dataset[name].values
+        first = equation(name, np.ravel(values)[0])
+        yield first if np.size(values) == 1 else f"{first} (first of {np.size(values)})"
