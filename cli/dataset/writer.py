@@ -287,7 +287,7 @@ def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
 def _chunks(dimensions: tuple[netCDF4.Dimension, ...], cells: int) -> tuple[int, ...]:
     """Choose the chunks of a variable: of a curve they are its own, of all else those of the blocks."""
     if dimensions[-1].isunlimited():
-        return (*(1 for _ in dimensions[:-1]), POINTS)
+        return (*(1 for _ in dimensions[:-1]), min(POINTS, cells))
     return Tiling(tuple(map(len, dimensions)), cells).chunk
 
 

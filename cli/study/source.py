@@ -33,7 +33,7 @@ class Source:
     """What was wrong with the overrides."""
 
 
-def read_source(path: Path, overrides: Iterable[str]) -> Source:
+def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) -> Source:
     """
     Read a study file and set what is overridden.
 
@@ -42,7 +42,7 @@ def read_source(path: Path, overrides: Iterable[str]) -> Source:
     StudyError
         The file cannot be read, or is not TOML.
     """
-    text = _text(path)
+    text = _text(path, most)
     try:
         data = tomllib.loads(text)
     except RecursionError:
@@ -68,16 +68,16 @@ def read_source(path: Path, overrides: Iterable[str]) -> Source:
     return Source(name=path.stem, data=data, text=unchanged, place=place, mistakes=tuple(mistakes))
 
 
-def _text(path: Path) -> str:
+def _text(path: Path, most: int) -> str:
     """Read the text of a study file."""
     try:
         with path.open("rb") as file:
-            content = file.read(MOST_BYTES + 1)
+            content = file.read(most + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise StudyError([f"{path}: cannot be read ({reason}); name a study in TOML"]) from None
-    if len(content) > MOST_BYTES:
-        raise StudyError([f"{path}: larger than {MOST_BYTES >> 20} MiB, so hardly a study; name a study in TOML"])
+    if len(content) > most:
+        raise StudyError([f"{path}: larger than {most >> 20} MiB, so hardly a study; name a study in TOML"])
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.dataset.curve_variables import variables_of_curves
 from gradhesion.cli.names import INTEGERS, RAGGED, STATE_CURVES
 from gradhesion.cli.study.tiling import tile
-from gradhesion.cli.words.jump_words import jumps_told, meaning_of
+from gradhesion.cli.words.jump_words import ITEMS, jumps_told, meaning_of
 
 CELLS: Final = 2**20
 """Values of a variable that are read at a time, unless a single curve has more."""
@@ -19,14 +19,14 @@ CELLS: Final = 2**20
 Scene = dict[str, NDArray[np.float64]]
 
 
-def curves_told(dataset: xarray.Dataset) -> Iterator[str]:
-    """Tell the curves of a dataset, line by line."""
+def curves_told(dataset: xarray.Dataset, cells: int = CELLS, jumps: int = ITEMS) -> Iterator[str]:
+    """Describe the curves of a dataset, line by line, reading so many values of a variable, or jumps, at a time."""
     for curve, names in variables_of_curves(dataset).items():
         if curve in RAGGED:
             continue
         counts: dict[str, list[int]] = {"points": []}
         ends = {name: (np.inf, -np.inf) for name in names if name not in INTEGERS}
-        for scene in _scenes(dataset, names):
+        for scene in _scenes(dataset, names, cells):
             counts["points"].append(int(np.count_nonzero(~np.isnan(scene[names[0]]))))
             for word, count in _events(scene).items():
                 counts.setdefault(word, []).append(count)
@@ -40,13 +40,13 @@ def curves_told(dataset: xarray.Dataset) -> Iterator[str]:
         for name, (least, greatest) in ends.items():
             extent = f"{least + 0.0:.6g} to {greatest + 0.0:.6g}" if least <= greatest else "no value in any scene"
             yield f"  {name:<30} {extent:<26} {meaning_of(dataset[name])}"
-    yield from jumps_told(dataset)
+    yield from jumps_told(dataset, jumps)
 
 
-def _scenes(dataset: xarray.Dataset, names: Sequence[str]) -> Iterator[Scene]:
+def _scenes(dataset: xarray.Dataset, names: Sequence[str], cells: int) -> Iterator[Scene]:
     """Give the variables of one curve scene by scene."""
     *shape, longest = dataset[names[0]].shape
-    steps = tile(tuple(shape), max(1, CELLS // max(1, longest)))
+    steps = tile(tuple(shape), max(1, cells // max(1, longest)))
     starts = (range(0, length, step) for length, step in zip(shape, steps, strict=True))
     for corner in product(*starts):
         block = tuple(slice(start, start + step) for start, step in zip(corner, steps, strict=True))

@@ -22,7 +22,7 @@ JUMP: Final = EXTENTS["jumps"]
 Piece = dict[str, NDArray[Any]]
 
 
-def jumps_told(dataset: xarray.Dataset) -> Iterator[str]:
+def jumps_told(dataset: xarray.Dataset, items: int = ITEMS) -> Iterator[str]:
     """Tell the jumps of a dataset, if it has them: how many, how large, and where the largest is."""
     if COUNT not in dataset:
         return
@@ -34,7 +34,7 @@ def jumps_told(dataset: xarray.Dataset) -> Iterator[str]:
     numbers = dict.fromkeys(("on unloading", "from or to the rim", "that gain energy"), 0)
     ends: dict[str, tuple[float, float]] = {}
     largest: dict[str, Any] = {}
-    for piece in _pieces(dataset):
+    for piece in _pieces(dataset, items):
         if not all(values.size for values in piece.values()):
             break
         for word, flags in (
@@ -57,11 +57,11 @@ def jumps_told(dataset: xarray.Dataset) -> Iterator[str]:
         yield f"  the largest dissipates {largest['jump_energy']:.6g}{_where(largest)}"
 
 
-def jumps_listed(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
+def jumps_listed(dataset: xarray.Dataset, file: Path, items: int = ITEMS) -> Iterator[str]:
     """List every jump of a dataset as CSV, some lines at a time: the parameters that vary, and what is known of it."""
     if JUMP not in dataset.dims:
         raise DatasetError(f'{file}: has no jumps; add "jumps" to the outputs of a study of kind "curve" and run it')
-    for number, piece in enumerate(_pieces(dataset)):
+    for number, piece in enumerate(_pieces(dataset, items)):
         if number == 0:
             yield ",".join(piece)
         rows = zip(*(values.tolist() for values in piece.values()), strict=True)
@@ -76,7 +76,7 @@ def meaning_of(variable: xarray.DataArray) -> str:
     return str(variable.attrs["long_name"]) + ("" if unit == "1" else f", in {unit}")
 
 
-def _pieces(dataset: xarray.Dataset) -> Iterator[Piece]:
+def _pieces(dataset: xarray.Dataset, items: int) -> Iterator[Piece]:
     """Read some jumps at a time, none if there is none: the parameters that vary, and the variables of each jump."""
     status = dataset["status"]
     counts = dataset[COUNT].values.ravel()
@@ -88,8 +88,8 @@ def _pieces(dataset: xarray.Dataset) -> Iterator[Piece]:
     own = [name for name in variables_of_curves(dataset)["jumps"] if name != COUNT]
     ends = np.cumsum(counts, dtype=np.int64)
     total = int(ends[-1]) if own else 0
-    for start in range(0, max(1, total), ITEMS):
-        stop = min(start + ITEMS, total)
+    for start in range(0, max(1, total), items):
+        stop = min(start + items, total)
         scene = np.searchsorted(ends, np.arange(start, stop), side="right")
         yield {name: values[scene] for name, values in scenes.items()} | {
             name: dataset[name][start:stop].values for name in own

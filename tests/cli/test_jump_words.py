@@ -12,9 +12,11 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
+from gradhesion.cli.dataset.reader import opened
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import CURVES, INTEGERS
 from gradhesion.cli.study.study import study_from
+from gradhesion.cli.words.jump_words import jumps_listed, jumps_told
 from gradhesion.core import draw_curves, solve
 
 Call = Callable[..., Result]
@@ -107,9 +109,7 @@ def test_a_single_variable_brings_the_count_along(
         assert f"jumps: {dataset['jump_count'].item()} a scene" in told
 
 
-def test_info_tells_them_in_words(
-    gradhesion: Call, dataset_file: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_info_tells_them_in_words(gradhesion: Call, dataset_file: Callable[..., Path]) -> None:
     path = dataset_file()
     told = " ".join(gradhesion("info", path).stdout.split())
     with xarray.open_dataset(path) as dataset:
@@ -130,17 +130,16 @@ def test_info_tells_them_in_words(
         f", {where} status: 6 of 6 scenes",
     ):
         assert words in told, words
-    monkeypatch.setattr("gradhesion.cli.words.jump_words.ITEMS", 7)
-    assert " ".join(gradhesion("info", path).stdout.split()) == told, "read in whatever pieces"
+    with opened(path) as dataset:
+        assert list(jumps_told(dataset, items=7)) == list(jumps_told(dataset)), "read in whatever pieces"
 
 
-def test_info_lists_them_as_csv_without_losing_a_digit(
-    gradhesion: Call, dataset_file: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_info_lists_them_as_csv_without_losing_a_digit(gradhesion: Call, dataset_file: Callable[..., Path]) -> None:
     path = dataset_file()
-    monkeypatch.setattr("gradhesion.cli.words.jump_words.ITEMS", 5)
     result = gradhesion("info", "--jumps", path)
     assert (result.exit_code, result.stderr) == (0, "")
+    with opened(path) as dataset:
+        assert "\n".join(jumps_listed(dataset, path, items=5)) + "\n" == result.stdout
     header, *rows = csv.reader(result.stdout.splitlines())
     assert header == ["A", "a_max_over_R", *VARIABLES]
     listed = np.array(rows, dtype=float).T
