@@ -59,11 +59,12 @@ SMALLEST: Final = 1e-60
 _FURTHEST: Final = 1e300
 """An arch that stands for all beyond: numbers of arches are subtracted from each other."""
 _HALVINGS: Final = 200
-MOST_ARCHES: Final = 2.0e13
-"""Arches up to which the phase of a radius is told well enough to walk there: to a hundredth, of waves that are 10^-13
-of all."""
-_FAINT: Final = 2.0e9
-"""Arches from which on some folds alone are of the size of rounding."""
+MOST_ARCHES: Final = 2.0e9
+"""Arches up to which the phase of a radius is told well enough to walk there."""
+_MOST_NEAR_RIM: Final = 2.0e13
+"""The same near a rim: to a hundredth, of waves that are 10^-13 of all."""
+_ORDERED: Final = 20.0
+"""Times the square of what rounding leaves of a phase, below which neighbours need not be in order (is_told)."""
 _NEGLIGIBLE: Final = 2.0**-56
 """Curvature of the waviness over that of the paraboloid below which it is lost in rounding."""
 NEAR_RIM: Final = 10.0
@@ -98,7 +99,20 @@ def is_unresolved(arches: tuple[float, float], rim: float) -> bool:
 @kernel()
 def is_smooth(arches: tuple[float, float]) -> bool:
     """Return whether folds could stand only so far out, and on so few waves, that they are of the size of rounding."""
-    return arches[0] > _FAINT and arches[1] - arches[0] <= LONGEST_WALK
+    return arches[0] > MOST_ARCHES and arches[1] - arches[0] <= LONGEST_WALK
+
+
+@kernel()
+def is_told(table: Any, curve: Curve, arch: float) -> bool:
+    """Return whether a float tells places on an arch well enough to walk there.
+
+    A fold that is off by e has a depth that is off by e^2/2 of the wave; neighbours differ by 2 pi b z^n/(g C) of it.
+    """
+    b, g, _ = curve
+    z = math.pi * arch
+    e = 2.0**-52 * z
+    rise = TWO_PI * b / (amplitude_power(table, z) * g * table.amplitude)
+    return arch < MOST_ARCHES or (arch < _MOST_NEAR_RIM and _ORDERED * e * e < rise)
 
 
 @kernel()
@@ -284,7 +298,7 @@ def stride(
         near = append_branches(table, curve, int(first), final, beginning, trace, NONE)
         before = _wave_of(table, trace[START, near - 1]) if near > 0 else before
     count = near
-    if last < MOST_ARCHES:
+    if is_told(table, curve, last):
         count = append_branches(table, curve, 2 * int(0.5 * last - reach * NEAR_RIM) - 1, final, rim, trace, near)
         after = _wave_of(table, trace[START, near]) if count > near else 0.0
     nominal = count == near

@@ -21,7 +21,7 @@ from gradhesion.core import smooth
 from gradhesion.core._jit import NO, YES, constant, kernel
 from gradhesion.core.branches import ARRIVAL, END, START
 from gradhesion.core.curve import Curve, curve_of, depth, force_unit, wave
-from gradhesion.core.cycle import MOST_ARCHES, extent, is_endless_wave, is_long, is_smooth, stride, walk
+from gradhesion.core.cycle import MOST_ARCHES, extent, is_endless_wave, is_long, is_smooth, is_told, stride, walk
 from gradhesion.core.folds import fold_of_arch, survey_arch
 from gradhesion.core.loading import loading_to
 from gradhesion.core.loop_energy import loop_energy
@@ -43,7 +43,8 @@ _ROUNDING: Final = 6.0 * 2.0**-52
 _PROMISED: Final = 1e-9
 """Error of the energy, in parts of its terms, above which a scene does not meet the tolerance (docs/accuracy.md)."""
 _SUMMED: Final = 5e-13
-"""Error of a sum over waves, in parts of the energy: twice the worst that is known (tests/core/test_wave_sum.py)."""
+"""Error of a sum over waves, in parts of the energies of loading and unloading: twice the worst that is known
+(tests/core/test_wave_sum.py)."""
 _LOOPED: Final = 4096.0
 """Arches, or halves of waves, up to which a loop is integrated: some milliseconds."""
 _ARCHES_BACK: Final = 8
@@ -88,12 +89,20 @@ def _outermost(count: int, trace: Any, rim: float) -> float:
 
 
 @kernel()
-def _energy_at(table: Any, curve: Curve, count: int, trace: Any, rim: float) -> float:
-    """Return the reduced energy of a cycle up to the rim."""
+def _energies_at(table: Any, curve: Curve, count: int, trace: Any, rim: float) -> tuple[float, float]:
+    """Return the reduced energies of loading up to the rim and of unloading."""
     rim_depth = depth(table, curve, rim) if rim < math.inf else math.inf
     loading, _ = loading_to(table, curve, count, trace, rim, YES)
     unloading, _, _ = unloading_from(table, curve, count, trace, rim, rim_depth, YES)
-    return loading + unloading
+    return loading, unloading
+
+
+@kernel()
+def _wave_terms(table: Any, curve: Curve, arch: float) -> float:
+    """Return what a wave on an arch may lose on both ways, of which rounding may put one too many within the rim."""
+    _, g, _ = curve
+    chi = g * table.amplitude
+    return 8.0 * TWO_PI * math.pi * arch * chi * (1.0 + chi)
 
 
 @kernel()
@@ -122,7 +131,11 @@ def _report_energy(
     residual = math.nan
     if long:
         count, trace = stride(table, curve, arches, x, scratch, YES, 2.0)
-        error = 4.0 * abs(energy - scale * _energy_at(table, curve, count, trace, x)) + _SUMMED * abs(energy)
+        loaded, unloaded = _energies_at(table, curve, count, trace, x)
+        error = 4.0 * abs(energy - scale * (loaded + unloaded)) + _SUMMED * scale * (abs(loaded) + abs(unloaded))
+        last = min(arches[1], 2.0 * x)
+        if not is_told(table, curve, last):
+            error += scale * _wave_terms(table, curve, last)
     else:
         count, trace = walk(table, curve, arches, x, scratch, YES)
         error = 0.0

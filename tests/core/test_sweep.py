@@ -38,7 +38,7 @@ def mixture() -> dict[str, np.ndarray]:
 
 def test_names() -> None:
     assert len(PARAMETERS) == 7
-    assert len(OUTPUTS) == 7
+    assert len(OUTPUTS) == 9
     assert "exact" in SOLVERS
     assert FLAGS["no_value"] == NO_VALUE
     assert FAILED & NO_VALUE

@@ -49,7 +49,7 @@ def test_a_soft_machine_prescribes_the_load(index: int) -> None:
     soft = solve(parameters | {"machine_stiffness": softness}, OUTPUTS, profile=profile, loading=MACHINE)
     dead = solve(parameters, OUTPUTS, profile=profile, loading=Loading(control="load"))
     for name in OUTPUTS:
-        if name != "dissipated_energy":
+        if name not in ("dissipated_energy", "unloading_energy"):
             assert float(soft[name]) == pytest.approx(float(dead[name]), rel=1e-10), name
     # the jump-out loses the energy of the spring, P^2/(2 S), and what is bounded
     spring = (1.5 * math.pi * float(dead["pull_off_force"])) ** 2 / (2.0 * softness * parameters["modulus"])

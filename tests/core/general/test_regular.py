@@ -222,7 +222,7 @@ def test_machines_from_stiff_to_soft() -> None:
     assert rigid["unloading_jumps"] > 10_000
     for name in OUTPUTS:
         assert float(stiff[name]) == pytest.approx(float(rigid[name]), rel=1e-9), name
-        if name != "dissipated_energy":
+        if name not in ("dissipated_energy", "unloading_energy"):
             assert float(soft[name]) == pytest.approx(float(dead[name]), rel=1e-9), name
     spring = (1.5 * math.pi * float(dead["pull_off_force"])) ** 2 / (2.0 * 1e-14 * scene["modulus"])
     assert float(soft["dissipated_energy"]) == pytest.approx(spring, rel=1e-9)
