@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import CURVES, OUTPUTS
+from gradhesion.cli.names import CURVES
 from gradhesion.cli.study.axes import Values, expanded, mistake_of_range, mistakes_of_grid, mistakes_of_points
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.mistakes import Checked, Mistake
@@ -16,11 +16,11 @@ from gradhesion.cli.study.punch import mistakes_of_punch
 from gradhesion.cli.study.roles import mistakes_of_roles
 from gradhesion.cli.study.states import mistakes_of_states
 from gradhesion.cli.study.wording import did_you_mean, nearest
-from gradhesion.core import SOLVERS
+from gradhesion.core import REPORTS, SOLVERS
 
 LAYOUTS: Final = ("grid", "points")
 
-EXACT_ONLY: Final = tuple(OUTPUTS)[7:]
+EXACT_ONLY: Final = REPORTS
 """The outputs that come with the exact solver alone."""
 
 

@@ -72,7 +72,9 @@ def test_every_flag_has_words_and_every_doubt_looks_of_its_own() -> None:
 def test_loading_casts_no_doubt_on_what_follows_full_contact() -> None:
     status = np.array([0, *FLAGS.values()])
     doubtful = {name for name in (*OUTPUTS, *REPORTS, *CURVES) if LOADING in doubts_in(status, name)}
-    assert doubtful == {"dissipated_energy", "energy_gain", "loading_jumps", "delta_max", "path", "jumps"}
+    assert doubtful == {
+        "dissipated_energy", "loading_energy", "energy_gain", "loading_jumps", "delta_max", "path", "jumps"
+    }  # fmt: skip
     for name in OUTPUTS:
         assert {UNLOADING, TOLERANCE} <= {*doubts_in(status, name)}
     assert (

@@ -74,8 +74,8 @@ def test_without_a_place_for_the_lock(compiled: list[str], tmp_path: Path, monke
     monkeypatch.setattr(kernels, "place", lambda: Place(tmp_path / "file" / "cache"))
     kernels.compile_kinds(["force"])
     monkeypatch.setattr(kernels, "place", lambda: Place(None))
-    kernels.compile_kinds(["envelope"])
-    assert compiled == ["tables", "force", "asymptotic", "envelope"]
+    kernels.compile_kinds(["general_force"])
+    assert compiled == ["tables", "force", "general_force"]
 
 
 def test_it_says_what_is_compiled_and_when_it_is_done(compiled: list[str], capsys: pytest.CaptureFixture[str]) -> None:
@@ -107,7 +107,7 @@ def test_processes_side_by_side_compile_no_kernel_twice(tmp_path: Path) -> None:
         "from gradhesion.cli.work.warming import warm\n"
         "if __name__ == '__main__':\n"
         "    found = {}\n"
-        "    warm(['force', 'asymptotic'], 2, lambda kind, names: found.update({kind: names}))\n"
+        "    warm(['force', 'general_envelope'], 2, lambda kind, names: found.update({kind: names}))\n"
         "    print(list(found), sum(map(len, found.values())))\n"
     )
     script = tmp_path / "warm.py"
@@ -116,5 +116,5 @@ def test_processes_side_by_side_compile_no_kernel_twice(tmp_path: Path) -> None:
     done = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True, env=environment)
     kinds, _, count = done.stdout.strip().rpartition(" ")
     assert kinds.startswith("['tables', ")
-    assert sorted(eval(kinds)) == ["asymptotic", "force", "tables"]  # noqa: S307 (of our own)
+    assert sorted(eval(kinds)) == ["force", "general_envelope", "tables"]  # noqa: S307 (of our own)
     assert int(count) == len(list(tmp_path.rglob("*.nbc"))) > 20
