@@ -46,8 +46,8 @@ def edit_study(path: Path, old: str, new: str, *, seal: bool = False) -> None:
 def test_a_good_dataset_stands_up(gradhesion: Call, dataset_file: Path) -> None:
     result = gradhesion("verify", dataset_file, *ALL)
     assert result.exit_code == 0, result.stderr
-    assert "24 of 24 scenes recomputed (--seed 1), 168 values, solver exact" in result.stdout
-    assert "all 168 values are within their stated errors" in result.stdout
+    assert "24 of 24 scenes recomputed (--seed 1), 216 values, solver exact" in result.stdout
+    assert "all 216 values are within their stated errors" in result.stdout
     shares = [float(row[3]) for row in rows(result) if row[0] != "..."]
     assert len(shares) == 12
     assert shares == sorted(shares, reverse=True)
@@ -64,7 +64,7 @@ def test_one_changed_value_is_found_and_named_first(output: str, gradhesion: Cal
     assert result.exit_code == 3
     assert rows(result)[0][0] == output
     assert " ".join(rows(result)[0][4:]) == "k = 0.31, lambda_over_R = 0.47, A = 0.023, a_max_over_R = 1.7"
-    assert "1 of 168 values deviate by more than their stated errors" in result.stderr
+    assert "1 of 216 values deviate by more than their stated errors" in result.stderr
     assert result.stderr.startswith(f"{dataset_file}: ")
 
 
@@ -159,10 +159,21 @@ def test_a_file_that_is_no_dataset_of_ours(damage: str, gradhesion: Call, datase
     assert result.stdout == ""
 
 
+VALUES = (
+    "pull_off_force",
+    "pull_off_radius",
+    "dissipated_energy",
+    "loading_energy",
+    "unloading_energy",
+    "delta_max",
+    "delta_jump_out",
+)
+
+
 def test_scenes_without_a_value_must_have_none(gradhesion: Call, dataset_file: Path) -> None:
     with netCDF4.Dataset(dataset_file, "a") as file:
         file["status"][0] = 64
-        for name in ("pull_off_force", "pull_off_radius", "dissipated_energy", "delta_max", "delta_jump_out"):
+        for name in VALUES:
             file[name][0] = np.nan
         for name in ("loading_jumps", "unloading_jumps"):
             file[name][0] = -1
@@ -219,7 +230,7 @@ def test_errors_that_a_dataset_tells_of_its_values_are_held_against_them(gradhes
         file["pull_off_force"][0, 0, 1, 0] += 2e-10
     result = gradhesion("verify", dataset_file, *ALL)
     assert result.exit_code == 3
-    assert "1 of 168 values" in result.stderr
+    assert "1 of 216 values" in result.stderr
     assert rows(result)[0][:3] == ["pull_off_force", "2e-10", "1e-10"]
     assert rows(result)[1][:3] == ["pull_off_force", "9e-11", "1e-10"]
 

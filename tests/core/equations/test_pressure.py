@@ -7,6 +7,7 @@ import mpmath
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.special import roots_jacobi
 
 from gradhesion.core.equations import general, hertz, jkr, pressure, profile
 
@@ -35,13 +36,19 @@ def _integral(k: float, a: float, power: float, values: Callable[[NDArray[np.flo
     """Integrate r^power p dr over the contact, in two parts that meet at a/2."""
     # within: w = r^(1+power), graded towards 0
     n = 1.0 + power
-    w, weights = _panels((0.5 * a) ** n * np.concatenate([[0.0], 0.5 ** np.arange(45.0, 0.0, -1.0), [0.75, 1.0]]))
+    w, weights = _panels(
+        (0.5 * a) ** n * np.concatenate([[0.0], 0.5 ** np.arange(45.0, 1.0, -1.0), np.linspace(0.5, 1.0, 13)])
+    )
     within = float(np.sum(weights / n * values(w ** (1.0 / n))))
-    # beyond: a^2 - r^2 = X v^q, q = 2/(1+k), makes the edge smooth
-    q, span = 2.0 / (1.0 + k), 0.75 * a * a
-    v, weights = _panels(np.linspace(0.0, 1.0, 17))
-    r = np.sqrt(a * a - span * v**q)
-    return within + float(np.sum(weights * 0.5 * span * q * v ** (q - 1.0) * r ** (power - 1.0) * values(r)))
+    # beyond: u = a^2 - r^2, in which p is u^((k-1)/2) times a smooth function; Jacobi's rule takes the panel at the edge
+    edges, rest = np.linspace(0.0, 0.75 * a * a, 25), 0.5 * (k - 1.0)
+    t, jacobi = roots_jacobi(24, 0.0, rest)
+    u, weights = _panels(edges[1:])
+    near = 0.5 * edges[1] * (1.0 + t)
+    u = np.concatenate([near, u])
+    weights = np.concatenate([(0.5 * edges[1]) ** (1.0 + rest) * jacobi * near**-rest, weights])
+    r = np.sqrt(a * a - u)
+    return within + float(np.sum(weights * 0.5 * r ** (power - 1.0) * values(r)))
 
 
 @pytest.mark.parametrize("k", EXPONENTS)
