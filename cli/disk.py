@@ -123,6 +123,28 @@ def _rename_anew(source: Path, target: Path) -> None:
         source.unlink()
 
 
+def refuse_unnamed(path: Path, target: Path) -> None:
+    """
+    Refuse a name for a dataset that the library of NetCDF cannot open.
+
+    Raises
+    ------
+    OutputError
+        It is not UTF-8; or it has a backslash, which the library takes for the mark of a folder.
+    """
+    name = os.fspath(target)
+    if os.sep == "/" and "\\" in name:
+        raise OutputError(
+            f"{path}: its name, or that of a folder above it, has a backslash, which NetCDF misreads; name another"
+        )
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        raise OutputError(
+            f"{path}: its name, or that of a folder above it, is not UTF-8, as NetCDF needs it; name another with -o"
+        ) from None
+
+
 def write_whole(path: Path, *pieces: bytes | memoryview, sync: bool = True) -> None:
     """Write a file under another name, wait until it is on disk, and give it its name."""
     temporary = path.with_name(f"{path.name}.{secrets.token_hex(8)}.tmp")

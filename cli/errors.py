@@ -65,6 +65,12 @@ class MissingExtraError(GradhesionError):
     exit_code = 2
 
 
+class CompilerError(GradhesionError):
+    """Kernels cannot be compiled."""
+
+    exit_code = 2
+
+
 class DeviationError(GradhesionError):
     """Values of a dataset deviate by more than is stated for them."""
 

@@ -1,5 +1,6 @@
 """What a file is, for whoever named it in the place of another."""
 
+import os
 from pathlib import Path
 from typing import Final
 
@@ -24,6 +25,16 @@ _ENDINGS: Final = {
     ".md": "a text in Markdown",
 }
 """What files are by their names."""
+
+
+def is_file(path: Path) -> bool:
+    """
+    Check whether a file is there, or a link to one; unlike that of pathlib it raises nothing, whatever the name.
+
+    >>> is_file(Path("x" * 1000)), is_file(Path("/"))
+    (False, False)
+    """
+    return os.path.isfile(path)  # noqa: PTH113
 
 
 def kind_of(path: Path) -> str:

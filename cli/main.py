@@ -1,5 +1,6 @@
 """The command `gradhesion`: its sub-commands, and how it ends."""
 
+import io
 import os
 import sys
 from contextlib import suppress
@@ -19,7 +20,8 @@ from gradhesion.cli.commands.status import status
 from gradhesion.cli.commands.validate import schema, validate
 from gradhesion.cli.commands.verify import verify
 from gradhesion.cli.commands.warmup import warmup
-from gradhesion.cli.errors import GradhesionError
+from gradhesion.cli.errors import GradhesionError, OutputError
+from gradhesion.cli.terminal import complain, open_streams
 
 INTERRUPTED = 130
 UNHEARD = 141
@@ -87,6 +89,7 @@ for _commands in SECTIONS.values():
 
 def main() -> NoReturn:
     """Run the command line, and leave with the exit code of how it went."""
+    open_streams()
     interrupts.listen()
     try:
         code = cli.main(prog_name="gradhesion", standalone_mode=False) or 0
@@ -97,9 +100,9 @@ def main() -> NoReturn:
     if code == 0:
         sys.exit(0)
     # A failed or interrupted run may leave a block in work and a file that HDF5 cannot flush: wait for neither.
-    with suppress(BrokenPipeError):
-        sys.stdout.flush()
-        sys.stderr.flush()
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError, ValueError, AttributeError):
+            stream.flush()
     os._exit(code)
 
 
@@ -107,14 +110,22 @@ def _code_of(error: BaseException) -> int:
     """Report to the user what has ended the command, and to the shell by a code; an error of the program is raised."""
     # What an interrupt breaks can look like anything, an ImportError for one.
     if interrupts.heard() or isinstance(error, KeyboardInterrupt | click.Abort):
-        with suppress(BrokenPipeError):
-            messages.say("interrupted", interrupts.last_words(), exit_code=INTERRUPTED)
+        messages.say("interrupted", interrupts.last_words(), exit_code=INTERRUPTED)
         return INTERRUPTED
+    if isinstance(error, MemoryError):
+        error = messages.Failure(OutputError("there is not enough memory; split the study, or give it more memory"))
+    elif isinstance(error, OSError):  # what the system refuses is no error of the program
+        refused = f"{error.filename or 'standard output'}: {error.strerror or error}"
+        error = messages.Failure(OutputError(f"{refused}; mend this, and give the command again"))
+    if isinstance(error, messages.Failure):
+        error.show()
+        return error.exit_code
     if isinstance(error, click.ClickException):
-        with suppress(BrokenPipeError):
-            if messages.in_json() and not isinstance(error, messages.Failure):
-                messages.say_json("error", exit_code=error.exit_code, message=error.format_message())
-            else:
-                error.show()
+        if messages.in_json():
+            messages.say_json("error", exit_code=error.exit_code, message=error.format_message())
+        else:
+            text = io.StringIO()
+            error.show(text)
+            complain(text.getvalue().rstrip())
         return error.exit_code
     raise error

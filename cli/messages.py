@@ -7,6 +7,8 @@ from typing import IO, Any
 import click
 
 from gradhesion.cli.errors import GradhesionError
+from gradhesion.cli.printable import printable_line
+from gradhesion.cli.terminal import complain
 
 _json: list[bool] = []
 
@@ -27,24 +29,26 @@ def say(event: str, sentence: str, **fields: Any) -> None:
     if in_json():
         say_json(event, message=sentence, **fields)
     else:
-        click.echo(sentence, err=True)
+        complain(printable_line(sentence))
 
 
 def say_json(event: str, **fields: Any) -> None:
     """Print one JSON object on a line of stderr."""
-    click.echo(json.dumps({"event": event, "time": round(time.time(), 3), **fields}), err=True)
+    complain(json.dumps({"event": event, "time": round(time.time(), 3), **fields}))
 
 
 class Failure(click.ClickException):
     """A failure that the user can mend, as click prints it and ends with its exit code."""
 
     def __init__(self, error: GradhesionError) -> None:
-        super().__init__(str(error))
+        super().__init__("\n".join(map(printable_line, error.mistakes)))
         vars(self)["exit_code"] = error.exit_code  # of the class, for click
 
     def show(self, file: IO[Any] | None = None) -> None:
         """Print the message to `file` (stderr if None)."""
         if in_json() and file is None:
             say_json("error", exit_code=self.exit_code, message=self.message)
+        elif file is None:
+            complain(self.message)
         else:
-            click.echo(self.message, file=file, err=file is None)
+            click.echo(self.message, file=file)

@@ -23,7 +23,7 @@ def explore(
     Maps, sections and a slider for each axis of FILE, for any browser. The page holds the data and all that it needs:
     it opens from a disk without a network. Values have 6 digits.
     """
-    path = output or file.with_suffix(".html")
+    path = output or file.parent / f"{file.stem or 'dataset'}.html"
     if path.suffix.lower() not in {".html", ".htm"}:
         raise click.UsageError(f"{path}: the name of a page ends in .html; name another with -o")
     names = [name.strip() for word in variables for name in word.split(",")]

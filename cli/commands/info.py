@@ -5,6 +5,7 @@ from pathlib import Path
 import click
 
 from gradhesion.cli.commands.examples import example
+from gradhesion.cli.terminal import show, show_block
 
 
 @click.command(epilog=example("info outputs/study.nc", "info outputs/study.nc --format csv > study.csv"))
@@ -25,9 +26,9 @@ def info(file: Path, form: str, variables: tuple[str, ...], jumps: bool) -> None
     if variables and (jumps or form != "csv"):
         raise click.UsageError("--variable chooses what a table has; add --format csv, and leave --jumps out")
     with opened(file) as dataset:
-        if jumps:
-            lines = jumps_listed(dataset, file)
-        else:
-            lines = tabled(dataset, file, variables) if form == "csv" else described(dataset, file)
-        for line in lines:
-            click.echo(line)
+        if not jumps and form == "words":
+            for line in described(dataset, file):
+                show(line)
+            return
+        for block in jumps_listed(dataset, file) if jumps else tabled(dataset, file, variables):
+            show_block(block)

@@ -6,8 +6,10 @@ from pathlib import Path
 import click
 from click.shell_completion import CompletionItem
 
+from gradhesion.cli import messages
 from gradhesion.cli.commands.examples import example
 from gradhesion.cli.disk import replacement, writing
+from gradhesion.cli.terminal import show
 
 
 def studies() -> dict[str, str]:
@@ -35,7 +37,7 @@ def init(name: str, output: Path | None, overwrite: bool, listed: bool) -> None:
     if listed:
         width = max(map(len, known))
         for each, text in known.items():
-            click.echo(f"{each:{width}}  {text.splitlines()[0].removeprefix('# ')}")
+            show(f"{each:{width}}  {text.splitlines()[0].removeprefix('# ')}")
         return
     if name not in known:
         from gradhesion.cli.study.wording import did_you_mean
@@ -44,4 +46,4 @@ def init(name: str, output: Path | None, overwrite: bool, listed: bool) -> None:
     path = output or Path(f"{name}.toml")
     with replacement(path, overwrite=overwrite) as temporary, writing(path):
         temporary.write_text(known[name], encoding="utf-8")
-    click.echo(f"{path}: written; gradhesion run {path}", err=True)
+    messages.say("done", f"{path}: written; gradhesion run {path}")

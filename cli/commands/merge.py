@@ -11,6 +11,7 @@ from gradhesion.cli.amounts import counted
 from gradhesion.cli.commands.examples import example
 from gradhesion.cli.commands.run import finish, history_now
 from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.files import is_file
 from gradhesion.cli.progress import progress
 
 
@@ -60,7 +61,7 @@ def _merge_shards(file: Path, start: float, *, overwrite: bool, quiet: bool) -> 
     from gradhesion.cli.work.manifest import study_in
 
     folder = folder_of(file)
-    if folder.manifest() is None and not folder.foreign() and file.is_file():
+    if folder.manifest() is None and not folder.foreign() and is_file(file):
         scenes, failed = _counted(file)
         if folder.path.is_dir():  # empty: a killed merge had tidied up all else
             with claimed(file):

@@ -9,6 +9,7 @@ import click
 
 from gradhesion.cli.amounts import bytes_in_words, counted
 from gradhesion.cli.commands.examples import example
+from gradhesion.cli.terminal import show, show_block
 
 if TYPE_CHECKING:
     from gradhesion.cli.study.study import Study
@@ -54,10 +55,10 @@ def show_plan(study: "Study", output: Path, threads: int | None, *, as_json: boo
     prepare(kinds_of(study), quiet=as_json)
     found = estimate(study, output, threads)
     if as_json:
-        click.echo(json.dumps(asdict(found), indent=2))
+        show_block(json.dumps(asdict(found), indent=2))
         return
     for line in _lines(found):
-        click.echo(line)
+        show(line)
 
 
 def _lines(found: "Estimate") -> list[str]:

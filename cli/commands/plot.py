@@ -41,7 +41,7 @@ def plot(
     What suits the shape of FILE: lines over one axis, a map over two, panels of maps over more; curves as curves.
     Options choose what of it: an axis is fixed (--at A=0.02), reduced (--over k=max) or given its place (--x, --y).
     """
-    path = output or file.with_suffix(".png")
+    path = output or file.parent / f"{file.stem or 'dataset'}.png"
     form = path.suffix[1:].lower()
     if form not in FORMS:
         raise click.UsageError(f"{path}: the name of a picture ends in .png, .svg or .pdf; name another with -o")

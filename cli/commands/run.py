@@ -15,6 +15,7 @@ from gradhesion.cli.amounts import bytes_in_words, counted
 from gradhesion.cli.commands.examples import example
 from gradhesion.cli.commands.plan import show_plan
 from gradhesion.cli.errors import ScenesFailedError
+from gradhesion.cli.printable import printable_line
 from gradhesion.cli.progress import progress, rate
 
 if TYPE_CHECKING:
@@ -121,7 +122,7 @@ def run(
 
 def history_now() -> str:
     """Write the line of `history` for this command."""
-    return f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} gradhesion {shlex.join(sys.argv[1:])}"
+    return printable_line(f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} gradhesion {shlex.join(sys.argv[1:])}")
 
 
 def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet: bool) -> None:

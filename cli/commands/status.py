@@ -1,7 +1,6 @@
 """`gradhesion status`: how far a run is, from another shell."""
 
 import json
-import os
 import time
 from dataclasses import asdict
 from pathlib import Path
@@ -12,7 +11,9 @@ import click
 from gradhesion.cli.amounts import bytes_in_words, counted
 from gradhesion.cli.commands.examples import example
 from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.files import is_file
 from gradhesion.cli.progress import rate
+from gradhesion.cli.terminal import show, show_block
 
 if TYPE_CHECKING:
     from gradhesion.cli.work.records import State
@@ -28,17 +29,17 @@ def status(file: Path, as_json: bool) -> None:
     """
     found = status_of(file)
     if as_json:
-        click.echo(json.dumps(found, indent=2))
+        show_block(json.dumps(found, indent=2))
         return
     if found["state"] == "complete":
         written = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(found["written"]))
-        click.echo(f"{file}: complete, {bytes_in_words(found['bytes'])}, written {written}")
+        show(f"{file}: complete, {bytes_in_words(found['bytes'])}, written {written}")
         return
     blocks, scenes = (f"{found[name]:,}" if found[name] else "?" for name in ("blocks", "scenes"))
     end = "" if found["state"] == "running" else "; the same command goes on"
-    click.echo(f"{file}: {found['state']}; {found['parts']:,} of {blocks} blocks ({scenes} scenes) are kept{end}")
+    show(f"{file}: {found['state']}; {found['parts']:,} of {blocks} blocks ({scenes} scenes) are kept{end}")
     for run in found["runs"]:
-        click.echo(f"  {_words(run, running=found['state'] == 'running')}")
+        show(f"  {_words(run, running=found['state'] == 'running')}")
 
 
 def status_of(file: Path) -> dict[str, Any]:
@@ -57,7 +58,7 @@ def status_of(file: Path) -> dict[str, Any]:
     study = folder.manifest()
     running = not folder.foreign() and folder.busy()
     if not running and (study is None or folder.has_made(file)):
-        if not os.path.isfile(file):  # noqa: PTH113 (never an error, whatever the name)
+        if not is_file(file):
             raise DatasetError(f"{file}: neither a dataset nor parts of one are there; name the output of a run")
         found = file.stat()
         return {"output": str(file), "state": "complete", "bytes": found.st_size, "written": found.st_mtime}

@@ -7,6 +7,7 @@ import click
 
 from gradhesion.cli.amounts import counted
 from gradhesion.cli.commands.examples import example
+from gradhesion.cli.terminal import show, show_block
 
 
 @click.command(epilog=example("validate study.toml", "validate study.toml --set parameters.A=0.02"))
@@ -21,8 +22,8 @@ def validate(study: Path, overrides: tuple[str, ...]) -> None:
 
     asked = load_study(study, overrides)
     axes = ", ".join(f"{name} ({size:,})" for name, size in asked.sizes.items()) or "none"
-    click.echo(f"{study}: valid; a {asked.kind} of {counted(asked.scenes, 'scene')}; axes: {axes}; outputs: ", nl=False)
-    click.echo(", ".join(asked.outputs))
+    outputs = ", ".join(asked.outputs)
+    show(f"{study}: valid; a {asked.kind} of {counted(asked.scenes, 'scene')}; axes: {axes}; outputs: {outputs}")
 
 
 @click.command(epilog=example("schema > study.schema.json"))
@@ -35,4 +36,4 @@ def schema() -> None:
     from gradhesion.cli.study.form import Form
 
     document = {"$schema": "https://json-schema.org/draft/2020-12/schema", **Form.model_json_schema()}
-    click.echo(json.dumps(document, indent=2))
+    show_block(json.dumps(document, indent=2))

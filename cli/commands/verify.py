@@ -8,6 +8,7 @@ from gradhesion.cli.amounts import counted
 from gradhesion.cli.commands.examples import example
 from gradhesion.cli.errors import DeviationError
 from gradhesion.cli.progress import progress
+from gradhesion.cli.terminal import show
 
 
 @click.command(epilog=example("verify outputs/study.nc --sample 50"))
@@ -34,7 +35,7 @@ def verify(file: Path, sample: int, seed: int | None, digits: bool) -> None:
         found = recompute(dataset, file, sample=sample, seed=seed, progress=lambda total: progress(total, quiet=False))
         title = str(dataset.attrs["title"])
     for line in told(found, title, file, digits=digits):
-        click.echo(line)
+        show(line)
     if found.exceeding:
         raise DeviationError(
             f"{file}: {found.exceeding:,} of {counted(len(found.deviations), 'value')} deviate by more than their "

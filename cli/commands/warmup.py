@@ -20,11 +20,12 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:
     cosine wave need. Compiled kernels are kept in the user's cache, or in the folder NUMBA_CACHE_DIR, for all runs of
     this version.
     """
-    from gradhesion.cli.work.kernels import missing_of
+    from gradhesion.cli.work.kernels import missing_of, refuse_without_compiler
     from gradhesion.cli.work.warming import warm
     from gradhesion.core import KINDS, place
     from gradhesion.core.processors import processors
 
+    refuse_without_compiler()
     kinds = KINDS if everything else ("energy", "envelope", "curves")
     missing, folder, count, start = missing_of(kinds), place().folder, 0, time.monotonic()
     if place().why:

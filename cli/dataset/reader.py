@@ -1,6 +1,7 @@
 """Datasets of ours, opened for reading."""
 
 import math
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING
 import xarray
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.files import kind_of
+from gradhesion.cli.files import is_file, kind_of
 from gradhesion.cli.names import EXTENTS, RAGGED
 from gradhesion.cli.study.tiling import CHUNK, Tiling
 
@@ -54,8 +55,8 @@ def found(path: Path, *, cache: bool) -> "Dataset":
         The file is missing, damaged or none in NetCDF; the message says what it is instead.
     """
     kind = kind_of(path)
-    if not path.is_file():
-        what = f"is not a file, but {kind}" if path.exists() else "does not exist"
+    if not is_file(path):
+        what = f"is not a file, but {kind or 'nothing that can be read'}" if os.path.lexists(path) else "does not exist"
         raise DatasetError(f"{path}: {what}; name a dataset that `gradhesion run` wrote")
     try:
         return xarray.open_dataset(path, engine="netcdf4", cache=cache)

@@ -14,7 +14,7 @@ import numpy as np
 from gradhesion.cli.amounts import bytes_in_words, counted
 from gradhesion.cli.dataset import dataset
 from gradhesion.cli.dataset.contents import CONTENTS
-from gradhesion.cli.disk import refuse_beside, refuse_existing, settled, to_disk, writing
+from gradhesion.cli.disk import refuse_beside, refuse_existing, refuse_unnamed, settled, to_disk, writing
 from gradhesion.cli.engines import Engine, Work
 from gradhesion.cli.engines.threads import Threads
 from gradhesion.cli.errors import OutputError, ScenesFailedError
@@ -94,6 +94,7 @@ def write(
         No block could be solved, or one has failed and `fail_fast`.
     """
     target = Path(os.path.realpath(path))
+    refuse_unnamed(path, target)
     if not os.path.isdir(folder_of(path).path):  # noqa: PTH112 (never an error, whatever the name)
         refuse_existing(path, target, overwrite=overwrite)
     with ExitStack() as stack:
@@ -191,7 +192,9 @@ def write_shard(
     OutputError
         As `write`.
     """
-    refuse_existing(path, Path(os.path.realpath(path)), overwrite=overwrite)
+    target = Path(os.path.realpath(path))
+    refuse_unnamed(path, target)
+    refuse_existing(path, target, overwrite=overwrite)
     index, count = shard
     name = f"{index}-of-{count}"
     mine = range(index - 1, len(study.tiling), count)

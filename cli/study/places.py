@@ -4,15 +4,42 @@ A statement of TOML (a table header, or `key = value` over one or more lines) pa
 its lines does. So the parser itself finds where each statement ends, and names the keys that it sets.
 """
 
+import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
 Path = tuple[str | int, ...]
 """A key as the steps to it: `("parameters", "k", 3)` is item 3 of `parameters.k`."""
 
+DEEPEST: Final = 32
+"""Levels of tables and lists: a study has four."""
+
+_DOTS: Final = 100 * DEEPEST
+"""Dots of one key that are far too many: the parser takes a time that grows with their square."""
+
 PATIENCE: Final = 50
 """Line ends to try for one statement before giving its later keys up. A heuristic bound: they only lose their lines."""
+
+
+def is_deep(data: Any) -> bool:
+    """
+    Check whether tables and lists are nested more deeply than in any study, without going down them all.
+
+    >>> is_deep({"parameters": {"k": [0.0, 0.5]}}), is_deep(eval(40 * '[' + 40 * ']'))
+    (False, True)
+    """
+    level = [data]
+    for _ in range(DEEPEST):
+        nested = (one.values() if isinstance(one, Mapping) else one for one in level if isinstance(one, Mapping | list))
+        level = [item for items in nested for item in items if isinstance(item, Mapping | list)]
+    return bool(level)
+
+
+def is_deep_text(text: str) -> bool:
+    """Check whether a text has keys so deep that to parse it takes long; numbers of a list have commas between them."""
+    long = (line for line in text.split("\n") if line.count(".") > _DOTS)
+    return any(piece.count(".") > _DOTS for line in long for piece in re.split("[,=]", line))
 
 
 def dotted(path: Path) -> str:

@@ -1,6 +1,7 @@
 """The text of a study: read, parsed, overridden, and where each of its keys comes from."""
 
 import json
+import os
 import re
 import shlex
 import tomllib
@@ -43,13 +44,16 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
         The file cannot be read, or is not TOML.
     """
     text = _text(path, most)
+    deep = f"{path}: not a study, tables or lists are nested more than {places.DEEPEST} deep; remove some levels"
     try:
-        data = tomllib.loads(text)
+        data = {} if places.is_deep_text(text) else tomllib.loads(text)
     except RecursionError:
-        raise StudyError([f"{path}: not valid TOML, brackets are nested too deeply; remove some"]) from None
+        raise StudyError(deep) from None
     except ValueError as error:
         _check_kind(path)
         raise StudyError([_syntax_sentence(path, text, str(error))]) from None
+    if places.is_deep_text(text) or places.is_deep(data):
+        raise StudyError(deep)
     sources, mistakes = _override(data, overrides)
     lines = cache(lambda: places.lines_of(text))
 
@@ -65,14 +69,23 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
         return f"--set {made}" if made else str(path)
 
     unchanged = "" if sources else text
-    return Source(name=path.stem, data=data, text=unchanged, place=place, mistakes=tuple(mistakes))
+    name = os.fsencode(path.stem).decode("utf-8", "replace")
+    return Source(
+        name=name,
+        data=data,
+        text=unchanged,
+        place=place,
+        mistakes=tuple(mistakes),
+    )
 
 
 def _text(path: Path, most: int) -> str:
     """Read the text of a study file."""
     try:
-        with path.open("rb") as file:
-            content = file.read(most + 1)
+        content = bytearray()
+        with path.open("rb") as file:  # bit by bit: memory for the most that it may be is not always there
+            while len(content) <= most and (piece := file.read(2**20)):
+                content += piece
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise StudyError([f"{path}: cannot be read ({reason}); name a study in TOML"]) from None
@@ -138,6 +151,10 @@ def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[plac
             continue
         if not equals or not all(steps):
             mistakes.append(f"--set {override}: not of the form KEY=VALUE; write for example --set parameters.A=0.02")
+            continue
+        if len(steps) > places.DEEPEST or places.is_deep(parsed):
+            shown = wording.shown(override)
+            mistakes.append(f"--set {shown}: nested more than {places.DEEPEST} deep, as no study is; remove levels")
             continue
         if parsed.keys() != {"value"}:
             quoted = json.dumps(value.strip(), ensure_ascii=False)

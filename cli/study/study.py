@@ -167,6 +167,10 @@ def study_from(data: Mapping[str, Any], name: str = "study") -> Study:
     StudyError
         The study is wrong; the error has all mistakes.
     """
+    if places.is_deep(data):
+        raise StudyError(
+            f"{name}: not a study, tables or lists are nested more than {places.DEEPEST} deep; remove some levels"
+        )
     return _study(Source(name=name, data=_plain(data), text="", place=lambda _: name))
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
 from gradhesion.cli import messages
-from gradhesion.cli.work.kernels import compile_kinds, missing_of
+from gradhesion.cli.work.kernels import compile_kinds, missing_of, refuse_without_compiler
 from gradhesion.core import KERNELS, place
 
 WORDS = {
@@ -27,6 +27,7 @@ def prepare(kinds: Sequence[str], *, quiet: bool = False) -> None:
 
     With `quiet` one line says so, and nothing else. What follows can be timed: it compiles nothing.
     """
+    refuse_without_compiler()
     missing = missing_of(kinds)
     if place().folder is None:
         messages.say("cache", place().why)

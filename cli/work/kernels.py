@@ -11,7 +11,10 @@ from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import Final
 
+import numba
+
 from gradhesion.cli import interrupts
+from gradhesion.cli.errors import CompilerError
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.work.locks import closing, try_lock
 from gradhesion.core import NEEDS, compile_kind, compiled_before, kind_of_curves, kind_of_map, place, watch_compilation
@@ -45,6 +48,19 @@ def missing_of(kinds: Sequence[str]) -> list[str]:
     for kind in kinds:
         add(kind)
     return list(steps)
+
+
+def refuse_without_compiler() -> None:
+    """
+    Make sure that kernels are compiled: some of them are no Python.
+
+    Raises
+    ------
+    CompilerError
+        The environment says that they are not to be.
+    """
+    if numba.config.DISABLE_JIT:
+        raise CompilerError("NUMBA_DISABLE_JIT is set, and nothing can be solved without the compiler; unset it")
 
 
 def compile_kinds(kinds: Sequence[str], done: Callable[[str], None] = lambda _: None) -> None:

@@ -2,14 +2,16 @@
 
 import re
 import tempfile
+import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.study.study import load_study
+from gradhesion.cli.study.study import load_study, study_from
 
 ROOT = Path(__file__).parents[2]
 LINES = [
@@ -27,9 +29,20 @@ PIECES = [
     "1979-05-27", "[[1], [2]]", "{}", "[{}]", "{a = {b = 1}}", "99999999999999999999", "\\", "\u00e9", "\u2028", "\x0b",
 ]  # fmt: skip
 SENTENCE = re.compile(
-    r"(:\d+: .*|--set .*: .*|: not valid TOML, .*|: [\w.]+: .* (required|needs this key)); .*|... and .*", re.DOTALL
+    r"(:\d+: .*|--set .*: .*|: not valid TOML, .*|: not a study, .*|: [\w.]+: .* (required|needs this key)); .*|... and .*",
+    re.DOTALL,
 )
 """The place, what is wrong, and what to do about it."""
+CONFIG = """\
+outputs = ["pull_off_force"]
+[parameters]
+k = [0.0, 0.5]
+modulus = 500.0
+c0_over_R = 0.01
+lambda_over_R = 0.1
+A = 0.02
+a_max_over_R = 1.0
+"""
 CONFIGS = [path.read_text(encoding="utf-8").splitlines() for path in sorted((ROOT / "configs").glob("*.toml"))]
 pieces = st.one_of(st.sampled_from(PIECES), st.text(max_size=4))
 
@@ -125,3 +138,43 @@ def test_random_bytes(content: bytes) -> None:
 @pytest.mark.parametrize("value", ["[" * 2000, "{a=" * 500, "1" * 5000, "-" * 50, '"' * 3, "0" * 50, "\x00", "'\ud800"])
 def test_hostile_values(value: str) -> None:
     read(f"outputs = {value}\n[parameters]\nk = {value}".encode("utf-8", "replace"), [f"title={value}", f"{value}=1"])
+
+
+DEEP = [".".join("a" * 20_000) + " = 1", "[" + ".".join("a" * 20_000) + "]", "x = { " + ".".join("a" * 20_000) + " = 1 }",
+        "\n".join(".".join("ab" * 40) + f".c{i} = 1" for i in range(100)), f"k = {'[' * 50}{']' * 50}", f"k = {'{a=' * 50}1{'}' * 50}"]  # fmt: skip
+
+
+@pytest.mark.parametrize("text", DEEP)
+def test_keys_however_deep_are_refused_at_once(text: str, tmp_path: Path) -> None:
+    path = tmp_path / "study.toml"
+    path.write_text(text)
+    start = time.perf_counter()
+    with pytest.raises(
+        StudyError, match="not a study, tables or lists are nested more than 32 deep; remove some levels"
+    ):
+        load_study(path)
+    assert time.perf_counter() - start < 2.0, "it took 80 s"
+
+
+@pytest.mark.parametrize("override", [f"{'a.' * 5000}b=1", f"parameters.k={'[' * 50}{']' * 50}", f"{'a.' * 40}b=1"])
+def test_overrides_however_deep_are_refused(override: str, tmp_path: Path) -> None:
+    path = tmp_path / "study.toml"
+    path.write_text(CONFIG + "nu = 0.3\n")
+    assert load_study(path).scenes == 2
+    with pytest.raises(StudyError, match=r"^--set .*: nested more than 32 deep"):
+        load_study(path, [override])
+
+
+def test_a_mapping_however_deep_is_refused() -> None:
+    endless: dict[str, Any] = {"outputs": ["pull_off_force"]}
+    endless["parameters"] = endless
+    with pytest.raises(StudyError, match="nested more than 32 deep"):
+        study_from(endless)
+
+
+def test_many_numbers_on_a_line_are_not_deep(tmp_path: Path) -> None:
+    numbers = ", ".join(f"{0.1 + i / 1e6:.6f}" for i in range(5000))
+    path = tmp_path / "study.toml"
+    single = CONFIG.replace("k = [0.0, 0.5]", "k = 0.5")
+    path.write_text(single + f"\nnu = [\n{numbers}\n]\n")
+    assert load_study(path).sizes == {"nu": 5000}

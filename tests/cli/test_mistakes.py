@@ -229,7 +229,7 @@ MISTAKES = {
         r":9: not valid TOML, cannot declare .*; the table stands twice, join the two",
     ),
     "unfinished": ("R = inf", "R = [", r"not valid TOML"),
-    "nested too deeply": ("R = inf", "R = " + 3000 * "[", r"not valid TOML"),
+    "nested too deeply": ("R = inf", "R = " + 3000 * "[", r"not a study, tables or lists are nested more than 32 deep"),
     "digits without end": (
         "R = inf",
         "R = " + 5000 * "1",

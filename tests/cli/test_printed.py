@@ -1,0 +1,166 @@
+"""What is printed is safe for a terminal, and what cannot be printed never decides over what is written."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from gradhesion.cli.printable import printable, printable_line
+
+Call = Callable[..., Result]
+
+HOSTILE = ["\x1b[2J\x1b]0;title\x07.nc", "a\nb: written.nc", "\x9b31m.nc", "\u202egpj.nc", "\x7f\x08.nc", "\r.nc"]
+"""Names of files that a terminal would obey."""
+
+
+@pytest.fixture
+def shell(tmp_path: Path) -> Callable[[str], subprocess.CompletedProcess[bytes]]:
+    """Run a line of a shell in which `gradhesion` is this one."""
+
+    def call(line: str, **variables: str) -> subprocess.CompletedProcess[bytes]:
+        program = f'gradhesion() {{ {sys.executable} -m gradhesion.cli "$@"; }}; '
+        environment = os.environ | variables
+        return subprocess.run(
+            ["bash", "-c", program + line], cwd=tmp_path, env=environment, capture_output=True, check=False, timeout=120
+        )
+
+    return call
+
+
+Shell = Callable[..., subprocess.CompletedProcess[bytes]]
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_names_reach_the_terminal_as_text(name: str, gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
+    path, study = tmp_path / name, tmp_path / name.replace(".nc", ".toml")
+    study.write_text(study_file.read_text())
+    told = []
+    for command in (
+        ["info", path], ["run", study, "-o", path], ["run", study, "-o", path], ["info", path], ["status", path], ["plan", study, "-o", path],
+        ["validate", study], ["validate", study, "--set", "title=3"], ["merge", path], ["plot", path, "--overwrite"], ["init", "-o", study],
+        ["verify", path, "--sample", "1"], ["merge", study], ["info", study], ["status", study],
+    ):  # fmt: skip
+        result = gradhesion(*command)
+        told.append(result.stdout + result.stderr)
+        assert printable(told[-1]) == told[-1], command
+        if "\n" in name and result.exit_code in {0, 4}:
+            assert name not in told[-1], command
+    assert printable_line(path.name) in told[2], "and can be recognised"
+
+
+def test_text_that_is_safe_stays() -> None:
+    text = "gr\u00fc\u00dfe \u2202 \U0001f600\ttab\nline"
+    assert printable(text) == text
+    for code in (*range(9), *range(11, 32), *range(127, 160), 0x202E, 0x2066, 0x2028, 0xDCFF):
+        assert printable(chr(code)).isascii()
+        assert printable(chr(code)).isprintable()
+
+
+@pytest.mark.parametrize(
+    "where", ["2>&-", "2>/dev/full", "2> >(exit)", ">&- 2>&-", "<&- >&- 2>&-", "--log-json 2>/dev/full"]
+)
+def test_messages_that_cannot_be_printed_do_not_decide(where: str, shell: Shell, study_file: Path) -> None:
+    done = shell(f"gradhesion run {study_file} -o out.nc {where}; echo $?; gradhesion info out.nc | head -1")
+    assert done.stdout == b"0\nA small study\n", done.stderr
+    missing = shell(f"gradhesion info none.nc {where.replace('--log-json', '')}")
+    assert (missing.returncode, missing.stderr) == (2, b"")
+
+
+def test_a_dataset_takes_no_number_of_a_closed_stream(shell: Shell) -> None:
+    """What a library prints to a closed stderr would go into the file that has its number."""
+    line = "import os; from gradhesion.cli.terminal import open_streams; open_streams(); print(os.open('x', os.O_CREAT | os.O_RDWR))"
+    assert shell(f'{sys.executable} -c "{line}" 2>&- <&-').stdout not in {b"0\n", b"1\n", b"2\n"}
+
+
+@pytest.mark.parametrize("command", ["schema", "--help", "info --help", "--version", "validate STUDY", "info out.nc", "info out.nc --format csv",
+                                     "status out.nc", "plan STUDY", "verify out.nc --sample 1", "init --list"])  # fmt: skip
+def test_output_that_cannot_be_written_is_a_sentence(
+    command: str, shell: Shell, gradhesion: Call, study_file: Path, tmp_path: Path
+) -> None:
+    assert gradhesion("run", study_file, "-o", tmp_path / "out.nc", "--quiet").exit_code == 0
+    done = shell(f"gradhesion {command.replace('STUDY', str(study_file))} > /dev/full")
+    assert done.returncode == 4
+    last = done.stderr.decode().splitlines()[-1]
+    assert last.startswith("standard output: ")
+    assert "No space left on device" in last
+    assert b"Traceback" not in done.stderr
+    assert b"damaged" not in done.stderr
+    if "--" not in command:
+        closed = shell(f"gradhesion {command.replace('STUDY', str(study_file))} >&-")
+        assert closed.returncode == 4
+        assert closed.stderr.decode().splitlines()[-1].startswith("standard output: is closed; ")
+
+
+def test_names_that_are_not_utf_8(shell: Shell, study_file: Path) -> None:
+    done = shell(rf"mv {study_file} $'s\xfe.toml'; gradhesion validate $'s\xfe.toml'")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith(b"s\\udcfe.toml: valid; ")
+    done = shell("gradhesion run $'s\\xfe.toml' && gradhesion info 'outputs/s\N{REPLACEMENT CHARACTER}.nc'")
+    assert done.returncode == 0, done.stderr
+    assert rb"gradhesion run 's\udcfe.toml'" in done.stdout
+    for line in (
+        r"run $'s\xfe.toml' -o $'o\xff.nc'",
+        r"run $'s\xfe.toml' -o $'o\xff/o.nc'",
+        r"run $'s\xfe.toml' -o $'o\xff.nc' --shard 1/2",
+    ):
+        done = shell(f"GRADHESION_CHUNK=2 gradhesion {line}")
+        assert done.returncode == 4
+        assert b"is not UTF-8, as NetCDF needs it; name another with -o" in done.stderr
+    done = shell(r"mkdir -p a/b.nc.parts; gradhesion run $'s\xfe.toml' -o 'a\b.nc'; ls a/b.nc.parts")
+    assert done.stdout == b""
+    assert b"has a backslash, which NetCDF misreads; name another" in done.stderr
+    for command in ("info", "plot", "explore", "verify", "merge", "status"):
+        done = shell(rf"touch $'o\xff.nc'; gradhesion {command} $'o\xff.nc'")
+        assert done.returncode == (0 if command == "status" else 2), done.stderr
+        assert b"Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("name", ["/", ".", "..", "", "x" * 300, "x" * 250 + ".nc", "a/../.."])
+def test_names_that_are_none(
+    name: str, gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for command in ("info", "plot", "explore", "verify", "merge", "status"):
+        result = gradhesion(command, name)
+        assert result.exit_code == 2
+        assert result.stderr.count("\n") == 1
+    assert gradhesion("run", study_file, "-o", name).exit_code == 4
+
+
+def test_a_study_takes_no_more_memory_than_it_has(shell: Shell, study_file: Path) -> None:
+    done = shell(
+        f"""{sys.executable} -c "
+import resource
+from gradhesion.cli.study.source import read_source
+from pathlib import Path
+import gradhesion.cli.study.study
+now = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (now + 2**25, now + 2**25))
+print(read_source(Path('{study_file}'), ()).name)
+" """
+    )
+    assert done.stdout == b"study\n", done.stderr
+
+
+def test_memory_that_is_not_there_is_a_sentence() -> None:
+    code = (
+        "import sys; from gradhesion.cli.main import cli, main; sys.argv = ['gradhesion', 'schema']\n"
+        "def fail(): raise MemoryError\n"
+        "cli.commands['schema'].callback = fail\nmain()"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (
+        4,
+        "there is not enough memory; split the study, or give it more memory\n",
+    )
+
+
+@pytest.mark.parametrize("command", ["run STUDY -o out.nc", "plan STUDY", "warmup"])
+def test_without_the_compiler_there_is_a_remedy(command: str, shell: Shell, study_file: Path) -> None:
+    done = shell("gradhesion " + command.replace("STUDY", str(study_file)), NUMBA_DISABLE_JIT="1")
+    assert done.returncode == 2
+    assert done.stderr == b"NUMBA_DISABLE_JIT is set, and nothing can be solved without the compiler; unset it\n"
