@@ -9,6 +9,7 @@ from typing import Any, Final, NoReturn
 import click
 
 from gradhesion.cli import interrupts, messages
+from gradhesion.cli.commands.completion import completion
 from gradhesion.cli.commands.explore import explore
 from gradhesion.cli.commands.info import info
 from gradhesion.cli.commands.init import init
@@ -32,7 +33,7 @@ SECTIONS: Final = {
     "A study, and its run": (init, validate, plan, run, status),
     "What came out": (info, plot, explore),
     "Checked and joined": (verify, merge),
-    "More": (warmup, schema),
+    "More": (warmup, completion, schema),
 }
 """Every command, in the order of the work."""
 

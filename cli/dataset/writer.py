@@ -11,7 +11,7 @@ from typing import Any, Final, NoReturn
 import netCDF4
 import numpy as np
 
-from gradhesion.cli.amounts import bytes_in_words, counted
+from gradhesion.cli.amounts import counted, two_in_words
 from gradhesion.cli.dataset import dataset
 from gradhesion.cli.dataset.contents import CONTENTS
 from gradhesion.cli.disk import refuse_beside, refuse_existing, refuse_unnamed, settled, to_disk, writing
@@ -300,9 +300,11 @@ def _check_space(study: Study, path: Path, folder: Folder) -> None:
     if study.has_parts:
         least += study.scenes * sum(kind.itemsize for kind in types_of(study).values())
         least -= folder.bytes_of_parts()
-    free = shutil.disk_usage(folder.path).free
+    with writing(path):
+        free = shutil.disk_usage(folder.path).free
     if least > free:
+        needed, there = two_in_words(least, free)
         raise OutputError(
-            f"{path}: {counted(study.scenes, 'scene')} need {bytes_in_words(least)} or more, and "
-            f"{bytes_in_words(free)} are free there; use fewer scenes, or name an output on a larger disk with -o"
+            f"{path}: {counted(study.scenes, 'scene')} need {needed} or more, and {there} are free there; use fewer "
+            "scenes, or name an output on a larger disk with -o"
         )

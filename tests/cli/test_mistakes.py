@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 from click.testing import Result
 
+from gradhesion.cli.printable import printable_line
+
 GOOD = """\
 title = "Good"
 kind = "map"
@@ -374,7 +376,7 @@ def test_a_wrong_override_is_named_by_its_own_text(
     override: str, message: str, refused: Callable[..., list[str]]
 ) -> None:
     text = "\n".join(refused(GOOD, "--set", override))
-    assert f"--set {override}" in text
+    assert f"--set {printable_line(override)}" in text
     assert message in text
 
 

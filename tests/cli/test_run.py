@@ -239,7 +239,7 @@ def test_a_study_larger_than_the_disk_is_refused(
     monkeypatch.setattr("shutil.disk_usage", lambda _: SimpleNamespace(free=30))
     result = gradhesion("run", study_file, "-o", tmp_path / "out.nc")
     assert result.exit_code == 4
-    assert "24 scenes need 0.0 kB or more, and 0.0 kB are free" in result.stderr
+    assert "24 scenes need 0.04 kB or more, and 0.03 kB are free" in result.stderr
     assert not (tmp_path / "out.nc").exists()
 
 

@@ -1,0 +1,25 @@
+"""`gradhesion completion`: the script by which a shell completes commands, options and studies."""
+
+import click
+from click.shell_completion import ShellComplete, get_completion_class
+
+from gradhesion.cli.commands.examples import example
+from gradhesion.cli.terminal import show_block
+
+SHELLS = ("bash", "zsh", "fish")
+
+
+@click.command(epilog=example("completion bash > ~/.gradhesion.bash", "completion zsh", "completion fish"))
+@click.argument("shell", type=click.Choice(SHELLS))
+@click.pass_context
+def completion(context: click.Context, shell: str) -> None:
+    """Print the script for completion in a shell.
+
+    With it SHELL (bash 4.4 or later, zsh or fish) completes commands, options and the names of studies; its lines go
+    where the shell reads them when it starts, for example by `eval "$(gradhesion completion bash)"` in ~/.bashrc.
+    """
+    kind = get_completion_class(shell)
+    if kind is None:  # it is one of click's own
+        raise click.UsageError(f"{shell}: no shell that is known; choose from {', '.join(SHELLS)}")
+    made = kind(context.find_root().command, {}, "gradhesion", "_GRADHESION_COMPLETE")
+    show_block(ShellComplete.source(made))  # that of bash looks for a bash first
