@@ -2,7 +2,8 @@ PYTHON ?= python3
 sources := $(shell find api cli core twin -name '*.py')
 drawing := $(wildcard figures/*.py figures/*.mplstyle cli/picture/*.mplstyle)
 checked := $(sources) $(drawing) $(shell find tests benchmarks docs configs -type f -not -path '*/__pycache__/*' -not -name '*.png' 2>/dev/null) README.md CITATION.cff Makefile
-pictures := $(addprefix fig,2a 2b 3a 3b 3c 4a 4b 4c 5a 5b 5c 6 7a 7b 7c 8 9 9a 9b)
+pictures := $(addprefix fig,1 2a 2b 3a 3b 3c 4a 4b 4c 5a 5b 5c 6 7a 7b 7c 8 9)
+pictures += $(addprefix extra_,amplitudes rim energy_map energy_amplitude energy_wavelength)
 
 help: ## show the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST)
@@ -11,7 +12,7 @@ maps: outputs/maps.png ## compute configs/maps.toml into outputs/maps.nc, and dr
 
 figures: $(foreach form,png pdf,$(pictures:%=outputs/figures/%.$(form))) ## draw the figures of the paper into outputs/figures/, .png and .pdf
 
-docs-figures: $(pictures:%=docs/figures/paper/%.png) ## draw them small for docs/paper.md
+docs-figures: $(pictures:%=docs/figures/paper/%.png) docs/figures/paper/fig1.svg ## draw them small for docs/paper.md
 
 test: build/tested ## lint, types and tests
 
@@ -62,6 +63,9 @@ outputs/figures/%.png outputs/figures/%.pdf: $$(call dataset,$$*) $(drawing)
 
 docs/figures/paper/%.png: $$(call dataset,$$*) $(drawing)
 	.venv/bin/python -m figures $* $< $@ --dpi 120
+
+docs/figures/paper/%.svg: $$(call dataset,$$*) $(drawing)
+	.venv/bin/python -m figures $* $< $@
 
 .PRECIOUS: outputs/figures/%.nc
 

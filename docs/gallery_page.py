@@ -19,15 +19,17 @@ def _sections() -> Iterator[str]:
     """Write the sections."""
     yield "# Gallery"
     yield (
-        "Every picture is made from a study in `configs/` by one command. `make figures` draws all those of the paper; "
-        "[the paper](paper.md#figures) says what is to be seen in them. `gradhesion init` writes the same study into a "
+        "Every picture is made from a study in `configs/` by one command; `make figures` draws them all. The paper's "
+        "figures have its numbers, and each says what is the paper's in it and what is chosen; the others are extras. "
+        "[The paper](paper.md#figures) says what is to be seen. `gradhesion init` writes the same study into a "
         "file of your own, to be changed, and `gradhesion plot` draws any dataset, in a plainer look."
     )
     yield "## " + _title("maps")
     yield "![Pull-off force and dissipated energy over the gradient exponent and the wavelength](images/maps.png)"
     yield "Study: [maps.toml](../configs/maps.toml). Made by `make maps`."
-    for study in sorted((ROOT / "configs").glob("fig*.toml")):
-        yield from _of(study.stem)
+    for pattern in ("fig*.toml", "extra_*.toml"):
+        for study in sorted((ROOT / "configs").glob(pattern)):
+            yield from _of(study.stem)
 
 
 def _of(name: str) -> Iterator[str]:
@@ -36,11 +38,21 @@ def _of(name: str) -> Iterator[str]:
     panels = [panel for panel in panels if panel == name or not (ROOT / "configs" / f"{panel}.toml").exists()]
     yield "## " + _title(name)
     yield "\n".join(f"![{panel}](figures/paper/{panel}.png)" for panel in panels)
+    yield from _comment(name)
     targets = " ".join(f"outputs/figures/{panel}.png" for panel in panels)
     yield (
         f"Study: [{name}.toml](../configs/{name}.toml). Made by `make {targets}`; or `gradhesion init {name}`, "
         f"`gradhesion run {name}.toml` and `gradhesion plot outputs/{name}.nc`."
     )
+
+
+def _comment(name: str) -> Iterator[str]:
+    """Take what a study says of itself: what is to be seen, what is the paper's, and what is chosen."""
+    lines = (ROOT / "configs" / f"{name}.toml").read_text(encoding="utf-8").splitlines()
+    head = [
+        line.removeprefix("#").strip() for line in lines[: next(i for i, line in enumerate(lines) if line[:1] != "#")]
+    ]
+    yield from (paragraph.strip() for paragraph in " ".join(line or "\n" for line in head).split("\n"))
 
 
 def _title(name: str) -> str:

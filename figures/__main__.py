@@ -6,26 +6,38 @@ from pathlib import Path
 from typing import Final
 
 import xarray
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from figures import fig2, fig3, fig4, fig5, fig6, fig7, fig8, fig9
+from figures import extras, fig1, fig2, fig3, fig4, fig5, fig6, fig7, fig8, fig9
 from figures.style import styled
 
-PICTURES: Final[dict[str, Callable[[Axes, xarray.Dataset], None]]] = {
-    name: draw for module in (fig2, fig3, fig4, fig5, fig6, fig7, fig8, fig9) for name, draw in module.PICTURES.items()
+PICTURES: Final[dict[str, Callable[..., None]]] = {
+    name: draw
+    for module in (fig1, fig2, fig3, fig4, fig5, fig6, fig7, fig8, fig9, extras)
+    for name, draw in module.PICTURES.items()
 }
-"""What draws each picture into the axes that it is given."""
+"""What draws each picture into the axes that it is given: one, or as many as it has panels."""
+
+PANELS: Final = {"fig4a": 3, "fig9": 2}
+"""The pictures of several panels, side by side."""
 
 UNDATED: Final = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
 """The same dataset gives the same file."""
 
 
+def figure_of(name: str, dataset: xarray.Dataset) -> Figure:
+    """Draw a picture; the style is to be set."""
+    figure, panels = Figure(), PANELS.get(name, 1)
+    width, height = figure.get_size_inches()
+    figure.set_size_inches(panels * width, height)
+    PICTURES[name](*figure.subplots(1, panels, squeeze=False)[0], dataset)
+    return figure
+
+
 def draw(name: str, dataset: xarray.Dataset, files: list[Path], dpi: float | None = None) -> None:
     """Draw a picture and save it in files, each in the form of its suffix."""
     with styled():
-        figure = Figure()
-        PICTURES[name](figure.subplots(), dataset)
+        figure = figure_of(name, dataset)
         figure.draw_without_rendering()
         figure.set_layout_engine("none")  # all files have the layout of the first
         for file in files:

@@ -14,11 +14,11 @@ from figures.style import INK, key, shade
 
 LOADING, UNLOADING = shade(0.8), shade(0.1)
 
-_UP, _DOWN, _LEFT, _RIGHT, _ABOVE = (0, 6), (1, -7), (-6, 2), (6, -3), (6, 5)
+_ABOVE = (6, 5)
 PLACES = {
-    "a": (_ABOVE, _DOWN, _UP, _RIGHT, _UP, _RIGHT, _LEFT, _RIGHT, _LEFT, _DOWN, _UP, _DOWN),
-    "b": (_ABOVE, _RIGHT, _UP, _RIGHT, _UP, _RIGHT, _LEFT, _RIGHT, _LEFT, _RIGHT, _LEFT, _RIGHT),
-    "c": (_ABOVE, _DOWN, _UP, _RIGHT, _UP, _RIGHT, _LEFT, _RIGHT, _LEFT, _DOWN, _LEFT, _DOWN),
+    "a": ((-6, 5), (-6, -5), (6, 4), (5, -6), (5, 5), (7, -3), (-6, 2), (7, -3), (7, 0), (6, -4), (-6, -2), (5, 6)),
+    "b": ((6, 5), (6, -5), (-3, 6), (7, -2), (-3, 6), (7, -3), (-6, 3), (7, -3), (-4, 6), (6, -5), (-6, -5), (6, -5)),
+    "c": ((9, 5), (6, -6), (-2, 7), (7, -3), (-5, 5), (7, -3), (-7, 2), (6, -5), (4, -7), (6, -4), (-6, -2), (1, 7)),
 }
 """Where the letter of each corner stands beside it, in points."""
 
@@ -32,11 +32,11 @@ NAME: dict[str, Any] = {
 
 
 def corners_of(dataset: xarray.Dataset) -> list[int]:
-    """Return the points of the path where it starts, jumps, lands and turns, but not its end out of contact."""
-    radius, jump, back = values_of(dataset, "path_contact_radius", "path_jump", "path_unloading")
+    """Return the points of the path where it starts, jumps, lands, turns, is pulled most and ends."""
+    load, jump, back = values_of(dataset, "path_load", "path_jump", "path_unloading")
     landings = np.flatnonzero(jump > 0.5)
     turn = np.flatnonzero(back > 0.5)[0] - 1
-    return sorted({0, turn, *(landings - 1), *landings} - {radius.size - 1})
+    return sorted({0, turn, int(np.argmin(load)), *(landings - 1), *landings})
 
 
 def path(axes: Axes, dataset: xarray.Dataset, plane: str) -> None:
@@ -45,8 +45,7 @@ def path(axes: Axes, dataset: xarray.Dataset, plane: str) -> None:
     draw_path(axes, dataset, plane, LOADING, UNLOADING)
     x, y = plane_of(dataset, "path_", plane)
     corners = corners_of(dataset)
-    axes.plot(x[corners], y[corners], "o", ms=2.2, color=INK, zorder=3)
-    axes.plot(x[-1:], y[-1:], "o", ms=2.8, mfc="white", mec=INK, mew=0.6, zorder=3, clip_on=False)
+    axes.plot(x[corners], y[corners], "o", ms=2.2, color=INK, zorder=3, clip_on=False)
     for letter, i, place in zip(ascii_uppercase, corners, chain(PLACES[plane], repeat(_ABOVE)), strict=False):
         axes.annotate(letter, (x[i], y[i]), place, **NAME)
     _arrows(axes, x, y, dataset)

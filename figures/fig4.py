@@ -1,4 +1,4 @@
-"""Fig. 4: the pull-off force against the wavelength and the radius of the punch."""
+"""Fig. 4: the pull-off force against the wavelength, for gradient exponents, depths of the gradient, and rims."""
 
 from itertools import cycle
 
@@ -7,21 +7,26 @@ import xarray
 from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
-from figures.style import DASHES, FORCE, INK, RIM, WAVELENGTH, shades
+from figures.style import DASHES, FORCE, INK, WAVELENGTH, key, shades
+from gradhesion.core.status import LOADING_NOT_ONE_DISC
+
+LINES = (0.0, 0.2, 0.4, 0.6, 0.7, 0.8, 0.9)
+"""The exponents of the lines in Fig. 4a; the panel of maxima has all."""
 
 
-def _lines(axes: Axes, force: xarray.DataArray, x: str, second: str, label: str) -> None:
+def draw_lines(axes: Axes, force: xarray.DataArray, x: str, second: str, label: str) -> None:
     """Draw the force over one axis, a line for each value of the other."""
     values = force[second].values
     for value, colour, dash in zip(values, shades(values.size), cycle(DASHES), strict=False):
         line = force.sel({second: value})
-        axes.plot(line[x], line, color=colour, ls=dash, label=f"{label}{value:g}$")
+        name = rf"{label}\infty$" if np.isinf(value) else f"{label}{value:g}$"
+        axes.plot(line[x], line, color=colour, ls=dash, label=name)
 
 
-def _over_wavelength(axes: Axes, dataset: xarray.Dataset, second: str, label: str) -> None:
+def _over_wavelength(axes: Axes, force: xarray.DataArray, second: str, label: str) -> None:
     """Draw the force over the wavelength."""
-    _lines(axes, dataset["pull_off_force"], "lambda_over_R", second, label)
-    axes.set(xscale="log", xlabel=WAVELENGTH, ylabel=FORCE, xlim=_ends(dataset["lambda_over_R"]))
+    draw_lines(axes, force, "lambda_over_R", second, label)
+    axes.set(xscale="log", xlabel=WAVELENGTH, ylabel=FORCE, xlim=ends_of(force["lambda_over_R"]))
     axes.set_ylim(bottom=0.0)
     axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axes.xaxis.set_minor_formatter(NullFormatter())
@@ -29,45 +34,52 @@ def _over_wavelength(axes: Axes, dataset: xarray.Dataset, second: str, label: st
     axes.legend(loc="upper left")
 
 
-def exponents(axes: Axes, dataset: xarray.Dataset) -> None:
-    """Draw a line for each gradient exponent, with the best exponent marked at its maximum."""
-    _over_wavelength(axes, dataset, "k", "$k = ")
+def exponents(lines: Axes, others: Axes, maxima: Axes, dataset: xarray.Dataset) -> None:
+    """Draw a line for each of some exponents, at both Poisson's ratios, and the maxima of all over the exponent."""
     force = dataset["pull_off_force"]
-    best = force.isel({str(name): index for name, index in force.argmax(...).items()})
-    axes.plot(best["lambda_over_R"], best, "o", mfc="white", mec=INK, mew=0.7, ms=3.5, zorder=3)
-    axes.annotate(
-        f"$k = {best['k'].item():g}$", (best["lambda_over_R"].item(), best.item()), (6, 1), textcoords="offset points"
-    )
+    chosen = force.sel(k=list(LINES), method="nearest")
+    for axes, nu in zip((lines, others), force["nu"].values, strict=True):
+        _over_wavelength(axes, chosen.sel(nu=nu), "k", "$k = ")
+        axes.legend(loc="upper left", title=rf"$\nu = {nu:g}$", alignment="left")
+        axes.set_ylim(0.0, 1.04 * float(chosen.max()))
+    greatest = force.max("lambda_over_R")
+    place = force.argmax("lambda_over_R")
+    doubtful = (dataset["status"].isel(lambda_over_R=place) & LOADING_NOT_ONE_DISC) > 0
+    handles = []
+    for nu, colour, dash in zip(force["nu"].values, shades(3), DASHES, strict=False):
+        line, flagged = greatest.sel(nu=nu), doubtful.sel(nu=nu)
+        maxima.plot(line["k"], line, color="0.75", lw=2.4, zorder=1)
+        maxima.plot(line["k"], line, color=colour, ls=dash, zorder=2)
+        maxima.plot(line["k"], line.where(~flagged), color=colour, lw=2.4, zorder=3)
+        best = line.isel(k=int(line.argmax("k")))
+        maxima.plot(best["k"], best, "o", mfc="white", mec=INK, mew=0.7, ms=3.5, zorder=4)
+        maxima.annotate(
+            f"$k = {best['k'].item():.2g}$",
+            (best["k"].item(), best.item()),
+            (-6, 4),
+            textcoords="offset points",
+            ha="right",
+        )
+        handles.append(key(rf"$\nu = {nu:g}$", color=colour, ls=dash))
+    maxima.set(xlabel="gradient exponent $k$", ylabel="greatest force over the wavelength", xlim=(0.0, 1.0))
+    maxima.set_ylim(0.0, 1.1 * float(greatest.max()))
+    handles.append(key("loading not one disc", color="0.75", lw=2.4))
+    maxima.legend(handles=handles, loc="upper left")
 
 
 def depths(axes: Axes, dataset: xarray.Dataset) -> None:
     """Draw a line for each depth of the gradient."""
-    _over_wavelength(axes, dataset, "c0_over_R", "$c_0/R = ")
+    _over_wavelength(axes, dataset["pull_off_force"], "c0_over_R", "$c_0/R = ")
 
 
-def rims(axes: Axes, dataset: xarray.Dataset) -> None:
-    """Draw the force over the radius of the punch, and mark the radius beyond which none of the lines changes."""
-    force = dataset["pull_off_force"]
-    _lines(axes, force, "a_max_over_R", "lambda_over_R", r"$\lambda/R = ")
-    threshold = threshold_of(force)
-    axes.axvline(threshold, color="0.5", lw=0.6, ls=(0, (4, 2)), zorder=0)
-    axes.set(xlabel=RIM, ylabel=FORCE, xlim=(0, _ends(force["a_max_over_R"])[1]))
-    axes.set_ylim(bottom=0.0)
-    label = rf"$a_{{\max}}/R = {threshold:.2f}$"
-    axes.annotate(label, (threshold, 0.52), (4, 0), xycoords=("data", "axes fraction"), textcoords="offset points")
-    axes.legend(loc="upper left")
+def radii(axes: Axes, dataset: xarray.Dataset) -> None:
+    """Draw a line for each radius of the punch."""
+    _over_wavelength(axes, dataset["pull_off_force"], "a_max_over_R", r"$a_{\max}/R = ")
 
 
-def threshold_of(force: xarray.DataArray) -> float:
-    """Return the least radius of the punch from which on the force of every line is that of the widest punch."""
-    widest = force.isel(a_max_over_R=-1)
-    changes = (abs(force - widest) > 1e-9 * abs(widest)).any("lambda_over_R").values
-    return float(force["a_max_over_R"].values[np.flatnonzero(changes)[-1] + 1])
-
-
-def _ends(values: xarray.DataArray) -> tuple[float, float]:
+def ends_of(values: xarray.DataArray) -> tuple[float, float]:
     """Return the ends of an axis."""
     return float(values.min()), float(values.max())
 
 
-PICTURES = {"fig4a": exponents, "fig4b": depths, "fig4c": rims}
+PICTURES = {"fig4a": exponents, "fig4b": depths, "fig4c": radii}

@@ -1,33 +1,34 @@
-"""Fig. 6: the exact curve between its envelopes."""
+"""Fig. 6: the exact curve and its path between the envelopes, with the line of early unloading."""
 
 import xarray
 from matplotlib.axes import Axes
 
-from figures.curves import PLANES, dress, plane_of, values_of
-from figures.style import DASHES, shade
+from figures.curves import draw_equilibrium, draw_path, dress, values_of
+from figures.effective import EARLY, effective_path
+from figures.style import DASHES, INK, key, shade
+
+LOADING, UNLOADING = shade(0.85), shade(0.1)
 
 
 def envelopes(axes: Axes, dataset: xarray.Dataset) -> None:
-    """Draw the exact curve and both envelopes: load over depth, and in the corner depth over contact radius."""
-    _between(axes, dataset, "a")
-    axes.legend(loc="lower right")
-    inset = axes.inset_axes((0.19, 0.55, 0.4, 0.43))
-    inset.tick_params(labelsize=6, pad=2)
-    inset.xaxis.label.set_fontsize(7)
-    inset.yaxis.label.set_fontsize(7)
-    _between(inset, dataset, "b", width=0.8)
-
-
-def _between(axes: Axes, dataset: xarray.Dataset, plane: str, width: float = 1.0) -> None:
-    """Draw the curves in a plane."""
-    axes.plot(*plane_of(dataset, "", plane), color="0.45", lw=0.7 * width, label="exact")
-    abscissa, ordinate = PLANES[plane]
-    for way, colour, dash in (("loading", shade(0.8), "-"), ("unloading", shade(0.1), DASHES[1])):
-        names = [f"{way}_envelope_{name}" for name in (abscissa, ordinate)]
-        if abscissa == "contact_radius":
-            names[0] = "envelope_contact_radius"
-        axes.plot(*values_of(dataset, *names), color=colour, lw=1.2 * width, ls=dash, label=f"{way} envelope")
-    dress(axes, plane)
+    """Draw load over depth."""
+    draw_equilibrium(axes, dataset, "a", color="0.6", lw=0.6)
+    draw_path(axes, dataset, "a", LOADING, UNLOADING, width=0.7)
+    for way, dash in (("loading", DASHES[2]), ("unloading", DASHES[1])):
+        names = (f"{way}_envelope_{name}" for name in ("indentation", "load"))
+        axes.plot(*values_of(dataset, *names), color=shade(0.5), lw=1.2, ls=dash)
+    path, _ = effective_path(dataset)
+    axes.plot(path["indentation"][EARLY], path["load"][EARLY], color=INK, lw=1.6, marker="o", ms=2.5)
+    dress(axes, "a")
+    handles = [
+        key("equilibrium", color="0.6", lw=0.6),
+        key("path, loading", color=LOADING, lw=1.7),
+        key("path, unloading", color=UNLOADING, lw=0.7),
+        key("loading envelope", color=shade(0.5), lw=1.2, ls=DASHES[2]),
+        key("unloading envelope", color=shade(0.5), lw=1.2, ls=DASHES[1]),
+        key("early unloading", color=INK, lw=1.6, marker="o", ms=2.5),
+    ]
+    axes.legend(handles=handles, loc="upper left")
 
 
 PICTURES = {"fig6": envelopes}

@@ -23,6 +23,25 @@ def parts_of(dataset: xarray.Dataset) -> tuple[Values, Values]:
     return first, second
 
 
+def corners_of(dataset: xarray.Dataset) -> list[tuple[str, Values, tuple[int, int]]]:
+    """Return the names 0 to 4, 2' and 3' of the corners, their depth and load, and where the name stands."""
+    _, second = parts_of(dataset)
+    (radius,) = values_of(dataset, "effective_contact_radius")
+    turn = int(np.argmax(radius))
+    points = np.array(values_of(dataset, "effective_indentation", "effective_load"))
+    four, two, meeting = points[:, -2], second[:, 0], second[:, -2]
+    ends = np.flatnonzero(radius == radius[turn])
+    return [
+        ("0", np.array([four[0], 0.0]), (-2, 7)),
+        ("1", np.array([two[0], 0.0]), (0, 7)),
+        ("2", two, (8, 2)),
+        ("3", points[:, ends[0]], (-7, 3)),
+        ("3'", points[:, ends[-1]], (8, -2)),
+        ("4", four, (-7, 0)),
+        ("2'", meeting, (3, -8)),
+    ]
+
+
 def centre_of(outline: Values) -> tuple[float, float]:
     """Return the centroid of the area within a closed outline."""
     (x, y), (after_x, after_y) = outline[:, :-1], outline[:, 1:]
@@ -32,17 +51,16 @@ def centre_of(outline: Values) -> tuple[float, float]:
 
 
 def loop(axes: Axes, dataset: xarray.Dataset) -> None:
-    """Draw the loop, its two parts shaded."""
+    """Draw the asymptotic curve and the loop, its two parts shaded and its corners named as the paper names them."""
     first, second = parts_of(dataset)
     axes.fill(*first, fc=shade(0.45), alpha=0.55, ec="none")
     axes.fill(*second, fc=shade(1.0), alpha=0.4, ec="none")
+    axes.plot(*values_of(dataset, "asymptotic_indentation", "asymptotic_load"), color="0.6", lw=0.5, zorder=1)
     axes.plot(*values_of(dataset, "effective_indentation", "effective_load"), color=INK, lw=1.1)
     axes.plot(*second[:, -2:], color=INK, lw=0.8, ls=(0, (3, 1.5)))
     for name, part in (("$C_1$", first), ("$C_2$", second)):
         axes.annotate(name, centre_of(part), ha="center", va="center", fontsize=9)
-    entry, turn, leaving = second[:, 0], second[:, np.argmax(second[0])], first[:, -3]
-    corners = (("$a_2$", entry, (10, 8)), (r"$a_{\max}$", turn, (-12, -1)), ("$a_4$", leaving, (8, 1)))
-    for name, corner, place in corners:
+    for name, corner, place in corners_of(dataset):
         axes.plot(*corner, "o", ms=2.2, color=INK)
         axes.annotate(name, (corner[0], corner[1]), place, textcoords="offset points", ha="center", va="center")
     dress(axes, "a")

@@ -1,52 +1,34 @@
-"""Fig. 9: the energy lost in a cycle against amplitude and wavelength, by the envelopes and exactly."""
-
-from functools import partial
+"""Fig. 9: the energy lost in a cycle against the gradient exponent."""
 
 import xarray
 from matplotlib.axes import Axes
 
-from figures.style import AMPLITUDE, DASHES, ENERGY, INK, WAVELENGTH, key, shades
-
-LABELS = {"A": AMPLITUDE, "lambda_over_R": WAVELENGTH}
-FIXED = {"A": (r"\lambda/R", "lambda_over_R"), "lambda_over_R": ("A", "A")}
-"""What does not vary, for each abscissa: its symbol and its name."""
-MAPPED = (0.0, 0.4)
-LEVELS = (0.05, 0.1, 0.2, 0.3, 0.4, 0.5)
+from figures.style import DASHES, ENERGY, INK, key, shades
 
 
-def energies(axes: Axes, dataset: xarray.Dataset, x: str) -> None:
-    """Draw the energy over one axis, two lines for each gradient exponent."""
+def energies(left: Axes, right: Axes, dataset: xarray.Dataset) -> None:
+    """Draw the energy over the exponent for amplitudes and wavelengths, a panel for each Poisson's ratio."""
     energy = dataset["dissipated_energy"]
-    exponents = energy["k"].values
-    handles = [key("exact", color=INK), key("envelopes", color=INK, ls=DASHES[1])]
-    for value, colour in zip(exponents, shades(exponents.size), strict=True):
-        for solver, dash in (("exact", "-"), ("envelope", DASHES[1])):
-            line = energy.sel(k=value, solver=solver)
-            axes.plot(line[x], line, color=colour, ls=dash)
-        handles.append(key(f"$k = {value:g}$", color=colour))
-    axes.set(xlabel=LABELS[x], ylabel=ENERGY, xlim=(0.0, float(energy[x].max())))
-    axes.set_ylim(0.0, 1.35 * float(energy.max()))
-    symbol, fixed = FIXED[x]
-    title = f"${symbol} = {dataset[fixed].item():g}$"
-    axes.legend(handles=handles, loc="upper left", title=title, alignment="left", ncols=3, columnspacing=1.2)
+    waves = [(float(A), float(length)) for A in energy["A"][1:] for length in energy["lambda_over_R"]]
+    colours = shades(len(waves))
+    for axes, nu in zip((left, right), energy["nu"].values, strict=True):
+        one = energy.sel(nu=nu)
+        base = one.sel(solver="envelope").isel(A=0, lambda_over_R=0)
+        axes.plot(base["k"], base, color=INK, lw=1.4)
+        for (A, length), colour in zip(waves, colours, strict=True):
+            for solver, dash in (("envelope", "-"), ("exact", DASHES[1])):
+                line = one.sel(A=A, lambda_over_R=length, solver=solver)
+                axes.plot(line["k"], line, color=colour, ls=dash)
+        axes.set(xlabel="gradient exponent $k$", ylabel=ENERGY, xlim=(0.0, 1.0))
+        axes.set_ylim(0.0, 0.48)
+        axes.text(0.04, 0.05, rf"$\nu = {nu:g}$", transform=axes.transAxes)
+    handles = [key("$A = 0$", color=INK, lw=1.4)]
+    handles += [
+        key(rf"$A = {A:g}$, $\lambda/R = {length:g}$", color=colour)
+        for (A, length), colour in zip(waves, colours, strict=True)
+    ]
+    left.legend(handles=handles, loc="upper center")
+    right.legend(handles=[key("envelopes (5.43)", color=INK), key("exact", color=INK, ls=DASHES[1])], loc="upper right")
 
 
-def contours(axes: Axes, dataset: xarray.Dataset) -> None:
-    """Draw lines of equal energy over wavelength and amplitude, for two gradient exponents."""
-    energy = dataset["dissipated_energy"].transpose(..., "A", "lambda_over_R")
-    handles = [key("exact", color=INK), key("envelopes", color=INK, ls=DASHES[1])]
-    for value, colour in zip(MAPPED, shades(3)[::2], strict=True):
-        for solver, dash in (("exact", "-"), ("envelope", DASHES[1])):
-            over = energy.sel(k=value, solver=solver)
-            lines = axes.contour(
-                over["lambda_over_R"], over["A"], over, LEVELS, colors=[colour], linestyles=[dash], linewidths=0.9
-            )
-            if solver == "exact":
-                axes.clabel(lines, fontsize=6)
-        handles.append(key(f"$k = {value:g}$", color=colour))
-    axes.set(xscale="log", xlabel=WAVELENGTH, ylabel=AMPLITUDE)
-    axes.set_ylim(0.0, 0.2)
-    axes.legend(handles=handles, loc="upper center", title=ENERGY, ncols=4, columnspacing=1.0)
-
-
-PICTURES = {"fig9": contours, "fig9a": partial(energies, x="A"), "fig9b": partial(energies, x="lambda_over_R")}
+PICTURES = {"fig9": energies}

@@ -52,7 +52,7 @@ def _states(study: Study) -> Variable:
         attributes = {"units": "1", "long_name": "contact radius a/R of a state of equilibrium"}
         return Variable(dimensions=(names.STATE,), dtype="f8", attributes=attributes, values=np.array(study.states))
     attributes = {"long_name": "state of a loading cycle"}
-    values = np.array(names.NAMED_STATES, dtype=object)
+    values = np.array(names.NAMED_STATES)
     return Variable(dimensions=(names.STATE,), dtype="str", attributes=attributes, values=values)
 
 

@@ -16,15 +16,20 @@ if str(ROOT) not in sys.path:
     sys.path.append(str(ROOT))  # the scripts that draw are not installed
 
 SMALL = {
-    "fig4a": ("lambda_over_R={ start = 0.1, stop = 0.8, num = 29 }",),
+    "fig4a": (
+        "k={ start = 0.0, stop = 0.98, num = 50 }",
+        "lambda_over_R={ start = 0.1, stop = 0.8, num = 29 }",
+    ),
     "fig4b": ("lambda_over_R={ start = 0.1, stop = 0.8, num = 29 }",),
-    "fig4c": ("a_max_over_R={ start = 0.02, stop = 0.8, num = 40 }",),
-    "fig9": (
+    "fig4c": ("lambda_over_R={ start = 0.1, stop = 0.8, num = 141 }",),
+    "fig9": ("k={ start = 0.0, stop = 0.98, num = 15 }",),
+    "extra_rim": ("a_max_over_R={ start = 0.02, stop = 0.8, num = 40 }",),
+    "extra_energy_map": (
         'lambda_over_R={ start = 0.0001, stop = 0.01, num = 5, spacing = "log" }',
         "A={ start = 0.0, stop = 0.15, num = 4 }",
     ),
-    "fig9a": ("A={ start = 0.0, stop = 0.15, num = 7 }",),
-    "fig9b": ('lambda_over_R={ start = 0.0001, stop = 0.01, num = 7, spacing = "log" }',),
+    "extra_energy_amplitude": ("A={ start = 0.0, stop = 0.15, num = 7 }",),
+    "extra_energy_wavelength": ('lambda_over_R={ start = 0.0001, stop = 0.01, num = 7, spacing = "log" }',),
 }
 """Shorter axes for the studies that are maps."""
 

@@ -118,7 +118,8 @@ def test_run_imports_neither_xarray_nor_matplotlib(tmp_path: Path) -> None:
     assert done.stdout == "[]\n"
 
 
-CONFIGS = sorted(path for path in (ROOT / "configs").glob("*.toml") if not path.stem.startswith("fig"))  # tests/figures
+PICTURED = ("fig", "extra_")  # tests/figures
+CONFIGS = sorted(path for path in (ROOT / "configs").glob("*.toml") if not path.stem.startswith(PICTURED))
 MAPS = [config for config in CONFIGS if tomllib.loads(config.read_text()).get("kind", "map") == "map"]
 
 

@@ -1,0 +1,93 @@
+"""Pictures that are not the paper's: amplitudes, the rim, and the energy over amplitude and wavelength."""
+
+from functools import partial
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+
+from figures.curves import draw_equilibrium, dress
+from figures.fig4 import draw_lines, ends_of
+from figures.style import AMPLITUDE, DASHES, ENERGY, FORCE, INK, RIM, WAVELENGTH, key, shades
+
+LABELS = {"A": AMPLITUDE, "lambda_over_R": WAVELENGTH}
+FIXED = {"A": (r"\lambda/R", "lambda_over_R"), "lambda_over_R": ("A", "A")}
+"""What does not vary, for each abscissa: its symbol and its name."""
+MAPPED = (0.0, 0.4)
+LEVELS = (0.05, 0.1, 0.2, 0.3, 0.4, 0.5)
+
+
+def amplitudes(axes: Axes, dataset: xarray.Dataset) -> None:
+    """Draw depth over contact radius for several amplitudes."""
+    values = dataset["A"].values
+    handles = []
+    for value, colour in zip(values, shades(values.size)[::-1], strict=True):
+        draw_equilibrium(axes, dataset.sel(A=value), "b", color=colour)
+        handles.append(key(f"$A = {value:g}$", color=colour))
+    dress(axes, "b")
+    handles.append(key("unstable", color="0.4", lw=0.8, ls=(0, (1, 1))))
+    axes.legend(handles=handles, loc="upper left")
+
+
+def rims(axes: Axes, dataset: xarray.Dataset) -> None:
+    """Draw the force over the radius of the punch, and mark the radius beyond which none of the lines changes."""
+    force = dataset["pull_off_force"]
+    draw_lines(axes, force, "a_max_over_R", "lambda_over_R", r"$\lambda/R = ")
+    threshold = threshold_of(force)
+    axes.axvline(threshold, color="0.5", lw=0.6, ls=(0, (4, 2)), zorder=0)
+    axes.set(xlabel=RIM, ylabel=FORCE, xlim=(0, ends_of(force["a_max_over_R"])[1]))
+    axes.set_ylim(bottom=0.0)
+    label = rf"$a_{{\max}}/R = {threshold:.2f}$"
+    axes.annotate(label, (threshold, 0.52), (4, 0), xycoords=("data", "axes fraction"), textcoords="offset points")
+    axes.legend(loc="upper left")
+
+
+def threshold_of(force: xarray.DataArray) -> float:
+    """Return the least radius of the punch from which on the force of every line is that of the widest punch."""
+    widest = force.isel(a_max_over_R=-1)
+    changes = (abs(force - widest) > 1e-9 * abs(widest)).any("lambda_over_R").values
+    return float(force["a_max_over_R"].values[np.flatnonzero(changes)[-1] + 1])
+
+
+def energies(axes: Axes, dataset: xarray.Dataset, x: str) -> None:
+    """Draw the energy over one axis, two lines for each gradient exponent."""
+    energy = dataset["dissipated_energy"]
+    exponents = energy["k"].values
+    handles = [key("exact", color=INK), key("envelopes", color=INK, ls=DASHES[1])]
+    for value, colour in zip(exponents, shades(exponents.size), strict=True):
+        for solver, dash in (("exact", "-"), ("envelope", DASHES[1])):
+            line = energy.sel(k=value, solver=solver)
+            axes.plot(line[x], line, color=colour, ls=dash)
+        handles.append(key(f"$k = {value:g}$", color=colour))
+    axes.set(xlabel=LABELS[x], ylabel=ENERGY, xlim=(0.0, float(energy[x].max())))
+    axes.set_ylim(0.0, 1.35 * float(energy.max()))
+    symbol, fixed = FIXED[x]
+    title = f"${symbol} = {dataset[fixed].item():g}$"
+    axes.legend(handles=handles, loc="upper left", title=title, alignment="left", ncols=3, columnspacing=1.2)
+
+
+def contours(axes: Axes, dataset: xarray.Dataset) -> None:
+    """Draw lines of equal energy over wavelength and amplitude, for two gradient exponents."""
+    energy = dataset["dissipated_energy"].transpose(..., "A", "lambda_over_R")
+    handles = [key("exact", color=INK), key("envelopes", color=INK, ls=DASHES[1])]
+    for value, colour in zip(MAPPED, shades(3)[::2], strict=True):
+        for solver, dash in (("exact", "-"), ("envelope", DASHES[1])):
+            over = energy.sel(k=value, solver=solver)
+            lines = axes.contour(
+                over["lambda_over_R"], over["A"], over, LEVELS, colors=[colour], linestyles=[dash], linewidths=0.9
+            )
+            if solver == "exact":
+                axes.clabel(lines, fontsize=6)
+        handles.append(key(f"$k = {value:g}$", color=colour))
+    axes.set(xscale="log", xlabel=WAVELENGTH, ylabel=AMPLITUDE)
+    axes.set_ylim(0.0, 0.2)
+    axes.legend(handles=handles, loc="upper center", title=ENERGY, ncols=4, columnspacing=1.0)
+
+
+PICTURES = {
+    "extra_amplitudes": amplitudes,
+    "extra_rim": rims,
+    "extra_energy_map": contours,
+    "extra_energy_amplitude": partial(energies, x="A"),
+    "extra_energy_wavelength": partial(energies, x="lambda_over_R"),
+}
