@@ -13,6 +13,8 @@ from hypothesis import strategies as st
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.study import load_study, study_from
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 LINES = [
     'title = "Good"', 'layout = "grid"', 'layout = "points"', 'kind = "map"', 'outputs = ["pull_off_force"]', "[parameters]",

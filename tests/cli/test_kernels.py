@@ -102,6 +102,7 @@ def test_where_nothing_can_be_kept_it_says_so(
     assert compiled == ["tables", "force"]
 
 
+@pytest.mark.slow
 def test_processes_side_by_side_compile_no_kernel_twice(tmp_path: Path) -> None:
     code = (
         "from gradhesion.cli.work.warming import warm\n"

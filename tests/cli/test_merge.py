@@ -68,6 +68,7 @@ def test_a_damaged_part_is_not_merged(gradhesion: Call, study_file: Path, tmp_pa
     assert gradhesion("merge", output).exit_code == 0
 
 
+@pytest.mark.slow
 def test_shards_work_at_once_but_not_beside_a_run(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
     output = tmp_path / "out.nc"
     with claimed(output, "1-of-2"):

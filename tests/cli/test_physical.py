@@ -111,6 +111,7 @@ def test_axes_have_units_and_ratios_follow(physical: dict[str, Any]) -> None:
     assert dataset["R"].values.tolist() == [1e-6, 1.3e-6]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("layout", ["grid", "points"])
 @pytest.mark.parametrize("solver", ["exact", ["envelope", "exact"]])
 def test_the_file_is_the_same_in_whatever_blocks_and_is_verified(

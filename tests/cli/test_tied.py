@@ -47,6 +47,7 @@ def test_values_are_those_of_the_parameters(tied: dict[str, Any]) -> None:
         np.testing.assert_array_equal(dataset[name].broadcast_like(given[0]).transpose(*given[0].dims), made[name])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("layout", ["grid", "points"])
 def test_the_file_is_the_same_in_whatever_blocks_and_is_verified(
     layout: str,

@@ -8,6 +8,8 @@ import pytest
 from gradhesion.core.asymptotic import Wave, depth
 from gradhesion.core.asymptotic_jump import loss_of_jump
 
+pytestmark = pytest.mark.slow
+
 EPS = 2.0**-52
 
 

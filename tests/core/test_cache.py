@@ -11,6 +11,8 @@ import pytest
 
 from gradhesion.core import cache
 
+pytestmark = pytest.mark.slow
+
 DAY = 86400.0
 NOW = 2.0e9
 

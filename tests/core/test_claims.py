@@ -14,6 +14,8 @@ from gradhesion.core import OUTPUTS, solve
 from gradhesion.core.equations import effective, energy, envelopes, gap, hertz, jkr, profile, saturation, short_waves
 from gradhesion.core.material import stiffness
 
+pytestmark = pytest.mark.slow
+
 Array = NDArray[np.float64]
 
 MAP: dict[str, Any] = {"nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "A": 0.1, "a_max_over_R": math.inf}

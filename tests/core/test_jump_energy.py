@@ -11,6 +11,8 @@ import pytest
 from gradhesion.core.curve import depth
 from gradhesion.core.jump_energy import SHORT, energy_from_zero, jump_energy
 
+pytestmark = pytest.mark.slow
+
 EPS = 2.0**-52
 EXPONENTS = [0.0, 0.41, 1 - 1e-12, 1.0]
 CURVES = [(0.02, 0.9, 0.0), (1.7, 0.31, 0.0), (0.003, 2.2, 0.0)]

@@ -60,6 +60,7 @@ def compiled_by(folder: Path, code: str) -> list[str]:
     return done.stdout.split()
 
 
+@pytest.mark.slow
 def test_a_force_compiles_what_a_force_needs(tmp_path: Path) -> None:
     tables = compiled_by(tmp_path, "compile_kind('tables')")
     force = compiled_by(tmp_path, "compile_kind('force')")

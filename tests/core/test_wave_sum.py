@@ -18,6 +18,8 @@ from gradhesion.core.similarity import amplitude_of_ratio
 from gradhesion.core.status import FAILED, NO_VALUE
 from gradhesion.core.wave_sum import branch_points, sum_of_waves
 
+pytestmark = pytest.mark.slow
+
 WORK = np.zeros(22)
 GOOD = 1e-12
 """What sums are promised to, in parts of the loss."""

@@ -19,6 +19,8 @@ from gradhesion.cli.study.study import study_from
 from .pages import PAGES, ROOT, Block, blocks_of, commands_of, made_smaller, same
 from .plain import HIDE, hidden
 
+pytestmark = pytest.mark.slow
+
 BLOCKS = [block for page in PAGES for block in blocks_of(page)]
 SHOWN = ("", "json", "mermaid", "output", "text", "{eval-rst}", "{toctree}")
 """Languages of blocks that are looked at only."""

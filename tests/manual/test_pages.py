@@ -51,6 +51,7 @@ def test_exit_codes_are_those_of_the_errors() -> None:
     assert set(errors.EXIT_CODES) == codes | {0, main.INTERRUPTED, main.UNHEARD}
 
 
+@pytest.mark.slow
 def test_the_manual_builds_without_a_warning_and_loads_nothing_from_elsewhere(tmp_path: Path) -> None:
     sphinx = [sys.executable, "-m", "sphinx", "-E", "-q", "-W", "--keep-going", "-d", tmp_path / "trees"]
     done = subprocess.run([*sphinx, ROOT / "docs", tmp_path / "html"], capture_output=True, text=True, check=False)

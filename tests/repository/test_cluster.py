@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 from click.testing import Result
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "cluster.md").read_text(encoding="utf-8")
 

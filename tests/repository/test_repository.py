@@ -88,6 +88,7 @@ def test_help_imports_nothing_heavy(arguments: list[str]) -> None:
     assert done.stdout.splitlines()[-1] == "[]"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "arguments",
     [["validate", "STUDY"], ["schema"], ["init", "--list"], ["info", "FILE"], ["plot", "FILE", "-o", "PICTURE"]],

@@ -21,6 +21,8 @@ from gradhesion.cli.engines.local import local_client
 from gradhesion.cli.work.folder import folder_of
 from tests.cli.engines.orders import HUGE, Call, Orders, values_of
 
+pytestmark = pytest.mark.slow
+
 
 def listening() -> set[tuple[str, int]]:
     """The addresses at which this process and those that it has started listen."""
@@ -88,7 +90,7 @@ def test_a_local_cluster_comes_and_goes(
 def test_an_interrupt_ends_workers_and_keeps_parts(tmp_path: Path) -> None:
     study, output = tmp_path / "huge.toml", tmp_path / "data" / "huge.nc"
     study.write_text(HUGE)
-    command = [sys.executable, "-m", "gradhesion.cli", "run", study, "-o", output, "--engine=dask", "--chunk=2000"]
+    command = [sys.executable, "-m", "gradhesion.cli", "run", study, "-o", output, "--engine=dask", "--chunk=131072"]
     folder = folder_of(output)
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
         deadline = time.monotonic() + 120

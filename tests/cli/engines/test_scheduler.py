@@ -15,6 +15,8 @@ from distributed import Client
 from gradhesion.cli.work.folder import folder_of
 from tests.cli.engines.orders import HUGE, ByHand, Call, values_of
 
+pytestmark = pytest.mark.slow
+
 
 def test_workers_of_another_version(
     gradhesion: Call,
@@ -100,6 +102,7 @@ def test_an_interrupt_takes_back_what_waits(tmp_path: Path, output: Path, by_han
     study.write_text(HUGE)
     by_hand.start("worker", "--nthreads=1", "--no-nanny")
     command = [sys.executable, "-m", "gradhesion.cli", "run", study, "-o", output, "--engine=dask", "--quiet"]
+    command += ["--chunk=131072"]  # 600 blocks
     with subprocess.Popen([*command, "--scheduler", by_hand.file], stderr=subprocess.PIPE, text=True) as process:
         deadline = time.monotonic() + 120
         while not folder_of(output).parts() and process.poll() is None and time.monotonic() < deadline:

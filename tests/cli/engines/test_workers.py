@@ -17,6 +17,8 @@ from distributed import LocalCluster, get_worker
 from gradhesion.cli.work.folder import folder_of
 from tests.cli.engines.orders import Call, Orders, values_of
 
+pytestmark = pytest.mark.slow
+
 SETTINGS: dict[str, Any] = {
     "threads_per_worker": 1,
     "memory_limit": None,

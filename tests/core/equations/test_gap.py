@@ -10,6 +10,8 @@ import pytest
 from gradhesion.core.equations import gap as module
 from gradhesion.core.equations import general, hertz, jkr, profile
 
+pytestmark = pytest.mark.slow
+
 gap, surface = module.gap, module.surface
 
 

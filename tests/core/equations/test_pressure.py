@@ -11,6 +11,8 @@ from scipy.special import roots_jacobi
 
 from gradhesion.core.equations import general, hertz, jkr, pressure, profile
 
+pytestmark = pytest.mark.slow
+
 M, WAVELENGTH = 210.0, 0.13
 PROFILES = [
     ([], [], 2.0),

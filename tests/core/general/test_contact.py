@@ -18,6 +18,8 @@ from gradhesion.core.general.window import first_fold_bound, last_fold_bound
 from gradhesion.core.material import stiffness
 from gradhesion.core.status import LOADING_NOT_ONE_DISC
 
+pytestmark = pytest.mark.slow
+
 EXPONENTS = [0.0, 0.3, 0.7, 0.95, 1.0]
 MARGIN = 0.005
 """Least openings as near to 0 as this are not decided by 45 radii a wave: the parabola between two is 0.002."""

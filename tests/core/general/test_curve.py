@@ -12,6 +12,8 @@ from gradhesion.core.general.scene import curve_of
 from gradhesion.core.general.sweep import front_of, rows_of, tables_of
 from gradhesion.core.struve.circle import TWO_PI
 
+pytestmark = pytest.mark.slow
+
 EPS = float(np.finfo(float).eps)
 SQUARE = tuple(Harmonic(n=n, cos=0.0, sin=1.0 / n) for n in (1, 3, 5, 7))
 TRIANGLE = tuple(Harmonic(n=n, cos=1.0 / n**2) for n in (1, 3, 5))

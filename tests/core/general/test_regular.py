@@ -23,6 +23,8 @@ from gradhesion.core.material import stiffness
 from gradhesion.core.status import CLOSE_TO_A_JUMP, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
 
+pytestmark = pytest.mark.slow
+
 EPS = float(np.finfo(float).eps)
 SCENE = {"k": 0.3, "nu": 0.27, "modulus": 1e3, "c0_over_R": 0.1, "lambda_over_R": 1e-3, "A": 1e-2, "a_max_over_R": 0.7}
 PAIR = (Harmonic(n=1, cos=0.6, sin=-0.3), Harmonic(n=2, cos=-0.2, sin=0.25))

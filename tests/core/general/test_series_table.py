@@ -12,6 +12,8 @@ from gradhesion.core.general.series import sums
 from gradhesion.core.general.series_table import COSINES, FEWEST, HIGHEST, has_table
 from gradhesion.core.general.sweep import rows_of, tables_of
 
+pytestmark = pytest.mark.slow
+
 EPS = float(np.finfo(float).eps)
 SERIES = {
     "full": [(n, math.cos(n * n) / n**1.5, math.sin(n * n) / n**1.5) for n in range(1, 13)],

@@ -15,6 +15,8 @@ from gradhesion.core.general.window import first_fold_bound, last_fold_bound
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.cosine_bins import integral_at_zero
 
+pytestmark = pytest.mark.slow
+
 EXPONENTS = [0.0, 1e-6, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0 - 1e-9, 1.0]
 Y = np.concatenate([np.geomspace(1e-6, 0.5, 200), np.linspace(0.5, 150.0, 20_000)])
 PROFILES = [

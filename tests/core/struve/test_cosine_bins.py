@@ -11,6 +11,8 @@ from gradhesion.core.general.series import integrals
 from gradhesion.core.struve.cosine_bins import build_cosine_bins, integral_at_zero
 from gradhesion.core.struve.table import build_table
 
+pytestmark = pytest.mark.slow
+
 
 @kernel()
 def both(table, cosines, x, x_low, out):  # type: ignore[no-untyped-def]

@@ -13,6 +13,8 @@ from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.power import amplitude_power
 
+pytestmark = pytest.mark.slow
+
 EPS = 2.0**-52
 EXPONENTS = [0.0, 1e-10, 0.43, 0.5, 0.92, 1 - 1e-12, 1.0]
 
