@@ -8,11 +8,11 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion import core
 from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, RAGGED, SI, STATE_CURVES, UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work.blocks import awaited, scales_of, scenes_of
-from gradhesion.core import draw_curves
 from gradhesion.core.processors import processors
 from gradhesion.core.status import NO_VALUE
 
@@ -73,7 +73,7 @@ def _draw(study: Study, block: Block) -> Drawing:
     scene = {name: float(values.item()) for name, values in scenes_of(study, block).items()}
     asked = [curve for curve, own in CURVES.items() if any(name in own for name in study.outputs)]
     curves = [curve for curve in asked if curve not in STATE_CURVES]
-    found, status = draw_curves(scene, curves, study.profile, study.loading)
+    found, status = core.draw_curves(scene, curves, study.profile, study.loading)
     if curves != asked:
         of_states, more = _of_states(study, scene, [curve for curve in asked if curve in STATE_CURVES])
         found |= of_states

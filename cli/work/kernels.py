@@ -17,7 +17,7 @@ from gradhesion.cli import interrupts
 from gradhesion.cli.errors import CompilerError
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.work.locks import closing, try_lock
-from gradhesion.core import NEEDS, compile_kind, compiled_before, kind_of_curves, kind_of_map, place, watch_compilation
+from gradhesion.core import NEEDS, compiled_before, kind_of_curves, kind_of_map, place
 
 PAUSE: Final = 0.2
 """Seconds between two looks at what another process compiles."""
@@ -69,6 +69,8 @@ def compile_kinds(kinds: Sequence[str], done: Callable[[str], None] = lambda _: 
 
     A process that compiles any of them is waited for. `done` is called with the name of each kernel that is compiled.
     """
+    from gradhesion.core import compile_kind, watch_compilation  # noqa: PLC0415 (all kernels, also those of curves)
+
     folder = place().folder
     with _one_of_us, nullcontext() if folder is None else _alone(folder / "lock", kinds), watch_compilation(done):
         for kind in missing_of(kinds):

@@ -216,12 +216,12 @@ def test_what_stood_there_stays_until_all_is_drawn(
             raise MemoryError
         return draw_curves(*arguments)
 
-    monkeypatch.setattr("gradhesion.cli.work.curves.draw_curves", failing)
+    monkeypatch.setattr("gradhesion.core.draw_curves", failing)
     with pytest.raises(MemoryError):
         gradhesion("run", curve_file, "-o", folder / "x.nc", "--overwrite", "--threads", "1")
     assert (folder / "x.nc").read_text() == "precious"
     assert os.listdir(folder) == ["x.nc"]
-    monkeypatch.setattr("gradhesion.cli.work.curves.draw_curves", lambda *_: pytest.fail("nothing is drawn"))
+    monkeypatch.setattr("gradhesion.core.draw_curves", lambda *_: pytest.fail("nothing is drawn"))
     assert gradhesion("run", curve_file, "-o", folder / "x.nc").exit_code == 4
 
 

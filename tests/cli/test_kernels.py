@@ -21,7 +21,7 @@ from gradhesion.core.cache import Place
 def compiled(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[str]:
     """The kinds of work that are compiled, none at first."""
     kinds: list[str] = []
-    monkeypatch.setattr(kernels, "compile_kind", kinds.append)
+    monkeypatch.setattr("gradhesion.core.compile_kind", kinds.append)
     monkeypatch.setattr(kernels, "compiled_before", lambda kind: kind in kinds)
     for module in (kernels, compiling):
         monkeypatch.setattr(module, "place", lambda: Place(tmp_path))
