@@ -28,6 +28,9 @@ stress: .venv/complete ## the long form of the stress suite (minutes)
 faults: .venv/complete ## kill runs at 200 random moments and at every rename, and go on with them (a minute)
 	.venv/bin/python -m tests.faults.trials --random 200
 
+adversary: .venv/complete faults ## those, and 10,000 datasets and 1,000 folders of parts changed at random (half an hour)
+	.venv/bin/python -m tests.adversary.trials
+
 bench: .venv/complete ## measure time and error (minutes), and write docs/benchmarks.md and its figures
 	.venv/bin/python -m benchmarks
 
@@ -83,4 +86,4 @@ build/tested: $(checked) .venv/complete | build/types/gradhesion
 	.venv/bin/pytest -n auto --dist loadfile --no-loadscope-reorder
 	touch $@
 
-.PHONY: docs reference help maps figures docs-figures test stress faults bench clean
+.PHONY: docs reference help maps figures docs-figures test stress faults adversary bench clean

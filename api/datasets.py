@@ -8,6 +8,7 @@ import xarray
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.dataset.reader import check_ours, found, opened
+from gradhesion.cli.dataset.soundness import check_form
 from gradhesion.cli.errors import DatasetError, MissingExtraError, StudyError
 from gradhesion.wording import in_python
 
@@ -40,6 +41,7 @@ def open_dataset(file: str | Path) -> xarray.Dataset:
     dataset = found(Path(file), cache=True)
     try:
         check_ours(dataset, Path(file))
+        check_form(dataset, Path(file))
     except BaseException:
         dataset.close()
         raise

@@ -1,6 +1,8 @@
 """What a file is, for whoever named it in the place of another."""
 
+import errno
 import os
+import stat
 from pathlib import Path
 from typing import Final
 
@@ -35,6 +37,23 @@ def is_file(path: Path) -> bool:
     (False, False)
     """
     return os.path.isfile(path)  # noqa: PTH113
+
+
+def read_at_most(path: Path, most: int) -> bytes:
+    """
+    Read a file of at most so many bytes, and nothing else: a device has no end, and a pipe may never begin.
+
+    Raises
+    ------
+    OSError
+        It cannot be read, is no file, or is larger.
+    """
+    handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0))  # Windows has no such flag
+    with os.fdopen(handle, "rb") as file:
+        found = os.fstat(handle)
+        if not stat.S_ISREG(found.st_mode) or found.st_size > most:
+            raise OSError(errno.EINVAL, os.strerror(errno.EINVAL), str(path))
+        return file.read(most)
 
 
 def kind_of(path: Path) -> str:

@@ -5,10 +5,12 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
+import netCDF4
 import xarray
 
+from gradhesion.cli.dataset.soundness import check_form, check_size
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.files import is_file, kind_of
 from gradhesion.cli.names import EXTENTS, RAGGED
@@ -16,6 +18,9 @@ from gradhesion.cli.study.tiling import CHUNK, Tiling
 
 if TYPE_CHECKING:
     from xarray import Dataset
+
+MOST: Final = 2**22
+"""Cells that are read at a time, whatever chunks a file has."""
 
 
 @contextmanager
@@ -29,8 +34,9 @@ def opened(path: Path) -> Iterator["Dataset"]:
         The file is missing, damaged or not ours.
     """
     with found(path, cache=False) as dataset:
-        check_ours(dataset, path)
         try:
+            check_ours(dataset, path)
+            check_form(dataset, path)
             yield dataset
         except BrokenPipeError:  # of what is told about it
             raise
@@ -59,8 +65,12 @@ def found(path: Path, *, cache: bool) -> "Dataset":
         what = f"is not a file, but {kind or 'nothing that can be read'}" if os.path.lexists(path) else "does not exist"
         raise DatasetError(f"{path}: {what}; name a dataset that `gradhesion run` wrote")
     try:
+        with netCDF4.Dataset(path) as file:
+            check_size(file, path)
         return xarray.open_dataset(path, engine="netcdf4", cache=cache)
-    except (OSError, ValueError, RuntimeError) as error:
+    except DatasetError:
+        raise
+    except (OSError, ValueError, RuntimeError, AttributeError, TypeError) as error:  # as the libraries say it
         reason = getattr(error, "strerror", None) or str(error)
         other = kind and not kind.startswith("a dataset")
         what, remedy = (f"it is {kind}", "name a dataset that") if other else (reason, "write it again with")
@@ -116,4 +126,4 @@ def has_curves(dataset: "Dataset") -> bool:
 def tiling_of(variable: "xarray.DataArray") -> Tiling:
     """Cut a variable into blocks of the chunks that it has in its file."""
     chunk = variable.encoding.get("chunksizes") or (CHUNK,)
-    return Tiling(variable.shape, max(1, math.prod(chunk)))
+    return Tiling(variable.shape, max(1, min(math.prod(chunk), MOST)))

@@ -56,11 +56,13 @@ def number(value: float) -> str:
     r"""
     Write a number for a picture.
 
-    >>> number(0.25), number(1e-6), number(float("inf"))
-    ('0.25', '$10^{-6}$', '$\\infty$')
+    >>> number(0.25), number(1e-6), number(float("inf")), number(float("nan"))
+    ('0.25', '$10^{-6}$', '$\\infty$', 'nan')
     """
     if np.isinf(value):
         return r"$\infty$"
+    if np.isnan(value):
+        return "nan"
     text = f"{value:.4g}"
     if value and not 1e-3 <= abs(value) < 1e5:
         digits, exponent = f"{value:.3e}".split("e")

@@ -9,7 +9,9 @@ from typing import Final
 import matplotlib.style
 import xarray
 from matplotlib.figure import Figure
+from matplotlib.mathtext import MathTextParser
 
+from gradhesion.cli.printable import printable
 from gradhesion.cli.study.shape_words import shape_told
 from gradhesion.core import Profile
 
@@ -43,7 +45,17 @@ def heading(dataset: xarray.Dataset) -> str:
     control = str(dataset.attrs.get("control", "displacement"))
     if control != "displacement":
         told.append({"load": "under controlled load", "machine": "through a machine of finite stiffness"}[control])
-    return "\n".join([str(dataset.attrs["title"]), *told])
+    return "\n".join(map(_drawable, [str(dataset.attrs["title"]), *told]))
+
+
+def _drawable(text: str) -> str:
+    """Write a text so that matplotlib draws it: formulae in dollars as such if they are some."""
+    text = printable(text)
+    try:
+        MathTextParser("agg").parse(text)
+    except ValueError:
+        return text.replace("$", r"\$")
+    return text
 
 
 def in_lines(parts: Sequence[str], width: float) -> str:

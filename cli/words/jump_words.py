@@ -72,8 +72,8 @@ def jumps_listed(dataset: xarray.Dataset, file: Path, items: int = ITEMS) -> Ite
 
 def meaning_of(variable: xarray.DataArray) -> str:
     """Give the long name of a variable, with its unit if it has one."""
-    unit = variable.attrs["units"]
-    return str(variable.attrs["long_name"]) + ("" if unit == "1" else f", in {unit}")
+    unit = variable.attrs.get("units", "1")
+    return str(variable.attrs.get("long_name", "of no name")) + ("" if unit == "1" else f", in {unit}")
 
 
 def _pieces(dataset: xarray.Dataset, items: int) -> Iterator[Piece]:

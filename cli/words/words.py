@@ -29,7 +29,7 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
     if "profile" in dataset.attrs:
         yield ""
         yield f"profile: {dataset.attrs['profile']}"
-        yield f"control: {control_told(Loading(control=dataset.attrs['control']))}"
+        yield f"control: {control_told(Loading(control=dataset.attrs.get('control', 'displacement')))}"
     yield from _parameters(dataset)
     yield from curves_told(dataset) if has_curves(dataset) else _outputs(dataset)
     yield from _status(dataset)
@@ -112,7 +112,7 @@ def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
         if name == "status":
             continue
         yield ""
-        yield f"{name}: {dataset[name].attrs['long_name']}{_unit(dataset[name], ', in ')}"
+        yield f"{name}: {dataset[name].attrs.get('long_name', 'of no name')}{_unit(dataset[name], ', in ')}"
         extremes = _extremes(dataset[name])
         if not extremes:
             yield "  no value in any scene"
@@ -168,10 +168,11 @@ def _status(dataset: xarray.Dataset) -> Iterator[str]:
 def _origin(dataset: xarray.Dataset) -> Iterator[str]:
     """Tell where a dataset comes from."""
     attributes = dataset.attrs
-    versions = ", ".join(f"{name} {attributes[f'{name}_version']}" for name in ("python", "numpy", "numba", "scipy"))
+    named = ("python", "numpy", "numba", "scipy")
+    versions = ", ".join(f"{name} {attributes.get(f'{name}_version', 'unknown')}" for name in named)
     yield ""
     yield "origin"
     yield f"  {attributes['source']} ({versions})"
-    yield from (f"  {line}" for line in str(attributes["history"]).splitlines())
+    yield from (f"  {line}" for line in str(attributes.get("history", "")).splitlines())
     if "study_sha256" in attributes:
         yield f"  study with sha256 {attributes['study_sha256']}"

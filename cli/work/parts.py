@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.disk import write_whole
+from gradhesion.cli.files import read_at_most
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of, size_of
 from gradhesion.core import SOURCES
@@ -93,7 +94,7 @@ def read_part(path: Path, key: str, study: Study, block: Block) -> Results:
     OSError
         It cannot be read.
     """
-    content = path.read_bytes()
+    content = read_at_most(path, 2**20 + 2 * (len(key) + bytes_of(study, block)))
     head = content.find(b"\n") + 1
     if not head or hashlib.sha256(memoryview(content)[head:]).hexdigest() != content[: head - 1].decode("latin-1"):
         raise PartError("damaged")
@@ -101,6 +102,8 @@ def read_part(path: Path, key: str, study: Study, block: Block) -> Results:
     if content[head : at - 1] != key.encode():
         raise PartError("of other scenes or another version")
     shape = shape_of(block)
+    if len(content) != at + bytes_of(study, block):
+        raise PartError("damaged")
     values = {}
     for name, kind in types_of(study).items():
         values[name] = np.frombuffer(content, kind, size_of(block), at).reshape(shape)

@@ -3,12 +3,16 @@
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any, Final, TypeVar
 
 from pydantic import Field, TypeAdapter
 
 from gradhesion.cli.disk import write_whole
+from gradhesion.cli.files import read_at_most
 from gradhesion.cli.study.tiling import CHUNK
+
+MOST_BYTES: Final = 2**29
+"""Of a small file: the text of the largest study that is read, and more."""
 
 Count = Annotated[int, Field(ge=0, lt=2**63)]
 Time = Annotated[float, Field(ge=0.0, lt=1e11)]
@@ -68,7 +72,7 @@ def read_record(path: Path, kind: type[Record]) -> Record | None:
     with suppress(OSError, ValueError):
         if path.is_symlink():
             return None
-        return TypeAdapter(kind).validate_json(path.read_bytes(), strict=True)
+        return TypeAdapter(kind).validate_json(read_at_most(path, MOST_BYTES), strict=True)
     return None
 
 

@@ -1,0 +1,136 @@
+"""Whether a dataset has the form of ours, before anything of it is used: a file may have been changed, or damaged."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli.dataset.curve_variables import variables_of_curves
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.names import EXTENTS, OUTPUTS, RAGGED, SCENE, SI, SOLVER, STATE, STATE_CURVES
+from gradhesion.core.loading_control import CONTROLS
+
+if TYPE_CHECKING:
+    import netCDF4
+    import xarray
+
+PACKED: Final = 2**14
+"""Bytes of values for each byte of a file, at most: deflate packs 1,032 into one, and others hardly more."""
+
+_TEXTS: Final = ("title", "source", "history", "profile", "control", "study", "study_sha256")
+
+
+def check_size(file: "netCDF4.Dataset", path: Path) -> None:
+    """
+    Refuse a file that claims more values than it can hold, before any of them is read.
+
+    Raises
+    ------
+    DatasetError
+        It does, or a variable has a dimension twice.
+    """
+    most = PACKED * path.stat().st_size
+    for name, variable in file.variables.items():
+        if variable.size > most:
+            raise _damaged(path, f"{name} cannot have {variable.size:,} values in so small a file")
+        if len({*variable.dimensions}) < len(variable.dimensions):
+            raise _damaged(path, f"{name} has a dimension twice")
+        for attribute in {"scale_factor", "add_offset"} & {*variable.ncattrs()}:
+            if not isinstance(variable.getncattr(attribute), float | np.number) or not np.isfinite(
+                variable.getncattr(attribute)
+            ):
+                raise _damaged(path, f"the attribute {attribute} of {name} is no number")
+
+
+def check_form(dataset: "xarray.Dataset", path: Path | str) -> None:
+    """
+    Check the attributes, types and dimensions that all else relies on.
+
+    Raises
+    ------
+    DatasetError
+        One is not as we write it; the message says which.
+    """
+    for fault in (*_of_attributes(dataset), *_of_variables(dataset), *_of_axes(dataset), *_of_curves(dataset)):
+        raise _damaged(path, fault)
+
+
+def _damaged(path: Path | str, fault: str) -> DatasetError:
+    return DatasetError(f"{path}: was changed or is damaged ({fault}); write it again with `gradhesion run`")
+
+
+def _of_attributes(dataset: "xarray.Dataset") -> Iterator[str]:
+    """Say which attributes are of another type."""
+    texts = (*_TEXTS, *(name for name in dataset.attrs if str(name).endswith("_version")))
+    for name in texts:
+        if not isinstance(dataset.attrs.get(name, ""), str):
+            yield f"its attribute {name} is no text"
+    if str(dataset.attrs.get("control", CONTROLS[0])) not in CONTROLS:
+        yield "its attribute control is none that there is"
+
+
+def _of_variables(dataset: "xarray.Dataset") -> Iterator[str]:
+    """Say which variables have another type, or attributes of another."""
+    for name, variable in dataset.variables.items():
+        if variable.dtype.kind not in ("OU" if name == SOLVER else "OUf" if name == STATE else "fiu"):
+            yield f"the type of {name} is {variable.dtype}"
+        for attribute in ("units", "long_name"):
+            if not isinstance(variable.attrs.get(attribute, ""), str):
+                yield f"the attribute {attribute} of {name} is no text"
+    if dataset["status"].dtype.kind not in "iu":
+        yield "status has no whole numbers"
+    if dataset["status"].size == 0:
+        yield "it has no scene"
+
+
+def _of_axes(dataset: "xarray.Dataset") -> Iterator[str]:
+    """Say which parameters or outputs have other axes than the scenes."""
+    axes = dataset["status"].dims
+    for axis in axes:
+        if axis in (*INPUTS, SOLVER) and (axis not in dataset.coords or dataset[axis].dims != (axis,)):
+            yield f"the axis {axis} has no values of its own"
+    for name, key in INPUTS.items():
+        if name not in dataset.variables:
+            continue
+        own = dataset[name].dims
+        if not {*own} <= {*axes} or (name in dataset.coords and SCENE in axes and own != (SCENE,)):
+            yield f"the axes of {name} are not those of status"
+        elif own == (name,) and not _is_axis(dataset[name].values, infinite=bool(key.infinite)):
+            yield f"the values of {name} are none of an axis"
+    for name in map(str, dataset.data_vars):
+        if name.removesuffix(SI) in OUTPUTS and dataset[name].dims != axes:
+            yield f"the axes of {name} are not those of status"
+
+
+def _is_axis(values: NDArray[Any], *, infinite: bool) -> bool:
+    """Check that the values of an axis are all there, and each of them once."""
+    return np.unique(values).size == values.size and not np.any(np.isnan(values) if infinite else ~np.isfinite(values))
+
+
+def _of_curves(dataset: "xarray.Dataset") -> Iterator[str]:
+    """Say which variables of curves have other dimensions."""
+    axes = dataset["status"].dims
+    for curve, names in variables_of_curves(dataset.data_vars).items():
+        along: tuple[Any, ...] = (*axes, *((STATE,) if curve in STATE_CURVES else ()), EXTENTS[curve])
+        count = RAGGED.get(curve)
+        if count is not None:
+            along = (EXTENTS[curve],)
+            yield from _of_counts(dataset, count, EXTENTS[curve])
+        for name in names:
+            if name != count and dataset[name].dims != along:
+                yield f"the dimensions of {name} are not {', '.join(map(str, along))}"
+        if curve in STATE_CURVES and STATE not in dataset.coords:
+            yield "its states have no names"
+
+
+def _of_counts(dataset: "xarray.Dataset", count: str, extent: str) -> Iterator[str]:
+    """Say whether the numbers of items of all scenes do not add up."""
+    if count not in dataset.data_vars or dataset[count].dims != dataset["status"].dims:
+        yield f"{count} is not there for each scene"
+        return
+    counts = dataset[count].values
+    if counts.dtype.kind not in "iu" or counts.min() < 0 or int(counts.sum()) != dataset.sizes.get(extent, 0):
+        yield f"the numbers of {count} do not add up to those of {extent}"

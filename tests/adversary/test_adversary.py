@@ -1,0 +1,91 @@
+"""The short form of the adversary, and the files that it found."""
+
+import random
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import numpy as np
+import pytest
+from click.testing import Result
+
+from tests.adversary.commands import fault_of
+from tests.adversary.trials import of_datasets, of_parts
+
+Call = Callable[..., Result]
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_datasets_changed_at_random_end_in_a_sentence(seed: int, tmp_path: Path) -> None:
+    assert not of_datasets(tmp_path, 30, random.Random(seed))
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_folders_of_parts_changed_at_random_end_in_a_sentence(seed: int, tmp_path: Path) -> None:
+    assert not of_parts(tmp_path, 15, random.Random(seed))
+
+
+ATTRIBUTES = ["title", "source", "history", "profile", "control", "study", "study_sha256", "numpy_version"]
+
+
+@pytest.fixture
+def dataset_file(gradhesion: Call, study_file: Path, tmp_path: Path) -> Path:
+    path = tmp_path / "out.nc"
+    assert gradhesion("run", study_file, "-o", path, "--quiet").exit_code == 0
+    return path
+
+
+def tried(path: Path) -> None:
+    """Try every command that reads a dataset."""
+    for command in ("info", "verify", "plot", "explore", "status"):
+        assert not fault_of(command, path, *(["--overwrite"] if command in ("plot", "explore") else [])), command
+    assert not fault_of("info", path, "--format", "csv")
+    assert not fault_of("merge", path, path.with_name("none.nc"), "-o", path.with_name("joined.nc"))
+
+
+@pytest.mark.parametrize("value", [None, 1, 2.5, [1.0, 2.0], "\x1b[31m$\\bad{"])
+@pytest.mark.parametrize("name", ATTRIBUTES)
+def test_an_attribute_that_is_missing_or_mistyped(name: str, value: Any, dataset_file: Path) -> None:
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        if value is None:
+            file.delncattr(name)
+        else:
+            file.setncattr(name, value)
+    tried(dataset_file)
+
+
+@pytest.mark.parametrize("units", ["days since 2000-01-01", "hours", 3, "\x1b[31m"])
+@pytest.mark.parametrize("name", ["status", "k", "pull_off_force"])
+def test_odd_units(name: str, units: Any, dataset_file: Path) -> None:
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        file[name].units = units
+    tried(dataset_file)
+
+
+@pytest.mark.parametrize("value", [np.inf, np.nan, -1.0, 0.31])
+@pytest.mark.parametrize("name", ["k", "lambda_over_R", "a_max_over_R", "nu"])
+def test_odd_coordinates(name: str, value: float, dataset_file: Path) -> None:
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        if file[name].ndim:
+            file[name][0] = value
+        else:
+            file[name][...] = value
+    tried(dataset_file)
+
+
+@pytest.mark.parametrize("command", ["info", "plot", "explore", "verify"])
+def test_a_small_file_of_endless_cells_is_refused_at_once(command: str, gradhesion: Call, tmp_path: Path) -> None:
+    path = tmp_path / "huge.nc"
+    with netCDF4.Dataset(path, "w") as file:
+        file.title, file.source = "huge", "gradhesion 0.1.0"
+        file.createDimension("k", 2**18)
+        file.createDimension("A", 2**18)
+        status = file.createVariable("status", "i1", ("k", "A"), compression="zlib", chunksizes=(1024, 1024))
+        status.flag_meanings = "x"
+    result = gradhesion(command, path)
+    assert result.exit_code == 2
+    assert (
+        f"{path}: was changed or is damaged (status cannot have 68,719,476,736 values in so small a file)"
+        in result.stderr
+    )

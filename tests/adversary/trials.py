@@ -1,0 +1,142 @@
+"""Datasets and folders of parts changed at random, and every command that reads them tried on each.
+
+python -m tests.adversary.trials --datasets 10000 --parts 1000 --seed 7
+"""
+
+import argparse
+import os
+import random
+import shutil
+import sys
+import tempfile
+import time
+from collections import Counter
+from pathlib import Path
+from typing import Final
+
+from tests.adversary import datasets, parts
+from tests.adversary.commands import fault_of
+
+PUNCH: Final = "[parameters]\nk = [0.0, 0.31]\nnu = 0.3\nmodulus = 430.0\nc0_over_R = 0.013\n"
+MAP: Final = f"""\
+outputs = ["pull_off_force", "dissipated_energy", "loading_jumps"]
+{PUNCH}lambda_over_R = {{ start = 0.11, stop = 0.47, num = 3, spacing = "log" }}
+A = [0.0, 0.023]
+a_max_over_R = [1.7, inf]
+"""
+CURVES: Final = f"""\
+kind = "curve"
+outputs = ["equilibrium", "path", "jumps"]
+{PUNCH}lambda_over_R = 0.2
+A = 0.02
+a_max_over_R = 1.7
+"""
+POINTS: Final = """\
+layout = "points"
+outputs = ["pull_off_force", "pull_off_radius"]
+[method]
+solver = ["exact", "envelope"]
+[parameters]
+k = [0.0, 0.3]
+nu = 0.3
+A = [0.01, 0.02]
+[physical]
+R = "1 um"
+E_star = "1 GPa"
+work_of_adhesion = "50 mJ/m^2"
+c0 = "13 nm"
+wavelength = ["100 nm", "200 nm"]
+a_max = "1 um"
+"""
+DRAWN: Final = 0.3
+"""The share of datasets that are drawn and explored, too: it takes longest."""
+
+Faults = Counter[tuple[str, str]]
+
+
+def of_datasets(folder: Path, count: int, draw: random.Random) -> Faults:
+    """Change datasets of each kind, and try the commands on them; gives what was wrong, with an example of each."""
+    files = {}
+    for kind, text in {"map": MAP, "curves": CURVES, "points": POINTS}.items():
+        study, files[kind] = folder / f"{kind}.toml", folder / f"{kind}.nc"
+        study.write_text(text)
+        assert not (fault := fault_of("run", study, "-o", files[kind], codes=(0,))), fault
+    faults: Faults = Counter()
+    examples: dict[str, str] = {}
+    changed, joined = folder / "changed.nc", folder / "joined.nc"
+    for _ in range(count):
+        file = draw.choice([*files.values()])
+        if draw.random() < 0.15:
+            changed.write_bytes(datasets.damage(file.read_bytes(), draw))
+            what = "bytes"
+        else:
+            content = datasets.Content.of(file)
+            what = "; ".join(datasets.mutate(content, draw) for _ in range(draw.choice([1, 1, 2, 3])))
+            content.write(changed)
+        commands = [
+            ("info",),
+            ("info", "--format", "csv"),
+            ("info", "--jumps"),
+            ("verify", "--sample", "1"),
+            ("status",),
+        ]
+        commands.append(("merge", str(files["map"]), "-o", str(joined), "--overwrite"))
+        if draw.random() < DRAWN:
+            commands += [("plot", "--overwrite"), ("explore", "--overwrite"), ("plot", "--overwrite", "--at", "k=0.3")]
+        for name, *options in commands:
+            if fault := fault_of(name, changed, *options):
+                faults[name, examples.setdefault(fault[:60], f"{fault} ({file.stem}: {what})")] += 1
+    return faults
+
+
+def of_parts(folder: Path, count: int, draw: random.Random) -> Faults:
+    """Change folders of parts, and try the commands on them."""
+    study, output, kept = folder / "map.toml", folder / "out.nc", folder / "kept"
+    study.write_text(MAP)
+    os.environ["GRADHESION_CHUNK"] = "2"
+    try:
+        assert not (fault := fault_of("run", study, "-o", output, "--shard", "1/2", codes=(0,))), fault
+        made = Path(f"{output}.parts")
+        shutil.move(made, kept)
+        faults: Faults = Counter()
+        examples: dict[str, str] = {}
+        for _ in range(count):
+            output.unlink(missing_ok=True)
+            shutil.rmtree(made, ignore_errors=True)
+            shutil.copytree(kept, made)
+            what = "; ".join(parts.mutate(made, draw) for _ in range(draw.choice([1, 1, 2, 3])))
+            for name, *options in (
+                ("status", output), ("status", output, "--json"), ("plan", study, "-o", output), ("merge", output),
+                ("run", study, "-o", output, "--shard", "2/2"), ("run", study, "-o", output), ("run", study, "-o", output, "--overwrite", "--fresh"),
+            ):  # fmt: skip
+                if fault := fault_of(name, *options):
+                    faults[name, examples.setdefault(fault[:60], f"{fault} ({what})")] += 1
+        return faults
+    finally:
+        del os.environ["GRADHESION_CHUNK"]
+
+
+def main() -> None:
+    """Try the commands, and print what was wrong."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--datasets", type=int, default=10_000)
+    parser.add_argument("--parts", type=int, default=1_000)
+    parser.add_argument("--seed", type=int, default=random.randrange(10**6))
+    asked = parser.parse_args()
+    draw = random.Random(asked.seed)
+    start = time.monotonic()
+    with tempfile.TemporaryDirectory() as folder:
+        faults = of_datasets(Path(folder), asked.datasets, draw)
+    with tempfile.TemporaryDirectory() as folder:
+        faults += of_parts(Path(folder), asked.parts, draw)
+    print(
+        f"{asked.datasets:,} datasets and {asked.parts:,} folders of parts changed at random (seed {asked.seed}), "
+        f"{time.monotonic() - start:.0f} s: {faults.total():,} commands that end as none may"
+    )
+    for (name, what), number in faults.most_common():
+        print(f"{number:,} times {name}: {what}")
+    sys.exit(bool(faults))
+
+
+if __name__ == "__main__":
+    main()
