@@ -27,7 +27,7 @@ ODD: tuple[Any, ...] = (
 
 def mutate(folder: Path, draw: random.Random) -> str:
     """Change something in a folder, and say what."""
-    path = draw.choice(sorted(folder.iterdir()))
+    path = draw.choice(sorted(folder.iterdir()) or [folder / "lock"])
     change = draw.choice((_bytes, _bytes, _json, _json, _json, _checksum, _checksum, _link, _folder, _without, _other))
     return f"{path.name}: {change(path, draw)}"
 
@@ -91,7 +91,7 @@ def _without(path: Path, _draw: random.Random) -> str:
     if path.is_dir() and not path.is_symlink():
         path.rmdir()
     else:
-        path.unlink()
+        path.unlink(missing_ok=True)
     return "removed"
 
 
@@ -109,5 +109,7 @@ def _other(path: Path, draw: random.Random) -> str:
             "9" * 40 + ".part",
         ]
     )
-    (path.parent / name).write_text(draw.choice(["", "{}", "null", '{"file": null}', "[" * 10**5, "x"]))
+    other = path.parent / name
+    _without(other, draw)
+    other.write_text(draw.choice(["", "{}", "null", '{"file": null}', "[" * 10**5, "x"]))
     return f"{name} beside it"

@@ -48,6 +48,7 @@ c0 = "13 nm"
 wavelength = ["100 nm", "200 nm"]
 a_max = "1 um"
 """
+STATES: Final = CURVES.replace('"equilibrium", "path", "jumps"', '"pressure", "surface"')
 DRAWN: Final = 0.3
 """The share of datasets that are drawn and explored, too: it takes longest."""
 
@@ -57,7 +58,7 @@ Faults = Counter[tuple[str, str]]
 def of_datasets(folder: Path, count: int, draw: random.Random) -> Faults:
     """Change datasets of each kind, and try the commands on them; gives what was wrong, with an example of each."""
     files = {}
-    for kind, text in {"map": MAP, "curves": CURVES, "points": POINTS}.items():
+    for kind, text in {"map": MAP, "curves": CURVES, "points": POINTS, "states": STATES}.items():
         study, files[kind] = folder / f"{kind}.toml", folder / f"{kind}.nc"
         study.write_text(text)
         assert not (fault := fault_of("run", study, "-o", files[kind], codes=(0,))), fault
