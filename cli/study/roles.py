@@ -90,7 +90,7 @@ def _mistakes_of_role(role: Key, checked: Checked, sound: Mapping[str, Values]) 
     other, condition = ABSENT.get(role.name, ("", ""))
     if not (other and _is_zero(other, sound)):
         what = "quantity" if paths[0][0] == "physical" else "parameter"
-        yield _absent(paths, what, f", but where {condition} everywhere" if condition else "")
+        yield _absent(paths, what, f"unless {condition} everywhere, " if condition else "")
 
 
 def _mixed(path: Path, checked: Checked, keys: list[str]) -> Mistake:
@@ -115,5 +115,5 @@ def _absent(paths: list[Path], what: str, unless: str) -> Mistake:
     instead = " or ".join(
         line_of(path) + (f" under [{path[0]}]" if path[0] != paths[0][0] else "") for path in paths[1:]
     )
-    sentence = f"this {what} is required{unless}; {example(paths[0])}" + (f", or instead {instead}" if instead else "")
+    sentence = f"{unless}this {what} is required; {example(paths[0])}" + (f", or instead {instead}" if instead else "")
     return Mistake(paths[0], None, sentence)

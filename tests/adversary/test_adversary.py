@@ -13,6 +13,8 @@ from click.testing import Result
 from tests.adversary.commands import fault_of
 from tests.adversary.trials import of_datasets, of_parts
 
+pytestmark = pytest.mark.slow
+
 Call = Callable[..., Result]
 
 

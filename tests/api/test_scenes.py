@@ -116,7 +116,7 @@ def test_what_is_missing_and_unknown_is_said_at_once() -> None:
     refused = mistakes_of({"k": 0.3, "modulos": 5.0}, ["pull_of_force"], solver="exactly", control="lode")
     for sentence in (
         "gr.solve: nu: this parameter is required; write for example nu = 0.3",
-        "gr.solve: lambda_over_R: this parameter is required, but where A = 0 everywhere; write for example lambda_over_R = numpy.geomspace(0.02, 1.0, 200)",
+        "gr.solve: lambda_over_R: unless A = 0 everywhere, this parameter is required; write for example lambda_over_R = numpy.geomspace(0.02, 1.0, 200)",
         'gr.solve: modulos = 5.0: unknown key; did you mean "modulus"?',
         'gr.solve: outputs[0] = "pull_of_force": not an output; did you mean "pull_off_force"?',
         'gr.solve: solver = "exactly": not a solver; did you mean "exact"?',
@@ -198,7 +198,7 @@ def test_what_has_no_effect_may_be_left_out() -> None:
     assert found["a_max_over_R"].item() == math.inf
     assert found["c0_over_R"].attrs["comment"] == "without effect where k = 0; the study leaves it out"
     refused = mistakes_of(k=[0.0], nu=0.3, A=xarray.DataArray([0.0, 0.1], dims="x"), modulus=400.0)
-    assert "gr.solve: lambda_over_R: this parameter is required, but where A = 0 everywhere" in refused
+    assert "gr.solve: lambda_over_R: unless A = 0 everywhere, this parameter is required" in refused
 
 
 def test_curves_are_those_of_a_study() -> None:

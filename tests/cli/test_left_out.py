@@ -49,7 +49,7 @@ def test_what_is_left_out_has_no_effect(name: str) -> None:
 def test_it_is_required_where_it_has_an_effect(parameters: dict[str, Any], name: str) -> None:
     with pytest.raises(StudyError) as caught:
         study_from({"outputs": OUTPUTS, "parameters": parameters})
-    assert any(f"parameters.{name}: this parameter is required, but where" in line for line in caught.value.mistakes)
+    assert any(f"parameters.{name}: unless" in line for line in caught.value.mistakes)
 
 
 def test_with_units_too() -> None:

@@ -290,7 +290,7 @@ def test_what_is_missing_is_told_at_once(
     lines = gradhesion("run", text).stderr.splitlines()
     assert len(lines) == 5
     for name in ("R", "E_star", "work_of_adhesion", "c0", "wavelength"):
-        assert any(f"physical.{name}: this quantity is required" in line for line in lines)
+        assert any(f"physical.{name}: " in line and "this quantity is required; " in line for line in lines)
         assert any(f"; write for example {name} = " in line for line in lines)
     assert any('E_star = "50 kPa", or instead E = "46 kPa"' in line for line in lines)
     assert json.dumps("20 um") + ", or instead lambda_over_L = 0.5 under [parameters]" in "\n".join(lines)
