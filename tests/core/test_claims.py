@@ -404,6 +404,32 @@ class TestOneDisc:
         assert (lowest_outside - with_adhesion)[visited].min() == pytest.approx(0.045, abs=1e-3)
 
 
+class TestEnvelopeEnergy:
+    """The energy of solver = "envelope" leaves out the mean height of the waves (docs/validity.md)."""
+
+    @pytest.mark.parametrize(("reach", "off"), [(1.0, 0.132), (2.0, 0.046), (4.0, 0.013)])
+    def test_at_exponent_one_it_stays_high_however_short_the_waves(self, reach: float, off: float) -> None:
+        assert self._off(1.0, reach, 1e-5) == pytest.approx(off, rel=0.02)
+
+    @pytest.mark.parametrize(("k", "off"), [(0.0, 0.00032), (0.5, 0.0026)])
+    def test_below_it_tends_to_the_exact_one(self, k: float, off: float) -> None:
+        assert self._off(k, 2.0, 1e-5) == pytest.approx(off, rel=0.02)
+
+    @staticmethod
+    def _off(k: float, reach: float, wavelength: float) -> float:
+        scene = {"k": k, "nu": 0.5, "modulus": 500.0, "c0_over_R": 1.0, "lambda_over_R": wavelength}
+        s = float(envelopes.adhesion_strength(k, _material(scene)))
+        A = 0.15 * s / float(envelopes.waviness_strength(k, wavelength, 1.0))
+        rim = reach * float(effective.jump_in_radius(k, s, 0.15 * s))
+        found = [
+            float(
+                solve(scene | {"A": A, "a_max_over_R": rim}, ["dissipated_energy"], solver=solver)["dissipated_energy"]
+            )
+            for solver in ("exact", "envelope")
+        ]
+        return found[1] / found[0] - 1.0
+
+
 class TestControl:
     """The pull-off force is that of the unloading path under every control (section 9 of docs/theory.md)."""
 

@@ -148,3 +148,16 @@ def test_outside_the_ranges() -> None:
     assert np.isnan(envelopes.pull_off_force(0.3, -0.1))
     assert np.isnan(envelopes.indentation(0.3, -0.1, 0.1))
     assert np.isnan(envelopes.load(0.3, 0.0, 0.1, 0.1))
+
+
+def test_kesari_and_lew() -> None:
+    # Kesari & Lew (2011), homogeneous: the swing of depth is pi A sqrt(lambda a), of load 2 E* a times that
+    a, M, length, amplitude = np.linspace(0.05, 0.8, 9), 150.0, 0.003, 0.03
+    s, r = envelopes.adhesion_strength(0.0, M), envelopes.waviness_strength(0.0, length, amplitude)
+    for sign in (1.0, -1.0):
+        swing = sign * math.pi * amplitude * np.sqrt(length * a)
+        depth = a**2 - np.sqrt(2 * math.pi * a / M) + swing
+        np.testing.assert_allclose(envelopes.indentation(0.0, a, s - sign * r), depth, atol=1e-15)
+        load = 4 * M * a**3 / 3 - np.sqrt(8 * math.pi * M * a**3) + 2 * M * a * swing
+        found = 1.5 * math.pi * envelopes.load(0.0, M, a, s - sign * r)
+        np.testing.assert_allclose(found, load, atol=1e-13 * np.abs(load).max())

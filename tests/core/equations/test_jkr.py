@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
+from scipy.special import struve
 
 from gradhesion.core import solve
 from gradhesion.core.equations import hertz, jkr
@@ -81,6 +82,18 @@ def test_fold_number_tells_where_depth_and_load_rise(k: float) -> None:
         # d/da = scale Delta/a (q - level)
         np.testing.assert_allclose(slope / scale, stretch / a * (number - level), atol=2e-5)
         assert ((number > level)[:-1] != (number > level)[1:]).any()
+
+
+def test_guduru() -> None:
+    # Guduru (2007), homogeneous: delta = a^2/R + pi^2 A a H0 - sqrt(2 pi a dgamma/E*) and
+    # P = 4 E* a^3/(3R) + pi E* A a (2 pi a H0 - lambda H1) - sqrt(8 pi E* dgamma a^3), of 2 pi a/lambda
+    a, (length, amplitude) = np.linspace(0.01, 0.8, 30), WAVE
+    first, second = (struve(order, 2 * math.pi * a / length) for order in (0, 1))
+    depth = a**2 + math.pi**2 * amplitude * a * first - np.sqrt(2 * math.pi * a / M)
+    np.testing.assert_allclose(jkr.indentation(0.0, M, a, *WAVE), depth, atol=1e-14)
+    load = 4 * M * a**3 / 3 + math.pi * M * amplitude * a * (2 * math.pi * a * first - length * second)
+    load -= np.sqrt(8 * math.pi * M * a**3)
+    np.testing.assert_allclose(1.5 * math.pi * jkr.load(0.0, M, a, *WAVE), load, atol=1e-12 * np.abs(load).max())
 
 
 @pytest.mark.parametrize("k", [0.0, 0.3, 0.6, 1.0])
