@@ -20,13 +20,22 @@ from gradhesion.core.profile import Profile
 from gradhesion.values import array_of, numbers_of, of_xarray
 from gradhesion.wording import without_tables
 
-ARGUMENTS: Final = ("outputs", "profile", "control", "solver", "check_contact", "threads", "title")
+ARGUMENTS: Final = (
+    "outputs",
+    "profile",
+    "control",
+    "contact_radius_over_R",
+    "solver",
+    "check_contact",
+    "threads",
+    "title",
+)
 """What `solve` takes beside parameters; they are no parameters themselves."""
 
 MOST_LISTED: Final = 10_000
 """Values of all axes together up to which a dataset keeps them in the text of its study as well."""
 
-_TABLES: Final = ("parameters", "physical", "loading", "method")
+_TABLES: Final = ("parameters", "physical", "loading", "states", "method")
 
 
 @dataclass(kw_only=True, eq=False)
@@ -242,7 +251,13 @@ def _settings(settings: Mapping[str, Any]) -> dict[str, Any]:
     if isinstance(profile := found.get("profile"), Profile):
         waves = [{"n": wave.n, "cos": wave.cos, "sin": wave.sin} for wave in profile.harmonics]
         found["profile"] = {"exponent": profile.exponent, "harmonics": waves}
-    for key, table in (("control", "loading"), ("solver", "method"), ("check_contact", "method")):
+    radii = found.get("contact_radius_over_R")
+    if isinstance(radii, Iterable) and not isinstance(radii, str):
+        found["contact_radius_over_R"] = np.asarray(radii).tolist()
+    elif radii is not None:
+        found["contact_radius_over_R"] = [radii]
+    homes = {"control": "loading", "solver": "method", "check_contact": "method", "contact_radius_over_R": "states"}
+    for key, table in homes.items():
         if key in found:
             found.setdefault(table, {})[key] = found.pop(key)
     return found

@@ -122,6 +122,7 @@ def curves(
     *,
     profile: Profile | Mapping[str, Any] | None = None,
     control: str | None = None,
+    contact_radius_over_R: Sequence[float] | float | None = None,
     threads: int | None = None,
     title: str | None = None,
     **more: Any,
@@ -136,6 +137,8 @@ def curves(
         `scene`; 1,000 scenes at most. The values of an axis rise or fall.
     outputs
         Names out of `CURVES`, such as "path", or single variables of theirs, such as "path_load".
+    contact_radius_over_R
+        For "pressure" and "surface": the radii of states of equilibrium; None for turning point, pull-off and jump-out.
     profile, control, threads, title
         As in `solve`.
 
@@ -159,7 +162,8 @@ def curves(
     True
     """
     settings = {"kind": "curve", "outputs": outputs, "profile": profile, "control": control}
-    given = given_in("gr.curves", parameters, more, settings | {"title": title})
+    more_settings = {"contact_radius_over_R": contact_radius_over_R, "title": title}
+    given = given_in("gr.curves", parameters, more, settings | more_settings)
     given.check_threads(threads)
     for name, array in given.arrays.items():
         if not (given.is_grid or given.is_points):

@@ -14,12 +14,13 @@ _OPTIONS: Final = (
 """Options of commands are keywords in Python."""
 
 _TABLES: Final = (
-    (r"^(gr\.\w+: )(?:parameters|physical|loading|method)\.", r"\1"),
+    (r"^(gr\.\w+: )(?:parameters|physical|loading|states|method)\.", r"\1"),
     (r"\{ start = (\S+), stop = (\S+), num = (\S+), spacing = \"log\" \}", r"numpy.geomspace(\1, \2, \3)"),
     (r" (?:under|to) \[(?:parameters|physical|loading|method)\]", ""),
     (r"where \[physical\] gives quantities with units", "beside quantities with units"),
     (r"remove \[physical\]", "remove the quantities with units"),
     (r"\[loading\]", "control"),
+    (r"\[states\]", "contact_radius_over_R"),
     (r"\[profile\]", "profile"),
 )
 """Keys of a study are keywords of `gradhesion.solve`, without tables."""

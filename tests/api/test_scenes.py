@@ -223,3 +223,16 @@ def test_curves_are_those_of_a_study() -> None:
 )  # fmt: skip
 def test_curves_that_are_refused(changes: dict[str, Any], outputs: str, sentence: str) -> None:
     assert sentence in mistakes_of(PUNCH | changes, outputs, call=gr.curves)
+
+
+def test_states_of_given_radii() -> None:
+    punch = {"k": 0.1, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.2, "A": 0.055}
+    several = gr.curves(punch, "pressure", contact_radius_over_R=np.array([0.1, 0.2]))
+    assert several["state"].values.tolist() == [0.1, 0.2]
+    one = gr.curves(punch, "surface", contact_radius_over_R=0.2)
+    assert one["surface_radius"].dims == ("state", "surface_point")
+    assert gr.curves(punch, "pressure")["state"].values.tolist() == ["turning_point", "pull_off", "jump_out"]
+    with pytest.raises(gr.StudyError, match=r"gr.curves: contact_radius_over_R\[1\] = 0.9: .* in \(0, 0.5\]"):
+        gr.curves(punch | {"a_max_over_R": 0.5}, "pressure", contact_radius_over_R=[0.2, 0.9])
+    with pytest.raises(gr.StudyError, match="no curve of a state is asked for"):
+        gr.curves(punch, "path", contact_radius_over_R=[0.2])
