@@ -121,7 +121,7 @@ def _labels(scene: xarray.Dataset) -> list[str]:
 
 
 def _caption(dataset: xarray.Dataset) -> Iterable[str]:
-    """Tell the parameters of the scene."""
+    """Write the parameters of the scene."""
     for name in given(dataset.coords):
         values = dataset[name].values
         first = equation(name, np.ravel(values)[0])
