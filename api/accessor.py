@@ -7,7 +7,7 @@ import xarray
 from gradhesion.cli.dataset.reader import check_ours
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import CURVES, SI
-from gradhesion.cli.study.wording import did_you_mean
+from gradhesion.cli.terminal.wording import did_you_mean
 from gradhesion.core.status import FAILED, FLAGS, doubts_about
 
 

@@ -8,8 +8,8 @@ from contextlib import contextmanager, suppress
 from itertools import count
 from pathlib import Path
 
-from gradhesion.cli.amounts import bytes_in_words
 from gradhesion.cli.errors import OutputError
+from gradhesion.cli.terminal.amounts import bytes_in_words
 
 
 @contextmanager

@@ -4,6 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Final
 
+Path = tuple[str | int, ...]
+"""A key as the steps to it: `("parameters", "k", 3)` is item 3 of `parameters.k`."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Key:

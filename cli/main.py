@@ -8,7 +8,6 @@ from typing import Any, Final, NoReturn
 
 import click
 
-from gradhesion.cli import interrupts, messages
 from gradhesion.cli.commands.completion import completion
 from gradhesion.cli.commands.explore import explore
 from gradhesion.cli.commands.info import info
@@ -22,7 +21,8 @@ from gradhesion.cli.commands.validate import schema, validate
 from gradhesion.cli.commands.verify import verify
 from gradhesion.cli.commands.warmup import warmup
 from gradhesion.cli.errors import GradhesionError, OutputError
-from gradhesion.cli.terminal import complain, open_streams
+from gradhesion.cli.terminal import interrupts, messages
+from gradhesion.cli.terminal.output import complain, open_streams
 
 INTERRUPTED = 130
 UNHEARD = 141

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from gradhesion.cli.commands.examples import example
-from gradhesion.cli.terminal import show, show_block
+from gradhesion.cli.terminal.output import show, show_block
 
 
 @click.command(epilog=example("info outputs/study.nc", "info outputs/study.nc --format csv > study.csv"))

@@ -6,10 +6,10 @@ from pathlib import Path
 import click
 from click.shell_completion import CompletionItem
 
-from gradhesion.cli import messages
 from gradhesion.cli.commands.examples import example
 from gradhesion.cli.disk import replacement, writing
-from gradhesion.cli.terminal import show
+from gradhesion.cli.terminal import messages
+from gradhesion.cli.terminal.output import show
 
 
 def studies() -> dict[str, str]:
@@ -40,7 +40,7 @@ def init(name: str, output: Path | None, overwrite: bool, listed: bool) -> None:
             show(f"{each:{width}}  {text.splitlines()[0].removeprefix('# ')}")
         return
     if name not in known:
-        from gradhesion.cli.study.wording import did_you_mean
+        from gradhesion.cli.terminal.wording import did_you_mean
 
         raise click.UsageError(f'there is no study "{name}"; {did_you_mean(name, list(known))}')
     path = output or Path(f"{name}.toml")

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import click
 
-from gradhesion.cli import messages
-from gradhesion.cli.amounts import counted
 from gradhesion.cli.commands.examples import example
 from gradhesion.cli.commands.run import finish, history_now
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.files import is_file
-from gradhesion.cli.progress import progress
+from gradhesion.cli.terminal import messages
+from gradhesion.cli.terminal.amounts import counted
+from gradhesion.cli.terminal.progress import progress
 
 
 @click.command(epilog=example("merge big.nc", "merge first.nc second.nc -o all.nc"))

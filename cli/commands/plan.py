@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from gradhesion.cli.amounts import bytes_in_words, counted
 from gradhesion.cli.commands.examples import example
-from gradhesion.cli.terminal import show, show_block
+from gradhesion.cli.terminal.amounts import bytes_in_words, counted
+from gradhesion.cli.terminal.output import show, show_block
 
 if TYPE_CHECKING:
     from gradhesion.cli.study.study import Study

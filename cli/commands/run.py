@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 
 import click
 
-from gradhesion.cli import messages
-from gradhesion.cli.amounts import bytes_in_words, counted
 from gradhesion.cli.commands.examples import example
 from gradhesion.cli.commands.plan import show_plan
 from gradhesion.cli.errors import ScenesFailedError
-from gradhesion.cli.printable import printable_line
-from gradhesion.cli.progress import progress, rate
+from gradhesion.cli.terminal import messages
+from gradhesion.cli.terminal.amounts import bytes_in_words, counted
+from gradhesion.cli.terminal.printable import printable_line
+from gradhesion.cli.terminal.progress import progress, rate
 
 if TYPE_CHECKING:
     from gradhesion.cli.dataset.writer import Written

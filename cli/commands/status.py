@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from gradhesion.cli.amounts import bytes_in_words, counted
 from gradhesion.cli.commands.examples import example
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.files import is_file
-from gradhesion.cli.progress import rate
-from gradhesion.cli.terminal import show, show_block
+from gradhesion.cli.terminal.amounts import bytes_in_words, counted
+from gradhesion.cli.terminal.output import show, show_block
+from gradhesion.cli.terminal.progress import rate
 
 if TYPE_CHECKING:
     from gradhesion.cli.work.records import State

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import click
 
-from gradhesion.cli.amounts import counted
 from gradhesion.cli.commands.examples import example
-from gradhesion.cli.terminal import show, show_block
+from gradhesion.cli.terminal.amounts import counted
+from gradhesion.cli.terminal.output import show, show_block
 
 
 @click.command(epilog=example("validate study.toml", "validate study.toml --set parameters.A=0.02"))

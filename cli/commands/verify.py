@@ -4,11 +4,11 @@ from pathlib import Path
 
 import click
 
-from gradhesion.cli.amounts import counted
 from gradhesion.cli.commands.examples import example
 from gradhesion.cli.errors import DeviationError
-from gradhesion.cli.progress import progress
-from gradhesion.cli.terminal import show
+from gradhesion.cli.terminal.amounts import counted
+from gradhesion.cli.terminal.output import show
+from gradhesion.cli.terminal.progress import progress
 
 
 @click.command(epilog=example("verify outputs/study.nc --sample 50"))

@@ -4,9 +4,9 @@ import time
 
 import click
 
-from gradhesion.cli import messages
-from gradhesion.cli.amounts import counted
 from gradhesion.cli.commands.examples import example
+from gradhesion.cli.terminal import messages
+from gradhesion.cli.terminal.amounts import counted
 
 
 @click.command(epilog=example("warmup --all"))

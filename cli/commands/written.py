@@ -3,8 +3,8 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from gradhesion.cli import messages
-from gradhesion.cli.amounts import bytes_in_words
+from gradhesion.cli.terminal import messages
+from gradhesion.cli.terminal.amounts import bytes_in_words
 
 
 def say_written(path: Path, notes: Iterable[str] = ()) -> None:

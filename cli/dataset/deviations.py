@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
 
-from gradhesion.cli.amounts import counted
 from gradhesion.cli.dataset.recompute import Deviation, Recomputed
+from gradhesion.cli.terminal.amounts import counted
 
 ROWS: Final = 12
 """Deviations that are told one by one."""

@@ -16,7 +16,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS, PHYSICAL
 from gradhesion.cli.names import SCENE, SOLVER
 from gradhesion.cli.study.quantities import si_value
-from gradhesion.cli.study.wording import did_you_mean
+from gradhesion.cli.terminal.wording import did_you_mean
 
 SLACK: Final = 1e-9
 """How far beyond an end of an axis a value may be, over the end: it is typed with fewer digits than it has."""

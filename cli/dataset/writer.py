@@ -11,7 +11,6 @@ from typing import Any, Final, NoReturn
 import netCDF4
 import numpy as np
 
-from gradhesion.cli.amounts import counted, two_in_words
 from gradhesion.cli.dataset import dataset
 from gradhesion.cli.dataset.contents import CONTENTS
 from gradhesion.cli.disk import refuse_beside, refuse_existing, refuse_unnamed, settled, to_disk, writing
@@ -22,6 +21,7 @@ from gradhesion.cli.names import RAGGED, STATE
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Tiling, size_of
+from gradhesion.cli.terminal.amounts import counted, two_in_words
 from gradhesion.cli.work.curves import within
 from gradhesion.cli.work.folder import Folder, claimed, folder_of, identity
 from gradhesion.cli.work.manifest import adopt, manifest_of

@@ -6,12 +6,12 @@ from functools import partial
 from queue import Empty, SimpleQueue
 from typing import Any, Final
 
-from gradhesion.cli import interrupts
 from gradhesion.cli.engines import Work
 from gradhesion.cli.engines.scheduler import asked
 from gradhesion.cli.engines.watch import Watch
 from gradhesion.cli.engines.worker import RefusedError, UnsolvedError, UnwritableError, carry_out, needed, seen
 from gradhesion.cli.errors import ClusterError, OutputError
+from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.parts import key_of
 from gradhesion.cli.work.resume import Solved, blank, found
 

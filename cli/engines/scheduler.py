@@ -9,8 +9,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, Final, TypeVar
 
-from gradhesion.cli import interrupts
 from gradhesion.cli.errors import ClusterError, MissingExtraError, OutputError
+from gradhesion.cli.terminal import interrupts
 
 _T = TypeVar("_T")
 

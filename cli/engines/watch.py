@@ -3,9 +3,9 @@
 import time
 from typing import Any, Final
 
-from gradhesion.cli import messages
 from gradhesion.cli.engines.scheduler import asked, patience
 from gradhesion.cli.errors import ClusterError
+from gradhesion.cli.terminal import messages
 
 PERIOD: Final = 1.0
 """Seconds between two looks."""

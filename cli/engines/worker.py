@@ -12,7 +12,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, Final, TypeVar
 
-from gradhesion.cli import interrupts
+from gradhesion.cli.terminal import interrupts
 
 SIGHT: Final = 20.0
 """Seconds until a new file is seen on every machine: network file systems look for one a few seconds late."""

@@ -11,7 +11,7 @@ from gradhesion.cli.dataset.selection import selection_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import RAGGED, SCENE, SI, STATE_CURVES
 from gradhesion.cli.picture.curve_units import wants_si
-from gradhesion.cli.study.wording import did_you_mean
+from gradhesion.cli.terminal.wording import did_you_mean
 
 MOST: Final = 20_000_000
 """Values in a page: it is 110 MB then, and takes a browser some seconds to open."""

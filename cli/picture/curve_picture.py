@@ -37,7 +37,7 @@ from gradhesion.cli.picture.labels import Unit, equation, given
 from gradhesion.cli.picture.panels import COLOURS
 from gradhesion.cli.picture.pictured import heading, in_lines, styled
 from gradhesion.cli.picture.state_picture import draw_states
-from gradhesion.cli.study.wording import did_you_mean
+from gradhesion.cli.terminal.wording import did_you_mean
 
 PLANES: Final = (("indentation", "load"), ("contact_radius", "indentation"), ("contact_radius", "load"))
 """What each panel has along and up."""

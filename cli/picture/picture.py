@@ -15,7 +15,7 @@ from gradhesion.cli.picture.grid_picture import draw_grid, shape_of
 from gradhesion.cli.picture.layout import placed, plan_of
 from gradhesion.cli.picture.pictured import heading, styled
 from gradhesion.cli.picture.points_picture import draw_scenes
-from gradhesion.cli.study.wording import did_you_mean
+from gradhesion.cli.terminal.wording import did_you_mean
 
 LINE: Final = 0.16
 """The height of an entry of the legend below the panels, in inches."""

@@ -11,8 +11,8 @@ import xarray
 from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
 
-from gradhesion.cli.printable import printable
 from gradhesion.cli.study.shape_words import shape_told
+from gradhesion.cli.terminal.printable import printable
 from gradhesion.core import Profile
 
 STYLE: Final = Path(__file__).with_name("gradhesion.mplstyle")

@@ -6,11 +6,10 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.keys import INPUTS, Path
 from gradhesion.cli.study.form import Entry, Range
 from gradhesion.cli.study.mistakes import Mistake
-from gradhesion.cli.study.places import Path
-from gradhesion.cli.study.wording import shown
+from gradhesion.cli.terminal.wording import shown
 
 Values = float | NDArray[np.float64]
 """The values of a parameter: a float is fixed, an array is an axis."""

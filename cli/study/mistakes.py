@@ -8,10 +8,10 @@ from typing import Any, Final
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from gradhesion.cli.keys import INPUTS, keys_of
+from gradhesion.cli.keys import INPUTS, Path, keys_of
 from gradhesion.cli.study.form import MOST_WAVES, Form
-from gradhesion.cli.study.places import Path, dotted
-from gradhesion.cli.study.wording import did_you_mean, example, nearest
+from gradhesion.cli.study.places import dotted
+from gradhesion.cli.terminal.wording import did_you_mean, example, nearest
 from gradhesion.core.profile import MOST_HARMONICS
 
 _OF_INPUTS: Final = ("parameters", "physical", "loading")

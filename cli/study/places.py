@@ -9,8 +9,7 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
-Path = tuple[str | int, ...]
-"""A key as the steps to it: `("parameters", "k", 3)` is item 3 of `parameters.k`."""
+from gradhesion.cli.keys import Path
 
 DEEPEST: Final = 32
 """Levels of tables and lists: a study has four."""

@@ -5,13 +5,12 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.cli.keys import MACHINE, SPRING
+from gradhesion.cli.keys import MACHINE, SPRING, Path
 from gradhesion.cli.names import CURVES, GENERAL_CURVES
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.form import ProfileTable
 from gradhesion.cli.study.mistakes import Checked, Mistake
-from gradhesion.cli.study.places import Path
-from gradhesion.cli.study.wording import did_you_mean, example
+from gradhesion.cli.terminal.wording import did_you_mean, example
 from gradhesion.core.loading_control import CONTROLS
 from gradhesion.core.profile import Harmonic, Profile
 

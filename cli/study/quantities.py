@@ -12,7 +12,7 @@ from tokenize import TokenError
 from typing import TYPE_CHECKING, Any, Final
 
 from gradhesion.cli.keys import KEYS
-from gradhesion.cli.study.wording import example
+from gradhesion.cli.terminal.wording import example
 
 if TYPE_CHECKING:
     from pint import UnitRegistry

@@ -5,11 +5,10 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.cli.keys import INPUTS, Key
+from gradhesion.cli.keys import INPUTS, Key, Path
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.mistakes import Checked, Mistake
-from gradhesion.cli.study.places import Path
-from gradhesion.cli.study.wording import example, line_of
+from gradhesion.cli.terminal.wording import example, line_of
 
 ABSENT: Final = {"c0_over_R": ("k", "k = 0"), "lambda_over_R": ("A", "A = 0")}
 """The parameters without effect where another is zero: that other one, and the condition in words."""

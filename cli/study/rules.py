@@ -6,16 +6,15 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.keys import INPUTS, Path
 from gradhesion.cli.names import CURVES
 from gradhesion.cli.study.axes import Values, expanded, mistake_of_range, mistakes_of_grid, mistakes_of_points
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.mistakes import Checked, Mistake
-from gradhesion.cli.study.places import Path
 from gradhesion.cli.study.punch import mistakes_of_punch
 from gradhesion.cli.study.roles import mistakes_of_roles
 from gradhesion.cli.study.states import mistakes_of_states
-from gradhesion.cli.study.wording import did_you_mean, nearest
+from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core import REPORTS, SOLVERS
 
 LAYOUTS: Final = ("grid", "points")

@@ -11,10 +11,12 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
+from gradhesion.cli import keys
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.files import kind_of
 from gradhesion.cli.keys import KEYS
-from gradhesion.cli.study import places, wording
+from gradhesion.cli.study import places
+from gradhesion.cli.terminal import wording
 
 MOST_BYTES: Final = 2**28
 """The longest study that is read: far above any that is meant as one."""
@@ -28,7 +30,7 @@ class Source:
     data: dict[str, Any]
     text: str
     """The text that gives just this data, or nothing if there is none."""
-    place: Callable[[places.Path], str]
+    place: Callable[[keys.Path], str]
     """Tells where a key comes from."""
     mistakes: tuple[str, ...] = ()
     """What was wrong with the overrides."""
@@ -57,7 +59,7 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
     sources, mistakes = _override(data, overrides)
     lines = cache(lambda: places.lines_of(text))
 
-    def place(key: places.Path) -> str:
+    def place(key: keys.Path) -> str:
         above = [key[:depth] for depth in range(len(key), 0, -1)]
         for origin in above:
             if origin in sources:
@@ -133,9 +135,9 @@ _HOMES: Final = {name: key.table for name, key in KEYS.items() if key.table in _
 """The table of each key that is not at the top."""
 
 
-def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[places.Path, str], list[str]]:
+def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[keys.Path, str], list[str]]:
     """Set keys by their dotted paths in place; tell which text set each, and what was wrong."""
-    sources: dict[places.Path, str] = {}
+    sources: dict[keys.Path, str] = {}
     mistakes = []
     for override in overrides:
         key, equals, value = override.partition("=")

@@ -4,10 +4,10 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from gradhesion.cli.keys import Path
 from gradhesion.cli.names import CURVES, STATE_CURVES
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.mistakes import Checked, Mistake
-from gradhesion.cli.study.places import Path
 
 _RADII: Path = ("states", "contact_radius_over_R")
 

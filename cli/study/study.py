@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import SCENE, SI, SOLVER, UNITS
-from gradhesion.cli.study import places, wording
+from gradhesion.cli.study import places
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.mistakes import checked
@@ -25,6 +25,7 @@ from gradhesion.cli.study.roles import left_out
 from gradhesion.cli.study.rules import mistakes_between_keys
 from gradhesion.cli.study.source import Source, read_source
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
+from gradhesion.cli.terminal import wording
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.profile import Profile
 

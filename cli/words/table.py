@@ -12,7 +12,7 @@ from gradhesion.cli.dataset.reader import tiling_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import INTEGERS, SOLVER
-from gradhesion.cli.study.wording import did_you_mean
+from gradhesion.cli.terminal.wording import did_you_mean
 
 MOST: Final = 1_000_000
 """Lines of a table: what a spreadsheet takes."""

@@ -9,11 +9,11 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli import names
-from gradhesion.cli.amounts import bytes_in_words, counted
 from gradhesion.cli.dataset.reader import has_curves, tiling_of
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import SCENE, SOLVER
 from gradhesion.cli.study.shape_words import control_told
+from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.words.curve_words import curves_told
 from gradhesion.core import FAILED, FLAGS
 from gradhesion.core.loading_control import Loading

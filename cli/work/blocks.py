@@ -8,10 +8,10 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli import interrupts
 from gradhesion.cli.names import SI, UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
+from gradhesion.cli.terminal import interrupts
 from gradhesion.core import PARAMETERS, solve
 
 _T = TypeVar("_T")

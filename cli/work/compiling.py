@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
-from gradhesion.cli import messages
+from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.kernels import compile_kinds, missing_of, refuse_without_compiler
 from gradhesion.core import KERNELS, place
 

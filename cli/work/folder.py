@@ -21,8 +21,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from gradhesion.cli import interrupts
 from gradhesion.cli.errors import OutputError
+from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.locks import closing, is_locked, try_lock
 from gradhesion.cli.work.records import Finished, Manifest, State, read_record
 

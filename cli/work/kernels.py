@@ -13,9 +13,9 @@ from typing import Final
 
 import numba
 
-from gradhesion.cli import interrupts
 from gradhesion.cli.errors import CompilerError
 from gradhesion.cli.study.study import Study
+from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.locks import closing, try_lock
 from gradhesion.core import NEEDS, compiled_before, kind_of_curves, kind_of_map, place
 

@@ -4,7 +4,7 @@ import multiprocessing
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 
-from gradhesion.cli import interrupts
+from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.kernels import compile_kinds, missing_of
 from gradhesion.core import NEEDS, compile_kind, watch_compilation
 

@@ -9,7 +9,7 @@ from types import FrameType
 from click.testing import CliRunner
 
 from gradhesion.cli.main import cli
-from gradhesion.cli.printable import printable
+from gradhesion.cli.terminal.printable import printable
 
 SECONDS = 60
 """For one command."""

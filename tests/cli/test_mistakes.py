@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from click.testing import Result
 
-from gradhesion.cli.printable import printable_line
+from gradhesion.cli.terminal.printable import printable_line
 
 GOOD = """\
 title = "Good"

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from click.testing import Result
 
-from gradhesion.cli.amounts import counted
 from gradhesion.cli.disk import writing
 from gradhesion.cli.errors import OutputError
 from gradhesion.cli.study.study import Study, study_from
+from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.work.folder import claimed, folder_of
 from gradhesion.cli.work.parts import PartError, key_of, read_part, write_part
 from gradhesion.cli.work.resume import blank
@@ -75,7 +75,7 @@ def begun(
         return len(list(output.parent.glob("out.nc.parts/*.part")))
 
     yield begin
-    monkeypatch.setattr("gradhesion.cli.interrupts._kept", [])
+    monkeypatch.setattr("gradhesion.cli.terminal.interrupts._kept", [])
 
 
 @pytest.fixture

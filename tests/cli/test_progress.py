@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from gradhesion.cli import progress as module
-from gradhesion.cli.progress import progress
+from gradhesion.cli.terminal.progress import progress
 
 
 class Terminal(io.StringIO):
@@ -46,14 +45,14 @@ def test_a_bar_with_rate_and_time_left(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_quiet(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "PERIOD", 0.0)
+    monkeypatch.setattr("gradhesion.cli.terminal.progress.PERIOD", 0.0)
     with progress(10, quiet=True) as advance:
         advance(5)
     assert capsys.readouterr() == ("", "")
 
 
 def test_json_lines(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gradhesion.cli.messages._json", [True])
+    monkeypatch.setattr("gradhesion.cli.terminal.messages._json", [True])
     seconds = iter([0.0, 0.5, 2.0, 3.0])
     monkeypatch.setattr("time.monotonic", lambda: next(seconds))
     with progress(4000, quiet=False) as advance:

@@ -75,9 +75,9 @@ def test_a_second_interrupt_does_not_disturb_the_tidying_up(tmp_path: Path) -> N
 def test_an_interrupt_that_a_library_swallows_is_heard_all_the_same(
     study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gradhesion.cli import interrupts
     from gradhesion.cli.dataset.writer import write
     from gradhesion.cli.study.study import load_study
+    from gradhesion.cli.terminal import interrupts
 
     monkeypatch.setattr(interrupts, "_heard", [0.0])
     monkeypatch.setattr("gradhesion.cli.work.blocks.solve", lambda *_, **__: time.sleep(0.5))

@@ -23,11 +23,11 @@ from typing import Any
 import netCDF4
 import numpy as np
 
-from gradhesion.cli import interrupts
 from gradhesion.cli.commands.status import status_of
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.main import main as gradhesion
 from gradhesion.cli.study.study import load_study
+from gradhesion.cli.terminal import interrupts
 
 STUDY = """\
 outputs = ["pull_off_force", "dissipated_energy", "loading_jumps"]

@@ -7,8 +7,8 @@ from typing import IO, Any
 import click
 
 from gradhesion.cli.errors import GradhesionError
-from gradhesion.cli.printable import printable_line
-from gradhesion.cli.terminal import complain
+from gradhesion.cli.terminal.output import complain
+from gradhesion.cli.terminal.printable import printable_line
 
 _json: list[bool] = []
 

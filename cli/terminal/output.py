@@ -6,7 +6,7 @@ import sys
 import click
 
 from gradhesion.cli.errors import OutputError
-from gradhesion.cli.printable import printable, printable_line
+from gradhesion.cli.terminal.printable import printable, printable_line
 
 
 def show(line: str) -> None:

@@ -5,8 +5,7 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Final
 
-from gradhesion.cli.keys import KEYS
-from gradhesion.cli.study.places import Path
+from gradhesion.cli.keys import KEYS, Path
 
 SLIP: Final = 0.8
 """How like each other two words are, from 0 to 1, of which one is the other with a letter or two wrong."""

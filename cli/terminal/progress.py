@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Final, Protocol
 
-from gradhesion.cli import messages
+from gradhesion.cli.terminal import messages
 
 
 class Advance(Protocol):

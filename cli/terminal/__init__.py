@@ -1,0 +1,1 @@
+"""What is printed: messages, progress, what was meant, and how an interrupt is heard."""
