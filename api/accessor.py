@@ -89,6 +89,6 @@ class Accessor:
 
     def plot(self, variables: Any = None, **choices: Any) -> Any:
         """Draw the dataset, as `gradhesion.plot(dataset, variables, ...)`; the figure of matplotlib is returned."""
-        from gradhesion.pictures import plot  # noqa: PLC0415 (matplotlib)
+        import gradhesion  # noqa: PLC0415 (which may be importing this module)
 
-        return plot(self._dataset, variables, **choices)
+        return gradhesion.plot(self._dataset, variables, **choices)
