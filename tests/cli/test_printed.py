@@ -138,6 +138,8 @@ import resource
 from gradhesion.cli.study.source import read_source
 from pathlib import Path
 import gradhesion.cli.study.study
+
+pytestmark = pytest.mark.slow
 now = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize()
 resource.setrlimit(resource.RLIMIT_AS, (now + 2**25, now + 2**25))
 print(read_source(Path('{study_file}'), ()).name)

@@ -19,6 +19,8 @@ from gradhesion.core.general.window import first_fold_bound, last_fold_bound
 from gradhesion.core.material import stiffness
 from gradhesion.core.struve.circle import TWO_PI
 
+pytestmark = pytest.mark.slow
+
 SCENES = json.loads((Path(__file__).parents[2] / "reference" / "general.json").read_text())["scenes"]
 MACHINE = Loading(control="machine")
 
