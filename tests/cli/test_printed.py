@@ -11,6 +11,8 @@ from click.testing import Result
 
 from gradhesion.cli.terminal.printable import printable, printable_line
 
+pytestmark = pytest.mark.slow
+
 Call = Callable[..., Result]
 
 HOSTILE = ["\x1b[2J\x1b]0;title\x07.nc", "a\nb: written.nc", "\x9b31m.nc", "\u202egpj.nc", "\x7f\x08.nc", "\r.nc"]
@@ -138,8 +140,6 @@ import resource
 from gradhesion.cli.study.source import read_source
 from pathlib import Path
 import gradhesion.cli.study.study
-
-pytestmark = pytest.mark.slow
 now = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize()
 resource.setrlimit(resource.RLIMIT_AS, (now + 2**25, now + 2**25))
 print(read_source(Path('{study_file}'), ()).name)
