@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from gradhesion.cli.commands.examples import example
+from gradhesion.cli.commands.plan import chunk_option
 from gradhesion.cli.commands.run import finish, history_now
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.files import is_file
@@ -19,12 +20,7 @@ from gradhesion.cli.terminal.progress import progress
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="The dataset of several datasets together.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing dataset.")
-@click.option(
-    "--chunk",
-    type=click.IntRange(min=1),
-    envvar="GRADHESION_CHUNK",
-    help="Cells of a chunk of the file [131072].",
-)
+@chunk_option
 @click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
 @click.option("--log-json", is_flag=True, is_eager=True, callback=messages.speak_json, help="One JSON object a line.")
 def merge(

@@ -3,7 +3,7 @@
 import json
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import click
 
@@ -16,6 +16,12 @@ if TYPE_CHECKING:
     from gradhesion.cli.work.estimate import Estimate
 
 
+chunk_option: Final = click.option(
+    "--chunk", type=click.IntRange(min=1), envvar="GRADHESION_CHUNK", help="Cells of a chunk of the file [131072]."
+)
+"""The option of every command that cuts scenes into blocks."""
+
+
 @click.command(epilog=example("plan study.toml"))
 @click.argument("study", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Dataset that `run` would write.")
@@ -23,9 +29,7 @@ if TYPE_CHECKING:
 @click.option(
     "--threads", type=click.IntRange(min=1), help="Threads that `run` would use [all that the process may use]."
 )
-@click.option(
-    "--chunk", type=click.IntRange(min=1), envvar="GRADHESION_CHUNK", help="Cells of a chunk of the file [131072]."
-)
+@chunk_option
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def plan(
     study: Path,

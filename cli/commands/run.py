@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gradhesion.cli.commands.examples import example
-from gradhesion.cli.commands.plan import show_plan
+from gradhesion.cli.commands.plan import chunk_option, show_plan
 from gradhesion.cli.errors import ScenesFailedError
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
@@ -57,9 +57,7 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
     type=click.IntRange(min=1),
     help="Threads to use [all that the process may use]; values do not depend on it.",
 )
-@click.option(
-    "--chunk", type=click.IntRange(min=1), envvar="GRADHESION_CHUNK", help="Cells of a chunk of the file [131072]."
-)
+@chunk_option
 @click.option("--quiet", is_flag=True, help="Print errors only, and one line where kernels are compiled.")
 @click.option(
     "--log-json", is_flag=True, is_eager=True, callback=messages.speak_json, help="Log one JSON object a line."

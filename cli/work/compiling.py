@@ -29,15 +29,13 @@ def prepare(kinds: Sequence[str], *, quiet: bool = False) -> None:
     """
     refuse_without_compiler()
     missing = missing_of(kinds)
-    if place().folder is None:
+    if place().why and (missing or place().folder is None):
         messages.say("cache", place().why)
     if not missing:
         return
     total = sum(KERNELS[kind] for kind in missing)
     what = _in_words(missing)
     messages.say("compile", f"compiling about {total} kernels for {what}, once per version and kind of work")
-    if place().folder is not None and place().why:
-        messages.say("cache", place().why)
     start = time.monotonic()
     with _shown(total, quiet=quiet) as done:
         compile_kinds(kinds, done)

@@ -63,7 +63,7 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
     """Find out what a run would do and cost; writes nothing."""
     folder = folder_of(output)
     is_map = study.kind == "map"
-    count = len(study.tiling) if is_map else study.scenes
+    count = len(study.tiling)
     of_block = bytes_of(study, study.tiling[0]) if is_map else 0
     foreign, old = folder.foreign(), folder.manifest()
     parts = study.has_parts
