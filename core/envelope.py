@@ -85,7 +85,7 @@ def envelope_cycle(k: float, chi: float, z_rim: float) -> tuple[float, float, fl
 def solve_rim(
     k: float, stretch: float, chi: float, mean_height: float, rim: float
 ) -> tuple[float, float, float, float, float, float, float, float, float]:
-    """Return the results of one rim, in the order of results.OUTPUTS; chi = 0 is the smooth punch."""
+    """Return the results of one rim, in the order of results.py; chi = 0 is the smooth punch."""
     length = smooth_length(k, stretch)
     z_rim = rim / length
     force, z = envelope_force(k, chi, z_rim)

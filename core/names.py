@@ -4,7 +4,7 @@ from typing import Final
 
 PARAMETERS: Final = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
 """The seven parameters of a scene, in the order of a dataset's dimensions."""
-OUTPUTS: Final = (
+RESULTS: Final = (
     "pull_off_force",
     "pull_off_radius",
     "dissipated_energy",
@@ -15,7 +15,11 @@ OUTPUTS: Final = (
     "loading_energy",
     "unloading_energy",
 )
-"""All results of a scene, in the order of the rows (results.py)."""
+"""The results of a cycle that the kernels compute, in the order of their rows (results.py)."""
+OUTPUTS: Final = (*RESULTS, "turning_radius")
+"""All results of a scene: those of its cycle, and where it turns."""
+TURNS: Final = ("indentation_max_over_R", "load_max")
+"""Where the cycle turns before the rim, at most one of them: a depth in R, or a load in 1.5 pi R dgamma."""
 PULL_OFF: Final = ("pull_off_force", "pull_off_radius")
 """The results that need no path of loading and unloading."""
 REPORTS: Final = (

@@ -15,7 +15,9 @@ INTEGERS: Final = ("loading_jumps", "unloading_jumps")
 FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST, LOADED, UNLOADED = map(constant, range(9))
 """The rows."""
 CONTACT = 9
-"""One more slot, not -1 if the status shall tell where loading does not keep the contact one disc."""
+"""One more slot, not -1 if `status` reports where loading does not keep the contact one disc."""
+TURNED = 10
+"""And another one, 1 if the rims are turning points (turning.py): places that loading surely reaches."""
 
 
 def typed(name: str, values: NDArray[np.float64]) -> NDArray[Any]:

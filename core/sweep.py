@@ -180,7 +180,7 @@ def solve(
     rims[without_rim] = math.inf
 
     curves = math.prod(curve_shape)
-    slots = np.array([*(rows.index(name) if name in rows else -1 for name in OUTPUTS), int(check_contact) - 1])
+    slots = np.array([*(rows.index(name) if name in rows else -1 for name in RESULTS), int(check_contact) - 1, int(turned)])
     slots_of_reports = np.array([rows.index(name) if name in reports else -1 for name in REPORTS])
     out = np.empty((len(rows), curves, rims.shape[1]))
     status = np.zeros((curves, rims.shape[1]), dtype=np.int8)

@@ -22,7 +22,7 @@ from gradhesion.core.equations.envelopes import waviness_strength
 from gradhesion.core.general.crest import swings
 from gradhesion.core.general.sweep import rows_of
 from gradhesion.core.material import stiffness
-from gradhesion.core.names import OUTPUTS
+from gradhesion.core.names import RESULTS
 from gradhesion.core.profile import Profile
 from gradhesion.core.results import INTEGERS
 from gradhesion.core.status import NO_VALUE
@@ -121,7 +121,7 @@ def solve_envelope(
         )
     found: dict[str, NDArray[Any]] = {}
     for name in outputs:
-        value: NDArray[Any] = values[OUTPUTS.index(name)]
+        value: NDArray[Any] = values[RESULTS.index(name)]
         if name in INTEGERS:
             value = np.where(np.isnan(value), -1.0, value).astype(np.int32)
         found[name] = value.reshape(shape)

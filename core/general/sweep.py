@@ -16,7 +16,7 @@ from gradhesion.core.general.series import with_table
 from gradhesion.core.general.series_table import has_table
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.material import stiffness
-from gradhesion.core.names import OUTPUTS, PULL_OFF
+from gradhesion.core.names import PULL_OFF, RESULTS
 from gradhesion.core.profile import Profile
 from gradhesion.core.results import typed
 from gradhesion.core.struve.cosine_bins import build_cosine_bins
@@ -139,11 +139,15 @@ def solve_general(
     workers: int,
     *,
     check_contact: bool = True,
+    turned: bool = False,
 ) -> dict[str, NDArray[Any]]:
-    """Solve all scenes of the broadcast parameters `names` for one profile and control, as `solve` of core/sweep.py."""
+    """Solve all scenes of the broadcast parameters `names` for one profile and control, as `solve` of core/sweep.py.
+
+    `turned` is whether a_max is where the cycles turn, not the rim of a punch.
+    """
     scenes = prepared(parameters, names, loading)
     rows = list(dict.fromkeys(outputs))
-    slots = np.array([*(rows.index(name) if name in rows else -1 for name in OUTPUTS), int(check_contact) - 1])
+    slots = np.array([*(rows.index(name) if name in rows else -1 for name in RESULTS), int(check_contact) - 1, int(turned)])
     out = np.full((len(rows), scenes.k.size), np.nan)
     status = np.zeros(scenes.k.size, dtype=np.int8)
     series = rows_of(profile)
