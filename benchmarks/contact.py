@@ -13,7 +13,7 @@ from gradhesion.core.curve import curve_of
 from gradhesion.core.cycle import extent, is_long, walk
 from gradhesion.core.material import stiffness
 from gradhesion.core.status import LOADING_NOT_ONE_DISC
-from gradhesion.core.sweep import table_of
+from gradhesion.core.cosine_sweep import table_of
 
 BOTH = ("pull_off_force", "dissipated_energy")
 

@@ -129,13 +129,13 @@ def walk(
 
 
 @kernel()
-def _wave_of(table: Any, start: float) -> float:
+def wave_of(table: Any, start: float) -> float:
     """Return the number of the wave whose branch starts at x: half a wave to none before its centre."""
     return np.floor(start - table.phase / TWO_PI + 0.75)
 
 
 @kernel()
-def _first_wave_above(table: Any, curve: Curve, low: float, high: float, level: float) -> float:
+def first_wave_above(table: Any, curve: Curve, low: float, high: float, level: float) -> float:
     """Return the first wave after `low`, which ends below a depth, that ends above it; `high` does.
 
     It is where the upper envelope b z^2/2 - (1 - C g) z^c + g passes the depth, or next to it.
@@ -206,7 +206,7 @@ def _load_through(
         if 0 <= now == near - 1:
             loss, jumps = trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]
         else:  # into the gap, by one long jump
-            wave = _first_wave_above(table, curve, before, after, level)
+            wave = first_wave_above(table, curve, before, after, level)
             beyond = ends(trace, near) if wave == after else branch_of_wave(table, curve, wave)
             x = find_depth(table, curve, level, beyond)
             if now >= 0:
@@ -296,11 +296,11 @@ def stride(
     if first < MOST_ARCHES:
         beginning = (0.5 * first + reach * BEGINNING) + table.phase / TWO_PI
         near = append_branches(table, curve, int(first), final, beginning, trace, NONE)
-        before = _wave_of(table, trace[START, near - 1]) if near > 0 else before
+        before = wave_of(table, trace[START, near - 1]) if near > 0 else before
     count = near
     if is_told(table, curve, last):
         count = append_branches(table, curve, 2 * int(0.5 * last - reach * NEAR_RIM) - 1, final, rim, trace, near)
-        after = _wave_of(table, trace[START, near]) if count > near else 0.0
+        after = wave_of(table, trace[START, near]) if count > near else 0.0
     nominal = count == near
     if nominal:
         after = _nominal_branch(table, curve, rim, 0.5 * final, trace, near)

@@ -3,12 +3,14 @@
     force              the pull-off of one cosine wave under displacement control, by the exact solver
     energy             anything else of `OUTPUTS` of it
     reports            `REPORTS` of it
+    turning            where its cycles turn before the rim
     asymptotic         the two other solvers of it
     envelope
     curves             the curves of it
     general_force      the same of any other profile or control
     general_energy
     general_reports
+    general_turning
     general_envelope
     general_curves
 
@@ -28,12 +30,14 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "force": ("tables",),
     "energy": ("force",),
     "reports": ("energy",),
+    "turning": ("energy",),
     "asymptotic": ("energy",),
     "envelope": ("asymptotic",),
     "curves": ("energy", "asymptotic"),
     "general_force": ("force",),
     "general_energy": ("energy", "general_force"),
     "general_reports": ("general_energy",),
+    "general_turning": ("general_energy",),
     "general_envelope": ("tables",),
     "general_curves": ("general_energy", "curves"),
 }
@@ -47,12 +51,14 @@ KERNELS: Final[dict[str, int]] = {
     "force": 36,
     "energy": 79,
     "reports": 15,
+    "turning": 25,
     "asymptotic": 32,
     "envelope": 1,
     "curves": 22,
     "general_force": 50,
     "general_energy": 74,
     "general_reports": 9,
+    "general_turning": 10,
     "general_envelope": 0,
     "general_curves": 7,
 }
@@ -81,6 +87,23 @@ def kind_of_map(
     if any(name in REPORTS for name in outputs):
         return general + "reports"
     return general + ("force" if set(outputs) <= set(PULL_OFF) else "energy")
+
+
+def kind_of_turning(profile: Profile | None = None, loading: Loading | None = None) -> str:
+    """Return the kind of work that `solve` does besides where cycles turn before the rim.
+
+    Parameters
+    ----------
+    profile, loading
+        As those of `solve`.
+
+    Examples
+    --------
+    >>> kind_of_turning(), kind_of_turning(loading=Loading(control="load"))
+    ('turning', 'general_turning')
+    """
+    profile, loading = profile or Profile(), loading or Loading()
+    return "turning" if loading == Loading() and equivalent_wave(profile) is not None else "general_turning"
 
 
 def kind_of_curves(profile: Profile | None = None, loading: Loading | None = None) -> str:

@@ -35,6 +35,7 @@ from gradhesion.core.results import (
     LOADED,
     LOADING,
     RADIUS,
+    TURNED,
     UNLOADED,
     UNLOADING,
     put,
@@ -128,7 +129,7 @@ def _cycle_at_rim(
         if not abs(energy) < math.inf:  # an overflow
             energy = math.nan
             status[i] |= NO_VALUE
-        if is_close_to_a_jump(table, curve, count, trace, x, rim_depth):
+        if is_close_to_a_jump(table, curve, count, trace, x, rim_depth, slots[TURNED] > 0):
             status[i] |= CLOSE_TO_A_JUMP
         put(out, slots, ENERGY, i, energy)
         put(out, slots, LOADED, i, energy_scale * loading_loss)

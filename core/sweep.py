@@ -1,54 +1,63 @@
-"""Arrays of scenes, solved in groups that share what they can.
+"""Arrays of scenes: what is asked for is checked, solved by whom it concerns, and named."""
 
-Scenes of one gradient exponent share its table; all a_max of one curve share its trace. What is asked for decides
-what is computed. The work is cut into tasks of a fixed size, so that results do not depend on the number of threads.
-"""
-
-import math
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from functools import lru_cache
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.branches import ROWS
 from gradhesion.core.cache import note_compiled
+from gradhesion.core.cosine_sweep import solve_cosine, turning_cosine
 from gradhesion.core.general.envelope import solve_envelope
 from gradhesion.core.general.report import report_general
 from gradhesion.core.general.sweep import equivalent_wave, solve_general
-from gradhesion.core.kinds import kind_of_map
+from gradhesion.core.general.turning import turning_general
+from gradhesion.core.kinds import kind_of_map, kind_of_turning
 from gradhesion.core.loading_control import Loading
-from gradhesion.core.material import fill_stiffness
-from gradhesion.core.names import OUTPUTS, PARAMETERS, REPORTS, SOLVERS
+from gradhesion.core.names import OUTPUTS, PARAMETERS, PULL_OFF, REPORTS, RESULTS, SOLVERS, TURNS
 from gradhesion.core.processors import processors
 from gradhesion.core.profile import Profile
-from gradhesion.core.report import NEEDED, report_curves
-from gradhesion.core.results import typed
-from gradhesion.core.solvers import LOOPS, PULL_OFF_LOOP
+from gradhesion.core.report import NEEDED
 from gradhesion.core.status import NO_VALUE
-from gradhesion.core.struve.table import build_table
-
-_TASK: Final = 2048
-"""Scenes a task: some milliseconds, a thousand times the cost of handing it to a thread."""
-_BRANCHES: Final = 192
-"""Branches of a curve that a task has room for."""
-
-table_of = lru_cache(maxsize=128)(build_table)
-"""The table of an exponent, kept for the next call (56 kB each)."""
+from gradhesion.core.turned import Results, turned_results
 
 
-def _shared_axes(shapes: Sequence[tuple[int, ...]], dimensions: int) -> int:
-    """Return how many of the last axes only a_max varies along."""
-    for axis in range(dimensions):
-        if any(shape[dimensions - 1 - axis] > 1 for shape in shapes):
-            return axis
-    return dimensions
+def _checked(
+    parameters: Mapping[str, ArrayLike], outputs: Sequence[str], solver: str, profile: Profile, loading: Loading
+) -> str | None:
+    """Refuse what cannot be solved; return the name of what the cycles turn at, None if that is the rim."""
+    reports = [name for name in outputs if name in REPORTS]
+    unknown = [name for name in outputs if name not in OUTPUTS and name not in reports]
+    missing = [name for name in PARAMETERS if name not in parameters]
+    if unknown or missing or solver not in SOLVERS:
+        raise ValueError(f"unknown outputs {unknown}, missing parameters {missing}, solver {solver!r}")
+    turns = [name for name in TURNS if name in parameters]
+    if len(turns) > 1:
+        raise ValueError(f"{' and '.join(turns)} are given: a cycle turns at one of them")
+    if solver != "exact" and (reports or turns):
+        raise ValueError(f"{[*reports, *turns]} are known of the exact solver only, not of {solver!r}")
+    if ("machine_stiffness" in parameters) != (loading.control == "machine"):
+        raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
+    if loading.control == "load" and "energy_residual" in reports:
+        raise ValueError("energy_residual: a dead load closes no loop; ask for it under another control")
+    other = solver == "asymptotic" and profile != Profile()
+    if other or (solver != "exact" and loading != Loading()):
+        raise ValueError(
+            f"solver {solver!r} is known of the paraboloid with one cosine wave under displacement control only; "
+            "another profile has the exact solver and the envelopes, another control the exact solver"
+        )
+    return turns[0] if turns else None
 
 
-def _flat(array: NDArray[np.float64], shape: tuple[int, ...]) -> NDArray[np.float64]:
-    return np.array(np.broadcast_to(array, shape), order="C").reshape(math.prod(shape))
+def _as_one_wave(
+    parameters: Mapping[str, ArrayLike], wavelengths_a_wave: int, amplitude_factor: float
+) -> dict[str, ArrayLike]:
+    """Return the parameters of the paraboloid with one cosine wave that a profile is (equivalent_wave)."""
+    return {
+        **parameters,
+        "lambda_over_R": np.asarray(parameters["lambda_over_R"], dtype=float) / wavelengths_a_wave,
+        "A": np.asarray(parameters["A"], dtype=float) * amplitude_factor,
+    }
 
 
 def solve(
@@ -121,114 +130,47 @@ def solve(
     >>> solve(scene | {"A": [0.0, 0.02]})["pull_off_force"].round(6).tolist()
     [1.0, 1.342098]
     """
-    reports = [name for name in outputs if name in REPORTS]
-    unknown = [name for name in outputs if name not in OUTPUTS and name not in reports]
-    missing = [name for name in PARAMETERS if name not in parameters]
-    if unknown or missing or solver not in SOLVERS:
-        raise ValueError(f"unknown outputs {unknown}, missing parameters {missing}, solver {solver!r}")
-    if reports and solver != "exact":
-        raise ValueError(f"outputs {reports} are known of the exact solver only, not of {solver!r}")
     profile, loading = profile or Profile(), loading or Loading()
-    kind = kind_of_map(outputs, solver, profile, loading)
-    if ("machine_stiffness" in parameters) != (loading.control == "machine"):
-        raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
-    if profile != Profile() or loading != Loading():
-        if loading.control == "load" and "energy_residual" in reports:
-            raise ValueError("energy_residual: a dead load closes no loop; ask for it under another control")
-        if solver == "asymptotic" or (solver != "exact" and loading != Loading()):
-            raise ValueError(
-                f"solver {solver!r} is known of the paraboloid with one cosine wave under displacement control only; "
-                "another profile has the exact solver and the envelopes, another control the exact solver"
-            )
-        alike = equivalent_wave(profile) if loading == Loading() else None
-        if alike is None and solver == "envelope":
-            results = solve_envelope(parameters, PARAMETERS, outputs, profile)
-            note_compiled(kind)
-            return results
-        if alike is None:
-            workers = threads or processors()
-            wanted = [name for name in outputs if name in OUTPUTS]
-            wanted += [NEEDED[name] for name in reports if name in NEEDED]
-            found = solve_general(
-                parameters, PARAMETERS, wanted, profile, loading, workers, check_contact=check_contact
-            )
-            if reports:
-                found |= report_general(parameters, PARAMETERS, reports, found, profile, loading, workers)
-            note_compiled(kind)
-            return {name: found[name] for name in (*outputs, "status")}
-        wavelengths_a_wave, amplitude_factor = alike
-        parameters = {
-            **parameters,
-            "lambda_over_R": np.asarray(parameters["lambda_over_R"], dtype=float) / wavelengths_a_wave,
-            "A": np.asarray(parameters["A"], dtype=float) * amplitude_factor,
-        }
-    rows = list(dict.fromkeys([*outputs, *(NEEDED[name] for name in reports if name in NEEDED)]))
-    arrays = [np.asarray(parameters[name], dtype=float) for name in PARAMETERS]
-    shape = np.broadcast_shapes(*(array.shape for array in arrays))
-    arrays = [array.reshape((1,) * (len(shape) - array.ndim) + array.shape) for array in arrays]
-    shared = _shared_axes([array.shape for array in arrays[:-1]], len(shape))
-    curve_shape, rim_shape = shape[: len(shape) - shared], shape[len(shape) - shared :]
-    lead = (slice(None),) * len(curve_shape) + (0,) * shared
-    k, nu, modulus, c0, wavelength, amplitude = (array[lead] for array in arrays[:-1])
-    a_max = arrays[-1]
-    own_rims = any(length > 1 for length in a_max.shape[: len(curve_shape)])
-    rims = _flat(a_max, (curve_shape if own_rims else (1,) * len(curve_shape)) + rim_shape).reshape(
-        -1, math.prod(rim_shape)
-    )
+    turn = _checked(parameters, outputs, solver, profile, loading)
+    workers = threads or processors()
+    alike = equivalent_wave(profile) if loading == Loading() else None
+    if alike is not None and profile != Profile():
+        parameters = _as_one_wave(parameters, *alike)
 
-    without_rim = ~(rims > 0.0)
-    rims[without_rim] = math.inf
+    def solved(scenes: Mapping[str, ArrayLike], wanted: Sequence[str], *, turned: bool = False) -> Results:
+        """Solve scenes up to their rims."""
+        wanted = [name for name in wanted if name != "turning_radius"]
+        if alike is not None:
+            return solve_cosine(scenes, wanted, solver, workers, check_contact=check_contact, turned=turned)
+        if solver == "envelope":
+            return solve_envelope(scenes, PARAMETERS, wanted, profile)
+        checks = {"check_contact": check_contact, "turned": turned}
+        results = [name for name in wanted if name in RESULTS]
+        reports = [name for name in wanted if name in REPORTS]
+        results += [NEEDED[name] for name in reports if name in NEEDED]
+        found = solve_general(scenes, PARAMETERS, results, profile, loading, workers, **checks)
+        return (
+            found | report_general(scenes, PARAMETERS, reports, found, profile, loading, workers) if reports else found
+        )
 
-    curves = math.prod(curve_shape)
-    slots = np.array([*(rows.index(name) if name in rows else -1 for name in RESULTS), int(check_contact) - 1, int(turned)])
-    slots_of_reports = np.array([rows.index(name) if name in reports else -1 for name in REPORTS])
-    out = np.empty((len(rows), curves, rims.shape[1]))
-    status = np.zeros((curves, rims.shape[1]), dtype=np.int8)
-    exponents = _flat(k, curve_shape)
-    nus, moduli, depths, wavelengths, amplitudes = (
-        _flat(each, curve_shape) for each in (nu, modulus, c0, wavelength, amplitude)
-    )
-    stiffnesses = np.empty(curves)
-    solve_curves = PULL_OFF_LOOP if kind == "force" else LOOPS[solver]
+    def again(scenes: Mapping[str, ArrayLike], wanted: Sequence[str]) -> Results:
+        """Solve other scenes that turn as these do."""
+        asked: Any = {"threads": threads, "profile": profile, "loading": loading}
+        return solve(scenes, wanted, check_contact=False, **asked)
 
-    def work(task: tuple[float, NDArray[np.int64]]) -> None:
-        exponent, index = task
-        fill_stiffness(exponent, index, nus, moduli, depths, stiffnesses)
-        table = table_of(exponent if 0.0 <= exponent <= 1.0 else 0.0)  # beyond, the stiffness has no value
-        scratch = np.empty((ROWS, _BRANCHES))
-        curves_of = (table, index, stiffnesses, wavelengths, amplitudes, rims)
-        solve_curves(*curves_of, slots, out, status, scratch)
-        if reports:
-            report_curves(*curves_of, slots, slots_of_reports, out, status, scratch)
-
-    tasks = list(_tasks(exponents, max(1, _TASK // max(1, rims.shape[1]))))
-    workers = min(threads or processors(), len(tasks))
-    if workers > 1:
-        with ThreadPoolExecutor(workers) as pool:
-            list(pool.map(work, tasks))
+    if turn is None:
+        found = solved(parameters, outputs)
+        if "turning_radius" in outputs:
+            shape = found["status"].shape
+            rim = np.broadcast_to(np.asarray(parameters["a_max_over_R"], dtype=float), shape)
+            found["turning_radius"] = np.where(found["status"] & NO_VALUE, np.nan, rim)
     else:
-        for task in tasks:
-            work(task)
-
-    note_compiled(kind)
-    if without_rim.any():
-        out[:, np.broadcast_to(without_rim, status.shape)] = math.nan
-        status[np.broadcast_to(without_rim, status.shape)] = NO_VALUE
-    result: dict[str, NDArray[Any]] = {}
-    for name in outputs:
-        result[name] = typed(name, out[rows.index(name)]).reshape(shape)
-    result["status"] = status.reshape(shape)
-    return result
-
-
-def _tasks(k: NDArray[np.float64], size: int) -> list[tuple[float, NDArray[np.int64]]]:
-    """Cut the curves into tasks of one exponent each."""
-    if k.size == 0:
-        return []
-    order = np.arange(k.size) if np.all(k[1:] >= k[:-1]) else np.argsort(k, kind="stable")
-    ordered = k[order]
-    first = np.flatnonzero(np.concatenate([[True], ordered[1:] != ordered[:-1]]))
-    tasks = []
-    for exponent, group in zip(ordered[first].tolist(), np.split(order, first[1:]), strict=True):
-        tasks += [(exponent, group[i : i + size]) for i in range(0, group.size, size)]
-    return tasks
+        arguments: dict[str, Any] = {"check_contact": check_contact and not set(outputs) <= set(PULL_OFF)}
+        if alike is not None:
+            radii, flags = turning_cosine(parameters, turn, workers, **arguments)
+        else:
+            radii, flags = turning_general(parameters, turn, profile, loading, workers, **arguments)
+        found = turned_results(parameters, turn, outputs, radii, flags, solved, again)
+        note_compiled(kind_of_turning(profile, loading))
+    note_compiled(kind_of_map(outputs, solver, profile, loading))
+    return {name: found[name] for name in (*outputs, "status")}

@@ -14,7 +14,7 @@ from typing import Any, Final
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.branches import END, END_DEPTH, START, START_DEPTH, TANGENCY
-from gradhesion.core.curve import Curve
+from gradhesion.core.curve import Curve, depth
 from gradhesion.core.folds import CLOSE
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
@@ -24,7 +24,7 @@ _PAIR: Final = 8.0 * CLOSE
 
 
 @kernel()
-def _tolerance(table: Any, curve: Curve, x: float) -> float:
+def tolerance(table: Any, curve: Curve, x: float) -> float:
     """Return CLOSE times the size of the terms of the depth at x."""
     b, g, _ = curve
     z = TWO_PI * x
@@ -61,16 +61,23 @@ def _folds_are_close(count: int, trace: Any, rim: float) -> bool:
 
 
 @kernel()
-def _loading_is_close(table: Any, curve: Curve, count: int, trace: Any, rim: float, rim_depth: float) -> bool:
-    """Return whether a branch hardly reaches the depth of the jump over it, or hardly misses it."""
+def _loading_is_close(
+    table: Any, curve: Curve, count: int, trace: Any, rim: float, rim_depth: float, turned: bool
+) -> bool:
+    """Return whether a branch hardly reaches the depth of the jump over it, or hardly misses it.
+
+    That on which loading turns back is surely reached.
+    """
     level = 0.0
     for branch in range(count):
         if trace[START, branch] > rim or trace[END, branch] == math.inf == rim:
             break
         inside = trace[END, branch] <= rim
+        if turned and not inside:
+            break
         top = trace[END_DEPTH, branch] if inside else rim_depth
         place = trace[END, branch] if inside else rim
-        if abs(top - level) <= _tolerance(table, curve, place):
+        if abs(top - level) <= tolerance(table, curve, place):
             return True
         level = max(level, top)
     return False
@@ -87,7 +94,7 @@ def _unloading_is_close(table: Any, curve: Curve, count: int, trace: Any, rim: f
         if trace[END, branch] >= rim:  # the rim is on it
             level, place = bottom, trace[START, branch]
             continue
-        if abs(bottom - level) <= _tolerance(table, curve, place):
+        if abs(bottom - level) <= tolerance(table, curve, place):
             return True
         if bottom < level:
             level, place = bottom, trace[START, branch]
@@ -95,12 +102,35 @@ def _unloading_is_close(table: Any, curve: Curve, count: int, trace: Any, rim: f
 
 
 @kernel()
-def is_close_to_a_jump(table: Any, curve: Curve, count: int, trace: Any, rim: float, rim_depth: float) -> bool:
-    """Return whether an error of 1e-12 in an input could change the number of jumps of a cycle up to the rim."""
-    if rim < math.inf and _rim_is_close_to_a_fold(count, trace, rim):
+def rim_is_close(table: Any, curve: Curve, count: int, trace: Any, rim: float) -> bool:
+    """Return whether the rim stands on a fold, or hardly reaches, or misses, the depth of a jump: all that belongs to
+    the rim and not to a cycle that turns there.
+    """
+    if rim == math.inf:
+        return False
+    if _rim_is_close_to_a_fold(count, trace, rim):
+        return True
+    level = 0.0
+    for branch in range(count):
+        if trace[END, branch] <= rim:
+            level = max(level, trace[END_DEPTH, branch])
+        elif trace[START, branch] <= rim:
+            return bool(abs(depth(table, curve, rim) - level) <= tolerance(table, curve, rim))
+    return False
+
+
+@kernel()
+def is_close_to_a_jump(
+    table: Any, curve: Curve, count: int, trace: Any, rim: float, rim_depth: float, turned: bool
+) -> bool:
+    """Return whether an error of 1e-12 in an input could change the number of jumps of a cycle up to the rim.
+
+    Where the rim is a turning point of another punch (`turned`), what belongs to the rim itself is left out.
+    """
+    if rim < math.inf and not turned and _rim_is_close_to_a_fold(count, trace, rim):
         return True
     return (
         _folds_are_close(count, trace, rim)
-        or _loading_is_close(table, curve, count, trace, rim, rim_depth)
+        or _loading_is_close(table, curve, count, trace, rim, rim_depth, turned)
         or _unloading_is_close(table, curve, count, trace, rim, rim_depth)
     )

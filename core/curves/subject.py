@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from gradhesion.core import smooth
 from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, ROWS, START, START_DEPTH, UNKNOWN, UNLOADING_JUMPS
+from gradhesion.core.cosine_sweep import table_of
 from gradhesion.core.curve import curve_of, force_unit
 from gradhesion.core.curves import knots
 from gradhesion.core.curves.forms import EXACT, PLAIN, Numbers
 from gradhesion.core.cycle import extent, is_endless_wave, is_smooth, walk
 from gradhesion.core.material import stiffness
 from gradhesion.core.names import PARAMETERS
-from gradhesion.core.sweep import table_of
 
 BEYOND: Final = 1.05
 """How far an unbounded punch is drawn beyond the last that happens to it."""

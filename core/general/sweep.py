@@ -147,7 +147,9 @@ def solve_general(
     """
     scenes = prepared(parameters, names, loading)
     rows = list(dict.fromkeys(outputs))
-    slots = np.array([*(rows.index(name) if name in rows else -1 for name in RESULTS), int(check_contact) - 1, int(turned)])
+    slots = np.array(
+        [*(rows.index(name) if name in rows else -1 for name in RESULTS), int(check_contact) - 1, int(turned)]
+    )
     out = np.full((len(rows), scenes.k.size), np.nan)
     status = np.zeros(scenes.k.size, dtype=np.int8)
     series = rows_of(profile)

@@ -255,9 +255,9 @@ def test_mistakes_of_the_caller(call: Callable[..., object], scene: dict[str, fl
 
 def test_a_table_is_made_once(scene: dict[str, float]) -> None:
     solve(scene)
-    before = sweep.table_of.cache_info().misses
+    before = cosine_sweep.table_of.cache_info().misses
     solve(scene | {"A": np.linspace(0, 0.1, 5000)})
-    assert sweep.table_of.cache_info().misses == before
+    assert cosine_sweep.table_of.cache_info().misses == before
 
 
 def test_inputs_are_left_alone(mixture: dict[str, np.ndarray]) -> None:
