@@ -48,7 +48,7 @@ class Key:
     def allowed(self) -> str:
         """Its bounds in words."""
         if not self.bounds:
-            return ""
+            return f"-inf < {self.name} < inf" if self.gives else ""
         low = self.bounds.get("ge", self.bounds.get("gt"))
         least, greatest = ("<=" if "ge" in self.bounds else "<"), self.bounds.get("le")
         if greatest is not None:
@@ -118,6 +118,9 @@ MACHINE: Final = "machine_stiffness"
 """The key of [loading] that is a parameter: its dimension stands before that of the punch's radius."""
 SPRING: Final = "spring_constant"
 """The key of [physical] that gives the same with its unit."""
+
+TURNS: Final = ("indentation_max_over_R", "load_max")
+"""The parameters at which a cycle may turn before the rim: those of a scene that need not be there."""
 
 _ALL_INPUTS: Final = (
     _parameter(
@@ -232,20 +235,43 @@ _ALL_INPUTS: Final = (
         role="the radius of the punch",
         infinite=_UNBOUNDED,
     ),
+    _quantity(
+        "indentation_max",
+        "indentation_max_over_R",
+        "m",
+        "depth delta_max at which the cycle turns",
+        '"50 nm"',
+        r"$\delta_{\max}$",
+        bounds={},
+    ),
+    _parameter(
+        "indentation_max_over_R",
+        "depth delta_max/R at which the cycle turns",
+        "0.05",
+        r"$\delta_{\max}/R$",
+        bounds={},
+    ),
+    _quantity("preload", "load_max", "N", "load P_max at which the cycle turns", '"50 nN"', r"$P_{\max}$"),
+    _parameter(
+        "load_max",
+        "load P_max/(1.5 pi R dgamma) at which the cycle turns",
+        "2.0",
+        r"$P_{\max}/\frac{3}{2}\pi R\Delta\gamma$",
+    ),
 )
 
 INPUTS: Final[dict[str, Key]] = {key.name: key for key in _ALL_INPUTS}
 """
 Every key that gives parameters, in the order of a dataset's dimensions.
 
-Each stands before the parameter in whose place it is, those with units first; the radius of the punch is last, since
-all radii of one curve share its trace.
+Each stands before the parameter in whose place it is, those with units first. The radius of the punch and what a cycle
+turns at are last, since all of one curve share its trace.
 """
 
 PARAMETERS: Final[dict[str, Key]] = {
-    name: key for name, key in INPUTS.items() if key.table == "parameters" and key.is_parameter
+    name: key for name, key in INPUTS.items() if key.table == "parameters" and key.is_parameter and name not in TURNS
 }
-"""Every parameter of a scene, in the order of a dataset's dimensions."""
+"""Every parameter that all scenes have, in the order of a dataset's dimensions."""
 
 REDUCED: Final[dict[str, Key]] = {
     name: key for name, key in INPUTS.items() if key.table == "parameters" and not key.is_parameter

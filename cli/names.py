@@ -27,6 +27,7 @@ OUTPUTS: Final = {
     "delta_jump_out": "indentation depth delta/R at the jump-out",
     "loading_energy": "energy dissipated on loading, H/(R^2 dgamma)",
     "unloading_energy": "energy dissipated on unloading, H/(R^2 dgamma)",
+    "turning_radius": "contact radius a/R at which unloading starts (0: no contact is made)",
     "pull_off_force_error": "estimate of the error of the pull-off force F/(1.5 pi R dgamma)",
     "dissipated_energy_error": "estimate of the error of the dissipated energy H/(R^2 dgamma)",
     "energy_residual": "dissipated energy less the loop integral of the load over the depth, in R^2 dgamma",

@@ -10,9 +10,9 @@ if TYPE_CHECKING:
     from gradhesion.core._jit import watch_compilation
     from gradhesion.core.cache import CACHE_FOLDER, compiled_before, place
     from gradhesion.core.curves import draw_curves
-    from gradhesion.core.kinds import KERNELS, KINDS, NEEDS, kind_of_curves, kind_of_map
+    from gradhesion.core.kinds import KERNELS, KINDS, NEEDS, kind_of_curves, kind_of_map, kind_of_turning
     from gradhesion.core.loading_control import CONTROLS, Loading
-    from gradhesion.core.names import CURVES, OUTPUTS, PARAMETERS, REPORTS, SOLVERS
+    from gradhesion.core.names import CURVES, OUTPUTS, PARAMETERS, REPORTS, SOLVERS, TURNS
     from gradhesion.core.profile import Harmonic, Profile
     from gradhesion.core.sources import SOURCES
     from gradhesion.core.status import DOUBTFUL, FAILED, FLAGS, doubts_about
@@ -34,6 +34,7 @@ __all__ = [
     "REPORTS",
     "SOLVERS",
     "SOURCES",
+    "TURNS",
     "Harmonic",
     "Loading",
     "Profile",
@@ -43,6 +44,7 @@ __all__ = [
     "draw_curves",
     "kind_of_curves",
     "kind_of_map",
+    "kind_of_turning",
     "place",
     "solve",
     "watch_compilation",
@@ -52,9 +54,9 @@ _HOMES: Final = {
     "_jit": ("watch_compilation",),
     "cache": ("CACHE_FOLDER", "compiled_before", "place"),
     "curves": ("draw_curves",),
-    "kinds": ("KERNELS", "KINDS", "NEEDS", "kind_of_curves", "kind_of_map"),
+    "kinds": ("KERNELS", "KINDS", "NEEDS", "kind_of_curves", "kind_of_map", "kind_of_turning"),
     "loading_control": ("CONTROLS", "Loading"),
-    "names": ("CURVES", "OUTPUTS", "PARAMETERS", "REPORTS", "SOLVERS"),
+    "names": ("CURVES", "OUTPUTS", "PARAMETERS", "REPORTS", "SOLVERS", "TURNS"),
     "profile": ("Harmonic", "Profile"),
     "sources": ("SOURCES",),
     "status": ("DOUBTFUL", "FAILED", "FLAGS", "doubts_about"),

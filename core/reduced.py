@@ -13,8 +13,11 @@ Each of the parameters of `solve` may be left out where others tell it:
                     a_max_over_a2                   times a_2/R of jump_in_radius.py
                     a_max, R
     machine_stiffness    spring_constant, E_star, R
+    indentation_max_over_R    indentation_max, R
+    load_max        preload, R, work_of_adhesion    P/(1.5 pi R dgamma)
 
-R, c0, wavelength, amplitude and a_max are in m, E_star and E in Pa, work_of_adhesion in J/m^2, spring_constant in N/m.
+R, c0, wavelength, amplitude, a_max and indentation_max are in m, E_star and E in Pa, work_of_adhesion in J/m^2,
+spring_constant in N/m, preload in N.
 """
 
 import math
@@ -25,7 +28,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.jump_in_radius import jump_in_radius_of_envelope
-from gradhesion.core.names import PARAMETERS
+from gradhesion.core.names import PARAMETERS, TURNS
 from gradhesion.core.similarity import amplitude_of_ratio, similarity_length
 
 _Array = NDArray[np.float64]
@@ -40,8 +43,13 @@ WAYS: Final[dict[str, dict[str, tuple[str, ...]]]] = {
     "A": {"chi": PARAMETERS[:5], "amplitude": ("R", "lambda_over_R")},
     "a_max_over_R": {"a_max_over_L": _MATERIAL, "a_max_over_a2": PARAMETERS[:6], "a_max": ("R",)},
     _MACHINE: {"spring_constant": ("E_star", "R")},
+    "indentation_max_over_R": {"indentation_max": ("R",)},
+    "load_max": {"preload": ("R", "work_of_adhesion")},
 }
 """By what a parameter can be told, and what else that takes; in the order in which they follow from one another."""
+
+_OPTIONAL: Final = (_MACHINE, *TURNS)
+"""What not every scene has."""
 
 _FOLLOWS: Final[dict[str, Callable[..., Any]]] = {
     "E": lambda E, nu: E / ((1.0 - nu) * (1.0 + nu)),
@@ -55,6 +63,8 @@ _FOLLOWS: Final[dict[str, Callable[..., Any]]] = {
     "a_max_over_a2": lambda ratio, *others: ratio * jump_in_radius_of_envelope(*others),
     "a_max": lambda a_max, R: a_max / R,
     "spring_constant": lambda spring_constant, E_star, R: spring_constant / (E_star * R),
+    "indentation_max": lambda indentation_max, R: indentation_max / R,
+    "preload": lambda preload, R, work_of_adhesion: preload / (1.5 * math.pi * R * work_of_adhesion),
 }
 
 
@@ -65,8 +75,8 @@ def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
     ----------
     given
         Arrays by name, all broadcastable: for each parameter of `solve` itself, or one of those above in its place.
-        Others stay as they are, and machine_stiffness, which is made if spring_constant is given; R, E_star and the
-        like are left out.
+        Others stay as they are; machine_stiffness, indentation_max_over_R and load_max are made if spring_constant,
+        indentation_max or preload is given; R, E_star and the like are left out.
 
     Returns
     -------
@@ -88,7 +98,7 @@ def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
     {'k': 0.5, 'nu': 0.3, 'modulus': 20000.0, 'c0_over_R': 0.01, 'lambda_over_R': 0.1, 'A': 0.02, 'a_max_over_R': inf}
     """
     known = {name: np.asarray(values, dtype=float) for name, values in given.items()}
-    wanted = (*PARAMETERS, *((_MACHINE,) if {_MACHINE, "spring_constant"} & known.keys() else ()))
+    wanted = (*PARAMETERS, *(name for name in _OPTIONAL if {name, *WAYS[name]} & known.keys()))
     for parameter in ("E_star", *wanted) if "E" in known else wanted:
         if parameter not in known:
             way, needed = _way(parameter, known)
@@ -104,7 +114,7 @@ def sources_of(parameter: str, given: Mapping[str, Any]) -> tuple[str, ...]:
     Parameters
     ----------
     parameter
-        One of `PARAMETERS`, or machine_stiffness.
+        One of `PARAMETERS`, machine_stiffness, or one of `TURNS`.
     given
         As in `parameters_from`; only its names count.
 

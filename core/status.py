@@ -45,9 +45,13 @@ _OF_LOADING: Final = (
 """Results and curves that depend on how full contact is reached (docs/theory.md, section 12)."""
 
 
-def doubts_about(result: str) -> int:
-    """Return the bits of `DOUBTFUL` that cast doubt on a result or a curve."""
-    return DOUBTFUL if result in _OF_LOADING else DOUBTFUL & ~LOADING_NOT_ONE_DISC
+def doubts_about(result: str, *, turned: bool = False) -> int:
+    """Return the bits of `DOUBTFUL` that cast doubt on a result or a curve.
+
+    Where cycles turn at a depth or a load (`turned`), loading decides where, and a loading that is not one disc casts
+    doubt on all that it leads to.
+    """
+    return DOUBTFUL if turned or result in _OF_LOADING else DOUBTFUL & ~LOADING_NOT_ONE_DISC
 
 
 FAILED: Final = TOLERANCE_NOT_MET | NO_VALUE

@@ -103,8 +103,9 @@ def _unloading_is_close(table: Any, curve: Curve, count: int, trace: Any, rim: f
 
 @kernel()
 def rim_is_close(table: Any, curve: Curve, count: int, trace: Any, rim: float) -> bool:
-    """Return whether the rim stands on a fold, or hardly reaches, or misses, the depth of a jump: all that belongs to
-    the rim and not to a cycle that turns there.
+    """Return whether the rim stands on a fold, or hardly reaches, or misses, the depth of a jump.
+
+    That is all that belongs to the rim, and not to a cycle that turns there.
     """
     if rim == math.inf:
         return False

@@ -248,7 +248,7 @@ def _turn_on_wave(table: Any, curve: Curve, trace: Any, wave: float, reach: floa
 
 @kernel()
 def _turn_on_waves(table: Any, curve: Curve, trace: Any, reach: float, target: float) -> Turn:
-    """Return where loading first reaches a load on the regular waves that it goes through: their loads rise outwards."""
+    """Return where loading first reaches a load on the regular waves that it visits: their loads rise outwards."""
     low, high = trace[RUN, RUN_FIRST] - 1.0, trace[RUN, RUN_LAST]
     if high <= low:
         return math.inf, False

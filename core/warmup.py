@@ -66,6 +66,9 @@ def compile_kind(kind: str) -> None:
             solve(scene, ["pull_off_force"], threads=1, **driven)
         case "energy":
             solve(scene, OUTPUTS, threads=1, **driven)
+        case "turning":
+            for turn in ({"indentation_max_over_R": 0.05}, {"load_max": 1.0}):
+                solve(scene | turn, OUTPUTS, threads=1, **driven)
         case "reports":
             solve(scene, (*OUTPUTS, *REPORTS), threads=1, **driven)
         case "asymptotic" | "envelope" as solver:

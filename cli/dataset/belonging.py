@@ -11,10 +11,8 @@ import xarray
 from gradhesion.cli.dataset.coordinates import following
 from gradhesion.cli.dataset.reader import study_text
 from gradhesion.cli.errors import DatasetError, StudyError
-from gradhesion.cli.keys import MACHINE, SPRING
 from gradhesion.cli.names import SOLVER
 from gradhesion.cli.study.study import Study, study_from
-from gradhesion.core import PARAMETERS
 
 CLOSE: Final = 16 * 2.0**-52
 """Of a coordinate: logarithmic spacing may differ by some units in the last place from one numpy to the next."""
@@ -74,10 +72,8 @@ def _check_coordinates(dataset: xarray.Dataset, study: Study, path: Path) -> Non
             at = f"[{wrong[0]}]" if here.ndim else ""
             both = f"{here.flat[wrong[0]]!s}, in its study {given.flat[wrong[0]]!s}"
             raise _apart(path, f"{name}{at} is {both}")
-    for name in (*PARAMETERS, *((MACHINE,) if SPRING in study.parameters else ())):
-        if name not in study.parameters and (
-            name not in dataset.coords or dataset[name].dims != following(study, name)
-        ):
+    for name in study.made:
+        if name not in dataset.coords or dataset[name].dims != following(study, name):
             raise _apart(path, f"the axes of {name} are not those of its study")
 
 

@@ -8,12 +8,11 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import names
 from gradhesion.cli.dataset.variable import Variable
-from gradhesion.cli.keys import INPUTS, MACHINE, REDUCED, SPRING
+from gradhesion.cli.keys import INPUTS, REDUCED
 from gradhesion.cli.study.roles import ABSENT
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
 from gradhesion.cli.work.blocks import scenes_of
-from gradhesion.core import PARAMETERS
 
 
 def coordinates(study: Study) -> dict[str, Variable]:
@@ -38,7 +37,7 @@ def coordinates(study: Study) -> dict[str, Variable]:
             else:
                 own = (name,) if name in axes else ()
             described[name] = Variable(dimensions=own, dtype="f8", attributes=attributes, values=values)
-        elif name in PARAMETERS or (name == MACHINE and SPRING in study.parameters):
+        elif name in study.made:
             own = following(study, name)
             made = partial(_made, study, name, own)
             blank = np.nan if REDUCED.keys() & study.parameters.keys() else None  # where there is no a_2

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.belonging import study_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.keys import MACHINE
 from gradhesion.cli.names import SI, SOLVER
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.core import FAILED, PARAMETERS
@@ -181,10 +180,9 @@ def _scene(
     place: dict[str, float | str] = {
         name: value for name, value in parameters.items() if isinstance(study.parameters[name], np.ndarray)
     }
-    for name in (*PARAMETERS, *((MACHINE,) if study.loading.control == "machine" else ())):
-        if name not in parameters:  # it is made from others
-            own = {axis: at for axis, at in along.items() if axis in dataset[name].dims}
-            parameters[name] = float(dataset[name].isel(own))
+    for name in study.made:
+        own = {axis: at for axis, at in along.items() if axis in dataset[name].dims}
+        parameters[name] = float(dataset[name].isel(own))
     if SOLVER in study.sizes:
         place = {SOLVER: known[which], **place}
         index = (study.method.solver.index(known[which]), *index)

@@ -23,7 +23,13 @@ LONGEST: Final = 60
 _QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,4})?|[+-]?inf|nan)\s*\*?\s*(.*)")
 _POWER: Final = re.compile(r"([^\W\d_])([+-]?\d)")
 """A power as UDUNITS writes it, `m-2`."""
-WORDS: Final = {"m": "a length", "Pa": "a pressure", "J m-2": "an energy per area", "N m-1": "a force per length"}
+WORDS: Final = {
+    "m": "a length",
+    "Pa": "a pressure",
+    "J m-2": "an energy per area",
+    "N m-1": "a force per length",
+    "N": "a force",
+}
 """What is expected of a quantity, by its unit in SI."""
 _NO_UNIT: Final = (
     ArithmeticError,
@@ -69,8 +75,10 @@ def si_value(value: object, name: str) -> float:
     if problem or not factor:
         raise ValueError(f"{problem}; {WORDS[key.unit]} is expected; {example(('physical', name))}")
     result = float(Decimal(number) * factor) + 0.0
-    if not (result > 0.0 or result == key.bounds.get("ge")) or (result == math.inf and not key.infinite):
-        raise ValueError(f"out of range; choose {WORDS[key.unit]} with {key.allowed}")
+    inside = result > 0.0 or result == key.bounds.get("ge") or not key.bounds
+    if not inside or (math.isinf(result) and not key.infinite) or math.isnan(result):
+        allowed = f"{WORDS[key.unit]} with {key.allowed}" if key.bounds else f"{WORDS[key.unit]} that is finite"
+        raise ValueError(f"out of range; choose {allowed}")
     return result
 
 

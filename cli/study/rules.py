@@ -14,6 +14,7 @@ from gradhesion.cli.study.mistakes import Checked, Mistake
 from gradhesion.cli.study.punch import mistakes_of_punch
 from gradhesion.cli.study.roles import mistakes_of_roles
 from gradhesion.cli.study.states import mistakes_of_states
+from gradhesion.cli.study.turn import mistakes_of_turn
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core import REPORTS, SOLVERS
 
@@ -40,6 +41,7 @@ def mistakes_between_keys(checked: Checked) -> tuple[dict[str, Values], list[Mis
     mistakes += mistakes_of_points(sound) if points else mistakes_of_grid(sound)
     mistakes += mistakes_of_roles(checked, sound)
     mistakes += mistakes_of_punch(checked, sound)
+    mistakes += mistakes_of_turn(checked)
     mistakes += mistakes_of_states(checked, sound)
     mistakes += _mistakes_of_size(checked, [np.size(values) for values in sound.values()], points=points)
     return sound, mistakes

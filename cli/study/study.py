@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.keys import INPUTS, TURNS
 from gradhesion.cli.names import SCENE, SI, SOLVER, UNITS
 from gradhesion.cli.study import places
 from gradhesion.cli.study.axes import Values
@@ -86,6 +86,17 @@ class Study:
     def variables(self) -> tuple[str, ...]:
         """The names of all variables of its dataset but `status`."""
         return (*self.outputs, *(name + SI for name in self.in_si))
+
+    @property
+    def made(self) -> tuple[str, ...]:
+        """The parameters that are not given, but follow from what is."""
+        wanted = {INPUTS[name].gives for name in self.parameters} - self.parameters.keys()
+        return tuple(name for name in INPUTS if name in wanted)
+
+    @property
+    def turn(self) -> str:
+        """The parameter at which its cycles turn before the rim; empty if they turn there."""
+        return next((INPUTS[name].gives for name in self.parameters if INPUTS[name].gives in TURNS), "")
 
     @property
     def sizes(self) -> dict[str, int]:

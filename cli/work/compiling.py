@@ -14,6 +14,7 @@ WORDS = {
     "force": "the pull-off force",
     "energy": "cycles and energies",
     "reports": "errors and gains",
+    "turning": "turning points",
     "asymptotic": "the asymptotic solver",
     "envelope": "the envelope solver",
     "curves": "curves",

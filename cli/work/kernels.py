@@ -17,7 +17,7 @@ from gradhesion.cli.errors import CompilerError
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.locks import closing, try_lock
-from gradhesion.core import NEEDS, compiled_before, kind_of_curves, kind_of_map, place
+from gradhesion.core import NEEDS, compiled_before, kind_of_curves, kind_of_map, kind_of_turning, place
 
 PAUSE: Final = 0.2
 """Seconds between two looks at what another process compiles."""
@@ -27,12 +27,13 @@ _one_of_us: Final = threading.Lock()
 
 def kinds_of(study: Study) -> tuple[str, ...]:
     """Give the kinds of work of a study, each of which has kernels of its own (core/kinds.py)."""
+    turning = (kind_of_turning(study.profile, study.loading),) if study.turn else ()
     if study.kind == "curve":
-        return (kind_of_curves(study.profile, study.loading),)
+        return (*turning, kind_of_curves(study.profile, study.loading))
     solvers = study.method.solver
     solvers = (solvers,) if isinstance(solvers, str) else solvers
     kinds = (kind_of_map(study.outputs, solver, study.profile, study.loading) for solver in solvers)
-    return tuple(dict.fromkeys(kinds))
+    return (*dict.fromkeys(kinds), *turning)
 
 
 def missing_of(kinds: Sequence[str]) -> list[str]:

@@ -1,6 +1,8 @@
 """Curves of one scene, by name."""
 
+import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
@@ -15,9 +17,9 @@ from gradhesion.core.curves.forms import GENERAL
 from gradhesion.core.curves.jumps import list_jumps
 from gradhesion.core.curves.path import draw_path
 from gradhesion.core.curves.smooth import draw_smooth
-from gradhesion.core.curves.subject import Subject, subject_of
+from gradhesion.core.curves.subject import BEYOND, Subject, subject_of
 from gradhesion.core.loading_control import Loading
-from gradhesion.core.names import CURVES, PARAMETERS
+from gradhesion.core.names import CURVES, PARAMETERS, TURNS
 from gradhesion.core.profile import Profile
 from gradhesion.core.status import FAILED, NO_VALUE
 from gradhesion.core.sweep import solve
@@ -33,6 +35,8 @@ _TYPES: Final[dict[str, type[np.signedinteger[Any]]]] = {
 }
 INTEGERS: Final = frozenset(_TYPES)
 """The variables that are integers; the others are float64."""
+_OF_A_CYCLE: Final = ("path", "jumps", "effective")
+"""The curves that turn where the cycle does."""
 _EXACT: Final = {"equilibrium": draw_equilibrium, "path": draw_path, "jumps": list_jumps}
 _CLOSED: Final = {
     "asymptotic": draw_asymptotic,
@@ -63,6 +67,15 @@ def _draw(subject: Subject | None, curve: str) -> dict[str, NDArray[Any]] | None
     return variables
 
 
+def _without_contact(curve: str, scene: Mapping[str, float]) -> dict[str, NDArray[Any]]:
+    """Return the path or the jumps of a cycle that turns before it makes contact: one point, no jump."""
+    size = 0 if curve == "jumps" else 1
+    variables: dict[str, NDArray[Any]] = {name: np.zeros(size, _TYPES.get(name, np.float64)) for name in CURVES[curve]}
+    if curve == "path":
+        variables["path_indentation"][:] = scene["indentation_max_over_R"]
+    return variables
+
+
 def draw_curves(
     scene: Mapping[str, float],
     curves: Sequence[str],
@@ -75,7 +88,8 @@ def draw_curves(
     ----------
     scene
         A number for each name of `PARAMETERS`, in the ranges of `solve`; a_max/R may be inf. Machine control takes
-        `machine_stiffness`, S/(E* R) > 0, besides.
+        `machine_stiffness`, S/(E* R) > 0, besides. With one of `TURNS` path, jumps and the effective path turn where
+        the cycle of `solve` does.
     curves
         Names out of `CURVES`: "equilibrium", the whole equilibrium curve, stable and unstable; "path", the cycle of
         loading and unloading; "asymptotic", the curve for short waves (5.15)-(5.20);
@@ -139,11 +153,28 @@ def draw_curves(
             f"curves {absent} are known of the paraboloid with one cosine wave under displacement control only; "
             f"another profile or control has {', '.join(GENERAL_CURVES)}"
         )
-    subject = subject_of(scene) if default else general.subject_of(scene, profile, loading)
+    turns = [name for name in TURNS if name in scene]
+    if len(turns) > 1:
+        raise ValueError(f"{' and '.join(turns)} are given: a cycle turns at one of them")
+    plain = {name: value for name, value in scene.items() if name not in turns}
+    subject = subject_of(plain) if default else general.subject_of(plain, profile, loading)
+    driven: dict[str, Any] = {"threads": 1, "profile": profile, "loading": loading}
+    round_trip, radius = subject, math.inf
+    if turns:
+        radius = float(solve(scene, ["turning_radius"], **driven)["turning_radius"])
+        there = plain | {"a_max_over_R": radius}
+        round_trip = subject_of(there) if default else general.subject_of(there, profile, loading)
+        if subject is not None and not subject.bounded and radius > 0.0:
+            subject = replace(subject, end=max(subject.end, BEYOND * radius))
     result: dict[str, NDArray[Any]] = {}
     status, cycle = 0, False
     for curve in curves:
-        variables = _draw(subject, curve)
+        if radius == 0.0 and curve in _OF_A_CYCLE:
+            variables = _without_contact(curve, scene)
+        else:
+            variables = _draw(round_trip if curve in _OF_A_CYCLE else subject, curve)
+        if turns and variables is not None and "jump_at_rim" in variables and radius < scene["a_max_over_R"]:
+            variables["jump_at_rim"][:] = 0
         if variables is None:
             status |= NO_VALUE
             size = 0 if curve == "jumps" else 1
@@ -156,6 +187,6 @@ def draw_curves(
             cycle = cycle or curve in ("path", "jumps")
     if cycle:
         outputs = ["dissipated_energy", "loading_jumps", "unloading_jumps"]
-        solved = solve(scene, outputs, threads=1, profile=profile, loading=loading)
+        solved = solve(scene, outputs, **driven)
         status |= int(solved["status"]) & ~FAILED
     return result, status

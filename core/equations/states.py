@@ -106,8 +106,8 @@ def named_states(
     -------
     states
         Array of shape (2, 3): a/R and delta/R of the turning point (at the depth to which the rim is pressed),
-        the pull-off and the jump-out. NaN for one that is absent: there is no turning point without a rim, and no
-        jump-out where contact shrinks to a point.
+        the pull-off and the jump-out. NaN for one that is absent: there is no turning point without a rim or a depth or
+        load to turn at, and no jump-out where contact shrinks to a point.
     status
         Bits of status.FLAGS, as `solve` reports them.
 
@@ -120,10 +120,11 @@ def named_states(
     >>> states.round(4).tolist()
     [[0.3, 0.1919, 0.0923], [0.0286, -0.0123, -0.0255]]
     """
-    solved = solve(scene, ["pull_off_radius", "delta_max", "delta_jump_out"], profile=profile, loading=loading)
+    outputs = ["pull_off_radius", "delta_max", "delta_jump_out", "turning_radius"]
+    solved = solve(scene, outputs, profile=profile, loading=loading)
     states = np.full((2, 3), np.nan)
-    rim, pull_off = float(scene["a_max_over_R"]), float(solved["pull_off_radius"])
-    if math.isfinite(rim):
+    rim, pull_off = float(solved["turning_radius"]), float(solved["pull_off_radius"])
+    if 0.0 < rim < math.inf:
         states[:, 0] = rim, float(solved["delta_max"])
     if pull_off > 0.0:
         states[:, 1] = equilibrium_states(scene, [pull_off], profile)[:, 0]
