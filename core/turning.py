@@ -61,6 +61,10 @@ from gradhesion.core.ties import rim_is_close, tolerance
 Turn: TypeAlias = tuple[float, bool]
 """Where a cycle turns (inf if not here), and whether a step of that is close."""
 _STEPS: Final = 200
+_SURE: Final = 1e-8
+"""The last step of Newton's method, in curvature lengths."""
+_FEW: Final = 3
+"""Turning points of a curve up to which each looks for itself."""
 _WIDE: Final = 1.06
 """The most by which the waves of the load exceed chi z^c downwards."""
 _AROUND: Final = 1.25
@@ -133,27 +137,27 @@ def _find(table: Any, curve: Curve, low: float, high: float, target: float, by_l
     if not by_load:
         branch = (low, _value(table, curve, low, NO) if low > 0.0 else -1.0, high, _value(table, curve, high, NO))
         x = find_depth(table, curve, target, branch)
-    last = math.inf
     for _ in range(_STEPS):
-        rest = _value(table, curve, x, by_load) - target
+        d, d1, _, rest = slope(table, curve, level, x)
+        rate = d
+        if by_load:
+            power = amplitude_power(table, TWO_PI * x)
+            rate /= power * power
+            rest = load(table, curve, x)
+        rest -= target
         if rest == 0.0:
             return x
         if rest < 0.0:
             low = x
         else:
             high = x
-        rate, _, _, _ = slope(table, curve, level, x)
-        if by_load:
-            power = amplitude_power(table, TWO_PI * x)
-            rate /= power * power
-        step = -rest / rate / TWO_PI
-        if abs(step) <= 1e-16 * x or (abs(step) >= 0.5 * last and abs(step) < 1e-12 * x):
+        step = -rest / rate
+        small = abs(step) * (abs(d1) + abs(d)) <= _SURE * min(1.0, TWO_PI * x) * abs(d)  # what is left is its square
+        x += step / TWO_PI
+        if small and low < x < high:
             return x
-        last = abs(step)
-        x += step
         if not low < x < high:
             x = 0.5 * (low + high)
-            last = math.inf
             if x <= low or x >= high:
                 return x
     return x
@@ -219,15 +223,52 @@ def _turn_at_depth(table: Any, curve: Curve, first: int, last: int, trace: Any, 
 
 
 @kernel()
+def _peak(table: Any, curve: Curve, low: float, high: float) -> float:
+    """Return the largest load between the place where loading arrives on a branch and the end of that."""
+    level = 0.5 * (3.0 + table.k)
+    highest = max(load(table, curve, low), load(table, curve, high))
+    i = max(0, int(2.0 * low - table.phase / math.pi) - 1)
+    edge, _, _ = inner_edge(table, i)
+    while edge < high:
+        survey = survey_arch(table, curve, level, i)
+        kind = survey[0]
+        if kind in (-1, 2):
+            x, _ = fold_of_arch(table, curve, level, i, survey, NO, 0.0)
+            if low < x < high:
+                highest = max(highest, load(table, curve, x))
+        edge = survey[3]
+        i += 1
+    return highest
+
+
+@kernel()
+def _peaks(table: Any, curve: Curve, count: int, trace: Any, inner: float, targets: int) -> Any:
+    """Return the largest load of loading on each branch, or a bound of it.
+
+    It is -inf for a branch that ends before `inner`, where no target is reached, and inf for one that does not end, or
+    where `targets` are so few that it is not worth knowing.
+    """
+    peaks = np.full(count, math.inf)
+    for branch in range(count):
+        if trace[END, branch] < inner:
+            peaks[branch] = -math.inf
+        elif targets > _FEW and trace[ARRIVAL, branch] < math.inf and trace[END, branch] < math.inf:
+            peaks[branch] = _peak(table, curve, trace[ARRIVAL, branch], trace[END, branch])
+    return peaks
+
+
+@kernel()
 def _turn_at_load(
-    table: Any, curve: Curve, first: int, last: int, trace: Any, bounds: tuple[float, float], target: float
+    table: Any, curve: Curve, first: int, last: int, trace: Any, peaks: Any, reach: float, target: float
 ) -> Turn:
     """Return where loading first reaches a load on the branches `first` to `last` - 1 of a trace."""
-    inner, reach = bounds
     close = False
     for branch in range(first, last):
-        arrival = trace[ARRIVAL, branch]
-        if not arrival <= reach or trace[END, branch] < inner:
+        arrival, peak = trace[ARRIVAL, branch], peaks[branch]
+        if not arrival <= reach:
+            continue
+        if peak < target:
+            close = close or target - peak <= _size(table, curve, trace[END, branch], YES)
             continue
         x, near = _turn_on(table, curve, arrival, ends(trace, branch), reach, target)
         close = close or near
@@ -267,17 +308,16 @@ def _turn_on_waves(table: Any, curve: Curve, trace: Any, reach: float, target: f
 
 @kernel()
 def _turn_long_at_load(
-    table: Any, curve: Curve, count: int, trace: Any, bounds: tuple[float, float], target: float
+    table: Any, curve: Curve, count: int, trace: Any, peaks: Any, reach: float, target: float
 ) -> Turn:
     """Return where loading first reaches a load on a long curve (stride of cycle.py)."""
-    _, reach = bounds
     gap = int(trace[RUN, GAP])
-    x, close = _turn_at_load(table, curve, 0, gap, trace, bounds, target)
+    x, close = _turn_at_load(table, curve, 0, gap, trace, peaks, reach, target)
     if x == math.inf:
         x, near = _turn_on_waves(table, curve, trace, reach, target)
         close = close or near
     if x == math.inf:
-        x, near = _turn_at_load(table, curve, gap, count, trace, bounds, target)
+        x, near = _turn_at_load(table, curve, gap, count, trace, peaks, reach, target)
         close = close or near
     return x, close
 
@@ -390,6 +430,7 @@ def _turn_rim(
     curve: Curve,
     count: int,
     trace: Any,
+    peaks: Any,
     long: bool,
     reach: float,
     scene: tuple[float, float, float],
@@ -398,13 +439,12 @@ def _turn_rim(
     """Return x where one scene turns, inf for the rim, and its flags; `scene` is rim, target and lambda/R."""
     rim, target, wavelength = scene
     by_load, check = modes
-    b, g, _ = curve
+    b, _, _ = curve
     if by_load:
-        inner = _reach(table.k, b, 1.0 - g * table.amplitude, target, YES, NO)
         if long:
-            x, close = _turn_long_at_load(table, curve, count, trace, (inner, reach), target)
+            x, close = _turn_long_at_load(table, curve, count, trace, peaks, reach, target)
         else:
-            x, close = _turn_at_load(table, curve, 0, count, trace, (inner, reach), target)
+            x, close = _turn_at_load(table, curve, 0, count, trace, peaks, reach, target)
     else:
         if long:
             x, close = _turn_long_at_depth(table, curve, count, trace, reach, target)
@@ -436,35 +476,46 @@ def _turn_curve(
     """Turn a wavy punch, all its rims: those that need no long curve share one trace."""
     wavelength, unit = scales
     by_load, _ = modes
-    b, _, _ = curve
-    reaches = np.empty(rims.size)
-    furthest = 0.0
+    b, g, _ = curve
+    least, greatest = math.inf, -math.inf
     for i in range(rims.size):
-        rim, target = rims[i] / wavelength, targets[i] / unit
-        reaches[i] = 0.0
+        target = targets[i] / unit
         radii[i], flags[i] = rims[i], 0
-        if target < 0.0 and not by_load:  # the first contact is at the depth 0
+        if not _has_value(rims[i], target, by_load):
+            radii[i], flags[i] = math.nan, NO_VALUE
+        elif target < 0.0:  # the first contact is at the depth 0
             radii[i], flags[i] = 0.0, CLOSE_TO_A_JUMP if _is_first_contact(table.k, b, target) else 0
-        elif _has_value(rims[i], target, by_load):
-            reaches[i] = min(rim, _reach_outwards(table, curve, target, by_load))
-        if not _has_value(rims[i], target, by_load) or (
-            reaches[i] > 0.0 and (is_unresolved(arches, reaches[i]) or _is_vague(table, arches, reaches[i]))
-        ):
-            radii[i], flags[i], reaches[i] = math.nan, NO_VALUE, 0.0
-        if not is_long(table, arches, reaches[i]):
-            furthest = max(furthest, reaches[i])
+        else:
+            least, greatest = min(least, target), max(greatest, target)
+    if greatest < least:
+        return
+    furthest = 0.0
+    reaches = np.zeros(rims.size)
+    reach = _reach_outwards(table, curve, greatest, by_load)
+    for i in range(rims.size):
+        if radii[i] > 0.0:
+            reaches[i] = min(rims[i] / wavelength, reach)
+            if is_long(table, arches, reaches[i]):
+                reaches[i] = min(rims[i] / wavelength, _reach_outwards(table, curve, targets[i] / unit, by_load))
+            if is_unresolved(arches, reaches[i]) or _is_vague(table, arches, reaches[i]):
+                radii[i], flags[i], reaches[i] = math.nan, NO_VALUE, 0.0
+            elif not is_long(table, arches, reaches[i]):
+                furthest = max(furthest, reaches[i])
+    inner = _reach(table.k, b, 1.0 - g * table.amplitude, least, YES, NO) if by_load else 0.0
     if furthest > 0.0:
         count, trace = walk(table, curve, arches, furthest, scratch, NO)
+        peaks = _peaks(table, curve, count, trace, inner, rims.size) if by_load else reaches
         for i in range(rims.size):
             if reaches[i] > 0.0 and not is_long(table, arches, reaches[i]):
                 scene = (rims[i] / wavelength, targets[i] / unit, wavelength)
-                x, flags[i] = _turn_rim(table, curve, count, trace, False, reaches[i], scene, modes)
+                x, flags[i] = _turn_rim(table, curve, count, trace, peaks, False, reaches[i], scene, modes)
                 radii[i] = min(rims[i], x * wavelength)
     for i in range(rims.size):
         if reaches[i] > 0.0 and is_long(table, arches, reaches[i]):
             count, trace = stride(table, curve, arches, reaches[i], scratch, NO, 1.0)
+            peaks = _peaks(table, curve, count, trace, inner, 1) if by_load else reaches
             scene = (rims[i] / wavelength, targets[i] / unit, wavelength)
-            x, flags[i] = _turn_rim(table, curve, count, trace, True, reaches[i], scene, modes)
+            x, flags[i] = _turn_rim(table, curve, count, trace, peaks, True, reaches[i], scene, modes)
             radii[i] = min(rims[i], x * wavelength)
 
 

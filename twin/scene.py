@@ -14,6 +14,7 @@ from gradhesion.twin.general.bounds import waves_within
 from gradhesion.twin.general.curve import GeneralCurve
 from gradhesion.twin.path import Branch, Jump, Path, cycle, pull_off
 from gradhesion.twin.roots import extrema
+from gradhesion.twin.turning import TURNS, turning
 from gradhesion.twin.window import window
 
 PARAMETERS = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
@@ -59,6 +60,12 @@ class Solution:
     delta_max_size: float
     delta_jump_out_size: float
     folded_waves: float
+    turning_radius: arb | None = None
+    """None for an unbounded punch that does not turn before."""
+    turning_condition: float = 0.0
+    """The relative change of the turning radius for one of the terms of the depth or load at which it turns."""
+    turning_slope: float = 0.0
+    """The relative change of the force for one of the turning radius; 0 where the pull-off is not there."""
 
 
 def curve_of(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Contact:
@@ -83,8 +90,14 @@ def waves_to_follow(parameters: Mapping[str, float], shape: Shape = PLAIN, *, cy
 def solve(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Solution:
     """Solve one scene; under a dead load its energy is without the jump-out, which has no bound."""
     curve = curve_of(parameters, shape)
+    turn = next((turning(curve, name, parameters[name]) for name in TURNS if name in parameters), None)
+    if turn is not None and turn.place is not None and not turn.place > 0:
+        return _without_contact(parameters["indentation_max_over_R"], turn.margin)
+    if turn is not None and turn.place is not None:
+        curve.rim = turn.place.mid()
     held = _pull_off(curve)
     path, made = cycle(curve)
+    turned = turn is not None and turn.place is not None
     jumps = path.loading + path.unloading
     if shape.control == "load":
         jumps = [jump for jump in jumps if jump.end > 0]
@@ -100,7 +113,7 @@ def solve(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Solution:
         delta_jump_out=curve.delta(path.last),
         loading_energy=sum(drops[: len(path.loading)], arb(0)),
         unloading_energy=sum(drops[len(path.loading) :], arb(0)),
-        margin_jumps=_margin_jumps(curve, path, made),
+        margin_jumps=min(turn.margin if turn else 1.0, _margin_jumps(curve, path, made, turned=turned)),
         margin_radius=held.margin_radius,
         energy_condition=float(sum((abs(drop) for drop in drops), arb(0)) / abs(lost)) if drops else 1.0,
         radius_condition=held.radius_condition,
@@ -108,7 +121,44 @@ def solve(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Solution:
         delta_max_size=curve.full_depth_size(path.deepest) if curve.rim is not None else math.inf,
         delta_jump_out_size=curve.depth_size(path.last),
         folded_waves=curve.shortest * _folded_waves(made),
+        turning_radius=None if curve.rim is None else curve.radius(curve.rim),
+        turning_condition=turn.condition if turn else 0.0,
+        turning_slope=_turning_slope(curve) if turned and held.pull_off_radius == curve.radius(curve.rim) else 0.0,
     )
+
+
+def _without_contact(depth: float, margin: float) -> Solution:
+    """Return the cycle that turns before it makes contact."""
+    nothing, nowhere = arb(0), arb("nan")
+    return Solution(
+        pull_off_force=nothing,
+        pull_off_radius=nowhere,
+        dissipated_energy=nothing,
+        loading_jumps=0,
+        unloading_jumps=0,
+        delta_max=arb(depth),
+        delta_jump_out=nowhere,
+        loading_energy=nothing,
+        unloading_energy=nothing,
+        margin_jumps=margin,
+        margin_radius=1.0,
+        energy_condition=0.0,
+        radius_condition=0.0,
+        force_condition=0.0,
+        delta_max_size=0.0,
+        delta_jump_out_size=0.0,
+        folded_waves=0.0,
+        turning_radius=nothing,
+    )
+
+
+def _turning_slope(curve: Contact) -> float:
+    """Return the relative change of the load for one of the radius, at the place where it turns."""
+    z = curve.rim
+    assert z is not None
+    step = z * arb(2) ** -60
+    rate = (curve.force(z + step) - curve.force(z - step)) / (2 * step)
+    return float(abs(z * rate / curve.force(z)))
 
 
 def solve_pull_off(parameters: Mapping[str, float], shape: Shape = PLAIN) -> PullOff:
@@ -159,7 +209,7 @@ class _Fold:
         return rough if rough > 1e-9 else float(abs(jump.level - self.depth)) / scale
 
 
-def _margin_jumps(curve: Contact, path: Path, made: list[Branch]) -> float:
+def _margin_jumps(curve: Contact, path: Path, made: list[Branch], *, turned: bool) -> float:
     """Least of: fold depths against the levels of jumps; the tilt at its extrema and at the rim (folds about to be)."""
     margins = [1.0]
     tops = [(b.top, b.hi) for b in made if b.top is not None and b.hi is not None and b.hi is not curve.rim]
@@ -173,7 +223,7 @@ def _margin_jumps(curve: Contact, path: Path, made: list[Branch]) -> float:
     if inner and start != 0:  # k = 1: a fold at next to no contact, which a jump leaves or a branch ends in
         margins.append(float(abs(inner[0].depth - start)) / (abs(inner[0].rough) + inner[0].size))
     points = extrema(curve, curve.fold, curve.rim)
-    if curve.rim is not None:
+    if curve.rim is not None and not turned:
         points.append(curve.rim)
     for z in points:
         tilt = curve.tilt(z, curve.fold)[0]

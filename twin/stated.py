@@ -10,6 +10,7 @@ from flint import arb
 from gradhesion.twin.envelope import amplitude, jump_in_radius, similarity_length, solve_envelope
 from gradhesion.twin.general import PLAIN, Shape
 from gradhesion.twin.scene import PullOff, Solution, solve, solve_pull_off, waves_to_follow
+from gradhesion.twin.turning import TURNS
 
 FORCE: Final = 5e-14
 """Of the force."""
@@ -42,6 +43,7 @@ CYCLE: Final = frozenset(
         "unloading_jumps",
         "delta_max",
         "delta_jump_out",
+        "turning_radius",
     )
 )
 """Outputs for which the cycle must be followed."""
@@ -113,11 +115,11 @@ def expected(
     """
     if solver == "envelope":
         found = _of_envelope(parameters, shape)
-    elif CYCLE.isdisjoint(outputs):
+    elif CYCLE.isdisjoint(outputs) and not any(name in parameters for name in TURNS):
         found = _of_pull_off(solve_pull_off(parameters, shape))
     else:
         solution = solve(parameters, shape)
-        found = _of_pull_off(solution) | _of_cycle(solution)
+        found = _of_pull_off(solution) | _of_cycle(solution) | _of_turn(solution)
     made = _made(parameters)
     found |= made
     outputs = [*outputs, *made]
@@ -150,9 +152,14 @@ def _ratios(parameters: Mapping[str, float]) -> dict[str, arb]:
     """Make the parameters that follow from quantities in SI units."""
     radius = arb(parameters["R"])
     ratios = {"modulus": parameters["E_star"] * radius / arb(parameters["work_of_adhesion"])}
-    for name, length in (("c0_over_R", "c0"), ("lambda_over_R", "wavelength"), ("a_max_over_R", "a_max")):
+    lengths = {"c0": "c0_over_R", "wavelength": "lambda_over_R", "a_max": "a_max_over_R"}
+    lengths["indentation_max"] = "indentation_max_over_R"
+    for length, name in lengths.items():
         if length in parameters:
             ratios[name] = parameters[length] / radius
+    if "preload" in parameters:
+        unit = 3 * arb.pi() / 2 * radius * arb(parameters["work_of_adhesion"])
+        ratios["load_max"] = parameters["preload"] / unit
     if "spring_constant" in parameters:
         ratios["machine_stiffness"] = parameters["spring_constant"] / (arb(parameters["E_star"]) * radius)
     if "amplitude" in parameters:
@@ -177,6 +184,7 @@ def in_si(found: Mapping[str, Expected], parameters: Mapping[str, float]) -> dic
         "unloading_energy": radius * radius * work,
         "delta_max": radius,
         "delta_jump_out": radius,
+        "turning_radius": radius,
     }
     return {
         f"{name}_si": Expected(
@@ -223,6 +231,19 @@ def _of_cycle(solution: Solution) -> dict[str, Expected]:
     }
 
 
+def _of_turn(solution: Solution) -> dict[str, Expected]:
+    near = "a fold is about to be passed" if solution.margin_jumps < NEAR else ""
+    if solution.turning_radius is None:
+        return {"turning_radius": Expected(arb("inf"), 0.0)}
+    share = ROUNDED + DEPTH * solution.turning_condition
+    found = {"turning_radius": Expected(solution.turning_radius, _share(share, solution.turning_radius), near)}
+    if solution.turning_slope > 0.0:  # the pull-off is where the cycle turns
+        force = _share(FORCE + share * solution.turning_slope, solution.pull_off_force)
+        found["pull_off_force"] = Expected(solution.pull_off_force, force, near)
+        found["pull_off_radius"] = Expected(solution.pull_off_radius, _share(RADIUS + share, solution.pull_off_radius))
+    return found
+
+
 def _of_envelope(parameters: Mapping[str, float], shape: Shape) -> dict[str, Expected]:
     solution = solve_envelope(parameters, shape)
     near = "r = s, where jumps into contact end" if solution.margin_jumps < NEAR else ""
@@ -248,11 +269,15 @@ def _depth(value: arb | None, size: float) -> Expected:
 
 
 def _share(share: float, value: arb) -> float:
+    if not value.is_finite():  # there is no value, and none may be
+        return 0.0
     return share * abs(float(value)) if math.isfinite(share) else math.inf
 
 
 def deviation(value: float, of: Expected) -> float:
-    """Return how far a double is from what is expected of it, rounded once; inf if only one of them is finite."""
+    """Return how far a double is from what is expected of it, rounded once; inf if only one of them is a number."""
     if of.value == arb("inf"):
         return 0.0 if value == math.inf else math.inf
-    return float(abs(arb(value) - of.value)) if math.isfinite(value) and of.value.is_finite() else math.inf
+    if math.isfinite(value) and of.value.is_finite():
+        return float(abs(arb(value) - of.value))
+    return 0.0 if math.isnan(value) and str(of.value) == "nan" else math.inf
