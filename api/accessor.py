@@ -88,7 +88,7 @@ class Accessor:
         return (self._dataset["status"] & FLAGS[flag]) != 0
 
     def plot(self, variables: Any = None, **choices: Any) -> Any:
-        """Draw the dataset, as `gradhesion.plot(dataset, variables, ...)`; the figure of matplotlib is returned."""
+        """Draw the dataset, as `gradhesion.plot(dataset, variables, ...)`; the axes of its panels are returned."""
         import gradhesion  # noqa: PLC0415 (which may be importing this module)
 
         return gradhesion.plot(self._dataset, variables, **choices)

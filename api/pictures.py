@@ -2,11 +2,11 @@
 
 import io
 from collections.abc import Mapping, Sequence
-from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, Final, Literal, overload
 
 import xarray
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
@@ -17,10 +17,46 @@ from gradhesion.cli.errors import DatasetError, MissingExtraError, OutputError
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import SCENE, SOLVER
 from gradhesion.cli.picture.curve_picture import drawn_curves
+from gradhesion.cli.picture.looks import Looks, looks_of
 from gradhesion.cli.picture.picture import drawn
 from gradhesion.cli.picture.pictured import styled
 from gradhesion.datasets import Data, data_of
 from gradhesion.wording import in_python
+
+BAR: Final = "<colorbar>"
+"""What matplotlib labels the axes of a colour bar."""
+
+
+class Panels(Sequence[Axes]):
+    """The axes of a picture; a notebook shows their figure."""
+
+    def __init__(self, figure: Figure, looks: Looks) -> None:
+        self.figure = figure
+        self._axes = [axes for axes in figure.axes if axes.get_label() != BAR]
+        self._looks = looks
+
+    @overload
+    def __getitem__(self, item: int) -> Axes: ...
+    @overload
+    def __getitem__(self, item: slice) -> list[Axes]: ...
+    def __getitem__(self, item: int | slice) -> Axes | list[Axes]:
+        """Give one of the axes, or some of them."""
+        return self._axes[item]
+
+    def __len__(self) -> int:
+        """Count the axes."""
+        return len(self._axes)
+
+    def savefig(self, file: Any, **options: Any) -> None:
+        """Save the figure in its own style, as `matplotlib.figure.Figure.savefig`."""
+        with styled(self._looks):
+            self.figure.savefig(file, **options)
+
+    def _repr_png_(self) -> bytes:
+        """Draw the figure for a notebook."""
+        content = io.BytesIO()
+        self.savefig(content, format="png")
+        return content.getvalue()
 
 
 def plot(
@@ -32,7 +68,16 @@ def plot(
     interpolate: bool = False,
     x: str | None = None,
     y: str | None = None,
-) -> Figure:
+    kind: Literal["lines", "map"] | None = None,
+    width: float | str | None = None,
+    height: float | str | None = None,
+    colour_map: str | None = None,
+    levels: int | Sequence[float] | None = None,
+    labels: bool = True,
+    title: bool = True,
+    caption: bool = True,
+    style: str | Path | None = None,
+) -> Panels:
     r"""
     Draw a dataset: lines over one axis, a map over two, panels of maps over more; curves as curves.
 
@@ -49,38 +94,64 @@ def plot(
     interpolate
         Whether `at` interpolates between two values.
     x, y
-        The axes along the sides of a panel.
+        The axes along the sides of a panel; of curves "contact_radius", "indentation" or "load".
+    kind
+        "lines" or "map" in the place of what the number of values suggests.
+    width, height
+        The sides of the figure: inches, "8 cm", or as a width "column" (90 mm) or "page" (190 mm).
+    colour_map
+        A colour map of matplotlib; "viridis" if None.
+    levels
+        Contour levels: about how many, or which ones, in the unit of the variable.
+    labels
+        Whether contours have numbers on them.
+    title, caption
+        Whether the title of the study, and the parameters that are not drawn, are written above the panels.
+    style
+        A style of matplotlib on top of "gradhesion.style", by name or file; "gradhesion.journal" is one.
 
     Returns
     -------
-    The figure of matplotlib, not of pyplot: a notebook shows it, `figure.savefig("map.pdf")` keeps it, `figure.axes`
-    are its panels, to be changed.
+    The axes of the panels, without those of colour bars, to be changed as any axes of matplotlib. A notebook shows
+    their figure, which is `figure` and not one of pyplot; `savefig("map.pdf")` saves it.
 
     Raises
     ------
     DatasetError
-        The dataset is none of this program, lacks what is asked for, or nothing varies in it.
+        The dataset is none of this program, lacks what is asked for, or nothing varies in it; a size, a colour map or a
+        style does not exist.
 
     Examples
     --------
     >>> import gradhesion as gr
     >>> punch = dict(k=0.0, nu=0.3, modulus=500.0, c0_over_R=0.01, A=0.01, a_max_over_R=1.0)
     >>> lines = gr.solve(punch, lambda_over_R=[0.1, 0.2, 0.4])
-    >>> print(*(panel.get_xlabel() for panel in gr.plot(lines, "pull_off_force").axes))
-    $\lambda/R$
+    >>> (panel,) = gr.plot(lines, "pull_off_force", width="column", title=False)
+    >>> panel.get_xlabel()
+    '$\\lambda/R$'
     """
     names = _listed(variables)
     with in_python(), data_of(dataset) as values:
+        looks = looks_of(
+            kind=kind,
+            width=width,
+            height=height,
+            colour_map=colour_map,
+            levels=levels,
+            labels=labels,
+            title=title,
+            caption=caption,
+            style=style,
+        )
         _check_dimensions(values)
         selection = selection_of(values, _wishes(at), _wishes(over), interpolate=interpolate)
         if not has_curves(values):
-            figure = drawn(values, names, selection, x=x, y=y)
-        elif given := [word for word, on in (("over", over), ("x", x), ("y", y), ("interpolate", interpolate)) if on]:
+            figure = drawn(values, names, selection, x=x, y=y, looks=looks)
+        elif given := [word for word, on in (("over", over), ("interpolate", interpolate)) if on]:
             raise DatasetError(f"{given[0]}: curves are drawn as they are; choose scenes with at")
         else:
-            figure = drawn_curves(selection.narrowed(values), names)
-    vars(figure)["_repr_png_"] = partial(_png, figure)
-    return figure
+            figure = drawn_curves(selection.narrowed(values), names, x=x, y=y, looks=looks)
+    return Panels(figure, looks)
 
 
 def explore(
@@ -160,11 +231,3 @@ def _listed(names: Sequence[str] | str | None) -> list[str]:
 def _wishes(wishes: Mapping[str, Any] | None) -> list[str]:
     """Write wishes as a command takes them."""
     return [f"{axis}={value}" for axis, value in (wishes or {}).items()]
-
-
-def _png(figure: Figure) -> bytes:
-    """Draw a figure for a notebook."""
-    content = io.BytesIO()
-    with styled():
-        figure.savefig(content, format="png")
-    return content.getvalue()

@@ -8,7 +8,11 @@ from typing import Final
 from gradhesion.cli.errors import GradhesionError
 
 _OPTIONS: Final = (
-    (r"--(set|at|over|variable|x|y|interpolate|sample|seed)\b", r"\1"),
+    (r"--colour-map\b", "colour_map"),
+    (r"write 8 or 0.5,1,2", "write 8 or [0.5, 1, 2]"),
+    (r"--(lines|map)\b", r'kind="\1"'),
+    (r"--no-(title|caption)\b", r"\1=False"),
+    (r"--(set|at|over|variable|x|y|interpolate|width|height|levels|style|sample|seed)\b", r"\1"),
     (r"(?:; )?name another with -o", ""),
 )
 """Options of commands are keywords in Python."""

@@ -209,7 +209,7 @@ SOLVERS: Final = "how the scenes are solved"
 
 SYMBOLS: Final = {
     **{name: key.symbol for name, key in INPUTS.items()},
-    "pull_off_force": r"pull-off force $F\,/\,\frac{3}{2}\pi R\Delta\gamma$",
+    "pull_off_force": r"pull-off force $F\,/\,(\frac{3}{2}\pi R\Delta\gamma)$",
     "pull_off_radius": "radius at pull-off $a/R$",
     "dissipated_energy": r"dissipated energy $H/R^2\Delta\gamma$",
     "loading_jumps": "jumps on loading",
@@ -218,7 +218,7 @@ SYMBOLS: Final = {
     "delta_jump_out": r"depth at jump-out $\delta/R$",
     "loading_energy": r"energy of loading $H/R^2\Delta\gamma$",
     "unloading_energy": r"energy of unloading $H/R^2\Delta\gamma$",
-    "pull_off_force_error": r"error of the force $/\,\frac{3}{2}\pi R\Delta\gamma$",
+    "pull_off_force_error": r"error of the force $/\,(\frac{3}{2}\pi R\Delta\gamma)$",
     "dissipated_energy_error": r"error of the energy $/R^2\Delta\gamma$",
     "energy_residual": r"residual of the energy $/R^2\Delta\gamma$",
     "roughness_parameter": r"roughness parameter $\chi$",

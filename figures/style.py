@@ -1,7 +1,6 @@
 """What the pictures have in common: labels of axes, colours, dashes."""
 
 from contextlib import AbstractContextManager
-from pathlib import Path
 from typing import Any, Final
 
 import matplotlib.style
@@ -9,9 +8,9 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from gradhesion.cli.picture import pictured
+from gradhesion.cli.picture import looks
 
-STYLE: Final = (pictured.STYLE, Path(__file__).with_name("journal.mplstyle"))
+STYLE: Final = (looks.STYLE, "gradhesion.journal")
 """The style of all pictures, and what differs in a column of a journal."""
 
 

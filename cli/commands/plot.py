@@ -1,7 +1,7 @@
 """`gradhesion plot`: the right picture for the shape of a dataset."""
 
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import click
 
@@ -11,7 +11,11 @@ from gradhesion.cli.commands.written import say_written
 FORMS: Final = ("png", "svg", "pdf")
 
 
-@click.command(epilog=example("plot outputs/study.nc", "plot outputs/study.nc -o map.pdf --at A=0.02 --over k=max"))
+@click.command(
+    epilog=example(
+        "plot outputs/study.nc", "plot outputs/study.nc -o map.pdf --at A=0.02 --over k=max --width column --no-title"
+    )
+)
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Picture: .png, .svg or .pdf [FILE.png].")
 @click.option("--variable", "variables", multiple=True, metavar="NAME", help="What to draw; repeat it for several.")
@@ -20,8 +24,18 @@ FORMS: Final = ("png", "svg", "pdf")
 @click.option(
     "--over", multiple=True, metavar="AXIS=HOW", help="Reduce an axis by max, min or mean, or to argmax or argmin."
 )
-@click.option("--x", metavar="AXIS", help="The axis along the abscissa.")
-@click.option("--y", metavar="AXIS", help="The axis along the ordinate of a map.")
+@click.option("--x", metavar="AXIS", help="The axis along the abscissa; of curves contact_radius, indentation or load.")
+@click.option("--y", metavar="AXIS", help="The axis along the ordinate of a map, or what tells lines apart.")
+@click.option("--lines", "kind", flag_value="lines", help="Draw lines, also where an axis has many values.")
+@click.option("--map", "kind", flag_value="map", help="Draw a map, also where an axis has few values.")
+@click.option("--width", metavar="SIZE", help='Width: inches, "8 cm", or column (90 mm) or page (190 mm) of a journal.')
+@click.option("--height", metavar="SIZE", help="Height, likewise; chosen to suit the width if it is not given.")
+@click.option("--colour-map", "--color-map", metavar="NAME", help="A colour map of matplotlib [viridis].")
+@click.option("--levels", metavar="LEVELS", help="Contour levels: about how many (8), or which ones (0.5,1,2).")
+@click.option("--labels/--no-labels", default=True, help="Whether contours have numbers on them [yes].")
+@click.option("--title/--no-title", default=True, help="Whether the title of the study is written [yes].")
+@click.option("--caption/--no-caption", default=True, help="Whether the fixed parameters are written [yes].")
+@click.option("--style", metavar="STYLE", help="A style of matplotlib, by name or file, on top of the usual one.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing picture.")
 @click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
 def plot(
@@ -35,11 +49,13 @@ def plot(
     y: str | None,
     overwrite: bool,
     quiet: bool,
+    **looks: Any,
 ) -> None:
     """Draw a dataset: lines, maps, panels or curves.
 
     What suits the shape of FILE: lines over one axis, a map over two, panels of maps over more; curves as curves.
     Options choose what of it: an axis is fixed (--at A=0.02), reduced (--over k=max) or given its place (--x, --y).
+    Others choose how it looks: its size, its colours, what is written on it.
     """
     path = output or file.parent / f"{file.stem or 'dataset'}.png"
     form = path.suffix[1:].lower()
@@ -52,21 +68,21 @@ def plot(
     from gradhesion.cli.disk import replacement, writing
     from gradhesion.cli.errors import DatasetError
     from gradhesion.cli.picture.curve_picture import drawn_curves
+    from gradhesion.cli.picture.looks import looks_of
     from gradhesion.cli.picture.picture import drawn
     from gradhesion.cli.picture.pictured import save
 
+    chosen = looks_of(**looks)
     with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
         selection = selection_of(dataset, at, over, interpolate=interpolate)
         if not has_curves(dataset):
-            figure = drawn(dataset, names, selection, x=x, y=y)
-        elif given := [
-            word for word, on in (("--over", over), ("--x", x), ("--y", y), ("--interpolate", interpolate)) if on
-        ]:
+            figure = drawn(dataset, names, selection, x=x, y=y, looks=chosen)
+        elif given := [word for word, on in (("--over", over), ("--interpolate", interpolate)) if on]:
             raise DatasetError(f"{given[0]}: curves are drawn as they are; choose scenes with --at")
         else:
-            figure = drawn_curves(selection.narrowed(dataset), names)
+            figure = drawn_curves(selection.narrowed(dataset), names, x=x, y=y, looks=chosen)
         with writing(path):
-            save(figure, temporary, form)
+            save(figure, temporary, form, chosen)
         notes = [] if interpolate else nearest_values(dataset, at)
     if not quiet:
         say_written(path, notes)

@@ -31,6 +31,26 @@ class Taken:
     status: xarray.DataArray
     left_out: int
     """The scenes without a value, or failed, that reductions have left out."""
+    at_end: xarray.DataArray | None = None
+    """Whether an extreme whose place is taken is at an end of its axis, beyond which it may lie."""
+    flat: int = 0
+    """The places left out because the values along the axis are equal but for rounding: no extreme has a place."""
+
+
+FLAT: Final = 1e-9
+"""Values that differ by less, over their size, are equal: what is left is rounding."""
+
+
+def placed(values: xarray.DataArray, axis: str, how: str) -> tuple[xarray.DataArray, xarray.DataArray]:
+    """Report where the extreme along an axis is at an end of it, and where there is none since the values are equal."""
+    there = values.notnull()
+    least, greatest = values.min(axis), values.max(axis)
+    flat = (greatest - least) <= FLAT * np.maximum(abs(least), abs(greatest))
+    order = np.argsort(np.argsort(values[axis].values, kind="stable"), kind="stable")  # an axis may fall
+    place = values.fillna(-np.inf).argmax(axis) if how.endswith("max") else values.fillna(np.inf).argmin(axis)
+    rank = xarray.DataArray(order[place.values], place.coords, place.dims)
+    ends = (rank == 0) | (rank == order.size - 1)
+    return (ends & there.any(axis) & ~flat).drop_vars(axis, errors="ignore"), flat.drop_vars(axis, errors="ignore")
 
 
 def without_failed(values: xarray.DataArray, status: xarray.DataArray) -> tuple[xarray.DataArray, int]:

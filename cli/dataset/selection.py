@@ -11,7 +11,7 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.reductions import REDUCTIONS, Between, Taken, interpolated, reduced, without_failed
+from gradhesion.cli.dataset.reductions import REDUCTIONS, Between, Taken, interpolated, placed, reduced, without_failed
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS, PHYSICAL
 from gradhesion.cli.names import SCENE, SOLVER
@@ -59,9 +59,15 @@ class Selection:
         left_out = 0
         if self.over:
             values, left_out = without_failed(values, status)
+        at_end, flat = None, 0
         for axis, how in self.over.items():
+            wide = values
             values, status = reduced(values, status, axis, how)
-        return Taken(values=values, status=status, left_out=left_out)
+            at_end, flat = None, 0
+            if how.startswith("arg"):
+                at_end, equal = placed(wide, axis, how)
+                values, flat = values.where(~equal), int(equal.sum())
+        return Taken(values=values, status=status, left_out=left_out, at_end=at_end, flat=flat)
 
 
 def selection_of(

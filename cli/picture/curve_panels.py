@@ -1,16 +1,16 @@
 """The lines of a curve dataset, and how each is drawn into axes that are given."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import to_rgb
+from matplotlib.colors import Colormap, to_rgb
 from numpy.typing import NDArray
 
 from gradhesion.cli.picture.doubts import Doubt
-from gradhesion.cli.picture.panels import COLOURS
+from gradhesion.cli.picture.looks import PLAIN
 
 Values = NDArray[np.float64]
 Steps = NDArray[np.bool_]
@@ -52,6 +52,8 @@ class Track:
     width: float
     colour: Colour
     """Its colour where colours do not tell scenes apart."""
+    shade: float | None
+    """Where that is among the colours of a colour map; None: it is grey in all."""
     unloading: bool | None = None
     """Whether it is the loading or the unloading part of its curve, if it is a part."""
 
@@ -68,7 +70,8 @@ def _track(
         load=f"{stem}load",
         dash=dash,
         width=width,
-        colour=to_rgb("0.55" if curve == "smooth" else COLOURS(shade)),
+        colour=to_rgb("0.55" if curve == "smooth" else PLAIN.colours(shade)),
+        shade=None if curve == "smooth" else shade,
         unloading=unloading,
     )
 
@@ -93,6 +96,37 @@ TRACKS_OF_MANY: Final = tuple(
     if track.unloading is not True
 )
 """Every line where there are several scenes: finer, and the path in one."""
+
+
+MARKERS: Final = ("o", "s", "D", "P", "X")
+"""What tells scenes apart where colours do not print."""
+
+MARKED: Final = 0.22
+"""How far apart these markers stand along a line, in diagonals of the panel."""
+
+
+def coloured(tracks: Sequence[Track], colours: Colormap) -> tuple[Track, ...]:
+    """Give lines the colours of a colour map."""
+    return tuple(
+        track if track.shade is None else replace(track, colour=to_rgb(colours(track.shade))) for track in tracks
+    )
+
+
+def draw_marks(
+    axes: Axes, track: Track, scene: Mapping[str, Values], x: str, y: str, colour: Colour, item: int
+) -> None:
+    """Put the markers of a scene along a line, evenly in the panel, those of the next scene beside them."""
+    start = MARKED * (0.15 + item / len(MARKERS))
+    axes.plot(
+        scene[getattr(track, x)],
+        scene[getattr(track, y)],
+        ls="",
+        marker=MARKERS[item % len(MARKERS)],
+        ms=3.2,
+        color=colour,
+        mew=0.0,
+        markevery=(start, MARKED),
+    )
 
 
 def draw_track(axes: Axes, track: Track, scene: Mapping[str, Values], x: str, y: str, colour: Colour) -> None:
@@ -168,13 +202,13 @@ def draw_doubt(
 
 
 def jumps_of(track: Track, scene: Mapping[str, Values]) -> Steps:
-    """Tell which steps from point to point are jumps (none if the dataset does not know)."""
+    """Report which steps from point to point are jumps (none if the dataset does not know)."""
     flags = scene.get(f"{track.curve}_jump")
     return np.zeros(1, bool) if flags is None else flags[1:] == 1.0
 
 
 def falls_of(track: Track, scene: Mapping[str, Values]) -> Steps:
-    """Tell which steps of the equilibrium curve are unstable: depth falls there (none if the dataset does not know)."""
+    """Report which steps of the equilibrium curve are unstable: the depth falls (none if the dataset does not know)."""
     depths = scene.get(track.indentation) if track.curve == "equilibrium" else None
     return np.zeros(1, bool) if depths is None else np.diff(depths) < 0.0
 

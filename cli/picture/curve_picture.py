@@ -17,6 +17,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import RAGGED, SCENE, STATE_CURVES
 from gradhesion.cli.picture.curve_panels import (
     JUMP,
+    MARKERS,
     THIN,
     TRACKS,
     TRACKS_OF_MANY,
@@ -24,8 +25,10 @@ from gradhesion.cli.picture.curve_panels import (
     Dash,
     Track,
     Values,
+    coloured,
     draw_arrows,
     draw_doubt,
+    draw_marks,
     draw_track,
     faded,
     falls_of,
@@ -34,13 +37,19 @@ from gradhesion.cli.picture.curve_panels import (
 from gradhesion.cli.picture.curve_units import axis_label, in_si, in_unit, units_of, wants_si
 from gradhesion.cli.picture.doubts import CROSS, DOUBTS, Doubt, doubts_in, entries
 from gradhesion.cli.picture.labels import Unit, equation, given
-from gradhesion.cli.picture.panels import COLOURS
-from gradhesion.cli.picture.pictured import heading, in_lines, styled
+from gradhesion.cli.picture.looks import PLAIN, Looks
+from gradhesion.cli.picture.pictured import heading, in_lines, lay_out, styled
 from gradhesion.cli.picture.state_picture import draw_states
 from gradhesion.cli.terminal.wording import did_you_mean
 
+QUANTITIES: Final = ("contact_radius", "indentation", "load")
+"""What a panel may have along or up."""
+
 PLANES: Final = (("indentation", "load"), ("contact_radius", "indentation"), ("contact_radius", "load"))
-"""What each panel has along and up."""
+"""What each panel has along and up, unless that is chosen."""
+
+NARROW: Final = 1.7
+"""The width of a panel, in inches, below which panels stand below each other if a width is given."""
 
 SCENES: Final = 5
 """Scenes in one picture: more could not be told apart."""
@@ -60,23 +69,40 @@ class Scene:
     """Its curves without padding."""
     doubts: Sequence[Doubt]
     """What makes its path doubtful."""
+    item: int = 0
+    """Which of the scenes it is."""
 
 
-def drawn_curves(dataset: xarray.Dataset, asked: Sequence[str]) -> Figure:
+def drawn_curves(
+    dataset: xarray.Dataset,
+    asked: Sequence[str],
+    *,
+    x: str | None = None,
+    y: str | None = None,
+    looks: Looks = PLAIN,
+) -> Figure:
     """
     Draw curves of a dataset into three panels, in units if it has them; without any asked for, all of them.
 
-    Curves of states, over the distance from the axis, are drawn where they alone are asked for or there.
+    With x or y, the contact radius, indentation or load, those panels alone are drawn that have it there. Curves of
+    states, over the distance from the axis, are drawn where they alone are asked for or there.
 
     Raises
     ------
     DatasetError
         A curve is not there, has no value, or lacks two variables to draw over each other.
     """
+    _check(looks)
+    planes = _planes(x, y)
     chosen = _chosen(dataset, asked)
     of_states = [curve for curve in chosen if curve in STATE_CURVES]
     if of_states == chosen:
-        return draw_states(dataset, chosen)
+        if x or y:
+            raise DatasetError(
+                f"--{'x' if x else 'y'} {x or y}: curves of states are drawn over the distance from the axis; "
+                f"leave it out, or choose the panel with --variable, as in --variable {chosen[0]}"
+            )
+        return draw_states(dataset, chosen, looks)
     if of_states and asked:
         other = next(curve for curve in chosen if curve not in of_states)
         raise DatasetError(
@@ -84,45 +110,87 @@ def drawn_curves(dataset: xarray.Dataset, asked: Sequence[str]) -> Figure:
             "axis in common; ask for one after the other"
         )
     chosen = [curve for curve in chosen if curve not in of_states]
-    scenes, caption = _scenes(dataset)
-    known = TRACKS_OF_MANY if len(scenes) > 1 else TRACKS
+    scenes, caption = _scenes(dataset, looks)
+    known = coloured(TRACKS_OF_MANY if len(scenes) > 1 else TRACKS, looks.colours)
     if wants_si(map(str, dataset.data_vars), asked):
         known = tuple(in_si(track) for track in known)
-    planes = []
-    for x, y in PLANES:
-        there = [one for one in known if one.curve in chosen and {getattr(one, x), getattr(one, y)} <= dataset.keys()]
+    panels = []
+    for along, up in planes:
+        there = [
+            one for one in known if one.curve in chosen and {getattr(one, along), getattr(one, up)} <= dataset.keys()
+        ]
         if there:
-            planes.append((x, y, there))
-    if not planes:
+            panels.append((along, up, there))
+    if not panels and (x or y):
+        wanted = " ".join(f"--{side} {name}" for side, name in (("x", x), ("y", y)) if name)
+        raise DatasetError(
+            f"{wanted}: {', '.join(chosen)} of this dataset {'has' if len(chosen) == 1 else 'have'} no such plane; "
+            f'leave it out, or name whole curves in the outputs of the study, as in outputs = ["{chosen[0]}"]'
+        )
+    if not panels:
         raise DatasetError(
             f"{', '.join(chosen)}: a picture needs two of contact radius, indentation and load, and this dataset has "
             f'not; name whole curves in the outputs of the study, as in outputs = ["{chosen[0]}"]'
         )
-    tracks = [track for track in known if any(track in there for _, _, there in planes)]
+    tracks = [track for track in known if any(track in there for _, _, there in panels)]
     if not any(values.size for scene in scenes for values in scene.values.values()):
         raise DatasetError("no value in any scene drawn; `gradhesion info` reports why")
     units = units_of(tracks, [scene.values for scene in scenes])
     scenes = [replace(scene, values=in_unit(tracks, scene.values, units)) for scene in scenes]
-    with styled():
-        width = max(4.0, 2.5 * len(planes))
-        figure = Figure(figsize=(width, 3.5), layout="constrained")
-        for axes, (x, y, there) in zip(figure.subplots(1, len(planes), squeeze=False)[0], planes, strict=True):
+    with styled(looks):
+        width = looks.width or max(4.0, 2.5 * len(panels))
+        below = len(panels) if width < NARROW * len(panels) else 1
+        handles = _handles(scenes, tracks)
+        rows = -(-len(handles) // max(1, int(width / 1.7)))
+        columns = -(-len(handles) // rows)
+        more = 0.16 * (rows - 1)
+        figure = Figure(figsize=(width, looks.height or 2.4 * below + 1.1 + more), layout="constrained")
+        grid = figure.subplots(below, len(panels) // below, squeeze=False).ravel()
+        for axes, (along, up, there) in zip(grid, panels, strict=True):
             for track in there:
                 for scene in scenes:
-                    draw_track(axes, track, scene.values, x, y, scene.colour or track.colour)
+                    draw_track(axes, track, scene.values, along, up, scene.colour or track.colour)
+                    if scene.colour:
+                        draw_marks(axes, track, scene.values, along, up, scene.colour, scene.item)
                     if track.curve == "path" and not track.unloading:
                         for doubt in reversed(scene.doubts):  # the larger ones below
-                            draw_doubt(axes, track, scene.values, x, y, scene.colour or track.colour, doubt)
-            _dress(axes, x, y, units)
+                            draw_doubt(axes, track, scene.values, along, up, scene.colour or track.colour, doubt)
+            _dress(axes, along, up, units)
             arrows: list[Values] = []
             for track in there:
                 for scene in scenes:
-                    draw_arrows(axes, track, scene.values, x, y, scene.colour or track.colour, arrows)
-        handles = _handles(scenes, tracks)
-        columns = min(len(handles), 4 if len(planes) > 1 else 2)
-        figure.legend(handles=handles, loc="outside lower center", ncols=columns, fontsize=8, frameon=False)
-        figure.suptitle("\n".join(filter(None, (heading(dataset), in_lines(caption, width)))), fontsize=9, wrap=True)
+                    draw_arrows(axes, track, scene.values, along, up, scene.colour or track.colour, arrows)
+        figure.legend(handles=handles, loc="outside lower center", ncols=columns)
+        words = [heading(dataset) if looks.title else "", in_lines(caption, width) if looks.caption else ""]
+        if any(words):
+            figure.suptitle("\n".join(filter(None, words)), fontsize="medium", wrap=True)
+        if looks.width or looks.height:
+            lay_out(figure)
     return figure
+
+
+def _check(looks: Looks) -> None:
+    """Refuse what curves do not have."""
+    if looks.kind == "map":
+        raise DatasetError("--map: curves are drawn as lines; leave it out")
+    if looks.levels is not None:
+        raise DatasetError("--levels: contour levels are for a map, and curves have none; leave them out")
+
+
+def _planes(x: str | None, y: str | None) -> Sequence[tuple[str, str]]:
+    """List the planes that have a quantity along and one up, as they are chosen."""
+    for side, name in (("x", x), ("y", y)):
+        if name and name not in QUANTITIES:
+            raise DatasetError(
+                f"--{side} {name}: curves are drawn over contact_radius, indentation or load; "
+                f"{did_you_mean(name, QUANTITIES)}"
+            )
+    if x and x == y:
+        raise DatasetError(f"--x {x} --y {y}: one quantity cannot be both sides; choose another for one of them")
+    if x and y:
+        return ((x, y),)
+    planes = [(along, up) for along, up in PLANES if x in (None, along) and y in (None, up)]
+    return planes or [(name, y) if y else (str(x), name) for name in QUANTITIES if name not in (x, y)]
 
 
 def _chosen(dataset: xarray.Dataset, asked: Sequence[str]) -> list[str]:
@@ -140,8 +208,8 @@ def _chosen(dataset: xarray.Dataset, asked: Sequence[str]) -> list[str]:
     return [curve for curve, own in there.items() if not asked or {curve, *own} & {*asked}]
 
 
-def _scenes(dataset: xarray.Dataset) -> tuple[list[Scene], list[str]]:
-    """Choose the scenes to draw, along the last axis with more than one value; tell what they have in common."""
+def _scenes(dataset: xarray.Dataset, looks: Looks) -> tuple[list[Scene], list[str]]:
+    """Choose the scenes to draw, along the last axis with more than one value, and write what they have in common."""
     axes = [str(axis) for axis, size in dataset["status"].sizes.items() if size > 1]
     last = axes[-1] if axes else None
     first = dataset.isel({axis: 0 for axis in dataset["status"].dims if axis != last})
@@ -154,16 +222,16 @@ def _scenes(dataset: xarray.Dataset) -> tuple[list[Scene], list[str]]:
         scene = first.isel({last: item})
         varying = [last] if last != SCENE else _varying(dataset)
         label = ", ".join(equation(name, scene[name].item()) for name in varying[:2]) or f"scene {item}"
-        scenes.append(_scene(scene, label, to_rgb(COLOURS(0.75 * place / (len(items) - 1)))))
+        scenes.append(_scene(scene, label, to_rgb(looks.colours(0.75 * place / (len(items) - 1))), place))
     return scenes, _caption(dataset, axes)
 
 
-def _scene(scene: xarray.Dataset, label: str, colour: Colour | None) -> Scene:
+def _scene(scene: xarray.Dataset, label: str, colour: Colour | None, item: int = 0) -> Scene:
     """Make a scene; one that has no value is grey and says so."""
     values = _trimmed(scene)
     if label and not any(row.size for row in values.values()):
         label, colour = f"{label} (no value)", to_rgb(CROSS)
-    return Scene(label=label, colour=colour, values=values, doubts=doubts_in(scene["status"].values, "path"))
+    return Scene(label=label, colour=colour, values=values, doubts=doubts_in(scene["status"].values, "path"), item=item)
 
 
 def _varying(dataset: xarray.Dataset) -> list[str]:
@@ -172,7 +240,7 @@ def _varying(dataset: xarray.Dataset) -> list[str]:
 
 
 def _caption(dataset: xarray.Dataset, axes: Sequence[str]) -> list[str]:
-    """Tell the parameters that are the same in all scenes drawn."""
+    """Write the parameters that are the same in all scenes drawn."""
     told = []
     for name in given(dataset.coords):
         values = np.unique(dataset[name].values)
@@ -203,7 +271,12 @@ def _handles(scenes: Sequence[Scene], tracks: Sequence[Track]) -> list[Artist]:
     def entry(label: str, colour: Colour, dash: Dash = "-", width: float = 1.6) -> Line2D:
         return Line2D([], [], color=colour, ls=dash, lw=width, label=label)
 
-    made: list[Artist] = [entry(scene.label, scene.colour) for scene in scenes if scene.colour]
+    made: list[Artist] = []
+    for scene in scenes:
+        if scene.colour:
+            line = entry(scene.label, scene.colour)
+            line.set(marker=MARKERS[scene.item % len(MARKERS)], ms=3.2, mew=0.0)
+            made.append(line)
     inked = bool(made)
     for track in tracks:
         made.append(entry(track.label, INK if inked else track.colour, track.dash, track.width))

@@ -14,7 +14,7 @@ from gradhesion.cli.picture.labels import Unit, unit_for
 LABELS: Final = {
     "contact_radius": "contact radius $a/R$",
     "indentation": r"depth $\delta/R$",
-    "load": r"load $P\,/\,\frac{3}{2}\pi R\Delta\gamma$",
+    "load": r"load $P\,/\,(\frac{3}{2}\pi R\Delta\gamma)$",
 }
 """The quantities of a track, as an axis names them."""
 

@@ -64,10 +64,13 @@ def doubts_in(status: NDArray[Any], variable: str) -> list[Doubt]:
     ]
 
 
+END: Final = Doubt(bit=0, words="extreme at an end of its axis: it may lie beyond", hatch="....", mark="^", size=4.5)
+"""How the place of an extreme is shown that is no extreme of a wider axis, perhaps."""
+
 GAP: Final = "no finite value"
 """What a legend says of scenes without a value."""
 
-ORDER: Final = (*(doubt.words for doubt in DOUBTS), GAP)
+ORDER: Final = (*(doubt.words for doubt in DOUBTS), END.words, GAP)
 """The order of the entries of a legend."""
 
 

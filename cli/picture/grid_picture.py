@@ -1,23 +1,27 @@
 """One variable of a grid of scenes: a map, lines, or panels of them over further axes."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 import xarray
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
+from matplotlib.contour import QuadContourSet
 from matplotlib.figure import SubFigure
 from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.reductions import Taken
 from gradhesion.cli.dataset.selection import Selection
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SOLVER, SYMBOLS
 from gradhesion.cli.picture import panels
-from gradhesion.cli.picture.doubts import Doubt, doubts_in, entries
+from gradhesion.cli.picture.doubts import END, Doubt, doubts_in, entries
 from gradhesion.cli.picture.labels import Unit, equation, given, label, unit_for
 from gradhesion.cli.picture.layout import PANELS, Plan, items_of
-from gradhesion.cli.picture.pictured import in_lines
+from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.scales import scale
 
 APART: Final = 0.17
@@ -30,16 +34,30 @@ def shape_of(sizes: Mapping[str, int], plan: Plan) -> tuple[int, int]:
     return rows, columns
 
 
-def draw_grid(
-    part: SubFigure, dataset: xarray.Dataset, name: str, plan: Plan, selection: Selection
-) -> tuple[float, float, list[Any]]:
-    """
-    Draw one variable of a narrowed dataset.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Part:
+    """What is drawn of a variable, as the figure around it needs it."""
 
-    Returns
-    -------
-    The width and the height that it wants, in inches, and what a legend shall tell of it.
-    """
+    width: float
+    height: float
+    """The size that suits it, in inches."""
+    entries: Sequence[Artist]
+    """What a legend shows of it."""
+    contours: Sequence[tuple[QuadContourSet, Unit]] = ()
+    """Contours that want numbers."""
+    caption: Sequence[str] = ()
+    """What is said above it."""
+
+
+def draw_grid(
+    part: SubFigure,
+    dataset: xarray.Dataset,
+    name: str,
+    plan: Plan,
+    selection: Selection,
+    looks: Looks = PLAIN,
+) -> Part:
+    """Draw one variable of a narrowed dataset."""
     sizes = {str(axis): size for axis, size in dataset["status"].sizes.items()}
     items = items_of(sizes, plan)
     taken = selection.taken(*(dataset[one].isel(items) for one in (name, "status")))
@@ -49,23 +67,29 @@ def draw_grid(
     status = status.where(np.isfinite(cut), 0)
     finite = cut.values[np.isfinite(cut.values)]
     if not finite.size:
-        raise DatasetError(f"{name}: no value in any scene drawn; `gradhesion info` tells why")
+        raise DatasetError(f"{name}: no value in any scene drawn; `gradhesion info` shows why")
     doubts = doubts_in(status.values, name)
+    marks = [(doubt, (status & doubt.bit) != 0) for doubt in doubts]
+    if taken.at_end is not None and bool(taken.at_end.any()):
+        marks.append((END, taken.at_end.squeeze([axis for axis in taken.at_end.dims if axis not in kept])))
     kind = _axis_of_place(selection) or name
     unit = unit_for(kind, finite)
     rows, columns = shape_of(sizes, plan)
     grid = part.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     whole = dataset[name].dtype.kind == "i" and bool((finite == np.round(finite)).all())
-    if whole and name == "status" and plan.is_map:
+    if whole and name == "status":
         codes = np.unique(finite)
         cut = cut.copy(data=np.searchsorted(codes, cut)).where(cut.notnull())
-        levels = panels.levels_of_flags(codes)
+        levels = panels.levels_of_flags(codes, looks)
     else:
-        levels = panels.levels_of(float(finite.min()), float(finite.max()), whole=whole)
+        levels = panels.levels_of(float(finite.min()), float(finite.max()), whole=whole, looks=looks)
+    contours = []
     for i, line in enumerate(grid):
         for j, axes in enumerate(line):
             place = {axis: item for axis, item in ((plan.columns, j), (plan.rows, i)) if axis}
-            _draw_panel(axes, cut.isel(place), status.isel(place), plan, levels, doubts, unit)
+            marked = [(doubt, flags.isel(place)) for doubt, flags in marks]
+            lines = _draw_panel(axes, cut.isel(place), marked, plan, levels, unit)
+            contours += [(lines, unit)] if lines else []
             if plan.columns and i == 0:
                 axes.set_title(equation(plan.columns, cut[plan.columns].values[j]))
             if plan.rows and j == columns - 1:
@@ -74,42 +98,42 @@ def draw_grid(
             axes.label_outer()
     width, height = (2.1, 1.8) if columns > 1 else (3.6, 2.9)
     named = _named(name, selection, unit)
-    _dress(part, grid, plan, cut, named, unit, levels, height * rows)
+    scale_of = (looks.height / (height * rows + 0.6)) if looks.height else 1.0
+    _dress(part, grid, plan, cut, named, unit, levels, height * rows * min(1.0, scale_of))
     width = width * columns + (2.2 if levels.names else 1.2)
-    caption = in_lines(_caption(dataset, plan, items, selection, taken.left_out), width)
-    part.suptitle(caption, fontsize=8)
-    lines = caption.count("\n") * 0.15 + (0.0 if plan.is_map or not plan.second else 0.3)
-    return width, height * rows + 0.6 + lines, entries(doubts, in_map=plan.is_map, gaps=finite.size < cut.size)
+    caption = _caption(dataset, plan, items, selection, taken)
+    more = 0.0 if plan.is_map or not plan.second else 0.3
+    shown = entries([doubt for doubt, _ in marks], in_map=plan.is_map, gaps=finite.size < cut.size - taken.flat)
+    return Part(width=width, height=height * rows + 0.6 + more, entries=shown, contours=contours, caption=caption)
 
 
 def _draw_panel(
     axes: Axes,
     panel: xarray.DataArray,
-    status: xarray.DataArray,
+    marks: Sequence[tuple[Doubt, xarray.DataArray]],
     plan: Plan,
     levels: panels.Levels,
-    doubts: Sequence[Doubt],
     unit: Unit,
-) -> None:
-    """Draw one panel of a variable."""
+) -> QuadContourSet | None:
+    """Draw one panel of a variable; what has no value has no mark. The contours of a map are returned."""
+    marks = [(doubt, flags & panel.notnull()) for doubt, flags in marks]
     x = scale(panel[plan.x].values, plan.x)
     if plan.second is None:
-        flags = status.values[x.order]
-        doubtful = [(doubt, {"": doubt.marks(flags)}) for doubt in doubts]
+        doubtful = [(doubt, {"": flags.values[x.order]}) for doubt, flags in marks]
         panels.draw_lines(axes, x, {"": panel.values[x.order].astype(float)}, levels, unit, doubtful)
-        return
+        return None
     items = panel[plan.second].values
     values = panel.transpose(plan.second, plan.x).values.astype(float)[:, x.order]
-    flags = status.transpose(plan.second, plan.x).values[:, x.order]
+    turned = [(doubt, flags.transpose(plan.second, plan.x).values[:, x.order]) for doubt, flags in marks]
     if plan.is_map:
         second = scale(items, plan.second)
-        marked = [(doubt, doubt.marks(flags)[second.order]) for doubt in doubts]
-        panels.draw_map(axes, x, second, values[second.order], levels, unit, marked)
-        return
+        marked = [(doubt, flags[second.order]) for doubt, flags in turned]
+        return panels.draw_map(axes, x, second, values[second.order], levels, marked)
     order = range(items.size) if plan.second == SOLVER else np.argsort(items)
     labels = {equation(plan.second, items[i]): i for i in order}
-    doubtful = [(doubt, {label: doubt.marks(flags[i]) for label, i in labels.items()}) for doubt in doubts]
+    doubtful = [(doubt, {label: flags[i] for label, i in labels.items()}) for doubt, flags in turned]
     panels.draw_lines(axes, x, {label: values[i] for label, i in labels.items()}, levels, unit, doubtful)
+    return None
 
 
 def _dress(
@@ -125,26 +149,31 @@ def _dress(
     """Put labels, and the colour bar or the legend, around the panels of a variable."""
     for axes in grid[-1]:
         axes.set_xlabel(label(plan.x, unit_for(plan.x, cut[plan.x].values)))
-    for axes in grid[:, 0]:
-        axes.set_ylabel(
-            label(plan.second, unit_for(plan.second, cut[plan.second].values)) if plan.is_map and plan.second else named
-        )
+    if plan.is_map and plan.second:
+        named_up = label(plan.second, unit_for(plan.second, cut[plan.second].values))
+    else:
+        named_up = "" if levels.names else named
+    if grid.shape[0] > 1 and not plan.is_map:  # a label of its own would be longer than a row is high
+        part.supylabel(named_up, fontsize="medium")
+    else:
+        for axes in grid[:, 0]:
+            axes.set_ylabel(named_up)
     if plan.is_map:
-        filled = ScalarMappable(norm=levels.norm, cmap=panels.COLOURS)
+        filled = ScalarMappable(norm=levels.norm, cmap=levels.looks.colours)
         bar = part.colorbar(
             filled, ax=grid, label="" if levels.names else named, boundaries=levels.levels, fraction=0.06, aspect=30
         )
         bar.ax.minorticks_off()
         if levels.names:
             bar.ax.set_title(named, loc="left")
-            bar.ax.set_yticks(range(len(levels.names)), levels.names, fontsize=7)
+            bar.ax.set_yticks(range(len(levels.names)), levels.names, fontsize="small")
             return
-        some = levels.levels[:: int(np.ceil(levels.levels.size * APART / height))]
+        some = levels.ticks(int(height / APART))
         bar.ax.set_yticks(some, [unit.number(level) for level in some])
     elif plan.second:
         handles, labels = grid[0, 0].get_legend_handles_labels()
         columns = min(len(labels), 3 if grid.shape[1] == 1 else 5)
-        part.legend(handles, labels, loc="outside lower center", ncols=columns, fontsize=8)
+        part.legend(handles, labels, loc="outside lower center", ncols=columns)
 
 
 def _axis_of_place(selection: Selection) -> str | None:
@@ -162,9 +191,9 @@ def _named(name: str, selection: Selection, unit: Unit) -> str:
 
 
 def _caption(
-    dataset: xarray.Dataset, plan: Plan, items: Mapping[str, Any], selection: Selection, left_out: int
+    dataset: xarray.Dataset, plan: Plan, items: Mapping[str, Any], selection: Selection, taken: Taken
 ) -> list[str]:
-    """Tell the parameters that are not drawn, and what stands for the axes that are fixed or reduced."""
+    """Write the parameters that are not drawn, and what stands for the axes that are fixed or reduced."""
     told = []
     between = {one.axis: one.value for one in selection.between}
     follows = {plan.x, plan.second, plan.columns, plan.rows, *selection.over}
@@ -177,8 +206,10 @@ def _caption(
         elif values.size == 1 and name not in follows:
             told.append(equation(name, values.item()))
     told += [f"{how} over {SYMBOLS[axis]}" for axis, how in selection.over.items()]
-    if left_out:
-        told.append(f"{left_out:,} failed {'scene' if left_out == 1 else 'scenes'} left out")
+    if taken.left_out:
+        told.append(f"{taken.left_out:,} failed {'scene' if taken.left_out == 1 else 'scenes'} left out")
+    if taken.flat:
+        told.append(f"{taken.flat:,} left out where all values are equal")
     for axis in (plan.x, plan.second):
         if axis and axis in items and axis not in (plan.columns, plan.rows):
             told.append(f"{len(items[axis]):,} of {dataset.sizes[axis]:,} values of {SYMBOLS[axis]}")

@@ -10,12 +10,13 @@ import xarray
 from gradhesion.cli.dataset.selection import Selection, axes_of, check_axis
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SCENE, SOLVER
+from gradhesion.cli.picture.looks import Kind
 
 PANELS: Final = 3
 """Panels along a row or a column: the ends of an axis and its middle."""
 
-LINES: Final = 5
-"""An axis of no more values than this is a set of lines rather than a side of a map."""
+LINES: Final = 6
+"""An axis of no more values than this is a set of lines rather than a side of a map; more lines look alike."""
 
 MOST: Final = 1000
 """Values along a side of a panel: more are finer than paper."""
@@ -35,15 +36,22 @@ class Plan:
     """Axes with no place of their own: they stay at their middle value."""
 
 
-def plan_of(sizes: Mapping[str, int], x: str | None = None, y: str | None = None) -> Plan | None:
+def plan_of(
+    sizes: Mapping[str, int], x: str | None = None, y: str | None = None, kind: Kind | None = None
+) -> Plan | None:
     """
     Give the finest axes to the panels, the next two to columns and rows; None if nothing varies.
 
     Solvers are the lines of a panel if nothing else is, and columns otherwise. What is asked for comes first.
 
-    >>> plan_of({"k": 6, "A": 1, "lambda_over_R": 200})
+    Raises
+    ------
+    DatasetError
+        A map is asked for, and one axis alone varies.
+
+    >>> plan_of({"k": 7, "A": 1, "lambda_over_R": 200})
     Plan(x='lambda_over_R', second='k', is_map=True, columns=None, rows=None, middle=())
-    >>> plan_of({"k": 6, "A": 3, "lambda_over_R": 200}, x="k", y="A")
+    >>> plan_of({"k": 7, "A": 3, "lambda_over_R": 200}, x="k", y="A")
     Plan(x='k', second='A', is_map=True, columns='lambda_over_R', rows=None, middle=())
     """
     varying = sorted((name for name, size in sizes.items() if size > 1), key=lambda name: -sizes[name])
@@ -58,7 +66,9 @@ def plan_of(sizes: Mapping[str, int], x: str | None = None, y: str | None = None
         free.insert(2, SOLVER)
     places: list[str | None] = [*free, None, None, None]
     first, second, columns, rows = free[0], *places[1:4]
-    is_map = second not in (None, SOLVER) and (y is not None or sizes[second] > LINES)
+    if kind == "map" and second in (None, SOLVER):
+        raise DatasetError(f"--map: a map needs two axes that vary, and here {first} alone does; use --lines")
+    is_map = second not in (None, SOLVER) and (kind or ("map" if y or sizes[second] > LINES else "lines")) == "map"
     return Plan(x=first, second=second, is_map=is_map, columns=columns, rows=rows, middle=tuple(free[4:]))
 
 
@@ -97,7 +107,7 @@ def placed(dataset: xarray.Dataset, selection: Selection, x: str | None, y: str 
 def items_of(sizes: Mapping[str, int], plan: Plan) -> dict[str, Any]:
     """Choose what is drawn of each axis: some values in panels, the middle where there is no place, else nearly all."""
     items: dict[str, Any] = {axis: sizes[axis] // 2 for axis in plan.middle}
-    most = {plan.x: MOST, plan.second if plan.is_map else None: MOST, plan.columns: PANELS, plan.rows: PANELS}
+    most = {plan.x: MOST, plan.second: MOST if plan.is_map else LINES, plan.columns: PANELS, plan.rows: PANELS}
     for axis, number in most.items():
         if axis is not None and sizes[axis] > number:
             items[axis] = sorted({round(item) for item in np.linspace(0, sizes[axis] - 1, number)})

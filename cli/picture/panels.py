@@ -5,24 +5,30 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
-from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, LogNorm, Normalize
+from matplotlib.contour import QuadContourSet
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
+from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.picture.doubts import CROSS, GREY, INK, Doubt
 from gradhesion.cli.picture.labels import Unit
+from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.scales import Scale
 from gradhesion.core import FLAGS
 
 Values = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-COLOURS = colormaps["viridis"]  # perceptual, and rising in lightness, so that it survives a grey print
+DASHES: Final[tuple[Any, ...]] = ("-", "--", "-.", ":", (0, (8, 4)), (0, (6, 1.5, 1, 1.5, 1, 1.5)))
+"""What tells lines apart where colours do not print; the gaps of those on top show what is below."""
 
 MARKS: Final = 40
 """Markers along a line, about: more would hide it."""
+
+ASIDE: Final = 0.4
+"""The height within a category over which series are spread."""
 
 FAR: Final = 50.0
 """The ratio of the greatest value to the least from which lines are drawn over a logarithm."""
@@ -30,8 +36,11 @@ FAR: Final = 50.0
 FLAT: Final = 1e-9
 """Values that differ by less, over their size, are drawn as equal: what is left is rounding."""
 
-_DARK: Final = 0.35
-"""How far up the colours need white hatches."""
+_DARK: Final = 0.4
+"""The lightness up to which colours need white hatches."""
+
+MIDDLE: Final = 0.5
+"""The lightness up to which colours need white lines."""
 
 _STEPS = (
     (30, (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)),
@@ -51,16 +60,47 @@ class Levels:
     """The least and the greatest of the values."""
     names: tuple[str, ...] = ()
     """What 0, 1, 2, ... stand for, where values are no more than that."""
+    looks: Looks = PLAIN
+    asked: bool = False
+    """Whether a user has listed the levels; the ends may then be those of the values."""
+
+    def inner(self) -> Values:
+        """Choose the levels that have lines."""
+        inner = self.levels[1:-1]
+        if self.asked:
+            return np.array([level for level in self.levels if level in self._listed()])
+        return inner[1::2] if inner.size > 5 else inner  # the others show as edges of the bands
+
+    def ticks(self, room: int) -> Values:
+        """Choose the levels that have numbers at a colour bar with room for so many."""
+        own = self.inner() if self.asked else self.levels
+        return own[:: max(1, -(-own.size // max(1, room)))]
+
+    def _listed(self) -> tuple[float, ...]:
+        return self.looks.levels if isinstance(self.looks.levels, tuple) else ()
 
 
-def levels_of(least: float, greatest: float, *, whole: bool = False) -> Levels:
+def levels_of(least: float, greatest: float, *, whole: bool = False, looks: Looks = PLAIN) -> Levels:
     """
     Choose round contour levels between two values, rising by ratios where they differ much; whole ones for numbers.
+
+    Those that are listed are taken as they are, with the ends of the values beyond them.
 
     >>> levels_of(1.0, 2.0).levels
     array([1. , 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9, 2. ])
     """
     extremes = least, greatest
+    if isinstance(looks.levels, tuple):
+        listed = np.array(looks.levels)
+        if not ((listed >= least) & (listed <= greatest)).any():
+            written = ",".join(f"{level:g}" for level in listed)
+            raise DatasetError(
+                f"--levels {written}: none is among the values, which are {least:.4g} to {greatest:.4g}; choose "
+                "some between"
+            )
+        levels = np.unique(np.concatenate([listed, [least, greatest]]))
+        norm = (LogNorm if levels[0] > 0 and levels[-1] > 8 * levels[0] else Normalize)(levels[0], levels[-1])
+        return Levels(levels=levels, norm=norm, extremes=extremes, looks=looks, asked=True)
     if greatest - least <= FLAT * max(abs(least), abs(greatest)):
         pad = 0.05 * max(abs(least), 1e-300)
         least, greatest = least - pad, greatest + pad
@@ -70,23 +110,27 @@ def levels_of(least: float, greatest: float, *, whole: bool = False) -> Levels:
         steps = next((steps for most, steps in _STEPS if greatest < most * least), (1.0,))
         rising = np.array([step * 10.0**decade for decade in decades for step in steps])
     else:
-        rising = np.asarray(MaxNLocator(11, steps=[1, 2, 2.5, 5, 10]).tick_values(least, greatest))
+        rising = np.asarray(MaxNLocator(looks.levels or 11, steps=[1, 2, 2.5, 5, 10]).tick_values(least, greatest))
     if whole:
         rising = np.unique(np.append(np.round(rising), np.ceil(greatest) + 1.0))
     first = max(0, int(np.searchsorted(rising, least, side="right")) - 1)
     levels = rising[first : int(np.searchsorted(rising, greatest)) + 1]
-    return Levels(levels=levels, norm=(LogNorm if log else Normalize)(levels[0], levels[-1]), extremes=extremes)
+    if looks.levels and levels.size > looks.levels + 1:  # ratios have steps of their own
+        kept = np.unique(np.round(np.linspace(0, levels.size - 1, max(2, looks.levels + 1))).astype(int))
+        levels = levels[kept]
+    norm = (LogNorm if log else Normalize)(levels[0], levels[-1])
+    return Levels(levels=levels, norm=norm, extremes=extremes, looks=looks)
 
 
-def levels_of_flags(codes: Values) -> Levels:
+def levels_of_flags(codes: Values, looks: Looks = PLAIN) -> Levels:
     """Give each code of a status a level of its own, named by its flags; values are to be places among the codes."""
     names = []
     for code in codes:
         flags = [name.replace("_", " ") for name, bit in FLAGS.items() if int(code) & bit]
         names.append("\n+ ".join(flags) or "nothing to report")
     edges: Values = np.arange(codes.size + 1, dtype=np.float64) - 0.5
-    norm = BoundaryNorm(edges, COLOURS.N)
-    return Levels(levels=edges, norm=norm, extremes=(0.0, codes.size - 1.0), names=tuple(names))
+    norm = BoundaryNorm(edges, looks.colours.N)
+    return Levels(levels=edges, norm=norm, extremes=(0.0, codes.size - 1.0), names=tuple(names), looks=looks)
 
 
 def draw_map(
@@ -95,28 +139,33 @@ def draw_map(
     y: Scale,
     values: Values,
     levels: Levels,
-    unit: Unit,
     doubtful: Sequence[tuple[Doubt, Flags]] = (),
-) -> None:
-    """Draw values[y, x] as filled contours with labelled lines; doubtful ones are hatched, what has none is grey."""
+) -> QuadContourSet | None:
+    """
+    Draw values[y, x] as filled contours; doubtful ones are hatched, what has none is grey.
+
+    Returns
+    -------
+    The lines among them, if there are some, for numbers on them.
+    """
+    colours = levels.looks.colours
     axes.patch.set_facecolor(GREY)
     if levels.names:
-        cells = axes.pcolormesh(x.edges(), y.edges(), values, norm=levels.norm, cmap=COLOURS)
+        cells = axes.pcolormesh(x.edges(), y.edges(), values, norm=levels.norm, cmap=colours)
         cells.set_edgecolor("face")
         x.dress(axes, "x")
         y.dress(axes, "y")
-        return
+        return None
     filled = axes.contourf(
-        x.positions, y.positions, values, levels=levels.levels, norm=levels.norm, cmap=COLOURS, extend="neither"
+        x.positions, y.positions, values, levels=levels.levels, norm=levels.norm, cmap=colours, extend="neither"
     )
     filled.set_edgecolor("face")  # no white seams between the bands
-    inner = levels.levels[1:-1]
-    inner = inner[1::2] if inner.size > 5 else inner  # the others show as edges of the bands
+    inner = levels.inner()
+    lines = None
     if inner.size and np.isfinite(values).any():
-        shades = ["white" if levels.norm(level) < 0.6 else "black" for level in inner]
+        shades = ["white" if _lightness(colours(levels.norm(level))) < MIDDLE else "black" for level in inner]
         lines = axes.contour(x.positions, y.positions, values, levels=inner, colors=shades, linewidths=0.4)
-        axes.clabel(lines, inner, fmt=unit.number, fontsize=6, inline_spacing=2)
-    dark = np.ma.filled(levels.norm(values), np.nan) < _DARK
+    dark = _lightness(colours(np.ma.filled(levels.norm(values), 0.0))) < _DARK
     for doubt, flags in doubtful:
         for shade, part in (("white", flags & dark), (INK, flags & ~dark)):
             if part.any():
@@ -131,6 +180,12 @@ def draw_map(
             axes.contour(x.positions, y.positions, shown, levels=(0.5,), colors=INK, linewidths=0.8)
     x.dress(axes, "x")
     y.dress(axes, "y")
+    return lines
+
+
+def _lightness(colours: Any) -> Any:
+    """Give the lightness of colours, from 0 to 1, as a grey print shows them (ITU-R BT.601)."""
+    return np.asarray(colours)[..., :3] @ (0.299, 0.587, 0.114)
 
 
 def draw_lines(
@@ -146,15 +201,16 @@ def draw_lines(
 
     Doubtful values have open markers, and a cross at the foot of the panel stands where there is none.
     """
-    dashes: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (8, 4)))  # the gaps of those on top show what is below
     for i, (label, values) in enumerate(curves.items()):
-        colour = COLOURS(0.85 * i / max(1, len(curves) - 1))
-        marks = "." if values.size <= MARKS else ""
+        colour = levels.looks.colours(0.85 * i / max(1, len(curves) - 1))
+        if levels.names:
+            values = values + _aside(i, len(curves))
+        marks = "." if values.size <= MARKS or levels.names else ""
         finite = x.positions[:-1] if x.infinite else x.positions
         axes.plot(
             finite,
             values[: finite.size],
-            ls=dashes[i % len(dashes)],
+            ls="" if levels.names else DASHES[i % len(DASHES)],  # there is nothing between categories
             color=colour,
             marker=marks,
             ms=3,
@@ -167,7 +223,7 @@ def draw_lines(
             _draw_marks(axes, doubt, x.positions, values, _some(flags[label]), colour)
         _draw_gaps(axes, x, values)
     x.dress(axes, "x")
-    _dress_values(axes, levels, unit)
+    dress_values(axes, levels, unit)
     axes.margins(x=0.02)
 
 
@@ -186,22 +242,33 @@ def draw_points(
     """
     marks = ("o", "^", "s")
     for i, (label, values) in enumerate(series.items()):
-        colour = COLOURS(0.25 + 0.6 * i / max(1, len(series) - 1))
+        colour = levels.looks.colours(0.25 + 0.6 * i / max(1, len(series) - 1))
         mark = marks[i % len(marks)]
+        if levels.names:
+            values = values + _aside(i, len(series))
         axes.plot(x.positions, values, mark, color=colour, ms=3, mec="white", mew=0.3, label=label)
         for doubt, flags in reversed(doubtful):  # the larger ones below
             _draw_marks(axes, doubt, x.positions, values, flags[label], colour)
         _draw_gaps(axes, x, values)
     if len(series) > 1:
-        axes.legend(fontsize=7)
+        axes.legend()
     x.dress(axes, "x")
-    _dress_values(axes, levels, unit)
+    dress_values(axes, levels, unit)
 
 
-def _dress_values(axes: Axes, levels: Levels, unit: Unit) -> None:
+def _aside(item: int, count: int) -> float:
+    """Give each of several series a height of its own within a category, so that none hides another."""
+    return ASIDE * (item - 0.5 * (count - 1)) / max(1, count - 1)
+
+
+def dress_values(axes: Axes, levels: Levels, unit: Unit) -> None:
     """Give the values of lines or points their scale: logarithmic where they differ by a factor of `FAR` or more."""
     axes.grid(color="0.9", lw=0.5)
     least, greatest = levels.extremes
+    if levels.names:
+        axes.set_ylim(levels.levels[0], levels.levels[-1])
+        axes.set_yticks(range(len(levels.names)), levels.names, fontsize="small")
+        return
     if least > 0 and greatest >= FAR * least:
         axes.set_yscale("log")
         axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if greatest < 200 * least else (1.0,)))

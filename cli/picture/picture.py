@@ -4,21 +4,28 @@ from collections.abc import Sequence
 from typing import Final
 
 import xarray
-from matplotlib.artist import Artist
 from matplotlib.figure import Figure
 
 from gradhesion.cli.dataset.selection import Selection
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SCENE, SI
+from gradhesion.cli.picture.contour_numbers import number_contours
 from gradhesion.cli.picture.doubts import ORDER
 from gradhesion.cli.picture.grid_picture import draw_grid, shape_of
 from gradhesion.cli.picture.layout import placed, plan_of
-from gradhesion.cli.picture.pictured import heading, styled
+from gradhesion.cli.picture.looks import PLAIN, Looks
+from gradhesion.cli.picture.pictured import CAPTION, heading, in_lines, lay_out, styled
 from gradhesion.cli.picture.points_picture import draw_scenes
 from gradhesion.cli.terminal.wording import did_you_mean
 
 LINE: Final = 0.16
 """The height of an entry of the legend below the panels, in inches."""
+
+TITLE: Final = 0.5
+"""The height of the title with the space around it, in inches."""
+
+NARROW: Final = 2.4
+"""The width of a variable, in inches, below which variables stand below each other if a width is given."""
 
 WHOLE: Final = Selection()
 """All of a dataset."""
@@ -31,6 +38,7 @@ def drawn(
     *,
     x: str | None = None,
     y: str | None = None,
+    looks: Looks = PLAIN,
 ) -> Figure:
     """
     Draw variables of a dataset side by side; without any asked for, the force and the energy.
@@ -45,6 +53,8 @@ def drawn(
         Which axes are fixed or reduced.
     x, y
         The axes along the sides of a panel; None: the finest ones.
+    looks
+        What is chosen of how it looks.
 
     Raises
     ------
@@ -56,34 +66,56 @@ def drawn(
     points = SCENE in narrow.dims
     gone = {*selection.over, *(one.axis for one in selection.between)}
     sizes = {str(axis): size for axis, size in narrow["status"].sizes.items() if axis not in gone}
-    plan = None if points else plan_of(sizes, x, y)
+    plan = None if points else plan_of(sizes, x, y, looks.kind)
+    if points and looks.kind:
+        raise DatasetError(f"--{looks.kind}: points are drawn as points; leave it out")
     if plan is None and not points:
         raise DatasetError(
             f"{chosen[0]}: nothing varies, so there is nothing to draw it over; "
-            + ("fix or reduce fewer axes" if gone or selection.fixed else "`gradhesion info` tells its value")
+            + ("fix or reduce fewer axes" if gone or selection.fixed else "`gradhesion info` shows its value")
         )
-    with styled():
+    if looks.levels is not None and not (plan and plan.is_map):
+        raise DatasetError("--levels: contour levels are for a map, and this picture has none; leave them out")
+    with styled(looks):
         figure = Figure(layout="constrained")
         shape = shape_of(sizes, plan) if plan else (1, 1)
-        below = len(chosen) if shape[1] > 1 and shape[0] == 1 else 1  # strips of panels stand below each other
-        parts = figure.subfigures(below, len(chosen) // below, squeeze=False).ravel()
-        told: dict[str, Artist] = {}
-        wide, high = [0.0], [0.0]
+        strips = shape[1] > 1 and shape[0] == 1  # strips of panels stand below each other
+        narrow_page = looks.width is not None and looks.width < NARROW * len(chosen)
+        below = len(chosen) if strips or narrow_page else 1
+        beside = len(chosen) // below
+        parts = figure.subfigures(below, beside, squeeze=False).ravel()
+        made = []
         for part, name in zip(parts, chosen, strict=True):
             if plan:
-                width, height, more = draw_grid(part, narrow, name, plan, selection)
+                made.append(draw_grid(part, narrow, name, plan, selection, looks))
             else:
-                width, height, more = draw_scenes(part, narrow, name, x)
-            wide.append(width)
-            high.append(height)
-            told |= {str(entry.get_label()): entry for entry in more}
-        words = heading(dataset)
-        lines = LINE * (len(told) + words.count("\n"))
-        figure.set_size_inches(max(wide) * len(chosen) / below, max(high) * below + 0.5 + lines)
-        if told:
-            handles = [told[words] for words in ORDER if words in told]
-            figure.legend(handles=handles, loc="outside lower center", fontsize=7)
-        figure.suptitle(words, fontsize=10, wrap=True)
+                made.append(draw_scenes(part, narrow, name, x, looks))
+        entries = {str(entry.get_label()): entry for one in made for entry in one.entries}
+        width = looks.width or max(one.width for one in made) * beside
+        words = [heading(dataset)] if looks.title else []
+        captions = [in_lines(one.caption, width / beside) for one in made] if looks.caption else []
+        if captions and len({*captions}) == 1:  # said once
+            captions = []
+            words += [in_lines(made[0].caption, width)] if made[0].caption else []
+        more = 0.0
+        for part, caption in zip(parts, captions, strict=False):
+            if caption:
+                part.suptitle(caption, fontsize=CAPTION)
+                more = max(more, LINE * (1 + caption.count("\n")))
+        more = more * below + LINE * (len(entries) + "\n".join(words).count("\n")) + (TITLE if words else 0.0)
+        height = max(one.height for one in made) * below
+        if looks.width:
+            height *= min(1.0, width / (max(one.width for one in made) * beside))
+        figure.set_size_inches(width, looks.height or height + more)
+        if entries:
+            handles = [entries[words] for words in ORDER if words in entries]
+            figure.legend(handles=handles, loc="outside lower center", fontsize="small")
+        if words:
+            figure.suptitle("\n".join(words), fontsize=None if len(words) == 1 else "medium", wrap=True)
+        contours = [lines for one in made for lines in one.contours] if looks.labels else []
+        if contours or looks.width or looks.height:
+            lay_out(figure)
+        number_contours(contours)
     return figure
 
 

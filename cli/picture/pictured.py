@@ -1,6 +1,7 @@
 """What the pictures of all datasets have in common: their style, their heading, and how they are saved."""
 
 import re
+import warnings
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
@@ -11,11 +12,14 @@ import xarray
 from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
 
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.study.shape_words import shape_told
 from gradhesion.cli.terminal.printable import printable
 from gradhesion.core import Profile
 
-STYLE: Final = Path(__file__).with_name("gradhesion.mplstyle")
+CAPTION: Final = "small"
+"""The size of a caption, over that of the style."""
 
 LETTER: Final = 0.058
 """The mean width of a letter of a caption, in inches."""
@@ -24,16 +28,37 @@ LONGEST: Final = 110
 """Letters of a profile that a heading has room for."""
 
 
-def styled() -> AbstractContextManager[None]:
+def styled(looks: Looks = PLAIN) -> AbstractContextManager[None]:
     """Draw in the style of the project, whatever the user's own is: the same dataset gives the same picture."""
-    return matplotlib.style.context(STYLE, after_reset=True)
+    return matplotlib.style.context(looks.styles(), after_reset=True)
 
 
-def save(figure: Figure, file: Path, form: str) -> None:
+def save(figure: Figure, file: Path, form: str, looks: Looks = PLAIN) -> None:
     """Save a picture as "png", "svg" or "pdf"; the same picture gives the same file."""
     undated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
-    with styled():
+    with styled(looks):
         figure.savefig(file, format=form, metadata=undated.get(form))
+
+
+def lay_out(figure: Figure) -> None:
+    """
+    Find the place of everything in a picture.
+
+    Raises
+    ------
+    DatasetError
+        The sides that were chosen leave no room for its panels.
+    """
+    with warnings.catch_warnings():
+        warnings.filterwarnings("error", "constrained_layout not applied")
+        try:
+            figure.draw_without_rendering()
+        except UserWarning:
+            width, height = figure.get_size_inches()
+            raise DatasetError(
+                f"a picture of {width:.3g} by {height:.3g} inches has no room for its panels beside what is written; "
+                "choose larger sides with --width and --height, or leave words out with --no-title and --no-caption"
+            ) from None
 
 
 def heading(dataset: xarray.Dataset) -> str:

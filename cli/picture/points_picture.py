@@ -1,6 +1,6 @@
 """One variable of a dataset of points, over one parameter."""
 
-from typing import Any
+from typing import Final
 
 import numpy as np
 import xarray
@@ -9,44 +9,72 @@ from matplotlib.figure import SubFigure
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SOLVER, SYMBOLS
 from gradhesion.cli.picture import panels
+from gradhesion.cli.picture.density import draw_density, number_scenes
 from gradhesion.cli.picture.doubts import doubts_in, entries
+from gradhesion.cli.picture.grid_picture import Part
 from gradhesion.cli.picture.labels import equation, given, label, unit_for
-from gradhesion.cli.picture.pictured import in_lines
+from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.scales import scale
+
+DENSE: Final = 2000
+"""Points that can still be seen one by one; more are drawn as their number in small cells."""
 
 
 def draw_scenes(
-    part: SubFigure, dataset: xarray.Dataset, name: str, over: str | None
-) -> tuple[float, float, list[Any]]:
+    part: SubFigure,
+    dataset: xarray.Dataset,
+    name: str,
+    over: str | None,
+    looks: Looks = PLAIN,
+) -> Part:
     """Draw a variable of points over a parameter, the first that varies if none is asked for."""
     variable, status = dataset[name], dataset["status"]
     known = given(variable.coords)
     varying = [key for key in known if np.unique(variable[key].values).size > 1]
     if not varying:
         raise DatasetError(
-            f"{name}: no parameter varies, so there is nothing to draw over; `gradhesion info` tells its value"
+            f"{name}: no parameter varies, so there is nothing to draw over; `gradhesion info` shows its value"
         )
     values = variable.values.astype(float)
     if not np.isfinite(values).any():
-        raise DatasetError(f"{name}: no value in any scene; `gradhesion info` tells why")
+        raise DatasetError(f"{name}: no value in any scene; `gradhesion info` shows why")
     along = over or varying[0]
     x = scale(variable[along].values, along)
-    axes = part.subplots()
-    solvers = np.atleast_1d(variable[SOLVER].values) if SOLVER in variable.coords else [""]
+    solvers = [str(one) for one in np.atleast_1d(variable[SOLVER].values)] if SOLVER in variable.coords else [""]
+    finite = values[np.isfinite(values)]
     values = np.where(np.isfinite(values), values, np.nan)
     flags = np.atleast_2d(np.where(np.isnan(values), 0, status.values))[:, x.order]
     doubts = doubts_in(flags, name)
-    doubtful = [(doubt, dict(zip(solvers, doubt.marks(flags), strict=True))) for doubt in doubts]
+    if name == "status":
+        codes = np.unique(finite)
+        values = np.where(np.isnan(values), np.nan, np.searchsorted(codes, values))
+        levels = panels.levels_of_flags(codes, looks)
+    else:
+        levels = panels.levels_of(float(finite.min()), float(finite.max()), looks=looks)
     series = dict(zip(solvers, np.atleast_2d(values)[:, x.order], strict=True))
-    finite = values[np.isfinite(values)]
     unit = unit_for(name, finite)
-    levels = panels.levels_of(float(finite.min()), float(finite.max()))
-    panels.draw_points(axes, x, series, levels, unit, doubtful)
-    axes.set_xlabel(label(along, x.unit))
-    axes.set_ylabel(label(name, unit))
-    told = [equation(SOLVER, str(solvers[0]))] if SOLVER in variable.coords and len(solvers) == 1 else []
-    told += [equation(key, variable[key].values[0]) for key in known if key not in (*varying, along)]
+    dense = values.size > DENSE and not levels.names
+    grid = part.subplots(1, len(solvers) if dense else 1, sharex=True, sharey=True, squeeze=False)[0]
+    if dense:
+        for axes, (solver, row) in zip(grid, series.items(), strict=True):
+            draw_density(axes, x, row, levels, unit)
+            axes.set_title(solver if len(solvers) > 1 else "")
+        number_scenes(part, grid)
+    else:
+        doubtful = [(doubt, dict(zip(solvers, doubt.marks(flags), strict=True))) for doubt in doubts]
+        panels.draw_points(grid[0], x, series, levels, unit, doubtful)
+    for axes in grid:
+        axes.set_xlabel(label(along, x.unit))
+        axes.set_ylabel("" if levels.names else label(name, unit))
+        axes.label_outer()
+    width = (4.2 if len(grid) == 1 else 3.0 * len(grid)) + (1.6 if levels.names else 0.0)
+    caption = [equation(SOLVER, solvers[0])] if SOLVER in variable.coords and len(solvers) == 1 else []
+    caption += [equation(key, np.ravel(variable[key].values)[0]) for key in known if key not in (*varying, along)]
     if others := [SYMBOLS[key] for key in varying if key != along]:
-        told.append("varying too: " + ", ".join(others))
-    part.suptitle(in_lines(told, 4.2), fontsize=8)
-    return 4.2, 3.1, entries(doubts, in_map=False, gaps=bool(np.isnan(values).any()))
+        caption.append("varying too: " + ", ".join(others))
+    if dense:
+        caption += [f"{int(doubt.marks(flags).sum()):,} scenes: {doubt.words}" for doubt in doubts]
+        gaps = int(np.isnan(values).sum())
+        caption += [f"{gaps:,} {'scene' if gaps == 1 else 'scenes'} without a value"] if gaps else []
+    shown = [] if dense else entries(doubts, in_map=False, gaps=bool(np.isnan(values).any()))
+    return Part(width=width, height=3.1, entries=shown, caption=caption)

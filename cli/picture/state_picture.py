@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import CURVES, SI, STATE
 from gradhesion.cli.picture.labels import Unit, equation, given, number, unit_for
-from gradhesion.cli.picture.panels import COLOURS
-from gradhesion.cli.picture.pictured import heading, in_lines, styled
+from gradhesion.cli.picture.looks import PLAIN, Looks
+from gradhesion.cli.picture.pictured import heading, in_lines, lay_out, styled
 
 Values = NDArray[np.float64]
 
@@ -36,7 +36,11 @@ SHOWN: Final = 0.95
 """The share of a contact up to which the pressure sets the limits of its panel: it has no bound at the edge."""
 
 
-def draw_states(dataset: xarray.Dataset, chosen: Sequence[str]) -> Figure:
+NARROW: Final = 2.4
+"""The width of a panel, in inches, below which panels stand below each other if a width is given."""
+
+
+def draw_states(dataset: xarray.Dataset, chosen: Sequence[str], looks: Looks = PLAIN) -> Figure:
     """
     Draw pressure and surface of the states of one scene, the first of a dataset of several; in units if it has them.
 
@@ -55,18 +59,24 @@ def draw_states(dataset: xarray.Dataset, chosen: Sequence[str]) -> Figure:
         raise DatasetError(f'surface: needs {", ".join(needed)} for a picture; write outputs = ["surface"]')
     if all(bool(np.isnan(scene[y].values).all()) for _, _, y in panels):
         raise DatasetError("no value in any state drawn; `gradhesion info` reports why")
-    with styled():
-        width = 4.0 * len(panels)
-        figure = Figure(figsize=(width, 3.4), layout="constrained")
-        for axes, (curve, x, y) in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
+    with styled(looks):
+        width = looks.width or 4.0 * len(panels)
+        below = len(panels) if width < NARROW * len(panels) else 1
+        figure = Figure(figsize=(width, looks.height or 2.5 * below + 0.9), layout="constrained")
+        grid = figure.subplots(below, len(panels) // below, squeeze=False).ravel()
+        for axes, (curve, x, y) in zip(grid, panels, strict=True):
             units = {name: _unit(scene, name) for name in (x, y)}
-            _draw(axes, scene, curve, x, y, units)
+            _draw(axes, scene, curve, x, y, units, looks)
             for name, put in ((x, axes.set_xlabel), (y, axes.set_ylabel)):
                 put(LABELS[name][1] + f" ({units[name].symbol})" if units[name].symbol else LABELS[name][0])
         handles, labels = axes.get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=min(4, len(labels)), fontsize=8, frameon=False)
-        caption = in_lines(list(_caption(dataset)), width)
-        figure.suptitle("\n".join(filter(None, (heading(dataset), caption))), fontsize=9, wrap=True)
+        figure.legend(handles, labels, loc="outside lower center", ncols=max(1, min(int(width / 1.4), len(labels))))
+        caption = in_lines(list(_caption(dataset)), width) if looks.caption else ""
+        words = "\n".join(filter(None, (heading(dataset) if looks.title else "", caption)))
+        if words:
+            figure.suptitle(words, fontsize="medium", wrap=True)
+        if looks.width or looks.height:
+            lay_out(figure)
     return figure
 
 
@@ -83,7 +93,9 @@ def _unit(scene: xarray.Dataset, name: str) -> Unit:
     return unit_for(name + SI, values[np.isfinite(values)])
 
 
-def _draw(axes: Axes, scene: xarray.Dataset, curve: str, x: str, y: str, units: Mapping[str, Unit]) -> None:
+def _draw(
+    axes: Axes, scene: xarray.Dataset, curve: str, x: str, y: str, units: Mapping[str, Unit], looks: Looks
+) -> None:
     """Draw one curve of every state."""
     along, up = (_rows(scene, name) / 10.0 ** units[name].power for name in (x, y))
     gaps = (
@@ -92,7 +104,7 @@ def _draw(axes: Axes, scene: xarray.Dataset, curve: str, x: str, y: str, units: 
     labels = _labels(scene)
     limits = []
     for i, (label, dash) in enumerate(zip(labels, cycle(DASHES), strict=False)):
-        colour = COLOURS(0.75 * i / max(1, len(labels) - 1))
+        colour = looks.colours(0.75 * i / max(1, len(labels) - 1))
         if not np.isfinite(up[i]).any():
             axes.plot([], [], color=colour, ls=dash, label=f"{label} (absent)")
             continue

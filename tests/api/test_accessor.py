@@ -76,5 +76,5 @@ def test_a_dataset_of_another_program_has_no_flags_of_ours() -> None:
 
 
 def test_it_draws(every_status: xarray.Dataset) -> None:
-    (panel,) = every_status.drop_vars("dissipated_energy").gr.plot("pull_off_force").axes
+    (panel,) = every_status.drop_vars("dissipated_energy").gr.plot("pull_off_force")
     assert panel.get_xlabel() == "$A$"

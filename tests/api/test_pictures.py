@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import xarray
 from matplotlib.figure import Figure
@@ -20,23 +21,23 @@ def grid() -> xarray.Dataset:
 
 def test_a_figure_is_that_of_the_command(grid: xarray.Dataset, tmp_path: Path, gradhesion: Any) -> None:
     grid.to_netcdf(tmp_path / "x.nc")
-    figure = gr.plot(grid, "pull_off_force", at={"k": 0.3})
-    assert isinstance(figure, Figure)
+    panels = gr.plot(grid, "pull_off_force", at={"k": 0.3})
+    assert isinstance(panels.figure, Figure)
     options = ["--variable", "pull_off_force", "--at", "k=0.3", "-o", tmp_path / "command.png"]
     assert gradhesion("plot", tmp_path / "x.nc", *options).exit_code == 0
-    assert figure._repr_png_() == (tmp_path / "command.png").read_bytes()  # type: ignore[attr-defined]
-    (line, *_) = figure.axes[0].get_lines()
+    assert panels._repr_png_() == (tmp_path / "command.png").read_bytes()
+    (line, *_) = panels[0].get_lines()
     assert line.get_ydata() == pytest.approx(grid["pull_off_force"].sel(k=0.3).values, rel=1e-15)
-    assert [axes.get_ylabel() for axes in gr.plot(tmp_path / "x.nc", at={"k": 0.3}).axes] == [
-        axes.get_ylabel() for axes in grid.gr.plot(at={"k": 0.3}).axes
+    assert [axes.get_ylabel() for axes in gr.plot(tmp_path / "x.nc", at={"k": 0.3})] == [
+        axes.get_ylabel() for axes in grid.gr.plot(at={"k": 0.3})
     ]
 
 
 def test_axes_are_reduced_and_given_their_places(grid: xarray.Dataset) -> None:
-    figure = gr.plot(grid, ["pull_off_force"], over={"lambda_over_R": "max"})
-    (line, *_) = figure.axes[0].get_lines()
+    (panel,) = gr.plot(grid, ["pull_off_force"], over={"lambda_over_R": "max"})
+    (line, *_) = panel.get_lines()
     assert line.get_ydata() == pytest.approx(grid["pull_off_force"].max("lambda_over_R").values, rel=1e-15)
-    assert gr.plot(grid, "pull_off_force", x="k", y="lambda_over_R").axes[0].get_xlabel() == "$k$"
+    assert gr.plot(grid, "pull_off_force", x="k", y="lambda_over_R")[0].get_xlabel() == "$k$"
 
 
 @pytest.mark.parametrize(
@@ -46,6 +47,12 @@ def test_axes_are_reduced_and_given_their_places(grid: xarray.Dataset) -> None:
         ({"at": {"kk": 0.1}}, 'at kk=0.1: not an axis of this dataset; did you mean "k"?'),
         ({"at": {"k": 3.0}}, "at k=3.0: outside the axis, which has values of 0 to 0.6; choose one within"),
         ({"over": {"k": "maximum"}}, "over k=maximum: not a reduction; did you mean"),
+        ({"width": "colum"}, 'width colum: no size; did you mean "column"?'),
+        ({"colour_map": "viridos"}, 'colour_map viridos: no colour map of matplotlib; did you mean "viridis"?'),
+        ({"kind": "maps"}, 'kind = "maps": no kind of picture; did you mean "map"?'),
+        ({"kind": "map", "at": {"k": 0.3}}, "a map needs two axes that vary, and here lambda_over_R alone does"),
+        ({"style": "gray"}, 'style gray: no style of matplotlib and no file of one; did you mean "grayscale"?'),
+        ({"levels": []}, "levels : no number of levels and no list of them"),
         ({"interpolate": True}, "interpolate: there is nothing to interpolate; add at AXIS=VALUE"),
     ],
 )
@@ -63,7 +70,7 @@ def test_named_dimensions_are_for_xarray() -> None:
     ):
         named.gr.plot()
     points = gr.solve(PUNCH, k=0.3, lambda_over_R=xarray.DataArray([0.1, 0.2], dims="scene"))
-    assert points.gr.plot("pull_off_force", x="lambda_over_R").axes
+    assert points.gr.plot("pull_off_force", x="lambda_over_R")
 
 
 def test_a_variable_alone_is_not_drawn(grid: xarray.Dataset) -> None:
@@ -73,10 +80,14 @@ def test_a_variable_alone_is_not_drawn(grid: xarray.Dataset) -> None:
 
 
 def test_curves_are_drawn_as_they_are() -> None:
-    curves = gr.curves(PUNCH, "path", k=0.3, lambda_over_R=0.2)
-    assert len(gr.plot(curves).axes) == 3
-    with pytest.raises(gr.DatasetError, match="x: curves are drawn as they are; choose scenes with at"):
+    curves = gr.curves(PUNCH, "path", k=[0.3, 0.5], lambda_over_R=0.2)
+    assert len(gr.plot(curves)) == 3
+    with pytest.raises(gr.DatasetError, match="over: curves are drawn as they are; choose scenes with at"):
+        gr.plot(curves, over={"k": "max"})
+    with pytest.raises(gr.DatasetError, match="x k: curves are drawn over contact_radius, indentation or load"):
         gr.plot(curves, x="k")
+    (panel,) = gr.plot(curves, x="indentation", y="load")
+    assert panel.get_xlabel() == r"depth $\delta/R$"
 
 
 def test_a_page_is_written_once(grid: xarray.Dataset, tmp_path: Path) -> None:
@@ -96,3 +107,13 @@ def test_a_page_is_written_once(grid: xarray.Dataset, tmp_path: Path) -> None:
         gr.explore(grid)
     with pytest.raises(gr.OutputError, match=r"the name of a page ends in \.html"):
         gr.explore(grid, tmp_path / "x.png")
+
+
+def test_a_picture_is_saved_in_its_size_and_style(grid: xarray.Dataset, tmp_path: Path) -> None:
+    panels = gr.plot(grid, kind="map", width="page", height=4, colour_map="cividis", style="gradhesion.journal")
+    assert panels.figure.get_size_inches() == pytest.approx([190 / 25.4, 4.0], rel=1e-15)
+    assert len(panels) == 2, "colour bars are no panels"
+    assert len(panels[:1]) == 1
+    panels.savefig(tmp_path / "map.png")
+    width, height = np.frombuffer((tmp_path / "map.png").read_bytes()[16:24], ">u4")
+    assert (width, height) == (int(300 * 190 / 25.4), 1200), "300 dots per inch are those of the style"

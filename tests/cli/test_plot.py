@@ -16,6 +16,7 @@ from gradhesion.cli.dataset.selection import selection_of
 from gradhesion.cli.names import SYMBOLS
 from gradhesion.cli.picture import layout
 from gradhesion.cli.picture.curve_picture import drawn_curves
+from gradhesion.cli.picture.doubts import END
 from gradhesion.cli.picture.layout import Plan, plan_of
 from gradhesion.cli.picture.picture import drawn
 from gradhesion.cli.picture.pictured import save
@@ -292,11 +293,26 @@ def test_what_is_fixed_or_reduced_is_said_and_drawn(dataset_file: Callable[..., 
         assert "A = 0.03 (interpolated)" in told(figure)
         values = dataset["pull_off_force"].sel(k=0.0).interp(A=0.03)
         np.testing.assert_allclose(figure.axes[0].get_lines()[0].get_ydata(), values, rtol=1e-14)
-        figure = drawn(dataset, ["pull_off_force"], selection_of(dataset, ["k=0"], ["lambda_over_R=argmin"]))
+
+
+def test_the_place_of_an_extreme_is_drawn_marked_at_an_end_and_left_out_where_there_is_none(
+    dataset_file: Callable[..., Path],
+) -> None:
+    with opened(dataset_file("A=[0.0, 0.02, 0.05]", "lambda_over_R.num=12", "a_max_over_R=1.0", "k=0.0")) as dataset:
+        figure = drawn(dataset, ["pull_off_force"], selection_of(dataset, [], ["lambda_over_R=argmin"]))
         (axes,) = figure.axes
         assert axes.get_ylabel() == r"$\lambda/R$ of the least pull-off force"
-        places = dataset["lambda_over_R"].values[dataset["pull_off_force"].sel(k=0.0).argmin("lambda_over_R").values]
-        np.testing.assert_array_equal(axes.get_lines()[0].get_ydata(), places)
+        force = dataset["pull_off_force"].squeeze()
+        places = dataset["lambda_over_R"].values[force.argmin("lambda_over_R").values]
+        line = axes.get_lines()[0].get_ydata()
+        assert np.isnan(line[0]), "without waves the force does not depend on their length"
+        np.testing.assert_array_equal(line[1:], places[1:])
+        assert "1 left out where all values are equal" in told(figure)
+        ends = np.isin(places[1:], dataset["lambda_over_R"].values[[0, -1]])
+        marked = [line for line in axes.get_lines() if line.get_marker() == END.mark]
+        assert ends.any()
+        assert [len(line.get_xdata()) for line in marked] == [ends.sum()]
+        assert END.words in [text.get_text() for text in figure.legends[0].get_texts()]
 
 
 def test_scenes_left_out_of_a_reduction_are_said(dataset_file: Callable[..., Path]) -> None:
@@ -402,7 +418,9 @@ def test_curves_take_at_and_nothing_else(gradhesion: Call, curve_file: Callable[
         figure = drawn_curves(selection_of(dataset, ["A=0.02"]).narrowed(dataset), [])
         assert [text.get_text() for text in figure.legends[0].get_texts()][:2] == ["$k$ = 0.1", "$k$ = 0.3"]
         assert "$A$ = 0.023" in figure.get_suptitle()
-    for option in (["--over", "A=max"], ["--x", "A"], ["--at", "A=0.01", "--interpolate"]):
+        marks = [{line.get_marker() for line in axes.get_lines()} for axes in figure.axes]
+        assert all({"o", "s"} <= each for each in marks), "a grey print keeps scenes apart"
+    for option in (["--over", "A=max"], ["--at", "A=0.01", "--interpolate"]):
         result = gradhesion("plot", path, *option)
         assert result.exit_code == 2
         assert "curves are drawn as they are" in result.stderr

@@ -1,0 +1,180 @@
+"""How a picture looks, where a user chooses: its size, its colours, its levels, and what is written on it."""
+
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final, Literal
+
+import matplotlib.style
+from matplotlib import colormaps
+from matplotlib.colors import Colormap
+
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.terminal.wording import did_you_mean, nearest
+
+VIRIDIS: Final = "viridis"
+"""The usual colour map: perceptual, and rising in lightness, so that it survives a grey print."""
+
+COLUMN: Final = 90 / 25.4
+PAGE: Final = 190 / 25.4
+"""The widths of a column and of a page of a journal, in inches: 90 mm and 190 mm."""
+
+LEAST: Final = 1.0
+MOST: Final = 100.0
+"""Sides of a picture, in inches: a smaller one has no room for its labels, a larger one no paper."""
+
+UNITS: Final = {"": 1.0, "in": 1.0, "cm": 1 / 2.54, "mm": 1 / 25.4}
+"""Inches in each unit that a side may have."""
+
+FINEST: Final = 100
+"""Contour levels: more would be one colour."""
+
+STYLE: Final = "gradhesion.style"
+"""The style of the project, as matplotlib knows it: `plt.style.use("gradhesion.style")`."""
+
+Kind = Literal["lines", "map"]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Looks:
+    """What a user chooses of a picture; what is None is chosen to suit the dataset."""
+
+    kind: Kind | None = None
+    """Lines or a map."""
+    width: float | None = None
+    height: float | None = None
+    """Its sides, in inches."""
+    colour_map: str = VIRIDIS
+    """A colour map of matplotlib, by name."""
+    levels: int | tuple[float, ...] | None = None
+    """Contour levels of a map: about how many, or which."""
+    labels: bool = True
+    """Whether contours have numbers on them."""
+    title: bool = True
+    """Whether the title of the study stands above the panels, with its profile and control."""
+    caption: bool = True
+    """Whether the parameters that are not drawn stand above the panels."""
+    style: str | None = None
+    """A style of matplotlib, by name or file, on top of that of the project."""
+
+    @property
+    def colours(self) -> Colormap:
+        """The colour map."""
+        return colormaps[self.colour_map]
+
+    def styles(self) -> list[Any]:
+        """List the styles that apply, the later ones on top."""
+        return [STYLE, self.style] if self.style else [STYLE]
+
+
+PLAIN: Final = Looks()
+"""Nothing is chosen."""
+
+
+def looks_of(
+    *,
+    kind: str | None = None,
+    width: float | str | None = None,
+    height: float | str | None = None,
+    colour_map: str | None = None,
+    levels: Any = None,
+    labels: bool = True,
+    title: bool = True,
+    caption: bool = True,
+    style: str | Path | None = None,
+) -> Looks:
+    """
+    Check what a user has chosen.
+
+    Raises
+    ------
+    DatasetError
+        A size, a colour map, a style or levels that do not exist; the message names the nearest.
+
+    >>> looks_of(width="column").width, looks_of(levels="0.5, 1, 2").levels, looks_of(levels="8").levels
+    (3.5433070866141736, (0.5, 1.0, 2.0), 8)
+    """
+    if kind not in (None, "lines", "map"):
+        raise DatasetError(f'kind = "{kind}": no kind of picture; {did_you_mean(str(kind), ["lines", "map"])}')
+    name = VIRIDIS if colour_map is None else str(colour_map)
+    if name not in colormaps:
+        raise DatasetError(f"--colour-map {name}: no colour map of matplotlib; {_near(name, [*colormaps], VIRIDIS)}")
+    return Looks(
+        kind=kind,  # type: ignore[arg-type]
+        width=_side("width", width),
+        height=_side("height", height),
+        colour_map=name,
+        levels=_levels(levels),
+        labels=labels,
+        title=title,
+        caption=caption,
+        style=_style(style),
+    )
+
+
+def _side(name: str, value: float | str | None) -> float | None:
+    """Read a side of a picture: a number of inches, a length in cm or mm, or a width by its name."""
+    if value is None:
+        return None
+    words = {"column": COLUMN, "page": PAGE} if name == "width" else {}
+    text = str(value).strip().lower()
+    if text in words:
+        return words[text]
+    parts = re.fullmatch(r"([+-]?[\d.]+(?:e[+-]?\d+)?)\s*([a-z]*)", text)
+    try:
+        inches = float(parts[1]) * UNITS[parts[2]] if parts else math.nan
+    except (ValueError, KeyError):
+        inches = math.nan
+    if math.isnan(inches):
+        near = nearest(text, list(words))
+        meant = f'did you mean "{near}"?' if near else f'write for example 3.5, "9 cm"{" or column" if words else ""}'
+        raise DatasetError(f"--{name} {value}: no size; {meant}")
+    if not LEAST <= inches <= MOST:
+        raise DatasetError(
+            f"--{name} {value}: a picture of {inches:.3g} inches; choose one of {LEAST:g} to {MOST:g} inches"
+        )
+    return inches
+
+
+def _levels(value: Any) -> int | tuple[float, ...] | None:
+    """Read contour levels: about how many, or a list of them."""
+    if value is None:
+        return None
+    words = value.replace(",", " ").split() if isinstance(value, str) else value
+    words = [words] if isinstance(words, int | float) else [*words]
+    written = value if isinstance(value, str) else ", ".join(map(str, words))
+    try:
+        numbers = sorted({float(word) for word in words})
+    except (TypeError, ValueError):
+        numbers = []
+    if not numbers or not all(map(math.isfinite, numbers)):
+        raise DatasetError(f"--levels {written}: no number of levels and no list of them; write 8 or 0.5,1,2")
+    if len(words) > 1 or "." in str(words[0]):
+        return tuple(numbers)
+    if not 1 <= numbers[0] <= FINEST:
+        raise DatasetError(
+            f"--levels {written}: choose 1 to {FINEST} levels; a single level is written with its point, as {written}.0"
+        )
+    return int(numbers[0])
+
+
+def _style(value: str | Path | None) -> str | None:
+    """Find a style."""
+    if value is None:
+        return None
+    name = str(value)
+    try:
+        with matplotlib.style.context(name):
+            return name
+    except OSError:
+        known = list(matplotlib.style.available)
+        raise DatasetError(
+            f"--style {name}: no style of matplotlib and no file of one; {_near(name, known, 'grayscale')}"
+        ) from None
+
+
+def _near(word: str, known: list[str], usual: str) -> str:
+    """Suggest the nearest of many words, or one that suits most."""
+    near = nearest(word, known)
+    return f'did you mean "{near}"?' if near else f'choose one of its own, as "{usual}"'
