@@ -8,7 +8,7 @@ pictures += $(addprefix extra_,amplitudes rim energy_map energy_amplitude energy
 help: ## show the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST)
 
-maps: outputs/maps.png ## compute configs/maps.toml into outputs/maps.nc, and draw outputs/maps.png
+maps: outputs/maps.png ## compute configs/maps.toml into outputs/maps.nc, and draw two maps of it as outputs/maps.png
 
 figures: $(foreach form,png pdf,$(pictures:%=outputs/figures/%.$(form))) ## draw the figures of the paper into outputs/figures/, .png and .pdf
 
@@ -52,7 +52,7 @@ outputs/maps.nc: configs/maps.toml $(sources) .venv/installed
 	.venv/bin/gradhesion run configs/maps.toml -o $@ --overwrite
 
 outputs/maps.png: outputs/maps.nc
-	.venv/bin/gradhesion plot $< -o $@ --overwrite
+	.venv/bin/gradhesion plot $< -o $@ --at c0_over_R=0.01 --at A=0.05 --at a_max_over_R=inf --width page --no-title --overwrite
 
 # The study of a picture: its own, as configs/fig4a.toml, or one of several panels, as configs/fig3.toml for fig3a.
 dataset = outputs/figures/$(notdir $(basename $(or $(wildcard configs/$(1).toml),$(foreach panel,a b c,$(wildcard configs/$(1:%$(panel)=%).toml))))).nc
