@@ -91,7 +91,8 @@ def run(
     if not isinstance(study, Study):
         study = load(study, set=set)
     elif set:
-        study = load(tomllib.loads(study.text), set=set)
+        with in_python():
+            study = study_from(_changed(tomllib.loads(study.text), set), folder=study.folder)
     from gradhesion.cli.dataset.dataset import compute  # noqa: PLC0415 (the compiler, which `load` does not need)
 
     return compute(study, threads=threads)

@@ -42,7 +42,7 @@ def _sections() -> Iterator[str]:
         "Outputs of a map are listed under [variables of a map](dataset.md#variables-of-a-map), those of a curve study "
         "under [variables of curves](dataset.md#variables-of-curves)."
     )
-    yield from _of_parameters(tables["parameters"])
+    yield from _of_parameters(tables["parameters"], schema["$defs"]["FileTable"])
     yield from _of_quantities()
     yield from _of_table("profile", tables["profile"])
     yield "What they stand for: [other punches and machines](../punches.md). Each item of `harmonics`:"
@@ -64,13 +64,15 @@ def _target(entry: Mapping[str, Any], schema: Mapping[str, Any]) -> Mapping[str,
     return schema["$defs"][name] if name else None
 
 
-def _of_parameters(own: Mapping[str, Any] | None) -> Iterator[str]:
+def _of_parameters(own: Mapping[str, Any] | None, files: Mapping[str, Any]) -> Iterator[str]:
     """Write the table [parameters]."""
     assert own
     yield "## [parameters]"
     yield f"Required: {SETTINGS['parameters'].about}."
     rows = [_row(name, own) for name in own["properties"] if name not in REDUCED]
     yield table(HEADS, rows)
+    yield "The table of `points`, in the place of the name of its file ([scenes from a file](../measured.md)):"
+    yield table(HEADS, _rows(files))
     yield "In reduced variables, each in the place of another:"
     yield table(
         ("key", "in the place of", "allowed", "meaning"),
@@ -137,7 +139,8 @@ def _type(entry: Mapping[str, Any]) -> str:
     forms = [form for form in entry.get("oneOf", entry.get("anyOf", [entry])) if form.get("type") != "null"]
     if any("Range_" in str(form.get("$ref")) for form in forms):
         return "number, list or range"
-    return " or ".join("list" if form["type"] == "array" else TYPES[form["type"]] for form in forms)
+    names = {"array": "list", "": "table"} | TYPES
+    return " or ".join(names[form.get("type", "")] for form in forms)
 
 
 def _allowed(name: str, entry: Mapping[str, Any]) -> str:

@@ -3,7 +3,7 @@
 import hashlib
 import tomllib
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import xarray
@@ -11,7 +11,9 @@ import xarray
 from gradhesion.cli.dataset.coordinates import following
 from gradhesion.cli.dataset.reader import study_text
 from gradhesion.cli.errors import DatasetError, StudyError
+from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import SOLVER
+from gradhesion.cli.study.points import COMMENT, points_of
 from gradhesion.cli.study.study import Study, study_from
 
 CLOSE: Final = 16 * 2.0**-52
@@ -37,12 +39,27 @@ def study_of(dataset: xarray.Dataset, path: Path, *, wanted: str = "`gradhesion 
     if data.get("kind", "map") != "map":
         raise DatasetError(f"{path}: holds a {data['kind']}; {wanted}")
     try:
-        study = study_from(data, "its study")
+        study = study_from(data, "its study", **_points_of(dataset, data, path))
     except StudyError as error:
         raise DatasetError(f"{path}: its study is none of this version ({error.mistakes[0]}); write it again") from None
     _check_variables(dataset, study, path)
     _check_coordinates(dataset, study, path)
     return study
+
+
+def _points_of(dataset: xarray.Dataset, data: dict[str, Any], path: Path) -> dict[str, Any]:
+    """Find the file of its points, in the current directory or beside the dataset; else what the dataset has of it."""
+    columns = {
+        str(name): np.asarray(values.values, dtype=np.float64)
+        for name, values in dataset.coords.items()
+        if name in INPUTS and values.ndim == 1 and str(values.attrs.get("comment", "")).startswith(COMMENT)
+    }
+    if not columns:
+        return {}
+    for folder in (Path(), path.parent):
+        if not points_of(data, folder).mistakes:
+            return {"folder": folder}
+    return {"columns": columns}
 
 
 def _check_variables(dataset: xarray.Dataset, study: Study, path: Path) -> None:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from gradhesion.cli import names
 from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.keys import INPUTS, REDUCED
+from gradhesion.cli.study.points import COMMENT
 from gradhesion.cli.study.roles import ABSENT
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
@@ -30,6 +31,8 @@ def coordinates(study: Study) -> dict[str, Variable]:
         attributes = {"units": key.unit, "long_name": key.about}
         if name in study.left_out:
             attributes["comment"] = f"without effect where {ABSENT[name][1]}; the study leaves it out"
+        if name in study.points.columns:
+            attributes["comment"] = COMMENT + study.points.file
         if name in study.parameters:
             values = np.asarray(study.parameters[name])
             if study.layout == "points":

@@ -46,6 +46,13 @@ Entry = float | list[float] | Range
 """What a study gives for an input: a number, a list, or a range; quantities in SI units."""
 
 
+class FileTable(Table):
+    """A file with its fingerprint."""
+
+    file: Annotated[str, Field(min_length=1, description=KEYS["file"].about)]
+    sha256: Annotated[str, Field(pattern="^[0-9a-f]{64}$", description=KEYS["sha256"].about)] = ""
+
+
 class MethodTable(Table):
     """How the scenes are solved."""
 
@@ -108,11 +115,20 @@ def _input(key: Key) -> Any:
     return _of(key.name, Annotated[shapes, Discriminator(_shape_of)])
 
 
+File = Annotated[
+    Annotated[str, Field(min_length=1), Tag("name")] | Annotated[FileTable, Tag("table")],
+    Discriminator(lambda value: "table" if isinstance(value, Mapping | FileTable) else "name"),
+]
+"""A file by its name, or with its fingerprint."""
+
+
 def _table(name: str, *, required: tuple[str, ...] = ()) -> type[Table]:
     """Make the table of inputs of one name."""
     fields: Any = {
         key.name: (_input(key), ... if key.name in required else None) for key in INPUTS.values() if key.table == name
     }
+    if name == KEYS["points"].table:
+        fields["points"] = (_of("points", File), None)
     return create_model(name.capitalize(), __base__=Table, **fields)
 
 

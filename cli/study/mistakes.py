@@ -108,7 +108,8 @@ def _unknown_key(path: Path) -> tuple[Path, str]:
         **{(name,): keys_of(name) for name in ("parameters", "physical", "profile", "loading", "states", "method")},
     }
     table, key = path[:-1], str(path[-1])
-    known = tables.get(table, keys_of("harmonics" if table[:1] == ("profile",) else "range"))
+    home = "harmonics" if table[:1] == ("profile",) else "points" if table == ("parameters", "points") else "range"
+    known = tables.get(table, keys_of(home))
     for other, keys in tables.items():
         if other != table and key in keys:
             home = f"under [{dotted(other)}]" if other else "at the top, before the first [table]"
@@ -126,6 +127,8 @@ def _sentence(detail: ErrorDetails, path: Path) -> str:
         return str(detail["ctx"]["error"])
     if path[0] == "profile" and len(path) > 1:
         return _profile_sentence(kind, path)
+    if path[:2] == ("parameters", "points"):
+        return _file_sentence(kind, path)
     if (
         path[:2] != ("loading", "control")
         and path[0] in _OF_INPUTS
@@ -165,6 +168,15 @@ def _parameter_sentence(kind: str, value: object, path: Path) -> str:
     if last in ("start", "stop") and isinstance(value, float) and math.isinf(value):
         return "a range must end at finite values; write a list where inf is one of the values"
     return f"out of range; choose a value with {allowed}"
+
+
+def _file_sentence(kind: str, path: Path) -> str:
+    """Say what is wrong with the name of a file, or its fingerprint."""
+    if path[-1] == "sha256":
+        return f"a sha256 has 64 digits from 0 to f; {example(path)}"
+    if kind == "missing":
+        return f"the name of the file is required; {example(path)}"
+    return f"this must be the name of a file in quotes; {example(path)}"
 
 
 def _profile_sentence(kind: str, path: Path) -> str:

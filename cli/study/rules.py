@@ -11,6 +11,7 @@ from gradhesion.cli.names import CURVES
 from gradhesion.cli.study.axes import Values, expanded, mistake_of_range, mistakes_of_grid, mistakes_of_points
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.mistakes import Checked, Mistake
+from gradhesion.cli.study.points import Points
 from gradhesion.cli.study.punch import mistakes_of_punch
 from gradhesion.cli.study.roles import mistakes_of_roles
 from gradhesion.cli.study.states import mistakes_of_states
@@ -24,7 +25,7 @@ EXACT_ONLY: Final = REPORTS
 """The outputs that come with the exact solver alone."""
 
 
-def mistakes_between_keys(checked: Checked) -> tuple[dict[str, Values], list[Mistake]]:
+def mistakes_between_keys(checked: Checked, points: Points) -> tuple[dict[str, Values], list[Mistake]]:
     """Expand the inputs that are right, and list what is wrong between the keys of a study."""
     mistakes = [*_mistakes_of_choice(checked), *_mistakes_of_outputs(checked), *_mistakes_of_method(checked)]
     sound: dict[str, Values] = {}
@@ -37,13 +38,14 @@ def mistakes_between_keys(checked: Checked) -> tuple[dict[str, Values], list[Mis
             mistakes.append(mistake)
         else:
             sound[name] = expanded(entry)
-    points = nearest(checked.form.layout, LAYOUTS) == "points"
-    mistakes += mistakes_of_points(sound) if points else mistakes_of_grid(sound)
+    sound = points.into(sound)
+    is_points = nearest(checked.form.layout, LAYOUTS) == "points"
+    mistakes += mistakes_of_points(sound) if is_points else mistakes_of_grid(sound)
     mistakes += mistakes_of_roles(checked, sound)
     mistakes += mistakes_of_punch(checked, sound)
     mistakes += mistakes_of_turn(checked)
     mistakes += mistakes_of_states(checked, sound)
-    mistakes += _mistakes_of_size(checked, [np.size(values) for values in sound.values()], points=points)
+    mistakes += _mistakes_of_size(checked, [np.size(values) for values in sound.values()], points=is_points)
     return sound, mistakes
 
 

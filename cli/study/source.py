@@ -34,6 +34,8 @@ class Source:
     """Tells where a key comes from."""
     mistakes: tuple[str, ...] = ()
     """What was wrong with the overrides."""
+    folder: Path = Path()
+    """Where the files are that it names."""
 
 
 def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) -> Source:
@@ -78,6 +80,7 @@ def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) ->
         text=unchanged,
         place=place,
         mistakes=tuple(mistakes),
+        folder=path.absolute().parent,
     )
 
 

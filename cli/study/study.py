@@ -20,6 +20,7 @@ from gradhesion.cli.study import places
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.mistakes import checked
+from gradhesion.cli.study.points import Points, points_of
 from gradhesion.cli.study.punch import profile_of
 from gradhesion.cli.study.roles import left_out
 from gradhesion.cli.study.rules import mistakes_between_keys
@@ -76,6 +77,10 @@ class Study:
     """The parameters that it does not give since they have no effect; they have a value all the same."""
     chunk: int = CHUNK
     """Cells of a chunk of the dataset of a map, at most; a block that is computed at a time has two."""
+    folder: Path = Path()
+    """Where the files are that it names."""
+    points: Points = field(default_factory=Points)
+    """The file with its scenes, and the parameters that are columns of it."""
 
     @property
     def in_si(self) -> tuple[str, ...]:
@@ -170,9 +175,26 @@ def load_study(path: str | Path, overrides: Iterable[str] = ()) -> Study:
     return _study(read_source(Path(path), overrides))
 
 
-def study_from(data: Mapping[str, Any], name: str = "study") -> Study:
+def study_from(
+    data: Mapping[str, Any],
+    name: str = "study",
+    *,
+    folder: str | Path = "",
+    columns: Mapping[str, NDArray[np.float64]] | None = None,
+) -> Study:
     """
     Make a study from a mapping with the keys of a study file.
+
+    Parameters
+    ----------
+    data
+        The keys; lists may be arrays.
+    name
+        What the study is called where it has no title.
+    folder
+        Where the files are that it names; the current directory if left out.
+    columns
+        What the file of its points is known to hold, in SI units, so that it is not read.
 
     Raises
     ------
@@ -183,15 +205,19 @@ def study_from(data: Mapping[str, Any], name: str = "study") -> Study:
         raise StudyError(
             f"{name}: not a study, tables or lists are nested more than {places.DEEPEST} deep; remove some levels"
         )
-    return _study(Source(name=name, data=_plain(data), text="", place=lambda _: name))
+    home = Path(folder).absolute()
+    return _study(Source(name=name, data=_plain(data), text="", place=lambda _: name, folder=home), columns)
 
 
-def _study(source: Source) -> Study:
+def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = None) -> Study:
     """Check a study as a whole and expand it."""
-    found = checked(source.data)
-    sound, between = mistakes_between_keys(found)
+    points = points_of(source.data, source.folder, columns)
+    found = checked(points.beside(source.data))
+    sound, between = mistakes_between_keys(found, points)
     sentences = []
-    for mistake in (*found.mistakes, *between):
+    for mistake in (*points.mistakes, *found.mistakes, *between):
+        if mistake.value is None and points.unread:
+            continue
         value = "" if mistake.value is None else f" = {wording.shown(mistake.value)}"
         sentences.append(f"{source.place(mistake.path)}: {places.dotted(mistake.path)}{value}: {mistake.sentence}")
     sentences.sort(key=_line)
@@ -211,6 +237,7 @@ def _study(source: Source) -> Study:
                 values.sort()  # CF wants coordinates that rise or fall
             values.flags.writeable = False
     solver = form.method.solver
+    data, text = points.stored(source.data, source.text)
     return Study(
         name=source.name,
         title=form.title or source.name,
@@ -224,8 +251,10 @@ def _study(source: Source) -> Study:
         profile=profile_of(form.profile),
         loading=Loading(control=form.loading.control),
         states=form.states.radii,
-        text=source.text or _toml(source.data),
+        text=text or _toml(data),
         left_out=frozenset(absent.keys() - {"a_max", "a_max_over_R"}),
+        folder=source.folder,
+        points=points,
     )
 
 

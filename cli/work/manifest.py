@@ -12,6 +12,7 @@ import numpy as np
 
 from gradhesion.cli.errors import DatasetError, OutputError
 from gradhesion.cli.study.axes import Values
+from gradhesion.cli.study.points import Points, points_of
 from gradhesion.cli.study.study import Study, study_from
 from gradhesion.cli.work.folder import Folder
 from gradhesion.cli.work.parts import settings_of, versions
@@ -30,6 +31,7 @@ def manifest_of(study: Study) -> Manifest:
         name=study.name,
         text=study.text,
         chunk=study.chunk,
+        folder=str(study.folder),
     )
 
 
@@ -72,10 +74,15 @@ def study_in(folder: Folder, output: Path) -> Study:
         There is none, or none of this version.
     """
     manifest = folder.manifest()
+    points = Points()
     with suppress(ValueError, RecursionError):  # of which a StudyError is one
         if manifest:
-            study = study_from(tomllib.loads(manifest.text), manifest.name)
+            data = tomllib.loads(manifest.text)
+            points = points_of(data, Path(manifest.folder))
+            study = study_from(data, manifest.name, folder=manifest.folder)
             return replace(study, text=manifest.text, title=manifest.title, chunk=manifest.chunk)
+    if points.mistakes:
+        raise DatasetError(f"{output}: the points of its study, {points.written}: {points.mistakes[0].sentence}")
     raise DatasetError(
         f"{output}: no study with parts is in {output}.parts; compute them first, with `gradhesion run --shard`"
     )

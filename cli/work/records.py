@@ -1,7 +1,7 @@
 """The small files of a run's folder, whose fields have types: one that is not whole, or not of ours, reads as None."""
 
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any, Final, TypeVar
 
@@ -33,6 +33,8 @@ class Manifest:
     name: str
     text: str
     chunk: Annotated[int, Field(ge=1, lt=2**63)] = CHUNK
+    folder: str = field(default="", compare=False)
+    """Where the files are that the study names: their contents count, not their place."""
 
 
 @dataclass(frozen=True)

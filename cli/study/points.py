@@ -1,0 +1,199 @@
+"""Points from a file: the scenes of a study are the rows of a table, a column a parameter."""
+
+import json
+import re
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli import keys
+from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.names import OUTPUTS, SI
+from gradhesion.cli.study import places
+from gradhesion.cli.study.axes import MOST_VALUES, Values
+from gradhesion.cli.study.columns import Columns, ColumnsError, read_columns
+from gradhesion.cli.study.mistakes import Mistake
+from gradhesion.cli.study.quantities import si_value
+from gradhesion.cli.terminal.wording import did_you_mean, shown
+
+KEY: Final[keys.Path] = ("parameters", "points")
+
+COMMENT: Final = "a column of "
+"""How the comment of a coordinate begins that is a column of a file."""
+
+_ANY: Final = {"k": 0.5, "nu": 0.3}
+"""Valid values of parameters of which 1 is none."""
+
+_LINE: Final = re.compile(r"""(\s*(?:parameters\.)?points\s*=\s*)("[^"\\]*"|'[^']*')(\s*(?:\#.*)?)""")
+"""The key on a line of its own, with what stands behind it."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Points:
+    """The points of a study; without a file there are none."""
+
+    written: Any = None
+    """What the study has for them."""
+    file: str = ""
+    sha256: str = ""
+    columns: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
+    """The inputs that are columns and right, in SI units."""
+    wrong: tuple[str, ...] = ()
+    """Those that are columns and not right."""
+    mistakes: tuple[Mistake, ...] = ()
+
+    def beside(self, data: Mapping[str, Any]) -> dict[str, Any]:
+        """
+        Give the keys of a study with one valid value for each column.
+
+        So that all that is known of a key is asked of what the study gives beside the file.
+        """
+        if self.written is None:
+            return dict(data)
+        whole = {**data, "layout": "points" if data.get("layout") == "grid" else data.get("layout", "points")}
+        for name in (*self.columns, *self.wrong):
+            key, values = INPUTS[name], self.columns.get(name)
+            value = _ANY.get(name, 1.0) if values is None else float(values[0])
+            table = whole.get(key.table, {})
+            if isinstance(table, Mapping):
+                entry = f"{value!r} {key.unit}" if key.table == "physical" and np.isfinite(value) else value
+                whole[key.table] = {**table, name: str(entry) if key.table == "physical" else entry}
+        return whole
+
+    @property
+    def unread(self) -> bool:
+        """Whether the file could not be read, so that what it would give is not missing."""
+        return bool(self.mistakes) and not self.file
+
+    def into(self, sound: dict[str, Values]) -> dict[str, Values]:
+        """Put the columns in the place of the values that stood for them."""
+        return {name: self.columns.get(name, values) for name, values in sound.items()}
+
+    def stored(self, data: Mapping[str, Any], text: str) -> tuple[dict[str, Any], str]:
+        """Give the keys and the text of a study with the fingerprint of the file; no text where it is to be made."""
+        if not self.file:
+            return dict(data), text
+        named = {"file": self.file, "sha256": self.sha256}
+        data = {**data, "parameters": {**data["parameters"], "points": named}}
+        if text and self.written != named:
+            number = places.lines_of(text).get(KEY, 0)
+            lines = text.split("\n")
+            found = _LINE.fullmatch(lines[number - 1]) if number else None
+            table = f"{{ file = {json.dumps(self.file, ensure_ascii=False)}, sha256 = {json.dumps(self.sha256)} }}"
+            lines[number - 1] = f"{found[1]}{table}{found[3]}" if found else ""
+            text = "\n".join(lines)
+            if not found or tomllib.loads(text) != data:
+                text = ""
+        return data, text
+
+
+def points_of(
+    data: Mapping[str, Any], folder: Path, columns: Mapping[str, NDArray[np.float64]] | None = None
+) -> Points:
+    """
+    Read the points of a study.
+
+    Parameters
+    ----------
+    data
+        The keys of the study.
+    folder
+        Where the file is looked for.
+    columns
+        What the file is known to hold, so that it is not read.
+    """
+    table = data.get("parameters")
+    written = table.get("points") if isinstance(table, Mapping) else None
+    named = {"file": written} if isinstance(written, str) else written
+    if not isinstance(named, Mapping) or not all(isinstance(value, str) for value in named.values()):
+        return Points()
+    if named.keys() - {"file", "sha256"} or not named.get("file"):
+        return Points()  # their form is refused
+    file, expected = named["file"], named.get("sha256", "")
+    if columns is not None:
+        return Points(written=written, file=file, sha256=expected, columns=columns)
+    try:
+        found = read_columns(folder / file)
+    except ColumnsError as error:
+        return Points(written=written, mistakes=(Mistake(KEY, written, str(error)),))
+    if expected and expected != found.sha256:
+        sentence = (
+            f"the file is not the one that this study was written for: its sha256 is {found.sha256[:12]}..., not "
+            f"{expected[:12]}...; put that file back, or write points = {json.dumps(file, ensure_ascii=False)}"
+        )
+        return Points(written=written, mistakes=(Mistake(KEY, written, sentence),))
+    mistakes = [Mistake(KEY, written, sentence) for sentence in _mistakes(data, found)]
+    columns, wrong = {}, []
+    for name, values in found.values.items():
+        if name not in INPUTS:
+            continue
+        own = list(_mistakes_of_column(name, values, found))
+        mistakes += [Mistake(KEY, written, sentence) for sentence in own]
+        if own:
+            wrong.append(name)
+        else:
+            columns[name] = values * _factor(name, found) + 0.0  # no negative zeros
+    return Points(
+        written=written,
+        file=file,
+        sha256=found.sha256,
+        columns=columns,
+        wrong=tuple(wrong),
+        mistakes=tuple(mistakes),
+    )
+
+
+def _mistakes(data: Mapping[str, Any], found: Columns) -> Iterator[str]:
+    """Check that the columns are parameters, each given once, and that the study has points."""
+    ours = {*OUTPUTS, *(name + SI for name in OUTPUTS), "status"}
+    for name in found.values:
+        if name in ours:
+            yield f"its column {shown(name)} is an output and no parameter; leave it out"
+        elif name not in INPUTS:
+            yield f"its column {shown(name)} is no parameter; {did_you_mean(name, tuple(INPUTS))}"
+        elif isinstance(table := data.get(INPUTS[name].table), Mapping) and name in table:
+            yield f"{name} stands under [{INPUTS[name].table}] and is a column of the file; keep one of the two"
+    if data.get("layout", "points") == "grid":
+        yield 'the rows of a file are points, and layout = "grid"; write layout = "points" or leave it out'
+    if found.rows > MOST_VALUES:
+        yield f"the file has {found.rows:,} rows, and {MOST_VALUES:,} are read at most; split it"
+
+
+def _mistakes_of_column(name: str, values: NDArray[np.float64], found: Columns) -> Iterator[str]:
+    """Check the unit of a column, and that its values are in range."""
+    key, unit = INPUTS[name], found.units.get(name, "")
+    if key.table == "physical" and not unit:
+        yield f"its column {name} has no unit; write it behind the name in brackets, as {name} [{key.unit}]"
+        return
+    if key.table != "physical" and unit:
+        yield f"its column {name} has the unit {shown(unit)} and is a ratio; write the name alone"
+        return
+    if key.table == "physical":
+        try:
+            si_value(f"1 {unit}", name)
+        except ValueError as error:
+            yield f"its column {name} [{unit}]: {error}"
+            return
+    tests: dict[str, Callable[[Any, Any], Any]] = {"ge": np.less, "gt": np.less_equal, "le": np.greater}
+    bad = np.isnan(values) if key.infinite else ~np.isfinite(values)
+    for bound, value in key.bounds.items():
+        bad |= tests[bound](values, value)
+    if key.infinite and not key.bounds:
+        bad |= ~(values > 0.0)
+    rows = np.flatnonzero(bad)
+    if rows.size:
+        more = f", and {rows.size - 1:,} more rows are as well" if rows.size > 1 else ""
+        value = float(values[rows[0]])
+        what = "is missing (NaN)" if np.isnan(value) else f"= {value!r} is out of range"
+        remedy = "give it, or remove the row" if np.isnan(value) else f"choose a value with {key.allowed}"
+        yield f"{found.place(int(rows[0]))}: {name} {what}{more}; {remedy}"
+
+
+def _factor(name: str, found: Columns) -> float:
+    """Tell what the values of a column are multiplied by."""
+    return si_value(f"1 {found.units[name]}", name) if INPUTS[name].table == "physical" else 1.0

@@ -1,0 +1,113 @@
+"""Columns of numbers are read from text and NetCDF, and what is none is refused with a line and a remedy."""
+
+import hashlib
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+from gradhesion.cli.study import columns
+from gradhesion.cli.study.columns import ColumnsError, read_columns
+
+
+def written(folder: Path, text: str | bytes, name: str = "table.csv") -> Path:
+    """Write a file."""
+    path = folder / name
+    path.write_bytes(text.encode() if isinstance(text, str) else text)
+    return path
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "A,R [um]\n0.5,1e3\ninf,-2\n",
+        "\ufeff# a comment\n\nA ; R (um)\r\n0.5;1e3\r\n# another\r\ninf;-2",
+        "A\tR [um]\n0.5\t1e3\ninf\t-2\n",
+        "  A   R [um]\n 0.5  1e3\n inf -2 # behind\n",
+        '"A","R [um]"\n"0.5","1e3"\n"inf","-2"\n',
+    ],
+)
+def test_a_text_has_a_header_with_units(text: str, tmp_path: Path) -> None:
+    found = read_columns(written(tmp_path, text))
+    assert {name: values.tolist() for name, values in found.values.items()} == {"A": [0.5, np.inf], "R": [1e3, -2.0]}
+    assert found.units == {"R": "um"}
+    assert found.sha256 == hashlib.sha256(text.encode()).hexdigest()
+
+
+@given(hnp.arrays(np.float64, st.tuples(st.integers(1, 20), st.integers(1, 5)), elements=st.floats(width=64)))
+def test_every_number_comes_back(table: np.ndarray) -> None:
+    text = ",".join(f"c{i}" for i in range(table.shape[1])) + "\n"
+    text += "\n".join(",".join(map(repr, row)) for row in table.tolist())
+    found = columns._of_text(text.encode(), "")
+    np.testing.assert_array_equal(np.column_stack(list(found.values.values())), table)
+
+
+MISTAKES = {
+    "": "has 0 bytes",
+    " \n\t\n": "4 bytes of white space",
+    "# only\n": "comments only",
+    "1,2\n3,4\n": "line 1 has numbers where the names",
+    "A,,k\n1,2,3\n": "column 2 of the header on line 1 has no name",
+    "A,k,A\n1,2,3\n": 'line 1 names the column "A" twice',
+    "A,k\n": "line 1 has no row of numbers below",
+    "A,k\n1,2\n\n# c\n3\n": "line 5 has 1 values under 2 names",
+    "A,k\n1,2,3\n": "line 2 has 3 values under 2 names",
+    "A,k\n1,2\n3,\n": 'line 3 has no value of "k"',
+    "A,k\n1,2\nabc,3\n": 'line 3: A = "abc" is not a number; write one',
+    "A;k\n1,5;3\n": 'line 2: A = "1,5" is not a number; write one, with a point and not a comma',
+    "A\n1\n2 mm\n": "line 3 has 2 values under 1 names",
+    b"A,k\n1,2\n\xff\xfe,3\n": "no text in UTF-8",
+    b"\xff\xfeA": "no text in UTF-8",
+    b"\x89HDF\r\n\x1a\nbroken": "cannot be read as NetCDF",
+    ",".join(f"c{i}" for i in range(2000)) + "\n1\n": "2,000 columns",
+}
+
+
+@pytest.mark.parametrize("text", MISTAKES, ids=lambda text: repr(text)[:30])
+def test_what_is_no_table_is_refused(text: str | bytes, tmp_path: Path) -> None:
+    with pytest.raises(ColumnsError) as caught:
+        read_columns(written(tmp_path, text))
+    assert MISTAKES[text] in str(caught.value)
+    assert ";" in str(caught.value), "what to do"
+
+
+def test_a_file_that_is_none_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for path in (tmp_path / "absent.csv", tmp_path, tmp_path / "\0.csv", Path("/dev/zero")):
+        with pytest.raises(ColumnsError, match="cannot be read"):
+            read_columns(path)
+    monkeypatch.setattr(columns, "MOST_BYTES", 100)
+    with pytest.raises(ColumnsError, match="larger than"):
+        read_columns(written(tmp_path, "A\n" + 100 * "1\n"))
+
+
+def test_a_row_has_its_line(tmp_path: Path) -> None:
+    found = read_columns(written(tmp_path, "# head\nA\n1\n\n2\n# c\n3\n"))
+    assert [found.place(row) for row in range(3)] == ["line 3", "line 5", "line 7"]
+
+
+def test_netcdf_has_variables_of_one_dimension(tmp_path: Path) -> None:
+    path = tmp_path / "table.nc"
+    with netCDF4.Dataset(path, "w") as file:
+        file.createDimension("row", 3)
+        file.createVariable("A", "f8", ("row",))[:] = [0.1, 0.2, 0.3]
+        file.createVariable("n", "i4", ("row",), fill_value=-1)[:] = [1, -1, 3]
+        file.createVariable("words", str, ("row",))[0] = "x"
+        file.createVariable("one", "f8", ())[...] = 1.0
+        file["A"].units = "nm"
+    found = read_columns(path)
+    assert found.values.keys() == {"A", "n"}
+    assert found.units == {"A": "nm"}
+    np.testing.assert_array_equal(found.values["n"], [1.0, np.nan, 3.0])
+    with netCDF4.Dataset(path, "a") as file:
+        file.createDimension("other", 2)
+        file.createVariable("b", "f8", ("other",))[:] = 0.0
+    with pytest.raises(ColumnsError, match="differ in length"):
+        read_columns(path)
+    with netCDF4.Dataset(path, "w") as file:
+        file.createVariable("one", "f8", ())[...] = 1.0
+    with pytest.raises(ColumnsError, match="no variable of numbers"):
+        read_columns(path)
