@@ -11,7 +11,8 @@ from gradhesion.cli.dataset.dataset import attributes, variables
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import SI, SOLVER, UNITS
 from gradhesion.cli.study.study import Study
-from gradhesion.core import PARAMETERS, solve
+from gradhesion.cli.work.scenes import solve
+from gradhesion.core import PARAMETERS
 from gradhesion.core.reduced import parameters_from, scales_in_si, sources_of
 
 Arrays = Mapping[str, xarray.DataArray]

@@ -9,11 +9,11 @@ from benchmarks.clock import seconds_of, table
 from benchmarks.draw import mixture
 from gradhesion.core import contact, solve
 from gradhesion.core.branches import ROWS
+from gradhesion.core.cosine_sweep import table_of
 from gradhesion.core.curve import curve_of
 from gradhesion.core.cycle import extent, is_long, walk
 from gradhesion.core.material import stiffness
 from gradhesion.core.status import LOADING_NOT_ONE_DISC
-from gradhesion.core.cosine_sweep import table_of
 
 BOTH = ("pull_off_force", "dissipated_energy")
 

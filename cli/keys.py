@@ -121,6 +121,10 @@ SPRING: Final = "spring_constant"
 
 TURNS: Final = ("indentation_max_over_R", "load_max")
 """The parameters at which a cycle may turn before the rim: those of a scene that need not be there."""
+ADHESION_RANGE: Final = "adhesion_range_over_R"
+"""The parameter that the Tabor parameters need alone: its dimension is the last, since nothing is solved for it."""
+INTERACTION: Final = "adhesion_range"
+"""The key of [physical] that gives the same with its unit."""
 
 _ALL_INPUTS: Final = (
     _parameter(
@@ -258,6 +262,8 @@ _ALL_INPUTS: Final = (
         "2.0",
         r"$P_{\max}/\frac{3}{2}\pi R\Delta\gamma$",
     ),
+    _quantity(INTERACTION, ADHESION_RANGE, "m", "range z0 of the attraction", '"0.3 nm"', "$z_0$"),
+    _parameter(ADHESION_RANGE, "range z0/R of the attraction, for the Tabor parameters", "3e-7", "$z_0/R$"),
 )
 
 INPUTS: Final[dict[str, Key]] = {key.name: key for key in _ALL_INPUTS}
@@ -265,11 +271,13 @@ INPUTS: Final[dict[str, Key]] = {key.name: key for key in _ALL_INPUTS}
 Every key that gives parameters, in the order of a dataset's dimensions.
 
 Each stands before the parameter in whose place it is, those with units first. The radius of the punch and what a cycle
-turns at are last, since all of one curve share its trace.
+turns at are the last that scenes are solved for, since all of one curve share its trace.
 """
 
 PARAMETERS: Final[dict[str, Key]] = {
-    name: key for name, key in INPUTS.items() if key.table == "parameters" and key.is_parameter and name not in TURNS
+    name: key
+    for name, key in INPUTS.items()
+    if key.table == "parameters" and key.is_parameter and name not in (*TURNS, ADHESION_RANGE)
 }
 """Every parameter that all scenes have, in the order of a dataset's dimensions."""
 

@@ -35,8 +35,12 @@ OUTPUTS: Final = {
     "saturation_radius": "contact radius a/R beyond which the curve has no fold",
     "adhesion_gain": "pull-off force over that of the smooth punch of the same material and radius",
     "energy_gain": "dissipated energy over that of the smooth punch of the same material and radius",
+    "tabor_parameter": "Tabor parameter of the punch: height of its neck over the range of the attraction",
+    "wave_tabor_parameter": "Tabor parameter of the crests of the waviness",
+    "wave_slope": "steepest slope of the waviness",
+    "johnson_alpha": "Johnson's parameter alpha = 1/(sqrt(pi) chi) of the waviness",
 }
-"""Every output of a map, with its `long_name`; those after the depths come with the exact solver alone."""
+"""Every output of a map, with its `long_name`."""
 
 EXTENTS: Final = {
     "equilibrium": "point",
@@ -225,6 +229,10 @@ SYMBOLS: Final = {
     "saturation_radius": "saturation radius $a/R$",
     "adhesion_gain": "gain in force $F/F_0$",
     "energy_gain": "gain in energy $H/H_0$",
+    "tabor_parameter": r"Tabor parameter $\mu$",
+    "wave_tabor_parameter": r"Tabor parameter of crests $\mu_w$",
+    "wave_slope": "steepest slope of the waves",
+    "johnson_alpha": r"Johnson's $\alpha$",
     "pull_off_force_si": "pull-off force $F$",
     "pull_off_radius_si": "radius at pull-off $a$",
     "dissipated_energy_si": "dissipated energy $H$",

@@ -12,11 +12,12 @@ if TYPE_CHECKING:
     from gradhesion.core.curves import draw_curves
     from gradhesion.core.kinds import KERNELS, KINDS, NEEDS, kind_of_curves, kind_of_map, kind_of_turning
     from gradhesion.core.loading_control import CONTROLS, Loading
-    from gradhesion.core.names import CURVES, OUTPUTS, PARAMETERS, REPORTS, SOLVERS, TURNS
+    from gradhesion.core.names import CURVES, OUTPUTS, PARAMETERS, RANGE, REPORTS, SOLVERS, TURNS, VALIDITY
     from gradhesion.core.profile import Harmonic, Profile
     from gradhesion.core.sources import SOURCES
     from gradhesion.core.status import DOUBTFUL, FAILED, FLAGS, doubts_about
     from gradhesion.core.sweep import solve
+    from gradhesion.core.validity import validity
     from gradhesion.core.warmup import compile_kind
 
 __all__ = [
@@ -31,10 +32,12 @@ __all__ = [
     "NEEDS",
     "OUTPUTS",
     "PARAMETERS",
+    "RANGE",
     "REPORTS",
     "SOLVERS",
     "SOURCES",
     "TURNS",
+    "VALIDITY",
     "Harmonic",
     "Loading",
     "Profile",
@@ -47,6 +50,7 @@ __all__ = [
     "kind_of_turning",
     "place",
     "solve",
+    "validity",
     "watch_compilation",
 ]
 
@@ -56,11 +60,12 @@ _HOMES: Final = {
     "curves": ("draw_curves",),
     "kinds": ("KERNELS", "KINDS", "NEEDS", "kind_of_curves", "kind_of_map", "kind_of_turning"),
     "loading_control": ("CONTROLS", "Loading"),
-    "names": ("CURVES", "OUTPUTS", "PARAMETERS", "REPORTS", "SOLVERS", "TURNS"),
+    "names": ("CURVES", "OUTPUTS", "PARAMETERS", "RANGE", "REPORTS", "SOLVERS", "TURNS", "VALIDITY"),
     "profile": ("Harmonic", "Profile"),
     "sources": ("SOURCES",),
     "status": ("DOUBTFUL", "FAILED", "FLAGS", "doubts_about"),
     "sweep": ("solve",),
+    "validity": ("validity",),
     "warmup": ("compile_kind",),
 }
 _HOME_OF: Final = {name: home for home, names in _HOMES.items() for name in names}

@@ -32,6 +32,10 @@ REPORTS: Final = (
     "energy_gain",
 )
 """All that can be asked for beside the results, in the order of the rows (report.py)."""
+VALIDITY: Final = ("tabor_parameter", "wave_tabor_parameter", "wave_slope", "johnson_alpha")
+"""What says where the model applies (validity.py): known without solving anything, whatever the solver."""
+RANGE: Final = "adhesion_range_over_R"
+"""The parameter of the Tabor parameters: the range of the attraction."""
 SOLVERS: Final = ("exact", "asymptotic", "envelope")
 """For wavelengths far below the contact radius: the leading term (asymptotic.py), and closed forms (envelope.py)."""
 CURVES: Final[dict[str, tuple[str, ...]]] = {

@@ -15,9 +15,10 @@ Each of the parameters of `solve` may be left out where others tell it:
     machine_stiffness    spring_constant, E_star, R
     indentation_max_over_R    indentation_max, R
     load_max        preload, R, work_of_adhesion    P/(1.5 pi R dgamma)
+    adhesion_range_over_R    adhesion_range, R
 
-R, c0, wavelength, amplitude, a_max and indentation_max are in m, E_star and E in Pa, work_of_adhesion in J/m^2,
-spring_constant in N/m, preload in N.
+R, c0, wavelength, amplitude, a_max, indentation_max and adhesion_range are in m, E_star and E in Pa, work_of_adhesion
+in J/m^2, spring_constant in N/m, preload in N.
 """
 
 import math
@@ -28,7 +29,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.jump_in_radius import jump_in_radius_of_envelope
-from gradhesion.core.names import PARAMETERS, TURNS
+from gradhesion.core.names import PARAMETERS, RANGE, TURNS
 from gradhesion.core.similarity import amplitude_of_ratio, similarity_length
 
 _Array = NDArray[np.float64]
@@ -45,10 +46,11 @@ WAYS: Final[dict[str, dict[str, tuple[str, ...]]]] = {
     _MACHINE: {"spring_constant": ("E_star", "R")},
     "indentation_max_over_R": {"indentation_max": ("R",)},
     "load_max": {"preload": ("R", "work_of_adhesion")},
+    RANGE: {"adhesion_range": ("R",)},
 }
 """By what a parameter can be told, and what else that takes; in the order in which they follow from one another."""
 
-_OPTIONAL: Final = (_MACHINE, *TURNS)
+_OPTIONAL: Final = (_MACHINE, *TURNS, RANGE)
 """What not every scene has."""
 
 _FOLLOWS: Final[dict[str, Callable[..., Any]]] = {
@@ -62,6 +64,7 @@ _FOLLOWS: Final[dict[str, Callable[..., Any]]] = {
     "a_max_over_L": lambda ratio, *material: ratio * similarity_length(*material),
     "a_max_over_a2": lambda ratio, *others: ratio * jump_in_radius_of_envelope(*others),
     "a_max": lambda a_max, R: a_max / R,
+    "adhesion_range": lambda adhesion_range, R: adhesion_range / R,
     "spring_constant": lambda spring_constant, E_star, R: spring_constant / (E_star * R),
     "indentation_max": lambda indentation_max, R: indentation_max / R,
     "preload": lambda preload, R, work_of_adhesion: preload / (1.5 * math.pi * R * work_of_adhesion),
@@ -75,8 +78,8 @@ def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
     ----------
     given
         Arrays by name, all broadcastable: for each parameter of `solve` itself, or one of those above in its place.
-        Others stay as they are; machine_stiffness, indentation_max_over_R and load_max are made if spring_constant,
-        indentation_max or preload is given; R, E_star and the like are left out.
+        Others stay as they are; machine_stiffness, indentation_max_over_R, load_max and adhesion_range_over_R are made
+        if spring_constant, indentation_max, preload or adhesion_range is given; R, E_star and the like are left out.
 
     Returns
     -------
@@ -114,7 +117,7 @@ def sources_of(parameter: str, given: Mapping[str, Any]) -> tuple[str, ...]:
     Parameters
     ----------
     parameter
-        One of `PARAMETERS`, machine_stiffness, or one of `TURNS`.
+        One of `PARAMETERS` or `TURNS`, machine_stiffness or adhesion_range_over_R.
     given
         As in `parameters_from`; only its names count.
 

@@ -16,6 +16,7 @@ from gradhesion.cli.study.punch import mistakes_of_punch
 from gradhesion.cli.study.roles import mistakes_of_roles
 from gradhesion.cli.study.states import mistakes_of_states
 from gradhesion.cli.study.turn import mistakes_of_turn
+from gradhesion.cli.study.validity import mistakes_of_range
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core import REPORTS, SOLVERS
 
@@ -45,6 +46,7 @@ def mistakes_between_keys(checked: Checked, points: Points) -> tuple[dict[str, V
     mistakes += mistakes_of_punch(checked, sound)
     mistakes += mistakes_of_turn(checked)
     mistakes += mistakes_of_states(checked, sound)
+    mistakes += mistakes_of_range(checked)
     mistakes += _mistakes_of_size(checked, [np.size(values) for values in sound.values()], points=is_points)
     return sound, mistakes
 

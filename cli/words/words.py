@@ -15,6 +15,7 @@ from gradhesion.cli.names import SCENE, SOLVER
 from gradhesion.cli.study.shape_words import control_told
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.words.curve_words import curves_told
+from gradhesion.cli.words.validity_words import validity_told
 from gradhesion.core import FAILED, FLAGS
 from gradhesion.core.loading_control import Loading
 
@@ -33,6 +34,10 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
     yield from _parameters(dataset)
     yield from curves_told(dataset) if has_curves(dataset) else _outputs(dataset)
     yield from _status(dataset)
+    if beyond := list(validity_told(dataset)):
+        yield ""
+        yield "outside the range of the model"
+        yield from beyond
     yield from _origin(dataset)
 
 

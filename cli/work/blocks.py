@@ -12,7 +12,8 @@ from gradhesion.cli.names import SI, UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal import interrupts
-from gradhesion.core import PARAMETERS, solve
+from gradhesion.cli.work.scenes import solve
+from gradhesion.core import PARAMETERS
 
 _T = TypeVar("_T")
 

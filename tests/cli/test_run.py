@@ -40,7 +40,7 @@ def test_the_names_are_those_of_the_core() -> None:
     from gradhesion import core
 
     assert tuple(PARAMETERS) == tuple(core.PARAMETERS)
-    assert tuple(OUTPUTS) == (*core.OUTPUTS, *core.REPORTS)
+    assert tuple(OUTPUTS) == (*core.OUTPUTS, *core.REPORTS, *core.VALIDITY)
     assert (*core.REPORTS,) == EXACT_ONLY
 
 

@@ -11,8 +11,8 @@ import pytest
 
 from gradhesion.core import OUTPUTS, SOLVERS, asymptotic_cycle, cache, scene, solve, solvers
 from gradhesion.core.branches import ROWS
-from gradhesion.core.status import NO_VALUE
 from gradhesion.core.cosine_sweep import table_of
+from gradhesion.core.status import NO_VALUE
 
 SCENE = {"k": 0.2, "nu": 0.3, "modulus": 90.0, "c0_over_R": 1.1, "lambda_over_R": 0.1, "A": 0.01, "a_max_over_R": 0.7}
 

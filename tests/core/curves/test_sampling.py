@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gradhesion.core.cosine_sweep import table_of
 from gradhesion.core.curves.equilibrium import scales_of
 from gradhesion.core.curves.forms import PLAIN, fill_points
 from gradhesion.core.curves.sampling import TOLERANCE, sample
 from gradhesion.core.curves.subject import Form
-from gradhesion.core.cosine_sweep import table_of
 
 K = 0.41
 TABLE = table_of(K)

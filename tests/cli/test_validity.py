@@ -1,0 +1,114 @@
+"""Validity numbers as outputs of a map: with any solver, in Python and in a file, and what `info` says of them."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+from click.testing import Result
+
+import gradhesion as gr
+from gradhesion.cli.dataset import compute
+from gradhesion.cli.errors import StudyError
+from gradhesion.cli.study import study_from
+from gradhesion.core import VALIDITY, validity
+
+Call = Callable[..., Result]
+
+
+@pytest.fixture
+def study(data: dict[str, Any]) -> dict[str, Any]:
+    """A study that asks for all of them, beside a force."""
+    parameters = data["parameters"] | {"adhesion_range_over_R": [1e-5, 1e-3]}
+    return data | {"outputs": ["pull_off_force", *VALIDITY], "parameters": parameters}
+
+
+def test_the_range_is_the_last_dimension_and_solves_nothing_again(study: dict[str, Any]) -> None:
+    dataset = compute(study_from(study))
+    assert list(dataset.sizes) == ["k", "lambda_over_R", "A", "a_max_over_R", "adhesion_range_over_R"]
+    np.testing.assert_array_equal(dataset["pull_off_force"][..., 0], dataset["pull_off_force"][..., 1])
+    names = [*gr.PARAMETERS, "adhesion_range_over_R"]
+    arrays = dict(zip(names, xarray.broadcast(*(dataset[name] for name in names)), strict=True))
+    order = dataset["wave_slope"].dims
+    for name, values in validity({one: array.transpose(*order).values for one, array in arrays.items()}).items():
+        np.testing.assert_array_equal(dataset[name], values)
+        assert dataset[name].attrs["units"] == "1"
+
+
+@pytest.mark.parametrize("solver", ["asymptotic", "envelope", ["exact", "envelope"]])
+def test_with_any_solver(solver: Any, study: dict[str, Any]) -> None:
+    dataset = compute(study_from(study | {"method": {"solver": solver}}))
+    exact = compute(study_from(study))
+    for name in VALIDITY:
+        values = dataset[name] if isinstance(solver, str) else dataset[name].isel(solver=1)
+        np.testing.assert_array_equal(values, exact[name])
+
+
+def test_alone_and_in_python() -> None:
+    ball = {"k": 0.0, "nu": 0.5, "A": 0.0, "R": "1 mm", "E_star": "1 MPa", "work_of_adhesion": "50 mJ/m^2"}
+    found = gr.solve(ball, "tabor_parameter", adhesion_range=["0.3 nm", "1 um"])
+    assert found["tabor_parameter"].sizes == {"adhesion_range": 2}
+    one = (1e-3 * 0.05**2 / 1e6**2) ** (1 / 3) / 3e-10
+    assert found["tabor_parameter"][0].item() == pytest.approx(one, rel=1e-14)
+    np.testing.assert_allclose(found["adhesion_range_over_R"], [3e-7, 1e-3], rtol=1e-15)
+    assert (
+        gr.solve(k=0.0, nu=0.3, modulus=500.0, A=[0.0, 0.1], lambda_over_R=0.1, outputs="wave_slope")["status"].sum()
+        == 0
+    )
+
+
+def test_a_scene_without_value_has_none_of_them() -> None:
+    found = gr.solve(
+        k=0.0, nu=0.3, modulus=5000.0, A=0.1, lambda_over_R=0.1, a_max_over_a2=1.0, outputs=list(VALIDITY[2:])
+    )
+    assert found["status"].item() == 64
+    assert all(np.isnan(found[name].item()) for name in VALIDITY[2:])
+
+
+def test_units_are_given_once(study: dict[str, Any]) -> None:
+    physical = {"R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 nm", "wavelength": "0.1 um"}
+    parameters = {"k": 0.5, "nu": 0.3, "A": 0.02}
+    units = {
+        "outputs": ["tabor_parameter"],
+        "parameters": parameters,
+        "physical": physical | {"adhesion_range": "0.3 nm"},
+    }
+    assert study_from(units).sizes == {}
+    for change, words in (
+        (
+            {"physical": physical},
+            'outputs[0] = "tabor_parameter": this output needs the range of the attraction; add adhesion_range =',
+        ),
+        (
+            {"parameters": parameters | {"adhesion_range_over_R": 1e-4}},
+            "parameters.adhesion_range_over_R = 0.0001: a ratio",
+        ),
+        ({"outputs": ["wave_slope"]}, 'physical.adhesion_range = "0.3 nm": no output needs this key'),
+        ({"physical": physical | {"adhesion_range": "0.3 N"}}, '"N" is the unit of something else'),
+        ({"physical": physical | {"adhesion_range": "0 nm"}}, "out of range"),
+    ):
+        with pytest.raises(StudyError) as caught:
+            study_from(units | change)
+        assert any(words in line for line in caught.value.mistakes), caught.value.mistakes
+    del study["parameters"]["adhesion_range_over_R"]
+    with pytest.raises(StudyError, match=r"outputs\[1\] = \"tabor_parameter\": .*add adhesion_range_over_R = "):
+        study_from(study)
+
+
+def test_info_counts_what_is_beyond_the_model(
+    gradhesion: Call, tmp_path: Path, write_study: Callable[[str], Path]
+) -> None:
+    path = write_study(
+        'outputs = ["tabor_parameter", "wave_tabor_parameter", "wave_slope", "johnson_alpha"]\n[parameters]\nk = 0.0\nnu = 0.3\n'
+        "modulus = 500.0\nlambda_over_R = 0.1\nA = [0.0, 1e-5, 0.02, 0.1]\na_max_over_R = 1.0\nadhesion_range_over_R = [1e-5, 0.01]\n"
+    )
+    assert gradhesion("run", path, "-o", tmp_path / "out.nc", "--quiet").exit_code == 0
+    told = gradhesion("info", tmp_path / "out.nc").stdout.partition("outside the range of the model\n")[2]
+    lines = {line.split()[0]: line for line in told.splitlines() if line.startswith("  ")}
+    assert "4 of 8 scenes (50 %)" in lines["tabor_parameter"], "of the longer range"
+    assert "1 of 8 scenes" in lines["wave_tabor_parameter"], "not of waves shallower than the range"
+    assert "2 of 8 scenes" in lines["wave_slope"]
+    assert "2 of 8 scenes" in lines["johnson_alpha"], "chi = 0.886 at the largest amplitude, 0.177 at the one before"
+    assert gradhesion("verify", tmp_path / "out.nc").exit_code == 2, "there is nothing to recompute"
