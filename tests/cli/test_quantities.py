@@ -11,7 +11,7 @@ from gradhesion.cli.study.form import Range
 from gradhesion.cli.study.mistakes import checked
 from gradhesion.cli.study.quantities import si_value
 
-UNITS = {"m": "length", "Pa": "pressure", "J m-2": "energy per area", "N m-1": "force per length"}
+UNITS = {"m": "length", "Pa": "pressure", "J m-2": "energy per area", "N m-1": "force per length", "N": "force"}
 
 
 @pytest.mark.parametrize(
@@ -82,11 +82,12 @@ def test_what_is_no_quantity_is_told_with_what_is_expected(case: str, name: str)
 @pytest.mark.parametrize("number", ["-1", "nan", "-inf", "1e-9999", "1e9999", "inf", "0"])
 def test_the_range_of_each(name: str, number: str) -> None:
     text = f"{number} {PHYSICAL[name].unit}"
-    allowed = {"amplitude": ("0", "1e-9999"), "a_max": ("inf", "1e9999")}.get(name, ())
+    bounded = {"amplitude": ("0", "1e-9999"), "a_max": ("inf", "1e9999"), "indentation_max": ("-1", "0", "1e-9999")}
+    allowed = bounded.get(name, ())
     if number in allowed:
         si_value(text, name)
         return
-    with pytest.raises(ValueError, match=r"out of range; choose an? .* with"):
+    with pytest.raises(ValueError, match=r"out of range; choose an? .* (with|that is finite)"):
         si_value(text, name)
 
 

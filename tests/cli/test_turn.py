@@ -34,7 +34,7 @@ def test_the_keys_are_those_of_the_core() -> None:
     assert {name for _, name in KEYS} == {*TURNS, "indentation_max", "preload"}
 
 
-@pytest.mark.parametrize(("turn", "values"), zip(TURNS, ([-0.01, 0.02, 0.2], [0.5, 5.0, 50.0]), strict=True))
+@pytest.mark.parametrize(("turn", "values"), [*zip(TURNS, ([-0.01, 0.02, 0.2], [0.5, 5.0, 50.0]), strict=True)])
 def test_it_is_an_axis_after_the_radius(turn: str, values: list[float]) -> None:
     dataset = compute(study_from(study({"a_max_over_R": [0.2, math.inf], turn: values})))
     assert tuple(dataset["pull_off_force"].dims) == ("a_max_over_R", turn)
@@ -96,7 +96,7 @@ def test_commands(gradhesion: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     info = gradhesion("info", "turn.nc").output
     assert "indentation_max_over_R" in info
     assert "contact radius a/R at which unloading starts" in info
-    verified = gradhesion("verify", "turn.nc", "--scenes", "24")
+    verified = gradhesion("verify", "turn.nc", "--sample", "24")
     assert verified.exit_code == 0, verified.output
     assert gradhesion("plot", "turn.nc", "-o", "turn.png").exit_code == 0
     with xarray.open_dataset(tmp_path / "turn.nc") as dataset:

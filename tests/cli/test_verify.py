@@ -46,8 +46,8 @@ def edit_study(path: Path, old: str, new: str, *, seal: bool = False) -> None:
 def test_a_good_dataset_stands_up(gradhesion: Call, dataset_file: Path) -> None:
     result = gradhesion("verify", dataset_file, *ALL)
     assert result.exit_code == 0, result.stderr
-    assert "24 of 24 scenes recomputed (--seed 1), 216 values, solver exact" in result.stdout
-    assert "all 216 values are within their stated errors" in result.stdout
+    assert "24 of 24 scenes recomputed (--seed 1), 240 values, solver exact" in result.stdout
+    assert "all 240 values are within their stated errors" in result.stdout
     shares = [float(row[3]) for row in rows(result) if row[0] != "..."]
     assert len(shares) == 12
     assert shares == sorted(shares, reverse=True)
@@ -64,7 +64,7 @@ def test_one_changed_value_is_found_and_named_first(output: str, gradhesion: Cal
     assert result.exit_code == 3
     assert rows(result)[0][0] == output
     assert " ".join(rows(result)[0][4:]) == "k = 0.31, lambda_over_R = 0.47, A = 0.023, a_max_over_R = 1.7"
-    assert "1 of 216 values deviate by more than their stated errors" in result.stderr
+    assert "1 of 240 values deviate by more than their stated errors" in result.stderr
     assert result.stderr.startswith(f"{dataset_file}: ")
 
 
@@ -167,6 +167,7 @@ VALUES = (
     "unloading_energy",
     "delta_max",
     "delta_jump_out",
+    "turning_radius",
 )
 
 
@@ -230,7 +231,7 @@ def test_errors_that_a_dataset_tells_of_its_values_are_held_against_them(gradhes
         file["pull_off_force"][0, 0, 1, 0] += 2e-10
     result = gradhesion("verify", dataset_file, *ALL)
     assert result.exit_code == 3
-    assert "1 of 216 values" in result.stderr
+    assert "1 of 240 values" in result.stderr
     assert rows(result)[0][:3] == ["pull_off_force", "2e-10", "1e-10"]
     assert rows(result)[1][:3] == ["pull_off_force", "9e-11", "1e-10"]
 

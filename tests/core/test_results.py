@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import results
-from gradhesion.core.names import OUTPUTS
+from gradhesion.core.names import RESULTS
 from gradhesion.core.results import INTEGERS, put, put_all, wants_cycle, wants_folds, wants_force, wants_losses
 
 ROWS = {
@@ -24,14 +24,14 @@ ROWS = {
 
 
 def slots_of(*names: str) -> np.ndarray:
-    return np.array([*(names.index(name) if name in names else -1 for name in OUTPUTS), 0])
+    return np.array([*(names.index(name) if name in names else -1 for name in RESULTS), 0, 0])
 
 
 def test_each_name_has_its_row() -> None:
-    assert tuple(ROWS) == OUTPUTS
-    assert list(ROWS.values()) == list(range(len(OUTPUTS)))
-    assert len(OUTPUTS) == results.CONTACT
-    assert set(INTEGERS) < set(OUTPUTS)
+    assert tuple(ROWS) == RESULTS
+    assert list(ROWS.values()) == list(range(len(RESULTS)))
+    assert len(RESULTS) == results.CONTACT
+    assert set(INTEGERS) < set(RESULTS)
 
 
 @pytest.mark.parametrize("plain", [False, True])
@@ -49,8 +49,8 @@ def test_only_what_was_asked_for_is_stored_and_where_it_was_asked(plain: bool) -
 
 
 def test_what_is_needed_follows_from_what_is_asked() -> None:
-    for chosen in product([False, True], repeat=len(OUTPUTS)):
-        names = {name for name, wanted in zip(OUTPUTS, chosen, strict=True) if wanted}
+    for chosen in product([False, True], repeat=len(RESULTS)):
+        names = {name for name, wanted in zip(RESULTS, chosen, strict=True) if wanted}
         slots = slots_of(*sorted(names))
         assert wants_force(slots) == bool(names & {"pull_off_force", "pull_off_radius"})
         losses = names & {"dissipated_energy", "loading_energy", "unloading_energy"}

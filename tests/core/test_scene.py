@@ -24,7 +24,7 @@ the curve of the scene as many again; the energy is a sum over up to 200 jumps. 
 of these is stationary."""
 LONG = 1e-12
 """The energy of curves of so many waves that those in the middle are summed by an integral (core/wave_sum.py)."""
-STORED = tuple(name for name in OUTPUTS if name not in ("loading_energy", "unloading_energy"))
+STORED = tuple(name for name in OUTPUTS if name not in ("loading_energy", "unloading_energy", "turning_radius"))
 """The parts of the energy are held against the twin in test_energies.py."""
 JUMPS_MAY_DIFFER = 1e-12
 """Below this margin (tests/twin/README.md) a number of jumps is that of a neighbouring scene of doubles."""

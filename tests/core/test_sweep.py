@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import FAILED, FLAGS, OUTPUTS, PARAMETERS, SOLVERS, solve, sweep
+from gradhesion.core import FAILED, FLAGS, OUTPUTS, PARAMETERS, SOLVERS, cosine_sweep, solve
+from gradhesion.core.names import RESULTS
 from gradhesion.core.status import NO_VALUE
 
 EPS = 2.0**-52
@@ -38,7 +39,8 @@ def mixture() -> dict[str, np.ndarray]:
 
 def test_names() -> None:
     assert len(PARAMETERS) == 7
-    assert len(OUTPUTS) == 9
+    assert (*RESULTS, "turning_radius") == OUTPUTS
+    assert len(RESULTS) == 9
     assert "exact" in SOLVERS
     assert FLAGS["no_value"] == NO_VALUE
     assert FAILED & NO_VALUE

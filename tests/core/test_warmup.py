@@ -24,6 +24,7 @@ from gradhesion.core.warmup import SCENE, SPRING
 
 OTHERS = {"profile": Profile(exponent=1.0, harmonics=(Harmonic(n=2, cos=0.3, sin=0.4), Harmonic(n=5, cos=0.1)))}
 BY_LOAD = {"profile": Profile(exponent=2.5), "loading": Loading(control="load")}
+DEEP = {"indentation_max_over_R": 0.04}
 NOT_OF_A_LOAD = tuple(name for name in REPORTS if name != "energy_residual")
 
 
@@ -33,12 +34,14 @@ NOT_OF_A_LOAD = tuple(name for name in REPORTS if name != "energy_residual")
         ("force", [lambda s: solve(s, ["pull_off_force", "pull_off_radius"])]),
         ("energy", [solve, lambda s: solve(s | {"a_max_over_R": [0.3, 0.5, math.inf]}, OUTPUTS)]),
         ("reports", [lambda s: solve(s, REPORTS), lambda s: solve(s, ["roughness_parameter"])]),
+        ("turning", [lambda s: solve(s | {"load_max": [0.1, 3.0]}, OUTPUTS), lambda s: solve(s | DEEP, OUTPUTS)]),
         ("asymptotic", [lambda s: solve(s, solver="asymptotic")]),
         ("envelope", [lambda s: solve(s, solver="envelope")]),
         ("curves", [lambda s: draw_curves(s, list(CURVES))]),
         ("general_force", [lambda s: solve(s, ["pull_off_force"], **OTHERS)]),
         ("general_energy", [lambda s: solve(s, OUTPUTS, **OTHERS), lambda s: solve(s, OUTPUTS, **BY_LOAD)]),
         ("general_reports", [lambda s: solve(s, REPORTS, **OTHERS), lambda s: solve(s, NOT_OF_A_LOAD, **BY_LOAD)]),
+        ("general_turning", [lambda s: solve(s | DEEP, OUTPUTS, **OTHERS), lambda s: solve(s | DEEP, **BY_LOAD)]),
         ("general_envelope", [lambda s: solve(s, solver="envelope", **OTHERS)]),
         (
             "general_curves",

@@ -36,7 +36,7 @@ def _size(scenes: Scenes) -> Excess:
 
 
 def values_or_status(scenes: Scenes) -> Excess:
-    """Finite values and status 0, or no value at all and a status that says why; only delta_max may be infinite."""
+    """Finite values and status 0, or no value at all and a status that says why; only delta_max and the turning radius may be infinite."""
     result = solve(scenes, OUTPUTS)
     valid = _valid(result)
     excess = np.zeros(valid.shape)
@@ -44,7 +44,7 @@ def values_or_status(scenes: Scenes) -> Excess:
     for name in OUTPUTS:
         values = result[name].astype(float)
         right = np.where(valid, np.isfinite(values), (values == -1.0) if "jumps" in name else np.isnan(values))
-        if name == "delta_max":
+        if name in ("delta_max", "turning_radius"):
             right |= valid & (values == np.inf) & unbounded
         excess[~right] = np.nan
     with np.errstate(all="ignore"):

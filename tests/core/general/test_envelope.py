@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import OUTPUTS, PARAMETERS, Harmonic, Loading, Profile, solve
+from gradhesion.core.names import RESULTS
 from gradhesion.core.equations import envelopes
 from gradhesion.core.general.crest import swings
 from gradhesion.core.general.envelope import solve_envelope
@@ -36,8 +37,8 @@ def _draw(count: int) -> dict[str, np.ndarray]:
 
 def test_one_cosine_has_its_own_envelopes() -> None:
     scenes = _draw(300)
-    one, other = solve(scenes, OUTPUTS, solver="envelope"), solve_envelope(scenes, PARAMETERS, OUTPUTS, Profile())
-    for name in OUTPUTS:  # a depth is a difference of terms up to 50 times larger
+    one, other = solve(scenes, RESULTS, solver="envelope"), solve_envelope(scenes, PARAMETERS, RESULTS, Profile())
+    for name in RESULTS:  # a depth is a difference of terms up to 50 times larger
         np.testing.assert_allclose(other[name], one[name], rtol=20 * EPS, atol=20 * EPS, err_msg=name)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import OUTPUTS, PARAMETERS, Harmonic, Loading, Profile, solve
+from gradhesion.core.names import RESULTS
 from gradhesion.core.general.sweep import equivalent_wave, solve_general
 from gradhesion.core.status import CLOSE_TO_A_JUMP, NO_VALUE
 
@@ -46,13 +47,13 @@ def _draw(count: int, seed: int) -> dict[str, np.ndarray]:
 
 def test_one_cosine_is_what_its_own_solver_finds() -> None:
     scenes = _draw(120, 3)
-    special = solve(scenes, OUTPUTS)
-    general = solve_general(scenes, PARAMETERS, OUTPUTS, Profile(), Loading(), 2)
+    special = solve(scenes, RESULTS)
+    general = solve_general(scenes, PARAMETERS, RESULTS, Profile(), Loading(), 2)
     found = general["status"] & NO_VALUE == 0
     assert found.all()
     walked = special["unloading_jumps"] < 100
     sharp = found & ((special["status"] | general["status"]) & CLOSE_TO_A_JUMP == 0)
-    for name in OUTPUTS:
+    for name in RESULTS:
         exact = name in {"loading_jumps", "unloading_jumps"}
         here = sharp if exact or name == "pull_off_radius" else walked
         # depths are differences of terms up to 50 times larger on these scenes
