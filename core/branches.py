@@ -26,7 +26,11 @@ WORK, VALUES, RUN = 13, 14, 15
 GAP, RUN_FIRST, RUN_LAST, RUN_LANDING = 0, 1, 2, 3
 """What the row RUN holds: the first branch beyond waves that were not walked, the first and the last of these waves
 that loading leaves, and where it lands among them (0 if on the way from one wave to the next)."""
-TANGENCY, ROWS = 16, 17
+TANGENCY = 16
+HIGHEST, LOADING_IS_CLOSE, UNLOADING_IS_CLOSE = 17, 18, 19
+"""Of general curves (general/ties.py): the highest coordinate up to the end of a branch, 0 at least, whether a decision
+of loading was close up to there, and whether one of unloading is from the start of the branch on."""
+ROWS = 20
 UNKNOWN: Final = -1.0
 """Unloading jumps of a branch that unloading has not visited yet."""
 _STEPS: Final = 100

@@ -27,6 +27,8 @@ class Grouped:
     rims
         What varies along a curve, one array a name, all of the same shape: (1, rims), or (curves, rims) where the rims
         of one of them differ from curve to curve.
+    others
+        Further parameters of each curve; shape (curves,).
     """
 
     shape: tuple[int, ...]
@@ -37,6 +39,7 @@ class Grouped:
     lambda_over_R: NDArray[np.float64]  # noqa: N815
     A: NDArray[np.float64]
     rims: tuple[NDArray[np.float64], ...]
+    others: tuple[NDArray[np.float64], ...] = ()
 
     @property
     def size(self) -> tuple[int, int]:
@@ -69,7 +72,9 @@ def _flat(array: NDArray[np.float64], shape: tuple[int, ...]) -> NDArray[np.floa
     return np.array(np.broadcast_to(array, shape), order="C").reshape(math.prod(shape))
 
 
-def grouped(parameters: Mapping[str, ArrayLike], along: Sequence[str] = PARAMETERS[-1:]) -> Grouped:
+def grouped(
+    parameters: Mapping[str, ArrayLike], along: Sequence[str] = PARAMETERS[-1:], more: Sequence[str] = ()
+) -> Grouped:
     """Group the scenes of broadcast parameters.
 
     Parameters
@@ -78,8 +83,10 @@ def grouped(parameters: Mapping[str, ArrayLike], along: Sequence[str] = PARAMETE
         An array for each name of `PARAMETERS` and of `along`, all broadcastable.
     along
         The names of what may vary along a curve.
+    more
+        Further parameters of a curve.
     """
-    names = (*PARAMETERS[:-1], *along)
+    names = (*PARAMETERS[:-1], *more, *along)
     arrays: list[NDArray[Any]] = [np.asarray(parameters[name], dtype=float) for name in names]
     shape = np.broadcast_shapes(*(array.shape for array in arrays))
     arrays = [array.reshape((1,) * (len(shape) - array.ndim) + array.shape) for array in arrays]
@@ -90,4 +97,6 @@ def grouped(parameters: Mapping[str, ArrayLike], along: Sequence[str] = PARAMETE
     own = any(length > 1 for array in of_rims for length in array.shape[: len(curve_shape)])
     rows = curve_shape if own else (1,) * len(curve_shape)
     rims = tuple(_flat(array, rows + rim_shape).reshape(-1, math.prod(rim_shape)) for array in of_rims)
-    return Grouped(shape, *(_flat(array[lead], curve_shape) for array in of_curves), rims)
+    flat = [_flat(array[lead], curve_shape) for array in of_curves]
+    count = len(PARAMETERS) - 1
+    return Grouped(shape, *flat[:count], rims, tuple(flat[count:]))

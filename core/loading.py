@@ -1,4 +1,7 @@
-"""Loading: up a branch to its end, then outwards at that depth to the next branch that reaches higher."""
+"""Loading: up a branch to its end, then outwards at that depth to the next branch that reaches higher.
+
+The curve is any of passage.py; "depth" stands for what is prescribed.
+"""
 
 import math
 from typing import Any, Final
@@ -12,11 +15,8 @@ from gradhesion.core.branches import (
     LOADING_LOSS,
     START,
     WORK,
-    ends,
-    find_depth,
 )
-from gradhesion.core.curve import Curve
-from gradhesion.core.jump_energy import energy_from_zero, jump_energy
+from gradhesion.core.passage import find_place, loss_between, loss_from_zero
 
 NOWHERE: Final = constant(-1)
 """The branch of no contact."""
@@ -37,7 +37,7 @@ def next_higher(trace: Any, branch: int, count: int, level: float) -> int:
 
 
 @kernel()
-def climb(table: Any, curve: Curve, now: int, count: int, trace: Any, furthest: float, losses: bool) -> int:
+def climb(table: Any, curve: Any, now: int, count: int, trace: Any, furthest: float, losses: bool) -> int:
     """Follow loading from branch `now` on, outwards to `furthest`; return the last branch that it arrives on.
 
     now = -1 stands for no contact: the first jump is that from zero contact, at the depth 0.
@@ -48,36 +48,36 @@ def climb(table: Any, curve: Curve, now: int, count: int, trace: Any, furthest: 
         higher = next_higher(trace, now + 1, count, level)
         if left >= furthest or higher == count or trace[START, higher] > furthest:
             return now
-        x = find_depth(table, curve, level, ends(trace, higher))
+        x = find_place(table, curve, level, trace, higher)
         if losses and now < 0:
-            loss += energy_from_zero(table, curve, x, 0.0)
+            loss += loss_from_zero(table, curve, x)
         elif losses:
-            loss += jump_energy(table, curve, left, x, trace[WORK])
+            loss += loss_between(table, curve, left, x, trace[WORK])
         jumps += 1.0
         arrive(trace, higher, x, loss, jumps)
         now = higher
 
 
 @kernel()
-def load_up(table: Any, curve: Curve, count: int, trace: Any, furthest: float, losses: bool) -> int:
+def load_up(table: Any, curve: Any, count: int, trace: Any, furthest: float, losses: bool) -> int:
     """Follow loading from zero contact; return the last branch that it arrives on, -1 if none."""
     trace[ARRIVAL, :count] = math.inf
     return climb(table, curve, NOWHERE, count, trace, furthest, losses)
 
 
 @kernel()
-def loading_to(table: Any, curve: Curve, count: int, trace: Any, rim: float, losses: bool) -> tuple[float, float]:
+def loading_to(table: Any, curve: Any, count: int, trace: Any, rim: float, losses: bool) -> tuple[float, float]:
     """Return what loading up to the rim loses, and its jumps."""
     now = count - 1
     while now >= 0 and not trace[ARRIVAL, now] <= rim:
         now -= 1
     if now < 0:  # from zero contact to the rim at once
-        return energy_from_zero(table, curve, rim, 0.0) if losses else 0.0, 1.0
+        return loss_from_zero(table, curve, rim) if losses else 0.0, 1.0
     loss, jumps = trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]
     left = trace[END, now]
     if left < rim:
         if losses:
-            loss += jump_energy(table, curve, left, rim, trace[WORK])
+            loss += loss_between(table, curve, left, rim, trace[WORK])
         jumps += 1.0
     return loss, jumps
 

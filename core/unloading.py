@@ -2,7 +2,8 @@
 
 Where unloading goes from the start of a branch does not depend on where it came from, so that the branch on which it
 lands next, the place there, and the loss from the start to the end of contact are kept with the branch. The loop
-integral and the drawn path read them.
+integral and the drawn path read them. The curve is any of passage.py; "depth" stands for what is prescribed, but in the
+depth at which contact ends.
 """
 
 from typing import Any
@@ -19,11 +20,8 @@ from gradhesion.core.branches import (
     UNLOADING_JUMPS,
     UNLOADING_LOSS,
     WORK,
-    ends,
-    find_depth,
 )
-from gradhesion.core.curve import Curve
-from gradhesion.core.jump_energy import energy_from_zero, jump_energy
+from gradhesion.core.passage import depth_at, find_place, loss_between, loss_to_zero
 
 
 @kernel()
@@ -41,7 +39,7 @@ def next_lower(trace: Any, branch: int, level: float) -> int:
 
 
 @kernel()
-def descend(table: Any, curve: Curve, trace: Any, branch: int, losses: bool) -> None:
+def descend(table: Any, curve: Any, trace: Any, branch: int, losses: bool) -> None:
     """Complete where unloading goes from the start of a branch on, and what it loses, for all that it visits."""
     now = branch
     while trace[UNLOADING_JUMPS, now] < 0.0:  # inwards to where it is known, or to the end of contact
@@ -49,24 +47,25 @@ def descend(table: Any, curve: Curve, trace: Any, branch: int, losses: bool) -> 
         lower = next_lower(trace, now - 1, level)
         trace[NEXT, now] = lower
         if start == 0.0:  # k = 1: the contact shrinks to a point
-            leave(trace, now, 0.0, 0.0, level)
+            leave(trace, now, 0.0, 0.0, depth_at(table, curve, start, level))
         elif lower < 0:
-            leave(trace, now, -energy_from_zero(table, curve, start, level) if losses else 0.0, 1.0, level)
+            loss = loss_to_zero(table, curve, start, level) if losses else 0.0
+            leave(trace, now, loss, 1.0, depth_at(table, curve, start, level))
         else:
             trace[CALLER, lower] = now
             now = lower
     while now != branch:  # and back
         outer = int(trace[CALLER, now])
         loss = trace[UNLOADING_LOSS, now]
-        trace[LANDING, outer] = find_depth(table, curve, trace[START_DEPTH, outer], ends(trace, now))
+        trace[LANDING, outer] = find_place(table, curve, trace[START_DEPTH, outer], trace, now)
         if losses:
-            loss += jump_energy(table, curve, trace[START, outer], trace[LANDING, outer], trace[WORK])
+            loss += loss_between(table, curve, trace[START, outer], trace[LANDING, outer], trace[WORK])
         leave(trace, outer, loss, trace[UNLOADING_JUMPS, now] + 1.0, trace[LAST_DEPTH, now])
         now = outer
 
 
 @kernel()
-def leave_rim(table: Any, curve: Curve, count: int, trace: Any, rim: float, rim_depth: float) -> tuple[int, float]:
+def leave_rim(table: Any, curve: Any, count: int, trace: Any, rim: float, rim_depth: float) -> tuple[int, float]:
     """Return the branch on which unloading is when it has left the rim, -1 for none, and where it arrives there.
 
     That is the rim itself where it stands on a branch; else unloading leaves it by a jump.
@@ -77,20 +76,21 @@ def leave_rim(table: Any, curve: Curve, count: int, trace: Any, rim: float, rim_
     if now >= 0 and trace[END, now] >= rim:
         return now, rim
     now = next_lower(trace, now, rim_depth)
-    return now, find_depth(table, curve, rim_depth, ends(trace, now)) if now >= 0 else 0.0
+    return now, find_place(table, curve, rim_depth, trace, now) if now >= 0 else 0.0
 
 
 @kernel()
 def unloading_from(
-    table: Any, curve: Curve, count: int, trace: Any, rim: float, rim_depth: float, losses: bool
+    table: Any, curve: Any, count: int, trace: Any, rim: float, rim_depth: float, losses: bool
 ) -> tuple[float, float, float]:
     """Return what unloading from the rim loses, its jumps, and the depth at which contact ends."""
     now, landing = leave_rim(table, curve, count, trace, rim, rim_depth)
     if now < 0:
-        return -energy_from_zero(table, curve, rim, rim_depth) if losses else 0.0, 1.0, rim_depth
+        loss = loss_to_zero(table, curve, rim, rim_depth) if losses else 0.0
+        return loss, 1.0, depth_at(table, curve, rim, rim_depth)
     loss, jumps = 0.0, 0.0
     if landing != rim:
-        loss = jump_energy(table, curve, rim, landing, trace[WORK]) if losses else 0.0
+        loss = loss_between(table, curve, rim, landing, trace[WORK]) if losses else 0.0
         jumps = 1.0
     descend(table, curve, trace, now, losses)
     return loss + trace[UNLOADING_LOSS, now], jumps + trace[UNLOADING_JUMPS, now], trace[LAST_DEPTH, now]

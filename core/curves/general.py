@@ -11,14 +11,15 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.core.branches import ARRIVAL, END, START
 from gradhesion.core.curve import force_unit
 from gradhesion.core.curves.equilibrium import draw_through
 from gradhesion.core.curves.forms import GENERAL, Numbers, general_numbers
 from gradhesion.core.curves.smooth import VARIABLES
 from gradhesion.core.curves.subject import BEYOND, BEYOND_SMOOTH, Form, Subject
-from gradhesion.core.general.branches import END, END_LEVEL, START, fill_branches, find_level
 from gradhesion.core.general.curve import Basis
 from gradhesion.core.general.folds import find_folds, room
+from gradhesion.core.general.path import walk
 from gradhesion.core.general.scene import curve_of
 from gradhesion.core.general.sweep import compliance_of, front_of, rows_of, tables_of
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
@@ -32,32 +33,35 @@ MOST_FOLDS: Final = 20_000
 """Folds of a curve that is drawn."""
 
 
-def _folds(basis: Basis, numbers: Numbers, furthest: float) -> tuple[NDArray[np.float64], bool] | None:
-    """Return all folds of the coordinate up to a place, and whether it rises from zero contact; None if too many."""
-    first, end = first_fold_bound(basis, numbers) / TWO_PI, last_fold_bound(basis, numbers) / TWO_PI
+def _bounds(basis: Basis, numbers: Numbers) -> tuple[float, float]:
+    """Return the places between which folds stand."""
+    return first_fold_bound(basis, numbers) / TWO_PI, last_fold_bound(basis, numbers) / TWO_PI
+
+
+def _turns(basis: Basis, numbers: Numbers, furthest: float) -> NDArray[np.float64] | None:
+    """Return all folds of the coordinate up to a place; None if too many."""
+    first, end = _bounds(basis, numbers)
     zeros = np.empty(MOST_FOLDS)
-    count, rises, last = 0, False, min(furthest, end)
+    count, last = 0, min(furthest, end)
     if first < last < math.inf:
-        count, rises, _ = find_folds(basis, numbers, first, last, room(), zeros, 0.0)
-    if count < 0 or last == math.inf:
-        return None
-    return zeros[:count], rises
+        count, _, _ = find_folds(basis, numbers, first, last, room(), zeros, 0.0)
+    return None if count < 0 or last == math.inf else zeros[:count]
 
 
 def _trace(
     basis: Basis, numbers: Numbers, furthest: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | tuple[None, NDArray[np.float64]]:
-    """Return the branches, one a column, and the extrema of depth and load that do not bound them."""
-    folds = _folds(basis, numbers, furthest)
-    turns = [_folds(basis, (*numbers[:3], *ends), furthest) for ends in ((1.0, 0.0), (0.0, 1.0))]
-    if folds is None or turns[0] is None or turns[1] is None:
+    """Return the branches with what general/path.py notes of them, and the other extrema of depth and load.
+
+    The rim is no end of a branch.
+    """
+    turns = [_turns(basis, (*numbers[:3], *ends), furthest) for ends in ((1.0, 0.0), (0.0, 1.0), numbers[3:5])]
+    if turns[0] is None or turns[1] is None or turns[2] is None:
         return None, np.empty(0)
-    zeros, rises = folds
-    rows = np.empty((zeros.size // 2 + 2, 4))
-    branches = fill_branches(basis, numbers, zeros, zeros.size, rises, furthest, rows, 0.0)
-    others = np.setdiff1d(np.concatenate([turns[0][0], turns[1][0]]), zeros)
-    trace = np.ascontiguousarray(rows[:branches].T)
-    trace[END, trace[END] == furthest] = math.inf  # the rim is no fold
+    count, trace, _ = walk(basis, numbers, *_bounds(basis, numbers), furthest, False)
+    trace = np.ascontiguousarray(trace[:, :count])
+    trace[END, trace[END] == furthest] = math.inf
+    others = np.setdiff1d(np.concatenate(turns[:2]), trace[[START, END]])
     return trace, others[others < furthest]
 
 
@@ -112,10 +116,7 @@ def subject_of(scene: Mapping[str, float], profile: Profile, loading: Loading) -
     if not rim < math.inf:
         places = [BEYOND_SMOOTH * smooth_place(form, profile.exponent) / TWO_PI, *BEYOND * turns[-1:]]
         if trace is not None:
-            arrival = find_level(
-                basis, curve, float(np.max(trace[END_LEVEL, :-1], initial=0.0)), trace[:, -1].copy(), 0.0
-            )
-            places += [BEYOND * trace[START, -1], BEYOND * arrival]
+            places += [BEYOND * trace[START, -1], BEYOND * trace[ARRIVAL, -1]]
         end = wavelength * max(places)
     return Subject(table, stretch, wavelength, math.nan, amplitude * wavelength, rim, end, form, trace, turns)
 

@@ -1,4 +1,4 @@
-"""The path of a cycle of any profile under any control: core/general/path.py with its corners kept.
+"""The path of a cycle of any profile under any control, read from what core/general/path.py notes of its branches.
 
 Jumps keep the coordinate Y = alpha depth + beta load that is prescribed. Without contact the load is zero and the depth
 Y/alpha. Under load control (alpha = 0) the punch falls without end once contact is lost: the path ends there, with
@@ -10,12 +10,13 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, START_DEPTH
 from gradhesion.core.curves.forms import point
 from gradhesion.core.curves.path import BRANCH, DEPTH, JOINED, JUMP, LOAD, PLACE, UNLOADING, draw_corners
 from gradhesion.core.curves.subject import Subject
-from gradhesion.core.general.branches import END, END_LEVEL, START, START_LEVEL, find_level
 from gradhesion.core.general.energy import energy_from_zero, jump_energy
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.unloading import descend, leave_rim
 
 _ROWS: Final = 7
 
@@ -49,9 +50,8 @@ class _Walk:
         last = self.corners[-1]
         return (last[DEPTH] if self.beta == 0.0 else depth), (last[LOAD] if self.alpha == 0.0 else load)
 
-    def land(self, branch: NDArray[np.float64], level: float, number: float, unloading: bool) -> None:
-        """Jump to a branch at a level."""
-        place = find_level(self.form.table, self.curve, level, branch.copy(), 0.0)
+    def land(self, place: float, number: float, unloading: bool) -> None:
+        """Jump to a place on a branch."""
         self.put(place, *self.kept(*self.at(place)), False, number, True, unloading)
 
     def along(self, place: float, number: float, unloading: bool) -> None:
@@ -74,36 +74,34 @@ def find_corners(subject: Subject) -> NDArray[np.float64]:
     assert subject.trace is not None  # noqa: S101 (draw.py asks first)
     walk = _Walk(subject)
     rim = subject.end / walk.form.radius_scale
-    trace = subject.trace.copy()
-    trace[END] = np.minimum(trace[END], rim)
+    trace = subject.trace
     branches = trace.shape[1]
     at_rim = branches + 1.0
-    walk.put(0.0, 0.0, 0.0, False, 0.0, False, False)
-    left, level = 0.0, 0.0
-    for branch in range(branches):
-        if trace[END_LEVEL, branch] > level:
-            walk.land(trace[:, branch], level, branch + 1.0, False)
-            left, level = float(trace[END, branch]), float(trace[END_LEVEL, branch])
-            walk.along(left, branch + 1.0, False)
     rim_depth, rim_load = walk.at(rim)
     rim_level = walk.alpha * rim_depth + walk.beta * rim_load
+    walk.put(0.0, 0.0, 0.0, False, 0.0, False, False)
+    left, level = 0.0, 0.0
+    for branch in np.flatnonzero(trace[ARRIVAL] <= rim).tolist():
+        walk.land(float(trace[ARRIVAL, branch]), branch + 1.0, False)
+        if trace[END, branch] < rim:
+            left, level = float(trace[END, branch]), float(trace[END_DEPTH, branch])
+        else:
+            left, level = rim, rim_level
+        walk.along(left, branch + 1.0, False)
     if left < rim:
         walk.pin(rim, level, at_rim)
         if level > rim_level:
             walk.put(rim, rim_depth, rim_load, False, at_rim, False, True)
-    now, level = branches - 1, rim_level
-    landed = now >= 0 and trace[END, now] == rim
-    left = rim
-    while True:
-        if not landed:
-            while now >= 0 and not trace[START_LEVEL, now] < level:
-                now -= 1
-            if now < 0:
-                break
-            walk.land(trace[:, now], level, now + 1.0, True)
-        left, level = float(trace[START, now]), float(trace[START_LEVEL, now])
+    now, landing = leave_rim(walk.form.table, walk.curve, branches, trace, rim, rim_level)
+    if now >= 0:
+        descend(walk.form.table, walk.curve, trace, now, False)
+    left, level = rim, rim_level
+    while now >= 0:
+        if landing != rim:
+            walk.land(landing, now + 1.0, True)
+        left, level = float(trace[START, now]), float(trace[START_DEPTH, now])
         walk.along(left, now + 1.0, True)
-        now, landed = now - 1, False
+        landing, now = float(trace[LANDING, now]), int(trace[NEXT, now])
     if left > 0.0:
         depth = level / walk.alpha if walk.alpha > 0.0 else walk.corners[-1][DEPTH]
         walk.put(0.0, *walk.kept(depth, 0.0), False, 0.0, True, True)

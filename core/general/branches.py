@@ -1,13 +1,16 @@
-"""The branches of a curve, rows (start, Y there, end, Y there): between two folds Y rises from the one to the other."""
+"""The branches of a curve between its folds, in the rows of core/branches.py: on each the coordinate Y rises."""
 
 import math
 from typing import Any, Final
 
 from gradhesion.core._jit import kernel
+from gradhesion.core.branches import END, END_DEPTH, START, START_DEPTH
 from gradhesion.core.general.curve import Basis, Curve, coordinate, slope
 from gradhesion.core.struve.circle import TWO_PI
 
-START, START_LEVEL, END, END_LEVEL = 0, 1, 2, 3
+START_LEVEL: Final = START_DEPTH
+END_LEVEL: Final = END_DEPTH
+"""The coordinates at the two ends."""
 _STEPS: Final = 200
 _OUTERMOST: Final = 1e100
 _SURE: Final = 1e-9
@@ -19,30 +22,38 @@ _FAR: Final = 100.0
 def fill_branches(
     basis: Basis, curve: Curve, zeros: Any, count: int, rises: bool, rim: float, trace: Any, whole: float = 0.0
 ) -> int:
-    """Fill the trace from the folds within the rim; return the number of branches. All stand `whole` waves out."""
+    """Fill the trace from the folds within the rim; return the number of branches. All stand `whole` waves out.
+
+    The last branch ends at the rim if no fold ends it before.
+    """
     _, _, _, alpha, _ = curve
     branches = 0
     inside = rises
     if rises:  # k = 1: contact grows from a point, where Y = -alpha
-        trace[0, START], trace[0, START_LEVEL] = 0.0, -alpha
+        trace[START, 0], trace[START_LEVEL, 0] = 0.0, -alpha
     for i in range(count):
         if inside:
-            trace[branches, END], trace[branches, END_LEVEL] = zeros[i], coordinate(basis, curve, zeros[i], whole)
+            trace[END, branches], trace[END_LEVEL, branches] = zeros[i], coordinate(basis, curve, zeros[i], whole)
             branches += 1
         else:
-            trace[branches, START], trace[branches, START_LEVEL] = zeros[i], coordinate(basis, curve, zeros[i], whole)
+            trace[START, branches], trace[START_LEVEL, branches] = zeros[i], coordinate(basis, curve, zeros[i], whole)
         inside = not inside
     if inside:
-        trace[branches, END] = rim
-        trace[branches, END_LEVEL] = coordinate(basis, curve, rim, whole) if rim < math.inf else math.inf
+        trace[END, branches] = rim
+        trace[END_LEVEL, branches] = coordinate(basis, curve, rim, whole) if rim < math.inf else math.inf
         branches += 1
     return branches
 
 
 @kernel()
-def find_level(basis: Basis, curve: Curve, target: float, branch: Any, whole: float = 0.0) -> float:
-    """Return where a branch meets a coordinate between those of its ends (Newton, kept in the bracket)."""
-    low, high = branch[START], branch[END]
+def find_level(
+    basis: Basis, curve: Curve, target: float, branch: tuple[float, float, float, float], whole: float = 0.0
+) -> float:
+    """Return where a branch meets a coordinate between those of its ends (Newton, kept in the bracket).
+
+    `branch` has what `ends` of core/branches.py returns.
+    """
+    low, _, high, _ = branch
     if high == math.inf:
         step = whole + low if whole + low > 0.0 else 1.0
         high = low + step

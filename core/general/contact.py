@@ -14,6 +14,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core._jit import kernel
+from gradhesion.core.branches import ARRIVAL, ends
 from gradhesion.core.contact import next_window, place_of
 from gradhesion.core.general.branches import END, END_LEVEL, START_LEVEL, find_level
 from gradhesion.core.general.curve import Basis, Curve, coordinate
@@ -188,29 +189,59 @@ def climb_is_one_disc(
 ) -> bool:
     """Return whether loading over the branches of a trace, and on to the rim, keeps the contact one disc.
 
-    It begins at the radius x = `left` and the coordinate `level`; trace and rim are `whole` waves further out, and a
+    It begins at the radius x = `left` and the coordinate `level`; branches and rim are `whole` waves further out, and a
     rim of -inf is none.
     """
     lowest = -math.inf
     for branch in range(count + 1):
         if branch < count:
-            lowest = min(lowest, trace[branch, START_LEVEL])
-            if trace[branch, END_LEVEL] <= level:
+            lowest = min(lowest, trace[START_LEVEL, branch])
+            if trace[END_LEVEL, branch] <= level:
                 continue
         elif left < whole + rim:
             lowest = min(lowest, coordinate(basis, curve, rim, whole))
         else:
             break
         if left == 0.0 or not is_surely_open(basis, curve, left, level - lowest):
-            end = whole + (find_level(basis, curve, level, trace[branch], whole) if branch < count else rim)
+            end = whole + (find_level(basis, curve, level, ends(trace, branch), whole) if branch < count else rim)
             if not jump_is_one_disc(basis, curve, left, end):
                 return False
         if branch < count:
-            left, level, lowest = whole + trace[branch, END], trace[branch, END_LEVEL], math.inf
+            left, level, lowest = whole + trace[END, branch], trace[END_LEVEL, branch], math.inf
     return True
 
 
 @kernel()
-def loading_is_one_disc(basis: Basis, curve: Curve, count: int, trace: Any, rim: float) -> bool:
-    """Return whether loading to the rim keeps the contact one disc, from the branches of path.py."""
-    return climb_is_one_disc(basis, curve, count, trace, rim, 0.0, 0.0, 0.0)
+def disc_limits(basis: Basis, curve: Curve, count: int, trace: Any, furthest: float) -> tuple[float, float]:
+    """Return the place up to which loading keeps the contact one disc, and that from which on it does not.
+
+    They are those of the first jump that does not, as far as `furthest`; for a rim between the two `is_one_disc` looks
+    anew. Infinite where loading keeps one disc throughout. The trace is that of path.py.
+    """
+    now, lowest = -1, math.inf
+    for branch in range(count + 1):
+        landing = furthest
+        if branch < count:
+            lowest = min(lowest, trace[START_LEVEL, branch])
+            landing = trace[ARRIVAL, branch]
+            if landing == math.inf:
+                continue
+        left = trace[END, now] if now >= 0 else 0.0
+        if branch == count:
+            if left >= furthest:
+                break
+            lowest = min(lowest, coordinate(basis, curve, furthest))
+        surely = now >= 0 and is_surely_open(basis, curve, left, trace[END_LEVEL, now] - lowest)
+        if not surely and not jump_is_one_disc(basis, curve, left, landing):
+            return left, landing
+        now, lowest = branch, math.inf
+    return math.inf, math.inf
+
+
+@kernel()
+def is_one_disc(basis: Basis, curve: Curve, limits: tuple[float, float], rim: float) -> bool:
+    """Return whether loading keeps the contact one disc up to a rim, from the limits of its curve."""
+    low, high = limits
+    if rim <= low or rim >= high:
+        return rim <= low
+    return jump_is_one_disc(basis, curve, low, rim)

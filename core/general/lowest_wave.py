@@ -26,7 +26,7 @@ def _trough(basis: Basis, curve: Curve, cut: float, wave: float, work: Any) -> f
     """Return the lowest trough of a wave, inf without any."""
     rows = work[2][0]
     best = lowest_start(rows, branches_of_wave(basis, curve, wave, cut, work, rows))
-    return rows[best, START_LEVEL] if best >= 0 else math.inf
+    return rows[START_LEVEL, best] if best >= 0 else math.inf
 
 
 @kernel()
@@ -67,6 +67,6 @@ def lowest_of_waves(
     while wave <= min(high, outer + _NEIGHBOURS):
         count = branches_of_wave(basis, curve, wave, cut, work, rows)
         for i in range(count):
-            best = lower(best, rows[i, START_LEVEL], wave + rows[i, START])
+            best = lower(best, rows[START_LEVEL, i], wave + rows[START, i])
         wave += 1.0
     return True, best

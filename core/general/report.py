@@ -18,23 +18,26 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core._jit import NO, YES, kernel
-from gradhesion.core.general.branches import END, END_LEVEL, START, START_LEVEL, fill_branches, find_level
+from gradhesion.core.branches import ARRIVAL, END, LANDING, NEXT, START
 from gradhesion.core.general.curve import Basis, Curve, coordinate, slope, state
 from gradhesion.core.general.envelope import chis
-from gradhesion.core.general.folds import MOST_CELLS, MOST_FOLDS, cell_width, find_folds, folds_of_cell, room
+from gradhesion.core.general.folds import MOST_CELLS, cell_width, folds_of_cell, room
+from gradhesion.core.general.path import walk
 from gradhesion.core.general.scene import LONGEST_WALK, curve_of
 from gradhesion.core.general.series import integrals
-from gradhesion.core.general.stride import NEAR_END, regular_waves, stride
+from gradhesion.core.general.stride import FEW, NEAR_END, REGULAR, middle_of, regular_waves, stride
 from gradhesion.core.general.sweep import front_of, prepared, rows_of, run_by_exponent, solve_general, tables_of
 from gradhesion.core.general.waves import cut_of
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
 from gradhesion.core.jump_energy import NODES, WEIGHTS
+from gradhesion.core.loading import highest_depth, loading_to
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.profile import Profile
 from gradhesion.core.status import NO_VALUE, TOLERANCE_NOT_MET
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.unloading import descend, leave_rim, unloading_from
 
 ROWS: Final = ("pull_off_force_error", "dissipated_energy_error", "energy_residual", "saturation_radius")
 """What the kernel finds; the others are ratios of what is known."""
@@ -105,42 +108,37 @@ def _work(basis: Basis, curve: Curve, low: float, high: float) -> float:
 
 @kernel()
 def loop(basis: Basis, curve: Curve, count: int, trace: Any, rim: float) -> tuple[float, float]:
-    """Return the loop integral of the load over the coordinate, and the outermost radius that a jump passes."""
+    """Return the loop integral of the load over the coordinate, and the outermost radius that a jump passes.
+
+    The trace is that of path.py, walked as far as the rim at least.
+    """
     _, _, _, alpha, beta = curve
-    total, level, left, outermost = 0.0, 0.0, 0.0, 0.0
-    place = 0.0
+    total, outermost = 0.0, 0.0
+    arrival = math.inf  # on the branch of the rim
     for branch in range(count):
-        top = trace[branch, END_LEVEL]
-        if top <= level:
+        if not trace[ARRIVAL, branch] <= rim or trace[ARRIVAL, branch] == math.inf:
             continue
-        place = find_level(basis, curve, level, trace[branch], 0.0)
-        outermost = place
-        level, left = top, trace[branch, END]
-        if left < rim:
-            total += _work(basis, curve, place, left)
-    at_rim = count > 0 and trace[count - 1, END] == rim
-    arrives = left == rim
-    if not arrives and rim < math.inf:
-        outermost = rim
+        outermost = trace[ARRIVAL, branch]
+        if trace[END, branch] < rim:
+            total += _work(basis, curve, outermost, trace[END, branch])
+        else:
+            arrival = outermost
+    level = math.inf
     if rim < math.inf:
-        _, _, front, _, load = state(basis, curve, rim, 0.0)
-        pinned = max(0.0, level - coordinate(basis, curve, rim, 0.0))
+        level = coordinate(basis, curve, rim)
+        _, _, front, _, load = state(basis, curve, rim)
+        pinned = highest_depth(count, trace, rim, level) - level
         total -= pinned * (load + 0.5 * pinned * front / (alpha + beta * front))
-    now = count - 1
-    left, level = (trace[now, START], trace[now, START_LEVEL]) if at_rim else (rim, coordinate(basis, curve, rim, 0.0))
-    if at_rim:
-        # loading that lands on this branch as well goes the rest of it both ways
-        total -= _work(basis, curve, left, place if arrives else rim)
-        now -= 1
-    while left > 0.0:
-        while now >= 0 and not trace[now, START_LEVEL] < level:
-            now -= 1
-        if now < 0:
-            break
-        place = find_level(basis, curve, level, trace[now], 0.0)
-        total -= _work(basis, curve, trace[now, START], place)
-        left, level = trace[now, START], trace[now, START_LEVEL]
-        now -= 1
+        outermost = outermost if arrival < math.inf else rim
+    now, landing = leave_rim(basis, curve, count, trace, rim, level)
+    if now >= 0:
+        descend(basis, curve, trace, now, NO)
+    while now >= 0:
+        # loading that lands on the branch of the rim as well goes the rest of it both ways
+        high = arrival if landing == rim and arrival < math.inf else landing
+        total -= _work(basis, curve, trace[START, now], high)
+        landing = trace[LANDING, now]
+        now = int(trace[NEXT, now])
     return total, outermost
 
 
@@ -172,9 +170,20 @@ def outermost_fold(basis: Basis, curve: Curve) -> float:
 def _other_sum(basis: Basis, curve: Curve, first: float, last: float, rim: float, rim_low: float) -> float:
     """Return the energy of a long curve over 2 pi l^2 dgamma by other sums, NaN if it cannot be summed."""
     _, _, _, alpha, _ = curve
-    tasks = (YES, alpha > 0.0, NO)
-    done, loading, unloading, _, _, _, _ = stride(basis, curve, first, last, rim, rim_low, tasks, _APART)
-    return loading[0] + unloading[0] if done else math.nan
+    middle = middle_of(basis, curve, first, last, _APART)
+    kind, until, _, _, _, _, _ = middle
+    if kind == REGULAR:
+        tasks = (YES, alpha > 0.0, NO, NO)
+        done, loading, unloading, _, _, _, _ = stride(basis, curve, first, middle, rim, rim_low, tasks)
+        return loading[0] + unloading[0] if done else math.nan
+    if kind == FEW:
+        count, trace, _ = walk(basis, curve, first, until, rim, YES)
+        if count >= 0:
+            level = coordinate(basis, curve, rim) if rim < math.inf else math.inf
+            loss, _ = loading_to(basis, curve, count, trace, rim, YES)
+            unloaded, _, _ = unloading_from(basis, curve, count, trace, rim, level, YES)
+            return loss + unloaded
+    return math.nan
 
 
 @kernel()
@@ -196,14 +205,9 @@ def _energy_reports(
     if series.shape[0] > 0 and waves > LONGEST_WALK:
         apart = 4.0 * abs(energy - _other_sum(basis, curve, first, last, rim, rim_low))
     if not waves > _LOOPED:
-        zeros = np.empty(MOST_FOLDS)
-        count, rises = 0, False
-        if first < last:
-            count, rises, _ = find_folds(basis, curve, first, last, room(), zeros, 0.0)
+        count, trace, _ = walk(basis, curve, first, last, rim, NO)
         if count >= 0:
-            trace = np.empty((count // 2 + 2, 4))
-            branches = fill_branches(basis, curve, zeros, count, rises, rim, trace, 0.0)
-            total, outermost = loop(basis, curve, branches, trace, rim)
+            total, outermost = loop(basis, curve, count, trace, rim)
     residual = 2.0 / (1.0 + table.k) * total / alpha if alpha > 0.0 else math.nan
     return (TWO_PI * outermost * (1.0 + _crests(table, series, g))) ** 2, apart, residual
 
@@ -261,13 +265,17 @@ def report_general(
     workers: int,
 ) -> dict[str, NDArray[Any]]:
     """Report on scenes that `solve_general` has solved; `found` has the results that the reports start from."""
-    scenes = prepared(parameters, names, loading)
+    scenes = prepared(parameters, loading)
     status = found["status"].ravel()
     series = rows_of(profile)
-    amplitude = scenes.amplitude if series.size else 0.0 * scenes.amplitude
-    out = np.full((len(ROWS), scenes.k.size), np.nan)
+    k, stretch, wavelength, amplitude, compliance = map(
+        scenes.of_each, (scenes.k, scenes.stretch, scenes.wavelength, scenes.amplitude, scenes.compliance)
+    )
+    amplitude = amplitude if series.size else 0.0 * amplitude
+    rim = np.array(np.broadcast_to(scenes.rim, (scenes.k.size, scenes.rim.shape[1])), order="C").ravel()
+    out = np.full((len(ROWS), k.size), np.nan)
     wanted = np.array([name in reports for name in ROWS])
-    none = np.full(scenes.k.size, np.nan)
+    none = np.full(k.size, np.nan)
     radius, energy = (
         found[name].ravel() if name in found else none for name in ("pull_off_radius", "dissipated_energy")
     )
@@ -275,17 +283,16 @@ def report_general(
     def work(exponent: float, index: NDArray[np.int64]) -> None:
         table, cosines = tables_of(exponent, series)
         front = front_of(exponent, profile.exponent)
-        arrays = (scenes.stretch, scenes.wavelength, amplitude, scenes.compliance, scenes.rim, radius, energy)
+        arrays = (stretch, wavelength, amplitude, compliance, rim, radius, energy)
         report_scenes(table, cosines, series, profile.exponent, front, index, *arrays, wanted, out, status)
 
     if wanted.any():
-        run_by_exponent(scenes.k, work, workers)
+        run_by_exponent(k, work, workers)
     made: dict[str, NDArray[Any]] = {
         name: row.reshape(scenes.shape) for name, row in zip(ROWS, out, strict=True) if name in reports
     }
     if "roughness_parameter" in reports:
-        k = np.where(status & NO_VALUE, np.nan, scenes.k)
-        _, down = chis(k, scenes.stretch, scenes.wavelength, amplitude, profile)
+        _, down = chis(np.where(status & NO_VALUE, np.nan, k), stretch, wavelength, amplitude, profile)
         made["roughness_parameter"] = down.reshape(scenes.shape)
     gains = [name for name in reports if name in _GAINS]
     if gains:

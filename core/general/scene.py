@@ -1,4 +1,4 @@
-"""From the numbers of a general scene to its results: one kernel for one scene."""
+"""From the numbers of general scenes to their results: one curve at a time, with all its rims."""
 
 import math
 from collections.abc import Callable
@@ -6,16 +6,19 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import NO, kernel
+from gradhesion.core._jit import kernel
 from gradhesion.core.curve import force_unit
 from gradhesion.core.folds import CLOSE
-from gradhesion.core.general.curve import Basis, Curve, state
+from gradhesion.core.general.contact import disc_limits, is_one_disc
+from gradhesion.core.general.curve import Basis, Curve, coordinate, state
 from gradhesion.core.general.folds import MOST_CELLS, room
 from gradhesion.core.general.path import depth_at_full_contact, walk
 from gradhesion.core.general.pull_off import lowest_load
-from gradhesion.core.general.stride import stride
+from gradhesion.core.general.stride import FEW, REGULAR, Middle, middle_of, stride
+from gradhesion.core.general.ties import is_close_to_a_jump
 from gradhesion.core.general.waves import highest_harmonic
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
+from gradhesion.core.loading import highest_depth, loading_to
 from gradhesion.core.results import (
     CONTACT,
     DEEPEST,
@@ -25,6 +28,7 @@ from gradhesion.core.results import (
     LOADED,
     LOADING,
     RADIUS,
+    TURNED,
     UNLOADED,
     UNLOADING,
     put,
@@ -35,6 +39,7 @@ from gradhesion.core.results import (
 from gradhesion.core.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
+from gradhesion.core.unloading import unloading_from
 
 LONGEST_WALK: Final = 512.0
 """Waves up to which a curve is walked."""
@@ -75,91 +80,222 @@ def curve_of(
 
 @kernel()
 def _refuse(slots: Any, out: Any, status: Any, i: int) -> None:
-    """Give a scene out of range no value."""
+    """Give the scene of a rim out of range no value."""
     for row in range(CONTACT):
         put(out, slots, row, i, math.nan)
     status[i] = NO_VALUE
 
 
 @kernel()
-def _cycle(
+def _put_cycle(
     basis: Basis,
     curve: Curve,
     length: float,
     unit: float,
-    rim: float,
-    rim_low: float,
+    place: tuple[float, float],
+    loading: tuple[float, float, float],
+    unloading: tuple[float, float, float],
+    flags: tuple[bool, bool],
     slots: Any,
     out: Any,
     status: Any,
     i: int,
 ) -> None:
-    """Follow the cycle of a scene up to the rim x = `rim` + `rim_low`."""
-    _, _, series = basis
-    _, _, _, alpha, _ = curve
-    first = first_fold_bound(basis, curve) / TWO_PI
-    last = min(rim, last_fold_bound(basis, curve) / TWO_PI)
-    tasks = (wants_losses(slots), alpha > 0.0, slots[CONTACT] >= 0)
-    nothing = (0.0, 0.0, 0.0, 0.0, 0.0, NO)
-    done, loading, unloading, close, one_disc, waves, x = False, nothing, nothing, False, True, 0.0, rim
-    if series.shape[0] > 0 and LONGEST_WALK < last - first < math.inf:
-        done, loading, unloading, close, one_disc, waves, x = stride(
-            basis, curve, first, last, rim, rim_low, tasks, 0.0
-        )
-    if not done and (last - first) * highest_harmonic(series) < MOST_CELLS:
-        done, loading, unloading, close, one_disc, waves, x = walk(basis, curve, first, last, rim, tasks)
-    if not done:
-        _refuse(slots, out, status, i)
-        return
-    _, _, level, _, _, _ = loading
-    _, _, _, whole, left, _ = unloading
+    """Store the cycle of a rim, and what there is to report.
+
+    Parameters
+    ----------
+    basis, curve, length, unit
+        The curve and its units.
+    place
+        The rim: x, beyond some whole waves.
+    loading, unloading
+        What they lose, their jumps, and the highest coordinate of the one, the depth of the jump-out of the other.
+    flags
+        Whether a decision was close, and whether the contact stays one disc as far as was asked.
+    slots, out, status, i
+        As those of `solve_scenes`; i is the number of the rim.
+    """
+    close, one_disc = flags
+    x, whole = place
+    loaded, loading_jumps, highest = loading
+    unloaded, unloading_jumps, last = unloading
     if close:
         status[i] |= CLOSE_TO_A_JUMP
-    if level == 0.0:
+    if highest == 0.0:
         status[i] |= JUMP_IN_TO_RIM
     if not one_disc:
         status[i] |= LOADING_NOT_ONE_DISC
     scale = TWO_PI * length * length
-    put(out, slots, ENERGY, i, scale * (loading[0] + unloading[0]))
-    put(out, slots, LOADED, i, scale * loading[0])
-    put(out, slots, UNLOADED, i, scale * unloading[0])
-    put(out, slots, LOADING, i, loading[1])
-    put(out, slots, UNLOADING, i, unloading[1])
-    if slots[LAST] >= 0:
-        depth = -1.0
-        if whole + left > 0.0:
-            _, _, _, depth, _ = state(basis, curve, left, whole)
-        put(out, slots, LAST, i, unit * depth)
+    put(out, slots, ENERGY, i, scale * (loaded + unloaded))
+    put(out, slots, LOADED, i, scale * loaded)
+    put(out, slots, UNLOADED, i, scale * unloaded)
+    put(out, slots, LOADING, i, loading_jumps)
+    put(out, slots, UNLOADING, i, unloading_jumps)
+    put(out, slots, LAST, i, unit * last)
     if slots[DEEPEST] >= 0:
-        deepest = depth_at_full_contact(basis, curve, x, level, waves) if rim < math.inf else rim
+        deepest = depth_at_full_contact(basis, curve, x, highest, whole) if x < math.inf else x
         put(out, slots, DEEPEST, i, unit * deepest)
 
 
 @kernel()
-def _pull_off(
+def _walked(
     basis: Basis,
     curve: Curve,
-    scales: tuple[float, float],
-    x: float,
-    x_low: float,
-    rim: float,
+    length: float,
+    unit: float,
+    first: float,
+    last: float,
+    rims: Any,
+    chosen: Any,
+    slots: Any,
+    out: Any,
+    status: Any,
+) -> bool:
+    """Solve the chosen rims of a curve on one trace; return whether it could be walked."""
+    losses, turned = wants_losses(slots), slots[TURNED] > 0
+    furthest = 0.0
+    for i in range(rims.size):
+        if chosen[i]:
+            furthest = max(furthest, rims[i])
+    count, trace, tangency = walk(basis, curve, first, last, furthest, losses)
+    if count < 0:
+        return False
+    limits = disc_limits(basis, curve, count, trace, furthest) if slots[CONTACT] >= 0 else (math.inf, math.inf)
+    for i in range(rims.size):
+        if not chosen[i]:
+            continue
+        x = rims[i]
+        level = coordinate(basis, curve, x) if x < math.inf else math.inf
+        loss, jumps = loading_to(basis, curve, count, trace, x, losses)
+        loading = (loss, jumps, highest_depth(count, trace, x, level))
+        unloading = unloading_from(basis, curve, count, trace, x, level, losses)
+        close = is_close_to_a_jump(basis, curve, count, trace, tangency, x, level, turned)
+        flags = (close, is_one_disc(basis, curve, limits, x))
+        _put_cycle(basis, curve, length, unit, (x, 0.0), loading, unloading, flags, slots, out, status, i)
+    return True
+
+
+@kernel()
+def _strode(
+    basis: Basis,
+    curve: Curve,
+    length: float,
+    unit: float,
+    first: float,
+    middle: Middle,
+    rim: tuple[float, float],
     slots: Any,
     out: Any,
     status: Any,
     i: int,
+) -> bool:
+    """Solve one rim of a long curve; return whether its waves could be summed."""
+    _, _, _, alpha, _ = curve
+    tasks = (wants_losses(slots), alpha > 0.0, slots[CONTACT] >= 0, slots[TURNED] > 0)
+    x, x_low = rim
+    done, loading, unloading, close, one_disc, waves, x = stride(basis, curve, first, middle, x, x_low, tasks)
+    if not done:
+        return False
+    _, _, _, whole, left, _ = unloading
+    depth = -1.0
+    if whole + left > 0.0:
+        _, _, _, depth, _ = state(basis, curve, left, whole)
+    up, down = (loading[0], loading[1], loading[2]), (unloading[0], unloading[1], depth)
+    _put_cycle(basis, curve, length, unit, (x, waves), up, down, (close, one_disc), slots, out, status, i)
+    return True
+
+
+@kernel()
+def _cycles(
+    basis: Basis,
+    curve: Curve,
+    length: float,
+    unit: float,
+    wavelength: float,
+    rims: Any,
+    slots: Any,
+    out: Any,
+    status: Any,
 ) -> None:
-    """Find the pull-off of a scene up to the rim x + x_low; `scales` are those of its load and of its places."""
+    """Follow the cycles of a curve up to all its rims that are not refused: those within a walk share one trace."""
+    _, _, series = basis
+    count = rims.size
+    highest = highest_harmonic(series)
+    first, last = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
+    places, together, alone = np.empty(count), np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+    shared = False
+    for i in range(count):
+        if not rims[i] > 0.0:
+            continue
+        x = rims[i] / wavelength
+        places[i] = x
+        waves = min(x, last) - first
+        if series.shape[0] > 0 and LONGEST_WALK < waves < math.inf:
+            middle = middle_of(basis, curve, first, min(x, last), 0.0)
+            x_low = fma(-x, wavelength, rims[i]) / wavelength if x < math.inf else 0.0
+            kind, until, _, _, _, _, _ = middle
+            if kind == REGULAR and _strode(
+                basis, curve, length, unit, first, middle, (x, x_low), slots, out, status, i
+            ):
+                continue
+            alone[i] = True
+            if kind == FEW and _walked(basis, curve, length, unit, first, until, places, alone, slots, out, status):
+                alone[i] = False
+                continue
+            alone[i] = False
+        if not waves * highest < MOST_CELLS:
+            _refuse(slots, out, status, i)
+        elif waves > LONGEST_WALK:
+            alone[i] = True
+            if not _walked(basis, curve, length, unit, first, last, places, alone, slots, out, status):
+                _refuse(slots, out, status, i)
+            alone[i] = False
+        else:
+            together[i] = shared = True
+    if not shared or _walked(basis, curve, length, unit, first, last, places, together, slots, out, status):
+        return
+    for i in range(count):  # too many folds up to the largest of them
+        if together[i]:
+            alone[i] = True
+            if not _walked(basis, curve, length, unit, first, last, places, alone, slots, out, status):
+                _refuse(slots, out, status, i)
+            alone[i] = False
+
+
+@kernel()
+def _pull_offs(
+    basis: Basis, curve: Curve, scales: tuple[float, float], rims: Any, slots: Any, out: Any, status: Any
+) -> None:
+    """Find the pull-off of a curve for all its rims; `scales` are those of its load and of its places.
+
+    That of the largest rim serves all rims beyond its place.
+    """
     force_scale, wavelength = scales
-    lowest, place, second = lowest_load(basis, curve, x, x_low, room())
-    if not lowest < 0.0:
-        status[i] |= NO_VALUE
-        lowest = place = math.nan
-    elif second < lowest * (1.0 - CLOSE):
-        status[i] |= CLOSE_TO_A_JUMP
-    put(out, slots, FORCE, i, -force_scale * lowest)
-    put(out, slots, RADIUS, i, place * wavelength if place != x else rim)
-    if place == x:
-        status[i] |= PULL_OFF_AT_RIM
+    furthest, free = 0.0, (0.0, math.inf, 0.0)
+    work = room()
+    for i in range(rims.size):
+        if rims[i] > 0.0:
+            furthest = max(furthest, rims[i])
+    if rims.size > 1 and furthest > 0.0:
+        free = lowest_load(basis, curve, furthest / wavelength, 0.0, work)
+    for i in range(rims.size):
+        if not rims[i] > 0.0:
+            continue
+        x = rims[i] / wavelength
+        lowest, place, second = free
+        if not (lowest < 0.0 and place < x and second >= lowest * (1.0 - CLOSE)):
+            x_low = fma(-x, wavelength, rims[i]) / wavelength if x < math.inf else 0.0
+            lowest, place, second = lowest_load(basis, curve, x, x_low, work)
+        if not lowest < 0.0:
+            status[i] |= NO_VALUE
+            lowest = place = math.nan
+        elif second < lowest * (1.0 - CLOSE):
+            status[i] |= CLOSE_TO_A_JUMP
+        put(out, slots, FORCE, i, -force_scale * lowest)
+        put(out, slots, RADIUS, i, place * wavelength if place != x else rims[i])
+        if place == x:
+            status[i] |= PULL_OFF_AT_RIM
 
 
 def loop_of(*, cycles: bool) -> Callable[..., None]:
@@ -177,33 +313,37 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
         wavelength: Any,
         amplitude: Any,
         compliance: Any,
-        rim: Any,
+        rims: Any,
         slots: Any,
         out: Any,
         status: Any,
     ) -> None:
-        """Solve the scenes `index` of one gradient exponent (curve_of tells what their numbers are)."""
+        """Solve the curves `index` of one gradient exponent, each for all its rims (curve_of says what they are).
+
+        The rims are an array of shape (curves, rims), or (1, rims) if they are the same for all curves; `out` has the
+        shape (results, curves, rims), `status` (curves, rims).
+        """
         smooth = np.zeros((0, 3))
         for j in range(index.size):
             i = index[j]
+            own, results, flags = rims[i if rims.shape[0] > 1 else 0], out[:, i], status[i]
             valid = 0.0 < stretch[i] < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf
-            if not (valid and rim[i] > 0.0 and compliance[i] >= 0.0):
-                _refuse(slots, out, status, i)
-                continue
+            valid = valid and compliance[i] >= 0.0
             basis = (table, cosines, series if amplitude[i] > 0.0 else smooth)
             curve, length, unit = curve_of(
                 table.k, exponent, front, stretch[i], wavelength[i], amplitude[i], compliance[i]
             )
-            if not (0.0 < curve[0] < math.inf and 0.0 <= curve[2] < math.inf):
-                _refuse(slots, out, status, i)
+            valid = valid and 0.0 < curve[0] < math.inf and 0.0 <= curve[2] < math.inf
+            for rim in range(own.size):
+                if not (valid and own[rim] > 0.0):
+                    _refuse(slots, results, flags, rim)
+            if not valid:
                 continue
-            x = rim[i] / wavelength[i]
-            x_low = fma(-x, wavelength[i], rim[i]) / wavelength[i] if x < math.inf else 0.0
             if wants_force(slots):
                 scales = (force_unit(table.k, length, unit), wavelength[i])
-                _pull_off(basis, curve, scales, x, x_low, rim[i], slots, out, status, i)
+                _pull_offs(basis, curve, scales, own, slots, results, flags)
             if cycles and wants_folds(slots):
-                _cycle(basis, curve, length, unit, x, x_low, slots, out, status, i)
+                _cycles(basis, curve, length, unit, wavelength[i], own, slots, results, flags)
 
     return solve_scenes
 

@@ -6,17 +6,18 @@ one rise, and unloading goes down where the other fall inwards. Where they do no
 """
 
 import math
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core._jit import NO, kernel
+from gradhesion.core._jit import NO, constant, kernel
 from gradhesion.core.general.branches import END, END_LEVEL, START, START_LEVEL, fill_branches
 from gradhesion.core.general.contact import climb_is_one_disc
 from gradhesion.core.general.curve import Basis, Curve
 from gradhesion.core.general.folds import MOST_FOLDS, find_folds, room
-from gradhesion.core.general.path import State, climb, descend, folds_are_close, leave, leave_rim, reach_rim, walk
+from gradhesion.core.general.pieces import State, climb, descend, leave, leave_rim, reach_rim
 from gradhesion.core.general.summation import sum_of_waves
+from gradhesion.core.general.ties import first_close_pair, is_at_a_fold
 from gradhesion.core.general.waves import (
     DOWN,
     NEAREST,
@@ -40,6 +41,11 @@ SHORTEST: Final = 64.0
 _SAMPLES: Final = 40
 _TESTED: Final = 12
 """Waves on which the contact is tested."""
+IRREGULAR, FEW, REGULAR = map(constant, range(3))
+"""Long curves that cannot be summed; whose folds end so early that they can be walked; and that are summed."""
+Middle: TypeAlias = tuple[int, float, float, float, float, float, bool]
+"""Which of these, the place up to which folds are looked for, the cut of waves.py, and what `regular_waves`
+returns: where folds may begin anew, the first and the last wave to be summed, and whether folds end beyond."""
 MOST_WAVES: Final = 1e14
 """Waves beyond which the coordinates of neighbours cannot be told apart."""
 
@@ -108,7 +114,7 @@ def _highest(basis: Basis, curve: Curve, cut: float, wave: float, work: Any) -> 
     """Return the highest end of a branch of a wave, -inf without any."""
     rows = work[2][0]
     best = highest_end(rows, branches_of_wave(basis, curve, wave, cut, work, rows))
-    return rows[best, END_LEVEL] if best >= 0 else -math.inf
+    return rows[END_LEVEL, best] if best >= 0 else -math.inf
 
 
 @kernel()
@@ -116,7 +122,7 @@ def _lowest(basis: Basis, curve: Curve, cut: float, wave: float, work: Any) -> f
     """Return the lowest start of a branch of a wave, inf without any."""
     rows = work[2][0]
     best = lowest_start(rows, branches_of_wave(basis, curve, wave, cut, work, rows))
-    return rows[best, START_LEVEL] if best >= 0 else math.inf
+    return rows[START_LEVEL, best] if best >= 0 else math.inf
 
 
 @kernel()
@@ -196,7 +202,7 @@ def _waves_are_one_disc(basis: Basis, curve: Curve, cut: float, first: float, la
         highest = highest_end(rows[0], branches_of_wave(basis, curve, before, cut, work, rows[0]))
         count = branches_of_wave(basis, curve, before, cut + 1.0, work, rows[1])
         if highest >= 0:
-            left, level = before + rows[0, highest, END], rows[0, highest, END_LEVEL]
+            left, level = before + rows[0, END, highest], rows[0, END_LEVEL, highest]
             if not climb_is_one_disc(basis, curve, count, rows[1], -math.inf, left, level, before):
                 return False
     return True
@@ -249,48 +255,41 @@ def go_through(
             count = branches_of_wave(basis, curve, far, cut, work, rows)
             if kind == UP:
                 best = highest_end(rows, count)
-                level, x = rows[best, END_LEVEL], rows[best, END]
+                level, x = rows[END_LEVEL, best], rows[END, best]
             else:
                 best = lowest_start(rows, count)
-                level, x = rows[best, START_LEVEL], rows[best, START]
+                level, x = rows[START_LEVEL, best], rows[START, best]
             state = (state[0] + loss, state[1] + jumps, level, far, x, state[5])
         now = far + sign
     return state, one_disc
 
 
 @kernel()
-def stride(
-    basis: Basis,
-    curve: Curve,
-    first: float,
-    last: float,
-    rim: float,
-    rim_low: float,
-    tasks: tuple[bool, bool, bool],
-    apart: float = 0.0,
-) -> Any:
-    """Do what walk (path.py) does, on a long curve; `rim_low` is the rounding error of the rim.
+def middle_of(basis: Basis, curve: Curve, first: float, last: float, apart: float) -> Middle:
+    """Return what of a long curve, whose folds stand between `first` and `last` only, is to be summed.
 
-    The sums begin and end `apart` waves further in than they could. The contact is tested on the way into the regular
-    waves and out of them, and on some of these.
+    The sums begin and end `apart` waves further in than they could.
     """
     table, _, series = basis
-    losses, last_loss, test = tasks
-    nothing = (0.0, 0.0, 0.0, 0.0, 0.0, NO)
-    if last > MOST_WAVES:
-        return False, nothing, nothing, False, True, 0.0, rim
+    if last > MOST_WAVES or last - first < 2.0 * SHORTEST:
+        return IRREGULAR, last, 0.0, 0.0, 0.0, 0.0, NO
     cut = cut_of(table, series)
-    if last - first < 2.0 * SHORTEST:
-        return False, nothing, nothing, False, True, 0.0, rim
     again, begin, end, ends = regular_waves(basis, curve, cut, first, last)
+    until = end + 1.0 + 2.0 * NEAR_END if ends else last + 1.0
     begin, end = begin + apart, end - apart
-    if end - begin < SHORTEST and ends and again == 0.0:
-        furthest = min(last, max(begin, end + NEAR_END) + NEAR_END + apart)
-        return walk(basis, curve, first, furthest, rim, tasks)
-    if end - begin < SHORTEST:
-        return False, nothing, nothing, False, True, 0.0, rim
-    search = room()
-    zeros = np.empty(MOST_FOLDS)
+    if end - begin >= SHORTEST:
+        return REGULAR, until, cut, again, begin, end, ends
+    if ends and again == 0.0:
+        return FEW, min(last, max(begin, end + NEAR_END) + NEAR_END + apart), cut, again, begin, end, ends
+    return IRREGULAR, last, cut, again, begin, end, ends
+
+
+@kernel()
+def folds_before(
+    basis: Basis, curve: Curve, first: float, middle: Middle, search: Any, zeros: Any
+) -> tuple[int, bool, float]:
+    """Put the folds before the regular waves into `zeros`; return what find_folds does, -1 where they do not fit."""
+    _, _, cut, again, begin, _, _ = middle
     inner = max(first, NEAREST) + BEGINNING if again > 0.0 else begin + cut
     count, rises, tangency = find_folds(basis, curve, first, inner, search, zeros, 0.0)
     if count >= 0 and again > 0.0:
@@ -298,19 +297,64 @@ def stride(
         count = count + number if number >= 0 and still == (rises == (count % 2 == 0)) else -1
         tangency = min(tangency, outermost)
     if count < 0 or rises == (count % 2 == 0):
+        return -1, rises, tangency
+    return count, rises, tangency
+
+
+@kernel()
+def stride(
+    basis: Basis,
+    curve: Curve,
+    first: float,
+    middle: Middle,
+    rim: float,
+    rim_low: float,
+    tasks: tuple[bool, bool, bool, bool],
+) -> Any:
+    """Follow the cycle on a long curve up to one rim; `rim_low` is the rounding error of the rim.
+
+    The contact is tested on the way into the regular waves and out of them, and on some of these.
+
+    Parameters
+    ----------
+    basis, curve, first
+        The curve, and the place before which there is no fold.
+    middle
+        What `middle_of` has returned, REGULAR.
+    rim, rim_low
+        The rim.
+    tasks
+        Whether what is lost is wanted, whether what the end of contact loses is a part of it, whether loading is tested
+        for keeping the contact one disc, and whether the rim is a place that loading surely reaches.
+
+    Returns
+    -------
+    Whether it could be done; the states at the end of loading and of unloading (the coordinate that loading ends with,
+    and the place that the last jump leaves, 0 if contact ends at a point), whether a decision was close, whether
+    the contact stays one disc as far as was asked, and the rim as whole waves and x beyond them.
+    """
+    _, _, series = basis
+    losses, last_loss, test, turned = tasks
+    _, until, cut, _, begin, end, _ = middle
+    nothing = (0.0, 0.0, 0.0, 0.0, 0.0, NO)
+    search = room()
+    zeros = np.empty(MOST_FOLDS)
+    count, rises, tangency = folds_before(basis, curve, first, middle, search, zeros)
+    if count < 0:
         return False, nothing, nothing, False, True, 0.0, rim
-    near = np.empty((count // 2 + 2, 4))
+    near = np.empty((4, count // 2 + 2))
     branches = fill_branches(basis, curve, zeros, count, rises, begin + cut, near, 0.0)
-    close = tangency < math.inf or folds_are_close(zeros, count, math.inf, 0.0)
+    close = tangency < math.inf or first_close_pair(zeros, count, 0.0) < math.inf
     whole = end + 1.0
     x = (rim - whole) + rim_low
-    furthest = min(x, 2.0 * NEAR_END + apart if ends else last - whole + 1.0)
+    furthest = min(x, until - whole)
     count, rises, tangency = find_folds(basis, curve, cut, furthest, search, zeros, whole)
     if count < 0 or rises:
         return False, nothing, nothing, False, True, 0.0, rim
-    far = np.empty((count // 2 + 2, 4))
+    far = np.empty((4, count // 2 + 2))
     outer = fill_branches(basis, curve, zeros, count, rises, x, far, whole)
-    close = close or tangency < math.inf or folds_are_close(zeros, count, x, whole)
+    close = close or tangency < math.inf or first_close_pair(zeros, count, whole) < math.inf
+    close = close or (x < math.inf and not turned and is_at_a_fold(basis, curve, x, whole))
     work = room_for_waves(series)
     one_disc = not test or climb_is_one_disc(basis, curve, branches, near, -math.inf, 0.0, 0.0, 0.0)
     loading = climb(basis, curve, branches, near, nothing, losses, 0.0)
@@ -318,7 +362,7 @@ def stride(
     one_disc = one_disc and open_too
     if test and one_disc:
         one_disc = climb_is_one_disc(basis, curve, outer, far, x, loading[3] + loading[4], loading[2], whole)
-    loading = climb(basis, curve, outer, far, loading, losses, whole)
+    loading = climb(basis, curve, outer, far, loading, losses, whole, x if turned else -1.0)
     loading = reach_rim(basis, curve, x, loading, losses, whole)
     inside, unloading = leave_rim(basis, curve, outer, far, x, whole)
     unloading = descend(basis, curve, inside, far, unloading, losses, whole)

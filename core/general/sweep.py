@@ -14,16 +14,17 @@ from scipy.special import beta
 from gradhesion.core.general.scene import solve_pull_offs, solve_scenes
 from gradhesion.core.general.series import with_table
 from gradhesion.core.general.series_table import has_table
+from gradhesion.core.grouping import grouped
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.material import stiffness
-from gradhesion.core.names import PULL_OFF, RESULTS
+from gradhesion.core.names import PARAMETERS, PULL_OFF, RESULTS
 from gradhesion.core.profile import Profile
 from gradhesion.core.results import typed
 from gradhesion.core.struve.cosine_bins import build_cosine_bins
 from gradhesion.core.struve.table import build_table
 
 _TASK: Final = 16
-"""Scenes a task: each takes about as long as a hundred of one cosine."""
+"""Scenes a task: each takes longer than one of one cosine."""
 
 
 @lru_cache(maxsize=128)
@@ -88,7 +89,12 @@ def compliance_of(
 
 @dataclass(frozen=True)
 class Scenes:
-    """The scenes of broadcast parameters as flat arrays, their shape, and what the kernels take of them."""
+    """The scenes of broadcast parameters as curves with their rims, and what the kernels take of them.
+
+    `rim`, and `target` at which cycles turn, have the shape (curves, rims), or (1, rims) where all curves have the same;
+    the others have the shape (curves,).
+    `shape` is that of the parameters, in the order of curves and rims.
+    """
 
     shape: tuple[int, ...]
     k: NDArray[np.float64]
@@ -97,22 +103,32 @@ class Scenes:
     amplitude: NDArray[np.float64]
     compliance: NDArray[np.float64]
     rim: NDArray[np.float64]
+    target: NDArray[np.float64] | None = None
+
+    def of_each(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the values of the curves for each scene, flat."""
+        return np.repeat(values, self.rim.shape[1])
 
 
-def prepared(parameters: Mapping[str, ArrayLike], names: Sequence[str], loading: Loading) -> Scenes:
-    """Return the scenes of the broadcast parameters `names`."""
-    keys = [*names, *(["machine_stiffness"] if loading.control == "machine" else [])]
-    arrays = np.broadcast_arrays(*(np.asarray(parameters[key], dtype=float) for key in keys))
-    k, nu, modulus, c0, wavelength, amplitude, rim, *machine = (np.ascontiguousarray(a).ravel() for a in arrays)
-    material = stiffness(k, nu, modulus, c0)
+def prepared(parameters: Mapping[str, ArrayLike], loading: Loading, along: Sequence[str] = PARAMETERS[-1:]) -> Scenes:
+    """Return the scenes of broadcast parameters.
+
+    Those that differ along the last axes only in what is named by `along` (a_max, and where the cycle turns) are one
+    curve.
+    """
+    curves = grouped(parameters, along, ("machine_stiffness",) if loading.control == "machine" else ())
+    material = stiffness(curves.k, curves.nu, curves.modulus, curves.c0_over_R)
     with np.errstate(all="ignore"):
-        stretch = np.sqrt(2.0 ** (1.0 + k) * math.pi / material)
-    compliance = compliance_of(loading, k, modulus, material, *machine)
-    return Scenes(arrays[0].shape, k, stretch, wavelength, amplitude, compliance, rim)
+        stretch = np.sqrt(2.0 ** (1.0 + curves.k) * math.pi / material)
+    compliance = compliance_of(loading, curves.k, curves.modulus, material, *curves.others)
+    return Scenes(curves.shape, curves.k, stretch, curves.lambda_over_R, curves.A, compliance, *curves.rims)
 
 
-def run_by_exponent(k: NDArray[np.float64], work: Callable[[float, NDArray[np.int64]], None], workers: int) -> None:
-    """Do the work on scenes by their numbers, in tasks of one gradient exponent each."""
+def run_by_exponent(
+    k: NDArray[np.float64], work: Callable[[float, NDArray[np.int64]], None], workers: int, rims: int = 1
+) -> None:
+    """Do the work on curves by their numbers, in tasks of one gradient exponent each."""
+    size = max(1, _TASK // max(1, rims))
 
     def one(task: tuple[float, NDArray[np.int64]]) -> None:
         exponent, index = task
@@ -121,7 +137,7 @@ def run_by_exponent(k: NDArray[np.float64], work: Callable[[float, NDArray[np.in
     order = np.argsort(k, kind="stable")
     first = np.flatnonzero(np.concatenate([[True], k[order][1:] != k[order][:-1]])) if k.size else np.array([], int)
     groups = np.split(order, first[1:]) if k.size else []
-    tasks = [(float(k[g[0]]), g[i : i + _TASK]) for g in groups for i in range(0, g.size, _TASK)]
+    tasks = [(float(k[g[0]]), g[i : i + size]) for g in groups for i in range(0, g.size, size)]
     if min(workers, len(tasks)) > 1:
         with ThreadPoolExecutor(min(workers, len(tasks))) as pool:
             list(pool.map(one, tasks))
@@ -143,15 +159,15 @@ def solve_general(
 ) -> dict[str, NDArray[Any]]:
     """Solve all scenes of the broadcast parameters `names` for one profile and control, as `solve` of core/sweep.py.
 
+    Scenes that differ along the last axes in a_max alone are solved on one trace.
     `turned` is whether a_max is where the cycles turn, not the rim of a punch.
     """
-    scenes = prepared(parameters, names, loading)
+    scenes = prepared(parameters, loading)
     rows = list(dict.fromkeys(outputs))
-    slots = np.array(
-        [*(rows.index(name) if name in rows else -1 for name in RESULTS), int(check_contact) - 1, int(turned)]
-    )
-    out = np.full((len(rows), scenes.k.size), np.nan)
-    status = np.zeros(scenes.k.size, dtype=np.int8)
+    places = [rows.index(name) if name in rows else -1 for name in RESULTS]
+    slots = np.array([*places, int(check_contact) - 1, int(turned)])
+    out = np.full((len(rows), scenes.k.size, scenes.rim.shape[1]), np.nan)
+    status = np.zeros(out.shape[1:], dtype=np.int8)
     series = rows_of(profile)
     amplitude = scenes.amplitude if series.size else 0.0 * scenes.amplitude
 
@@ -163,7 +179,7 @@ def solve_general(
         arrays = (scenes.stretch, scenes.wavelength, amplitude, scenes.compliance, scenes.rim)
         solve(table, cosines, series, profile.exponent, front, index, *arrays, slots, out, status)
 
-    run_by_exponent(scenes.k, work, workers)
+    run_by_exponent(scenes.k, work, workers, scenes.rim.shape[1])
     result: dict[str, NDArray[Any]] = {}
     for name in outputs:
         result[name] = typed(name, out[rows.index(name)]).reshape(scenes.shape)

@@ -84,7 +84,7 @@ def cut_of(table: Any, series: Any) -> float:
 @kernel()
 def room_for_waves(series: Any) -> Any:
     """Return the arrays that waves are worked on in: of a search, zeros of a cell, and branches of two waves."""
-    return room(), np.empty(MOST), np.empty((2, 2 * int(highest_harmonic(series)) + 8, 4))
+    return room(), np.empty(MOST), np.empty((2, 4, 2 * int(highest_harmonic(series)) + 8))
 
 
 @kernel()
@@ -108,14 +108,14 @@ def branches_of_wave(basis: Basis, curve: Curve, wave: float, low: float, work: 
         begin, end = low + i / cells, low + (i + 1) / cells
         found, value, _ = folds_of_cell(basis, curve, begin, end, value, search, zeros, wave)
         for j in range(found):
-            if count == rows.shape[0]:
+            if count == rows.shape[1]:
                 return -1
             level = coordinate(basis, curve, zeros[j], wave)
             if inside:
-                rows[count, END], rows[count, END_LEVEL] = zeros[j], level
+                rows[END, count], rows[END_LEVEL, count] = zeros[j], level
                 count += 1
             else:
-                rows[count, START], rows[count, START_LEVEL] = zeros[j], level
+                rows[START, count], rows[START_LEVEL, count] = zeros[j], level
             inside = not inside
     return -1 if inside else count
 
@@ -125,8 +125,8 @@ def highest_end(rows: Any, count: int) -> int:
     """Return the branch that ends highest, -1 without any."""
     best, level = -1, -math.inf
     for i in range(count):
-        if rows[i, END_LEVEL] > level:
-            best, level = i, rows[i, END_LEVEL]
+        if rows[END_LEVEL, i] > level:
+            best, level = i, rows[END_LEVEL, i]
     return best
 
 
@@ -135,8 +135,8 @@ def lowest_start(rows: Any, count: int) -> int:
     """Return the branch that starts lowest, -1 without any."""
     best, level = -1, math.inf
     for i in range(count):
-        if rows[i, START_LEVEL] < level:
-            best, level = i, rows[i, START_LEVEL]
+        if rows[START_LEVEL, i] < level:
+            best, level = i, rows[START_LEVEL, i]
     return best
 
 
@@ -149,17 +149,17 @@ def _step_up(basis: Basis, curve: Curve, cut: float, wave: float, work: Any, los
     count = branches_of_wave(basis, curve, before, cut + 1.0, work, rows[1])
     if first < 0 or count < 0:
         return 0.0, 0.0, -1
-    level, left = rows[0, first, END_LEVEL], rows[0, first, END]
+    level, left = rows[0, END_LEVEL, first], rows[0, END, first]
     loss, jumps, pattern = 0.0, 0.0, count * 4099 + first
     for i in range(count):
-        if rows[1, i, END_LEVEL] <= level:
+        if rows[1, END_LEVEL, i] <= level:
             continue
         if losses:
             place = place_left(basis, curve, left, before)
-            x = find_landing(basis, curve, place, rows[1, i, START], rows[1, i, END], before)
+            x = find_landing(basis, curve, place, rows[1, START, i], rows[1, END, i], before)
             loss += drop(basis, curve, place, left, x, before)
         jumps += 1.0
-        level, left = rows[1, i, END_LEVEL], rows[1, i, END]
+        level, left = rows[1, END_LEVEL, i], rows[1, END, i]
         pattern = (pattern * 4099 + i + 1) % _MODULUS
     return TWO_PI * TWO_PI * loss, jumps, pattern if jumps > 0.0 else -1
 
@@ -173,17 +173,17 @@ def _step_down(basis: Basis, curve: Curve, cut: float, wave: float, work: Any, l
     count = branches_of_wave(basis, curve, before, cut, work, rows[0])
     if first < 0 or count < 0:
         return 0.0, 0.0, -1
-    level, left = rows[1, first, START_LEVEL], rows[1, first, START]
+    level, left = rows[1, START_LEVEL, first], rows[1, START, first]
     loss, jumps, pattern = 0.0, 0.0, count * 4099 + first
     for i in range(count - 1, -1, -1):
-        if rows[0, i, START_LEVEL] >= level:
+        if rows[0, START_LEVEL, i] >= level:
             continue
         if losses:
             place = place_left(basis, curve, left, before)
-            x = find_landing(basis, curve, place, rows[0, i, START], rows[0, i, END], before)
+            x = find_landing(basis, curve, place, rows[0, START, i], rows[0, END, i], before)
             loss -= drop(basis, curve, place, x, left, before)
         jumps += 1.0
-        level, left = rows[0, i, START_LEVEL], rows[0, i, START]
+        level, left = rows[0, START_LEVEL, i], rows[0, START, i]
         pattern = (pattern * 4099 + i + 1) % _MODULUS
     return TWO_PI * TWO_PI * loss, jumps, pattern if jumps > 0.0 else -1
 

@@ -8,11 +8,11 @@ import pytest
 from scipy.special import gamma
 
 from gradhesion.core import PARAMETERS, Harmonic, Loading, Profile, solve
-from gradhesion.core.general.branches import END, END_LEVEL, START_LEVEL, fill_branches
-from gradhesion.core.general.contact import is_surely_open, jump_is_one_disc, least_opening, loading_is_one_disc
+from gradhesion.core.branches import END, END_DEPTH, START_DEPTH
+from gradhesion.core.general.contact import disc_limits, is_surely_open, jump_is_one_disc, least_opening
 from gradhesion.core.general.curve import coordinate
-from gradhesion.core.general.folds import MOST_FOLDS, find_folds, room
 from gradhesion.core.general.gap import edge_at, opening
+from gradhesion.core.general.path import walk
 from gradhesion.core.general.sweep import solve_general, tables_of
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
 from gradhesion.core.material import stiffness
@@ -27,14 +27,9 @@ CONTROLS = [Loading(), Loading(control="load"), Loading(control="machine")]
 
 
 def _branches(basis: Any, curve: Any, rim: float) -> tuple[int, Any]:
-    zeros = np.empty(MOST_FOLDS)
-    first = first_fold_bound(basis, curve) / (2 * math.pi)
-    last = min(rim, last_fold_bound(basis, curve) / (2 * math.pi))
-    count, rises = 0, False
-    if first < last:
-        count, rises, _ = find_folds(basis, curve, first, last, room(), zeros)
-    trace = np.empty((count // 2 + 2, 4))
-    return fill_branches(basis, curve, zeros, count, rises, rim, trace), trace
+    first, last = first_fold_bound(basis, curve) / (2 * math.pi), last_fold_bound(basis, curve) / (2 * math.pi)
+    count, trace, _ = walk(basis, curve, first, last, rim, False)
+    return count, trace
 
 
 def _strength(k: float, rows: Any) -> float:
@@ -70,7 +65,7 @@ def test_against_the_gap_at_many_states(k: float, truth: Any) -> None:
     for _ in range(50):
         curve, rows, rim = _draw(rng, k)
         basis = (*tables_of(k), rows)
-        one = loading_is_one_disc(basis, curve, *_branches(basis, curve, rim), rim)
+        one = disc_limits(basis, curve, *_branches(basis, curve, rim), rim) == (math.inf, math.inf)
         slow = truth(k, curve, rows, rim)
         assert slow.least(unloading=True) > 0.0, (curve, rows, rim)
         profile = slow.profile(np.concatenate([np.geomspace(1e-9, 1e-2, 200), slow.z])).min()
@@ -175,14 +170,14 @@ def test_what_is_surely_open_is_open(k: float) -> None:
         basis = (*tables_of(k), rows)
         count, trace = _branches(basis, curve, rim)
         for branch in range(count - 1):
-            left, level = trace[branch, END], trace[branch, END_LEVEL]
-            later = trace[branch + 1 : count]
-            higher = np.flatnonzero(later[:, END_LEVEL] > level)
+            left, level = trace[END, branch], trace[END_DEPTH, branch]
+            later = trace[:, branch + 1 : count]
+            higher = np.flatnonzero(later[END_DEPTH] > level)
             if not higher.size:
                 continue
-            lowest = later[: higher[0] + 1, START_LEVEL].min()
+            lowest = later[START_DEPTH, : higher[0] + 1].min()
             if is_surely_open(basis, curve, left, level - lowest):
-                places = np.linspace(left, later[higher[0], END], 60)[1:]
+                places = np.linspace(left, later[END, higher[0]], 60)[1:]
                 places = [x for x in places if coordinate(basis, curve, x) <= level]
                 edge = edge_at(basis, curve, left)
                 assert min(opening(basis, curve, edge, x) for x in places) >= 0.0

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 from gradhesion.core import OUTPUTS, PARAMETERS, Harmonic, Loading, Profile, solve
-from gradhesion.core.general.curve import coordinate
+from gradhesion.core.branches import START_DEPTH
+from gradhesion.core.general.contact import disc_limits
+from gradhesion.core.general.curve import coordinate, state
 from gradhesion.core.general.energy import drop, energy_from_zero, jump_energy, place_left
 from gradhesion.core.general.folds import room
 from gradhesion.core.general.passage import jump_between, jump_from_zero
@@ -15,13 +17,15 @@ from gradhesion.core.general.path import walk
 from gradhesion.core.general.pull_off import lowest_load
 from gradhesion.core.general.scene import curve_of
 from gradhesion.core.general.series import sums
-from gradhesion.core.general.stride import stride
+from gradhesion.core.general.stride import REGULAR, middle_of, stride
 from gradhesion.core.general.sweep import compliance_of, front_of, rows_of, solve_general, tables_of
 from gradhesion.core.general.waves import branches_of_wave, cut_of, room_for_waves, step_of_wave
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
+from gradhesion.core.loading import highest_depth, loading_to
 from gradhesion.core.material import stiffness
 from gradhesion.core.status import CLOSE_TO_A_JUMP, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.unloading import unloading_from
 
 pytestmark = pytest.mark.slow
 
@@ -106,21 +110,27 @@ def test_beyond_four_million_waves_both_solvers_agree(k: float, wavelength: floa
 def test_sums_are_walks(k: float, m: float, harmonics: Any, control: str, waves: float, chi: float) -> None:
     basis, curve, rim = _curve(k, m, harmonics, control, waves, chi)
     first, last = first_fold_bound(basis, curve) / TWO_PI, min(rim, last_fold_bound(basis, curve) / TWO_PI)
-    tasks = (True, control != "load", True)
-    walked = walk(basis, curve, first, last, rim, tasks)
-    summed = stride(basis, curve, first, last, rim, 0.0, tasks)
-    assert walked[0]
-    assert summed[0]
-    assert summed[5] > 0.0  # whole waves before the rim
-    assert walked[4] == summed[4]  # one disc
-    assert walked[2][1] > 100  # jumps of unloading
-    for path, other in zip(summed[1:3], walked[1:3], strict=True):
-        loss, jumps, level, whole, left, _ = path
-        assert jumps == other[1]
-        # the walk adds up 10^4 numbers, and its phases are rounded by 10^4 units
-        assert loss == pytest.approx(other[0], rel=1e-11)
-        assert level == pytest.approx(other[2], rel=1e-12)
-        assert whole + left == pytest.approx(other[3] + other[4], rel=1e-12)
+    middle = middle_of(basis, curve, first, last, 0.0)
+    assert middle[0] == REGULAR
+    done, up, down, _, one_disc, wholes, x = stride(
+        basis, curve, first, middle, rim, 0.0, (True, control != "load", True, False)
+    )
+    count, trace, _ = walk(basis, curve, first, last, rim, True)
+    assert done
+    assert count > 0
+    assert wholes > 0.0  # before the rim
+    assert wholes + x == pytest.approx(rim, rel=1e-15)
+    assert one_disc == (disc_limits(basis, curve, count, trace, rim) == (math.inf, math.inf))
+    level = coordinate(basis, curve, rim)
+    loss, jumps = loading_to(basis, curve, count, trace, rim, True)
+    # the walk adds up 10^4 numbers, and its phases are rounded by 10^4 units
+    assert up[1] == jumps
+    assert up[0] == pytest.approx(loss, rel=1e-11)
+    assert up[2] == pytest.approx(highest_depth(count, trace, rim, level), rel=1e-12)
+    loss, jumps, depth = unloading_from(basis, curve, count, trace, rim, level, True)
+    assert down[1] == jumps > 100
+    assert down[0] == pytest.approx(loss, rel=1e-11)
+    assert state(basis, curve, down[4], down[3])[3] == pytest.approx(depth, rel=1e-11)
 
 
 @pytest.mark.parametrize("waves", [300.0, 1e3, 1e5, 1e7])
@@ -241,7 +251,7 @@ def test_the_lowest_of_many_waves(m: float, waves: float) -> None:
     rows = work[2][0]
     centre = math.floor(place - cut)
     others = [
-        rows[: branches_of_wave(basis, curve, float(wave), cut, work, rows), 1].min()
+        rows[START_DEPTH, : branches_of_wave(basis, curve, float(wave), cut, work, rows)].min()
         for wave in range(max(centre - 1000, 8), min(centre + 1000, int(rim) - 1))
         if branches_of_wave(basis, curve, float(wave), cut, work, rows) > 0
     ]

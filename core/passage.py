@@ -1,0 +1,60 @@
+"""What loading and unloading ask of an equilibrium curve: that of one cosine, or that of any profile and control.
+
+A curve of one cosine (curve.py) has three numbers and goes with the table of its exponent, a general one
+(general/curve.py) has five and goes with its basis. Numba knows their number when it compiles, and leaves the other
+half out. A trace has the rows of branches.py for both; its "depths" are the coordinates Y of a general curve.
+"""
+
+from typing import Any
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.branches import ends, find_depth
+from gradhesion.core.general.branches import find_level
+from gradhesion.core.general.curve import state
+from gradhesion.core.general.passage import jump_between, jump_from_zero
+from gradhesion.core.jump_energy import energy_from_zero, jump_energy
+
+
+@kernel()
+def find_place(table: Any, curve: Any, level: float, trace: Any, branch: int) -> float:
+    """Return where a branch meets a coordinate between those of its two ends."""
+    if len(curve) == 3:
+        return find_depth(table, curve, level, ends(trace, branch))
+    return find_level(table, curve, level, ends(trace, branch), 0.0)
+
+
+@kernel()
+def loss_between(table: Any, curve: Any, start: float, end: float, work: Any) -> float:
+    """Return what a jump from one place of the curve to another one loses; `work` is room for its nodes."""
+    if len(curve) == 3:
+        return jump_energy(table, curve, start, end, work)
+    return jump_between(table, curve, start, end, 0.0)
+
+
+@kernel()
+def loss_from_zero(table: Any, curve: Any, x: float) -> float:
+    """Return what the jump from zero contact to x loses, at the coordinate 0."""
+    if len(curve) == 3:
+        return energy_from_zero(table, curve, x, 0.0)
+    return jump_from_zero(table, curve, x, 0.0, 0.0)
+
+
+@kernel()
+def loss_to_zero(table: Any, curve: Any, x: float, level: float) -> float:
+    """Return what the jump-out from x at a coordinate loses, 0 under a dead load: there it has no bound."""
+    if len(curve) == 3:
+        return -energy_from_zero(table, curve, x, level)
+    if curve[3] == 0.0:
+        return 0.0
+    return -jump_from_zero(table, curve, x, level, 0.0)
+
+
+@kernel()
+def depth_at(table: Any, curve: Any, x: float, level: float) -> float:
+    """Return the depth at x, where the coordinate is `level`."""
+    if len(curve) == 3:
+        return level
+    if x == 0.0:  # k = 1: contact begins in a point
+        return -1.0
+    _, _, _, depth, _ = state(table, curve, x, 0.0)
+    return depth
