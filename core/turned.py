@@ -66,7 +66,9 @@ def turned_results(
     found = solve(scenes | {"a_max_over_R": np.where(away, limits, radii)}, wanted, turned=True)
     none = ((found["status"] | flags) & NO_VALUE) != 0
     if turn == "indentation_max_over_R" and "delta_max" in found:
-        found["delta_max"] = np.where(short & ~none, targets, found["delta_max"])
+        # under a load or by a machine a jump may have passed the depth
+        held = np.isclose(found["delta_max"], targets, rtol=1e-10, atol=1e-14)
+        found["delta_max"] = np.where(short & ~none & held, targets, found["delta_max"])
     for name in (name for name in wanted if away.any() and name not in _OF_THE_CURVE):
         empty = targets if name == "delta_max" else _NOTHING.get(name, 0)
         found[name] = np.where(away, empty, found[name]).astype(found[name].dtype)
