@@ -148,10 +148,8 @@ def solve(
         results = [name for name in wanted if name in RESULTS]
         reports = [name for name in wanted if name in REPORTS]
         results += [NEEDED[name] for name in reports if name in NEEDED]
-        found = solve_general(scenes, PARAMETERS, results, profile, loading, workers, **checks)
-        return (
-            found | report_general(scenes, PARAMETERS, reports, found, profile, loading, workers) if reports else found
-        )
+        found = solve_general(scenes, results, profile, loading, workers, **checks)
+        return found | report_general(scenes, reports, found, profile, loading, workers) if reports else found
 
     def again(scenes: Mapping[str, ArrayLike], wanted: Sequence[str]) -> Results:
         """Solve other scenes that turn as these do."""

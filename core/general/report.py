@@ -257,7 +257,6 @@ def report_scenes(
 
 def report_general(
     parameters: Mapping[str, ArrayLike],
-    names: Sequence[str],
     reports: Sequence[str],
     found: Mapping[str, NDArray[Any]],
     profile: Profile,
@@ -297,9 +296,7 @@ def report_general(
     gains = [name for name in reports if name in _GAINS]
     if gains:
         even = {**parameters, "A": 0.0 * np.asarray(parameters["A"], dtype=float)}
-        smooth = solve_general(
-            even, names, [_GAINS[name] for name in gains], profile, loading, workers, check_contact=False
-        )
+        smooth = solve_general(even, [_GAINS[name] for name in gains], profile, loading, workers, check_contact=False)
         with np.errstate(all="ignore"):
             made |= {name: found[_GAINS[name]] / smooth[_GAINS[name]] for name in gains}
     return made

@@ -51,7 +51,7 @@ MOST_WAVES: Final = 1e14
 
 
 @kernel()
-def _places(low: float, high: float) -> Any:
+def places_between(low: float, high: float) -> Any:
     """Return whole waves between two, in equal ratios."""
     places = np.empty(_SAMPLES)
     for i in range(_SAMPLES):
@@ -86,7 +86,7 @@ def regular_waves(
     """
     low = np.ceil(max(first, NEAREST))
     high = np.floor(last - cut)
-    places = _places(low, high)
+    places = places_between(low, high)
     outer = _SAMPLES - 1
     while outer >= 0 and not falls_at_cut(basis, curve, cut, places[outer]):
         outer -= 1
@@ -142,7 +142,7 @@ def _reaches(basis: Basis, curve: Curve, cut: float, wave: float, kind: int, lev
 
 
 @kernel()
-def _first_that_reaches(
+def first_that_reaches(
     basis: Basis, curve: Curve, cut: float, places: Any, now: float, kind: int, level: float, work: Any
 ) -> float:
     """Return the first wave from `now` on, in the order of `places`, that reaches a level; NaN if none does."""
@@ -166,7 +166,7 @@ def _first_that_reaches(
 
 
 @kernel()
-def _last_of_climb(basis: Basis, curve: Curve, cut: float, places: Any, now: float, kind: int, work: Any) -> float:
+def last_of_climb(basis: Basis, curve: Curve, cut: float, places: Any, now: float, kind: int, work: Any) -> float:
     """Return the wave up to which loading or unloading goes from wave to wave."""
     sign = 1.0 if kind == UP else -1.0
     step = 0.0 if kind == UP else -1.0
@@ -228,7 +228,7 @@ def go_through(
     The state, and whether the contact stays one disc as far as was asked.
     """
     one_disc = True
-    places = _places(begin, end)
+    places = places_between(begin, end)
     if kind == DOWN:
         places = places[::-1].copy()
     left = (0.0, 0.0, 0.0, 0.0, 0.0)
@@ -236,7 +236,7 @@ def go_through(
     now, last = places[0], places[places.size - 1]
     rows = work[2][0]
     while sign * (last - now) >= 0.0:
-        now = _first_that_reaches(basis, curve, cut, places, now, kind, state[2], work)
+        now = first_that_reaches(basis, curve, cut, places, now, kind, state[2], work)
         if math.isnan(now):
             break
         count = branches_of_wave(basis, curve, now, cut, work, rows)
@@ -246,7 +246,7 @@ def go_through(
             state = climb(basis, curve, count, rows, state, losses, now)
         else:
             state = descend(basis, curve, count, rows, state, losses, now)
-        far = _last_of_climb(basis, curve, cut, places, now, kind, work)
+        far = last_of_climb(basis, curve, cut, places, now, kind, work)
         if far != now:
             first, final = (now + 1.0, far) if kind == UP else (far + 1.0, now)
             if test and one_disc:

@@ -91,9 +91,8 @@ def compliance_of(
 class Scenes:
     """The scenes of broadcast parameters as curves with their rims, and what the kernels take of them.
 
-    `rim`, and `target` at which cycles turn, have the shape (curves, rims), or (1, rims) where all curves have the same;
-    the others have the shape (curves,).
-    `shape` is that of the parameters, in the order of curves and rims.
+    `rim`, and `target` at which cycles turn, have the shape (curves, rims), or (1, rims) where all curves have the
+    same; the others have the shape (curves,). `shape` is that of the parameters, in the order of curves and rims.
     """
 
     shape: tuple[int, ...]
@@ -148,7 +147,6 @@ def run_by_exponent(
 
 def solve_general(
     parameters: Mapping[str, ArrayLike],
-    names: Sequence[str],
     outputs: Sequence[str],
     profile: Profile,
     loading: Loading,
@@ -157,7 +155,7 @@ def solve_general(
     check_contact: bool = True,
     turned: bool = False,
 ) -> dict[str, NDArray[Any]]:
-    """Solve all scenes of the broadcast parameters `names` for one profile and control, as `solve` of core/sweep.py.
+    """Solve all scenes of broadcast parameters for one profile and control, as `solve` of core/sweep.py.
 
     Scenes that differ along the last axes in a_max alone are solved on one trace.
     `turned` is whether a_max is where the cycles turn, not the rim of a punch.

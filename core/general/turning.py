@@ -1,11 +1,15 @@
-"""Where a cycle of any profile under any control turns."""
+"""Arrays of general scenes that turn at a depth or a load: where they do."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gradhesion.core.general.sweep import front_of, prepared, rows_of, run_by_exponent, tables_of
+from gradhesion.core.general.turn_curve import turn_scenes
 from gradhesion.core.loading_control import Loading
+from gradhesion.core.names import PARAMETERS
 from gradhesion.core.profile import Profile
 
 
@@ -18,5 +22,36 @@ def turning_general(
     *,
     check_contact: bool = True,
 ) -> tuple[NDArray[np.float64], NDArray[np.int8]]:
-    """Not there yet."""
-    raise NotImplementedError
+    """Return where the cycles turn, and what `status` has to say of that.
+
+    Parameters
+    ----------
+    parameters, turn, profile, loading, workers, check_contact
+        As those of `solve` of core/sweep.py; `turn` is the one of `TURNS` that `parameters` has. Scenes that differ
+        along the last axes in it and in a_max alone are followed on one trace.
+
+    Returns
+    -------
+    The radius a/R at which unloading starts, 0 where no contact is made, NaN where there is no value; and the bits
+    close_to_a_jump (a step is within 4e-12 of the target's terms), loading_contact_not_one_disc (of the contact that
+    turns) and no_value. Both have the broadcast shape.
+    """
+    scenes = prepared(parameters, loading, (*PARAMETERS[-1:], turn))
+    assert scenes.target is not None  # noqa: S101 -- it was asked for
+    rims, targets = scenes.rim, scenes.target
+    series = rows_of(profile)
+    amplitude = scenes.amplitude if series.size else 0.0 * scenes.amplitude
+    radii = np.empty((scenes.k.size, rims.shape[1]))
+    flags = np.zeros(radii.shape, dtype=np.int8)
+
+    def work(exponent: float, index: NDArray[np.int64]) -> None:
+        table, cosines = tables_of(exponent, series)
+        front = front_of(exponent, profile.exponent)
+        arrays: tuple[Any, ...] = (scenes.stretch, scenes.wavelength, amplitude, scenes.compliance, rims, targets)
+        by_load = turn == "load_max"
+        turn_scenes(
+            table, cosines, series, profile.exponent, front, index, *arrays, by_load, check_contact, radii, flags
+        )
+
+    run_by_exponent(scenes.k, work, workers, rims.shape[1])
+    return radii.reshape(scenes.shape), flags.reshape(scenes.shape)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import OUTPUTS, PARAMETERS, Loading, Profile, solve
+from gradhesion.core import OUTPUTS, Loading, Profile, solve
 from gradhesion.core.equations import saturation
 from gradhesion.core.far_wave import jump_of_wave
 from gradhesion.core.folds import first_arch, last_arch
@@ -107,8 +107,8 @@ def test_the_stated_error_covers(decade: int, bounded: bool) -> None:
         reach = scenes["lambda_over_R"] * 10.0 ** (decade + rng.uniform(-1.0, 1.0, size))
         scenes["a_max_over_R"] = reach
     one = solve(scenes, NAMES)
-    other = solve_general(scenes, PARAMETERS, NAMES[:1], *ANY, check_contact=False)
-    stated = one[NAMES[1]] + report_general(scenes, PARAMETERS, NAMES[1:], other, *ANY)[NAMES[1]]
+    other = solve_general(scenes, NAMES[:1], *ANY, check_contact=False)
+    stated = one[NAMES[1]] + report_general(scenes, NAMES[1:], other, *ANY)[NAMES[1]]
     there = np.isfinite(other[NAMES[0]])
     assert np.all(np.isfinite(one[NAMES[0]]))
     assert there.mean() >= 0.5  # a weak wave has too few digits left for the other one, beyond 10^9

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.special import gamma
 
-from gradhesion.core import PARAMETERS, Harmonic, Loading, Profile, solve
+from gradhesion.core import Harmonic, Loading, Profile, solve
 from gradhesion.core.branches import END, END_DEPTH, START_DEPTH
 from gradhesion.core.general.contact import disc_limits, is_surely_open, jump_is_one_disc, least_opening
 from gradhesion.core.general.curve import coordinate
@@ -107,7 +107,7 @@ def _flags(result: dict[str, Any]) -> Any:
 def test_one_cosine_is_what_its_own_solver_finds() -> None:
     scenes = _scenes(400, 21, Profile())
     special = _flags(solve(scenes, ["dissipated_energy"]))
-    general = solve_general(scenes, PARAMETERS, ["dissipated_energy"], Profile(), Loading(), 2)
+    general = solve_general(scenes, ["dissipated_energy"], Profile(), Loading(), 2)
     found = np.isfinite(general["dissipated_energy"])
     assert found.sum() > 380
     assert np.array_equal(special[found], _flags(general)[found])

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import OUTPUTS, PARAMETERS, Harmonic, Loading, Profile, solve
+from gradhesion.core import OUTPUTS, Harmonic, Loading, Profile, solve
 from gradhesion.core.branches import START_DEPTH
 from gradhesion.core.general.contact import disc_limits
 from gradhesion.core.general.curve import coordinate, state
@@ -23,6 +23,7 @@ from gradhesion.core.general.waves import branches_of_wave, cut_of, room_for_wav
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
 from gradhesion.core.loading import highest_depth, loading_to
 from gradhesion.core.material import stiffness
+from gradhesion.core.names import RESULTS
 from gradhesion.core.status import CLOSE_TO_A_JUMP, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.unloading import unloading_from
@@ -73,7 +74,7 @@ def test_one_cosine_is_what_its_own_solver_finds(k: float, wavelength: float) ->
     amplitudes = [_amplitude(chi, scene) for chi in (0.05, 0.6, 2.0)]
     scenes: Any = scene | {"A": amplitudes}
     special = solve(scenes, OUTPUTS)
-    general = solve_general(scenes, PARAMETERS, OUTPUTS, Profile(), Loading(), 1)
+    general = solve_general(scenes, RESULTS, Profile(), Loading(), 1)
     for name in ("loading_jumps", "unloading_jumps"):
         assert np.array_equal(special[name], general[name]), name
     # 5e-13 where either sums, most of it the other's
@@ -90,7 +91,7 @@ def test_beyond_four_million_waves_both_solvers_agree(k: float, wavelength: floa
     scene = SCENE | {"k": k, "nu": 0.5 if k == 1.0 else 0.27, "lambda_over_R": wavelength}
     scenes: Any = scene | {"A": [_amplitude(chi, scene) for chi in (0.3, 0.8, 1.5)]}
     special = solve(scenes, ["dissipated_energy"])["dissipated_energy"]
-    general = solve_general(scenes, PARAMETERS, ["dissipated_energy"], Profile(), Loading(), 1)["dissipated_energy"]
+    general = solve_general(scenes, ["dissipated_energy"], Profile(), Loading(), 1)["dissipated_energy"]
     np.testing.assert_allclose(special, general, rtol=1e-12)
 
 
@@ -139,7 +140,7 @@ def test_a_jump_from_zero_contact_to_the_rim(waves: float) -> None:
     k, rim = 0.7, 1e-6
     scene: Any = SCENE | {"k": k, "a_max_over_R": rim, "lambda_over_R": rim / waves}
     scene |= {"A": _amplitude(1e-9, scene)}
-    general = solve_general(scene, PARAMETERS, OUTPUTS, Profile(), Loading(), 1)
+    general = solve_general(scene, RESULTS, Profile(), Loading(), 1)
     assert (general["loading_jumps"], general["unloading_jumps"]) == (1, 1)
     # the punch's own share of the depth is (a/a_in)^((3+k)/2) of the stretch, here 1e-9
     assert general["dissipated_energy"] == pytest.approx(2.0 * math.pi * rim**2 / (1.0 + k), rel=1e-6)

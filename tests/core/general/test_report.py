@@ -7,7 +7,7 @@ import pytest
 
 from gradhesion.core import OUTPUTS, Harmonic, Loading, Profile, solve
 from gradhesion.core.general.sweep import solve_general
-from gradhesion.core.names import PARAMETERS, REPORTS
+from gradhesion.core.names import REPORTS, RESULTS
 from gradhesion.core.status import FAILED
 from gradhesion.twin import stated
 from gradhesion.twin.path import cycle
@@ -119,7 +119,7 @@ def test_one_cosine_reports_what_its_own_solver_does() -> None:
     other = solve(scenes, (*OUTPUTS, *REPORTS), profile=zero_wave)
     for name in ("roughness_parameter", "saturation_radius", "adhesion_gain", "energy_gain"):
         np.testing.assert_allclose(other[name], plain[name], rtol=1e-12, err_msg=name)
-    assert set(solve_general(scenes, PARAMETERS, OUTPUTS, zero_wave, Loading(), 1)) == {*OUTPUTS, "status"}
+    assert set(solve_general(scenes, RESULTS, zero_wave, Loading(), 1)) == {*RESULTS, "status"}
 
 
 def test_a_dead_load_has_no_residual_and_scenes_without_value_no_report() -> None:

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import OUTPUTS, PARAMETERS, Harmonic, Loading, Profile, solve
-from gradhesion.core.names import RESULTS
+from gradhesion.core import OUTPUTS, Harmonic, Loading, Profile, solve
 from gradhesion.core.general.sweep import equivalent_wave, solve_general
+from gradhesion.core.names import RESULTS
 from gradhesion.core.status import CLOSE_TO_A_JUMP, NO_VALUE
 
 EPS = float(np.finfo(float).eps)
@@ -47,13 +47,13 @@ def _draw(count: int, seed: int) -> dict[str, np.ndarray]:
 
 def test_one_cosine_is_what_its_own_solver_finds() -> None:
     scenes = _draw(120, 3)
-    special = solve(scenes, RESULTS)
-    general = solve_general(scenes, PARAMETERS, RESULTS, Profile(), Loading(), 2)
+    special = solve(scenes, OUTPUTS)
+    general = solve_general(scenes, RESULTS, Profile(), Loading(), 2)
     found = general["status"] & NO_VALUE == 0
     assert found.all()
     walked = special["unloading_jumps"] < 100
     sharp = found & ((special["status"] | general["status"]) & CLOSE_TO_A_JUMP == 0)
-    for name in RESULTS:
+    for name in OUTPUTS:
         exact = name in {"loading_jumps", "unloading_jumps"}
         here = sharp if exact or name == "pull_off_radius" else walked
         # depths are differences of terms up to 50 times larger on these scenes
