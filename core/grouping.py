@@ -97,6 +97,5 @@ def grouped(
     own = any(length > 1 for array in of_rims for length in array.shape[: len(curve_shape)])
     rows = curve_shape if own else (1,) * len(curve_shape)
     rims = tuple(_flat(array, rows + rim_shape).reshape(-1, math.prod(rim_shape)) for array in of_rims)
-    flat = [_flat(array[lead], curve_shape) for array in of_curves]
-    count = len(PARAMETERS) - 1
-    return Grouped(shape, *flat[:count], rims, tuple(flat[count:]))
+    k, nu, modulus, c0, wavelength, amplitude, *others = (_flat(array[lead], curve_shape) for array in of_curves)
+    return Grouped(shape, k, nu, modulus, c0, wavelength, amplitude, rims, tuple(others))

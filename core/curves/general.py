@@ -55,8 +55,9 @@ def _trace(
 
     The rim is no end of a branch.
     """
-    turns = [_turns(basis, (*numbers[:3], *ends), furthest) for ends in ((1.0, 0.0), (0.0, 1.0), numbers[3:5])]
-    if turns[0] is None or turns[1] is None or turns[2] is None:
+    coordinates = (1.0, 0.0), (0.0, 1.0), numbers[3:5]
+    turns = [each for ends in coordinates if (each := _turns(basis, (*numbers[:3], *ends), furthest)) is not None]
+    if len(turns) < len(coordinates):
         return None, np.empty(0)
     count, trace, _ = walk(basis, numbers, *_bounds(basis, numbers), furthest, False)
     trace = np.ascontiguousarray(trace[:, :count])

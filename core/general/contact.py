@@ -14,9 +14,9 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.branches import ARRIVAL, ends
+from gradhesion.core.branches import ARRIVAL, END, ends
 from gradhesion.core.contact import next_window, place_of
-from gradhesion.core.general.branches import END, END_LEVEL, START_LEVEL, find_level
+from gradhesion.core.general.branches import END_LEVEL, START_LEVEL, find_level
 from gradhesion.core.general.curve import Basis, Curve, coordinate
 from gradhesion.core.general.gap import Edge, edge_at, growth_of_a_panel, opening, openings_between, shortest_wave
 from gradhesion.core.general.touch import touches_at_centre

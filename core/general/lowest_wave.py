@@ -10,7 +10,8 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.general.branches import START, START_LEVEL
+from gradhesion.core.branches import START
+from gradhesion.core.general.branches import START_LEVEL
 from gradhesion.core.general.curve import Basis, Curve
 from gradhesion.core.general.waves import branches_of_wave, lowest_start
 

@@ -9,8 +9,8 @@ import math
 from typing import Any, TypeAlias
 
 from gradhesion.core._jit import NO, kernel
-from gradhesion.core.branches import ends
-from gradhesion.core.general.branches import END, END_LEVEL, START, START_LEVEL, find_level
+from gradhesion.core.branches import END, START, ends
+from gradhesion.core.general.branches import END_LEVEL, START_LEVEL, find_level
 from gradhesion.core.general.curve import Basis, Curve, coordinate
 from gradhesion.core.general.passage import jump_between, jump_from_zero
 from gradhesion.core.general.ties import is_near

@@ -11,7 +11,8 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 
 from gradhesion.core._jit import NO, constant, kernel
-from gradhesion.core.general.branches import END, END_LEVEL, START, START_LEVEL, fill_branches
+from gradhesion.core.branches import END, START
+from gradhesion.core.general.branches import END_LEVEL, START_LEVEL, fill_branches
 from gradhesion.core.general.contact import climb_is_one_disc
 from gradhesion.core.general.curve import Basis, Curve
 from gradhesion.core.general.folds import MOST_FOLDS, find_folds, room

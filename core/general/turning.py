@@ -1,7 +1,6 @@
 """Arrays of general scenes that turn at a depth or a load: where they do."""
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -47,11 +46,9 @@ def turning_general(
     def work(exponent: float, index: NDArray[np.int64]) -> None:
         table, cosines = tables_of(exponent, series)
         front = front_of(exponent, profile.exponent)
-        arrays: tuple[Any, ...] = (scenes.stretch, scenes.wavelength, amplitude, scenes.compliance, rims, targets)
-        by_load = turn == "load_max"
-        turn_scenes(
-            table, cosines, series, profile.exponent, front, index, *arrays, by_load, check_contact, radii, flags
-        )
+        arrays = (scenes.stretch, scenes.wavelength, amplitude, scenes.compliance, rims, targets)
+        modes = (turn == "load_max", check_contact)
+        turn_scenes(table, cosines, series, profile.exponent, front, index, *arrays, *modes, radii, flags)
 
     run_by_exponent(scenes.k, work, workers, rims.shape[1])
     return radii.reshape(scenes.shape), flags.reshape(scenes.shape)

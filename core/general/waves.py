@@ -18,7 +18,8 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 
 from gradhesion.core._jit import constant, kernel
-from gradhesion.core.general.branches import END, END_LEVEL, START, START_LEVEL
+from gradhesion.core.branches import END, START
+from gradhesion.core.general.branches import END_LEVEL, START_LEVEL
 from gradhesion.core.general.cells import MOST
 from gradhesion.core.general.curve import Basis, Curve, coordinate, slope
 from gradhesion.core.general.energy import Left, drop, find_landing, place_left

@@ -12,6 +12,7 @@ from gradhesion.core.equations import envelopes
 from gradhesion.core.general.crest import swings
 from gradhesion.core.general.envelope import solve_envelope
 from gradhesion.core.material import stiffness
+from gradhesion.core.names import RESULTS
 from gradhesion.core.status import NO_VALUE
 from gradhesion.twin import stated
 from gradhesion.twin.general import Shape

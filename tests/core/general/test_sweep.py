@@ -53,7 +53,7 @@ def test_one_cosine_is_what_its_own_solver_finds() -> None:
     assert found.all()
     walked = special["unloading_jumps"] < 100
     sharp = found & ((special["status"] | general["status"]) & CLOSE_TO_A_JUMP == 0)
-    for name in OUTPUTS:
+    for name in RESULTS:
         exact = name in {"loading_jumps", "unloading_jumps"}
         here = sharp if exact or name == "pull_off_radius" else walked
         # depths are differences of terms up to 50 times larger on these scenes
