@@ -6,6 +6,7 @@ import xarray
 
 from gradhesion.cli.dataset.reader import check_ours
 from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.keys import TURNS
 from gradhesion.cli.names import CURVES, SI
 from gradhesion.cli.terminal.wording import did_you_mean
 from gradhesion.core.status import FAILED, FLAGS, doubts_about
@@ -61,8 +62,8 @@ class Accessor:
             known = [str(name) for name in self._dataset.data_vars if name != "status"]
             if variable not in known:
                 raise DatasetError(f"{variable}: no variable of this dataset; {did_you_mean(variable, known)}")
-            plain = variable.removesuffix(SI)
-            bits |= doubts_about(next((curve for curve, own in CURVES.items() if plain in own), plain))
+            plain, turned = variable.removesuffix(SI), any(name in self._dataset.coords for name in TURNS)
+            bits |= doubts_about(next((curve for curve, own in CURVES.items() if plain in own), plain), turned=turned)
         return (self._dataset["status"] & bits) == 0
 
     def flagged(self, flag: str) -> xarray.DataArray:

@@ -12,6 +12,7 @@ from gradhesion.cli import names
 from gradhesion.cli.dataset.curve_variables import curve_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.plain import in_order, symbol, words
+from gradhesion.cli.keys import TURNS
 from gradhesion.cli.names import INTEGERS, SCENE, SOLVER
 from gradhesion.cli.picture.labels import Unit, unit_for
 from gradhesion.cli.picture.scales import scale
@@ -189,12 +190,12 @@ def _variable(dataset: xarray.Dataset, name: str, units: Mapping[str, Unit]) -> 
     flat = rounded(values.ravel())
     finite = flat[np.isfinite(flat)]
     positive = finite[finite > 0]
-    curve = curve_of(name) or ""
+    curve, turned = curve_of(name) or "", any(turn in dataset.coords for turn in TURNS)
     return named | {
         "values": flat,
         "length": values.shape[-1] if curve else 1,
         "curve": curve,
-        "doubts": doubts_about(curve or name.removesuffix(names.SI)) & DOUBTFUL,
+        "doubts": doubts_about(curve or name.removesuffix(names.SI), turned=turned) & DOUBTFUL,
         "least": float(finite.min()) if finite.size else None,
         "greatest": float(finite.max()) if finite.size else None,
         "gaps": bool(finite.size < flat.size),

@@ -5,11 +5,13 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
+import xarray
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from gradhesion.cli import names
+from gradhesion.cli.keys import TURNS
 from gradhesion.core import DOUBTFUL, FLAGS, doubts_about
 
 INK: Final = "0.25"
@@ -53,14 +55,19 @@ DOUBTS: Final = _doubts()
 """Every flag that makes values doubtful."""
 
 
-def doubts_in(status: NDArray[Any], variable: str) -> list[Doubt]:
+def is_turned(dataset: xarray.Dataset) -> bool:
+    """Tell whether the cycles of a dataset turn at a depth or a load, so that loading decides on all that follows."""
+    return any(name in dataset.coords for name in TURNS)
+
+
+def doubts_in(status: NDArray[Any], variable: str, *, turned: bool = False) -> list[Doubt]:
     """List the doubts that some scenes cast on a variable; none on `status` itself."""
     if variable == "status":
         return []
     return [
         doubt
         for doubt in DOUBTS
-        if doubt.bit & doubts_about(variable.removesuffix(names.SI)) and doubt.marks(status).any()
+        if doubt.bit & doubts_about(variable.removesuffix(names.SI), turned=turned) and doubt.marks(status).any()
     ]
 
 

@@ -18,7 +18,7 @@ from gradhesion.cli.dataset.selection import Selection
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SOLVER, SYMBOLS
 from gradhesion.cli.picture import panels
-from gradhesion.cli.picture.doubts import END, Doubt, doubts_in, entries
+from gradhesion.cli.picture.doubts import END, Doubt, doubts_in, entries, is_turned
 from gradhesion.cli.picture.labels import Unit, equation, given, label, unit_for
 from gradhesion.cli.picture.layout import PANELS, Plan, items_of
 from gradhesion.cli.picture.looks import PLAIN, Looks
@@ -68,7 +68,7 @@ def draw_grid(
     finite = cut.values[np.isfinite(cut.values)]
     if not finite.size:
         raise DatasetError(f"{name}: no value in any scene drawn; `gradhesion info` shows why")
-    doubts = doubts_in(status.values, name)
+    doubts = doubts_in(status.values, name, turned=is_turned(dataset))
     marks = [(doubt, (status & doubt.bit) != 0) for doubt in doubts]
     if taken.at_end is not None and bool(taken.at_end.any()):
         marks.append((END, taken.at_end.squeeze([axis for axis in taken.at_end.dims if axis not in kept])))

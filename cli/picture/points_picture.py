@@ -10,7 +10,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SOLVER, SYMBOLS
 from gradhesion.cli.picture import panels
 from gradhesion.cli.picture.density import draw_density, number_scenes
-from gradhesion.cli.picture.doubts import doubts_in, entries
+from gradhesion.cli.picture.doubts import doubts_in, entries, is_turned
 from gradhesion.cli.picture.grid_picture import Part
 from gradhesion.cli.picture.labels import equation, given, label, unit_for
 from gradhesion.cli.picture.looks import PLAIN, Looks
@@ -44,7 +44,7 @@ def draw_scenes(
     finite = values[np.isfinite(values)]
     values = np.where(np.isfinite(values), values, np.nan)
     flags = np.atleast_2d(np.where(np.isnan(values), 0, status.values))[:, x.order]
-    doubts = doubts_in(flags, name)
+    doubts = doubts_in(flags, name, turned=is_turned(dataset))
     if name == "status":
         codes = np.unique(finite)
         values = np.where(np.isnan(values), np.nan, np.searchsorted(codes, values))

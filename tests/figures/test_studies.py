@@ -15,7 +15,7 @@ from figures.effective import EARLY, effective_path
 from figures.extras import threshold_of
 from figures.fig3 import corners_of
 from figures.fig8 import parts_of
-from gradhesion.core import PARAMETERS, solve
+from gradhesion.core import PARAMETERS, TURNS, solve
 from gradhesion.core.equations import effective, energy, envelopes, hertz
 from gradhesion.core.material import stiffness
 from gradhesion.core.status import LOADING_NOT_ONE_DISC, PULL_OFF_AT_RIM
@@ -41,9 +41,7 @@ def area(x: Values, y: Values) -> float:
 
 
 def scene(dataset: xarray.Dataset) -> dict[str, float]:
-    return {
-        name: dataset[name].item() for name in ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
-    }
+    return {name: dataset[name].item() for name in (*PARAMETERS, *TURNS) if name in dataset.coords}
 
 
 def material(dataset: xarray.Dataset) -> float:
@@ -79,7 +77,7 @@ def test_nothing_is_to_be_reported_of_any_scene(config: Path, computed: Compute)
 @pytest.mark.parametrize("name", ["fig2a", "fig2b", "fig3", "fig5", "fig6", "fig7", "fig8", "extra_amplitudes"])
 def test_the_contact_of_every_curve_stays_one_disc(name: str, computed: Compute) -> None:
     dataset = computed(name)
-    parameters = {key: dataset[key].values for key in PARAMETERS}
+    parameters = {key: dataset[key].values for key in (*PARAMETERS, *TURNS) if key in dataset.coords}
     assert not (solve(parameters, ["dissipated_energy"])["status"] & LOADING_NOT_ONE_DISC).any()
 
 
@@ -93,7 +91,7 @@ def test_every_jump_of_loading_leaves_one_disc(name: str, computed: Compute) -> 
     folds = np.flatnonzero((jump > 0.5) & (back < 0.5))[1:] - 1  # at the first the gap is the profile
     assert folds.size >= 2
     for fold in folds:
-        outside = np.linspace(radius[fold], of_path["a_max_over_R"].item(), 2001)[1:]
+        outside = np.linspace(radius[fold], 1.5 * radius.max(), 2001)[1:]
         without = hertz.indentation(of_path["k"].item(), outside, of_path["lambda_over_R"].item(), of_path["A"].item())
         assert np.min(without) > depth[fold]
 
@@ -136,7 +134,19 @@ def test_fig3_has_the_events_of_the_paper_and_the_loop_is_the_energy(computed: C
     expected_radii = [0.0, 0.0526, 0.085, 0.224, 0.293, 0.402, 0.45, 0.363, 0.249, 0.181, 0.173, 0.0]
     np.testing.assert_allclose(radius[corners], expected_radii, atol=6e-4)
     assert load[corners[9]] == load.min() == pytest.approx(-2.458, abs=5e-4)
-    assert depth[corners[6]] == depth.max()
+    assert depth[corners[6]] == depth.max() == pytest.approx(dataset["indentation_max_over_R"].item(), rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["fig3", "fig6", "fig7"])
+def test_turning_at_the_depth_of_a_rim_is_turning_at_the_rim(name: str, computed: Compute) -> None:
+    """The paper turns at delta_max: the same cycle as that of a punch with its rim where the depth is met."""
+    dataset = computed(name)
+    outputs = ["pull_off_force", "dissipated_energy", "loading_jumps", "unloading_jumps", "delta_max", "turning_radius"]
+    turned = solve(scene(dataset), outputs)
+    at_rim = {key: value for key, value in scene(dataset).items() if key not in TURNS}
+    rim = solve(at_rim | {"a_max_over_R": turned["turning_radius"]}, outputs)
+    for output in outputs:
+        assert float(rim[output]) == pytest.approx(float(turned[output]), rel=1e-12)
 
 
 def test_fig4a_the_best_exponent_depends_on_poissons_ratio(computed: Compute) -> None:

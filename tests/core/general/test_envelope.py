@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from gradhesion.core import OUTPUTS, PARAMETERS, Harmonic, Loading, Profile, solve
-from gradhesion.core.names import RESULTS
 from gradhesion.core.equations import envelopes
 from gradhesion.core.general.crest import swings
 from gradhesion.core.general.envelope import solve_envelope
