@@ -98,6 +98,7 @@ def solve(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Solution:
     held = _pull_off(curve)
     path, made = cycle(curve)
     turned = turn is not None and turn.place is not None
+    turns_at = None if curve.rim is None else curve.radius(curve.rim)
     jumps = path.loading + path.unloading
     if shape.control == "load":
         jumps = [jump for jump in jumps if jump.end > 0]
@@ -121,9 +122,9 @@ def solve(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Solution:
         delta_max_size=curve.full_depth_size(path.deepest) if curve.rim is not None else math.inf,
         delta_jump_out_size=curve.depth_size(path.last),
         folded_waves=curve.shortest * _folded_waves(made),
-        turning_radius=None if curve.rim is None else curve.radius(curve.rim),
+        turning_radius=turns_at,
         turning_condition=turn.condition if turn else 0.0,
-        turning_slope=_turning_slope(curve) if turned and held.pull_off_radius == curve.radius(curve.rim) else 0.0,
+        turning_slope=_turning_slope(curve) if turned and held.pull_off_radius == turns_at else 0.0,
     )
 
 

@@ -169,6 +169,7 @@ def draw_curves(
     result: dict[str, NDArray[Any]] = {}
     status, cycle = 0, False
     for curve in curves:
+        variables: dict[str, NDArray[Any]] | None
         if radius == 0.0 and curve in _OF_A_CYCLE:
             variables = _without_contact(curve, scene)
         else:
