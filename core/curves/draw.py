@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
@@ -123,8 +122,9 @@ def draw_curves(
     unbounded, and it is none of the jumps that are listed.
 
     Curves reach from zero contact to the rim. Those of an unbounded punch end at 1.5 times the radius where the smooth
-    curve crosses zero depth, or 5 % beyond the last fold of depth, extremum of load or jump of loading. Folds of depth,
-    extrema of load, jumps, start and rim are points of their own, exact to rounding. Between them chords stay within
+    curve crosses zero depth, or 5 % beyond the last fold of depth, extremum of load or jump of loading; where a cycle
+    turns at a depth or a load, 5 % beyond that and the pull-off. Folds of depth, extrema of load, jumps, start and rim
+    are points of their own, exact to rounding. Between them chords stay within
     2e-4 of the drawn span in each of the planes of load and depth, depth and radius, load and radius, measured across
     the chord. Most curves have some hundred points; waves far narrower than the picture take six to eight points each.
 
@@ -157,15 +157,20 @@ def draw_curves(
     if len(turns) > 1:
         raise ValueError(f"{' and '.join(turns)} are given: a cycle turns at one of them")
     plain = {name: value for name, value in scene.items() if name not in turns}
-    subject = subject_of(plain) if default else general.subject_of(plain, profile, loading)
+
+    def of(scene: Mapping[str, float]) -> Subject | None:
+        """Make a scene ready for drawing."""
+        return subject_of(scene) if default else general.subject_of(scene, profile, loading)
+
     driven: dict[str, Any] = {"threads": 1, "profile": profile, "loading": loading}
-    round_trip, radius = subject, math.inf
+    subject = round_trip = of(plain)
+    radius = math.inf
     if turns:
         radius = float(solve(scene, ["turning_radius"], **driven)["turning_radius"])
-        there = plain | {"a_max_over_R": radius}
-        round_trip = subject_of(there) if default else general.subject_of(there, profile, loading)
-        if subject is not None and not subject.bounded and radius > 0.0:
-            subject = replace(subject, end=max(subject.end, BEYOND * radius))
+        round_trip = of(plain | {"a_max_over_R": radius})
+        if subject is not None and not subject.bounded:
+            pulled = float(solve(plain, ["pull_off_radius"], **driven)["pull_off_radius"])
+            subject = of(plain | {"a_max_over_R": BEYOND * max(radius, pulled)})
     result: dict[str, NDArray[Any]] = {}
     status, cycle = 0, False
     for curve in curves:
