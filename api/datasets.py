@@ -110,4 +110,6 @@ def data_of(dataset: Data) -> AbstractContextManager[xarray.Dataset]:
         return nullcontext(dataset)
     if isinstance(dataset, str | Path):
         return opened(Path(dataset))
-    raise DatasetError(f"a {type(dataset).__name__} is no dataset and no path of one; a variable alone has no status")
+    raise DatasetError(
+        f"a {type(dataset).__name__} is neither a dataset nor the path of one; a variable alone has no status"
+    )

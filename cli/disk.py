@@ -1,4 +1,4 @@
-"""Files that appear whole or not at all, and failures to write told in a sentence."""
+"""Files that appear whole or not at all, and failures to write in a sentence."""
 
 import os
 import secrets
@@ -101,8 +101,8 @@ def refuse_beside(path: Path, place: Path, target: Path) -> None:
     if place != target:
         name = place if path.is_symlink() else path.with_name(place.name)
         raise OutputError(
-            f"{path}: has appeared there meanwhile, and is untouched; what was to take its place is complete, and kept "
-            f"as {name}; move it where it belongs"
+            f"{path}: appeared during the run and is untouched; the new file is complete and kept as {name}; move it "
+            "where it belongs"
         )
 
 
@@ -180,6 +180,6 @@ def _reason(path: Path, error: Exception) -> str:
         if free < 2**20:
             reason = f"{reason}; {bytes_in_words(free)} are free on its disk"
     return (
-        f"{path}: cannot be written ({reason}); what stood there before is untouched; "
-        "make room or get the right to write, or name another output with -o"
+        f"{path}: cannot be written ({reason}); any earlier file is untouched; "
+        "free some space or get write permission, or name another output with -o"
     )

@@ -8,21 +8,21 @@ from collections.abc import Sequence
 from typing import Final
 
 EXIT_CODES: Final = {
-    0: "fine",
-    2: "the command, the study or the dataset is wrong; no scheduler answers, or no worker can do the work",
-    3: "written, but some scenes have failed (their `status` says why); or `verify` has found a value beyond its "
+    0: "success",
+    2: "the command, the study or the dataset is wrong; no scheduler answers, or no worker is usable",
+    3: "written, but some scenes have failed (their `status` reports why); or `verify` has found a value beyond its "
     "stated error",
-    4: "the output cannot be written (it exists, no space, no right, another run is at work on it, or parts of another "
-    "study are kept), or the scheduler has gone; what stood there is untouched",
-    130: "interrupted; what stood there is untouched, finished parts are kept, and the same command goes on",
-    141: "nobody reads the output on, as with `| head`; nothing is said about it",
+    4: "the output cannot be written (it exists, no space, no permission, another run is writing it, or parts of "
+    "another study are kept), or the scheduler is gone; existing files are untouched",
+    130: "interrupted; existing files are untouched, finished parts are kept, and the same command resumes",
+    141: "the reader of the output has closed it, as with `| head`",
 }
 """What every exit code means."""
 
 
 class GradhesionError(Exception):
     """
-    A failure that the user can mend: `mistakes` has a sentence for each thing that is wrong, `str()` all of them.
+    A failure that the user can fix: `mistakes` has a sentence for each thing that is wrong, `str()` all of them.
 
     Parameters
     ----------
@@ -84,6 +84,6 @@ class OutputError(GradhesionError):
 
 
 class ClusterError(GradhesionError):
-    """A cluster cannot be used: no scheduler answers, or no worker can do the work."""
+    """A cluster cannot be used: no scheduler answers, or no worker is usable."""
 
     exit_code = 2

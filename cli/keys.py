@@ -292,18 +292,18 @@ PHYSICAL: Final[dict[str, Key]] = {name: key for name, key in INPUTS.items() if 
 _SETTINGS: Final = (
     Key(
         name="title",
-        about="what the dataset is called; the name of the file if left out",
+        about="title of the dataset [name of the file]",
         example='title = "Pull-off force against wavelength"',
     ),
-    Key(name="kind", about="one value a scene, or one curve a scene", example='kind = "map"'),
+    Key(name="kind", about="one value per scene, or curves of each scene", example='kind = "map"'),
     Key(
         name="layout",
-        about="every combination of the axes is a scene, or all lists go together, item by item",
+        about="every combination of the axes is a scene, or the lists are combined item by item",
         example='layout = "grid"',
     ),
     Key(
         name="outputs",
-        about="what is computed of every scene",
+        about="what is computed for each scene",
         example='outputs = ["pull_off_force", "dissipated_energy"]',
     ),
     Key(
@@ -313,7 +313,7 @@ _SETTINGS: Final = (
     ),
     Key(
         name="physical",
-        about="quantities with units in the place of ratios",
+        about="quantities with units instead of ratios",
         example='a table [physical] with R = "1 mm" and other quantities',
     ),
     Key(
@@ -361,13 +361,13 @@ _SETTINGS: Final = (
     Key(
         name="exponent",
         table="profile",
-        about="the power m of the punch without waves: 2 is a paraboloid, 1 a cone",
+        about="power m of the punch without waves: 2 is a paraboloid, 1 a cone",
         example="exponent = 2.0",
     ),
     Key(
         name="harmonics",
         table="profile",
-        about="the waves of the series; one cosine if left out",
+        about="waves of the series [one cosine]",
         example="harmonics = [{ n = 1, cos = 1.0 }, { n = 2, sin = 0.3 }]",
     ),
     Key(name="n", table="harmonics", about="the number of the wave: its wavelength is lambda/n", example="n = 1"),
@@ -392,19 +392,19 @@ _SETTINGS: Final = (
     Key(
         name="contact_radius_over_R",
         table="states",
-        about="contact radii a/R of states of equilibrium; left out: turning point, pull-off and jump-out",
+        about="contact radii a/R of equilibrium states [turning point, pull-off and jump-out]",
         example="contact_radius_over_R = [0.1, 0.2]",
     ),
     Key(
         name="solver",
         table="method",
-        about="the exact solution, or an approximation for short waves; a list puts several side by side",
+        about="the exact solution, or an approximation for short waves; a list compares several",
         example='solver = "exact" or solver = ["exact", "envelope"]',
     ),
     Key(
         name="check_contact",
         table="method",
-        about="whether `status` shows where loading does not keep the contact one disc",
+        about="whether `status` reports that the contact on loading is not one disc",
         example="check_contact = false",
     ),
 )

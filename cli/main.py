@@ -30,26 +30,26 @@ UNHEARD = 141
 
 
 SECTIONS: Final = {
-    "A study, and its run": (init, validate, plan, run, status),
-    "What came out": (info, plot, explore),
-    "Checked and joined": (verify, merge),
-    "More": (warmup, completion, schema),
+    "Study and run": (init, validate, plan, run, status),
+    "Results": (info, plot, explore),
+    "Check and join": (verify, merge),
+    "Other": (warmup, completion, schema),
 }
 """Every command, in the order of the work."""
 
 EXITS: Final = (
-    (0, "fine"),
+    (0, "success"),
     (2, "the command, the study or the dataset is wrong"),
-    (3, "written, but scenes failed; or values beyond their stated errors"),
+    (3, "written, but scenes failed; or values exceed their errors"),
     (4, "the output cannot be written"),
     (INTERRUPTED, "interrupted; the same command resumes"),
-    (UNHEARD, "nobody reads the output on, as with `| head`"),
+    (UNHEARD, "the reader of the output closed it, as with `| head`"),
 )
 """The exit codes in short."""
 
 
 class Commands(click.Group):
-    """The commands in sections, and the exit codes after them; what a user can mend is printed without a traceback."""
+    """The commands in sections, and the exit codes after them; what a user can fix is printed without a traceback."""
 
     def invoke(self, context: click.Context) -> Any:
         """Run a command."""
@@ -96,7 +96,7 @@ def main() -> NoReturn:
         code = cli.main(prog_name="gradhesion", standalone_mode=False) or 0
     except SystemExit as end:  # so click leaves where the reader of its output has gone, as `| head` does
         code = 0 if end.code == 0 else UNHEARD  # and, with 0, where it has completed a line for the shell
-    except (Exception, KeyboardInterrupt) as error:  # noqa: BLE001 (raised again where no user can mend it)
+    except (Exception, KeyboardInterrupt) as error:  # noqa: BLE001 (raised again where no user can fix it)
         code = _code_of(error)
     if code == 0:
         sys.exit(0)
@@ -117,7 +117,7 @@ def _code_of(error: BaseException) -> int:
         error = messages.Failure(OutputError("there is not enough memory; split the study, or give it more memory"))
     elif isinstance(error, OSError):  # what the system refuses is no error of the program
         refused = f"{error.filename or 'standard output'}: {error.strerror or error}"
-        error = messages.Failure(OutputError(f"{refused}; mend this, and give the command again"))
+        error = messages.Failure(OutputError(f"{refused}; fix this and run the command again"))
     if isinstance(error, messages.Failure):
         error.show()
         return error.exit_code

@@ -137,7 +137,7 @@ SI: Final = "_si"
 
 def is_of_a_state(variable: str) -> bool:
     """
-    Tell whether a variable belongs to a curve of a state.
+    Report whether a variable belongs to a curve of a state.
 
     >>> is_of_a_state("surface_gap_si"), is_of_a_state("path_load")
     (True, False)
@@ -162,7 +162,7 @@ UNITS: Final = _units()
 
 def long_name_in_si(long_name: str) -> str:
     """
-    Tell what an output is in SI units.
+    Report what an output is in SI units.
 
     >>> long_name_in_si("energy dissipated in a loading cycle, H/(R^2 dgamma)")
     'energy dissipated in a loading cycle, H'

@@ -14,8 +14,8 @@ def page() -> str:
     sections = [section for name, command in cli.commands.items() for section in _of(name, command)]
     return "\n\n".join(
         [
-            "# Every command",
-            "This page is written from the commands themselves; `gradhesion COMMAND --help` prints the same.",
+            "# Commands and options",
+            "This page is generated from the commands; `gradhesion COMMAND --help` prints the same.",
             table(
                 ("command", "what it does"),
                 ([f"[{name}](#gradhesion-{name})", _first(one)] for name, one in cli.commands.items()),
@@ -23,7 +23,7 @@ def page() -> str:
             *sections,
             "## Exit codes",
             table(("exit code", "meaning"), ([str(number), words] for number, words in EXIT_CODES.items())),
-            "Data goes to files and what was asked for to stdout; all messages go to stderr.",
+            "Data goes to files, requested information to stdout, and all messages to stderr.",
         ]
     )
 

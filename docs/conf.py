@@ -31,7 +31,7 @@ html_show_sphinx = False
 
 default_role = "code"  # docstrings have single backticks around code
 autodoc_member_order = "bysource"
-autodoc_typehints = "none"  # docstrings tell types in words, where numpy's would be spelt out over three lines
+autodoc_typehints = "none"  # docstrings give types in words, where numpy's would be spelt out over three lines
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 
@@ -41,7 +41,7 @@ def _without_type(_app: Sphinx, _what: str, _name: str, _object: object, _option
     for i, line in enumerate(lines[:-2]):
         if line == "Returns" and lines[i + 1] == "-------":
             end = next((j for j in range(i + 2, len(lines)) if not lines[j]), len(lines))
-            lines[i + 2 : end] = [":", *(f"    {told}" for told in lines[i + 2 : end])]
+            lines[i + 2 : end] = [":", *(f"    {written}" for written in lines[i + 2 : end])]
             return
 
 

@@ -42,36 +42,36 @@ def page() -> str:
 
 def _sections() -> Iterator[str]:
     """Write the sections."""
-    yield "# What a dataset holds"
+    yield "# Variables and attributes of a dataset"
     yield (
-        "This page is written from the names that the program itself goes by. Datasets are NetCDF-4 by CF-1.11, and "
-        "the same in a file and in xarray. Missing values are NaN."
+        "This page is generated from the names in the program. Datasets are NetCDF-4 with the CF-1.11 conventions, "
+        "and the same in a file and in xarray. Missing values are NaN."
     )
     yield "## Dimensions and coordinates"
     yield (
-        "Each axis of a study is a dimension with a coordinate of its name; a fixed parameter is a coordinate without "
-        f'a dimension. With `layout = "points"` there is one dimension, `{names.SCENE}`. Several solvers are the first '
-        f"dimension, `{names.SOLVER}`. Dimensions stand in the order below. A parameter that was given by another key "
-        "is there as well, beside that key."
+        "Each axis of a study is a dimension with a coordinate of the same name; a fixed parameter is a "
+        f'coordinate without a dimension. With `layout = "points"` there is one dimension, `{names.SCENE}`. Several '
+        f"solvers form the first dimension, `{names.SOLVER}`. Dimensions are in the order below. If a parameter was "
+        "given by another key, the dataset has both."
     )
     coordinates = ([code(name), code(key.unit), key.about] for name, key in INPUTS.items())
     yield table(("coordinate", "units", "long_name"), coordinates)
     yield "## Variables of a map"
     yield (
-        "One value a scene. Of a study in units, those with a unit stand there once more in SI, with the ending "
-        f"`{names.SI}`. Those marked in the last column come with the exact solver alone."
+        "One value per scene. For a study in units, each dimensional variable has an SI copy with the suffix "
+        f"`{names.SI}`. Variables marked in the last column are available with the exact solver only."
     )
     yield table(("variable", "long_name", "in SI", "exact solver only"), _outputs())
     yield "## Variables of curves"
     yield (
-        "Each curve has a dimension of its own, along which shorter ones are padded with missing values; jumps are a "
-        "contiguous ragged array. A curve is asked for by its name, or by single variables of it."
+        "Each curve has its own dimension, along which shorter curves are padded with missing values; jumps are a "
+        "contiguous ragged array. Request a curve by its name, or single variables of it."
     )
     yield table(("curve", "dimension", "variable", "long_name", "0 and 1 mean"), _curves())
     yield "## Status"
     yield (
         f"Every dataset has `status`, {names.STATUS}. Each bit is a flag. A scene with {_named(FAILED)} has failed. "
-        f"Values may not hold with {_named(DOUBTFUL)}. The approximate solvers set the last flag only."
+        f"Its values are doubtful with {_named(DOUBTFUL)}. The approximate solvers set the last flag only."
     )
     yield table(("flag", "bit", "in words", "of a scene"), _flags())
     yield "## Global attributes"

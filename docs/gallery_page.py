@@ -19,10 +19,10 @@ def _sections() -> Iterator[str]:
     """Write the sections."""
     yield "# Gallery"
     yield (
-        "Every picture is made from a study in `configs/` by one command; `make figures` draws them all. The paper's "
-        "figures have its numbers, and each says what is the paper's in it and what is chosen; the others are extras. "
-        "[The paper](paper.md#figures) says what is to be seen. `gradhesion init` writes the same study into a "
-        "file of your own, to be changed, and `gradhesion plot` draws any dataset, in a plainer look."
+        "Every figure is made from a study in `configs/` by one command; `make figures` draws all. The paper's "
+        "figures have its numbers, and each lists which values are the paper's and which are chosen; the others are "
+        "extras. [The paper](paper.md#figures) describes what they show. `gradhesion init` writes the same study into "
+        "a file of your own, and `gradhesion plot` draws any dataset in a plainer style."
     )
     yield "## " + _title("maps")
     yield "![Pull-off force and dissipated energy over the gradient exponent and the wavelength](images/maps.png)"

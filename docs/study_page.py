@@ -31,10 +31,10 @@ def _sections() -> Iterator[str]:
     """Write the sections."""
     schema = Form.model_json_schema()
     tables = {name: _target(entry, schema) for name, entry in schema["properties"].items()}
-    yield "# Every key of a study"
+    yield "# Keys of a study file (TOML)"
     yield (
-        "This page is written from the model that `gradhesion validate` goes by. `gradhesion schema` prints the same "
-        "as a JSON Schema, for editors."
+        "This page is generated from the model that `gradhesion validate` uses. `gradhesion schema` prints it as JSON "
+        "Schema, for editors."
     )
     yield "## At the top"
     yield table(HEADS, (_row(name, schema) for name, own in tables.items() if own is None))
@@ -45,15 +45,15 @@ def _sections() -> Iterator[str]:
     yield from _of_parameters(tables["parameters"], schema["$defs"]["FileTable"])
     yield from _of_quantities()
     yield from _of_table("profile", tables["profile"])
-    yield "What they stand for: [other punches and machines](../punches.md). Each item of `harmonics`:"
+    yield "The formula is under [other punches and machines](../punches.md). Each item of `harmonics`:"
     yield table(HEADS, _rows(schema["$defs"]["Wave"]))
     yield from _of_table("loading", tables["loading"])
     yield from _of_table("states", tables["states"])
     yield from _of_table("method", tables["method"])
     yield "## Axes"
     yield (
-        "A number is fixed. A list of numbers is an axis, and so is a range, a table with the keys below. A range ends "
-        "at finite values; `inf` may stand in a list. No value may stand twice in an axis."
+        "A number is fixed. A list of numbers is an axis, and so is a range: a table with the keys below. A range has "
+        "finite ends; a list may contain `inf`. An axis must not repeat a value."
     )
     yield table(HEADS, _rows(schema["$defs"]["Range_k"], bounds=False))
 
@@ -71,11 +71,11 @@ def _of_parameters(own: Mapping[str, Any] | None, files: Mapping[str, Any]) -> I
     yield f"Required: {SETTINGS['parameters'].about}."
     rows = [_row(name, own) for name in own["properties"] if name not in REDUCED]
     yield table(HEADS, rows)
-    yield "The table of `points`, in the place of the name of its file ([scenes from a file](../measured.md)):"
+    yield "The table of `points`, instead of the name of its file ([scenes from a file](../measured.md)):"
     yield table(HEADS, _rows(files))
-    yield "In reduced variables, each in the place of another:"
+    yield "Reduced variables, each instead of another parameter:"
     yield table(
-        ("key", "in the place of", "allowed", "meaning"),
+        ("key", "instead of", "allowed", "meaning"),
         ([code(name), code(key.gives), code(key.allowed), key.about] for name, key in REDUCED.items()),
     )
 
@@ -85,8 +85,8 @@ def _of_quantities() -> Iterator[str]:
     yield "## [physical]"
     yield (
         f"Optional: {SETTINGS['physical'].about}. Each is a string with a number and a unit, a list of them, or a "
-        "range from one to another. With this table, `R`, `E_star` (or `E` in its place) and `work_of_adhesion` are "
-        "required, and `modulus`, `c0_over_R`, `lambda_over_R` and `a_max_over_R` do not stand under `[parameters]`."
+        "range from one to another. With this table, `R`, `E_star` (or `E`) and `work_of_adhesion` are "
+        "required, and `modulus`, `c0_over_R`, `lambda_over_R` and `a_max_over_R` are not allowed under `[parameters]`."
     )
     yield table(
         ("key", "what", "unit in the dataset", "allowed", "for example", "meaning"),
@@ -122,7 +122,7 @@ def _row(name: str, own: Mapping[str, Any]) -> list[str]:
 
 
 def _default(name: str, entry: Mapping[str, Any]) -> str:
-    """Tell what holds where a key is left out."""
+    """Report what holds where a key is left out."""
     if name in INPUTS and INPUTS[name].role:
         tied = [code(key.name) for key in REDUCED.values() if key.gives == name]
         united = [code(key.name) for key in PHYSICAL.values() if key.gives == name and not key.instead_of]
@@ -135,7 +135,7 @@ def _default(name: str, entry: Mapping[str, Any]) -> str:
 
 
 def _type(entry: Mapping[str, Any]) -> str:
-    """Tell the forms that a value takes."""
+    """Report the forms that a value takes."""
     forms = [form for form in entry.get("oneOf", entry.get("anyOf", [entry])) if form.get("type") != "null"]
     if any("Range_" in str(form.get("$ref")) for form in forms):
         return "number, list or range"
@@ -144,7 +144,7 @@ def _type(entry: Mapping[str, Any]) -> str:
 
 
 def _allowed(name: str, entry: Mapping[str, Any]) -> str:
-    """Tell which values are allowed."""
+    """Report which values are allowed."""
     if name in INPUTS:
         return code(INPUTS[name].allowed)
     words = CHOICES.get(name, entry.get("enum", ()))

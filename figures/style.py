@@ -37,7 +37,7 @@ DASHES: Final[tuple[Any, ...]] = (
     (0, (6, 1.2, 1, 1.2, 1, 1.2)),
     (0, (9, 2)),
 )
-"""What tells lines apart where colours do not print."""
+"""What distinguishes lines where colours do not print."""
 
 INK: Final = "0.1"
 GREY: Final = "0.6"

@@ -15,8 +15,8 @@ SHELLS = ("bash", "zsh", "fish")
 def completion(context: click.Context, shell: str) -> None:
     """Print the script for completion in a shell.
 
-    With it SHELL (bash 4.4 or later, zsh or fish) completes commands, options and the names of studies; its lines go
-    where the shell reads them when it starts, for example by `eval "$(gradhesion completion bash)"` in ~/.bashrc.
+    SHELL is bash (4.4 or later), zsh or fish. It then completes commands, options and the names of studies. Load the
+    script in the start-up file of the shell, for example with `eval "$(gradhesion completion bash)"` in ~/.bashrc.
     """
     kind = get_completion_class(shell)
     if kind is None:  # it is one of click's own

@@ -11,17 +11,17 @@ from gradhesion.cli.commands.written import say_written
 @click.command(epilog=example("explore outputs/study.nc", "explore outputs/study.nc -o part.html --at A=0.02"))
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Page: .html [FILE.html].")
-@click.option("--variable", "variables", multiple=True, metavar="NAME", help="What to take; repeat it [everything].")
-@click.option("--at", multiple=True, metavar="AXIS=VALUE", help="Fix an axis at its value nearest to this one.")
+@click.option("--variable", "variables", multiple=True, metavar="NAME", help="Variable to include; repeatable [all].")
+@click.option("--at", multiple=True, metavar="AXIS=VALUE", help="Fix an axis at its nearest value; repeatable.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing page.")
-@click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
+@click.option("--quiet", is_flag=True, help="Print errors only.")
 def explore(
     file: Path, output: Path | None, variables: tuple[str, ...], at: tuple[str, ...], overwrite: bool, quiet: bool
 ) -> None:
     """Write a dataset as a page with sliders.
 
-    Maps, sections and a slider for each axis of FILE, for any browser. The page holds the data and all that it needs:
-    it opens from a disk without a network. Values have 6 digits.
+    The page shows maps, sections and a slider for each axis of FILE in any browser. It contains the data and opens
+    without a network. Values have 6 digits.
     """
     path = output or file.parent / f"{file.stem or 'dataset'}.html"
     if path.suffix.lower() not in {".html", ".htm"}:

@@ -10,13 +10,18 @@ from gradhesion.cli.terminal.output import show, show_block
 
 @click.command(epilog=example("info outputs/study.nc", "info outputs/study.nc --format csv > study.csv"))
 @click.argument("file", type=click.Path(path_type=Path))
-@click.option("--format", "form", type=click.Choice(["words", "csv"]), default="words", help="Words, or all values.")
-@click.option("--variable", "variables", multiple=True, metavar="NAME", help="With csv: a variable, or a curve.")
+@click.option(
+    "--format", "form", type=click.Choice(["words", "csv"]), default="words", help="A summary, or all values."
+)
+@click.option(
+    "--variable", "variables", multiple=True, metavar="NAME", help="With csv: a variable or curve; repeatable."
+)
 @click.option("--jumps", is_flag=True, help="List the jumps of all scenes instead, as CSV.")
 def info(file: Path, form: str, variables: tuple[str, ...], jumps: bool) -> None:
     """Describe a dataset, or print it as CSV.
 
-    Of FILE: parameters, extremes of each variable with their places, scenes that failed or may not hold, its origin.
+    Prints the parameters of FILE, the minimum and maximum of each variable with their places, the scenes that failed
+    or are doubtful, and the origin of the dataset.
     """
     from gradhesion.cli.dataset.reader import opened
     from gradhesion.cli.words.jump_words import jumps_listed

@@ -25,8 +25,8 @@ def _names(_context: click.Context, _parameter: click.Parameter, incomplete: str
 
 @click.command(epilog=example("init", "init curve -o tip.toml"))
 @click.argument("name", default="map", shell_complete=_names)
-@click.option("-o", "--output", type=click.Path(path_type=Path), help="The file to write; NAME.toml if not given.")
-@click.option("--overwrite", is_flag=True, help="Replace a file that exists.")
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="File to write [NAME.toml].")
+@click.option("--overwrite", is_flag=True, help="Replace an existing file.")
 @click.option("--list", "listed", is_flag=True, help="List the studies and write nothing.")
 def init(name: str, output: Path | None, overwrite: bool, listed: bool) -> None:
     """Write a commented study to start from.

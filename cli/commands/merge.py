@@ -18,11 +18,11 @@ from gradhesion.cli.terminal.progress import progress
 
 @click.command(epilog=example("merge big.nc", "merge first.nc second.nc -o all.nc"))
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
-@click.option("-o", "--output", type=click.Path(path_type=Path), help="The dataset of several datasets together.")
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="Dataset to write, if several are joined.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing dataset.")
 @chunk_option
-@click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
-@click.option("--log-json", is_flag=True, is_eager=True, callback=messages.speak_json, help="One JSON object a line.")
+@click.option("--quiet", is_flag=True, help="Print errors only.")
+@click.option("--log-json", is_flag=True, is_eager=True, callback=messages.speak_json, help="One JSON object per line.")
 def merge(
     files: tuple[Path, ...],
     output: Path | None,
@@ -33,8 +33,8 @@ def merge(
 ) -> None:
     """Join the parts of shards, or datasets.
 
-    With one FILE: the parts that `gradhesion run STUDY.toml --shard I/N -o FILE` has left. With several, and -o: maps
-    whose studies differ along one axis, which then has the values of all.
+    With one FILE, join the parts left by `gradhesion run STUDY.toml --shard I/N -o FILE`. With several FILES and -o,
+    join maps whose studies differ along one axis; the result has the values of all.
     """
     start = time.monotonic()
     if len(files) == 1 and output is None:

@@ -24,11 +24,9 @@ chunk_option: Final = click.option(
 
 @click.command(epilog=example("plan study.toml"))
 @click.argument("study", type=click.Path(path_type=Path))
-@click.option("-o", "--output", type=click.Path(path_type=Path), help="Dataset that `run` would write.")
-@click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Set a key of the study, in TOML.")
-@click.option(
-    "--threads", type=click.IntRange(min=1), help="Threads that `run` would use [all that the process may use]."
-)
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="Output of the run.")
+@click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable.")
+@click.option("--threads", type=click.IntRange(min=1), help="Threads of the run [all available to the process].")
 @chunk_option
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def plan(
@@ -41,8 +39,8 @@ def plan(
 ) -> None:
     """Show what a run would do and cost.
 
-    Scenes and blocks, what is reused of an earlier run and why not the rest, bytes, memory, and the time, from a second
-    or two of scenes of STUDY that are solved for it. Nothing is written.
+    Prints scenes and blocks, what an earlier run has left and why the rest cannot be reused, disk space, memory and
+    time. The time is estimated by solving scenes of STUDY for a second or two. Nothing is written.
     """
     from gradhesion.cli.study.study import load_study
 
@@ -70,14 +68,14 @@ def _lines(found: "Estimate") -> list[str]:
     axes = ", ".join(f"{name} ({size:,})" for name, size in found.sizes.items()) or "none"
     state = "exists; run needs --overwrite" if found.output_exists else "new"
     if found.running:
-        state = "a run is at work on it"
+        state = "a run is writing it"
     lines = [
         f"output    {found.output} ({state})",
         f"scenes    {found.scenes:,}; axes: {axes}",
         f"outputs   {', '.join(found.outputs)}",
     ]
     if found.kind != "map":
-        return [*lines, "curves    drawn scene by scene; neither parts nor a probe"]
+        return [*lines, "curves    computed scene by scene; no parts, no estimate of time"]
     why = "; ".join(f"{number:,} {reason}" for reason, number in found.not_reused.items())
     lines.append(f"blocks    {found.blocks:,}; {found.blocks_reused:,} reused{f'; {why}' if why else ''}")
     lines += [f"          run would refuse: {difference}" for difference in found.differences]
@@ -91,8 +89,8 @@ def _lines(found: "Estimate") -> list[str]:
         lines.append(f"memory    about {bytes_in_words(found.bytes_of_memory)}")
     if found.seconds is not None and found.seconds_uncertain is not None:
         lines.append(
-            f"time      about {duration(found.seconds)}, give or take {duration(found.seconds_uncertain)} "
-            f"(by {counted(found.scenes_probed, 'scene')}), and a second to start"
+            f"time      about {duration(found.seconds)} +- {duration(found.seconds_uncertain)} "
+            f"(measured on {counted(found.scenes_probed, 'scene')}), and a second to start"
         )
         if found.seconds_dask is not None and found.seconds_of_block is not None:
             lines.append(
@@ -101,7 +99,7 @@ def _lines(found: "Estimate") -> list[str]:
                 f"{duration(found.seconds_of_block)} a block"
             )
     else:
-        lines.append("time      only what writing takes: every block is there")
+        lines.append("time      that of writing alone: every block is complete")
     return lines
 
 

@@ -18,26 +18,24 @@ FORMS: Final = ("png", "svg", "pdf")
 )
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Picture: .png, .svg or .pdf [FILE.png].")
-@click.option("--variable", "variables", multiple=True, metavar="NAME", help="What to draw; repeat it for several.")
-@click.option("--at", multiple=True, metavar="AXIS=VALUE", help="Fix an axis at its value nearest to this one.")
-@click.option("--interpolate", is_flag=True, help="Interpolate between the values of --at instead.")
-@click.option(
-    "--over", multiple=True, metavar="AXIS=HOW", help="Reduce an axis by max, min or mean, or to argmax or argmin."
-)
-@click.option("--x", metavar="AXIS", help="The axis along the abscissa; of curves contact_radius, indentation or load.")
-@click.option("--y", metavar="AXIS", help="The axis along the ordinate of a map, or what tells lines apart.")
-@click.option("--lines", "kind", flag_value="lines", help="Draw lines, also where an axis has many values.")
-@click.option("--map", "kind", flag_value="map", help="Draw a map, also where an axis has few values.")
-@click.option("--width", metavar="SIZE", help='Width: inches, "8 cm", or column (90 mm) or page (190 mm) of a journal.')
-@click.option("--height", metavar="SIZE", help="Height, likewise; chosen to suit the width if it is not given.")
-@click.option("--colour-map", "--color-map", metavar="NAME", help="A colour map of matplotlib [viridis].")
-@click.option("--levels", metavar="LEVELS", help="Contour levels: about how many (8), or which ones (0.5,1,2).")
-@click.option("--labels/--no-labels", default=True, help="Whether contours have numbers on them [yes].")
-@click.option("--title/--no-title", default=True, help="Whether the title of the study is written [yes].")
-@click.option("--caption/--no-caption", default=True, help="Whether the fixed parameters are written [yes].")
-@click.option("--style", metavar="STYLE", help="A style of matplotlib, by name or file, on top of the usual one.")
+@click.option("--variable", "variables", multiple=True, metavar="NAME", help="Variable to draw; repeatable.")
+@click.option("--at", multiple=True, metavar="AXIS=VALUE", help="Fix an axis at its nearest value; repeatable.")
+@click.option("--interpolate", is_flag=True, help="Interpolate to the value of --at instead.")
+@click.option("--over", multiple=True, metavar="AXIS=HOW", help="Reduce an axis: max, min, mean, argmax or argmin.")
+@click.option("--x", metavar="AXIS", help="Horizontal axis; of curves contact_radius, indentation or load.")
+@click.option("--y", metavar="AXIS", help="Vertical axis of a map, or the axis with a line for each value.")
+@click.option("--lines", "kind", flag_value="lines", help="Draw lines, even if an axis has many values.")
+@click.option("--map", "kind", flag_value="map", help="Draw a map, even if an axis has few values.")
+@click.option("--width", metavar="SIZE", help='Width: inches, "8 cm", column (90 mm) or page (190 mm).')
+@click.option("--height", metavar="SIZE", help='Height: inches or "8 cm" [to suit the width].')
+@click.option("--colour-map", "--color-map", metavar="NAME", help="Colour map of matplotlib [viridis].")
+@click.option("--levels", metavar="LEVELS", help="Contour levels: a number (8) or values (0.5,1,2).")
+@click.option("--labels/--no-labels", default=True, help="Number the contours [yes].")
+@click.option("--title/--no-title", default=True, help="Print the title of the study [yes].")
+@click.option("--caption/--no-caption", default=True, help="Print the fixed parameters [yes].")
+@click.option("--style", metavar="STYLE", help="Matplotlib style to add: a name or a file.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing picture.")
-@click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
+@click.option("--quiet", is_flag=True, help="Print errors only.")
 def plot(
     file: Path,
     output: Path | None,
@@ -53,9 +51,8 @@ def plot(
 ) -> None:
     """Draw a dataset: lines, maps, panels or curves.
 
-    What suits the shape of FILE: lines over one axis, a map over two, panels of maps over more; curves as curves.
-    Options choose what of it: an axis is fixed (--at A=0.02), reduced (--over k=max) or given its place (--x, --y).
-    Others choose how it looks: its size, its colours, what is written on it.
+    The shape of FILE decides: lines over one axis, a map over two, panels over more; curves are drawn as curves.
+    Options fix an axis (--at A=0.02), reduce it (--over k=max) or place it (--x, --y), and set size, colours, labels.
     """
     path = output or file.parent / f"{file.stem or 'dataset'}.png"
     form = path.suffix[1:].lower()

@@ -38,12 +38,12 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
 @click.command(epilog=example("run study.toml", "run study.toml -o wavier.nc --set parameters.A=0.05"))
 @click.argument("study", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Dataset to write [outputs/<study name>.nc].")
-@click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Set a key of the study, in TOML.")
+@click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing dataset.")
-@click.option("--fresh", is_flag=True, help="Drop the finished parts of an earlier run.")
-@click.option("--fail-fast", is_flag=True, help="Stop at the first block with a failed scene, and write nothing.")
-@click.option("--shard", metavar="I/N", callback=_shard, help="Compute every N-th block only, as parts for `merge`.")
-@click.option("--dry-run", is_flag=True, help="Show what would be done, as `gradhesion plan`, and write nothing.")
+@click.option("--fresh", is_flag=True, help="Discard the finished parts of an earlier run.")
+@click.option("--fail-fast", is_flag=True, help="Stop at the first failed scene; write nothing.")
+@click.option("--shard", metavar="I/N", callback=_shard, help="Compute every N-th block, as parts for `merge`.")
+@click.option("--dry-run", is_flag=True, help="Same as `gradhesion plan`: write nothing.")
 @click.option(
     "--engine",
     type=click.Choice(["threads", "dask"]),
@@ -51,16 +51,16 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
     show_default=True,
     help="Where blocks are computed: local threads, or a Dask cluster.",
 )
-@click.option("--scheduler", metavar="ADDRESS", help="Of a Dask cluster, or its scheduler file [one on this machine].")
+@click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler or its file [a cluster on this machine].")
 @click.option(
     "--threads",
     type=click.IntRange(min=1),
-    help="Threads to use [all that the process may use]; values do not depend on it.",
+    help="Threads to use [all available to the process]; values do not depend on it.",
 )
 @chunk_option
-@click.option("--quiet", is_flag=True, help="Print errors only, and one line where kernels are compiled.")
+@click.option("--quiet", is_flag=True, help="Print errors, and a line if kernels compile.")
 @click.option(
-    "--log-json", is_flag=True, is_eager=True, callback=messages.speak_json, help="Log one JSON object a line."
+    "--log-json", is_flag=True, is_eager=True, callback=messages.speak_json, help="Log one JSON object per line."
 )
 def run(
     study: Path,
@@ -80,7 +80,7 @@ def run(
 ) -> None:
     """Compute a study into a dataset (NetCDF).
 
-    STUDY is a file in TOML. An interrupted run resumes where it stopped: give the same command again.
+    STUDY is a TOML file. Interrupted runs resume where they stopped: give the same command again.
     """
     from gradhesion.cli.dataset.writer import write
     from gradhesion.cli.study.study import load_study
@@ -144,7 +144,7 @@ def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet
         )
     if written.failed:
         raise ScenesFailedError(
-            f"{path}: {written.failed:,} of {counted(scenes, 'scene')} have failed; `gradhesion info {path}` says why"
+            f"{path}: {written.failed:,} of {counted(scenes, 'scene')} failed; `gradhesion info {path}` reports why"
         )
 
 

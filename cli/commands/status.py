@@ -23,9 +23,9 @@ if TYPE_CHECKING:
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def status(file: Path, as_json: bool) -> None:
-    """Show how far a run is.
+    """Show the progress of a run.
 
-    FILE is the dataset that it makes, or will have made; the run is running, stopped or complete.
+    FILE is the output of the run, which is running, stopped or complete.
     """
     found = status_of(file)
     if as_json:
@@ -36,7 +36,7 @@ def status(file: Path, as_json: bool) -> None:
         show(f"{file}: complete, {bytes_in_words(found['bytes'])}, written {written}")
         return
     blocks, scenes = (f"{found[name]:,}" if found[name] else "?" for name in ("blocks", "scenes"))
-    end = "" if found["state"] == "running" else "; the same command goes on"
+    end = "" if found["state"] == "running" else "; the same command resumes"
     show(f"{file}: {found['state']}; {found['parts']:,} of {blocks} blocks ({scenes} scenes) are kept{end}")
     for run in found["runs"]:
         show(f"  {_words(run, running=found['state'] == 'running')}")

@@ -12,11 +12,11 @@ from gradhesion.cli.terminal.output import show, show_block
 
 @click.command(epilog=example("validate study.toml", "validate study.toml --set parameters.A=0.02"))
 @click.argument("study", type=click.Path(path_type=Path))
-@click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Set a key of the study, in TOML.")
+@click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable.")
 def validate(study: Path, overrides: tuple[str, ...]) -> None:
     """Check a study and report every error.
 
-    STUDY is a file in TOML. Each error has its line, and what to write instead; nothing is computed.
+    STUDY is a TOML file. Each error is printed with its line and a suggested fix. Nothing is computed.
     """
     from gradhesion.cli.study.study import load_study
 
@@ -30,8 +30,8 @@ def validate(study: Path, overrides: tuple[str, ...]) -> None:
 def schema() -> None:
     """Print the JSON Schema of a study.
 
-    Editors complete and check studies by it; it is the one that `run` and `validate` go by. What two keys have to do
-    with each other (unequal lists, repeated values) is beyond it: `gradhesion validate` reports that.
+    Editors use it to complete and check studies; `run` and `validate` use it too. What it cannot express (lists of
+    unequal length, repeated values) is checked by `gradhesion validate`.
     """
     from gradhesion.cli.study.form import Form
 

@@ -14,27 +14,26 @@ from gradhesion.cli.terminal.progress import progress
 @click.command(epilog=example("verify outputs/study.nc --sample 50"))
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--sample", type=click.IntRange(min=1), default=20, show_default=True, help="Scenes to recompute.")
-@click.option("--seed", type=click.IntRange(min=0), help="Draw the sample of this seed [a new one each time].")
-@click.option("--digits", is_flag=True, help="Show the values themselves as well, to 30 digits.")
+@click.option("--seed", type=click.IntRange(min=0), help="Seed of the random sample [random].")
+@click.option("--digits", is_flag=True, help="Also print the values, to 30 digits.")
 def verify(file: Path, sample: int, seed: int | None, digits: bool) -> None:
     """Recompute scenes to 30 digits and compare.
 
-    The study in the dataset FILE must be unchanged and give its coordinates. Then a random sample of its scenes is
-    solved from the integral definitions, in arithmetic of 51 digits and without the kernels that made the dataset; the
-    deviations are printed, the worst first. A
-    scene takes less than 0.1 s as a rule and 15 s at most: one of more than 1,000 waves (of the shortest of a series,
-    each counted once more for every 16 harmonics) is left out, and another is drawn instead.
+    The study stored in FILE must be unchanged and match its coordinates. A random sample of the scenes is then solved
+    from the integral definitions, in 51-digit arithmetic and without the kernels that made the dataset. The deviations
+    are printed, largest first. A scene usually takes less than 0.1 s, and at most 15 s: scenes of more than 1,000 waves
+    (of the shortest of a series, each counted once more for every 16 harmonics) are replaced by others.
 
-    Exit code 3 if a value deviates by more than the error that is stated for it.
+    The exit code is 3 if a value deviates by more than its stated error.
     """
-    from gradhesion.cli.dataset.deviations import told
+    from gradhesion.cli.dataset.deviations import lines_of
     from gradhesion.cli.dataset.reader import opened
     from gradhesion.cli.dataset.recompute import recompute
 
     with opened(file) as dataset:
         found = recompute(dataset, file, sample=sample, seed=seed, progress=lambda total: progress(total, quiet=False))
         title = str(dataset.attrs["title"])
-    for line in told(found, title, file, digits=digits):
+    for line in lines_of(found, title, file, digits=digits):
         show(line)
     if found.exceeding:
         raise DeviationError(

@@ -10,14 +10,14 @@ from gradhesion.cli.terminal.amounts import counted
 
 
 @click.command(epilog=example("warmup --all"))
-@click.option("--all", "everything", is_flag=True, help="Also for other profiles and controls, and all reports.")
-@click.option("--workers", type=click.IntRange(min=1), help="Processes side by side [all that it may use].")
-@click.option("--quiet", is_flag=True, help="Print nothing unless something is wrong.")
+@click.option("--all", "everything", is_flag=True, help="Other profiles, controls and reports too.")
+@click.option("--workers", type=click.IntRange(min=1), help="Parallel processes [all available to the process].")
+@click.option("--quiet", is_flag=True, help="Print errors only.")
 def warmup(everything: bool, workers: int | None, quiet: bool) -> None:
     """Compile the solver ahead of the first run.
 
-    Runs compile what they need when they first need it. Without --all: what maps and curves of a paraboloid with one
-    cosine wave need. Compiled kernels are kept in the user's cache, or in the folder NUMBA_CACHE_DIR, for all runs of
+    Runs compile what they need on first use. Without --all, only the kernels for maps and curves of a paraboloid with
+    one cosine wave are compiled. They are kept in the user's cache, or in the folder NUMBA_CACHE_DIR, for all runs of
     this version.
     """
     from gradhesion.cli.work.kernels import missing_of, refuse_without_compiler

@@ -41,7 +41,9 @@ def study_of(dataset: xarray.Dataset, path: Path, *, wanted: str = "`gradhesion 
     try:
         study = study_from(data, "its study", **_points_of(dataset, data, path))
     except StudyError as error:
-        raise DatasetError(f"{path}: its study is none of this version ({error.mistakes[0]}); write it again") from None
+        raise DatasetError(
+            f"{path}: its study is not valid in this version ({error.mistakes[0]}); write it again"
+        ) from None
     _check_variables(dataset, study, path)
     _check_coordinates(dataset, study, path)
     return study
@@ -66,7 +68,7 @@ def _check_variables(dataset: xarray.Dataset, study: Study, path: Path) -> None:
     """Check that a dataset has what its study asks for."""
     for name in (*study.variables, "status"):
         if name not in dataset.data_vars:
-            raise _apart(path, f"its study asks for {name}, which it has not")
+            raise _apart(path, f"its study requests {name}, which the dataset lacks")
         if dict(dataset[name].sizes) != study.sizes:
             raise _apart(path, f"the axes of {name} are not those of its study")
     if SOLVER in study.sizes and (
@@ -79,7 +81,7 @@ def _check_coordinates(dataset: xarray.Dataset, study: Study, path: Path) -> Non
     """Check that the parameters of a dataset are those of its study."""
     for name, values in study.parameters.items():
         if name not in dataset.coords:
-            raise _apart(path, f"its study has {name}, which it has not")
+            raise _apart(path, f"its study has {name}, which the dataset lacks")
         here = np.asarray(dataset[name].values)
         given = np.broadcast_to(values, tuple(study.axes.values()) if study.layout == "points" else np.shape(values))
         if here.shape != given.shape:

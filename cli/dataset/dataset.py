@@ -11,7 +11,7 @@ from gradhesion.cli import names
 from gradhesion.cli.dataset.contents import CONTENTS
 from gradhesion.cli.dataset.coordinates import coordinates
 from gradhesion.cli.dataset.variable import Variable
-from gradhesion.cli.study.shape_words import shape_told
+from gradhesion.cli.study.shape_words import shape_in_words
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.work import curves
 from gradhesion.cli.work.compiling import prepare
@@ -63,7 +63,7 @@ def attributes(study: Study, history: str) -> dict[str, str]:
         "source": f"gradhesion {version('gradhesion')}",
         "history": history,
         "references": names.REFERENCES,
-        "profile": shape_told(study.profile),
+        "profile": shape_in_words(study.profile),
         "control": study.loading.control,
         "study": study.text,
         "study_sha256": study.sha256,

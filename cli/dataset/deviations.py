@@ -8,11 +8,11 @@ from gradhesion.cli.dataset.recompute import Deviation, Recomputed
 from gradhesion.cli.terminal.amounts import counted
 
 ROWS: Final = 12
-"""Deviations that are told one by one."""
+"""Deviations that are printed one by one."""
 
 
-def told(found: Recomputed, title: str, file: Path, *, digits: bool) -> Iterator[str]:
-    """Tell what was found, line by line."""
+def lines_of(found: Recomputed, title: str, file: Path, *, digits: bool) -> Iterator[str]:
+    """Report what was found, line by line."""
     yield title
     yield (
         f"{file}: {found.scenes:,} of {counted(found.total, 'scene')} recomputed (--seed {found.seed}), "
@@ -64,17 +64,17 @@ def _numbers(one: Deviation) -> str:
 
 
 def _left_out(found: Recomputed) -> Iterator[str]:
-    """Tell what was not compared, and why."""
+    """Report what was not compared, and why."""
     reasons = [
         (found.beyond, "scenes drawn have more waves than are followed; others were drawn instead"),
         (found.failed, "scenes drawn have failed, as their status says"),
-        (found.unsure, "scenes lie too near to where folds meet, or too far out, for 51 digits"),
+        (found.unsure, "scenes lie too close to where two folds meet, or too far out, for 51 digits"),
         *((count, f"values may be either of two ({reason})") for reason, count in found.near.items()),
     ]
-    told = [f"  {count:,} {reason}" for count, reason in reasons if count]
+    written = [f"  {count:,} {reason}" for count, reason in reasons if count]
     if found.unknown:
-        told.append(f"  {', '.join(found.unknown)}: there is nothing independent to compare with")
-    if told:
+        written.append(f"  {', '.join(found.unknown)}: there is nothing independent to compare with")
+    if written:
         yield ""
         yield "left out"
-        yield from told
+        yield from written

@@ -38,7 +38,7 @@ def opened(path: Path) -> Iterator["Dataset"]:
             check_ours(dataset, path)
             check_form(dataset, path)
             yield dataset
-        except BrokenPipeError:  # of what is told about it
+        except BrokenPipeError:  # of the message about it
             raise
         except (OSError, RuntimeError) as error:
             raise DatasetError(f"{path}: is damaged ({error}); write it again with `gradhesion run`") from error
@@ -117,7 +117,7 @@ def study_text(dataset: "Dataset", path: Path | str) -> str:
 
 
 def has_curves(dataset: "Dataset") -> bool:
-    """Tell whether a dataset is that of a curve study."""
+    """Report whether a dataset is that of a curve study."""
     return any(extent in dataset.dims for extent in EXTENTS.values()) or any(
         name in dataset for name in RAGGED.values()
     )

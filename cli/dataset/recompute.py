@@ -30,7 +30,7 @@ Progress = Callable[[int], AbstractContextManager[Callable[[int], None]]]
 
 @dataclass(frozen=True, kw_only=True)
 class Scene:
-    """A cell of a dataset: where it is, its solver, its parameters, and those of them that tell it from the others."""
+    """A cell of a dataset: where it is, its solver, its parameters, and those of them that distinguish it."""
 
     index: Index
     solver: str
@@ -116,14 +116,14 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
     if not found.deviations:
         raise DatasetError(
             f"{path}: none of the scenes drawn can be recomputed ({found.beyond} have too many waves, {found.failed} "
-            f"no value, {found.unsure} lie too near to where folds meet); draw more with --sample"
+            f"no value, {found.unsure} lie too close to where two folds meet); draw more with --sample"
         )
     found.deviations.sort(key=lambda one: (-one.share, -one.deviation))
     return found
 
 
 def shape_of(study: Study) -> Shape:
-    """Tell the twin what the shape of the punch is, and what is prescribed."""
+    """Report the twin what the shape of the punch is, and what is prescribed."""
     harmonics = tuple((wave.n, wave.cos, wave.sin) for wave in study.profile.harmonics)
     return Shape(exponent=study.profile.exponent, harmonics=harmonics, control=study.loading.control)
 

@@ -54,7 +54,7 @@ def placed(values: xarray.DataArray, axis: str, how: str) -> tuple[xarray.DataAr
 
 
 def without_failed(values: xarray.DataArray, status: xarray.DataArray) -> tuple[xarray.DataArray, int]:
-    """Give scenes that have failed no value; tell how many have none."""
+    """Give scenes that have failed no value; count those that have none."""
     there = values.notnull() & ((status & FAILED) == 0)
     return values.where(there), int((~there).sum())
 

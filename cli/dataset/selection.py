@@ -110,7 +110,7 @@ def selection_of(
         nearest = _nearest(values, value)
         if points:
             if interpolate:
-                raise DatasetError(f"{option}: points have nothing between them; leave --interpolate out")
+                raise DatasetError(f"{option}: points cannot be interpolated; leave --interpolate out")
             same = np.flatnonzero(values == values[nearest])
             scenes = same if scenes is None else np.intersect1d(scenes, same)
         elif interpolate and not np.isinf(value) and abs(values[nearest] - value) > SAME * abs(value):
@@ -140,7 +140,7 @@ def nearest_values(dataset: xarray.Dataset, at: Sequence[str]) -> list[str]:
 
 
 def is_log(values: NDArray[np.float64]) -> bool:
-    """Tell whether the ratios of the finite values of an axis are more even than their differences."""
+    """Report whether the ratios of the finite values of an axis are more even than their differences."""
     finite = np.unique(values[np.isfinite(values)])
     if finite.size < 2 or finite[0] <= 0 or finite[-1] < 5 * finite[0]:
         return False
@@ -155,13 +155,13 @@ def _reductions(dataset: xarray.Dataset, over: Sequence[str], named: set[str]) -
         check_axis(dataset, option, axis)
         _check_once(option, axis, named)
         if SCENE in dataset["status"].dims:
-            raise DatasetError(f"{option}: points have no axes that could be reduced; choose some of them with --at")
+            raise DatasetError(f"{option}: points have no axes to reduce; choose some of them with --at")
         if axis == SOLVER:
             raise DatasetError(f"{option}: solvers are not reduced; choose one with --at solver=NAME")
         if how not in REDUCTIONS:
             raise DatasetError(f"{option}: not a reduction; {did_you_mean(how, list(REDUCTIONS))}")
         if how.startswith("arg") and any(other.startswith("arg") for other in reductions.values()):
-            raise DatasetError(f"{option}: the place of an extreme is asked for already; reduce by max, min or mean")
+            raise DatasetError(f"{option}: the place of an extreme is already requested; reduce by max, min or mean")
         reductions[axis] = how
     return reductions
 
@@ -192,8 +192,8 @@ def check_axis(dataset: xarray.Dataset, option: str, axis: str) -> None:
         return
     if axis in dataset.coords and dataset[axis].ndim == 0:
         unit = str(dataset[axis].attrs.get("units", "1"))
-        told = f"{dataset[axis].item():g}" + ("" if unit == "1" else f" {unit}")
-        raise DatasetError(f"{option}: not an axis; {axis} is {told} in the whole dataset")
+        written = f"{dataset[axis].item():g}" + ("" if unit == "1" else f" {unit}")
+        raise DatasetError(f"{option}: not an axis; {axis} is {written} in the whole dataset")
     if axis in dataset.coords:
         raise DatasetError(f"{option}: not an axis; {axis} follows from {' and '.join(map(str, dataset[axis].dims))}")
     remedy = did_you_mean(axis, known) if known else "it has none, but a single scene"
@@ -221,13 +221,13 @@ def _number(option: str, axis: str, text: str) -> float:
         value = float(text)
     except ValueError:
         if axis not in PHYSICAL:
-            raise DatasetError(f"{option}: {text} is no number; write for example --at {axis}=0.1") from None
+            raise DatasetError(f"{option}: {text} is not a number; write for example --at {axis}=0.1") from None
         try:
             value = si_value(text, axis)
         except ValueError as error:
             raise DatasetError(f"{option}: {error}") from None
     if np.isnan(value):
-        raise DatasetError(f"{option}: {text} is no number; write for example --at {axis}=0.1")
+        raise DatasetError(f"{option}: {text} is not a number; write for example --at {axis}=0.1")
     return value
 
 
@@ -239,10 +239,10 @@ def _checked(option: str, values: NDArray[np.float64], axis: str, value: float) 
         least, greatest = float(finite.min()), float(finite.max())
         inside = least - SLACK * abs(least) <= value <= greatest + SLACK * abs(greatest)
     if not inside:
-        told = f"{finite.min():g} to {finite.max():g}" if finite.size else ""
-        told = " and ".join(filter(None, (told, "inf" if np.isinf(values).any() else "")))
+        written = f"{finite.min():g} to {finite.max():g}" if finite.size else ""
+        written = " and ".join(filter(None, (written, "inf" if np.isinf(values).any() else "")))
         unit = f" {PHYSICAL[axis].unit}" if axis in PHYSICAL else ""
-        raise DatasetError(f"{option}: outside the axis, which has values of {told}{unit}; choose one within")
+        raise DatasetError(f"{option}: outside the axis, which has values of {written}{unit}; choose one within")
     return value
 
 

@@ -42,7 +42,7 @@ def check_size(file: "netCDF4.Dataset", path: Path) -> None:
             if not isinstance(variable.getncattr(attribute), float | np.number) or not np.isfinite(
                 variable.getncattr(attribute)
             ):
-                raise _damaged(path, f"the attribute {attribute} of {name} is no number")
+                raise _damaged(path, f"the attribute {attribute} of {name} is not a number")
 
 
 def check_form(dataset: "xarray.Dataset", path: Path | str) -> None:

@@ -69,7 +69,7 @@ def write(
     advance: Callable[..., None] = lambda *_, **__: None,
 ) -> Written:
     """
-    Compute a study into a file; `advance` is told the scenes of each block when they are written.
+    Compute a study into a file; `advance` gets the scenes of each block when they are written.
 
     The file takes the place of `path` when it is complete and on disk. Until then each finished block of a map of
     several is a part of its own, which the next call reuses.
@@ -88,7 +88,7 @@ def write(
     GradhesionError
         The engine gives up: a worker cannot do its work, or a block is no part and is not to be solved.
     OutputError
-        It cannot be written: it exists, another run is at work on it, parts of another study are kept, the disk; or it
+        It cannot be written: it exists, another run is writing it, parts of another study are kept, the disk; or it
         has appeared meanwhile, and the dataset is kept beside it.
     ScenesFailedError
         No block could be solved, or one has failed and `fail_fast`.
@@ -215,12 +215,12 @@ def write_shard(
         keeper.write()
     state = keeper.state
     computed = state.blocks_done - state.blocks_reused
-    told = tuple(raised[number] for number in sorted(raised))
-    return Written(failed=state.scenes_failed, reused=state.blocks_reused, computed=computed, raised=told)
+    written = tuple(raised[number] for number in sorted(raised))
+    return Written(failed=state.scenes_failed, reused=state.blocks_reused, computed=computed, raised=written)
 
 
 def _sentence(study: Study, number: int, solved: Solved) -> str:
-    """Tell of a block that could not be solved."""
+    """Report of a block that could not be solved."""
     return f"block {number + 1:,} of {len(study.tiling):,} ({place_of(study, solved.block)}) raised {solved.error}"
 
 
@@ -240,7 +240,7 @@ def _solved(
 
 
 def _finished(folder: Folder, target: Path, study: Study) -> Written | None:
-    """Tell whether the run that left this folder had written the output, and tidy up if so."""
+    """Report whether the run that left this folder had written the output, and tidy up if so."""
     finished = read_record(folder.finished, Finished)
     if finished is None:
         return None

@@ -31,7 +31,7 @@ class Cluster:
         Raises
         ------
         ClusterError
-            No scheduler answers, or no worker can do the work.
+            No scheduler answers, or no worker is usable.
         OutputError
             A part cannot be written, or the scheduler is lost.
         """

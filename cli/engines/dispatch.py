@@ -88,7 +88,7 @@ class Dispatch:
                 case UnwritableError(args=(worker, reason)):
                     raise OutputError(
                         f"{self._work.path}: worker {worker} cannot write its parts ({reason}); make room or get the "
-                        "right to write; finished parts are kept, and the same command goes on"
+                        "right to write; finished parts are kept, and the same command resumes"
                     )
                 case ImportError() | AttributeError() as error:
                     raise ClusterError(

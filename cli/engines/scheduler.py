@@ -115,11 +115,11 @@ def asked(client: Any, call: Callable[[], _T]) -> _T:
             try:
                 return call()
             except Exception as error:
-                # Dask has a dozen exceptions for a lost scheduler; what its client is at tells them from others.
+                # Dask has a dozen exceptions for a lost scheduler; the state of its client distinguishes them.
                 if client.status == "running" and not isinstance(error, OSError):
                     raise
         time.sleep(0.1)
     raise OutputError(
-        "--engine dask: the scheduler does not answer any more; finished parts are kept, and the same command goes on "
-        "from there when there is a scheduler again"
+        "--engine dask: the scheduler no longer answers; finished parts are kept, and the same command resumes once a "
+        "scheduler is available"
     )

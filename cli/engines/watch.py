@@ -80,7 +80,7 @@ class Watch:
         if many and not self.fit:
             worker = min(self._workers)
             raise ClusterError(
-                f"--engine dask: no worker can do the work: worker {worker} {self._refused[worker]}; start workers "
+                f"--engine dask: no worker is usable: worker {worker} {self._refused[worker]}; start workers "
                 "in the environment and on the file system of this command"
             )
         seconds = self._looked - self._moved

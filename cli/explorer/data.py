@@ -62,7 +62,7 @@ def study_data(dataset: xarray.Dataset, units: Mapping[str, Unit] = MappingProxy
     Returns
     -------
     study
-        What tells scenes apart, in the order of the values: `axes`, `parameters` (fixed, or following from axes),
+        What distinguishes scenes, in the order of the values: `axes`, `parameters` (fixed, or following from axes),
         `status`, `flags`.
     variables
         A list of what has values, each flat in that order; a row of `length` values a scene of a curve.

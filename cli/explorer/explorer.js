@@ -80,7 +80,7 @@ const explorer = {
         place.append(chooser(`along-${side}`, `${side === "x" ? "Across" : "Up"}`, named, this[side], choose));
       }
       place.append(
-        chooser("span", "Colours", [[0, "from least to greatest of this map"], [1, "from least to greatest of all scenes"]], 0, (whole) => {
+        chooser("span", "Colours", [[0, "range of this map"], [1, "range of all scenes"]], 0, (whole) => {
           this.whole = Boolean(whole);
           this.later("maps");
         }),

@@ -1,4 +1,4 @@
-"""The figures of a page, still empty: its script fills them, and is told what happens in them."""
+"""The figures of a page, still empty: its script fills them, and is notified of what happens in them."""
 
 from typing import Any, Final
 
@@ -129,6 +129,6 @@ def _formatter(place: str) -> CustomJSTickFormatter:
 
 
 def _listen(plot: figure, which: str) -> None:
-    """Tell the script of a pointer that moves, taps or leaves."""
+    """Report the script of a pointer that moves, taps or leaves."""
     for event, word in (("mousemove", "hover"), ("tap", "tap"), ("doubletap", "tap")):  # a second tap at once is a tap
         plot.js_on_event(event, CustomJS(code=f"explorer.{word}({which}, cb_obj)"))

@@ -35,7 +35,7 @@ def page(dataset: xarray.Dataset, file: str, variables: Sequence[str], places: S
     Parameters
     ----------
     file
-        The name of the dataset, which the page tells.
+        The name of the dataset, which the page shows.
     variables, places
         What to take of it: variables by name (all if none), and AXIS=VALUE for the nearest value of an axis.
 
@@ -82,12 +82,12 @@ def page(dataset: xarray.Dataset, file: str, variables: Sequence[str], places: S
 
 
 def _kind_of(study: Entry) -> str:
-    """Tell the kind of a page by what varies: maps over two axes, lines over one, points."""
+    """Report the kind of a page by what varies: maps over two axes, lines over one, points."""
     axes = [axis["name"] for axis in study["axes"]]
     if SCENE in axes and not any("places" in parameter for parameter in study["parameters"]):
         axes = []
     if not [axis for axis in axes if axis != SOLVER]:
-        raise DatasetError("nothing varies, so there is nothing to explore; `gradhesion info` tells the values")
+        raise DatasetError("nothing varies, so there is nothing to explore; `gradhesion info` shows the values")
     if SCENE in axes:
         return "points"
     return "maps" if len([axis for axis in axes if axis != SOLVER]) > 1 else "lines"

@@ -40,8 +40,8 @@ class Study {
 
   // The status of a scene in words.
   statusAt(number) {
-    const told = this.flags.filter((flag) => this.status[number] & flag.bit).map((flag) => flag.words);
-    return told.length ? told : ["nothing to report"];
+    const words = this.flags.filter((flag) => this.status[number] & flag.bit).map((flag) => flag.words);
+    return words.length ? words : ["nothing to report"];
   }
 }
 

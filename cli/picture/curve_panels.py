@@ -51,7 +51,7 @@ class Track:
     dash: Dash
     width: float
     colour: Colour
-    """Its colour where colours do not tell scenes apart."""
+    """Its colour where colours do not distinguish scenes."""
     shade: float | None
     """Where that is among the colours of a colour map; None: it is grey in all."""
     unloading: bool | None = None
@@ -99,7 +99,7 @@ TRACKS_OF_MANY: Final = tuple(
 
 
 MARKERS: Final = ("o", "s", "D", "P", "X")
-"""What tells scenes apart where colours do not print."""
+"""What distinguishes scenes where colours do not print."""
 
 MARKED: Final = 0.22
 """How far apart these markers stand along a line, in diagonals of the panel."""

@@ -52,10 +52,10 @@ NARROW: Final = 1.7
 """The width of a panel, in inches, below which panels stand below each other if a width is given."""
 
 SCENES: Final = 5
-"""Scenes in one picture: more could not be told apart."""
+"""Scenes in one picture: more could not be distinguished."""
 
 INK: Final = to_rgb("0.25")
-"""The colour of lines in a legend where colours tell scenes apart."""
+"""The colour of lines in a legend where colours distinguish scenes."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -241,16 +241,16 @@ def _varying(dataset: xarray.Dataset) -> list[str]:
 
 def _caption(dataset: xarray.Dataset, axes: Sequence[str]) -> list[str]:
     """Write the parameters that are the same in all scenes drawn."""
-    told = []
+    written = []
     for name in given(dataset.coords):
         values = np.unique(dataset[name].values)
         if values.size == 1:
-            told.append(equation(name, values[0]))
+            written.append(equation(name, values[0]))
         elif name in axes[:-1]:
-            told.append(f"{equation(name, dataset[name].values[0])} (first of {values.size})")
+            written.append(f"{equation(name, dataset[name].values[0])} (first of {values.size})")
     if axes and dataset.sizes[axes[-1]] > SCENES:
-        told.append(f"{SCENES} of {dataset.sizes[axes[-1]]} scenes")
-    return told
+        written.append(f"{SCENES} of {dataset.sizes[axes[-1]]} scenes")
+    return written
 
 
 def _trimmed(scene: xarray.Dataset) -> dict[str, Values]:

@@ -36,7 +36,7 @@ class Doubt:
     """That of the marker: all can be seen one in the other."""
 
     def marks(self, status: NDArray[Any]) -> NDArray[np.bool_]:
-        """Tell which scenes have the flag."""
+        """Report which scenes have the flag."""
         flags: NDArray[np.bool_] = (status & self.bit) != 0
         return flags
 

@@ -29,7 +29,7 @@ APART: Final = 0.17
 
 
 def shape_of(sizes: Mapping[str, int], plan: Plan) -> tuple[int, int]:
-    """Tell the rows and columns of panels."""
+    """Report the rows and columns of panels."""
     rows, columns = (min(PANELS, sizes[axis]) if axis else 1 for axis in (plan.rows, plan.columns))
     return rows, columns
 
@@ -67,7 +67,7 @@ def draw_grid(
     status = status.where(np.isfinite(cut), 0)
     finite = cut.values[np.isfinite(cut.values)]
     if not finite.size:
-        raise DatasetError(f"{name}: no value in any scene drawn; `gradhesion info` shows why")
+        raise DatasetError(f"{name}: no value in any scene drawn; `gradhesion info` reports why")
     doubts = doubts_in(status.values, name, turned=is_turned(dataset))
     marks = [(doubt, (status & doubt.bit) != 0) for doubt in doubts]
     if taken.at_end is not None and bool(taken.at_end.any()):
@@ -93,8 +93,8 @@ def draw_grid(
             if plan.columns and i == 0:
                 axes.set_title(equation(plan.columns, cut[plan.columns].values[j]))
             if plan.rows and j == columns - 1:
-                told = equation(plan.rows, cut[plan.rows].values[i])
-                axes.annotate(told, (1.03, 0.5), xycoords="axes fraction", rotation=-90, va="center")
+                written = equation(plan.rows, cut[plan.rows].values[i])
+                axes.annotate(written, (1.03, 0.5), xycoords="axes fraction", rotation=-90, va="center")
             axes.label_outer()
     width, height = (2.1, 1.8) if columns > 1 else (3.6, 2.9)
     named = _named(name, selection, unit)
@@ -177,7 +177,7 @@ def _dress(
 
 
 def _axis_of_place(selection: Selection) -> str | None:
-    """Tell the axis whose value is drawn, where the place of an extreme is asked for."""
+    """Report the axis whose value is drawn, where the place of an extreme is asked for."""
     return next((axis for axis, how in selection.over.items() if how.startswith("arg")), None)
 
 
@@ -186,31 +186,31 @@ def _named(name: str, selection: Selection, unit: Unit) -> str:
     axis = _axis_of_place(selection)
     if axis is None:
         return label(name, unit)
-    extreme = "greatest" if selection.over[axis] == "argmax" else "least"
-    return f"{label(axis, unit)} of the {extreme} {SYMBOLS[name].split(' $')[0]}"
+    extreme = "maximum" if selection.over[axis] == "argmax" else "minimum"
+    return f"{label(axis, unit)} at {extreme} {SYMBOLS[name].split(' $')[0]}"
 
 
 def _caption(
     dataset: xarray.Dataset, plan: Plan, items: Mapping[str, Any], selection: Selection, taken: Taken
 ) -> list[str]:
     """Write the parameters that are not drawn, and what stands for the axes that are fixed or reduced."""
-    told = []
+    written = []
     between = {one.axis: one.value for one in selection.between}
     follows = {plan.x, plan.second, plan.columns, plan.rows, *selection.over}
     for name in (SOLVER, *given(dataset.coords)):
         values = np.atleast_1d(dataset[name].values) if name in dataset.coords else np.empty(0)
         if name in between:
-            told.append(f"{equation(name, between[name])} (interpolated)")
+            written.append(f"{equation(name, between[name])} (interpolated)")
         elif name in plan.middle:
-            told.append(f"{equation(name, values[values.size // 2])} (one of {values.size})")
+            written.append(f"{equation(name, values[values.size // 2])} (one of {values.size})")
         elif values.size == 1 and name not in follows:
-            told.append(equation(name, values.item()))
-    told += [f"{how} over {SYMBOLS[axis]}" for axis, how in selection.over.items()]
+            written.append(equation(name, values.item()))
+    written += [f"{how} over {SYMBOLS[axis]}" for axis, how in selection.over.items()]
     if taken.left_out:
-        told.append(f"{taken.left_out:,} failed {'scene' if taken.left_out == 1 else 'scenes'} left out")
+        written.append(f"{taken.left_out:,} failed {'scene' if taken.left_out == 1 else 'scenes'} left out")
     if taken.flat:
-        told.append(f"{taken.flat:,} left out where all values are equal")
+        written.append(f"{taken.flat:,} left out where all values are equal")
     for axis in (plan.x, plan.second):
         if axis and axis in items and axis not in (plan.columns, plan.rows):
-            told.append(f"{len(items[axis]):,} of {dataset.sizes[axis]:,} values of {SYMBOLS[axis]}")
-    return told
+            written.append(f"{len(items[axis]):,} of {dataset.sizes[axis]:,} values of {SYMBOLS[axis]}")
+    return written

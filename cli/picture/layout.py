@@ -28,7 +28,7 @@ class Plan:
 
     x: str
     second: str | None
-    """The other side of a map, or what tells the lines of a panel apart."""
+    """The other side of a map, or what distinguishes the lines of a panel."""
     is_map: bool
     columns: str | None
     rows: str | None
@@ -92,7 +92,7 @@ def placed(dataset: xarray.Dataset, selection: Selection, x: str | None, y: str 
         if name in {*selection.fixed, *selection.over, *(one.axis for one in selection.between)}:
             raise DatasetError(f"{asked}: {name} is fixed or reduced by --at or --over; leave one of the two out")
         if name == SOLVER:
-            raise DatasetError(f"{asked}: solvers are told apart as lines or panels; choose a parameter")
+            raise DatasetError(f"{asked}: solvers are always lines or panels; choose a parameter")
         own = dataset[name].dims if name in dataset.coords else ()
         if len(own) == 1 and own[0] not in (name, SCENE) and own[0] not in selection.over:
             if not np.isfinite(dataset[name].values).all():

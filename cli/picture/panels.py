@@ -22,7 +22,7 @@ Values = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 DASHES: Final[tuple[Any, ...]] = ("-", "--", "-.", ":", (0, (8, 4)), (0, (6, 1.5, 1, 1.5, 1, 1.5)))
-"""What tells lines apart where colours do not print; the gaps of those on top show what is below."""
+"""What distinguishes lines where colours do not print; the gaps of those on top show what is below."""
 
 MARKS: Final = 40
 """Markers along a line, about: more would hide it."""
@@ -197,7 +197,7 @@ def draw_lines(
     doubtful: Sequence[tuple[Doubt, dict[str, Flags]]] = (),
 ) -> None:
     """
-    Draw a line for each curve, told apart by shade and by dash; a value between two gaps shows as a dot.
+    Draw a line for each curve, distinguished by shade and by dash; a value between two gaps shows as a dot.
 
     Doubtful values have open markers, and a cross at the foot of the panel stands where there is none.
     """
@@ -236,7 +236,7 @@ def draw_points(
     doubtful: Sequence[tuple[Doubt, dict[str, Flags]]] = (),
 ) -> None:
     """
-    Draw a dot for each scene; several series are told apart by shade and by mark.
+    Draw a dot for each scene; several series are distinguished by shade and by mark.
 
     Doubtful values have open markers, and a cross at the foot of the panel stands where there is none.
     """

@@ -14,7 +14,7 @@ from matplotlib.mathtext import MathTextParser
 
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.picture.looks import PLAIN, Looks
-from gradhesion.cli.study.shape_words import shape_told
+from gradhesion.cli.study.shape_words import shape_in_words
 from gradhesion.cli.terminal.printable import printable
 from gradhesion.core import Profile
 
@@ -62,15 +62,15 @@ def lay_out(figure: Figure) -> None:
 
 
 def heading(dataset: xarray.Dataset) -> str:
-    """Tell the title of a dataset, and shape and control where they are not those of the paper."""
-    told = []
+    """Report the title of a dataset, and shape and control where they are not those of the paper."""
+    written = []
     profile = str(dataset.attrs.get("profile", ""))
-    if profile not in ("", shape_told(Profile())):
-        told.append(f"profile {profile if len(profile) <= LONGEST else profile[:LONGEST] + ' ...'}")
+    if profile not in ("", shape_in_words(Profile())):
+        written.append(f"profile {profile if len(profile) <= LONGEST else profile[:LONGEST] + ' ...'}")
     control = str(dataset.attrs.get("control", "displacement"))
     if control != "displacement":
-        told.append({"load": "under controlled load", "machine": "through a machine of finite stiffness"}[control])
-    return "\n".join(map(_drawable, [str(dataset.attrs["title"]), *told]))
+        written.append({"load": "under controlled load", "machine": "through a machine of finite stiffness"}[control])
+    return "\n".join(map(_drawable, [str(dataset.attrs["title"]), *written]))
 
 
 def _drawable(text: str) -> str:

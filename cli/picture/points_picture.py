@@ -37,7 +37,7 @@ def draw_scenes(
         )
     values = variable.values.astype(float)
     if not np.isfinite(values).any():
-        raise DatasetError(f"{name}: no value in any scene; `gradhesion info` shows why")
+        raise DatasetError(f"{name}: no value in any scene; `gradhesion info` reports why")
     along = over or varying[0]
     x = scale(variable[along].values, along)
     solvers = [str(one) for one in np.atleast_1d(variable[SOLVER].values)] if SOLVER in variable.coords else [""]

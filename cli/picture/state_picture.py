@@ -30,7 +30,7 @@ PANELS: Final = (("pressure", "pressure_radius", "pressure"), ("surface", "surfa
 """The curve of each panel, and what it has along and up."""
 
 DASHES: Final = ("-", (0, (5, 1.5)), (0, (2, 1)), (0, (6, 1.5, 1, 1.5)))
-"""What tells states apart where colours do not print."""
+"""What distinguishes states where colours do not print."""
 
 SHOWN: Final = 0.95
 """The share of a contact up to which the pressure sets the limits of its panel: it has no bound at the edge."""
@@ -53,7 +53,7 @@ def draw_states(dataset: xarray.Dataset, chosen: Sequence[str], looks: Looks = P
     panels = [(curve, x, y) for curve, x, y in PANELS if curve in chosen and y in scene]
     for curve, x, _ in panels:
         if x not in scene:
-            raise DatasetError(f'{curve}: needs {x}, which this dataset has not; write outputs = ["{curve}"]')
+            raise DatasetError(f'{curve}: needs {x}, which this dataset lacks; write outputs = ["{curve}"]')
     if not panels:
         needed = CURVES["surface"]
         raise DatasetError(f'surface: needs {", ".join(needed)} for a picture; write outputs = ["surface"]')

@@ -88,7 +88,7 @@ class ProfileTable(Table):
 
 
 def _shape_of(value: object) -> str:
-    """Tell which of the three forms of an input is meant."""
+    """Report which of the three forms of an input is meant."""
     return "range" if isinstance(value, Mapping) else "list" if isinstance(value, list) else "number"
 
 

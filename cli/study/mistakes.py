@@ -78,7 +78,7 @@ def checked(data: Mapping[str, Any]) -> Checked:
 
 
 def _depth(path: Path) -> int:
-    """Tell how much of a path is the key whose value is wrong."""
+    """Report how much of a path is the key whose value is wrong."""
     return 2 if len(path) > 1 and isinstance(path[1], str) else 1
 
 
@@ -102,7 +102,7 @@ def _path(detail: ErrorDetails) -> Path:
 
 
 def _unknown_key(path: Path) -> tuple[Path, str]:
-    """Tell which key was meant, and say so."""
+    """Report which key was meant, and say so."""
     tables: dict[Path, tuple[str, ...]] = {
         (): keys_of(""),
         **{(name,): keys_of(name) for name in ("parameters", "physical", "profile", "loading", "states", "method")},

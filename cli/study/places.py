@@ -79,7 +79,7 @@ def lines_of(text: str) -> dict[Path, int]:
 
 
 def _statement(lines: list[str], first: int) -> tuple[dict[str, Any], int]:
-    """Parse the statement that begins at line `first`, and tell the line after it."""
+    """Parse the statement that begins at line `first`, and give the line after it."""
     tries = 0
     for end in range(first + 1, len(lines) + 1):
         # Only a line that closes something can end a statement of several lines.

@@ -93,7 +93,7 @@ def _mistakes_of_default_only(checked: Checked, *, sound_series: bool) -> Iterat
     others += ["[loading]"] if form.loading.control in CONTROLS[1:] else []
     if not others:
         return
-    known = "known of a paraboloid with one cosine wave under controlled displacement only"
+    known = "available only for a paraboloid with one cosine wave under displacement control"
     remedy = f"or remove {' and '.join(others)}"
     special = [name for one, own in CURVES.items() if one not in GENERAL_CURVES for name in (one, *own)]
     for i, name in enumerate(form.outputs):
@@ -107,8 +107,8 @@ def _mistakes_of_default_only(checked: Checked, *, sound_series: bool) -> Iterat
     for one in form.method.solvers:
         if one == "envelope" and "[loading]" in others:
             sentence = (
-                'the solver "envelope" is known under controlled displacement only: contact through a spring begins '
-                'and ends where no closed form is known; write solver = "exact", or remove [loading]'
+                'the solver "envelope" is available only under displacement control: contact through a spring begins '
+                'and ends where there is no closed form; write solver = "exact", or remove [loading]'
             )
             yield Mistake(("method", "solver"), form.method.solver, sentence)
         elif one == "asymptotic":

@@ -92,7 +92,7 @@ def _registry() -> "UnitRegistry[Any]":
 
 @cache
 def _factor(written: str, unit: str) -> Decimal | None:
-    """Tell how many of the SI unit a unit is: None if it is not known, 0 if it is one of something else."""
+    """Report how many of the SI unit a unit is: None if it is not known, 0 if it is one of something else."""
     registry = _registry()
     wanted = registry.parse_units(_POWER.sub(r"\1^\2", unit))
     for text in (written, _POWER.sub(r"\1^\2", written)):

@@ -39,18 +39,18 @@ def left_out(sound: Mapping[str, Values], *, with_units: bool) -> dict[str, floa
 
 
 def _is_zero(parameter: str, sound: Mapping[str, Values]) -> bool:
-    """Tell whether a parameter is given, and zero everywhere."""
+    """Report whether a parameter is given, and zero everywhere."""
     own = [values for name, values in sound.items() if INPUTS[name].gives == parameter]
     return bool(own) and not any(np.any(np.asarray(values)) for values in own)
 
 
 def _with_units(checked: Checked) -> bool:
-    """Tell whether the study has a table [physical], right or wrong."""
+    """Report whether the study has a table [physical], right or wrong."""
     return isinstance(checked.data.get("physical"), Mapping)
 
 
 def _given(checked: Checked, path: Path) -> bool:
-    """Tell whether a key is there, right or wrong."""
+    """Report whether a key is there, right or wrong."""
     table = checked.data.get(str(path[0]))
     return isinstance(table, Mapping) and path[1] in table
 

@@ -52,7 +52,7 @@ def mistakes_between_keys(checked: Checked, points: Points) -> tuple[dict[str, V
 
 
 def _kind_of(checked: Checked) -> str:
-    """Tell which kind of study is meant."""
+    """Report which kind of study is meant."""
     return nearest(checked.form.kind, tuple(KINDS)) or "map"
 
 
@@ -82,13 +82,11 @@ def _mistakes_of_outputs(checked: Checked) -> Iterator[Mistake]:
         if not isinstance(name, str):
             continue
         if name in kind.outputs and name in asked[:i]:
-            yield Mistake(path, name, "this output is asked for twice; remove one of the two")
+            yield Mistake(path, name, "this output is listed twice; remove one of the two")
         elif name in kind.outputs:
             curve = next((one for one, own in CURVES.items() if name in own and one in asked and one != name), None)
             if curve is not None:
-                yield Mistake(
-                    path, name, f'a variable of "{curve}", which is asked for as a whole; remove one of the two'
-                )
+                yield Mistake(path, name, f'a variable of "{curve}", which is listed as a whole; remove one of the two')
         elif name in others:
             sentence = f'an output of studies of kind "{others[name]}", and this one is of kind "{kind.name}"; '
             sentence += f'{did_you_mean(name, kind.outputs)}, or write kind = "{others[name]}"'
@@ -101,7 +99,7 @@ def _mistakes_of_method(checked: Checked) -> Iterator[Mistake]:
     """Check that each solver is known, named once and has all outputs, and that a study of curves has no method."""
     method, has_solver = checked.form.method, KINDS[_kind_of(checked)].has_solver
     if not has_solver and method.solver != "exact":
-        sentence = "a curve study has no solver, it draws the curves that are asked for; remove this key"
+        sentence = "a curve study has no solver, its outputs choose the curves; remove this key"
         sentence += ', and add "asymptotic", "envelope" or "effective" to outputs'
         yield Mistake(("method", "solver"), method.solver, sentence)
     if not has_solver and not method.check_contact:
@@ -112,7 +110,7 @@ def _mistakes_of_method(checked: Checked) -> Iterator[Mistake]:
         if one not in SOLVERS:
             yield Mistake(path, one, f"not a solver; {did_you_mean(one, tuple(SOLVERS))}")
         elif one in method.solvers[:i]:
-            yield Mistake(path, one, "this solver is asked for twice; remove one of the two")
+            yield Mistake(path, one, "this solver is listed twice; remove one of the two")
     other = next((one for one in method.solvers if one in SOLVERS and one != "exact"), None)
     for i, name in enumerate(checked.form.outputs if other else ()):
         if name in EXACT_ONLY:

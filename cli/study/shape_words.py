@@ -1,16 +1,16 @@
-"""The shape of a punch and the control of its loading in words, as a dataset keeps and `gradhesion info` tells them."""
+"""The shape of a punch and the control of its loading in words, for datasets and `gradhesion info`."""
 
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.profile import Harmonic, Profile
 
 
-def shape_told(profile: Profile) -> str:
+def shape_in_words(profile: Profile) -> str:
     """
     Write the shape of a punch as a formula.
 
-    >>> shape_told(Profile())
+    >>> shape_in_words(Profile())
     'r^2/(2 R) + lambda A [1 - cos(2 pi x)], x = r/lambda'
-    >>> shape_told(Profile(exponent=1.5, harmonics=(Harmonic(n=1, cos=0.0, sin=1.0), Harmonic(n=3, cos=-0.25))))
+    >>> shape_in_words(Profile(exponent=1.5, harmonics=(Harmonic(n=1, cos=0.0, sin=1.0), Harmonic(n=3, cos=-0.25))))
     'r^1.5/(1.5 R^0.5) + lambda A [sin(2 pi x) - 0.25 (1 - cos(6 pi x))], x = r/lambda'
     """
     m = profile.exponent
@@ -20,17 +20,17 @@ def shape_told(profile: Profile) -> str:
     if not terms:
         return own
     first, *others = terms
-    told = ("-" if first[0] < 0.0 else "") + _term(*first, alone=len(terms) == 1)
+    written = ("-" if first[0] < 0.0 else "") + _term(*first, alone=len(terms) == 1)
     for size, wave in others:
-        told += (" - " if size < 0.0 else " + ") + _term(size, wave, alone=False)
-    return f"{own} + lambda A [{told}], x = r/lambda"
+        written += (" - " if size < 0.0 else " + ") + _term(size, wave, alone=False)
+    return f"{own} + lambda A [{written}], x = r/lambda"
 
 
-def control_told(loading: Loading) -> str:
+def control_in_words(loading: Loading) -> str:
     """
     Say what is controlled.
 
-    >>> control_told(Loading(control="load"))
+    >>> control_in_words(Loading(control="load"))
     'load, so that the energy of the jump-out, which has no bound, is left out'
     """
     return {

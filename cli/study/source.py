@@ -95,7 +95,7 @@ def _text(path: Path, most: int) -> str:
         reason = getattr(error, "strerror", None) or str(error)
         raise StudyError([f"{path}: cannot be read ({reason}); name a study in TOML"]) from None
     if len(content) > most:
-        raise StudyError([f"{path}: larger than {most >> 20} MiB, so hardly a study; name a study in TOML"])
+        raise StudyError([f"{path}: larger than {most >> 20} MiB, too large for a study; name a study in TOML"])
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -129,7 +129,7 @@ def _syntax_sentence(path: Path, text: str, problem: str) -> str:
     shown = wording.shown(lines[line - 1].strip())
     column = f" (column {at[2]})" if at[2] else ""
     what = problem[: at.start()]
-    remedy = next((remedy for start, remedy in _REMEDIES.items() if what.startswith(start)), "mend this line")
+    remedy = next((remedy for start, remedy in _REMEDIES.items() if what.startswith(start)), "fix this line")
     return f"{path}:{line}: not valid TOML, {what[0].lower()}{what[1:]}{column} in {shown}; {remedy}"
 
 
@@ -139,7 +139,7 @@ _HOMES: Final = {name: key.table for name, key in KEYS.items() if key.table in _
 
 
 def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[keys.Path, str], list[str]]:
-    """Set keys by their dotted paths in place; tell which text set each, and what was wrong."""
+    """Set keys by their dotted paths in place; report which text set each, and what was wrong."""
     sources: dict[keys.Path, str] = {}
     mistakes = []
     for override in overrides:

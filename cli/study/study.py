@@ -41,7 +41,7 @@ class Method:
     solver: str | tuple[str, ...] = "exact"
     """One solver, or several that stand side by side in the dataset."""
     check_contact: bool = True
-    """Whether `status` shall tell where loading does not keep the contact one disc."""
+    """Whether `status` shall report where loading does not keep the contact one disc."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -223,7 +223,7 @@ def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = N
     sentences.sort(key=_line)
     mistakes = [*source.mistakes, *sentences]
     if len(mistakes) > MOST_MISTAKES:
-        more = f"... and {len(mistakes) - MOST_MISTAKES} more mistakes; mend these first"
+        more = f"... and {len(mistakes) - MOST_MISTAKES} more mistakes; fix these first"
         mistakes = [*mistakes[:MOST_MISTAKES], more]
     if mistakes:
         raise StudyError(mistakes)

@@ -24,7 +24,7 @@ def bytes_in_words(number: float, digits: int = 1) -> str:
 
 def two_in_words(one: float, other: float) -> tuple[str, str]:
     """
-    Write two numbers of bytes with as many digits as tell them apart.
+    Write two numbers of bytes with enough digits to differ.
 
     >>> two_in_words(2.5e9, 2.49e9), two_in_words(48, 30), two_in_words(5e8, 5e8)
     (('2.50 GB', '2.49 GB'), ('0.05 kB', '0.03 kB'), ('500.0 MB', '500.0 MB'))

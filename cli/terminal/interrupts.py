@@ -22,7 +22,7 @@ def listen() -> None:
 
 
 def heard() -> bool:
-    """Tell whether a signal has come: a library may have swallowed it, or made another error of it."""
+    """Report whether a signal has come: a library may have swallowed it, or made another error of it."""
     return bool(_heard)
 
 
@@ -38,7 +38,7 @@ def keep(sentence: str) -> None:
 
 
 def last_words() -> str:
-    """Tell what an interrupt has left."""
+    """Report what an interrupt has left."""
     return f"interrupted; {_kept[0] if _kept else 'no output is left half-written'}"
 
 

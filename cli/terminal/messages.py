@@ -1,4 +1,4 @@
-"""What is told on stderr while a command works: in words, as JSON lines for a program, or not at all."""
+"""What is printed on stderr while a command works: in words, as JSON lines for a program, or not at all."""
 
 import json
 import time
@@ -14,18 +14,18 @@ _json: list[bool] = []
 
 
 def speak_json(_context: click.Context, _option: click.Parameter, value: bool) -> bool:
-    """Choose JSON lines, or words, as the option of a command tells."""
+    """Choose JSON lines, or words, as the option of a command says."""
     _json[:] = [value]
     return value
 
 
 def in_json() -> bool:
-    """Tell whether JSON lines are asked for."""
+    """Report whether JSON lines are asked for."""
     return any(_json)
 
 
 def say(event: str, sentence: str, **fields: Any) -> None:
-    """Tell a sentence, or the same as a JSON line with more fields."""
+    """Report a sentence, or the same as a JSON line with more fields."""
     if in_json():
         say_json(event, message=sentence, **fields)
     else:
@@ -38,7 +38,7 @@ def say_json(event: str, **fields: Any) -> None:
 
 
 class Failure(click.ClickException):
-    """A failure that the user can mend, as click prints it and ends with its exit code."""
+    """A failure that the user can fix, as click prints it and ends with its exit code."""
 
     def __init__(self, error: GradhesionError) -> None:
         super().__init__("\n".join(map(printable_line, error.mistakes)))

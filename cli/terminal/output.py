@@ -26,7 +26,7 @@ def show_block(text: str) -> None:
         Nobody reads it any more.
     """
     if getattr(sys, "stdout", None) is None:
-        raise OutputError("standard output: is closed; give it somewhere to go, as with > FILE")
+        raise OutputError("standard output: is closed; redirect it, as with > FILE")
     try:
         click.echo(printable(text))
     except BrokenPipeError:

@@ -1,4 +1,4 @@
-"""What a long run tells on stderr: a bar on a terminal, a plain line every now and then elsewhere."""
+"""What a long run prints on stderr: a bar on a terminal, a plain line every now and then elsewhere."""
 
 import sys
 import time

@@ -1,4 +1,4 @@
-"""Curves told in words: how long they are, how often they fold and jump, and how far they reach."""
+"""Curves in words: how long they are, how often they fold and jump, and how far they reach."""
 
 from collections.abc import Iterator, Sequence
 from itertools import product
@@ -73,7 +73,7 @@ def _events(scene: Scene) -> dict[str, int]:
 
 def _range(numbers: Sequence[int]) -> str:
     """
-    Tell a number of each scene.
+    Report a number of each scene.
 
     >>> _range([3, 1200, 4]), _range([5])
     ('3 to 1,200', '5')

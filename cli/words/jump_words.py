@@ -1,4 +1,4 @@
-"""The jumps of a curve study: told in words, and listed one by one."""
+"""The jumps of a curve study: summarised, and listed one by one."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -23,7 +23,7 @@ Piece = dict[str, NDArray[Any]]
 
 
 def jumps_told(dataset: xarray.Dataset, items: int = ITEMS) -> Iterator[str]:
-    """Tell the jumps of a dataset, if it has them: how many, how large, and where the largest is."""
+    """Report the jumps of a dataset, if it has them: how many, how large, and where the largest is."""
     if COUNT not in dataset:
         return
     counts = dataset[COUNT].values
@@ -97,13 +97,13 @@ def _pieces(dataset: xarray.Dataset, items: int) -> Iterator[Piece]:
 
 
 def _where(jump: dict[str, Any]) -> str:
-    """Tell what is known of a jump but its energy."""
-    told = []
+    """Report what is known of a jump but its energy."""
+    written = []
     if "jump_unloading" in jump:
-        told.append("on unloading" if jump["jump_unloading"] == 1 else "on loading")
+        written.append("on unloading" if jump["jump_unloading"] == 1 else "on loading")
     if "jump_indentation" in jump:
-        told.append(f"at the depth {jump['jump_indentation'] + 0.0:.6g}")
+        written.append(f"at the depth {jump['jump_indentation'] + 0.0:.6g}")
     if {"jump_radius_before", "jump_radius_after"} <= jump.keys():
-        told.append(f"from the radius {jump['jump_radius_before']:.6g} to {jump['jump_radius_after']:.6g}")
-    told += [f"{name} = {jump[name]:g}" for name in INPUTS if name in jump]
-    return ", " + ", ".join(told) if told else ""
+        written.append(f"from the radius {jump['jump_radius_before']:.6g} to {jump['jump_radius_after']:.6g}")
+    written += [f"{name} = {jump[name]:g}" for name in INPUTS if name in jump]
+    return ", " + ", ".join(written) if written else ""

@@ -1,4 +1,4 @@
-"""A dataset told in words: its axes, its extremes and where they are, its failures, its origin."""
+"""A dataset in words: its axes, its extremes and where they are, its failures, its origin."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,7 +12,7 @@ from gradhesion.cli import names
 from gradhesion.cli.dataset.reader import has_curves, tiling_of
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import SCENE, SOLVER
-from gradhesion.cli.study.shape_words import control_told
+from gradhesion.cli.study.shape_words import control_in_words
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.words.curve_words import curves_told
 from gradhesion.cli.words.validity_words import validity_told
@@ -24,13 +24,13 @@ FEW: Final = 8
 
 
 def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
-    """Tell what a dataset holds, line by line."""
+    """Report what a dataset holds, line by line."""
     yield dataset.attrs["title"]
     yield f"{file}: {counted(dataset['status'].size, 'scene')}, {bytes_in_words(file.stat().st_size)}"
     if "profile" in dataset.attrs:
         yield ""
         yield f"profile: {dataset.attrs['profile']}"
-        yield f"control: {control_told(Loading(control=dataset.attrs.get('control', 'displacement')))}"
+        yield f"control: {control_in_words(Loading(control=dataset.attrs.get('control', 'displacement')))}"
     yield from _parameters(dataset)
     yield from curves_told(dataset) if has_curves(dataset) else _outputs(dataset)
     yield from _status(dataset)
@@ -42,12 +42,12 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
 
 
 def _coordinates(dataset: xarray.Dataset | xarray.DataArray) -> list[str]:
-    """List what tells scenes apart: the solver, and the parameters."""
+    """List what distinguishes scenes: the solver, and the parameters."""
     return [name for name in (SOLVER, *INPUTS) if name in dataset.coords]
 
 
 def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
-    """Tell the values of the parameters: axes first, then fixed ones, then what follows from them."""
+    """Report the values of the parameters: axes first, then fixed ones, then what follows from them."""
     points = SCENE in dataset.dims
     known = [name for name in _coordinates(dataset) if name != SOLVER]
     varying = [name for name in known if name in dataset.dims or (points and dataset[name].ndim)]
@@ -59,11 +59,11 @@ def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
     for name in varying:
         values = dataset[name].values
         if values.size <= FEW:
-            told = ", ".join(f"{value:g}" for value in values)
+            written = ", ".join(f"{value:g}" for value in values)
         else:
-            told = f"{values.size:,} values from {np.nanmin(values):g} to {np.nanmax(values):g}"
-            told += "" if points else f", {_spacing(values)}"
-        yield f"  {name:<17} {told}{_unit(dataset[name])}"
+            written = f"{values.size:,} values from {np.nanmin(values):g} to {np.nanmax(values):g}"
+            written += "" if points else f", {_spacing(values)}"
+        yield f"  {name:<17} {written}{_unit(dataset[name])}"
     if not varying:
         yield "  none: a single scene"
     fixed = [name for name in known if dataset[name].ndim == 0]
@@ -93,7 +93,7 @@ def _number(value: float | str) -> str:
 
 def _spacing(values: NDArray[np.float64]) -> str:
     """
-    Tell how the values of an axis are spaced, inf apart.
+    Report how the values of an axis are spaced, inf apart.
 
     >>> _spacing(np.array([0.01, 0.1, 1.0, np.inf]))
     'log-spaced'
@@ -112,7 +112,7 @@ def _spacing(values: NDArray[np.float64]) -> str:
 
 
 def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
-    """Tell the extremes of each output, and where they are."""
+    """Report the extremes of each output, and where they are."""
     for name in dataset.data_vars:
         if name == "status":
             continue
@@ -121,7 +121,7 @@ def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
         extremes = _extremes(dataset[name])
         if not extremes:
             yield "  no value in any scene"
-        for word, (extreme, place) in zip(("least", "greatest"), extremes, strict=False):
+        for word, (extreme, place) in zip(("min", "max"), extremes, strict=False):
             where = ", ".join(f"{key} = {_number(value)}" for key, value in place.items())
             yield f"  {word:<9} {extreme:<12.7g}" + (f" at {where}" if where else "")
 
@@ -143,7 +143,7 @@ def _extremes(variable: xarray.DataArray) -> list[tuple[float, dict[str, float |
 
 
 def _place(part: xarray.DataArray, index: tuple[Any, ...]) -> dict[str, float | str]:
-    """Tell the solver and the varying parameters of a cell."""
+    """Report the solver and the varying parameters of a cell."""
     cell = part[index]
     return {
         name: cell[name].item()
@@ -153,7 +153,7 @@ def _place(part: xarray.DataArray, index: tuple[Any, ...]) -> dict[str, float | 
 
 
 def _status(dataset: xarray.Dataset) -> Iterator[str]:
-    """Tell how many scenes have failed, and what the others report."""
+    """Report how many scenes have failed, and what the others report."""
     counts = dict.fromkeys(FLAGS, 0)
     failed = 0
     for block in tiling_of(dataset["status"]):
@@ -171,7 +171,7 @@ def _status(dataset: xarray.Dataset) -> Iterator[str]:
 
 
 def _origin(dataset: xarray.Dataset) -> Iterator[str]:
-    """Tell where a dataset comes from."""
+    """Report where a dataset comes from."""
     attributes = dataset.attrs
     named = ("python", "numpy", "numba", "scipy")
     versions = ", ".join(f"{name} {attributes.get(f'{name}_version', 'unknown')}" for name in named)

@@ -34,7 +34,7 @@ def extent_of(variable: str) -> str:
 
 def is_ragged(variable: str) -> bool:
     """
-    Tell whether a variable has the items of one scene after those of the other.
+    Report whether a variable has the items of one scene after those of the other.
 
     >>> is_ragged("jump_energy"), is_ragged("jump_count"), is_ragged("path_load")
     (True, False, False)
@@ -131,7 +131,7 @@ def gathered(study: Study, drawings: Sequence[Drawing]) -> dict[str, NDArray[Any
 
 def within(name: str, block: Block, part: NDArray[Any], begun: int = 0) -> Block:
     """
-    Tell where a part goes that has further dimensions than its block, or none of it after `begun` items.
+    Report where a part goes that has further dimensions than its block, or none of it after `begun` items.
 
     >>> within("path_load", (slice(2, 3),), np.zeros((1, 5)))
     (slice(2, 3, None), slice(0, 5, None))

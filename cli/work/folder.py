@@ -167,7 +167,7 @@ def folder_of(output: Path) -> Folder:
 
 
 def identity(path: Path) -> tuple[int, int, int, int] | None:
-    """Give what tells a file from every other, and stays when it is renamed."""
+    """Give what identifies a file, and stays when it is renamed."""
     with suppress(OSError):
         found = path.stat()
         return (found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns)
@@ -198,7 +198,7 @@ def claimed(output: Path, shard: str | None = None) -> Iterator[Folder]:
         if kept:
             name = f"{output}.parts"
             many = "part is" if kept == 1 else "parts are"
-            interrupts.keep(f"{kept:,} finished {many} kept in {name}, and the same command goes on from there")
+            interrupts.keep(f"{kept:,} finished {many} kept in {name}, and the same command resumes")
         if shard is None:
             folder.clear_unfinished()
         if shard is None and not kept:
@@ -280,6 +280,6 @@ def _taken(folder: Folder, output: Path) -> str:
     states = [state for path in folder.states() if (state := read_record(path, State))]
     who = ", ".join(f"process {state.pid} on {state.host}" for state in states)
     return (
-        f"{output}: another run is at work on it{f' ({who})' if who else ''}; wait for it "
+        f"{output}: another run is writing it{f' ({who})' if who else ''}; wait for it "
         f"(`gradhesion status {output}` shows how far it is), or name another output with -o"
     )

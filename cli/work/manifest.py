@@ -59,7 +59,7 @@ def adopt(study: Study, folder: Folder, output: Path) -> None:
         if differences:
             raise OutputError(
                 f"{output}: {parts:,} finished parts of another study are kept in {output}.parts: "
-                f"{'; '.join(differences)}; add --fresh to drop them, or name another output with -o"
+                f"{'; '.join(differences)}; add --fresh to discard them, or name another output with -o"
             )
     write_record(folder.study, new)
 
@@ -122,5 +122,5 @@ def _words(values: Values) -> str:
 
 
 def _digest(values: Values) -> str:
-    """Tell the values of a parameter from any others."""
+    """Report the values of a parameter from any others."""
     return hashlib.sha256(np.ascontiguousarray(values, "<f8").tobytes()).hexdigest()

@@ -35,7 +35,7 @@ class Solved:
 
 
 def found(study: Study, folder: Folder, number: int, block: Block, key: str) -> Results | str:
-    """Read the part of a block, or tell why it is of no use."""
+    """Read the part of a block, or report why it is unusable."""
     try:
         return read_part(folder.part(number), key, study, block)
     except FileNotFoundError:
@@ -47,7 +47,7 @@ def found(study: Study, folder: Folder, number: int, block: Block, key: str) -> 
 
 
 def attempted(study: Study, block: Block, threads: int | None) -> tuple[Results, str]:
-    """Solve a block, again if it raises; then its scenes have no value, and the error is told."""
+    """Solve a block, again if it raises; then its scenes have no value, and the error is reported."""
     reason = ""
     for _ in range(ATTEMPTS):
         try:

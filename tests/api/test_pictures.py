@@ -75,7 +75,7 @@ def test_named_dimensions_are_for_xarray() -> None:
 
 def test_a_variable_alone_is_not_drawn(grid: xarray.Dataset) -> None:
     for call in (gr.plot, gr.verify):
-        with pytest.raises(gr.DatasetError, match="a DataArray is no dataset and no path of one"):
+        with pytest.raises(gr.DatasetError, match="a DataArray is neither a dataset nor the path of one"):
             call(grid["pull_off_force"])  # type: ignore[arg-type]
 
 

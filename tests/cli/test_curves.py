@@ -179,7 +179,7 @@ def test_scenes_without_curves_lose_nothing(gradhesion: Call, curve_file: Path, 
         "run", curve_file, "-o", tmp_path / "x.nc", "--quiet", *sets, "--set=outputs=['path', 'smooth']"
     )
     assert result.exit_code == 3
-    assert "1 of 2 scenes have failed" in result.stderr
+    assert "1 of 2 scenes failed" in result.stderr
     with xarray.open_dataset(tmp_path / "x.nc") as dataset:
         assert (dataset["status"].values & FAILED).tolist() == [FLAGS["no_value"], 0]
         failed, fine = dataset.isel(lambda_over_R=0), dataset.isel(lambda_over_R=1)

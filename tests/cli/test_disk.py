@@ -123,7 +123,7 @@ def test_a_file_that_appears_meanwhile_stays_and_the_new_one_is_kept_beside_it(
     for name in ("out-2.nc", "out-3.nc"):
         with pytest.raises(OutputError) as caught:
             make(target, lambda: target.write_text("precious"), overwrite=False)
-        assert str(caught.value).startswith(f"{target}: has appeared there meanwhile, and is untouched; ")
+        assert str(caught.value).startswith(f"{target}: appeared during the run and is untouched; ")
         assert f"kept as {tmp_path / name}; " in str(caught.value)
         assert target.read_text() == "precious"
         assert (tmp_path / name).read_text() == "new"

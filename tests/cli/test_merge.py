@@ -76,7 +76,7 @@ def test_shards_work_at_once_but_not_beside_a_run(gradhesion: Call, study_file: 
         for command in (["run", study_file, "-o", output], ["run", study_file, "-o", output, "--shard", "1/2"]):
             result = gradhesion(*command)
             assert result.exit_code == 4
-            assert "another run is at work on it" in result.stderr
+            assert "another run is writing it" in result.stderr
         assert gradhesion("run", study_file, "-o", output, "--shard", "1/2", "--set=parameters.nu=0.3").exit_code == 4
     with claimed(output):
         assert gradhesion("run", study_file, "-o", output, "--shard", "2/2").exit_code == 4

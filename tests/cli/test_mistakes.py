@@ -84,7 +84,7 @@ MISTAKES = {
     "curve twice": (
         CURVE[0],
         CURVE[1].replace('"pull_off_force"', '"path", "path"'),
-        r':4: outputs\[1\] = "path": this output is asked for twice',
+        r':4: outputs\[1\] = "path": this output is listed twice',
     ),
     "too many curves": (
         GOOD[GOOD.index("kind") :],
@@ -219,7 +219,7 @@ MISTAKES = {
         '"points"',
         r':11: parameters.lambda_over_R = .*it has 3 values, but k has 2; with layout = "points"',
     ),
-    "not TOML": ("kind = ", "kind ", r":2: not valid TOML, .*mend this line"),
+    "not TOML": ("kind = ", "kind ", r":2: not valid TOML, .*fix this line"),
     "key twice": (
         "nu = 0.3",
         "nu = 0.3\nnu = 0.4",

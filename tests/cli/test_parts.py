@@ -131,7 +131,7 @@ def test_a_changed_study_is_refused_with_the_difference(
         f"{output}: {kept} finished parts of another study are kept in {output}.parts: "
         'method.solver is "exact" there and "envelope" here; '
         "parameters.k is 2 values from 0.0 to 0.31 there and 2 values from 0.1 to 0.31 here; "
-        "parameters.nu is 0.27 there and 0.3 here; add --fresh to drop them, or name another output with -o\n"
+        "parameters.nu is 0.27 there and 0.3 here; add --fresh to discard them, or name another output with -o\n"
     )
     assert result.stderr.endswith(sentence)
     assert len(list(output.parent.glob("out.nc.parts/*.part"))) == kept
@@ -249,7 +249,7 @@ def test_a_second_run_is_refused(gradhesion: Call, study_file: Path, output: Pat
     with claimed(output):
         result = gradhesion("run", study_file, "-o", output)
     assert result.exit_code == 4
-    assert f"{output}: another run is at work on it" in result.stderr
+    assert f"{output}: another run is writing it" in result.stderr
     assert os.listdir(output.parent) == []
 
 
@@ -374,7 +374,7 @@ def test_a_file_that_appears_at_the_output_during_a_run_stays_and_the_dataset_is
         result = gradhesion("run", study_file, "-o", output, "--quiet")
     assert result.exit_code == 4
     assert result.stderr == (
-        f"{output}: has appeared there meanwhile, and is untouched; what was to take its place is complete, and kept as "
+        f"{output}: appeared during the run and is untouched; the new file is complete and kept as "
         f"{output.with_name('out-2.nc')}; move it where it belongs\n"
     )
     assert output.read_text() == "precious"

@@ -94,7 +94,7 @@ def test_dry_run_is_the_plan(gradhesion: Call, study_file: Path, tmp_path: Path)
 def test_a_curve_study_has_no_probe(gradhesion: Call, root: Path, tmp_path: Path) -> None:
     plan = planned(gradhesion, root / "configs" / "curve.toml", "-o", tmp_path / "out.nc")
     assert (plan["kind"], plan["seconds"], plan["bytes_of_parts"]) == ("curve", None, 0)
-    assert "neither parts nor a probe" in gradhesion("plan", root / "configs" / "curve.toml").stdout
+    assert "no parts, no estimate of time" in gradhesion("plan", root / "configs" / "curve.toml").stdout
 
 
 def test_the_time_is_that_of_the_scenes(data: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
@@ -136,4 +136,4 @@ def test_nothing_is_left_to_do(gradhesion: Call, study_file: Path, tmp_path: Pat
     assert gradhesion("run", study_file, "-o", output, "--shard", "1/1").exit_code == 0
     plan = planned(gradhesion, study_file, "-o", output)
     assert (plan["blocks_reused"], plan["not_reused"], plan["seconds"]) == (6, {}, None)
-    assert "every block is there" in gradhesion("plan", study_file, "-o", output).stdout
+    assert "every block is complete" in gradhesion("plan", study_file, "-o", output).stdout

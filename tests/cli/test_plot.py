@@ -301,7 +301,7 @@ def test_the_place_of_an_extreme_is_drawn_marked_at_an_end_and_left_out_where_th
     with opened(dataset_file("A=[0.0, 0.02, 0.05]", "lambda_over_R.num=12", "a_max_over_R=1.0", "k=0.0")) as dataset:
         figure = drawn(dataset, ["pull_off_force"], selection_of(dataset, [], ["lambda_over_R=argmin"]))
         (axes,) = figure.axes
-        assert axes.get_ylabel() == r"$\lambda/R$ of the least pull-off force"
+        assert axes.get_ylabel() == r"$\lambda/R$ at minimum pull-off force"
         force = dataset["pull_off_force"].squeeze()
         places = dataset["lambda_over_R"].values[force.argmin("lambda_over_R").values]
         line = axes.get_lines()[0].get_ydata()
@@ -397,7 +397,7 @@ WRONG = [
     (["--at", "k=0", "--at", "A=0", "--at", "lambda_over_R=0.2", "--over", "a_max_over_R=max"], "fix or reduce fewer axes"),
     (["--variable", "pull_off_force,energy"], "--variable energy: not in this dataset"),
     (["--at", "k=0.5"], "--at k=0.5: outside the axis, which has values of 0 to 0.31; choose one within"),
-    (["--at", "k=x"], "x is no number"),
+    (["--at", "k=x"], "x is not a number"),
     (["--over", "k=sum"], "--over k=sum: not a reduction; choose from"),
 ]  # fmt: skip
 

@@ -182,8 +182,8 @@ MISTAKES = {
     "stiffness twice": ("loading.machine_stiffness=[1, 1]", "the axis repeats the value 1.0 (items 0 and 1)"),
     "stiffness text": ("loading.machine_stiffness='1'", "this must be a number, a list of numbers or a range table, with machine_stiffness > 0"),
     "stiffness elsewhere": ("parameters.machine_stiffness=1", "this key belongs under [loading]; move it there"),
-    "solver": ("method.solver='asymptotic'", 'the solver "asymptotic" is known of a paraboloid with one cosine wave under controlled displacement only'),
-    "envelopes of a machine": ("method.solver=['exact', 'envelope']", 'the solver "envelope" is known under controlled displacement only: contact through a spring'),
+    "solver": ("method.solver='asymptotic'", 'the solver "asymptotic" is available only for a paraboloid with one cosine wave under displacement control'),
+    "envelopes of a machine": ("method.solver=['exact', 'envelope']", 'the solver "envelope" is available only under displacement control: contact through a spring'),
     "jump-in radius": ("parameters.a_max_over_a2=2.0", "a_2 is that of a paraboloid with one cosine wave"),
 }  # fmt: skip
 
@@ -236,7 +236,7 @@ def test_curves_of_one_cosine_are_refused(shaped: dict[str, Any]) -> None:
     outputs = ["path", "envelope", "asymptotic_load"]
     with pytest.raises(StudyError) as caught:
         study_from(shaped | {"kind": "curve", "outputs": outputs})
-    known = "this curve is known of a paraboloid with one cosine wave under controlled displacement only; remove it, "
+    known = "this curve is available only for a paraboloid with one cosine wave under displacement control; remove it, "
     assert [known in sentence for sentence in caught.value.mistakes] == [True, True]
     assert ["outputs[1]" in caught.value.mistakes[0], "outputs[2]" in caught.value.mistakes[1]] == [True, True]
 

@@ -82,7 +82,7 @@ def test_where_there_is_no_jump_in_radius_there_is_no_value(
     over_a2["parameters"]["A"] = [0.0, 0.023, 9.0]
     result = gradhesion("run", write_study(study_from(over_a2).text), "-o", tmp_path / "x.nc", "--quiet")
     assert result.exit_code == 3
-    assert "18 of 54 scenes have failed" in result.stderr
+    assert "18 of 54 scenes failed" in result.stderr
     with xarray.open_dataset(tmp_path / "x.nc") as dataset:
         strong, others = dataset.sel(A=9.0), dataset.sel(A=[0.0, 0.023])
         assert ((strong["status"] & FAILED) != 0).all()

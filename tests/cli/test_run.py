@@ -225,7 +225,7 @@ def test_failed_scenes_are_written_and_told(
     monkeypatch.setattr("gradhesion.cli.work.blocks.solve", failing)
     result = gradhesion("run", study_file, "-o", tmp_path / "out.nc", "--quiet")
     assert result.exit_code == 3
-    assert f"1 of 24 scenes have failed; `gradhesion info {tmp_path}/out.nc` says why" in result.stderr
+    assert f"1 of 24 scenes failed; `gradhesion info {tmp_path}/out.nc` reports why" in result.stderr
     with xarray.open_dataset(tmp_path / "out.nc") as dataset:
         assert int(dataset["pull_off_force"].isnull().sum()) == 1
     told = gradhesion("info", tmp_path / "out.nc").stdout

@@ -161,13 +161,13 @@ def test_quantities_have_their_unit_or_are_in_si() -> None:
         (["k=0.91"], [], "--at k=0.91: outside the axis, which has values of 0 to 0.9; choose one within"),
         (["a_max_over_R=2"], [], "outside the axis, which has values of 0.3 to 1 and inf"),
         (["k=inf"], [], "outside the axis"),
-        (["k=many"], [], "many is no number; write for example --at k=0.1"),
-        (["k=nan"], [], "nan is no number"),
+        (["k=many"], [], "many is not a number; write for example --at k=0.1"),
+        (["k=nan"], [], "nan is not a number"),
         (["k=0.1", "k=0.2"], [], "k is fixed or reduced already"),
         (["k=0.1"], ["k=max"], "k is fixed or reduced already"),
         ([], ["k=max", "k=min"], "k is fixed or reduced already"),
         ([], ["k=maxi"], 'not a reduction; did you mean "max"?'),
-        ([], ["k=argmax", "lambda_over_R=argmin"], "the place of an extreme is asked for already"),
+        ([], ["k=argmax", "lambda_over_R=argmin"], "the place of an extreme is already requested"),
     ],
 )
 def test_mistakes_are_told_in_a_sentence(dataset: xarray.Dataset, at: list[str], over: list[str], message: str) -> None:
@@ -179,8 +179,8 @@ def test_mistakes_are_told_in_a_sentence(dataset: xarray.Dataset, at: list[str],
 
 def test_points_say_what_they_have_not(points: xarray.Dataset) -> None:
     for wishes, message in [
-        ({"over": ["k=max"]}, "points have no axes that could be reduced"),
-        ({"at": ["k=0.2"], "interpolate": True}, "points have nothing between them"),
+        ({"over": ["k=max"]}, "points have no axes to reduce"),
+        ({"at": ["k=0.2"], "interpolate": True}, "points cannot be interpolated"),
         ({"at": ["k=0.1", "A=3"]}, "no scene has all these values"),
         ({"interpolate": True}, "there is nothing to interpolate"),
     ]:

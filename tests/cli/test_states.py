@@ -72,7 +72,7 @@ def test_in_units() -> None:
         (["pressure"], [0.0], {}, r"contact_radius_over_R\[0\] = 0.0"),
         (["pressure"], [], {}, "contact_radius_over_R"),
         (["path"], [0.1], {}, 'add "pressure" or "surface"'),
-        (["pressure", "pressure"], None, {}, "asked for twice"),
+        (["pressure", "pressure"], None, {}, "listed twice"),
         (["surface", "surface_gap"], None, {}, 'a variable of "surface"'),
     ],
 )

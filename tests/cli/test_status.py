@@ -64,7 +64,7 @@ def test_under_way_stopped_and_complete(
     assert stopped["state"] == "stopped"
     assert stopped["parts"] in {3, 4}
     told = gradhesion("status", output).stdout
-    assert f"{output}: stopped; {stopped['parts']} of 6 blocks (24 scenes) are kept; the same command goes on" in told
+    assert f"{output}: stopped; {stopped['parts']} of 6 blocks (24 scenes) are kept; the same command resumes" in told
     assert gradhesion("run", study_file, "-o", output, "--quiet").exit_code == 0
     complete = gradhesion("status", output).stdout
     assert re.match(rf"{re.escape(str(output))}: complete, \d+\.\d kB, written 2", complete)

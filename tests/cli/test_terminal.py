@@ -24,7 +24,7 @@ def dataset_file(gradhesion: Call, study_file: Path, tmp_path: Path) -> Path:
 def test_commands_are_listed_in_the_order_of_the_work_and_not_cut() -> None:
     text = CliRunner().invoke(cli, ["--help"], terminal_width=80).output
     order = ["init", "validate", "plan", "run", "status", "info", "plot", "explore", "verify", "merge"]
-    listed = re.findall(r"^  (\w+) +(\S.*)$", text.partition("A study, and its run:")[2], flags=re.MULTILINE)
+    listed = re.findall(r"^  (\w+) +(\S.*)$", text.partition("Study and run:")[2], flags=re.MULTILINE)
     assert [name for name, _ in listed][:10] == order
     assert [name for name, _ in listed[: len(cli.commands)]] == list(cli.commands)
     assert {command for commands in SECTIONS.values() for command in commands} == {*cli.commands.values()}

@@ -104,7 +104,7 @@ def test_an_edited_study_is_told(gradhesion: Call, dataset_file: Path) -> None:
         ('spacing = "log"', 'spacing = "linear"', "lambda_over_R[1] is "),
         ("stop = 0.47", "stop = 0.48", "lambda_over_R[1] is "),
         ('"pull_off_radius", ', "", None),
-        ("A = [", "B = [", "its study is none of this version (its study: parameters."),
+        ("A = [", "B = [", "its study is not valid in this version (its study: parameters."),
         ("[parameters]", "[parameters", "its study is not valid TOML"),
         ("[parameters]", "[method]\nsolver = 'asymptotic'\n[parameters]", "has no independent twin"),
         ("[parameters]", "[method]\nsolver = 'envelope'\n[parameters]", 3),

@@ -31,7 +31,7 @@ def test_workers_of_another_version(
     refused = gradhesion(*command)
     assert refused.exit_code == 2
     assert f"has numpy 1.0 instead of {np.__version__}; it gets no blocks" in refused.stderr
-    assert "no worker can do the work: worker tcp://" in refused.stderr
+    assert "no worker is usable: worker tcp://" in refused.stderr
     assert by_hand.orders.busy() == []
 
     by_hand.worker()
@@ -87,7 +87,7 @@ def test_a_scheduler_that_is_lost(
     assert lost.exit_code == 4, lost.stderr
     assert [line for line in lost.stderr.splitlines() if not line.startswith("waiting")] == [
         (
-            "--engine dask: the scheduler does not answer any more; finished parts are kept, and the same command goes on "
+            "--engine dask: the scheduler does not answer any more; finished parts are kept, and the same command resumes "
             "from there when there is a scheduler again"
         )
     ]
