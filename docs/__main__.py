@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
-from docs import command_page, dataset_page, gallery_page, study_page
+from docs import command_page, dataset_page, gallery_page, python_page, study_page
 
 FOLDER: Final = Path(__file__).parent
 
@@ -15,6 +15,7 @@ PAGES: Final[dict[str, Callable[[], str]]] = {
     "gallery.md": gallery_page.page,
     "reference/commands.md": command_page.page,
     "reference/dataset.md": dataset_page.page,
+    "reference/python.md": python_page.page,
     "reference/study.md": study_page.page,
 }
 """What writes each page."""

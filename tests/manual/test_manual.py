@@ -22,7 +22,7 @@ from .plain import HIDE, hidden
 pytestmark = pytest.mark.slow
 
 BLOCKS = [block for page in PAGES for block in blocks_of(page)]
-SHOWN = ("", "json", "mermaid", "output", "text", "{eval-rst}", "{toctree}")
+SHOWN = ("", "json", "mermaid", "output", "pycon", "text", "{eval-rst}", "{toctree}")
 """Languages of blocks that are looked at only."""
 RUN = ("bash", "console", "python", "sh", "toml")
 

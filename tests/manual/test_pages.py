@@ -1,22 +1,31 @@
 """The manual is whole: it builds, what is generated is up to date, and every command and key stands in it."""
 
+import json
 import re
 import subprocess
 import sys
 from pathlib import Path
 
 import click
+import nbformat
 import pytest
 
 ROOT = Path(__file__).parents[2]
 if str(ROOT) not in sys.path:
     sys.path.append(str(ROOT))  # the scripts of the manual are not installed
 
+from docs import notebooks  # noqa: E402
 from docs.__main__ import FOLDER, PAGES  # noqa: E402
 from gradhesion.cli import errors, main  # noqa: E402
 from gradhesion.cli.keys import INPUTS, SETTINGS  # noqa: E402
 from gradhesion.cli.names import CURVES, OUTPUTS  # noqa: E402
 from gradhesion.core import FLAGS  # noqa: E402
+
+SYNONYMS = (
+    "young modulus", "colormap", "mont carlo", "afm", "slurm", "tabor", "hysteresi", "indent", "snap", "export", "uncertainti",
+    "checkpoint", "cantilev", "spring", "rough", "pull",
+)  # fmt: skip
+"""Words that a reader types into the search, as it shortens them (stems)."""
 
 
 @pytest.mark.parametrize("name", PAGES)
@@ -61,6 +70,45 @@ def test_the_manual_builds_without_a_warning_and_loads_nothing_from_elsewhere(tm
     loaded = re.compile(r"<(?:script|img|link|iframe)\b[^>]*\b(?:src|href)=\"(https?:)?//", re.IGNORECASE)
     assert not [page.name for page in pages if loaded.search(page.read_text(encoding="utf-8"))]
     assert "<math" in (tmp_path / "html" / "theory.html").read_text(encoding="utf-8")
+    static = tmp_path / "html" / "_static"
+    assert (static / "STIXTwoMath-Regular.ttf").stat().st_size > 100_000, "a font for formulae comes along"
+    assert "STIXTwoMath-Regular.ttf" in (static / "manual.css").read_text(encoding="utf-8")
+    assert "copybutton.js" in (tmp_path / "html" / "units.html").read_text(encoding="utf-8")
+    for page in notebooks.PAGES:
+        address = f"notebooks/{page}.ipynb"
+        assert f'href="{address}"' in (tmp_path / "html" / f"{page}.html").read_text(encoding="utf-8")
+        assert (tmp_path / "html" / address).is_file()
+    index = (tmp_path / "html" / "searchindex.js").read_text(encoding="utf-8")
+    terms = json.loads(index.partition("(")[2].rpartition(")")[0])["terms"]
+    for words in SYNONYMS:
+        assert all(any(term.startswith(word) for term in terms) for word in words.split()), words
+
+
+@pytest.mark.parametrize("page", notebooks.PAGES)
+def test_a_notebook_has_the_python_of_its_page_and_is_valid(page: str) -> None:
+    made = nbformat.reads(notebooks.notebook(page), as_version=4)
+    nbformat.validate(made)
+    blocks = re.findall(
+        r"^```python\n(.*?)^```$", (FOLDER / f"{page}.md").read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL
+    )
+    assert [cell.source.strip() for cell in made.cells if cell.cell_type == "code"] == [
+        block.strip() for block in blocks
+    ]
+    text = "\n".join(cell.source for cell in made.cells if cell.cell_type == "markdown")
+    assert ".md" not in text, "a notebook on its own reaches no other page"
+    assert notebooks.notebook(page) == notebooks.notebook(page)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", notebooks.PAGES)
+def test_a_notebook_runs_from_its_first_cell_to_its_last(
+    page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    namespace: dict[str, object] = {}
+    for cell in nbformat.reads(notebooks.notebook(page), as_version=4).cells:
+        if cell.cell_type == "code":
+            exec(compile(cell.source, f"{page}.ipynb", "exec"), namespace)  # noqa: S102 (our own text)
 
 
 def test_every_page_is_in_the_table_of_contents() -> None:
