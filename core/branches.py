@@ -28,12 +28,25 @@ GAP, RUN_FIRST, RUN_LAST, RUN_LANDING = 0, 1, 2, 3
 that loading leaves, and where it lands among them (0 if on the way from one wave to the next)."""
 TANGENCY = 16
 HIGHEST, LOADING_IS_CLOSE, UNLOADING_IS_CLOSE = 17, 18, 19
-"""Of general curves (general/ties.py): the highest coordinate up to the end of a branch, 0 at least, whether a decision
-of loading was close up to there, and whether one of unloading is from the start of the branch on."""
+"""The highest depth up to the end of a branch, 0 at least, whether a decision of loading was close up to there, and
+whether one of unloading is from the start of the branch on (ties.py)."""
 ROWS = 20
 UNKNOWN: Final = -1.0
 """Unloading jumps of a branch that unloading has not visited yet."""
 _STEPS: Final = 100
+
+
+@kernel()
+def branch_within(count: int, trace: Any, x: float) -> int:
+    """Return the last branch that starts within x, -1 if none does."""
+    low, high = -1, count
+    while high - low > 1:
+        middle = (low + high) // 2
+        if trace[START, middle] <= x:
+            low = middle
+        else:
+            high = middle
+    return low
 
 
 @kernel()

@@ -90,3 +90,13 @@ def slope(table: Any, curve: Curve, level: float, x: float) -> tuple[float, floa
     pull = level * power
     bend = n * pull / z
     return b * z + g * v - pull, b + g * v1 + bend, g * v2 - (n + 1.0) * bend / z, z * (0.5 * b * z + g * s0 - power)
+
+
+@kernel()
+def depth_size(table: Any, curve: Curve, x: float) -> float:
+    """Return the size of the terms of the reduced depth at x."""
+    b, g, _ = curve
+    z = TWO_PI * x
+    if z <= 0.0:
+        return 1.0
+    return 0.5 * b * z * z + z * amplitude_power(table, z) * (1.0 + g * table.amplitude) + g

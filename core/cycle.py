@@ -44,6 +44,7 @@ from gradhesion.core.jump_energy import energy_from_zero, jump_energy
 from gradhesion.core.loading import arrive, climb, load_up
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.ties import note_loading
 from gradhesion.core.unloading import descend, leave, next_lower
 from gradhesion.core.wave_sum import sum_of_waves
 
@@ -125,6 +126,7 @@ def walk(
     count = append_branches(table, curve, int(min(first, COUNTABLE)), final, furthest, trace, NONE)
     trace[RUN, GAP] = math.inf
     load_up(table, curve, count, trace, furthest, losses)
+    note_loading(table, curve, count, trace, furthest)
     return count, trace
 
 
@@ -310,4 +312,5 @@ def stride(
     if nominal and trace[ARRIVAL, near] < math.inf and rim <= 0.5 * final:
         trace[ARRIVAL, near] = trace[START, near]
     _unload_through(table, curve, near, waves, trace, losses)
+    note_loading(table, curve, count, trace, rim)
     return count, trace

@@ -11,10 +11,12 @@ from gradhesion.core.branches import (
     ARRIVAL,
     END,
     END_DEPTH,
+    HIGHEST,
     LOADING_JUMPS,
     LOADING_LOSS,
     START,
     WORK,
+    branch_within,
 )
 from gradhesion.core.passage import find_place, loss_between, loss_from_zero
 
@@ -68,7 +70,7 @@ def load_up(table: Any, curve: Any, count: int, trace: Any, furthest: float, los
 @kernel()
 def loading_to(table: Any, curve: Any, count: int, trace: Any, rim: float, losses: bool) -> tuple[float, float]:
     """Return what loading up to the rim loses, and its jumps."""
-    now = count - 1
+    now = branch_within(count, trace, rim)
     while now >= 0 and not trace[ARRIVAL, now] <= rim:
         now -= 1
     if now < 0:  # from zero contact to the rim at once
@@ -94,8 +96,7 @@ def jumps_in_to(count: int, trace: Any, rim: float) -> bool:
 @kernel()
 def highest_depth(count: int, trace: Any, rim: float, rim_depth: float) -> float:
     """Return the largest depth on the way to the rim, 0 if all are negative."""
-    highest = max(0.0, rim_depth)
-    for branch in range(count):
-        if trace[END, branch] < rim:
-            highest = max(highest, trace[END_DEPTH, branch])
-    return highest
+    now = branch_within(count, trace, rim)
+    if now >= 0 and trace[END, now] >= rim:
+        now -= 1
+    return max(rim_depth, trace[HIGHEST, now] if now >= 0 else 0.0, 0.0)

@@ -9,8 +9,10 @@ from typing import Any
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.branches import ends, find_depth
+from gradhesion.core.curve import depth_size
+from gradhesion.core.curve import slope as cosine_slope
 from gradhesion.core.general.branches import find_level
-from gradhesion.core.general.curve import state
+from gradhesion.core.general.curve import size, slope, state
 from gradhesion.core.general.passage import jump_between, jump_from_zero
 from gradhesion.core.jump_energy import energy_from_zero, jump_energy
 
@@ -47,6 +49,24 @@ def loss_to_zero(table: Any, curve: Any, x: float, level: float) -> float:
     if curve[3] == 0.0:
         return 0.0
     return -jump_from_zero(table, curve, x, level, 0.0)
+
+
+@kernel()
+def size_at(table: Any, curve: Any, x: float) -> float:
+    """Return the size of the terms of the coordinate at x."""
+    if len(curve) == 3:
+        return depth_size(table, curve, x)
+    return size(table, curve, x, 0.0)
+
+
+@kernel()
+def fold_at(table: Any, curve: Any, x: float) -> tuple[float, float]:
+    """Return D, whose zeros are folds, and dD/dz at x."""
+    if len(curve) == 3:
+        value, rate, _, _ = cosine_slope(table, curve, 0.5 * (1.0 - table.k), x)
+        return value, rate
+    value, rate, _ = slope(table, curve, x, 0.0)
+    return value, rate
 
 
 @kernel()

@@ -47,7 +47,7 @@ from gradhesion.core.results import (
 from gradhesion.core.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
-from gradhesion.core.ties import is_close_to_a_jump
+from gradhesion.core.ties import first_close_pair, is_close_to_a_jump
 from gradhesion.core.unloading import unloading_from
 
 
@@ -111,7 +111,7 @@ def _cycle_at_rim(
     scales: Any,
     count: int,
     trace: Any,
-    limits: tuple[float, float],
+    limits: tuple[float, float, float],
     x: float,
     slots: Any,
     out: Any,
@@ -121,6 +121,7 @@ def _cycle_at_rim(
     """Read the cycle of one rim off a trace, and what there is to report."""
     energy_scale, depth_scale = scales
     losses = wants_losses(slots)
+    inner, outer, tangency = limits
     rim_depth = depth(table, curve, x) if x < math.inf else math.inf
     if wants_cycle(slots):
         loading_loss, loading_jumps = loading_to(table, curve, count, trace, x, losses)
@@ -129,7 +130,7 @@ def _cycle_at_rim(
         if not abs(energy) < math.inf:  # an overflow
             energy = math.nan
             status[i] |= NO_VALUE
-        if is_close_to_a_jump(table, curve, count, trace, x, rim_depth, slots[TURNED] > 0):
+        if is_close_to_a_jump(table, curve, count, trace, tangency, x, rim_depth, slots[TURNED] > 0):
             status[i] |= CLOSE_TO_A_JUMP
         put(out, slots, ENERGY, i, energy)
         put(out, slots, LOADED, i, energy_scale * loading_loss)
@@ -140,16 +141,23 @@ def _cycle_at_rim(
     put(out, slots, DEEPEST, i, depth_scale * highest_depth(count, trace, x, rim_depth))
     if jumps_in_to(count, trace, x):
         status[i] |= JUMP_IN_TO_RIM
-    if not is_one_disc(table, curve, limits, x, trace):
+    if not is_one_disc(table, curve, (inner, outer), x, trace):
         status[i] |= LOADING_NOT_ONE_DISC
 
 
 @kernel()
-def _limits(table: Any, curve: Curve, count: int, trace: Any, furthest: float, slots: Any) -> tuple[float, float]:
-    """Return the radii between which loading ceases to keep the contact one disc, if that is asked for."""
+def _limits(
+    table: Any, curve: Curve, count: int, trace: Any, furthest: float, slots: Any
+) -> tuple[float, float, float]:
+    """Return the radii between which loading ceases to keep the contact one disc, if that is asked for.
+
+    And the first place at which a pair of folds is about to be born or to vanish; all of it serves all rims.
+    """
+    tangency = first_close_pair(count, trace)
     if slots[CONTACT] < 0:
-        return math.inf, math.inf
-    return disc_limits(table, curve, count, trace, furthest)
+        return math.inf, math.inf, tangency
+    inner, outer = disc_limits(table, curve, count, trace, furthest)
+    return inner, outer, tangency
 
 
 @kernel()

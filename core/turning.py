@@ -454,7 +454,8 @@ def _turn_rim(
     flags = 0
     if not (x < rim and x * wavelength < rim * wavelength):
         x = math.inf
-        close = close or rim_is_close(table, curve, count, trace, rim)
+        level = depth(table, curve, rim) if rim < math.inf else math.inf
+        close = close or rim_is_close(table, curve, count, trace, rim, level)
     elif check and not _is_one_disc(table, curve, count, trace, long, x, rim):
         flags |= LOADING_NOT_ONE_DISC
     return x, flags | CLOSE_TO_A_JUMP if close else flags

@@ -20,6 +20,7 @@ from gradhesion.core.branches import (
     UNLOADING_JUMPS,
     UNLOADING_LOSS,
     WORK,
+    branch_within,
 )
 from gradhesion.core.passage import depth_at, find_place, loss_between, loss_to_zero
 
@@ -70,9 +71,7 @@ def leave_rim(table: Any, curve: Any, count: int, trace: Any, rim: float, rim_de
 
     That is the rim itself where it stands on a branch; else unloading leaves it by a jump.
     """
-    now = count - 1
-    while now >= 0 and trace[START, now] > rim:
-        now -= 1
+    now = branch_within(count, trace, rim)
     if now >= 0 and trace[END, now] >= rim:
         return now, rim
     now = next_lower(trace, now, rim_depth)

@@ -15,8 +15,9 @@ from gradhesion.core.branches import ROWS, UNKNOWN, UNLOADING_JUMPS
 from gradhesion.core.general.branches import fill_branches
 from gradhesion.core.general.curve import Basis, Curve, state
 from gradhesion.core.general.folds import MOST_FOLDS, find_folds, room
-from gradhesion.core.general.ties import first_close_pair, note_loading
+from gradhesion.core.general.ties import first_close_pair
 from gradhesion.core.loading import load_up
+from gradhesion.core.ties import note_loading
 
 
 @kernel()

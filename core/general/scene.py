@@ -15,7 +15,6 @@ from gradhesion.core.general.folds import MOST_CELLS, room
 from gradhesion.core.general.path import depth_at_full_contact, walk
 from gradhesion.core.general.pull_off import lowest_load
 from gradhesion.core.general.stride import FEW, REGULAR, Middle, middle_of, stride
-from gradhesion.core.general.ties import is_close_to_a_jump
 from gradhesion.core.general.waves import highest_harmonic
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
 from gradhesion.core.loading import highest_depth, loading_to
@@ -39,6 +38,7 @@ from gradhesion.core.results import (
 from gradhesion.core.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
+from gradhesion.core.ties import is_close_to_a_jump
 from gradhesion.core.unloading import unloading_from
 
 LONGEST_WALK: Final = 512.0

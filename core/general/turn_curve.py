@@ -6,7 +6,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.branches import END, END_DEPTH, HIGHEST, START, START_DEPTH, ends
+from gradhesion.core.branches import END_DEPTH, START, START_DEPTH, ends
 from gradhesion.core.curve import force_unit
 from gradhesion.core.folds import CLOSE
 from gradhesion.core.general.branches import find_level
@@ -18,12 +18,13 @@ from gradhesion.core.general.path import walk
 from gradhesion.core.general.reach import reach
 from gradhesion.core.general.scene import LONGEST_WALK, curve_of
 from gradhesion.core.general.stride import FEW, REGULAR, middle_of
-from gradhesion.core.general.ties import is_at_a_fold, is_near
+from gradhesion.core.general.ties import is_at_a_fold
 from gradhesion.core.general.turn_far import turn_far
 from gradhesion.core.general.waves import highest_harmonic
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
 from gradhesion.core.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.ties import rim_is_close
 
 _TRIALS: Final = 12
 """Times that a trace is made longer: a jump may land beyond where the target is surely exceeded."""
@@ -35,20 +36,6 @@ def _is_first_contact(k: float, curve: Curve, target: float) -> bool:
     """Return whether a depth is that of the first contact, 0, as far as anybody can tell: against that of the punch."""
     B, m, _, _, _ = curve
     return abs(target) <= CLOSE * B ** (-0.5 * (1.0 - k) / (m - 0.5 * (1.0 - k)))
-
-
-@kernel()
-def _rim_is_close(basis: Basis, curve: Curve, count: int, trace: Any, rim: float) -> bool:
-    """Return whether the rim is close to a fold, or the coordinate there to the one that loading has reached before."""
-    if is_at_a_fold(basis, curve, rim, 0.0):
-        return True
-    now = count - 1
-    while now >= 0 and trace[START, now] > rim:
-        now -= 1
-    if now < 0 or trace[END, now] < rim:
-        return False
-    highest = trace[HIGHEST, now - 1] if now > 0 else 0.0
-    return is_near(basis, curve, coordinate(basis, curve, rim), highest, rim, 0.0)
 
 
 @kernel()
@@ -113,7 +100,8 @@ def _turn_walked(
             chosen[i] = False
             places[i] = min(x, rims[i])
             if not x < rims[i]:
-                close = close or (rims[i] < math.inf and _rim_is_close(basis, curve, count, trace, rims[i]))
+                level = coordinate(basis, curve, rims[i]) if rims[i] < math.inf else math.inf
+                close = close or rim_is_close(basis, curve, count, trace, rims[i], level)
             elif check and not _is_one_disc(basis, curve, count, trace, x, rims[i]):
                 flags[i] |= LOADING_NOT_ONE_DISC
             if close:

@@ -7,10 +7,21 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, LOADING_JUMPS, ROWS, START, append_branches, room_for
+from gradhesion.core.branches import (
+    ARRIVAL,
+    END,
+    END_DEPTH,
+    HIGHEST,
+    LOADING_JUMPS,
+    ROWS,
+    START,
+    append_branches,
+    room_for,
+)
 from gradhesion.core.curve import depth
 from gradhesion.core.folds import last_arch
 from gradhesion.core.loading import arrive, highest_depth, load_up, loading_to, next_higher
+from gradhesion.core.ties import note_loading
 
 KINDS = [lambda f: f, lambda f: f.py_func]
 
@@ -19,6 +30,7 @@ def _trace(*tops: float) -> Any:
     trace = np.zeros((ROWS, len(tops) + 1))
     trace[END_DEPTH, : len(tops)] = tops
     trace[END, : len(tops)] = np.arange(len(tops)) + 0.5
+    trace[START] = np.arange(len(tops) + 1)
     return trace
 
 
@@ -36,6 +48,7 @@ def test_next_higher(kind: Callable[[Any], Any]) -> None:
 @pytest.mark.parametrize("kind", KINDS)
 def test_highest_depth(kind: Callable[[Any], Any]) -> None:
     trace = _trace(-1.0, 2.0, 1.0, 5.0)
+    trace[HIGHEST] = np.maximum.accumulate(np.maximum(trace[END_DEPTH], 0.0))
     highest = kind(highest_depth)
     assert highest(4, trace, 0.4, -3.0) == 0.0
     assert highest(4, trace, 1.7, 1.2) == 2.0
@@ -71,6 +84,7 @@ def test_it_follows_the_running_maximum(k: float, curve: Any, table_of: Callable
         expected = int(lands.sum()) + int(not stable[inside][-1])
         _, jumps = loading_to(table, curve, count, trace, rim, False)
         assert jumps == expected
+        note_loading(table, curve, count, trace, rim)
         deepest = highest_depth(count, trace, rim, depth(table, curve, rim))
         # between two points of the grid depth changes by less than its steepest slope says
         steps = np.abs(np.diff(depths[inside])).max()
