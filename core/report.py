@@ -48,7 +48,7 @@ _EDGE_ROUNDING: Final = 2.0 * _ROUNDING
 similarity length enters with the power (3+k)/2."""
 _APART: Final = 10.0
 """Error of a sum over waves over its difference from one that starts and ends elsewhere."""
-_SUMMED: Final = 20.0 * 2.0**-52
+_SUMMED: Final = 22.0 * 2.0**-52
 """The least error of a sum over waves, in parts of the energies of loading and unloading."""
 _SUMMED_FAR: Final = 5e-13
 """The most, where the limits of closed form are the only truth there is (tests/core/test_wave_sum.py)."""
