@@ -12,7 +12,7 @@ function element(tag, attributes = {}, ...children) {
 
 // A list to choose from, with its label.
 function chooser(id, label, options, chosen, act) {
-  const list = element("select", { id });
+  const list = element("select", { id, title: label });
   options.forEach(([value, words]) => list.append(element("option", { value, selected: value === chosen }, words)));
   list.addEventListener("change", () => act(Number(list.value)));
   return element("div", { className: "chooser" }, element("label", { htmlFor: id }, label), list);
@@ -27,7 +27,7 @@ function buildSliders(study, at, act) {
     const role = element("span", { className: "role" });
     const input = element("input", { type: "range", id, min: 0, max: axis.values.length - 1, step: 1, value: at[i] });
     input.addEventListener("input", () => act(i, Number(input.value)));
-    const label = element("label", { htmlFor: id, title: axis.name }, axis.words);
+    const label = element("label", { htmlFor: id, title: axis.name }, axis.title);
     place.append(element("div", { className: "slider" }, label, role, shown, input));
     return {
       show(number, along) {
@@ -47,7 +47,7 @@ function buildTable(study) {
   const cells = [];
   const add = (entry, valueAt) => {
     const cell = element("td", { id: `value-${entry.name}` });
-    const head = element("th", { scope: "row", title: entry.name }, entry.words);
+    const head = element("th", { scope: "row", title: entry.name }, entry.title);
     body.append(element("tr", {}, head, cell, element("td", { className: "unit" }, entry.unit)));
     cells.push((at, number) => (cell.textContent = short(valueAt(at, number))));
   };
@@ -113,19 +113,21 @@ function swatch(flag) {
 
 // The line of each solver.
 function buildSolvers(study, list) {
+  list.replaceChildren();
   if (study.solver < 0) return;
   study.axes[study.solver].values.forEach((words, i) => {
     const [dash, width] = STROKES[i % STROKES.length];
-    list.append(lineEntry(words, LINE_COLOURS[i % LINE_COLOURS.length], dash === "solid" ? "" : dash, width));
+    list.append(lineEntry(words, theme.seen(LINE_COLOURS[i % LINE_COLOURS.length]), dash === "solid" ? "" : dash, width));
   });
   list.hidden = false;
 }
 
-// A line and what it stands for.
-function lineEntry(words, colour, dash, width) {
+// A line and what it stands for; with a box that shows or hides it, if there is something to do then.
+function lineEntry(words, colour, dash, width, box) {
   const look = `stroke="${colour}" stroke-width="${width}" stroke-dasharray="${dash}"`;
   const drawing = `<svg width="40" height="10" aria-hidden="true"><line x1="0" y1="5" x2="40" y2="5" ${look}/></svg>`;
   const item = element("li", { innerHTML: drawing });
-  item.append(words);
+  if (box) item.prepend(box);
+  item.append(box ? element("label", { htmlFor: box.id }, words) : words);
   return item;
 }

@@ -3,6 +3,7 @@
 class Planes {
   constructor(study, parts) {
     Object.assign(this, { study, parts });
+    this.hidden = new Set();
     this.byName = Object.fromEntries(study.variables.map((variable) => [variable.name, variable]));
   }
 
@@ -16,14 +17,15 @@ class Planes {
     return this.parts.map((part) => {
       const lines = { xs: [], ys: [], colour: [], dash: [], width: [] };
       let [left, right, low, high] = [Infinity, -Infinity, Infinity, -Infinity];
-      for (const track of this.study.tracks) {
+      for (const [i, track] of this.study.tracks.entries()) {
+        if (this.hidden.has(i)) continue;
         const [along, up] = [this.row(track[part.x], number), this.row(track[part.y], number)];
         if (!along || !up) continue;
         for (const run of this.runs(track, along, up, number)) {
           const [faded, jump] = [run.kind === "falls", run.kind === "jump"];
           lines.xs.push(run.xs);
           lines.ys.push(run.ys);
-          lines.colour.push(faded ? track.faded : track.colour);
+          lines.colour.push(theme.seen(faded ? track.faded : track.colour));
           lines.dash.push((jump ? track.jumpDash : track.dash).join(" ") || "solid");
           lines.width.push(jump ? track.jumpWidth : track.width);
           for (const x of run.xs) [left, right] = [Math.min(left, x), Math.max(right, x)];
@@ -65,16 +67,28 @@ class Planes {
     return found;
   }
 
-  // The legend: each line with its look.
-  legend(list) {
-    const entries = this.study.tracks.map((track) => [track.label, track.colour, track.dash, track.width]);
+  // The legend: each line with its look, and a box to show or hide it.
+  legend(list, act) {
+    const boxes = this.study.tracks.map((track, i) => {
+      const box = element("input", { type: "checkbox", id: `track-${i}`, checked: !this.hidden.has(i) });
+      box.addEventListener("change", () => {
+        if (box.checked) this.hidden.delete(i);
+        else this.hidden.add(i);
+        act();
+      });
+      return box;
+    });
+    list.replaceChildren();
+    const entries = this.study.tracks.map((track, i) => [track.label, track.colour, track.dash, track.width, boxes[i]]);
     if (this.study.tracks.some((track) => track.curve === "equilibrium")) {
       const { faded, dash, width } = this.study.tracks.find((track) => track.curve === "equilibrium");
       entries.push(["equilibrium, unstable", faded, dash, width]);
     }
     const jumping = this.study.tracks.find((track) => this.byName[track.flag]);
     if (jumping) entries.push(["jump", "#333333", jumping.jumpDash, jumping.jumpWidth]);
-    for (const [label, colour, dash, width] of entries) list.append(lineEntry(label, colour, dash.join(" "), width));
+    for (const [label, colour, dash, width, box] of entries) {
+      list.append(lineEntry(label, theme.seen(colour), dash.join(" "), width, box));
+    }
     list.hidden = false;
   }
 }

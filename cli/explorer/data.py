@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gradhesion.cli import names
 from gradhesion.cli.dataset.curve_variables import curve_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.explorer.plain import in_order, symbol, words
+from gradhesion.cli.explorer.plain import in_order, symbol, title, words
 from gradhesion.cli.keys import TURNS
 from gradhesion.cli.names import INTEGERS, SCENE, SOLVER
 from gradhesion.cli.picture.labels import Unit, unit_for
@@ -111,6 +111,7 @@ def _axis(dataset: xarray.Dataset, name: str) -> Entry:
             "name": name,
             "symbol": name,
             "words": long_name,
+            "title": long_name,
             "unit": "",
             "values": [str(value) for value in own],
             **_listed(np.arange(size, dtype=float)),
@@ -154,6 +155,7 @@ def _named(dataset: xarray.Dataset, name: str, unit: Unit | None = None) -> tupl
         "name": name,
         "symbol": symbol(name),
         "words": words(str(dataset[name].attrs.get("long_name", name))),
+        "title": title(name, str(dataset[name].attrs.get("long_name", name))),
         "unit": own.symbol.replace("$^2$", "²"),
     }
     return named, np.asarray(values, dtype=float) / 10.0**own.power if own.power else values
@@ -166,6 +168,7 @@ def _parameter(dataset: xarray.Dataset, name: str, axes: Sequence[str]) -> Entry
             "name": name,
             "symbol": name,
             "words": names.SOLVERS,
+            "title": names.SOLVERS,
             "unit": "",
             "axes": [],
             "values": [str(dataset[name].item())],

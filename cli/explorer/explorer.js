@@ -1,5 +1,7 @@
 // What the page does: one state, and everything shown drawn from it.
 
+const NARROW = 700; // pixels of a window, below which figures have less beside their frames
+
 const explorer = {
   looks: {},
 
@@ -16,6 +18,7 @@ const explorer = {
     this.held = false;
     this.whole = false;
     this.drawn = variables.slice(0, 2).map((variable, i) => this.choiceOf(i));
+    address.read(this);
     this.marked = () => 0;
     this.showTable = buildTable(this.study);
     this.marked = buildLegend(this.study, () => this.later("everything"));
@@ -26,11 +29,36 @@ const explorer = {
     });
     if (kind === "curves") {
       this.planes = new Planes(this.study, parts.planes);
-      this.planes.legend(document.getElementById("lines"));
+      for (const i of this.hidden) this.planes.hidden.add(i);
     } else {
       this.startFigures();
     }
-    this.draw("everything");
+    downloads.build(this);
+    const fit = () => {
+      const narrow = window.innerWidth <= NARROW;
+      const size = narrow ? "11px" : "13px";
+      for (const figure of this.figures()) {
+        figure.setv({ min_border_left: narrow ? 78 : LEFT, min_border_right: narrow ? 66 : RIGHT });
+        for (const part of [...figure.below, ...figure.left, ...figure.right]) {
+          if ("axis_label_text_font_size" in part.properties) part.axis_label_text_font_size = size;
+          part.major_label_text_font_size = size;
+        }
+      }
+    };
+    const [{ min_border_left: LEFT, min_border_right: RIGHT }] = this.figures();
+    window.addEventListener("resize", fit);
+    fit();
+    this.hold(this.held);
+    theme.follow(() => {
+      for (const figure of this.figures()) theme.dress(figure);
+      const list = document.getElementById("lines");
+      if (kind === "curves") this.planes.legend(list, () => this.later("everything"));
+      else buildSolvers(this.study, list);
+      this.draw("everything");
+    });
+    window.addEventListener("hashchange", () => {
+      if (decodeURI(location.hash.slice(1)) !== decodeURI(address.own ?? "")) location.reload();
+    });
     document.documentElement.dataset.ready = "true";
   },
 
@@ -41,7 +69,6 @@ const explorer = {
     this.sections = parts.sections.map((both) =>
       Object.fromEntries(Object.entries(both).map(([side, part]) => [side, new Section(study, part)])),
     );
-    buildSolvers(study, document.getElementById("lines"));
     this.buildChoosers();
     if (this.maps.length) {
       this.fitRanges();
@@ -54,18 +81,26 @@ const explorer = {
     }
   },
 
-  // The variable that a map shows at first.
+  // All figures of the page.
+  figures() {
+    const sections = (this.parts.sections ?? []).flatMap((both) => Object.values(both));
+    return [...(this.parts.maps ?? []), ...sections, ...(this.parts.planes ?? [])].map((part) => part.figure);
+  },
+
+  // The variable that a map shows at first: force and energy, in units if they have them.
   choiceOf(i) {
-    const number = this.study.variables.findIndex((one) => one.name === ["pull_off_force", "dissipated_energy"][i]);
-    const two = this.study.variables.some((one) => one.name === "pull_off_force");
-    const variable = number >= 0 && two ? number : Math.min(i, this.study.variables.length - 1);
+    const placeOf = (name) => this.study.variables.findIndex((one) => one.name === name);
+    const usual = ["pull_off_force", "dissipated_energy"].map((name) => Math.max(placeOf(name), placeOf(`${name}_si`)));
+    const units = ["pull_off_force_si", "dissipated_energy_si"].map(placeOf);
+    const wanted = units[0] >= 0 ? units : usual;
+    const variable = wanted[0] >= 0 && wanted[i] >= 0 ? wanted[i] : Math.min(i, this.study.variables.length - 1);
     return this.choiceOfVariable(variable);
   },
 
   buildChoosers() {
     const { study } = this;
     const place = document.getElementById("axes");
-    const named = study.axes.map((axis, i) => [i, axis.words]);
+    const named = study.axes.map((axis, i) => [i, axis.title]);
     const other = { x: "y", y: "x" };
     if (study.kind === "maps") {
       for (const side of ["x", "y"]) {
@@ -77,18 +112,18 @@ const explorer = {
           this.fitRanges();
           this.later("everything");
         };
-        place.append(chooser(`along-${side}`, `${side === "x" ? "Across" : "Up"}`, named, this[side], choose));
+        place.append(chooser(`along-${side}`, `${side} axis`, named, this[side], choose));
       }
       place.append(
-        chooser("span", "Colours", [[0, "range of this map"], [1, "range of all scenes"]], 0, (whole) => {
+        chooser("span", "colours", [[0, "range of this map"], [1, "range of all scenes"]], Number(this.whole), (whole) => {
           this.whole = Boolean(whole);
           this.later("maps");
         }),
       );
     } else if (this.over.length > 1) {
-      this.overNow = 0;
-      const options = this.over.map((parameter, i) => [i, parameter.words]);
-      place.append(chooser("along-x", "Over", options, 0, (i) => {
+      this.overNow ??= 0;
+      const options = this.over.map((parameter, i) => [i, parameter.title]);
+      place.append(chooser("along-x", "plot against", options, this.overNow, (i) => {
         this.overNow = i;
         this.later("everything");
       }));
@@ -96,7 +131,7 @@ const explorer = {
     this.drawn.forEach((choice, i) => {
       const head = document.getElementById(`head-${i}`);
       const box = element("input", { type: "checkbox", id: `log-${i}` });
-      const options = study.variables.map((variable, j) => [j, withUnit(variable.words, variable.unit)]);
+      const options = study.variables.map((variable, j) => [j, withUnit(variable.title, variable.unit)]);
       const update = () => {
         box.disabled = study.variables[choice.variable].leastPositive === null;
         choice.log = choice.log && !box.disabled;
@@ -106,7 +141,7 @@ const explorer = {
         choice.log = box.checked;
         this.later("everything");
       });
-      head.append(chooser(`shown-${i}`, "Show", options, choice.variable, (variable) => {
+      head.append(chooser(`shown-${i}`, "quantity", options, choice.variable, (variable) => {
         Object.assign(choice, this.choiceOfVariable(variable));
         update();
         this.later("everything");
@@ -153,8 +188,9 @@ const explorer = {
     const number = study.numberOf(at);
     this.showTable(at, number);
     const maps = study.kind === "maps";
-    study.axes.forEach((_, i) => this.sliders[i].show(at[i], maps && i === x ? "across" : maps && i === y ? "up" : ""));
+    study.axes.forEach((_, i) => this.sliders[i].show(at[i], maps && i === x ? "x axis" : maps && i === y ? "y axis" : ""));
     document.documentElement.dataset.scene = number;
+    address.write(this);
     if (study.kind === "curves") {
       if (what !== "everything") return;
       this.planes.draw(number);
@@ -230,7 +266,7 @@ const explorer = {
     this.go(this.placeOf(which, i, event));
   },
 
-  // A tap holds a cell; one more on the same cell lets it go.
+  // A tap holds a cell; one more on the same cell releases it.
   tap(which, i, event) {
     const at = this.placeOf(which, i, event);
     if (!at) return;
@@ -248,7 +284,8 @@ const explorer = {
 
   hold(held) {
     this.held = held;
+    address.write(this);
     const words = document.getElementById("held");
-    if (words) words.textContent = held ? "held: tap the cell again to let it go" : "follows the pointer";
+    if (words) words.textContent = held ? "held: tap the cell again to release it" : "follows the pointer";
   },
 };

@@ -17,6 +17,10 @@ from bokeh.plotting import figure
 
 INK: Final = "#333333"
 FONT: Final = "13px"
+LEFT: Final = 88
+RIGHT: Final = 74
+"""Pixels beside the frame of a figure, for the numbers of its axis and for a bar of colours: frames stand in line."""
+
 TOOLS: Final = "pan,wheel_zoom,box_zoom,reset,save"
 
 Part = dict[str, Any]
@@ -43,8 +47,8 @@ def map_of(number: int, shared: Part) -> Part:
         color_mapper=mapper,
         ticker=_ticker(f"map{number}.bar"),
         formatter=_formatter(f"map{number}.bar"),
-        width=14,
-        padding=6,
+        width=12,
+        padding=5,
         major_label_text_font_size=FONT,
         border_line_color=None,
         bar_line_color="#888888",
@@ -68,7 +72,7 @@ def section_of(number: int, side: str) -> Part:
         "x", "y", source=dots, marker="marker", size="size", fill_color="fill", line_color="colour", line_width=1.2
     )
     here = ColumnDataSource({"x": [], "y": [], "at": []})
-    plot.vspan(x="at", source=here, line_color=INK, line_width=0.8, line_alpha=0.6)
+    plot.vspan(x="at", source=here, line_color="#888888", line_width=0.8, line_alpha=0.6)
     plot.scatter("x", "y", source=here, size=10, fill_color="#d62728", line_color="white", line_width=1.5)
     _dress(plot, f"section{number}{side}.x", f"section{number}{side}.y")
     _listen(plot, f"'section{side}', {number}")
@@ -97,6 +101,10 @@ def _figure(name: str, x: Range1d, y: Range1d, tools: str) -> figure:
         toolbar_location="above",
         output_backend="canvas",
         min_border=4,
+        min_border_left=LEFT,
+        min_border_right=RIGHT,
+        border_fill_color=None,  # the page shows through, light or dark
+        background_fill_color=None,
     )
     plot.toolbar.logo = None
     plot.toolbar.autohide = True

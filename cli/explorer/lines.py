@@ -18,6 +18,9 @@ from gradhesion.cli.picture.labels import Unit
 _WIDTH: Final = 1.5
 """Pixels for a point of a picture: lines are seen from farther away."""
 
+UNLOADING: Final = [9, 6]
+"""The dash of unloading, in pixels: what is below it, loading on the same curve, shows in its gaps."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Lines:
@@ -66,7 +69,7 @@ def _line(track: Track) -> Entry:
         "label": track.label,
         "colour": to_hex(track.colour),
         "faded": to_hex(faded(track.colour)),
-        "dash": _pixels(track.dash, track.width),
+        "dash": UNLOADING if track.unloading else _pixels(track.dash, track.width),
         "jumpDash": _pixels(JUMP, THIN),
         "jumpWidth": _WIDTH * THIN,
         "width": _WIDTH * track.width,

@@ -19,10 +19,22 @@ from gradhesion.cli.explorer.data import Entry, study_data
 from gradhesion.cli.explorer.figures import Part, map_of, plane_of, ranges, section_of
 from gradhesion.cli.explorer.lines import lines_of
 from gradhesion.cli.explorer.plain import words
+from gradhesion.cli.explorer.scene_study import scene_study
 from gradhesion.cli.names import SCENE, SOLVER
 
 _OWN: Final = Path(__file__).parent
-_SCRIPTS: Final = ("numbers", "scene", "controls", "maps", "sections", "curves", "explorer")
+_SCRIPTS: Final = (
+    "numbers",
+    "theme",
+    "scene",
+    "controls",
+    "maps",
+    "sections",
+    "curves",
+    "address",
+    "downloads",
+    "explorer",
+)
 """The script of a page, in the order in which its parts need each other."""
 
 _SIDES: Final = ("x", "y")
@@ -63,7 +75,8 @@ def page(dataset: xarray.Dataset, file: str, variables: Sequence[str], places: S
         parts["sections"] = [{side: section_of(i, side) for side in sides} for i in range(count)]
     for figure in _figures(parts):
         document.add_root(figure)
-    args = {"study": study | {"kind": kind, "palette": list(Viridis256)}, "variables": shown, "parts": parts}
+    study |= {"kind": kind, "palette": list(Viridis256), "file": file, "scene": scene_study(cut)}
+    args = {"study": study, "variables": shown, "parts": parts}
     document.js_on_event("document_ready", CustomJS(args=args, code="explorer.start(study, variables, parts)"))
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     about = {
@@ -74,6 +87,7 @@ def page(dataset: xarray.Dataset, file: str, variables: Sequence[str], places: S
         "sections": len(parts.get("sections", ())),
         "sides": _SIDES if kind == "maps" else ("x",),
         "planes": len(parts.get("planes", ())),
+        "columns": max(len(parts.get("sections", ())), len(parts.get("planes", ()))),
         "style": _read("page.css"),
         "script": "\n".join(_read(f"{name}.js") for name in _SCRIPTS),
     }

@@ -56,6 +56,26 @@ def plain(text: str) -> str:
     return re.sub(r"  +", " ", text).replace(" / ", "/")
 
 
+def title(name: str, long_name: str) -> str:
+    """
+    Name a variable with its letter first, so that a list that is cut short still shows it.
+
+    >>> title("lambda_over_R", "wavelength lambda/R of the waviness"), title("nu", "Poisson's ratio")
+    ('λ/R – wavelength of the waviness', "ν – Poisson's ratio")
+    >>> title("pull_off_force", "pull-off force F/(1.5 pi R dgamma)"), title("loading_jumps", "number of jumps")
+    ('F/(1.5 πRΔγ) – pull-off force', 'number of jumps')
+    """
+    written = words(long_name)
+    whole = SYMBOLS.get(name, "")
+    letter = plain("".join(re.findall(r"\$[^$]*\$", whole))).strip()
+    if not letter or letter.startswith("/"):
+        return written
+    own = plain(whole.partition("$")[0]).strip()
+    rest = own or re.sub(r" \(inf: [^)]*\)$", "", written)
+    rest = re.sub(rf" {re.escape(letter)}(?=,| (?!=)|$)", "", rest, count=1)
+    return f"{letter} – {rest}"
+
+
 def words(long_name: str) -> str:
     """
     Write a `long_name` with the letters of the field.

@@ -28,7 +28,7 @@ class Section {
       if (solvers.length > 1) own[study.solver] = solver;
       own[axis] = 0;
       const start = study.numberOf(own);
-      const colour = LINE_COLOURS[solver % LINE_COLOURS.length];
+      const colour = theme.seen(LINE_COLOURS[solver % LINE_COLOURS.length]);
       const [xs, ys] = [[], []];
       const size = study.sizes[axis];
       for (let i = 0; i < size; i++) {

@@ -251,7 +251,7 @@ def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = N
         profile=profile_of(form.profile),
         loading=Loading(control=form.loading.control),
         states=form.states.radii,
-        text=text or _toml(data),
+        text=text or toml_of(data),
         left_out=frozenset(absent.keys() - {"a_max", "a_max_over_R"}),
         folder=source.folder,
         points=points,
@@ -273,7 +273,7 @@ def _plain(value: Any) -> Any:
     return [_plain(item) for item in value] if isinstance(value, list | tuple) else value
 
 
-def _toml(data: Mapping[str, Any]) -> str:
+def toml_of(data: Mapping[str, Any]) -> str:
     """Write a valid study as TOML."""
 
     def written(value: Any) -> str:

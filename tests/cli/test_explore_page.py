@@ -1,5 +1,6 @@
 """The page of `gradhesion explore` in a real browser: what it shows is what the dataset has."""
 
+import csv
 import os
 import re
 import shutil
@@ -15,6 +16,7 @@ from bokeh.palettes import Viridis256
 from click.testing import CliRunner
 from playwright.sync_api import Browser, Page, sync_playwright
 
+import gradhesion as gr
 from gradhesion.cli.main import cli
 
 pytestmark = pytest.mark.slow
@@ -89,6 +91,28 @@ wavelength = "0.2 um"
 a_max = "0.4 um"
 """
 
+MACHINE = """
+title = "A machine in units"
+outputs = ["pull_off_force"]
+[parameters]
+k = 0.3
+nu = 0.27
+A = 0.03
+[physical]
+R = ["1 um", "2 um", "3 um"]
+E_star = "1 GPa"
+work_of_adhesion = "50 mJ/m^2"
+c0 = "13 nm"
+wavelength = "0.2 um"
+a_max = "0.4 um"
+spring_constant = "2 N/m"
+[profile]
+exponent = 2.0
+harmonics = [{ n = 1, cos = 1.0 }, { n = 2, cos = 0.2 }]
+[loading]
+control = "machine"
+"""
+
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
@@ -138,7 +162,7 @@ def maps(tmp_path_factory: pytest.TempPathFactory) -> Path:
 class Opened:
     """A page in a tab, with what it asked for and what it complained of."""
 
-    def __init__(self, browser: Browser, file: Path, **options: Any) -> None:
+    def __init__(self, browser: Browser, file: Path, address: str = "", **options: Any) -> None:
         self.page: Page = browser.new_page(**{"viewport": {"width": 1400, "height": 900}, **options})
         self.requests: list[str] = []
         self.complaints: list[str] = []
@@ -147,7 +171,7 @@ class Opened:
         self.page.on(
             "console", lambda told: self.complaints.append(told.text) if told.type in {"warning", "error"} else None
         )
-        self.page.goto(file.as_uri())
+        self.page.goto(file.as_uri() + address)
         self.page.wait_for_selector("html[data-ready=true]", state="attached")
         self.settle()
 
@@ -184,8 +208,8 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Opened]]:
     """Open pages; each must need nothing else, and complain of nothing."""
     opened: list[Opened] = []
 
-    def open_one(file: Path, **options: Any) -> Opened:
-        opened.append(Opened(browser, file, **options))
+    def open_one(file: Path, address: str = "", **options: Any) -> Opened:
+        opened.append(Opened(browser, file, address, **options))
         return opened[-1]
 
     yield open_one
@@ -328,8 +352,8 @@ def test_other_axes_and_variables_are_chosen(maps: Path, open_page: Callable[...
     page = open_page(maps)
     assert page.page.title() == "Maps </script><script>window.broken = 1</script> & more"
     assert page.page.evaluate("window.broken === undefined")
-    page.page.select_option("#along-x", label="amplitude over wavelength of the waviness")
-    page.page.select_option("#along-y", label="wavelength λ/R of the waviness")
+    page.page.select_option("#along-x", label="A – amplitude over wavelength of the waviness")
+    page.page.select_option("#along-y", label="λ/R – wavelength of the waviness")
     page.page.select_option("#shown-1", label="number of jumps on loading, the jump-in counted")
     page.settle()
     # what was across is up now, and what was up is free; two maps have one range
@@ -407,7 +431,7 @@ def test_points_are_dots_over_a_parameter(tmp_path: Path, open_page: Callable[..
     file = _made(tmp_path, POINTS)
     page = open_page(file)
     with xarray.open_dataset(file.with_suffix(".nc")) as dataset:
-        page.page.select_option("#along-x", label="wavelength λ/R of the waviness")
+        page.page.select_option("#along-x", label="λ/R – wavelength of the waviness")
         page.page.uncheck("#log-0")
         page.settle()
         dot = dataset.isel(scene=2)
@@ -459,3 +483,130 @@ def test_curves_in_units_are_those_of_the_scene(tmp_path: Path, open_page: Calla
     falls = page.page.evaluate("explorer.study.tracks.find((track) => track.curve === 'equilibrium').faded")
     assert falls in lines["colour"], "unstable parts are faded in units too"
     assert page.page.locator("#value-path_load_si").count() == 0
+
+
+SIZES = ((390, 844), (1280, 900), (1920, 1080))
+
+
+@pytest.mark.parametrize(("width", "height"), SIZES)
+def test_the_page_is_used_and_frames_stand_in_line(
+    width: int, height: int, maps: Path, open_page: Callable[..., Opened]
+) -> None:
+    page = open_page(maps, viewport={"width": width, "height": height})
+    assert page.page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
+    page.page.wait_for_timeout(300)  # the layout follows the borders
+    frames = page.page.evaluate(
+        "explorer.figures().map((figure) => { const view = Bokeh.index.find_one(figure);"
+        "const box = view.canvas_view.el.getBoundingClientRect();"
+        "return [box.left + view.frame.bbox.left, box.left + view.frame.bbox.right] })"
+    )
+    first_map, second_map, *sections = np.array(frames)
+    for number_of_map, wanted in ((0, first_map), (1, second_map)):
+        for frame in sections[2 * number_of_map : 2 * number_of_map + 2]:
+            np.testing.assert_allclose(frame, wanted, atol=1.5)
+    boxes = [page.page.locator(".plot.map").nth(i).bounding_box() for i in (0, 1)]
+    right = max(box["x"] + box["width"] for box in boxes if box)
+    assert right > 0.95 * width, "no part of a wide window is empty"
+
+
+def test_on_a_phone_the_map_stays_in_view_of_the_sliders(maps: Path, open_page: Callable[..., Opened]) -> None:
+    page = open_page(maps, viewport={"width": 390, "height": 844}, has_touch=True)
+    for axis in AXES:
+        page.page.evaluate(f"document.getElementById('axis-{axis}').scrollIntoView({{block: 'center'}})")
+        page.settle()
+        slider = page.page.locator(f"#axis-{axis}").bounding_box()
+        map_box = page.page.locator(".plot.map").first.bounding_box()
+        assert slider
+        assert map_box
+        assert -1 <= map_box["y"] < map_box["y"] + map_box["height"] <= slider["y"] + 1
+
+
+def test_the_address_brings_a_colleague_to_the_same_state(maps: Path, open_page: Callable[..., Opened]) -> None:
+    page = open_page(maps)
+    page.press("A", "End")
+    page.press("k", "Home")
+    page.page.select_option("#along-y", label="A – amplitude over wavelength of the waviness")
+    page.page.select_option("#shown-1", label="number of jumps on loading, the jump-in counted")
+    page.page.uncheck("#log-0")
+    page.page.wait_for_function("location.hash.includes('loading_jumps')")
+    there = open_page(maps, "#" + page.page.url.partition("#")[2])
+    state = "[explorer.at, explorer.x, explorer.y, explorer.drawn, explorer.held]"
+    assert there.page.evaluate(state) == page.page.evaluate(state)
+    assert there.page.input_value("#along-y") == page.page.input_value("#along-y")
+    wrong = open_page(maps, "#k=many&A=0.0231&x=x&show=nothing&log=,,")
+    assert wrong.shown("A") == "0.023", "what can be read is taken, and nothing else"
+    assert wrong.page.evaluate("explorer.x !== explorer.y")
+
+
+def _downloaded(page: Opened, what: str) -> bytes:
+    with page.page.expect_download() as waiting:
+        page.page.click(f"#save-{what}")
+    return Path(waiting.value.path()).read_bytes()
+
+
+def test_what_is_downloaded_is_what_is_shown(maps: Path, open_page: Callable[..., Opened], tmp_path: Path) -> None:
+    page = open_page(maps)
+    page.press("A", "End")
+    page.press("a_max_over_R", "End")
+    at = {"k": 1, "c0_over_R": 0, "lambda_over_R": 3, "A": 2, "a_max_over_R": 2}
+    with xarray.open_dataset(maps.with_suffix(".nc")) as dataset:
+        scene = dataset.isel(at)
+        rows = list(csv.DictReader(_downloaded(page, "csv").decode().splitlines()))
+        assert len(rows) == dataset.sizes["k"] * dataset.sizes["lambda_over_R"]
+        for row in rows:
+            assert float(row["A"]) == 0.05
+            near = {name: float(row[name]) for name in ("k", "lambda_over_R")}
+            own = dataset.isel(c0_over_R=0, A=2, a_max_over_R=2).sel(near, method="nearest")
+            for name in ("pull_off_force", "dissipated_energy", "loading_jumps"):
+                wanted = float(own[name])
+                assert row[name] == "" if np.isnan(wanted) else float(row[name]) == float(f"{wanted:.6g}")
+        assert _downloaded(page, "png")[:4] == b"\x89PNG"
+        study = tmp_path / "scene.toml"
+        study.write_bytes(_downloaded(page, "toml"))
+        again = gr.run(study)
+        called: dict[str, Any] = {}
+        exec(_downloaded(page, "py"), called)  # noqa: S102 (what the page wrote)
+        for found in (again, called["scene"]):
+            for name in ("pull_off_force", "dissipated_energy"):
+                assert float(found[name]) == pytest.approx(float(scene[name]), rel=1e-12)
+
+
+def test_a_study_of_a_scene_has_its_units_profile_and_control(tmp_path: Path, open_page: Callable[..., Opened]) -> None:
+    page = open_page(_made(tmp_path, MACHINE))
+    page.press("R", "End")
+    with xarray.open_dataset(tmp_path / "data.nc") as dataset:
+        assert page.page.evaluate("explorer.study.variables[explorer.drawn[0].variable].name") == "pull_off_force_si"
+        scene = dataset.isel(R=2)
+        (tmp_path / "scene.toml").write_bytes(_downloaded(page, "toml"))
+        again = gr.run(tmp_path / "scene.toml")
+        called: dict[str, Any] = {}
+        exec(_downloaded(page, "py"), called)  # noqa: S102 (what the page wrote)
+        for found in (again, called["scene"]):
+            assert float(found["pull_off_force_si"]) == pytest.approx(float(scene["pull_off_force_si"]), rel=1e-11)
+            assert found.attrs["profile"] == dataset.attrs["profile"]
+
+
+def test_a_dark_page_has_dark_figures_and_light_words(maps: Path, open_page: Callable[..., Opened]) -> None:
+    page = open_page(maps, color_scheme="dark")
+    assert page.page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(22, 25, 29)"
+    colours = page.page.evaluate("explorer.figures().map((figure) => figure.left[0].major_label_text_color)")
+    assert {*colours} == {"#d8dade"}
+    assert page.page.evaluate("theme.seen('#440154')") != "#440154"
+    page.page.emulate_media(color_scheme="light")
+    page.settle()
+    assert page.page.evaluate("explorer.figures()[0].left[0].major_label_text_color") == "#333333"
+    assert page.page.evaluate("theme.seen('#440154')") == "#440154"
+
+
+def test_lines_of_curves_are_hidden_one_by_one(tmp_path: Path, open_page: Callable[..., Opened]) -> None:
+    page = open_page(_made(tmp_path, CURVES))
+    looks = "[...new Set(explorer.parts.planes[0].lines.data.colour)]"
+    tracks = page.page.evaluate("explorer.study.tracks.map((track) => [track.label, track.colour])")
+    labels = [label for label, _ in tracks]
+    unloading = labels.index("unloading")
+    assert tracks[unloading][1] in page.page.evaluate(looks)
+    page.page.uncheck(f"#track-{unloading}")
+    page.settle()
+    assert tracks[unloading][1] not in page.page.evaluate(looks), "loading alone is left"
+    dashes = page.page.evaluate("explorer.study.tracks.map((track) => track.dash.length)")
+    assert dashes[unloading] > 0 == dashes[labels.index("loading")], "loading shows in the gaps of unloading"
