@@ -103,7 +103,7 @@ def _figure(name: str, x: Range1d, y: Range1d, tools: str) -> figure:
         min_border=4,
         min_border_left=LEFT,
         min_border_right=RIGHT,
-        border_fill_color=None,  # the page shows through, light or dark
+        border_fill_color=None,  # the script sets both: a first coat of white would shimmer through on a dark page
         background_fill_color=None,
     )
     plot.toolbar.logo = None

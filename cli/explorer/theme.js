@@ -25,7 +25,7 @@ const theme = {
   // Give a figure the colours of the page.
   dress(figure) {
     const { back, ink, quiet, grid } = this.paper;
-    figure.outline_line_color = quiet;
+    figure.setv({ background_fill_color: back, border_fill_color: back, outline_line_color: quiet });
     for (const part of [...figure.below, ...figure.left, ...figure.right, ...figure.center]) {
       const wanted = {
         axis_label_text_color: ink, major_label_text_color: ink, axis_line_color: quiet, major_tick_line_color: quiet,
