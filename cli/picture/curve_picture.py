@@ -36,7 +36,7 @@ from gradhesion.cli.picture.curve_panels import (
 )
 from gradhesion.cli.picture.curve_units import axis_label, in_si, in_unit, units_of, wants_si
 from gradhesion.cli.picture.doubts import CROSS, DOUBTS, Doubt, doubts_in, entries
-from gradhesion.cli.picture.labels import Unit, equation, given
+from gradhesion.cli.picture.labels import Unit, effective, equation, given
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.pictured import heading, in_lines, lay_out, styled
 from gradhesion.cli.picture.state_picture import draw_states
@@ -242,7 +242,7 @@ def _varying(dataset: xarray.Dataset) -> list[str]:
 def _caption(dataset: xarray.Dataset, axes: Sequence[str]) -> list[str]:
     """Write the parameters that are the same in all scenes drawn."""
     written = []
-    for name in given(dataset.coords):
+    for name in effective(dataset):
         values = np.unique(dataset[name].values)
         if values.size == 1:
             written.append(equation(name, values[0]))

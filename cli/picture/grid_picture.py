@@ -19,7 +19,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SOLVER, SYMBOLS
 from gradhesion.cli.picture import panels
 from gradhesion.cli.picture.doubts import END, Doubt, doubts_in, entries, is_turned
-from gradhesion.cli.picture.labels import Unit, equation, given, label, unit_for
+from gradhesion.cli.picture.labels import Unit, effective, equation, label, unit_for
 from gradhesion.cli.picture.layout import PANELS, Plan, items_of
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.scales import scale
@@ -197,7 +197,7 @@ def _caption(
     written = []
     between = {one.axis: one.value for one in selection.between}
     follows = {plan.x, plan.second, plan.columns, plan.rows, *selection.over}
-    for name in (SOLVER, *given(dataset.coords)):
+    for name in (SOLVER, *effective(dataset)):
         values = np.atleast_1d(dataset[name].values) if name in dataset.coords else np.empty(0)
         if name in between:
             written.append(f"{equation(name, between[name])} (interpolated)")

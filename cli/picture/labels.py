@@ -31,6 +31,10 @@ class Unit:
         return number(value / 10.0**self.power)
 
 
+IDLE: Final = "without effect"
+"""What the comment of a coordinate begins with that is there for completeness."""
+
+
 def unit_for(name: str, values: Any) -> Unit:
     """
     Choose a unit for values in SI, so that the greatest of them is 1 to 1000.
@@ -93,6 +97,11 @@ def label(name: str, unit: Unit | None = None) -> str:
     """
     symbol = unit.symbol if unit else UNIT_SYMBOLS.get(unit_of(name), "")
     return SYMBOLS[name] + (f" ({symbol})" if symbol else "")
+
+
+def effective(dataset: Any) -> list[str]:
+    """List the parameters that give the scenes of a dataset, without those that have no effect, as c0 where k = 0."""
+    return [name for name in given(dataset.coords) if IDLE not in str(dataset[name].attrs.get("comment", ""))]
 
 
 def given(names: Any) -> list[str]:

@@ -12,7 +12,7 @@ from gradhesion.cli.picture import panels
 from gradhesion.cli.picture.density import draw_density, number_scenes
 from gradhesion.cli.picture.doubts import doubts_in, entries, is_turned
 from gradhesion.cli.picture.grid_picture import Part
-from gradhesion.cli.picture.labels import equation, given, label, unit_for
+from gradhesion.cli.picture.labels import effective, equation, label, unit_for
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.scales import scale
 
@@ -27,9 +27,9 @@ def draw_scenes(
     over: str | None,
     looks: Looks = PLAIN,
 ) -> Part:
-    """Draw a variable of points over a parameter, the first that varies if none is asked for."""
+    """Draw a variable of points over a parameter, that with the most values if none is asked for."""
     variable, status = dataset[name], dataset["status"]
-    known = given(variable.coords)
+    known = effective(variable)
     varying = [key for key in known if np.unique(variable[key].values).size > 1]
     if not varying:
         raise DatasetError(
@@ -38,7 +38,7 @@ def draw_scenes(
     values = variable.values.astype(float)
     if not np.isfinite(values).any():
         raise DatasetError(f"{name}: no value in any scene; `gradhesion info` reports why")
-    along = over or varying[0]
+    along = over or max(varying, key=lambda key: np.unique(variable[key].values).size)
     x = scale(variable[along].values, along)
     solvers = [str(one) for one in np.atleast_1d(variable[SOLVER].values)] if SOLVER in variable.coords else [""]
     finite = values[np.isfinite(values)]

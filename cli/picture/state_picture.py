@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import CURVES, SI, STATE
-from gradhesion.cli.picture.labels import Unit, equation, given, number, unit_for
+from gradhesion.cli.picture.labels import Unit, effective, equation, number, unit_for
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.pictured import heading, in_lines, lay_out, styled
 
@@ -134,7 +134,7 @@ def _labels(scene: xarray.Dataset) -> list[str]:
 
 def _caption(dataset: xarray.Dataset) -> Iterable[str]:
     """Write the parameters of the scene."""
-    for name in given(dataset.coords):
+    for name in effective(dataset):
         values = dataset[name].values
         first = equation(name, np.ravel(values)[0])
         yield first if np.size(values) == 1 else f"{first} (first of {np.size(values)})"

@@ -261,3 +261,12 @@ def test_the_style_can_be_named_and_overlaid(grid: xarray.Dataset, tmp_path: Pat
     assert gradhesion("plot", tmp_path / "x.nc", *options).exit_code == 0
     sides = np.frombuffer((tmp_path / "x.png").read_bytes()[16:24], ">u4")
     assert sides.tolist() == [200, 150]
+
+
+def test_a_parameter_without_effect_is_not_in_the_caption(data: dict[str, Any]) -> None:
+    fixed = {key: value for key, value in data["parameters"].items() if key != "c0_over_R"}
+    dataset = compute(study_from(data | {"parameters": fixed | {"k": 0.0, "A": 0.1, "a_max_over_R": 1.0}}), threads=1)
+    assert "c0_over_R" in dataset.coords
+    words = drawn(dataset, ["pull_off_force"]).get_suptitle()
+    assert "$k$ = 0" in words
+    assert "c_0" not in words

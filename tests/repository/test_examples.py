@@ -1,0 +1,128 @@
+"""Each study that shows a feature runs, and gives what is known of it by other means."""
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+
+import gradhesion as gr
+
+CONFIGS = Path(__file__).parents[2] / "configs"
+FEATURES: dict[str, tuple[str, str]] = {
+    "another profile": ("cone", "series"),
+    "another control": ("dead_load", "spring"),
+    "points": ("points", "materials"),
+    "units": ("physical", "jkr"),
+    "reduced variables": ("reduced", "reduced_rim"),
+    "several solvers": ("solvers", "short_waves"),
+}
+EXAMPLES = sorted({name for names in FEATURES.values() for name in names} - {"points", "physical", "jkr"})
+
+Run = Callable[..., xarray.Dataset]
+
+
+@pytest.fixture
+def run() -> Run:
+    """Compute a study of configs/ in memory, with keys of its own."""
+
+    def compute(name: str, **parameters: object) -> xarray.Dataset:
+        return gr.run(CONFIGS / f"{name}.toml", set={f"parameters.{key}": value for key, value in parameters.items()})
+
+    return compute
+
+
+def test_two_studies_show_each_feature() -> None:
+    for feature, names in FEATURES.items():
+        for name in names:
+            study = gr.load(CONFIGS / f"{name}.toml")
+            shown = {
+                "another profile": "[profile]" in study.text,
+                "another control": study.loading.control != "displacement",
+                "points": study.layout == "points",
+                "units": "[physical]" in study.text,
+                "reduced variables": "chi" in study.text and "lambda_over_L" in study.text,
+                "several solvers": isinstance(study.method.solver, tuple),
+            }
+            assert shown[feature], (feature, name)
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_every_scene_has_a_value(name: str, run: Run) -> None:
+    dataset = run(name)
+    assert not dataset.gr.flagged("no_value").any()
+    assert not dataset["pull_off_force"].isnull().any()
+    assert dataset.attrs["title"] in (CONFIGS / f"{name}.toml").read_text()
+
+
+def test_a_smooth_cone_is_pulled_off_by_the_force_of_its_closed_form(run: Run) -> None:
+    modulus = np.array([100.0, 500.0])
+    cone = run("cone", k=0.0, A=0.0, modulus=modulus.tolist())
+    # P = (pi/2) E* a^2 - (8 pi E* dgamma a^3)^(1/2) for the slope 1 (Maugis & Barquins): least at a = 18 dgamma/(pi E*)
+    radius = 18.0 / (math.pi * modulus)
+    force = 0.25 * np.sqrt(8.0 * math.pi * modulus * radius**3) / (1.5 * math.pi)
+    np.testing.assert_allclose(cone["pull_off_force"], force, rtol=1e-12)
+    np.testing.assert_allclose(cone["pull_off_radius"], radius, rtol=1e-7)
+
+
+def test_one_wave_of_a_series_is_a_wave_of_its_own_length() -> None:
+    set_to = {"parameters.k": 0.5, "parameters.A": 0.02}
+    short = gr.run(CONFIGS / "series.toml", set=set_to | {"profile.harmonics": [{"n": 4, "cos": 0.2}]})
+    punch = {"k": 0.5, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "a_max_over_R": 0.5}
+    alone = gr.solve(punch, lambda_over_R=0.05, A=0.016)
+    for name in ("pull_off_force", "dissipated_energy"):
+        assert float(short[name]) == pytest.approx(float(alone[name]), rel=1e-11)
+
+
+def test_a_dead_load_pulls_off_as_a_controlled_depth_does(run: Run) -> None:
+    dead = run("dead_load", A=[0.0, 0.03])
+    punch = {name: dead[name].item() for name in ("nu", "modulus", "c0_over_R", "lambda_over_R", "a_max_over_R")}
+    depth = gr.solve(punch, k=dead["k"].values, A=[0.0, 0.03])
+    np.testing.assert_allclose(dead["pull_off_force"], depth["pull_off_force"], rtol=1e-12)
+    np.testing.assert_allclose(dead["pull_off_force"].sel(A=0.0), (3.0 + dead["k"]) / 3.0, rtol=1e-12)
+
+
+def test_a_softer_spring_costs_more_energy_and_pulls_off_at_the_same_force(run: Run) -> None:
+    spring = run("spring")
+    force = spring["pull_off_force"]
+    np.testing.assert_allclose(force, force.isel(machine_stiffness=-1).broadcast_like(force), rtol=1e-12)
+    assert (spring["dissipated_energy"].diff("machine_stiffness") < 0.0).all()
+
+
+def test_points_in_units_are_johnson_kendall_and_roberts_where_they_are_smooth(run: Run) -> None:
+    smooth = run("materials", A=0.0)
+    force = 1.5 * math.pi * smooth["R"] * smooth["work_of_adhesion"]
+    np.testing.assert_allclose(smooth["pull_off_force_si"], force, rtol=1e-12)
+    assert smooth["pull_off_force_si"].dims == ("scene",)
+
+
+def test_reduced_variables_hold_for_every_material(run: Run) -> None:
+    few = {"lambda_over_L": [0.3, 1.1], "chi": [0.0, 0.4, 0.9]}
+    one, other = run("reduced", **few), run("reduced", **few, modulus=37.0, c0_over_R=0.4, nu=0.45)
+    np.testing.assert_allclose(one["pull_off_force"], other["pull_off_force"], rtol=1e-11)
+    np.testing.assert_allclose(one["pull_off_force"].sel(chi=0.0), 1.1, rtol=1e-12)  # (3 + k)/3
+
+
+def test_cycles_of_like_size_gain_nothing_without_waves(run: Run) -> None:
+    smooth = run("reduced_rim", chi=0.0)
+    np.testing.assert_allclose(smooth["energy_gain"], 1.0, rtol=1e-11)
+    np.testing.assert_allclose(
+        smooth["pull_off_force"], ((3.0 + smooth["k"]) / 3.0).broadcast_like(smooth["pull_off_force"]), rtol=1e-12
+    )
+
+
+def test_the_envelope_is_the_limit_of_short_waves(run: Run) -> None:
+    found = run("solvers", lambda_over_R=[0.002, 0.02])["pull_off_force"]
+    limit = 1.1 * 1.2**2  # (3 + k)/3 (1 + chi)^2
+    np.testing.assert_allclose(found.sel(solver="envelope"), limit, rtol=1e-12)
+    away = abs(found.sel(solver="exact") / limit - 1.0)
+    assert float(away[0]) < float(away[1]) < 0.1
+
+
+def test_both_solvers_agree_where_there_are_no_waves(run: Run) -> None:
+    found = run("short_waves", chi=0.0)
+    for name in ("pull_off_force", "dissipated_energy"):
+        exact, envelope = (found[name].sel(solver=solver) for solver in ("exact", "envelope"))
+        np.testing.assert_allclose(exact, envelope, rtol=1e-11)
