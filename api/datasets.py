@@ -103,7 +103,7 @@ def data_of(dataset: Data) -> AbstractContextManager[xarray.Dataset]:
     Raises
     ------
     DatasetError
-        It is none of this program.
+        It was not written by this program.
     """
     if isinstance(dataset, xarray.Dataset):
         check_ours(dataset, "the dataset")

@@ -75,7 +75,7 @@ class Given:
         Raises
         ------
         StudyError
-            Something is wrong; the error has all mistakes.
+            Something is wrong; the error lists all of them.
         """
         ends = {name: _ends(array) for name, array in self.arrays.items()}
         short = {name: [array.values.flat[i] for i in ends[name]] for name, array in self.arrays.items()}

@@ -86,7 +86,7 @@ def plot(
     dataset
         A dataset, or the path of its file.
     variables
-        What to draw, by name; the force and the energy if None.
+        Variables to draw, by name; force and energy if None.
     at
         Axes fixed at the value nearest to this one: {"A": 0.02, "R": "2 um", "solver": "exact"}.
     over
@@ -118,8 +118,8 @@ def plot(
     Raises
     ------
     DatasetError
-        The dataset is none of this program, lacks what is asked for, or nothing varies in it; a size, a colour map or a
-        style does not exist.
+        The dataset was not written by this program, lacks what is requested, or nothing varies in it; a size, a colour
+        map or a style does not exist.
 
     Examples
     --------
@@ -170,9 +170,9 @@ def explore(
     dataset
         A dataset, or the path of its file.
     file
-        The page, .html; beside the file of the dataset if None.
+        The page, .html; next to the file of the dataset if None.
     variables
-        What to take, by name; everything if None.
+        Variables to include, by name; all if None.
     at
         Axes fixed at the value nearest to this one.
     overwrite
@@ -185,7 +185,8 @@ def explore(
     Raises
     ------
     DatasetError
-        The dataset is none of this program, lacks what is asked for, is too large for a page, or nothing varies in it.
+        The dataset was not written by this program, lacks what is requested, is too large for a page, or nothing varies
+        in it.
     OutputError
         The page exists or cannot be written.
     MissingExtraError

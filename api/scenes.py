@@ -38,10 +38,10 @@ def solve(
     Parameters
     ----------
     parameters, **more
-        The parameters of a study by name, in a mapping, as keywords, or both (a keyword stands in the place of what the
-        mapping has, as in `dict(parameters, **more)`): k in [0, 1], nu in (-1, 0.5], the positive ratios modulus E*
-        R/dgamma, c0_over_R (needless where k = 0) and lambda_over_R (needless where A = 0), A >= 0, and a_max_over_R >
-        0, inf if left out; their reduced forms (chi, lambda_over_L, ...); quantities with units, such as R = "1 um" (a
+        The parameters of a study by name, in a mapping, as keywords, or both (a keyword overrides the mapping, as in
+        `dict(parameters, **more)`): k in [0, 1], nu in (-1, 0.5], the positive ratios modulus E*
+        R/dgamma, c0_over_R (not needed if k = 0) and lambda_over_R (not needed if A = 0), A >= 0, and a_max_over_R >
+        0, inf by default; their reduced forms (chi, lambda_over_L, ...); quantities with units, such as R = "1 um" (a
         plain number is in SI units: R = 1e-6); and machine_stiffness S/(E* R), or spring_constant, with control
         "machine". Each of them is
 
@@ -50,31 +50,31 @@ def solve(
           axis of the name of the parameter, as in a study. Two lists make a grid, whatever their lengths;
         - an xarray.DataArray: arrays broadcast by the names of their dimensions, so that A and k over the same
           dimension vary together. One over a single dimension of its own name is an axis;
-        - a column of pandas: an array over the dimension of its index. A DataFrame as `parameters` has a scene a row.
+        - a column of pandas: an array over the dimension of its index. A DataFrame has one scene per row.
 
         A plain array of two or more dimensions is refused: their names are missing.
     outputs
         Names out of `OUTPUTS`.
     profile
-        The shape of the punch, a `Profile` or the table of a study; a paraboloid with one cosine wave if left out.
+        The shape of the punch, a `Profile` or the table of a study; by default a paraboloid with one cosine wave.
     control
-        "displacement" (if left out), "load" or "machine".
+        "displacement" (the default), "load" or "machine".
     solver
-        One of `SOLVERS`, "exact" if left out; a list puts several side by side along the dimension `solver`.
+        One of `SOLVERS`, "exact" by default; a list puts several side by side along the dimension `solver`.
     check_contact
-        Whether `status` reports where loading does not keep the contact one disc; True if left out.
+        Whether `status` reports that the contact on loading is not one disc; True by default.
     threads
         Threads to use, all processors if None; the values do not depend on it.
     title
-        The title of the dataset; the names of the outputs if left out.
+        The title of the dataset; by default the names of the outputs.
 
     Returns
     -------
     A dataset as `gradhesion run` writes it, with units, long names and flags: outputs and `status` over the named
-    dimensions, in the order in which they are met, then over the axes in the order of a study; the values of an axis
+    dimensions, in the order in which they occur, then over the axes in the order of a study; the values of an axis
     stay in the order in which they are given. Parameters are coordinates over their own dimensions. A scene without a
-    value is NaN (counts of jumps: -1), and its status says so. The attribute `study` is there where a study of 10,000
-    values at most gives the same dataset, so that `verify` can recompute it.
+    value is NaN (counts of jumps: -1), and its status reports it. The attribute `study` is set if a study of at most
+    10,000 values gives the same dataset, so that `verify` can recompute it.
 
     Raises
     ------
@@ -84,8 +84,8 @@ def solve(
 
     Notes
     -----
-    A call costs some milliseconds more than `gradhesion.core.solve`, which takes and gives plain arrays that broadcast
-    by position, and is the one for the inside of a loop. Accuracy and equations are the same, and are given there.
+    A call costs some milliseconds more than `gradhesion.core.solve`, which takes and returns plain arrays that
+    broadcast by position; use that one inside a loop. Accuracy and equations are the same, and are given there.
 
     Examples
     --------

@@ -36,7 +36,7 @@ def load(
     Raises
     ------
     StudyError
-        It cannot be read or is wrong; the error has all mistakes.
+        It cannot be read or is wrong; the error lists all of them.
 
     Examples
     --------
@@ -65,7 +65,7 @@ def run(
     Parameters
     ----------
     study, set
-        As `load` takes them, or a study that it gave.
+        As `load` takes them, or a study that it returned.
     threads
         Threads to use, all processors if None; the values do not depend on it.
 
@@ -76,7 +76,7 @@ def run(
     Raises
     ------
     StudyError
-        The study cannot be read or is wrong; the error has all mistakes.
+        The study cannot be read or is wrong; the error lists all of them.
 
     Examples
     --------

@@ -78,8 +78,8 @@ class Commands(click.Group):
 def cli() -> None:
     """Exact maps of the adhesion of wavy punches on power-law graded materials.
 
-    A study in TOML goes in, a dataset in NetCDF comes out, and a picture of it. `gradhesion COMMAND --help` shows the
-    options of a command, with an example.
+    gradhesion reads a study in TOML, writes a dataset in NetCDF, checks it and draws it. `gradhesion COMMAND --help`
+    shows the options of a command, with an example.
     """
 
 

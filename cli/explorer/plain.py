@@ -39,7 +39,7 @@ def symbol(name: str) -> str:
     Name a variable at an axis.
 
     >>> symbol("a_max_over_R"), symbol("dissipated_energy"), symbol("load")
-    ('aₘₐₓ/R', 'dissipated energy H/R²Δγ', 'load')
+    ('aₘₐₓ/R', 'dissipated energy H/(R²Δγ)', 'load')
     """
     return plain(SYMBOLS.get(name, name.replace("_", " ")))
 
