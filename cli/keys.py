@@ -342,10 +342,10 @@ _SETTINGS: Final = (
         about="a table of scenes in a file (CSV or NetCDF): a row a scene, a column a parameter",
         example='points = "samples.csv"',
     ),
-    Key(name="file", table="points", about="the name of a file, beside the study", example='file = "samples.csv"'),
+    Key(name="file", table="profile", about="the name of a file, beside the study", example='file = "tip.csv"'),
     Key(
         name="sha256",
-        table="points",
+        table="profile",
         about="the fingerprint of the file; one that differs is refused",
         example='sha256 = "..." as a dataset has it, or leave it out',
     ),
@@ -361,8 +361,22 @@ _SETTINGS: Final = (
     Key(
         name="exponent",
         table="profile",
-        about="power m of the punch without waves: 2 is a paraboloid, 1 a cone",
+        about='power m of the punch without waves: 2 is a paraboloid, 1 a cone; "fit" finds that of a file',
         example="exponent = 2.0",
+    ),
+    Key(
+        name="terms",
+        table="profile",
+        about="harmonics that are fitted to the heights in the file",
+        example="terms = 16",
+    ),
+    Key(
+        name="up_to",
+        table="profile",
+        about="distance from the centre up to which the heights are fitted; a_max if left out",
+        example='up_to = "2 um"',
+        unit="m",
+        bounds=_POSITIVE,
     ),
     Key(
         name="harmonics",
@@ -414,6 +428,10 @@ SETTINGS: Final[dict[str, Key]] = {key.name: key for key in _SETTINGS}
 
 KEYS: Final[dict[str, Key]] = SETTINGS | INPUTS
 """Every key of a study."""
+
+
+FILE_KEYS: Final = ("file", "sha256")
+"""The keys of the table of a file, in the place of its name."""
 
 
 def keys_of(table: str) -> tuple[str, ...]:

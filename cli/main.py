@@ -15,6 +15,7 @@ from gradhesion.cli.commands.init import init
 from gradhesion.cli.commands.merge import merge
 from gradhesion.cli.commands.plan import plan
 from gradhesion.cli.commands.plot import plot
+from gradhesion.cli.commands.profile import profile
 from gradhesion.cli.commands.run import run
 from gradhesion.cli.commands.status import status
 from gradhesion.cli.commands.validate import schema, validate
@@ -33,7 +34,7 @@ SECTIONS: Final = {
     "Study and run": (init, validate, plan, run, status),
     "Results": (info, plot, explore),
     "Check and join": (verify, merge),
-    "Other": (warmup, completion, schema),
+    "Other": (profile, warmup, completion, schema),
 }
 """Every command, in the order of the work."""
 

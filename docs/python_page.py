@@ -1,5 +1,6 @@
 """The page of the public names of Python, from their signatures and docstrings: readable where the repository is."""
 
+import importlib
 import inspect
 import re
 from collections.abc import Iterator
@@ -23,6 +24,9 @@ NAMES: Final = {
 
 SECTIONS: Final = re.compile(r"^([A-Z][a-z]+)\n-{3,}\n", re.MULTILINE)
 """The heads of the sections of a docstring."""
+
+ANSWERS: Final = (("profile_fit", "fit_profile"), ("profile_fit", "FittedProfile"))
+"""Functions of `core.answers`, by their modules."""
 
 
 def page() -> str:
@@ -65,8 +69,11 @@ def _sections() -> Iterator[str]:
         ([code(f"gr.{name}"), _first(getattr(gradhesion, name))] for name in errors),
     )
     yield "## Arrays: gradhesion.core"
-    for name in ("solve", "draw_curves", "Loading", "doubts_about"):
+    for name in ("solve", "validity", "draw_curves", "Loading", "doubts_about"):
         yield from _of("core", name, getattr(core, name))
+    for module, name in ANSWERS:
+        home = importlib.import_module(f"gradhesion.core.answers.{module}")
+        yield from _of(f"core.answers.{module}", name, getattr(home, name))
     yield (
         "`PARAMETERS`, `OUTPUTS`, `REPORTS`, `CURVES`, `SOLVERS` and `CONTROLS` name what these take, `FLAGS`, "
         "`DOUBTFUL` and `FAILED` the bits of a status. The paper's equations one by one are in "

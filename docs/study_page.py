@@ -136,6 +136,8 @@ def _default(name: str, entry: Mapping[str, Any]) -> str:
 
 def _type(entry: Mapping[str, Any]) -> str:
     """Report the forms that a value takes."""
+    if isinstance(entry.get("type"), str) and "anyOf" in entry:
+        return TYPES[entry["type"]]
     forms = [form for form in entry.get("oneOf", entry.get("anyOf", [entry])) if form.get("type") != "null"]
     if any("Range_" in str(form.get("$ref")) for form in forms):
         return "number, list or range"

@@ -1,5 +1,6 @@
 """`gradhesion init`: a study to start from."""
 
+import re
 from importlib import resources
 from pathlib import Path
 
@@ -16,6 +17,13 @@ def studies() -> dict[str, str]:
     """Read the studies that come with the program, by name."""
     files = sorted(resources.files("gradhesion.configs").iterdir(), key=lambda file: file.name)
     return {file.name.removesuffix(".toml"): file.read_text("utf-8") for file in files if file.name.endswith(".toml")}
+
+
+def beside(text: str) -> dict[str, str]:
+    """Read the files that a study names, which come with the program too."""
+    files = resources.files("gradhesion.configs")
+    named = re.findall(r'^\s*(?:file|points)\s*=\s*"([^"]+)"', text, re.MULTILINE)
+    return {name: (files / name).read_text("utf-8") for name in named}
 
 
 def _names(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
@@ -36,14 +44,17 @@ def init(name: str, output: Path | None, overwrite: bool, listed: bool) -> None:
     known = studies()
     if listed:
         width = max(map(len, known))
-        for each, text in known.items():
-            show(f"{each:{width}}  {text.splitlines()[0].removeprefix('# ')}")
+        for one, text in known.items():
+            show(f"{one:{width}}  {text.splitlines()[0].removeprefix('# ')}")
         return
     if name not in known:
         from gradhesion.cli.terminal.wording import did_you_mean
 
         raise click.UsageError(f'there is no study "{name}"; {did_you_mean(name, list(known))}')
     path = output or Path(f"{name}.toml")
-    with replacement(path, overwrite=overwrite) as temporary, writing(path):
-        temporary.write_text(known[name], encoding="utf-8")
-    messages.say("done", f"{path}: written; gradhesion run {path}")
+    others = {path.with_name(file): text for file, text in beside(known[name]).items()}
+    for each, content in (others | {path: known[name]}).items():
+        with replacement(each, overwrite=overwrite) as temporary, writing(each):
+            temporary.write_text(content, encoding="utf-8")
+    and_others = "".join(f", with {each}" for each in others)
+    messages.say("done", f"{path}: written{and_others}; gradhesion run {path}")

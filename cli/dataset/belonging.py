@@ -2,6 +2,7 @@
 
 import hashlib
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
@@ -39,7 +40,7 @@ def study_of(dataset: xarray.Dataset, path: Path, *, wanted: str = "`gradhesion 
     if data.get("kind", "map") != "map":
         raise DatasetError(f"{path}: holds a {data['kind']}; {wanted}")
     try:
-        study = study_from(data, "its study", **_points_of(dataset, data, path))
+        study = study_from(_with_fit(dataset, data), "its study", **_points_of(dataset, data, path))
     except StudyError as error:
         raise DatasetError(
             f"{path}: its study is not valid in this version ({error.mistakes[0]}); write it again"
@@ -47,6 +48,19 @@ def study_of(dataset: xarray.Dataset, path: Path, *, wanted: str = "`gradhesion 
     _check_variables(dataset, study, path)
     _check_coordinates(dataset, study, path)
     return study
+
+
+def _with_fit(dataset: xarray.Dataset, data: dict[str, Any]) -> dict[str, Any]:
+    """Put what was fitted to the file of a profile in its place: the dataset has it."""
+    table = data.get("profile")
+    if not isinstance(table, Mapping) or "file" not in table:
+        return data
+    fit = tomllib.loads(str(dataset.attrs.get("profile_fit", "")))
+    names = ("R", "wavelength", "amplitude") if isinstance(data.get("physical"), Mapping) else ("lambda_over_R", "A")
+    home = "physical" if len(names) == 3 else "parameters"
+    numbers = {name: float(dataset[name]) for name in names}
+    own = {name: f"{value!r} m" if home == "physical" else value for name, value in numbers.items()}
+    return {**data, "profile": fit, home: {**data[home], **own}}
 
 
 def _points_of(dataset: xarray.Dataset, data: dict[str, Any], path: Path) -> dict[str, Any]:

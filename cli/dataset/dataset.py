@@ -3,7 +3,7 @@
 import platform
 from dataclasses import replace
 from importlib.metadata import version
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from gradhesion.cli import names
 from gradhesion.cli.dataset.contents import CONTENTS
 from gradhesion.cli.dataset.coordinates import coordinates
 from gradhesion.cli.dataset.variable import Variable
-from gradhesion.cli.study.shape_words import shape_in_words
+from gradhesion.cli.study.shape_words import profile_table, shape_in_words
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.work import curves
 from gradhesion.cli.work.compiling import prepare
@@ -55,7 +55,7 @@ def _status(study: Study) -> Variable:
     return Variable(dimensions=tuple(study.sizes), dtype="i1", attributes=attributes)
 
 
-def attributes(study: Study, history: str) -> dict[str, str]:
+def attributes(study: Study, history: str) -> dict[str, Any]:
     """List the global attributes of a study's dataset: what it is, where it comes from, how to make it again."""
     return {
         "Conventions": "CF-1.11",
@@ -64,11 +64,26 @@ def attributes(study: Study, history: str) -> dict[str, str]:
         "history": history,
         "references": names.REFERENCES,
         "profile": shape_in_words(study.profile),
+        **_of_fit(study),
         "control": study.loading.control,
         "study": study.text,
         "study_sha256": study.sha256,
         "python_version": platform.python_version(),
         **{f"{package}_version": version(package) for package in ("numpy", "numba", "scipy")},
+    }
+
+
+def _of_fit(study: Study) -> dict[str, Any]:
+    """Say which file the profile was fitted to, what was found, and what the fit leaves, in m."""
+    fit = study.measured.fit
+    if fit is None:
+        return {}
+    return {
+        "profile_file": study.measured.file,
+        "profile_sha256": study.measured.sha256,
+        "profile_fit": profile_table(study.profile),
+        "profile_residual_rms": fit.residual_rms,
+        "profile_residual_max": fit.residual_max,
     }
 
 

@@ -5,6 +5,7 @@ from. Its findings become sentences in `gradhesion.cli.study.mistakes`. What two
 `gradhesion.cli.study.rules`.
 """
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, Union
 
@@ -12,6 +13,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Fiel
 
 from gradhesion.cli.keys import INPUTS, KEYS, MACHINE, Key
 from gradhesion.cli.study.quantities import si_value
+from gradhesion.cli.terminal.wording import example
 from gradhesion.core.profile import MOST_HARMONICS
 
 MOST_WAVES: Final = 10_000
@@ -77,13 +79,34 @@ class Wave(Table):
     sin: Annotated[float | None, Field(allow_inf_nan=False, description=KEYS["sin"].about)] = None
 
 
+def _exponent(value: object) -> object:
+    """Check the power of a punch."""
+    if value == "fit" or (isinstance(value, int | float) and not isinstance(value, bool) and 1.0 <= value < math.inf):
+        return float(value) if isinstance(value, int) else value
+    raise ValueError(
+        f"the power of the punch is a number of 1 or more, and finite (1 is a cone); {example(('profile', 'exponent'))}"
+    )
+
+
 class ProfileTable(Table):
     """The shape of the punch."""
 
-    exponent: Annotated[float, Field(ge=1.0, allow_inf_nan=False, description=KEYS["exponent"].about)] = 2.0
+    exponent: Annotated[
+        float | Literal["fit"],
+        BeforeValidator(_exponent),
+        Field(description=KEYS["exponent"].about, json_schema_extra={"minimum": 1.0}),
+    ] = 2.0
     harmonics: Annotated[
         Annotated[list[Wave], Field(min_length=1, max_length=MOST_HARMONICS)] | None,
         Field(description=KEYS["harmonics"].about),
+    ] = None
+    file: Annotated[str | None, Field(min_length=1, description=KEYS["file"].about)] = None
+    sha256: Annotated[str, Field(pattern="^[0-9a-f]{64}$", description=KEYS["sha256"].about)] = ""
+    terms: Annotated[int | None, Field(ge=1, le=MOST_HARMONICS, description=KEYS["terms"].about)] = None
+    up_to: Annotated[
+        float | None,
+        BeforeValidator(lambda value: si_value(value, "up_to")),
+        Field(description=KEYS["up_to"].about, json_schema_extra={"type": "string"}),
     ] = None
 
 

@@ -8,7 +8,7 @@ from typing import Any, Final
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from gradhesion.cli.keys import INPUTS, Path, keys_of
+from gradhesion.cli.keys import FILE_KEYS, INPUTS, Path, keys_of
 from gradhesion.cli.study.form import MOST_WAVES, Form
 from gradhesion.cli.study.places import dotted
 from gradhesion.cli.terminal.wording import did_you_mean, example, nearest
@@ -108,8 +108,8 @@ def _unknown_key(path: Path) -> tuple[Path, str]:
         **{(name,): keys_of(name) for name in ("parameters", "physical", "profile", "loading", "states", "method")},
     }
     table, key = path[:-1], str(path[-1])
-    home = "harmonics" if table[:1] == ("profile",) else "points" if table == ("parameters", "points") else "range"
-    known = tables.get(table, keys_of(home))
+    files = FILE_KEYS if table == ("parameters", "points") else ()
+    known = files or tables.get(table, keys_of("harmonics" if table[:1] == ("profile",) else "range"))
     for other, keys in tables.items():
         if other != table and key in keys:
             home = f"under [{dotted(other)}]" if other else "at the top, before the first [table]"
@@ -173,7 +173,7 @@ def _parameter_sentence(kind: str, value: object, path: Path) -> str:
 def _file_sentence(kind: str, path: Path) -> str:
     """Say what is wrong with the name of a file, or its fingerprint."""
     if path[-1] == "sha256":
-        return f"a sha256 has 64 digits from 0 to f; {example(path)}"
+        return "a sha256 has 64 digits from 0 to f; write that of the file, or leave it out"
     if kind == "missing":
         return f"the name of the file is required; {example(path)}"
     return f"this must be the name of a file in quotes; {example(path)}"
@@ -182,6 +182,10 @@ def _file_sentence(kind: str, path: Path) -> str:
 def _profile_sentence(kind: str, path: Path) -> str:
     """Say what is wrong with the shape of the punch."""
     last = path[-1]
+    if last in ("file", "sha256"):
+        return _file_sentence(kind, path)
+    if last == "terms":
+        return f"terms is the number of harmonics, an integer from 1 to {MOST_HARMONICS}; {example(path)}"
     if last == "exponent":
         return f"the power of the punch is a number of 1 or more, and finite (1 is a cone); {example(path)}"
     if last == "n":

@@ -25,16 +25,18 @@ def profile_of(table: ProfileTable) -> Profile:
     >>> profile_of(ProfileTable.model_validate({"harmonics": [{"n": 2, "sin": 0.5}]})).harmonics
     (Harmonic(n=2, cos=0.0, sin=0.5),)
     """
+    exponent = 2.0 if isinstance(table.exponent, str) else table.exponent  # of a file, which is fitted
     if table.harmonics is None:
-        return Profile(exponent=table.exponent)
+        return Profile(exponent=exponent)
     waves = (Harmonic(n=wave.n, cos=wave.cos, sin=wave.sin) for wave in table.harmonics)
-    return Profile(exponent=table.exponent, harmonics=tuple(waves))
+    return Profile(exponent=exponent, harmonics=tuple(waves))
 
 
 def mistakes_of_punch(checked: Checked, sound: Mapping[str, Values]) -> Iterator[Mistake]:
     """Check the profile, the control, and what is asked of them."""
     series = list(_mistakes_of_series(checked, sound))
     yield from series
+    yield from _mistakes_without_a_file(checked)
     yield from _mistakes_of_control(checked)
     yield from _mistakes_of_default_only(checked, sound_series=not series)
 
@@ -60,6 +62,19 @@ def _mistakes_of_series(checked: Checked, sound: Mapping[str, Values]) -> Iterat
         if sizes and max(sizes) == 0.0 and name in sound and np.any(np.asarray(sound[name]) > 0.0):
             sentence = f"all cos and sin are zero, so that {name} has no effect; give one a value, or use {name} = 0"
             yield Mistake(_SERIES, waves, sentence)
+
+
+def _mistakes_without_a_file(checked: Checked) -> Iterator[Mistake]:
+    """Check that what goes with a file stands beside one."""
+    table = checked.data.get("profile")
+    if not isinstance(table, Mapping) or "file" in table or ("profile", "file") in checked.meant:
+        return
+    for name in ("sha256", "terms", "up_to"):
+        if name in table and ("profile", name) not in checked.wrong:
+            yield Mistake(("profile", name), table[name], f"this goes with a file; add file, or remove {name}")
+    if table.get("exponent") == "fit":
+        sentence = "there is no file that it could be fitted to; add file, or write for example exponent = 2.0"
+        yield Mistake(("profile", "exponent"), "fit", sentence)
 
 
 def _mistakes_of_control(checked: Checked) -> Iterator[Mistake]:
@@ -89,7 +104,7 @@ def _mistakes_of_control(checked: Checked) -> Iterator[Mistake]:
 def _mistakes_of_default_only(checked: Checked, *, sound_series: bool) -> Iterator[Mistake]:
     """Check that another profile or control is asked for only where it is known."""
     form = checked.form
-    others = ["[profile]"] if sound_series and profile_of(form.profile) != Profile() else []
+    others = ["[profile]"] if sound_series and (form.profile.file or profile_of(form.profile) != Profile()) else []
     others += ["[loading]"] if form.loading.control in CONTROLS[1:] else []
     if not others:
         return

@@ -26,6 +26,20 @@ def shape_in_words(profile: Profile) -> str:
     return f"{own} + lambda A [{written}], x = r/lambda"
 
 
+def profile_table(profile: Profile) -> str:
+    """
+    Write the shape of a punch as the keys of a table [profile].
+
+    >>> print(profile_table(Profile(exponent=1.5)))
+    exponent  = 1.5
+    harmonics = [
+        { n = 1, cos = 1.0, sin = 0.0 },
+    ]
+    """
+    waves = "".join(f"    {{ n = {wave.n}, cos = {wave.cos!r}, sin = {wave.sin!r} }},\n" for wave in profile.harmonics)
+    return f"exponent  = {profile.exponent!r}\nharmonics = [\n{waves}]"
+
+
 def control_in_words(loading: Loading) -> str:
     """
     Say what is controlled.

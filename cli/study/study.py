@@ -21,6 +21,7 @@ from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.mistakes import checked
 from gradhesion.cli.study.points import Points, points_of
+from gradhesion.cli.study.profile_file import Measured, measured_in
 from gradhesion.cli.study.punch import profile_of
 from gradhesion.cli.study.roles import left_out
 from gradhesion.cli.study.rules import mistakes_between_keys
@@ -81,6 +82,8 @@ class Study:
     """Where the files are that it names."""
     points: Points = field(default_factory=Points)
     """The file with its scenes, and the parameters that are columns of it."""
+    measured: Measured = field(default_factory=Measured)
+    """The file with the heights of its punch, and the fit of them."""
 
     @property
     def in_si(self) -> tuple[str, ...]:
@@ -212,11 +215,12 @@ def study_from(
 def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = None) -> Study:
     """Check a study as a whole and expand it."""
     points = points_of(source.data, source.folder, columns)
-    found = checked(points.beside(source.data))
+    measured = measured_in(source.data, source.folder)
+    found = checked(measured.beside(points.beside(source.data)))
     sound, between = mistakes_between_keys(found, points)
     sentences = []
-    for mistake in (*points.mistakes, *found.mistakes, *between):
-        if mistake.value is None and points.unread:
+    for mistake in (*points.mistakes, *measured.mistakes, *found.mistakes, *between):
+        if mistake.value is None and (points.unread or (measured.unread and mistake not in measured.mistakes)):
             continue
         value = "" if mistake.value is None else f" = {wording.shown(mistake.value)}"
         sentences.append(f"{source.place(mistake.path)}: {places.dotted(mistake.path)}{value}: {mistake.sentence}")
@@ -238,6 +242,7 @@ def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = N
             values.flags.writeable = False
     solver = form.method.solver
     data, text = points.stored(source.data, source.text)
+    data, text = measured.stored(data, text)
     return Study(
         name=source.name,
         title=form.title or source.name,
@@ -248,13 +253,14 @@ def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = N
         method=Method(
             solver=solver if isinstance(solver, str) else tuple(solver), check_contact=form.method.check_contact
         ),
-        profile=profile_of(form.profile),
+        profile=measured.profile() or profile_of(form.profile),
         loading=Loading(control=form.loading.control),
         states=form.states.radii,
         text=text or toml_of(data),
         left_out=frozenset(absent.keys() - {"a_max", "a_max_over_R"}),
         folder=source.folder,
         points=points,
+        measured=measured,
     )
 
 

@@ -30,6 +30,7 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
     if "profile" in dataset.attrs:
         yield ""
         yield f"profile: {dataset.attrs['profile']}"
+        yield from _fit(dataset)
         yield f"control: {control_in_words(Loading(control=dataset.attrs.get('control', 'displacement')))}"
     yield from _parameters(dataset)
     yield from curves_told(dataset) if has_curves(dataset) else _outputs(dataset)
@@ -39,6 +40,14 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
         yield "outside the range of the model"
         yield from beyond
     yield from _origin(dataset)
+
+
+def _fit(dataset: xarray.Dataset) -> Iterator[str]:
+    """Tell which file a profile was fitted to, and how well."""
+    if "profile_residual_rms" in dataset.attrs:
+        rms, most = (1e9 * float(dataset.attrs[f"profile_residual_{name}"]) for name in ("rms", "max"))
+        file = dataset.attrs.get("profile_file", "a file")
+        yield f"  fitted to {file}: residual {rms:.3g} nm rms, {most:.3g} nm at most"
 
 
 def _coordinates(dataset: xarray.Dataset | xarray.DataArray) -> list[str]:

@@ -40,7 +40,7 @@ def versions() -> dict[str, Any]:
 
 def settings_of(study: Study) -> dict[str, Any]:
     """List all that a study asks for but its parameters; not what it is called, nor how it is written."""
-    aside = ("name", "title", "text", "parameters", "method", "left_out", "chunk", "folder", "points")
+    aside = ("name", "title", "text", "parameters", "method", "left_out", "chunk", "folder", "points", "measured")
     settings = {field.name: getattr(study, field.name) for field in fields(study) if field.name not in aside}
     return settings | {f"method.{name}": value for name, value in asdict(study.method).items()}
 

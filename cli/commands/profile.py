@@ -1,0 +1,60 @@
+"""`gradhesion profile`: measured heights of a punch as the profile of a study, with a picture of the fit."""
+
+from pathlib import Path
+
+import click
+
+from gradhesion.cli.commands.examples import example
+from gradhesion.cli.commands.plot import FORMS
+from gradhesion.cli.commands.written import say_written
+
+
+@click.command(epilog=example("profile tip.csv", 'profile tip.csv --up-to "2 um" --exponent fit > punch.toml'))
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("-o", "--output", type=click.Path(path_type=Path), help="Picture: .png, .svg or .pdf [FILE.png].")
+@click.option("--terms", type=int, default=16, show_default=True, help="Harmonics to fit.")
+@click.option("--exponent", default="2.0", show_default=True, help='The power of the punch, or "fit" to find it.')
+@click.option("--up-to", metavar="LENGTH", help='Distance from the centre to fit up to, as "2 um" [all of it].')
+@click.option("--overwrite", is_flag=True, help="Replace an existing picture.")
+@click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
+def profile(
+    file: Path, output: Path | None, terms: int, exponent: str, up_to: str | None, overwrite: bool, quiet: bool
+) -> None:
+    """Fit the profile of a punch to measured heights.
+
+    FILE is a table (CSV or NetCDF) with the columns r and height, their units in the header, as r [um]. A power and a
+    Fourier series are fitted; the tables of a study that has them are printed, and a picture shows the fit.
+    """
+    path = output or file.with_suffix(".png")
+    form = path.suffix[1:].lower()
+    if form not in FORMS:
+        raise click.UsageError(f"{path}: the name of a picture ends in .png, .svg or .pdf; name another with -o")
+    from gradhesion.cli.disk import replacement, writing
+    from gradhesion.cli.errors import StudyError
+    from gradhesion.cli.picture.pictured import save
+    from gradhesion.cli.picture.profile_picture import drawn_profile
+    from gradhesion.cli.study.profile_file import exponent_of, fitted, read_profile
+    from gradhesion.cli.study.quantities import si_value
+    from gradhesion.cli.terminal.output import show_block
+    from gradhesion.cli.words.profile_words import tables_of
+
+    try:
+        reach = None if up_to is None else si_value(up_to, "up_to")
+    except ValueError as error:
+        raise click.UsageError(f"--up-to {up_to}: {error}") from None
+    try:
+        power = exponent_of(exponent)
+    except ValueError as error:
+        raise click.UsageError(f"--exponent {exponent}: {error}") from None
+    with replacement(path, overwrite=overwrite) as temporary:
+        try:
+            r, heights, _, dropped = read_profile(file)
+            fit = fitted(r, heights, up_to=reach, terms=terms, exponent=power)
+        except ValueError as error:
+            raise StudyError(f"{file}: {error}") from None
+        with writing(path):
+            save(drawn_profile(fit, file.name), temporary, form)
+    show_block(tables_of(fit, file, terms, power))
+    if not quiet:
+        rows = "row was" if dropped == 1 else "rows were"
+        say_written(path, [f"{file}: {dropped:,} {rows} left out, without two numbers"] if dropped else [])

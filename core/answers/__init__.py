@@ -1,0 +1,1 @@
+"""Answers that take many scenes, or a search: arrays in, arrays out."""

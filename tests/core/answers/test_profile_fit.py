@@ -1,0 +1,153 @@
+"""Fitted profiles: exact ones come back to rounding, noisy ones within their errors, and the residual is the noise."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gradhesion.core.answers.profile_fit import FittedProfile, fit_profile
+from gradhesion.core.profile import MOST_HARMONICS
+
+EPS = np.finfo(float).eps
+
+
+def heights(rho: Any, m: float, R: float, wavelength: float, cosines: Any, sines: Any) -> Any:
+    """The profile itself, wave by wave."""
+    total = rho**m / (m * R ** (m - 1.0))
+    for n, (c, s) in enumerate(zip(cosines, sines, strict=True), 1):
+        phase = 2.0 * np.pi * n * rho / wavelength
+        total = total + c * (1.0 - np.cos(phase)) + s * np.sin(phase)
+    return total
+
+
+PUNCH = {"m": 2.37, "R": 1.7, "wavelength": 0.193, "cosines": [0.004, -0.0011, 0.0], "sines": [0.0013, 0.0, 0.0007]}
+
+
+def drawn(
+    noise: float = 0.0, seed: int = 1, *, both: bool = True, points: int = 1500, **changes: Any
+) -> tuple[Any, Any]:
+    """A measured line: over both flanks with its centre at 0.031, or over one from the axis on."""
+    r = np.linspace(-1.15, 1.1, points) if both else np.linspace(0.0, 1.1, points)
+    rho = np.abs(r - 0.031 * both)
+    return r, 5.2 + heights(rho, **(PUNCH | changes)) + noise * np.random.default_rng(seed).standard_normal(r.size)
+
+
+@pytest.mark.parametrize("both", [True, False])
+@pytest.mark.parametrize("exponent", [None, 2.37])
+def test_an_exact_profile_comes_back(both: bool, exponent: float | None) -> None:
+    found = fit_profile(*drawn(both=both), up_to=1.0, terms=3, exponent=exponent)
+    assert found.exponent == pytest.approx(PUNCH["m"], rel=1e-11)
+    assert found.radius == pytest.approx(PUNCH["R"], rel=1e-11)
+    assert found.wavelength == pytest.approx(PUNCH["wavelength"], rel=1e-12)
+    assert found.centre == pytest.approx(0.031 * both, abs=1e-12)
+    assert found.height == pytest.approx(5.2, rel=1e-13)
+    np.testing.assert_allclose(found.cosines, PUNCH["cosines"], atol=1e-13)
+    np.testing.assert_allclose(found.sines, PUNCH["sines"], atol=1e-13)
+    assert found.residual_max < 64 * EPS * 6.0, "rounding of the heights"
+
+
+def pulls(found: FittedProfile, both: bool) -> list[float]:
+    """What was found less what is, over the errors."""
+    true = {"exponent": PUNCH["m"], "radius": PUNCH["R"], "wavelength": PUNCH["wavelength"], "height": 5.2}
+    true |= {"centre": 0.031} if both else {}
+    own = [(getattr(found, name) - value) / found.errors[name] for name, value in true.items() if found.errors[name]]
+    for name in ("cosines", "sines"):
+        padded = np.pad(PUNCH[name], (0, getattr(found, name).size - 3))
+        own += list((getattr(found, name) - padded) / found.errors[name])
+    return own
+
+
+@pytest.mark.parametrize("exponent", [None, 2.37])
+def test_with_noise_everything_is_within_its_errors_and_the_residual_is_the_noise(exponent: float | None) -> None:
+    """Over 24 draws: the squares of errors in units of their standard deviations have the mean 1."""
+    noise, squares, residuals = 3e-4, [], []
+    for seed in range(24):
+        both = bool(seed % 2)
+        found = fit_profile(*drawn(noise, seed, both=both), up_to=1.0, terms=5, exponent=exponent)
+        squares += [pull**2 for pull in pulls(found, both)]
+        residuals.append(found.residual_rms / noise)
+    spread = math.sqrt(2.0 / len(squares)) * 2.0  # of a mean of squares; those of one fit are not independent
+    assert abs(np.mean(squares) - 1.0) < 3.0 * spread
+    assert max(squares) < 25.0, "none is five standard deviations away"
+    assert np.mean(residuals) == pytest.approx(1.0, abs=0.02), "but for the dozen of coefficients of 1,300 points"
+
+
+def test_the_shortest_period_that_fits_is_taken() -> None:
+    found = fit_profile(*drawn(2e-4), up_to=1.0, terms=16, exponent=2.37)
+    assert found.wavelength == pytest.approx(PUNCH["wavelength"], rel=1e-3), (
+        "and not a multiple, whose series holds it too"
+    )
+
+
+@pytest.mark.parametrize("wavelength", [0.02, 0.0618, 0.41, 0.77])
+def test_short_and_long_waves(wavelength: float) -> None:
+    found = fit_profile(*drawn(1e-4, both=False, wavelength=wavelength), up_to=1.0, terms=4, exponent=2.37)
+    assert found.wavelength == pytest.approx(wavelength, abs=5 * found.errors["wavelength"])
+
+
+def test_waves_that_never_repeat_fill_the_radius() -> None:
+    r = np.linspace(0.0, 1.0, 900)
+    rough = r**2 / 3.4 + 0.003 * np.cos(31.7 * r**2) + 0.002 * np.sin(11.3 * r)
+    found = fit_profile(r, rough, terms=30)
+    assert 0.3 < found.wavelength <= 1.0
+    assert found.residual_rms < 0.2 * np.std(rough - r**2 / 3.4)
+
+
+def test_the_profile_has_its_largest_harmonic_as_unit() -> None:
+    found = fit_profile(*drawn(), up_to=1.0, terms=3, exponent=2.37)
+    waves = found.profile.harmonics
+    assert max(math.hypot(wave.cos, wave.sin) for wave in waves) == pytest.approx(1.0, rel=4 * EPS)
+    assert waves[1].cos * found.amplitude == pytest.approx(PUNCH["cosines"][1], rel=1e-9)
+    rho = np.linspace(0.0, 1.0, 50)
+    np.testing.assert_allclose(found.heights(rho), heights(rho, **PUNCH), atol=1e-12)
+
+
+def test_units_do_not_matter() -> None:
+    r, h = drawn(1e-4)
+    one, other = (fit_profile(scale * r, scale * h, up_to=scale, terms=3, exponent=None) for scale in (1.0, 1e-6))
+    for name in ("radius", "wavelength", "centre", "amplitude", "residual_rms"):
+        assert getattr(other, name) == pytest.approx(1e-6 * getattr(one, name), rel=1e-6)
+    assert other.errors["radius"] == pytest.approx(1e-6 * one.errors["radius"], rel=1e-5)
+    assert other.exponent == pytest.approx(one.exponent, rel=1e-7)
+
+
+def test_many_points_are_searched_by_few() -> None:
+    found = fit_profile(*drawn(3e-4, points=40_000), up_to=1.0, terms=3, exponent=None)
+    assert max(abs(pull) for pull in pulls(found, both=True)) < 4.5
+
+
+def test_a_smooth_punch_has_waves_of_the_size_of_the_noise() -> None:
+    r = np.linspace(0.0, 1.0, 800)
+    h = r**2 / 3.4 + 1e-4 * np.random.default_rng(5).standard_normal(r.size)
+    found = fit_profile(r, h, terms=4)
+    assert found.radius == pytest.approx(1.7, rel=1e-2)
+    assert found.amplitude < 1e-4
+
+
+R = np.linspace(0.0, 1.0, 200)
+WRONG = {
+    "too few": ((R[:9], R[:9] ** 2), {}, "too few for 16 terms"),
+    "too few inside": ((R, R**2), {"up_to": 0.1}, "use fewer terms or a larger up_to"),
+    "falls": ((R, -(R**2)), {"terms": 2}, "reverse its sign"),
+    "no function": ((np.append(R, 0.5025125628140703), np.append(R**2, 0.7)), {}, "not a function of r: r = 0.502513"),
+    "nan": ((R, np.where(R > 0.5, np.nan, R)), {}, "finite"),
+    "lengths": ((R, R[1:]), {}, "one length"),
+    "terms": ((R, R**2), {"terms": 0}, f"1 to {MOST_HARMONICS} terms"),
+    "exponent": ((R, R**2), {"exponent": 1.0}, "above 1"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_what_cannot_be_fitted_is_refused(name: str) -> None:
+    arrays, settings, words = WRONG[name]
+    with pytest.raises(ValueError, match=r"\w") as caught:
+        fit_profile(*arrays, **settings)
+    assert words in str(caught.value)
+
+
+def test_the_same_point_twice_counts_once() -> None:
+    r, h = drawn()
+    one = fit_profile(r, h, up_to=1.0, terms=3)
+    other = fit_profile(np.concatenate([r, r[::7]]), np.concatenate([h, h[::7]]), up_to=1.0, terms=3)
+    assert other.radius == one.radius
