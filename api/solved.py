@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.dataset import attributes, variables
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import SI, SOLVER, UNITS
+from gradhesion.cli.names import REALISATION, SI, SOLVER, UNITS
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.work.scenes import solve
+from gradhesion.cli.work.blocks import solved_by
 from gradhesion.core import PARAMETERS
 from gradhesion.core.reduced import parameters_from, scales_in_si, sources_of
 
@@ -41,16 +41,22 @@ def solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarr
     found = _outputs(study, scenes, threads)
     if study.in_si:
         scales = scales_in_si(arrays["R"], arrays["work_of_adhesion"])
+        if study.spectrum is not None:
+            scales = {unit: scale[..., None] for unit, scale in scales.items()}
         found |= {name + SI: found[name] * scales[UNITS[name]] for name in study.in_si}
     described = variables(study)
-    beside = " ".join(name for name in described if name not in found and name not in (*dims, SOLVER))
+    beside = " ".join(name for name in described if name not in found and name not in (*dims, SOLVER, REALISATION))
     made = {}
     for name, variable in described.items():
         own, values = dims, found.get(name)
         given = {**variable.attributes}
         given.pop("coordinates", None)
         if values is not None:
-            own = (SOLVER, *dims) if SOLVER in described else dims
+            own = (
+                *(one for one in (SOLVER,) if one in described),
+                *dims,
+                *(one for one in (REALISATION,) if one in described),
+            )
             given |= {"coordinates": beside} if beside else {}
         elif name in parameters:
             own = tuple(dim for dim in dims if dim in parameters[name].dims)
@@ -60,7 +66,7 @@ def solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarr
             own = tuple(dim for dim in dims if any(dim in source.dims for source in sources))
             values = scenes[name].reshape([size for dim, size in _sizes(parameters, dims).items() if dim in own])
         else:
-            own, values = (SOLVER,), variable.values
+            own, values = variable.dimensions, variable.values
         blank = {} if variable.blank is None else {"_FillValue": np.asarray(values).dtype.type(variable.blank)}
         made[name] = xarray.Variable(own, values, given | blank)
     about = attributes(study, "computed in memory")
@@ -96,12 +102,11 @@ def _sizes(parameters: Arrays, dims: tuple[str, ...]) -> dict[str, int]:
 def _outputs(study: Study, scenes: Mapping[str, NDArray[np.float64]], threads: int | None) -> dict[str, NDArray[Any]]:
     """Solve the scenes, by one solver or by each of several."""
     settings: dict[str, Any] = {"check_contact": study.method.check_contact, "threads": threads}
-    settings |= {"profile": study.profile, "loading": study.loading}
+    settings |= {"loading": study.loading}
     solvers = study.method.solver
-    if isinstance(solvers, str):
-        return solve(scenes, study.outputs, solver=solvers, **settings)
-    found = [solve(scenes, study.outputs, solver=solver, **settings) for solver in solvers]
-    return {name: np.stack([values[name] for values in found]) for name in found[0]}
+    asked = (solvers,) if isinstance(solvers, str) else solvers
+    *_, profiles = study.apart(tuple(slice(0, size) for size in study.shape))
+    return solved_by(scenes, study, asked, profiles, **settings)
 
 
 def _other_coordinates(parameters: Arrays, dataset: xarray.Dataset) -> dict[str, xarray.DataArray]:

@@ -379,6 +379,32 @@ _SETTINGS: Final = (
         bounds=_POSITIVE,
     ),
     Key(
+        name="spectrum",
+        table="profile",
+        about="random self-affine waves in the place of harmonics: A is then their rms height over lambda",
+        example="spectrum = { hurst = 0.8, first = 1, last = 32, realisations = 100, seed = 1 }",
+    ),
+    Key(
+        name="hurst",
+        table="spectrum",
+        about="Hurst exponent H: the amplitudes of the waves n fall as n^-(H + 1/2)",
+        example="hurst = 0.8",
+    ),
+    Key(
+        name="first",
+        table="spectrum",
+        about="number of the longest wave: its wavelength is lambda/first",
+        example="first = 1",
+    ),
+    Key(name="last", table="spectrum", about="number of the shortest wave", example="last = 32"),
+    Key(
+        name="realisations",
+        table="spectrum",
+        about="how many profiles are drawn: the last dimension of the dataset",
+        example="realisations = 100",
+    ),
+    Key(name="seed", table="spectrum", about="what the phases of the waves follow from", example="seed = 1"),
+    Key(
         name="harmonics",
         table="profile",
         about="waves of the series [one cosine]",

@@ -248,6 +248,7 @@ SYMBOLS: Final = {
     "saturation_radius_si": "saturation radius $a$",
     "status": "status",
     "solver": "solver",
+    "realisation": "realisation",
 }
 """Every variable as a picture names it."""
 
@@ -256,6 +257,12 @@ SCENE: Final = "scene"
 
 SOLVER: Final = "solver"
 """The first dimension of a dataset with several solvers."""
+
+REALISATION: Final = "realisation"
+"""The last dimension of the scenes of random roughness."""
+
+REALISATIONS: Final = "realisation of the random roughness"
+"""The `long_name` of `realisation`."""
 
 REFERENCES: Final = (
     "Jin, Guo & Wan (2013), Mechanics of axisymmetric adhesive contact of rough surfaces involving power-law graded "

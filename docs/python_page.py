@@ -25,7 +25,12 @@ NAMES: Final = {
 SECTIONS: Final = re.compile(r"^([A-Z][a-z]+)\n-{3,}\n", re.MULTILINE)
 """The heads of the sections of a docstring."""
 
-ANSWERS: Final = (("profile_fit", "fit_profile"), ("profile_fit", "FittedProfile"))
+ANSWERS: Final = (
+    ("profile_fit", "fit_profile"),
+    ("profile_fit", "FittedProfile"),
+    ("spectrum", "Spectrum"),
+    ("spectrum", "random_profile"),
+)
 """Functions of `core.answers`, by their modules."""
 
 

@@ -47,6 +47,8 @@ def _sections() -> Iterator[str]:
     yield from _of_table("profile", tables["profile"])
     yield "The formula is under [other punches and machines](../punches.md). Each item of `harmonics`:"
     yield table(HEADS, _rows(schema["$defs"]["Wave"]))
+    yield "The table `spectrum` ([random roughness](../measured.md#random-roughness)):"
+    yield table(HEADS, _rows(schema["$defs"]["SpectrumTable"]))
     yield from _of_table("loading", tables["loading"])
     yield from _of_table("states", tables["states"])
     yield from _of_table("method", tables["method"])

@@ -18,7 +18,7 @@ PICTURES: Final[dict[str, Callable[..., None]]] = {
 }
 """What draws each picture into the axes that it is given: one, or as many as it has panels."""
 
-PANELS: Final = {"fig4a": 3, "fig9": 2}
+PANELS: Final = {"fig4a": 3, "fig9": 2, "extra_roughness": 2}
 """The pictures of several panels, side by side."""
 
 UNDATED: Final = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}

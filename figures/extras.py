@@ -1,5 +1,6 @@
-"""Pictures that are not the paper's: amplitudes, the rim, and the energy over amplitude and wavelength."""
+"""Pictures that are not the paper's: amplitudes, the rim, energies over amplitude and wavelength, random roughness."""
 
+import tomllib
 from functools import partial
 
 import numpy as np
@@ -9,6 +10,7 @@ from matplotlib.axes import Axes
 from figures.curves import draw_equilibrium, dress
 from figures.fig4 import draw_lines, ends_of
 from figures.style import AMPLITUDE, DASHES, ENERGY, FORCE, INK, RIM, WAVELENGTH, key, shades
+from gradhesion.core.answers.spectrum import Spectrum
 
 LABELS = {"A": AMPLITUDE, "lambda_over_R": WAVELENGTH}
 FIXED = {"A": (r"\lambda/R", "lambda_over_R"), "lambda_over_R": ("A", "A")}
@@ -84,10 +86,26 @@ def contours(axes: Axes, dataset: xarray.Dataset) -> None:
     axes.legend(handles=handles, loc="upper center", title=ENERGY, ncols=4, columnspacing=1.0)
 
 
+def roughness(force: Axes, energy: Axes, dataset: xarray.Dataset) -> None:
+    """Draw force and energy over the rms slope of random roughness: the mean, and a band of nine tenths."""
+    written = tomllib.loads(dataset.attrs["study"])["profile"]["spectrum"]
+    slope = Spectrum(**written).rms_slope * dataset["A"].values
+    for axes, name, label in ((force, "pull_off_force", FORCE), (energy, "dissipated_energy", ENERGY)):
+        for k, colour, dash in zip(dataset["k"].values, shades(3)[::2], DASHES[:2], strict=True):
+            values = dataset[name].sel(k=k)
+            low, high = (values.quantile(share, "realisation") for share in (0.05, 0.95))
+            axes.fill_between(slope, low, high, color=colour, alpha=0.2, lw=0)
+            axes.plot(slope, values.mean("realisation"), color=colour, ls=dash, label=f"$k = {k:g}$")
+        axes.set(xlabel=r"rms slope $\sqrt{\langle f_2'^2\rangle}$", ylabel=label, xlim=(0.0, slope.max()))
+        axes.set_ylim(bottom=0.0)
+        axes.legend(loc="upper left")
+
+
 PICTURES = {
     "extra_amplitudes": amplitudes,
     "extra_rim": rims,
     "extra_energy_map": contours,
     "extra_energy_amplitude": partial(energies, x="A"),
     "extra_energy_wavelength": partial(energies, x="lambda_over_R"),
+    "extra_roughness": roughness,
 }

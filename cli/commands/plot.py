@@ -21,7 +21,9 @@ FORMS: Final = ("png", "svg", "pdf")
 @click.option("--variable", "variables", multiple=True, metavar="NAME", help="Variable to draw; repeatable.")
 @click.option("--at", multiple=True, metavar="AXIS=VALUE", help="Fix an axis at its nearest value; repeatable.")
 @click.option("--interpolate", is_flag=True, help="Interpolate to the value of --at instead.")
-@click.option("--over", multiple=True, metavar="AXIS=HOW", help="Reduce an axis: max, min, mean, argmax or argmin.")
+@click.option(
+    "--over", multiple=True, metavar="AXIS=HOW", help="Reduce an axis: max, min, mean, p05, p50, p95, argmax, argmin."
+)
 @click.option("--x", metavar="AXIS", help="Horizontal axis; of curves contact_radius, indentation or load.")
 @click.option("--y", metavar="AXIS", help="Vertical axis of a map, or the axis with a line for each value.")
 @click.option("--lines", "kind", flag_value="lines", help="Draw lines, even if an axis has many values.")

@@ -1,7 +1,7 @@
 """The coordinates of a study's dataset: its solvers, if there are several, and the parameters of its scenes."""
 
 from functools import partial
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,13 @@ from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
 from gradhesion.cli.work.blocks import scenes_of
 
+RMS: Final = {
+    "A": "rms height over wavelength of the random waviness",
+    "amplitude": "rms height A lambda of the random waviness",
+    "chi": "roughness parameter chi = r/s of one cosine as high as the rms height of the random waviness",
+}
+"""What the amplitude is of random roughness."""
+
 
 def coordinates(study: Study) -> dict[str, Variable]:
     """Describe the coordinates of a study's dataset."""
@@ -25,12 +32,21 @@ def coordinates(study: Study) -> dict[str, Variable]:
         described[names.SOLVER] = Variable(
             dimensions=(names.SOLVER,), dtype="str", attributes={"long_name": names.SOLVERS}, values=solvers
         )
+    if study.spectrum is not None:
+        described[names.REALISATION] = Variable(
+            dimensions=(names.REALISATION,),
+            dtype="i4",
+            attributes={"units": "1", "long_name": names.REALISATIONS},
+            values=np.arange(study.spectrum.realisations, dtype=np.int32),
+        )
     if any(names.is_of_a_state(name) for name in study.outputs):
         described[names.STATE] = _states(study)
     for name, key in INPUTS.items():
         attributes = {"units": key.unit, "long_name": key.about}
         if name in study.left_out:
             attributes["comment"] = f"without effect where {ABSENT[name][1]}; the study leaves it out"
+        if study.spectrum is not None:
+            attributes["long_name"] = RMS.get(name, key.about)
         if name in study.points.columns:
             attributes["comment"] = COMMENT + study.points.file
         if name in study.parameters:

@@ -63,7 +63,7 @@ def attributes(study: Study, history: str) -> dict[str, Any]:
         "source": f"gradhesion {version('gradhesion')}",
         "history": history,
         "references": names.REFERENCES,
-        "profile": shape_in_words(study.profile),
+        "profile": shape_in_words(study.profile, study.spectrum),
         **_of_fit(study),
         "control": study.loading.control,
         "study": study.text,

@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.belonging import study_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import SI, SOLVER
+from gradhesion.cli.names import REALISATION, SI, SOLVER
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.core import FAILED, PARAMETERS
+from gradhesion.core.answers.spectrum import random_profile
 from gradhesion.core.status import CLOSE_TO_A_JUMP, NO_VALUE
 from gradhesion.twin import stated
 from gradhesion.twin.general import Shape
@@ -36,6 +37,8 @@ class Scene:
     solver: str
     parameters: Mapping[str, float]
     place: Mapping[str, float | str]
+    realisation: int = 0
+    """Which punch of random roughness."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,12 +109,11 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
         *(name for name in study.outputs if name not in outputs and not name.endswith("_error")),
         *(f"all of the solver {solver}" for solver in asked if solver not in known),
     )
-    shape = shape_of(study)
-    scenes = _drawn(dataset, study, shape, outputs, sample, found)
+    scenes = _drawn(dataset, study, outputs, sample, found)
     scenes.sort(key=lambda scene: scene.parameters["k"])  # scenes of one exponent share what is known of it
     with progress(len(scenes)) as advance:
         for scene in scenes:
-            found.deviations += _compared(dataset, scene, shape, outputs, found)
+            found.deviations += _compared(dataset, scene, shape_of(study, scene.realisation), outputs, found)
             advance(1)
     if not found.deviations:
         raise DatasetError(
@@ -122,14 +124,16 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
     return found
 
 
-def shape_of(study: Study) -> Shape:
-    """Report the twin what the shape of the punch is, and what is prescribed."""
-    harmonics = tuple((wave.n, wave.cos, wave.sin) for wave in study.profile.harmonics)
+def shape_of(study: Study, realisation: int = 0) -> Shape:
+    """Give the reference solver the shape of the punch, and what is prescribed."""
+    drawn = study.spectrum
+    profile = study.profile if drawn is None else random_profile(drawn, realisation, study.profile.exponent)
+    harmonics = tuple((wave.n, wave.cos, wave.sin) for wave in profile.harmonics)
     return Shape(exponent=study.profile.exponent, harmonics=harmonics, control=study.loading.control)
 
 
 def _drawn(
-    dataset: xarray.Dataset, study: Study, shape: Shape, outputs: Collection[str], sample: int, found: Recomputed
+    dataset: xarray.Dataset, study: Study, outputs: Collection[str], sample: int, found: Recomputed
 ) -> list[Scene]:
     """Draw scenes until `sample` of them have values that can be recomputed."""
     coordinates = {name: dataset[name].values for name in study.parameters}
@@ -146,7 +150,7 @@ def _drawn(
                 found.deviations += _without_value(dataset, scene, study.variables)
         elif missing := [name for name in PARAMETERS if math.isnan(scene.parameters[name])]:
             found.deviations += [_unlike(scene, name, math.nan, "a value, by its status") for name in missing]
-        elif _is_within_reach(scene, shape, outputs):
+        elif _is_within_reach(scene, shape_of(study, scene.realisation), outputs):
             scenes.append(scene)
         else:
             found.beyond += 1
@@ -168,7 +172,8 @@ def _scene(
     known: tuple[str, ...],
 ) -> Scene:
     """Find the cell of a number below that of all scenes of the known solvers."""
-    which, rest = divmod(candidate, math.prod(study.axes.values()))
+    of_punch, realisation = divmod(candidate, study.sizes.get(REALISATION, 1))
+    which, rest = divmod(of_punch, math.prod(study.axes.values()))
     index: Index = np.unravel_index(rest, tuple(study.axes.values()))
     along = dict(zip(study.axes, index, strict=True))
     if study.layout == "points":
@@ -186,7 +191,9 @@ def _scene(
     if SOLVER in study.sizes:
         place = {SOLVER: known[which], **place}
         index = (study.method.solver.index(known[which]), *index)
-    return Scene(index=index, solver=known[which], parameters=parameters, place=place)
+    if REALISATION in study.sizes:
+        place, index = {**place, REALISATION: realisation}, (*index, realisation)
+    return Scene(index=index, solver=known[which], parameters=parameters, place=place, realisation=realisation)
 
 
 def _without_value(dataset: xarray.Dataset, scene: Scene, outputs: Collection[str]) -> Iterator[Deviation]:

@@ -8,7 +8,10 @@ import xarray
 
 from gradhesion.core import FAILED
 
-REDUCTIONS: Final = ("max", "min", "mean", "argmax", "argmin")
+QUANTILES: Final = {"p05": 0.05, "p50": 0.5, "p95": 0.95}
+"""The quantiles that an axis may be reduced to, by what they are called."""
+
+REDUCTIONS: Final = ("max", "min", "mean", *QUANTILES, "argmax", "argmin")
 """How an axis may be reduced; the last two give the place of the extreme."""
 
 
@@ -83,15 +86,17 @@ def reduced(
     """
     Reduce an axis to an extreme, its place, or the mean of its items; what has no value (NaN) is left out.
 
-    The status is that of the scene of the extreme, or has the flags of all scenes of the mean.
+    The status is that of the scene of the extreme, or has the flags of all scenes of a mean or of a quantile.
     """
     coordinate = values[axis]
     going = [name for name in values.coords if axis in values[name].dims]
     values, status = (one.drop_vars([name for name in going if name in one.coords]) for one in (values, status))
     there = values.notnull()
-    if how == "mean":
+    if how == "mean" or how in QUANTILES:
         flags = status.where(there, 0).astype(status.dtype).reduce(np.bitwise_or.reduce, axis)
-        return values.mean(axis, skipna=True, keep_attrs=True), flags
+        if how == "mean":
+            return values.mean(axis, skipna=True, keep_attrs=True), flags
+        return values.quantile(QUANTILES[how], axis, skipna=True, keep_attrs=True).drop_vars("quantile"), flags
     place = values.fillna(-np.inf).argmax(axis) if how.endswith("max") else values.fillna(np.inf).argmin(axis)
     found = there.any(axis)
     flags = status.isel({axis: place}).where(found, 0).astype(status.dtype)

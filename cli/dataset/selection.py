@@ -85,7 +85,8 @@ def selection_of(
         log-spaced). Values of an axis with a unit are in SI, or have one: "R=2 um". Of a dataset of points the
         scenes with the nearest value stay.
     over
-        An axis is reduced by "max", "min", "mean", or to the place of the extreme, "argmax" or "argmin".
+        An axis is reduced by "max", "min", "mean", a quantile ("p05", "p50", "p95"), or to the place of the extreme,
+        "argmax" or "argmin".
     interpolate
         Whether `at` interpolates, linearly in the axis or in its logarithm, instead of taking the nearest value.
 
@@ -108,7 +109,7 @@ def selection_of(
         values = np.asarray(dataset[axis].values, dtype=float)
         value = _checked(option, values, axis, _number(option, axis, text))
         nearest = _nearest(values, value)
-        if points:
+        if points and axis not in dataset["status"].dims:
             if interpolate:
                 raise DatasetError(f"{option}: points cannot be interpolated; leave --interpolate out")
             same = np.flatnonzero(values == values[nearest])
@@ -154,7 +155,7 @@ def _reductions(dataset: xarray.Dataset, over: Sequence[str], named: set[str]) -
     for option, axis, how in _wishes("--over", over, "AXIS=max"):
         check_axis(dataset, option, axis)
         _check_once(option, axis, named)
-        if SCENE in dataset["status"].dims:
+        if SCENE in dataset["status"].dims and axis not in dataset["status"].dims:
             raise DatasetError(f"{option}: points have no axes to reduce; choose some of them with --at")
         if axis == SOLVER:
             raise DatasetError(f"{option}: solvers are not reduced; choose one with --at solver=NAME")

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.dataset.curve_variables import variables_of_curves
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import EXTENTS, OUTPUTS, RAGGED, SCENE, SI, SOLVER, STATE, STATE_CURVES
+from gradhesion.cli.names import EXTENTS, OUTPUTS, RAGGED, REALISATION, SCENE, SI, SOLVER, STATE, STATE_CURVES
 from gradhesion.core.loading_control import CONTROLS
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ def _of_axes(dataset: "xarray.Dataset") -> Iterator[str]:
     """Say which parameters or outputs have other axes than the scenes."""
     axes = dataset["status"].dims
     for axis in axes:
-        if axis in (*INPUTS, SOLVER) and (axis not in dataset.coords or dataset[axis].dims != (axis,)):
+        if axis in (*INPUTS, SOLVER, REALISATION) and (axis not in dataset.coords or dataset[axis].dims != (axis,)):
             yield f"the axis {axis} has no values of its own"
     for name, key in INPUTS.items():
         if name not in dataset.variables:

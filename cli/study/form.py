@@ -20,6 +20,9 @@ MOST_WAVES: Final = 10_000
 """The shortest wave of a series, in waves a wavelength: beyond it hardly any scene can be followed."""
 
 
+MOST_REALISATIONS: Final = 100_000
+"""Profiles of one study: each is solved by itself."""
+
 MOST_STATES: Final = 100
 """States of one study: their curves are for looking at."""
 
@@ -88,6 +91,16 @@ def _exponent(value: object) -> object:
     )
 
 
+class SpectrumTable(Table):
+    """Random self-affine roughness."""
+
+    hurst: Annotated[float, Field(ge=0.0, le=1.0, description=KEYS["hurst"].about)]
+    first: Annotated[int, Field(ge=1, le=MOST_WAVES, description=KEYS["first"].about)] = 1
+    last: Annotated[int, Field(ge=1, le=MOST_WAVES, description=KEYS["last"].about)]
+    realisations: Annotated[int, Field(ge=1, le=MOST_REALISATIONS, description=KEYS["realisations"].about)] = 1
+    seed: Annotated[int, Field(ge=0, lt=2**63, description=KEYS["seed"].about)] = 0
+
+
 class ProfileTable(Table):
     """The shape of the punch."""
 
@@ -100,6 +113,7 @@ class ProfileTable(Table):
         Annotated[list[Wave], Field(min_length=1, max_length=MOST_HARMONICS)] | None,
         Field(description=KEYS["harmonics"].about),
     ] = None
+    spectrum: Annotated[SpectrumTable | None, Field(description=KEYS["spectrum"].about)] = None
     file: Annotated[str | None, Field(min_length=1, description=KEYS["file"].about)] = None
     sha256: Annotated[str, Field(pattern="^[0-9a-f]{64}$", description=KEYS["sha256"].about)] = ""
     terms: Annotated[int | None, Field(ge=1, le=MOST_HARMONICS, description=KEYS["terms"].about)] = None

@@ -9,7 +9,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from gradhesion.cli.keys import FILE_KEYS, INPUTS, Path, keys_of
-from gradhesion.cli.study.form import MOST_WAVES, Form
+from gradhesion.cli.study.form import MOST_REALISATIONS, MOST_WAVES, Form
 from gradhesion.cli.study.places import dotted
 from gradhesion.cli.terminal.wording import did_you_mean, example, nearest
 from gradhesion.core.profile import MOST_HARMONICS
@@ -109,7 +109,8 @@ def _unknown_key(path: Path) -> tuple[Path, str]:
     }
     table, key = path[:-1], str(path[-1])
     files = FILE_KEYS if table == ("parameters", "points") else ()
-    known = files or tables.get(table, keys_of("harmonics" if table[:1] == ("profile",) else "range"))
+    inner = "spectrum" if table == ("profile", "spectrum") else "harmonics" if table[:1] == ("profile",) else "range"
+    known = files or tables.get(table, keys_of(inner))
     for other, keys in tables.items():
         if other != table and key in keys:
             home = f"under [{dotted(other)}]" if other else "at the top, before the first [table]"
@@ -179,11 +180,28 @@ def _file_sentence(kind: str, path: Path) -> str:
     return f"this must be the name of a file in quotes; {example(path)}"
 
 
+def _spectrum_sentence(kind: str, path: Path) -> str:
+    """Say what is wrong with random roughness."""
+    last = str(path[-1])
+    allowed = {
+        "hurst": "the Hurst exponent is a number from 0 to 1",
+        "first": f"the longest wave is an integer from 1 to {MOST_WAVES:,}",
+        "last": f"the shortest wave is an integer from 1 to {MOST_WAVES:,}",
+        "realisations": f"the number of profiles is an integer from 1 to {MOST_REALISATIONS:,}",
+        "seed": "the seed is an integer of 0 or more",
+    }
+    if kind == "missing":
+        return f"a spectrum needs this key; {example(path)}"
+    return f"{allowed.get(last, 'this must be a table')}; {example(path)}"
+
+
 def _profile_sentence(kind: str, path: Path) -> str:
     """Say what is wrong with the shape of the punch."""
     last = path[-1]
     if last in ("file", "sha256"):
         return _file_sentence(kind, path)
+    if path[1] == "spectrum":
+        return _spectrum_sentence(kind, path)
     if last == "terms":
         return f"terms is the number of harmonics, an integer from 1 to {MOST_HARMONICS}; {example(path)}"
     if last == "exponent":

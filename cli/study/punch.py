@@ -11,21 +11,33 @@ from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.form import ProfileTable
 from gradhesion.cli.study.mistakes import Checked, Mistake
 from gradhesion.cli.terminal.wording import did_you_mean, example
+from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.loading_control import CONTROLS
-from gradhesion.core.profile import Harmonic, Profile
+from gradhesion.core.profile import MOST_HARMONICS, Harmonic, Profile
 
 _SERIES: Final[Path] = ("profile", "harmonics")
+_SPECTRUM: Final[Path] = ("profile", "spectrum")
 _CONTROL: Final[Path] = ("loading", "control")
+
+
+def spectrum_of(table: ProfileTable) -> Spectrum | None:
+    """Make the random roughness of the punch; None if it has none, or none that can be drawn."""
+    try:
+        return Spectrum(**dict(table.spectrum)) if table.spectrum else None
+    except ValueError:  # which mistakes_of_punch reports
+        return None
 
 
 def profile_of(table: ProfileTable) -> Profile:
     """
-    Make the shape of the punch.
+    Make the shape of the punch; of random roughness the first.
 
     >>> profile_of(ProfileTable.model_validate({"harmonics": [{"n": 2, "sin": 0.5}]})).harmonics
     (Harmonic(n=2, cos=0.0, sin=0.5),)
     """
     exponent = 2.0 if isinstance(table.exponent, str) else table.exponent  # of a file, which is fitted
+    if (spectrum := spectrum_of(table)) is not None:
+        return random_profile(spectrum, 0, exponent)
     if table.harmonics is None:
         return Profile(exponent=exponent)
     waves = (Harmonic(n=wave.n, cos=wave.cos, sin=wave.sin) for wave in table.harmonics)
@@ -37,6 +49,7 @@ def mistakes_of_punch(checked: Checked, sound: Mapping[str, Values]) -> Iterator
     series = list(_mistakes_of_series(checked, sound))
     yield from series
     yield from _mistakes_without_a_file(checked)
+    yield from _mistakes_of_spectrum(checked)
     yield from _mistakes_of_control(checked)
     yield from _mistakes_of_default_only(checked, sound_series=not series)
 
@@ -62,6 +75,30 @@ def _mistakes_of_series(checked: Checked, sound: Mapping[str, Values]) -> Iterat
         if sizes and max(sizes) == 0.0 and name in sound and np.any(np.asarray(sound[name]) > 0.0):
             sentence = f"all cos and sin are zero, so that {name} has no effect; give one a value, or use {name} = 0"
             yield Mistake(_SERIES, waves, sentence)
+
+
+def _mistakes_of_spectrum(checked: Checked) -> Iterator[Mistake]:
+    """Check random roughness: its waves can be drawn, and it stands alone, in a map."""
+    table = checked.form.profile.spectrum
+    if table is None or _SPECTRUM in checked.wrong:
+        return
+    written = checked.data["profile"]
+    first, last = table.first, table.last
+    if first > last:
+        sentence = f"the shortest wave comes before the longest, first = {first}; use last = {first} or more"
+        yield Mistake((*_SPECTRUM, "last"), last, sentence)
+    elif last - first + 1 > MOST_HARMONICS:
+        sentence = f"{last - first + 1:,} waves, and a series has {MOST_HARMONICS} at most; use last = "
+        yield Mistake((*_SPECTRUM, "last"), last, f"{sentence}{first + MOST_HARMONICS - 1}, or a larger first")
+    for other in ("harmonics", "file"):
+        if other in written:
+            sentence = f"the waves come from spectrum; remove {other}, or remove spectrum"
+            yield Mistake(("profile", other), written[other], sentence)
+    if checked.form.kind == "curve":
+        sentence = (
+            'random roughness has maps only; write kind = "map", or give harmonics to draw the curves of one punch'
+        )
+        yield Mistake(_SPECTRUM, dict(table), sentence)
 
 
 def _mistakes_without_a_file(checked: Checked) -> Iterator[Mistake]:

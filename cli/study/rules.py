@@ -47,7 +47,10 @@ def mistakes_between_keys(checked: Checked, points: Points) -> tuple[dict[str, V
     mistakes += mistakes_of_turn(checked)
     mistakes += mistakes_of_states(checked, sound)
     mistakes += mistakes_of_range(checked)
-    mistakes += _mistakes_of_size(checked, [np.size(values) for values in sound.values()], points=is_points)
+    lengths = [np.size(values) for values in sound.values()]
+    spectrum = checked.form.profile.spectrum
+    realisations = 1 if spectrum is None else spectrum.realisations
+    mistakes += _mistakes_of_size(checked, lengths, realisations, points=is_points)
     return sound, mistakes
 
 
@@ -118,10 +121,10 @@ def _mistakes_of_method(checked: Checked) -> Iterator[Mistake]:
             yield Mistake(("outputs", i), name, sentence)
 
 
-def _mistakes_of_size(checked: Checked, lengths: list[int], *, points: bool) -> Iterator[Mistake]:
+def _mistakes_of_size(checked: Checked, lengths: list[int], realisations: int, *, points: bool) -> Iterator[Mistake]:
     """Check that a study is not too large for its kind."""
     kind = KINDS[_kind_of(checked)]
-    scenes = max(lengths, default=1) if points else math.prod(lengths)
+    scenes = realisations * (max(lengths, default=1) if points else math.prod(lengths))
     if scenes > kind.most_scenes:
         sentence = f"a {kind.name} study has at most {kind.most_scenes:,} scenes, and this one has {scenes:,}; "
         path: Path = ("parameters",) if kind.has_parts else ("kind",)

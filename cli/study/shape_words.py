@@ -1,12 +1,13 @@
 """The shape of a punch and the control of its loading in words, for datasets and `gradhesion info`."""
 
+from gradhesion.core.answers.spectrum import Spectrum
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.profile import Harmonic, Profile
 
 
-def shape_in_words(profile: Profile) -> str:
+def shape_in_words(profile: Profile, spectrum: Spectrum | None = None) -> str:
     """
-    Write the shape of a punch as a formula.
+    Write the shape of a punch as a formula; of random roughness what it is drawn from.
 
     >>> shape_in_words(Profile())
     'r^2/(2 R) + lambda A [1 - cos(2 pi x)], x = r/lambda'
@@ -16,6 +17,10 @@ def shape_in_words(profile: Profile) -> str:
     m = profile.exponent
     power = {1.0: "", 2.0: " R"}.get(m, f" R^{m - 1.0:.15g}")
     own = f"r^{m:.15g}/({m:.15g}{power})" if m != 1.0 else "r"
+    if spectrum is not None:
+        waves = f"random waves {spectrum.first} to {spectrum.last}, Hurst exponent {spectrum.hurst:.15g}"
+        drawn = f"{spectrum.realisations:,} realisations, seed {spectrum.seed}"
+        return f"{own} + lambda A [{waves}; {drawn}], x = r/lambda"
     terms = [term for harmonic in profile.harmonics for term in _terms(harmonic)]
     if not terms:
         return own

@@ -15,19 +15,20 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.keys import INPUTS, TURNS
-from gradhesion.cli.names import SCENE, SI, SOLVER, UNITS
+from gradhesion.cli.names import REALISATION, SCENE, SI, SOLVER, UNITS
 from gradhesion.cli.study import places
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.mistakes import checked
 from gradhesion.cli.study.points import Points, points_of
 from gradhesion.cli.study.profile_file import Measured, measured_in
-from gradhesion.cli.study.punch import profile_of
+from gradhesion.cli.study.punch import profile_of, spectrum_of
 from gradhesion.cli.study.roles import left_out
 from gradhesion.cli.study.rules import mistakes_between_keys
 from gradhesion.cli.study.source import Source, read_source
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
 from gradhesion.cli.terminal import wording
+from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.profile import Profile
 
@@ -84,6 +85,8 @@ class Study:
     """The file with its scenes, and the parameters that are columns of it."""
     measured: Measured = field(default_factory=Measured)
     """The file with the heights of its punch, and the fit of them."""
+    spectrum: Spectrum | None = None
+    """Of random roughness: `profile` is its first realisation."""
 
     @property
     def in_si(self) -> tuple[str, ...]:
@@ -108,9 +111,10 @@ class Study:
 
     @property
     def sizes(self) -> dict[str, int]:
-        """The dimensions of its dataset, with their lengths: that of several solvers, and its axes."""
+        """The dimensions of its dataset, with their lengths: that of several solvers, its axes, and realisations."""
         solvers = self.method.solver
-        return self.axes if isinstance(solvers, str) else {SOLVER: len(solvers)} | self.axes
+        several = {} if isinstance(solvers, str) else {SOLVER: len(solvers)}
+        return several | self.axes | ({} if self.spectrum is None else {REALISATION: self.spectrum.realisations})
 
     @property
     def axes(self) -> dict[str, int]:
@@ -148,6 +152,15 @@ class Study:
     def chunked(self, cells: int | None) -> "Study":
         """Give the same study with other chunks, unless `cells` is None."""
         return self if cells is None else replace(self, chunk=cells)
+
+    def apart(self, block: Block) -> tuple[Block, Block, tuple[Profile, ...]]:
+        """Take a block apart: along the solvers, along the axes, and the profiles of its punches."""
+        first = len(block) - len(self.axes) - (self.spectrum is not None)
+        solvers, axes = block[:first], block[first : first + len(self.axes)]
+        if self.spectrum is None:
+            return solvers, axes, (self.profile,)
+        numbers = range(block[-1].start, block[-1].stop)
+        return solvers, axes, tuple(random_profile(self.spectrum, n, self.profile.exponent) for n in numbers)
 
     def parameters_of(self, block: Block) -> dict[str, NDArray[np.float64]]:
         """Cut a block out of the axes: the parameters as arrays that broadcast to the block's shape."""
@@ -254,6 +267,7 @@ def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = N
             solver=solver if isinstance(solver, str) else tuple(solver), check_contact=form.method.check_contact
         ),
         profile=measured.profile() or profile_of(form.profile),
+        spectrum=spectrum_of(form.profile),
         loading=Loading(control=form.loading.control),
         states=form.states.radii,
         text=text or toml_of(data),

@@ -11,7 +11,7 @@ from gradhesion.cli.dataset.curve_variables import variables_of_curves
 from gradhesion.cli.dataset.reader import tiling_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import INTEGERS, SOLVER
+from gradhesion.cli.names import INTEGERS, REALISATION, SOLVER
 from gradhesion.cli.terminal.wording import did_you_mean
 
 MOST: Final = 1_000_000
@@ -34,7 +34,7 @@ def tabled(dataset: xarray.Dataset, file: Path, chosen: Sequence[str]) -> Iterat
     if first.size > MOST:
         remedy = "read it with xarray or NCO instead"
         raise DatasetError(f"{file}: {first.size:,} lines, where a table has {MOST:,} at most; {remedy}")
-    beside = [name for name in (SOLVER, *INPUTS) if name in dataset.coords]
+    beside = [name for name in (SOLVER, *INPUTS, REALISATION) if name in dataset.coords]
     columns = [*beside, *names, "status"]
     yield ",".join(columns)
     for block in tiling_of(first):

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gradhesion.cli import names
 from gradhesion.cli.dataset.reader import has_curves, tiling_of
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import SCENE, SOLVER
+from gradhesion.cli.names import REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import control_in_words
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.words.curve_words import curves_told
@@ -52,7 +52,7 @@ def _fit(dataset: xarray.Dataset) -> Iterator[str]:
 
 def _coordinates(dataset: xarray.Dataset | xarray.DataArray) -> list[str]:
     """List what distinguishes scenes: the solver, and the parameters."""
-    return [name for name in (SOLVER, *INPUTS) if name in dataset.coords]
+    return [name for name in (SOLVER, *INPUTS, REALISATION) if name in dataset.coords]
 
 
 def _parameters(dataset: xarray.Dataset) -> Iterator[str]:

@@ -1,6 +1,6 @@
 """The blocks of a study solved, one ahead of whoever takes them."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from functools import partial
 from typing import Any, TypeVar
@@ -14,6 +14,7 @@ from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.scenes import solve
 from gradhesion.core import PARAMETERS
+from gradhesion.core.profile import Profile
 
 _T = TypeVar("_T")
 
@@ -31,7 +32,9 @@ def scenes_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
 def solve_block(study: Study, block: Block, threads: int | None) -> dict[str, NDArray[Any]]:
     """Solve a block of a study: the values of its variables and `status`."""
     found = _solved(study, block, threads)
-    scales = scales_of(study, block[len(block) - len(study.axes) :])
+    scales = scales_of(study, study.apart(block)[1])
+    if study.spectrum is not None:
+        scales = {unit: scale[..., None] for unit, scale in scales.items()}
     return found | {name + SI: found[name] * scales[UNITS[name]] for name in study.in_si}
 
 
@@ -54,12 +57,32 @@ def _solved(study: Study, block: Block, threads: int | None) -> dict[str, NDArra
     """Solve a block of a study: its outputs and `status`."""
     solvers = study.method.solver
     settings: dict[str, Any] = {"check_contact": study.method.check_contact, "threads": threads}
-    settings |= {"profile": study.profile, "loading": study.loading}
-    if isinstance(solvers, str):
-        return solve(scenes_of(study, block), study.outputs, solver=solvers, **settings)
-    scenes = scenes_of(study, block[1:])
-    found = [solve(scenes, study.outputs, solver=solver, **settings) for solver in solvers[block[0]]]
-    return {name: np.stack([values[name] for values in found]) for name in found[0]}
+    settings |= {"loading": study.loading}
+    several, axes, profiles = study.apart(block)
+    asked = (solvers,) if isinstance(solvers, str) else solvers[several[0]]
+    return solved_by(scenes_of(study, axes), study, asked, profiles, **settings)
+
+
+def solved_by(
+    scenes: Mapping[str, NDArray[np.float64]],
+    study: Study,
+    solvers: Sequence[str],
+    profiles: Sequence[Profile],
+    **settings: Any,
+) -> dict[str, NDArray[Any]]:
+    """Solve scenes by each solver, the first dimension if the study has several, and of each punch, the last one."""
+    found = [
+        _over(-1, [solve(scenes, study.outputs, solver=solver, profile=one, **settings) for one in profiles])
+        if study.spectrum is not None
+        else solve(scenes, study.outputs, solver=solver, profile=profiles[0], **settings)
+        for solver in solvers
+    ]
+    return found[0] if isinstance(study.method.solver, str) else _over(0, found)
+
+
+def _over(axis: int, found: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
+    """Put results beside each other along a new axis."""
+    return {name: np.stack([values[name] for values in found], axis) for name in found[0]}
 
 
 def solved(study: Study, threads: int | None = None) -> Iterator[tuple[Block, dict[str, NDArray[Any]]]]:

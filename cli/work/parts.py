@@ -40,8 +40,23 @@ def versions() -> dict[str, Any]:
 
 def settings_of(study: Study) -> dict[str, Any]:
     """List all that a study asks for but its parameters; not what it is called, nor how it is written."""
-    aside = ("name", "title", "text", "parameters", "method", "left_out", "chunk", "folder", "points", "measured")
+    aside = (
+        "name",
+        "title",
+        "text",
+        "parameters",
+        "method",
+        "left_out",
+        "chunk",
+        "folder",
+        "points",
+        "measured",
+        "spectrum",
+    )
     settings = {field.name: getattr(study, field.name) for field in fields(study) if field.name not in aside}
+    if study.spectrum is not None:
+        settings |= {f"spectrum.{name}": value for name, value in asdict(study.spectrum).items()}
+        del settings["spectrum.realisations"]  # each of them is the same however many there are
     return settings | {f"method.{name}": value for name, value in asdict(study.method).items()}
 
 
@@ -58,15 +73,16 @@ def bytes_of(study: Study, block: Block) -> int:
 
 def key_of(study: Study, block: Block) -> str:
     """Write down all that the values of a block depend on."""
-    several = not isinstance(study.method.solver, str)
-    axes = block[1:] if several else block
+    several, axes, _ = study.apart(block)
     digest = hashlib.sha256()
     for name, values in study.parameters_of(axes).items():
         digest.update(f"{name} {values.shape} ".encode())
         digest.update(np.ascontiguousarray(values, "<f8").tobytes())
     key = versions() | settings_of(study)
     if several:
-        key["method.solver"] = study.method.solver[block[0]]
+        key["method.solver"] = study.method.solver[several[0]]
+    if study.spectrum is not None:
+        key["realisations"] = [block[-1].start, block[-1].stop]
     key["values"] = {name: kind.str for name, kind in types_of(study).items()}
     key["shape"] = list(shape_of(block))
     key["parameters"] = digest.hexdigest()

@@ -29,6 +29,7 @@ SMALL = {
         "A={ start = 0.0, stop = 0.15, num = 4 }",
     ),
     "extra_energy_amplitude": ("A={ start = 0.0, stop = 0.15, num = 7 }",),
+    "extra_roughness": ("A=[0.0, 0.003, 0.006]",),
     "extra_energy_wavelength": ('lambda_over_R={ start = 0.0001, stop = 0.01, num = 7, spacing = "log" }',),
 }
 """Shorter axes for the studies that are maps."""

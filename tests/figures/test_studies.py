@@ -71,6 +71,7 @@ def test_every_study_says_what_it_shows_and_that_its_values_are_chosen(config: P
 def test_nothing_is_to_be_reported_of_any_scene(config: Path, computed: Compute) -> None:
     status = computed(config.stem)["status"].values
     allowed = {"fig4a": LOADING_NOT_ONE_DISC, "fig4c": PULL_OFF_AT_RIM, "extra_rim": PULL_OFF_AT_RIM}
+    allowed["extra_roughness"] = LOADING_NOT_ONE_DISC | PULL_OFF_AT_RIM
     assert not (status & ~np.int8(allowed.get(config.stem, 0))).any()
 
 
@@ -312,3 +313,15 @@ def test_fig9_the_energy_falls_up_to_the_gibson_solid_for_an_incompressible_half
     assert float(base.sel(k=0.0, solver="exact")) * 500.0 ** (2 / 3) == pytest.approx(7.0922, abs=5e-5)
     assert (lost.isel(A=slice(1, None)).sel(solver="envelope").diff("lambda_over_R") > 0).all()
     assert (lost.sel(solver="envelope").diff("A") > 0).all()
+
+
+@pytest.mark.slow
+def test_random_roughness_begins_with_the_smooth_punch_and_the_mean_force_grows(computed: Compute) -> None:
+    dataset = computed("extra_roughness")
+    force = dataset["pull_off_force"]
+    assert force.sizes["realisation"] == 100
+    smooth = (3.0 + dataset["k"]) / 3.0
+    assert float(abs(force.isel(A=0) / smooth - 1.0).max()) <= 1e-13
+    assert bool((force.mean("realisation").diff("A") > 0.0).all())
+    gain = (force / smooth).mean("realisation").isel(A=-1)
+    assert float(gain[0]) > float(gain[1]) > 1.0, "a graded half-space feels short waves less"

@@ -1,0 +1,124 @@
+"""Random profiles: their heights and slopes, the law of their amplitudes, phases from the seed, and their extremes."""
+
+import math
+
+import numpy as np
+import pytest
+
+from gradhesion.core import solve
+from gradhesion.core.answers.spectrum import Spectrum, random_profile
+from gradhesion.core.general.crest import swings
+from gradhesion.core.profile import Profile
+
+EPS = np.finfo(float).eps
+ROUGH = {"hurst": 0.7, "first": 2, "last": 41, "realisations": 400, "seed": 11}
+
+
+def waves(profile: Profile) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    return tuple(np.array([getattr(wave, name) for wave in profile.harmonics]) for name in ("n", "cos", "sin"))  # type: ignore[return-value]
+
+
+def test_amplitudes_follow_the_power_law_and_make_the_rms_height_one() -> None:
+    spectrum = Spectrum(**ROUGH)
+    n, cos, sin = waves(random_profile(spectrum, 3))
+    assert n.tolist() == list(range(2, 42))
+    sizes = np.hypot(cos, sin)
+    np.testing.assert_allclose(sizes / sizes[0], (n / 2.0) ** -1.2, rtol=8 * EPS)
+    x = np.arange(4096) / 4096
+    height = sum(
+        c * (1 - np.cos(2 * np.pi * m * x)) + s * np.sin(2 * np.pi * m * x) for m, c, s in zip(n, cos, sin, strict=True)
+    )
+    assert np.std(height) == pytest.approx(1.0, rel=64 * EPS)
+    slope = sum(
+        2 * np.pi * m * (c * np.sin(2 * np.pi * m * x) + s * np.cos(2 * np.pi * m * x))
+        for m, c, s in zip(n, cos, sin, strict=True)
+    )
+    assert np.sqrt(np.mean(slope**2)) == pytest.approx(spectrum.rms_slope, rel=64 * EPS)
+
+
+def test_a_realisation_follows_from_seed_and_number_alone() -> None:
+    one, other = Spectrum(**ROUGH), Spectrum(**(ROUGH | {"realisations": 3}))
+    assert random_profile(one, 2) == random_profile(other, 2)
+    assert random_profile(one, 2) != random_profile(one, 1)
+    assert random_profile(one, 2) != random_profile(Spectrum(**(ROUGH | {"seed": 12})), 2)
+    assert random_profile(one, 0, 1.5).exponent == 1.5
+
+
+def test_the_phases_are_those_that_they_have_always_been() -> None:
+    """A dataset can be made again by another version of NumPy: the raw stream of PCG64 is fixed."""
+    n, cos, sin = waves(random_profile(Spectrum(hurst=0.5, first=1, last=3, realisations=1, seed=1), 0))
+    bits = np.random.PCG64(np.random.SeedSequence(1, spawn_key=(0,)))
+    phases = 2 * np.pi * np.random.Generator(bits).random(3)
+    np.testing.assert_allclose(np.arctan2(sin, cos) % (2 * np.pi), phases, rtol=8 * EPS)
+    assert n.tolist() == [1, 2, 3]
+
+
+def test_phases_are_uniform_and_independent() -> None:
+    spectrum = Spectrum(**ROUGH)
+    turns = []
+    for number in range(400):
+        _, cos, sin = waves(random_profile(spectrum, number))
+        turns.append(np.arctan2(sin, cos))
+    phases = np.array(turns)
+    for power in (1, 2):
+        assert abs(np.mean(np.exp(1j * power * phases))) < 4.0 / math.sqrt(phases.size)
+    neighbours = np.exp(1j * (phases[:, 1:] - phases[:, :-1]))
+    assert abs(np.mean(neighbours)) < 4.0 / math.sqrt(neighbours.size)
+    assert abs(np.mean(np.exp(1j * (phases[1:] - phases[:-1])))) < 4.0 / math.sqrt(phases.size)
+
+
+@pytest.mark.parametrize(("hurst", "k"), [(0.0, 0.0), (0.8, 0.0), (0.3, 0.5)])
+def test_the_strength_of_the_envelope_tends_to_that_of_a_gaussian_line(hurst: float, k: float) -> None:
+    """The median of the largest zeta by Rice (1944): sqrt(2 m0 ln(N/ln 2)), N upcrossings of zero a period."""
+    ratios = []
+    for last in (6, 64):
+        spectrum = Spectrum(hurst=hurst, first=1, last=last, realisations=300, seed=5)
+        profiles = [random_profile(spectrum, number) for number in range(300)]
+        rows = [tuple((float(wave.n), wave.cos, wave.sin) for wave in profile.harmonics) for profile in profiles]
+        n, cos, sin = waves(profiles[0])
+        powers = n ** (1.0 - k) * (cos**2 + sin**2) / 2.0
+        upcrossings = math.sqrt((n**2 * powers).sum() / powers.sum())
+        rice = math.sqrt(2.0 * powers.sum() * math.log(upcrossings / math.log(2.0)))
+        ratios.append(float(np.median([swings(k, row)[1] for row in rows])) / rice)
+    few, many = ratios
+    assert many == pytest.approx(1.0, abs=0.03), "the median of 300 is off by 0.01"
+    assert abs(many - 1.0) < 0.5 * abs(few - 1.0)
+
+
+@pytest.mark.slow
+def test_of_one_wave_the_spread_of_the_force_falls_with_the_wavelength() -> None:
+    """Its phase alone is random, and far from the centre a phase has no effect: F tends to (1 + chi)^2."""
+    spectrum = Spectrum(hurst=0.5, first=1, last=1, realisations=6, seed=2)
+    chi, spreads, offs = 0.3, [], []
+    for wavelength in (0.05, 0.005, 0.0005):
+        amplitude = chi * math.sqrt(2 * math.pi / 500.0) / (math.pi * math.sqrt(2.0 * wavelength))
+        scene = {"k": 0.0, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": wavelength}
+        scene |= {"A": amplitude, "a_max_over_R": np.inf}
+        forces = [
+            float(solve(scene, ["pull_off_force"], profile=random_profile(spectrum, number))["pull_off_force"])
+            for number in range(6)
+        ]
+        spreads.append(float(np.ptp(forces)))
+        offs.append(abs(float(np.mean(forces)) / (1.0 + chi) ** 2 - 1.0))
+    assert spreads[0] > 4 * spreads[1] > 16 * spreads[2] > 0.0
+    assert offs[2] < offs[1] < offs[0]
+    assert offs[2] < 0.01
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"hurst": -0.1},
+        {"hurst": 1.1},
+        {"first": 0},
+        {"last": 1},
+        {"last": 66},
+        {"last": 10_001, "first": 10_000},
+        {"realisations": 0},
+        {"seed": -1},
+    ],
+    ids=str,
+)
+def test_what_cannot_be_drawn_is_refused(change: dict[str, float]) -> None:
+    with pytest.raises(ValueError, match=next(iter(change))):
+        Spectrum(**(ROUGH | change))
