@@ -213,3 +213,33 @@ def lowest_load(wave: Wave, z_rim: float) -> tuple[float, float]:
                     best, best_z = value, place
             i += 1.0 if outwards else -1.0
     return best, best_z
+
+
+@kernel()
+def find_depth(wave: Wave, target: float, low: float, high: float) -> float:
+    """Return where the branch between low and high meets a depth, low if it is nowhere so deep."""
+    if depth(wave, low) >= target:
+        return low
+    if high == math.inf:
+        step = 1.0
+        high = low + step
+        while depth(wave, high) <= target:
+            low = high
+            step *= 2.0
+            high += step
+    z = 0.5 * (low + high)
+    for _ in range(_STEPS):
+        rest = depth(wave, z) - target
+        if rest < 0.0:
+            low = z
+        else:
+            high = z
+        new = z - rest / depth_slope(wave, z)
+        if not low < new < high:
+            new = 0.5 * (low + high)
+            if new <= low or new >= high:
+                break
+        if abs(new - z) < 1e-9 * min(1.0, z):
+            return new
+        z = new
+    return z

@@ -1,65 +1,35 @@
 """The leading asymptotic form of a short wave: a cycle of loading and unloading, and all results of a curve.
 
-The path is that of branches.py, loading.py and unloading.py, each wave walked, each rim by itself: with so few waves
-nothing is shared between rims but the branches.
+The path is that of loading.py and unloading.py, by way of passage.py; each wave is walked.
 """
 
 import math
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
 from gradhesion.core import envelope
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import YES, kernel
 from gradhesion.core.asymptotic import (
     FURTHEST,
     MOST_HALVES,
     Wave,
     depth,
-    depth_slope,
     folds_of_half,
     half_at,
     lowest_load,
     window_end,
 )
-from gradhesion.core.asymptotic_jump import loss_of_jump
-from gradhesion.core.branches import END, END_DEPTH, START, START_DEPTH
+from gradhesion.core.branches import END, END_DEPTH, HIGHEST, ROWS, START, START_DEPTH, UNKNOWN, UNLOADING_JUMPS
 from gradhesion.core.curve import curve_of, force_unit
+from gradhesion.core.loading import highest_depth, load_up, loading_to
 from gradhesion.core.results import put_all, wants_folds, wants_force
 from gradhesion.core.status import NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.unloading import unloading_from
 
-_STEPS = 100
-
-
-@kernel()
-def find_depth(wave: Wave, target: float, low: float, high: float) -> float:
-    """Return where the branch between low and high meets a depth, low if it is nowhere so deep."""
-    if depth(wave, low) >= target:
-        return low
-    if high == math.inf:
-        step = 1.0
-        high = low + step
-        while depth(wave, high) <= target:
-            low = high
-            step *= 2.0
-            high += step
-    z = 0.5 * (low + high)
-    for _ in range(_STEPS):
-        rest = depth(wave, z) - target
-        if rest < 0.0:
-            low = z
-        else:
-            high = z
-        new = z - rest / depth_slope(wave, z)
-        if not low < new < high:
-            new = 0.5 * (low + high)
-            if new <= low or new >= high:
-                break
-        if abs(new - z) < 1e-9 * min(1.0, z):
-            return new
-        z = new
-    return z
+NOTHING: Final = ()
+"""The tables that the leading form needs."""
 
 
 @kernel()
@@ -72,8 +42,8 @@ def trace_branches(wave: Wave, furthest: float) -> tuple[int, Any]:
     i = max(0.0, half_at(wave, level, begin) - 2.0)
     last = half_at(wave, level, min(end, furthest)) + 2.0
     if not (min(end, furthest) < FURTHEST and last - i <= MOST_HALVES):
-        return -1, np.empty((4, 0))
-    trace = np.empty((4, int(max(0.0, last - i)) + 4))
+        return -1, np.empty((ROWS, 0))
+    trace = np.empty((ROWS, int(max(0.0, last - i)) + 4))
     count = 0
     inside = level == 0.0
     if inside:  # k = 1: depth rises from zero contact
@@ -98,46 +68,13 @@ def trace_branches(wave: Wave, furthest: float) -> tuple[int, Any]:
 
 
 @kernel()
-def load_to(wave: Wave, count: int, trace: Any, rim: float) -> tuple[float, float, float]:
-    """Return what loading up to the rim loses, its jumps, and the largest depth before the rim."""
-    loss, jumps = 0.0, 0.0
-    left, level = 0.0, 0.0
-    for now in range(count):
-        if trace[START, now] > rim:
-            break
-        top = trace[END_DEPTH, now] if trace[END, now] < rim or rim == math.inf else depth(wave, rim)
-        if top > level:
-            landing = find_depth(wave, level, trace[START, now], trace[END, now])
-            loss += loss_of_jump(wave, level, left, landing)
-            jumps += 1.0
-            if trace[END, now] >= rim:
-                return loss, jumps, level
-            left, level = trace[END, now], trace[END_DEPTH, now]
-    return loss + loss_of_jump(wave, level, left, rim), jumps + 1.0, level
-
-
-@kernel()
-def unload_from(wave: Wave, count: int, trace: Any, rim: float) -> tuple[float, float, float]:
-    """Return what unloading from the rim loses, its jumps, and the depth at which contact ends."""
-    loss, jumps = 0.0, 0.0
-    now = count - 1
-    while now >= 0 and trace[START, now] > rim:
-        now -= 1
-    if now >= 0 and trace[END, now] >= rim:
-        left, level = trace[START, now], trace[START_DEPTH, now]
-        now -= 1
-    else:
-        left, level = rim, depth(wave, rim)
-    while now >= 0:
-        if trace[START_DEPTH, now] < level:
-            loss += loss_of_jump(wave, level, left, find_depth(wave, level, trace[START, now], trace[END, now]))
-            jumps += 1.0
-            left, level = trace[START, now], trace[START_DEPTH, now]
-        now -= 1
-    if left > 0.0:
-        loss += loss_of_jump(wave, level, left, 0.0)
-        jumps += 1.0
-    return loss, jumps, level
+def _follow(wave: Wave, count: int, trace: Any, furthest: float) -> None:
+    """Fill the records of the cycle on the branches."""
+    load_up(NOTHING, (wave,), count, trace, furthest, YES)
+    highest = 0.0
+    for branch in range(count):
+        highest = max(highest, trace[END_DEPTH, branch])
+        trace[HIGHEST, branch], trace[UNLOADING_JUMPS, branch] = highest, UNKNOWN
 
 
 @kernel()
@@ -154,9 +91,10 @@ def solve_curve(
     force_scale = force_unit(k, length, depth_scale)
     energy_scale = TWO_PI * length * length
     force, folds = wants_force(slots), wants_folds(slots)
-    count, trace = -1, np.empty((4, 0))
+    count, trace = -1, np.empty((ROWS, 0))
     if folds:
         count, trace = trace_branches(wave, rims.max() / length)
+        _follow(wave, max(0, count), trace, rims.max() / length)
     shared = count >= 0 or rims.size == 1  # else a rim with fewer waves may still have its own
     for i in range(rims.size):
         z_rim = rims[i] / length
@@ -165,15 +103,14 @@ def solve_curve(
             lowest, place = lowest_load(wave, z_rim)
         if folds and not shared:
             count, trace = trace_branches(wave, z_rim)
+            _follow(wave, max(0, count), trace, z_rim)
         if folds and count >= 0:
-            loss, loading, deepest = load_to(wave, count, trace, z_rim)
-            loss_back, unloading, last = unload_from(wave, count, trace, z_rim)
+            rim_depth = depth(wave, z_rim) if z_rim < math.inf else math.inf
+            loss, loading = loading_to(NOTHING, (wave,), count, trace, z_rim, YES)
+            loss_back, unloading, last = unloading_from(NOTHING, (wave,), count, trace, z_rim, rim_depth, YES)
+            deepest = highest_depth(count, trace, z_rim, rim_depth)
             if loss + loss_back < 0.0:  # no cycle gains energy: the contact is no larger than a wave, out of range here
                 loss = loss_back = loading = unloading = deepest = last = math.nan
-            elif z_rim < math.inf:
-                deepest = max(deepest, depth(wave, z_rim))
-            else:
-                deepest = math.inf
         fine = (loss + loss_back >= 0.0 or not folds) and (lowest < 0.0 or not force)
         status[i] = 0 if fine else NO_VALUE
         values = (
