@@ -77,6 +77,7 @@ def plot(
     title: bool = True,
     caption: bool = True,
     style: str | Path | None = None,
+    data: str | Path | None = None,
 ) -> Panels:
     r"""
     Draw a dataset: lines over one axis, a map over two, panels of maps over more; curves as curves.
@@ -109,6 +110,9 @@ def plot(
         Whether the title of the study, and the parameters that are not drawn, are written above the panels.
     style
         A style of matplotlib on top of "gradhesion.style", by name or file; "gradhesion.journal" is one.
+    data
+        On curves: a table (CSV or NetCDF) of measured points, with two or more of the columns indentation, load and
+        contact_radius, and their units in the header.
 
     Returns
     -------
@@ -145,12 +149,15 @@ def plot(
         )
         _check_dimensions(values)
         selection = selection_of(values, _wishes(at), _wishes(over), interpolate=interpolate)
+        points = None if data is None else Path(data)
+        if points is not None and not has_curves(values):
+            raise DatasetError(f"--data {points}: measured points go on curves, and this is a map; leave it out")
         if not has_curves(values):
             figure = drawn(values, names, selection, x=x, y=y, looks=looks)
         elif given := [word for word, on in (("over", over), ("interpolate", interpolate)) if on]:
             raise DatasetError(f"{given[0]}: curves are drawn as they are; choose scenes with at")
         else:
-            figure = drawn_curves(selection.narrowed(values), names, x=x, y=y, looks=looks)
+            figure = drawn_curves(selection.narrowed(values), names, x=x, y=y, looks=looks, data=points)
     return Panels(figure, looks)
 
 

@@ -36,6 +36,7 @@ FORMS: Final = ("png", "svg", "pdf")
 @click.option("--title/--no-title", default=True, help="Print the title of the study [yes].")
 @click.option("--caption/--no-caption", default=True, help="Print the fixed parameters [yes].")
 @click.option("--style", metavar="STYLE", help="Matplotlib style to add: a name or a file.")
+@click.option("--data", type=click.Path(path_type=Path), help="Measured points to draw on curves: a table in a file.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing picture.")
 @click.option("--quiet", is_flag=True, help="Print errors only.")
 def plot(
@@ -47,6 +48,7 @@ def plot(
     over: tuple[str, ...],
     x: str | None,
     y: str | None,
+    data: Path | None,
     overwrite: bool,
     quiet: bool,
     **looks: Any,
@@ -74,14 +76,18 @@ def plot(
     chosen = looks_of(**looks)
     with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
         selection = selection_of(dataset, at, over, interpolate=interpolate)
+        notes = [] if interpolate else nearest_values(dataset, at)
+        if data is not None and not has_curves(dataset):
+            raise DatasetError(f"--data {data}: measured points go on curves, and {file} has a map; leave it out")
         if not has_curves(dataset):
             figure = drawn(dataset, names, selection, x=x, y=y, looks=chosen)
         elif given := [word for word, on in (("--over", over), ("--interpolate", interpolate)) if on]:
             raise DatasetError(f"{given[0]}: curves are drawn as they are; choose scenes with --at")
         else:
-            figure = drawn_curves(selection.narrowed(dataset), names, x=x, y=y, looks=chosen)
+            figure = drawn_curves(
+                selection.narrowed(dataset), names, x=x, y=y, looks=chosen, data=data, notes=notes.append
+            )
         with writing(path):
             save(figure, temporary, form, chosen)
-        notes = [] if interpolate else nearest_values(dataset, at)
     if not quiet:
         say_written(path, notes)

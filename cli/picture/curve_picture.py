@@ -1,7 +1,8 @@
 """The picture of a curve dataset: load over depth, depth over contact radius, load over contact radius."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -38,6 +39,7 @@ from gradhesion.cli.picture.curve_units import axis_label, in_si, in_unit, units
 from gradhesion.cli.picture.doubts import CROSS, DOUBTS, Doubt, doubts_in, entries
 from gradhesion.cli.picture.labels import Unit, effective, equation, given
 from gradhesion.cli.picture.looks import PLAIN, Looks
+from gradhesion.cli.picture.measured import draw_points, legend_entry, planes_of, read_points
 from gradhesion.cli.picture.pictured import heading, in_lines, lay_out, styled
 from gradhesion.cli.picture.state_picture import draw_states
 from gradhesion.cli.terminal.wording import did_you_mean
@@ -80,12 +82,15 @@ def drawn_curves(
     x: str | None = None,
     y: str | None = None,
     looks: Looks = PLAIN,
+    data: Path | None = None,
+    notes: Callable[[str], None] = lambda _: None,
 ) -> Figure:
     """
     Draw curves of a dataset into three panels, in units if it has them; without any asked for, all of them.
 
     With x or y, the contact radius, indentation or load, those panels alone are drawn that have it there. Curves of
-    states, over the distance from the axis, are drawn where they alone are asked for or there.
+    states, over the distance from the axis, are drawn where they alone are asked for or there. Measured points come
+    from a file, `data`; what is left out of it goes to `notes`.
 
     Raises
     ------
@@ -97,6 +102,11 @@ def drawn_curves(
     chosen = _chosen(dataset, asked)
     of_states = [curve for curve in chosen if curve in STATE_CURVES]
     if of_states == chosen:
+        if data is not None:
+            raise DatasetError(
+                f"--data {data}: measured points go on curves over contact radius, depth and load, and this picture "
+                "has curves of states; ask for others with --variable, as in --variable path"
+            )
         if x or y:
             raise DatasetError(
                 f"--{'x' if x else 'y'} {x or y}: curves of states are drawn over the distance from the axis; "
@@ -112,8 +122,9 @@ def drawn_curves(
     chosen = [curve for curve in chosen if curve not in of_states]
     scenes, caption = _scenes(dataset, looks)
     known = coloured(TRACKS_OF_MANY if len(scenes) > 1 else TRACKS, looks.colours)
-    if wants_si(map(str, dataset.data_vars), asked):
-        known = tuple(in_si(track) for track in known)
+    si = wants_si(map(str, dataset.data_vars), asked)
+    known = tuple(in_si(track) for track in known) if si else known
+    points = None if data is None else read_points(data, si=si)
     panels = []
     for along, up in planes:
         there = [
@@ -135,12 +146,16 @@ def drawn_curves(
     tracks = [track for track in known if any(track in there for _, _, there in panels)]
     if not any(values.size for scene in scenes for values in scene.values.values()):
         raise DatasetError("no value in any scene drawn; `gradhesion info` reports why")
+    if points is not None:
+        planes_of(points, [(along, up) for along, up, _ in panels])
+        for note in points.notes:
+            notes(note)
     units = units_of(tracks, [scene.values for scene in scenes])
     scenes = [replace(scene, values=in_unit(tracks, scene.values, units)) for scene in scenes]
     with styled(looks):
         width = looks.width or max(4.0, 2.5 * len(panels))
         below = len(panels) if width < NARROW * len(panels) else 1
-        handles = _handles(scenes, tracks)
+        handles = [*_handles(scenes, tracks), *([legend_entry()] if points else [])]
         rows = -(-len(handles) // max(1, int(width / 1.7)))
         columns = -(-len(handles) // rows)
         more = 0.16 * (rows - 1)
@@ -156,6 +171,8 @@ def drawn_curves(
                         for doubt in reversed(scene.doubts):  # the larger ones below
                             draw_doubt(axes, track, scene.values, along, up, scene.colour or track.colour, doubt)
             _dress(axes, along, up, units)
+            if points is not None:
+                draw_points(axes, points, along, up, units)
             arrows: list[Values] = []
             for track in there:
                 for scene in scenes:

@@ -8,7 +8,7 @@ import csv
 import hashlib
 import io
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -48,6 +48,8 @@ class Columns:
     """The fingerprint of the file."""
     place: Callable[[int], str]
     """Says where a row is, counted from 0."""
+    others: tuple[str, ...] = ()
+    """The columns that are not read."""
 
     @property
     def rows(self) -> int:
@@ -55,7 +57,7 @@ class Columns:
         return next(iter(self.values.values())).size
 
 
-def read_columns(path: Path) -> Columns:
+def read_columns(path: Path, only: Collection[str] | None = None) -> Columns:
     """
     Read a file.
 
@@ -65,6 +67,8 @@ def read_columns(path: Path) -> Columns:
         Of a file in NetCDF, whose variables of one dimension are the columns; or of a text in UTF-8: lines that begin
         with # are left out, the first other one is the header, `name` or `name [unit]` between commas, semicolons or
         tabs (or else spaces), and each one that follows is a row of numbers, nan and inf among them.
+    only
+        The names of the columns that are read, of those that are there; the others may hold anything. All if None.
 
     Returns
     -------
@@ -94,11 +98,11 @@ def read_columns(path: Path) -> Columns:
         raise ColumnsError(f"the file {what}; name a table with a header and a row of numbers")
     sha256 = hashlib.sha256(content).hexdigest()
     if content.startswith(_MAGIC):
-        return _of_netcdf(content, sha256)
-    return _of_text(content, sha256)
+        return _of_netcdf(content, sha256, only)
+    return _of_text(content, sha256, only)
 
 
-def _of_text(content: bytes, sha256: str) -> Columns:
+def _of_text(content: bytes, sha256: str, only: Collection[str] | None = None) -> Columns:
     """Read the columns of a text."""
     lines = _lines(content)
     try:
@@ -108,21 +112,26 @@ def _of_text(content: bytes, sha256: str) -> Columns:
     except UnicodeDecodeError:
         raise ColumnsError("the file is no text in UTF-8; name a table of numbers in CSV or NetCDF") from None
     names, units, delimiter = _header(header, number)
+    read = [i for i, name in enumerate(names) if only is None or name in only]
+    others = tuple(name for i, name in enumerate(names) if i not in read)
+    if not read:
+        return Columns(values={}, units=units, sha256=sha256, place=str, others=others)
     text = io.TextIOWrapper(io.BytesIO(content), encoding="utf-8-sig")
     for _ in range(number):
         text.readline()
     try:
         if next(lines, None) is None:
             raise ColumnsError(f"the header on line {number} has no row of numbers below it; add one")
-        table = np.loadtxt(text, delimiter=delimiter, comments="#", ndmin=2, quotechar='"')
+        wanted = None if only is None else read
+        table = np.loadtxt(text, delimiter=delimiter, comments="#", ndmin=2, quotechar='"', usecols=wanted)
     except UnicodeDecodeError:
         raise ColumnsError("the file is no text in UTF-8; save it as UTF-8") from None
     except ValueError as error:
         if isinstance(error, ColumnsError):
             raise
-        raise ColumnsError(_sentence(content, number, names, delimiter)) from None
-    if table.shape[1] != len(names):
-        raise ColumnsError(_sentence(content, number, names, delimiter))
+        raise ColumnsError(_sentence(content, number, names, delimiter, read)) from None
+    if table.shape[1] != len(read):
+        raise ColumnsError(_sentence(content, number, names, delimiter, read))
 
     def place(row: int) -> str:
         for at, (line, _) in enumerate(_lines(content)):
@@ -131,10 +140,11 @@ def _of_text(content: bytes, sha256: str) -> Columns:
         return f"row {row}"
 
     return Columns(
-        values={name: np.ascontiguousarray(table[:, i]) for i, name in enumerate(names)},
+        values={names[one]: np.ascontiguousarray(table[:, i]) for i, one in enumerate(read)},
         units=units,
         sha256=sha256,
         place=place,
+        others=others,
     )
 
 
@@ -189,7 +199,7 @@ def _is_number(cell: str) -> bool:
     return True
 
 
-def _sentence(content: bytes, header: int, names: list[str], delimiter: str | None) -> str:
+def _sentence(content: bytes, header: int, names: list[str], delimiter: str | None, read: Sequence[int]) -> str:
     """Say in which line a text is no table of numbers."""
     for number, line in _lines(content):
         if number <= header:
@@ -198,7 +208,7 @@ def _sentence(content: bytes, header: int, names: list[str], delimiter: str | No
         if len(cells) != len(names):
             short = f"{len(cells):,} values under {len(names):,} names"
             return f"line {number} has {short}; give each row one value a column, separated as the header is"
-        for name, cell in zip(names, cells, strict=True):
+        for name, cell in ((names[i], cells[i]) for i in read):
             if not cell:
                 return f"line {number} has no value of {shown(name)}; give it one or remove the row"
             if not _is_number(cell):
@@ -207,7 +217,7 @@ def _sentence(content: bytes, header: int, names: list[str], delimiter: str | No
     return "the rows are no numbers; write one value a column, separated as the header is"
 
 
-def _of_netcdf(content: bytes, sha256: str) -> Columns:
+def _of_netcdf(content: bytes, sha256: str, only: Collection[str] | None) -> Columns:
     """Read the variables of one dimension of a file in NetCDF."""
     import netCDF4  # noqa: PLC0415 (180 ms that a table in text does not need)
 
@@ -218,6 +228,8 @@ def _of_netcdf(content: bytes, sha256: str) -> Columns:
                 for name, variable in file.variables.items()
                 if variable.ndim == 1 and getattr(variable.dtype, "kind", "") in tuple("iuf")
             }
+            others = tuple(name for name in file.variables if only is not None and name not in only)
+            found = {name: variable for name, variable in found.items() if name not in others}
             lengths = {name: variable.size for name, variable in found.items()}
             whole = len({*lengths.values()}) == 1
             values = {
@@ -229,6 +241,8 @@ def _of_netcdf(content: bytes, sha256: str) -> Columns:
     except (OSError, RuntimeError, ValueError, AttributeError, MemoryError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise ColumnsError(f"the file cannot be read as NetCDF ({reason}); write it again") from None
+    if others and not found:
+        return Columns(values={}, units={}, sha256=sha256, place=str, others=others)
     if not any(lengths.values()):
         raise ColumnsError("the file has no variable of numbers along one dimension; write columns into it")
     if not whole:
@@ -239,4 +253,5 @@ def _of_netcdf(content: bytes, sha256: str) -> Columns:
         units={name: unit for name, unit in units.items() if unit not in ("", "1")},
         sha256=sha256,
         place=lambda row: f"row {row}, counted from 0",
+        others=others,
     )

@@ -170,7 +170,7 @@ def read_profile(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64], 
     ColumnsError
         It cannot be read, or is no profile.
     """
-    found = read_columns(path)
+    found = read_columns(path, only=COLUMNS)
     values = [_in_metres(found, name) for name in COLUMNS]
     sound = np.isfinite(values[0]) & np.isfinite(values[1])
     if not sound.any():
@@ -183,7 +183,7 @@ def _in_metres(found: Columns, name: str) -> NDArray[np.float64]:
     if name not in found.values:
         raise ColumnsError(
             f"there is no column {shown(name)}, and a profile has {' and '.join(COLUMNS)}; "
-            f"{did_you_mean(name, tuple(found.values)).replace('did you mean', 'rename')}"
+            f"{did_you_mean(name, (*found.values, *found.others)).replace('did you mean', 'rename')}"
         )
     unit = found.units.get(name)
     if unit is None:
