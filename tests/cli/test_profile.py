@@ -25,6 +25,8 @@ OUTPUTS = ["pull_off_force", "dissipated_energy", "loading_jumps", "unloading_ju
 CONTROLS = ("displacement", "load", "machine")
 SHAPE = {"exponent": 1.7, "harmonics": [{"n": 1, "cos": 1.0}, {"n": 3, "sin": -0.2}]}
 
+EPS = 2.0**-52
+
 
 @pytest.fixture
 def shaped(data: dict[str, Any]) -> dict[str, Any]:
@@ -65,7 +67,7 @@ def test_the_stiffness_is_an_axis_before_the_radius(shaped: dict[str, Any]) -> N
         loading=Loading(control="machine"),
     )
     for name, values in found.items():
-        np.testing.assert_array_equal(dataset[name], values)
+        np.testing.assert_allclose(dataset[name], values, rtol=8 * EPS)  # rims that share a trace share roots
 
 
 @pytest.mark.parametrize("control", CONTROLS)
