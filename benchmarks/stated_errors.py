@@ -1,0 +1,114 @@
+"""Do stated errors cover the true ones, and how tight are they? `python -m benchmarks.stated_errors [SCENES] [SEED]`.
+
+True errors come from the reference solver, and on long curves of one cosine from walking every wave.
+"""
+
+import math
+import sys
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+
+from gradhesion.core import Harmonic, Loading, Profile, solve
+from gradhesion.core.cosine_sweep import table_of
+from gradhesion.twin import stated
+from gradhesion.twin.general import Shape
+from tests.core.test_stated_errors import walked
+
+NAMES = ("pull_off_force", "dissipated_energy")
+Draw = Callable[[np.random.Generator], dict[str, float]]
+
+
+def material(rng: np.random.Generator) -> dict[str, float]:
+    """Draw a material."""
+    k = float(rng.choice([0.0, 1.0, 0.1, 0.25, 0.4, 0.515, 0.63, 0.8]))
+    nu = 0.5 if k == 1.0 else float(rng.uniform(-0.9, 0.5))
+    return {"k": k, "nu": nu, "modulus": 10.0 ** rng.uniform(-1, 5), "c0_over_R": 10.0 ** rng.uniform(-3, 1)}
+
+
+def wavy(low: float, high: float) -> Draw:
+    """Draw scenes with wavelengths between two powers of ten."""
+
+    def draw(rng: np.random.Generator) -> dict[str, float]:
+        rim = float(rng.choice([math.inf, 10.0 ** rng.uniform(-1, 0.5)]))
+        wave = {"lambda_over_R": 10.0 ** rng.uniform(low, high), "A": 10.0 ** rng.uniform(-4, -0.7)}
+        return material(rng) | wave | {"a_max_over_R": rim}
+
+    return draw
+
+
+def smooth(rng: np.random.Generator) -> dict[str, float]:
+    """Draw a smooth punch whose pull-off is at its edge."""
+    scene = material(rng) | {"lambda_over_R": 1.0, "A": 0.0, "a_max_over_R": math.inf}
+    radius = float(solve(scene, ["pull_off_radius"])["pull_off_radius"])
+    return scene | {"a_max_over_R": radius * 10.0 ** rng.uniform(-2, 0)}
+
+
+def ratios(draw: Draw, count: int, seed: int, shape: Shape, how: dict[str, Any], extra: dict[str, float]) -> np.ndarray:
+    """Return true over stated errors of force and energy, one row a scene, from the reference solver."""
+    rng, rows = np.random.default_rng(seed), []
+    while len(rows) < count:
+        scene = draw(rng) | extra
+        found = solve(scene, [*NAMES, *(f"{name}_error" for name in NAMES), "unloading_jumps"], threads=1, **how)
+        if (
+            found["status"] & 64
+            or found["unloading_jumps"] > 60
+            or not stated.within_reach(scene, NAMES, "exact", shape)
+        ):
+            continue
+        try:
+            truth = stated.expected(scene, NAMES, "exact", shape)
+        except ArithmeticError:
+            continue
+        rows.append(
+            [stated.deviation(float(found[name]), truth[name]) / float(found[f"{name}_error"]) for name in NAMES]
+        )
+    return np.array(rows)
+
+
+def long(count: int, seed: int) -> np.ndarray:
+    """Return true over stated errors of the energy of long curves, from walking every wave."""
+    rng, rows = np.random.default_rng(seed), []
+    draw = wavy(-4.5, -1.0)
+    while len(rows) < count:
+        scene = draw(rng)
+        truth = walked(scene, table_of, 4000.0)
+        if truth is not None:
+            found = solve(scene, ["dissipated_energy", "dissipated_energy_error"], threads=1)
+            rows.append(abs(float(found["dissipated_energy"]) - truth) / float(found["dissipated_energy_error"]))
+    return np.array(rows)[:, None]
+
+
+def classes(count: int, seed: int) -> Iterator[tuple[str, np.ndarray]]:
+    """Measure class by class; those of the reference solver have a tenth of the scenes."""
+    few, plain = max(20, count // 10), Shape()
+    yield "one cosine, 160 to 4,000 arches, energy", long(count, seed)
+    yield "smooth, pull-off at the edge", ratios(smooth, few, seed, plain, {}, {})
+    yield "one cosine, up to 60 waves", ratios(wavy(-1.5, 0), few, seed, plain, {}, {})
+    waves = ((1, 1.0, 0.0), (3, 0.3, 0.2))
+    series = Profile(harmonics=tuple(Harmonic(n=n, cos=even, sin=odd) for n, even, odd in waves))
+    yield "series", ratios(wavy(-1, 0), few, seed, Shape(2.0, waves), {"profile": series}, {})
+    cone = Profile(exponent=1.5)
+    yield "exponent 1.5", ratios(wavy(-1, 0), few, seed, Shape(1.5, ((1, 1.0, 0.0),)), {"profile": cone}, {})
+    for control, extra in (("load", {}), ("machine", {"machine_stiffness": 3.0})):
+        how = {"loading": Loading(control=control)}
+        yield control, ratios(wavy(-1, 0), few, seed, Shape(2.0, ((1, 1.0, 0.0),), control), how, extra)
+
+
+def main() -> None:
+    """Print a table."""
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 10_000
+    seed = int(sys.argv[2]) if len(sys.argv) > 2 else 20261
+    print("| class | scenes | exceeded (force, energy) | largest true/stated | median stated/true |")
+    print("| --- | --- | --- | --- | --- |")
+    for name, found in classes(count, seed):
+        over = ", ".join(str(n) for n in (found > 1.0).sum(axis=0))
+        worst = ", ".join(f"{n:.2f}" for n in found.max(axis=0))
+        with np.errstate(divide="ignore"):
+            tight = ", ".join(f"{1 / n:.0f}" for n in np.median(found, axis=0))
+        print(f"| {name} | {len(found):,} | {over} | {worst} | {tight} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
