@@ -60,8 +60,10 @@ def lines_of(text: str) -> dict[Path, int]:
 
     >>> lines_of("layout = 'grid'\n[parameters]\nk = [\n  0.1,\n  0.2,\n]\nA = 0.3\n")
     {('layout',): 1, ('parameters',): 2, ('parameters', 'k'): 3, ('parameters', 'A'): 7}
+    >>> lines_of("kind = 'map'\n\r\n[method]\r\nsolver = 'exact'\n")
+    {('kind',): 1, ('method',): 3, ('method', 'solver'): 4}
     """
-    lines = text.split("\n")  # as TOML counts them; Python has more line ends
+    lines = [line.removesuffix("\r") for line in text.split("\n")]  # as TOML counts them; Python has more line ends
     found: dict[Path, int] = {}
     table: Path = ()
     first = 0
