@@ -87,8 +87,8 @@ def test_a_scheduler_that_is_lost(
     assert lost.exit_code == 4, lost.stderr
     assert [line for line in lost.stderr.splitlines() if not line.startswith("waiting")] == [
         (
-            "--engine dask: the scheduler does not answer any more; finished parts are kept, and the same command resumes "
-            "from there when there is a scheduler again"
+            "--engine dask: the scheduler no longer answers; finished parts are kept, and the same command resumes once a "
+            "scheduler is available"
         )
     ]
     assert not output.exists()
