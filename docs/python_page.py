@@ -28,6 +28,8 @@ SECTIONS: Final = re.compile(r"^([A-Z][a-z]+)\n-{3,}\n", re.MULTILINE)
 ANSWERS: Final = (
     ("profile_fit", "fit_profile"),
     ("profile_fit", "FittedProfile"),
+    ("loop_fit", "fit_loop"),
+    ("loop_fit", "FittedLoop"),
     ("spectrum", "Spectrum"),
     ("spectrum", "random_profile"),
 )
