@@ -17,8 +17,9 @@ from gradhesion.core.curves.equilibrium import draw_through
 from gradhesion.core.curves.forms import GENERAL, Numbers, general_numbers
 from gradhesion.core.curves.smooth import VARIABLES
 from gradhesion.core.curves.subject import BEYOND, BEYOND_SMOOTH, Form, Subject
+from gradhesion.core.general.arches import folds_between
 from gradhesion.core.general.curve import Basis
-from gradhesion.core.general.folds import find_folds, room
+from gradhesion.core.general.folds import room
 from gradhesion.core.general.path import walk
 from gradhesion.core.general.scene import curve_of
 from gradhesion.core.general.sweep import compliance_of, front_of, rows_of, tables_of
@@ -44,7 +45,7 @@ def _turns(basis: Basis, numbers: Numbers, furthest: float) -> NDArray[np.float6
     zeros = np.empty(MOST_FOLDS)
     count, last = 0, min(furthest, end)
     if first < last < math.inf:
-        count, _, _ = find_folds(basis, numbers, first, last, room(), zeros, 0.0)
+        count, _, _ = folds_between(basis, numbers, first, last, room(), zeros)
     return None if count < 0 or last == math.inf else zeros[:count]
 
 

@@ -5,7 +5,7 @@ from typing import Any, Final
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.branches import END, END_DEPTH, START, START_DEPTH
-from gradhesion.core.general.curve import Basis, Curve, coordinate, slope
+from gradhesion.core.general.curve import Basis, Curve, coordinate, rise
 from gradhesion.core.struve.circle import TWO_PI
 
 START_LEVEL: Final = START_DEPTH
@@ -13,9 +13,8 @@ END_LEVEL: Final = END_DEPTH
 """The coordinates at the two ends."""
 _STEPS: Final = 200
 _OUTERMOST: Final = 1e100
-_SURE: Final = 1e-9
-"""Step of Newton's method over the radius, or over _FAR waves, from which on what is left is below rounding."""
-_FAR: Final = 100.0
+_SURE: Final = 1e-6
+"""Step over the length on which the slope changes, whose cube is below rounding."""
 
 
 @kernel()
@@ -49,31 +48,41 @@ def fill_branches(
 def find_level(
     basis: Basis, curve: Curve, target: float, branch: tuple[float, float, float, float], whole: float = 0.0
 ) -> float:
-    """Return where a branch meets a coordinate between those of its ends (Newton, kept in the bracket).
+    """Return where a branch meets a coordinate between those of its ends (Halley, kept in the bracket).
 
     `branch` has what `ends` of core/branches.py returns.
     """
-    low, _, high, _ = branch
+    low, low_level, high, high_level = branch
     if high == math.inf:
         step = whole + low if whole + low > 0.0 else 1.0
         high = low + step
-        while high < _OUTERMOST and not coordinate(basis, curve, high, whole) > target:
+        high_level = coordinate(basis, curve, high, whole)
+        while high < _OUTERMOST and not high_level > target:
             step *= 2.0
-            low, high = high, high + step
+            low, low_level, high = high, high_level, high + step
+            high_level = coordinate(basis, curve, high, whole)
     x = 0.5 * (low + high)
+    share = (target - low_level) / (high_level - low_level)
+    if 0.0 < share < 1.0:  # a half wave of a cosine has both its ends level, as the branch has
+        x = low + (high - low) * math.acos(1.0 - 2.0 * share) / math.pi
+        x = x if low < x < high else 0.5 * (low + high)
     for _ in range(_STEPS):
-        rest = coordinate(basis, curve, x, whole) - target
+        here, rate, bow = rise(basis, curve, x, whole)
+        rest = here - target
         if rest == 0.0:
             return x
         if rest < 0.0:
             low = x
         else:
             high = x
-        _, _, rate = slope(basis, curve, x, whole)
-        step = -rest / (TWO_PI * rate)
-        if low <= x + step <= high and abs(step) <= _SURE * min(whole + x, _FAR):  # what is left is its square
-            return x + step
-        x += step
+        bend = 0.5 * rest * bow
+        if abs(bend) > 0.5 * rate * rate:
+            bend = 0.0
+        step = -rest * rate / (rate * rate - bend)
+        next_x = x + step / TWO_PI
+        if low <= next_x <= high and abs(step) * (abs(bow) + abs(rate)) <= _SURE * abs(rate) * min(1.0, whole + x):
+            return next_x
+        x = next_x
         if not low < x < high:
             x = 0.5 * (low + high)
             if x <= low or x >= high:

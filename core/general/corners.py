@@ -12,6 +12,7 @@ import numpy as np
 from gradhesion.core._jit import NO, constant, kernel
 from gradhesion.core.branches import ARRIVAL, END
 from gradhesion.core.folds import CLOSE
+from gradhesion.core.general.arches import folds_between
 from gradhesion.core.general.branches import find_level
 from gradhesion.core.general.curve import Basis, Curve, coordinate, size
 from gradhesion.core.general.folds import find_folds
@@ -75,7 +76,10 @@ def append_corners(
         last = min(end, last_fold_bound(basis, measured) / TWO_PI - whole)
         found = 0
         if begin < last:
-            found, _, _ = find_folds(basis, measured, begin, last, search, zeros, whole)
+            if whole == 0.0:
+                found, _, _ = folds_between(basis, measured, begin, last, search, zeros)
+            else:
+                found, _, _ = find_folds(basis, measured, begin, last, search, zeros, whole)
         for i in range(found):
             corners, count = _put(basis, measured, corners, count, zeros[i], FOLD, whole)
     return _put(basis, measured, corners, count, end, FOLD if ends_in_fold else OPEN, whole)

@@ -34,7 +34,7 @@ def state(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[flo
     z = TWO_PI * (whole + x)
     power = amplitude_power(table, z)
     stretch, front = z * power, 1.0 / (power * power)
-    bend = B * z**m
+    bend = B * z * z if m == 2.0 else B * z**m
     w0, w1, _, _ = sums(table, cosines, series, x, whole)
     depth = bend + g * z * w0 - stretch
     load = front * (bend * (m / (1.0 + table.k + m)) + g * z * w1 - stretch)
@@ -68,10 +68,32 @@ def slope(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[flo
     t = beta / (power * power)
     q = level_at(k, alpha, t)
     change = 0.0 if alpha == 0.0 else alpha * t * ((1.0 + k) / (alpha + t)) ** 2 / z
-    bend = m * B * z ** (m - 1.0)
+    bend = 2.0 * B * z if m == 2.0 else m * B * z ** (m - 1.0)
     _, _, v, v1 = sums(table, cosines, series, x, whole)
     value = bend + g * v - q * power
     return value, (m - 1.0) * bend / z + g * v1 + (0.5 * (1.0 + k) * q / z - change) * power, (alpha + t) * value
+
+
+@kernel(contract=True)
+def rise(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[float, float, float]:
+    """Return Y and its first two derivatives with respect to z at whole + x > 0."""
+    table, cosines, series = basis
+    B, m, g, alpha, beta = curve
+    k = table.k
+    z = TWO_PI * (whole + x)
+    power = amplitude_power(table, z)
+    stretch, front = z * power, 1.0 / (power * power)
+    t = beta * front
+    q = level_at(k, alpha, t)
+    change = 0.0 if alpha == 0.0 else alpha * t * ((1.0 + k) / (alpha + t)) ** 2 / z
+    bend = B * z * z if m == 2.0 else B * z**m
+    push = m * bend / z
+    w0, w1, v, v1 = sums(table, cosines, series, x, whole)
+    value = push + g * v - q * power
+    rate = (m - 1.0) * push / z + g * v1 + (0.5 * (1.0 + k) * q / z - change) * power
+    load = front * (bend * (m / (1.0 + k + m)) + g * z * w1 - stretch)
+    here = alpha * (bend + g * z * w0 - stretch) + beta * load
+    return here, (alpha + t) * value, (alpha + t) * rate + t * (1.0 + k) / z * value
 
 
 @kernel(contract=True)

@@ -12,9 +12,10 @@ import numpy as np
 
 from gradhesion.core._jit import NO, kernel
 from gradhesion.core.branches import ROWS, UNKNOWN, UNLOADING_JUMPS
+from gradhesion.core.general.arches import folds_between
 from gradhesion.core.general.branches import fill_branches
 from gradhesion.core.general.curve import Basis, Curve, state
-from gradhesion.core.general.folds import MOST_FOLDS, find_folds, room
+from gradhesion.core.general.folds import MOST_FOLDS, room
 from gradhesion.core.general.ties import first_close_pair
 from gradhesion.core.loading import load_up
 from gradhesion.core.ties import note_loading
@@ -35,7 +36,7 @@ def walk(
     count, rises, tangency = 0, NO, math.inf
     last = min(last, furthest)
     if first < last:
-        count, rises, tangency = find_folds(basis, curve, first, last, room(), zeros, 0.0)
+        count, rises, tangency = folds_between(basis, curve, first, last, room(), zeros)
     trace = np.empty((ROWS, max(0, count) // 2 + 2))
     if count < 0:
         return -1, trace, tangency

@@ -18,7 +18,9 @@ from typing import Any, Final
 
 import numpy as np
 
+from gradhesion.core import pull_off
 from gradhesion.core._jit import kernel
+from gradhesion.core.general.arches import is_one_cosine, one_cosine
 from gradhesion.core.general.cells import MOST
 from gradhesion.core.general.curve import Basis, Curve, coordinate, slope, state
 from gradhesion.core.general.folds import MOST_CELLS, cell_width, folds_of_cell
@@ -87,8 +89,11 @@ def deepest_wave(table: Any, series: Any) -> float:
 
 
 @kernel()
-def _chi_terms(table: Any, series: Any, gain: float) -> tuple[float, float, float, float, float]:
-    """Return the terms of the bounds: h n^c, h n^(c-2), the deepest wave, h n^(c-1), and that of small z."""
+def _chi_terms(table: Any, series: Any, gain: float, deepest: float) -> tuple[float, float, float, float, float]:
+    """Return the terms of the bounds: h n^c, h n^(c-2), the deepest wave, h n^(c-1), and that of small z.
+
+    `deepest` is what `deepest_wave` returns.
+    """
     c = 0.5 * (1.0 - table.k)
     first, second, third = 0.0, 0.0, 0.0
     near = 0.0
@@ -99,7 +104,7 @@ def _chi_terms(table: Any, series: Any, gain: float) -> tuple[float, float, floa
         second += _EXCESS * table.amplitude * h * n ** (c - 2.0)
         third += _REMAINDER * table.amplitude * h * n ** (c - 1.0)
         near += h * n * integral_at_zero(table.k) / (2.0 + table.k)
-    return first, second, gain * table.amplitude * deepest_wave(table, series), third, near
+    return first, second, gain * table.amplitude * deepest, third, near
 
 
 @kernel()
@@ -212,17 +217,22 @@ def _lowest_far(
 
 
 @kernel()
-def lowest_load(basis: Basis, curve: Curve, x_rim: float, x_rim_low: float, work: Any) -> tuple[float, float, float]:
+def lowest_load(
+    basis: Basis, curve: Curve, x_rim: float, x_rim_low: float, work: Any, deepest: float
+) -> tuple[float, float, float]:
     """Return the lowest reduced load over (0, x_rim], the x where it is met, and the second lowest trough (or 0).
 
-    NaN if there are too many waves to look at.
+    NaN if there are too many waves to look at. `work` is the room of a search for folds, `deepest` what `deepest_wave`
+    returns. Of one cosine on a paraboloid core/pull_off.py knows it; what is prescribed does not matter.
     """
     table, _, series = basis
     B, m, g, _, _ = curve
+    if is_one_cosine(series, m) and g > 0.0:
+        return pull_off.lowest_load(table, one_cosine(series, curve), x_rim, x_rim_low)
     k = table.k
     c = 0.5 * (1.0 - k)
     controlled = (B, m, g, 0.0, 1.0)
-    terms = _chi_terms(table, series, g)
+    terms = _chi_terms(table, series, g, deepest)
     bend, power = B * m / (1.0 + k + m), m - c
     e = 0.5 * (3.0 + k)
     # where the floor of the far field is lowest

@@ -26,7 +26,14 @@ from gradhesion.core.general.path import walk
 from gradhesion.core.general.scene import LONGEST_WALK, curve_of
 from gradhesion.core.general.series import integrals
 from gradhesion.core.general.stride import FEW, NEAR_END, REGULAR, middle_of, regular_waves, stride
-from gradhesion.core.general.sweep import front_of, prepared, rows_of, run_by_exponent, solve_general, tables_of
+from gradhesion.core.general.sweep import (
+    front_of,
+    in_own_wavelength,
+    prepared,
+    run_by_exponent,
+    solve_general,
+    tables_of,
+)
 from gradhesion.core.general.waves import cut_of
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
 from gradhesion.core.jump_energy import NODES, WEIGHTS
@@ -266,7 +273,7 @@ def report_general(
     """Report on scenes that `solve_general` has solved; `found` has the results that the reports start from."""
     scenes = prepared(parameters, loading)
     status = found["status"].ravel()
-    series = rows_of(profile)
+    n, series = in_own_wavelength(profile)
     k, stretch, wavelength, amplitude, compliance = map(
         scenes.of_each, (scenes.k, scenes.stretch, scenes.wavelength, scenes.amplitude, scenes.compliance)
     )
@@ -282,7 +289,7 @@ def report_general(
     def work(exponent: float, index: NDArray[np.int64]) -> None:
         table, cosines = tables_of(exponent, series)
         front = front_of(exponent, profile.exponent)
-        arrays = (stretch, wavelength, amplitude, compliance, rim, radius, energy)
+        arrays = (stretch, wavelength / n, n * amplitude, compliance, rim, radius, energy)
         report_scenes(table, cosines, series, profile.exponent, front, index, *arrays, wanted, out, status)
 
     if wanted.any():

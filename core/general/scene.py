@@ -13,7 +13,7 @@ from gradhesion.core.general.contact import disc_limits, is_one_disc
 from gradhesion.core.general.curve import Basis, Curve, coordinate, state
 from gradhesion.core.general.folds import MOST_CELLS, room
 from gradhesion.core.general.path import depth_at_full_contact, walk
-from gradhesion.core.general.pull_off import lowest_load
+from gradhesion.core.general.pull_off import deepest_wave, lowest_load
 from gradhesion.core.general.stride import FEW, REGULAR, Middle, middle_of, stride
 from gradhesion.core.general.waves import highest_harmonic
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
@@ -265,7 +265,15 @@ def _cycles(
 
 @kernel()
 def _pull_offs(
-    basis: Basis, curve: Curve, scales: tuple[float, float], rims: Any, slots: Any, out: Any, status: Any
+    basis: Basis,
+    curve: Curve,
+    scales: tuple[float, float],
+    rims: Any,
+    slots: Any,
+    out: Any,
+    status: Any,
+    work: Any,
+    deepest: float,
 ) -> None:
     """Find the pull-off of a curve for all its rims; `scales` are those of its load and of its places.
 
@@ -273,12 +281,11 @@ def _pull_offs(
     """
     force_scale, wavelength = scales
     furthest, free = 0.0, (0.0, math.inf, 0.0)
-    work = room()
     for i in range(rims.size):
         if rims[i] > 0.0:
             furthest = max(furthest, rims[i])
     if rims.size > 1 and furthest > 0.0:
-        free = lowest_load(basis, curve, furthest / wavelength, 0.0, work)
+        free = lowest_load(basis, curve, furthest / wavelength, 0.0, work, deepest)
     for i in range(rims.size):
         if not rims[i] > 0.0:
             continue
@@ -286,7 +293,7 @@ def _pull_offs(
         lowest, place, second = free
         if not (lowest < 0.0 and place < x and second >= lowest * (1.0 - CLOSE)):
             x_low = fma(-x, wavelength, rims[i]) / wavelength if x < math.inf else 0.0
-            lowest, place, second = lowest_load(basis, curve, x, x_low, work)
+            lowest, place, second = lowest_load(basis, curve, x, x_low, work, deepest)
         if not lowest < 0.0:
             status[i] |= NO_VALUE
             lowest = place = math.nan
@@ -324,6 +331,7 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
         shape (results, curves, rims), `status` (curves, rims).
         """
         smooth = np.zeros((0, 3))
+        work, deepest = room(), deepest_wave(table, series) if wants_force(slots) else 0.0
         for j in range(index.size):
             i = index[j]
             own, results, flags = rims[i if rims.shape[0] > 1 else 0], out[:, i], status[i]
@@ -341,7 +349,9 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
                 continue
             if wants_force(slots):
                 scales = (force_unit(table.k, length, unit), wavelength[i])
-                _pull_offs(basis, curve, scales, own, slots, results, flags)
+                _pull_offs(
+                    basis, curve, scales, own, slots, results, flags, work, deepest if amplitude[i] > 0.0 else 0.0
+                )
             if cycles and wants_folds(slots):
                 _cycles(basis, curve, length, unit, wavelength[i], own, slots, results, flags)
 

@@ -31,6 +31,7 @@ from gradhesion.core.general.series_table import (
 from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
 from gradhesion.core.struve.intrinsics import fma, make_horner
 from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS
+from gradhesion.core.struve.pair import pair_above, pair_below
 from gradhesion.core.struve.power import amplitude_power
 
 _COSINE_BIN: Final = 2 * BIN_TERMS
@@ -92,11 +93,24 @@ def summed(
     return w0, w1, v, v1
 
 
+@kernel(contract=True, inline=True)
+def _of_one_cosine(table: Any, even: float, x: float, whole: float) -> tuple[float, float, float, float]:
+    """Return what `sums` does for the one row (1, even, 0)."""
+    z = TWO_PI * (whole + x)
+    if z < SWITCH:
+        s0, s1, d0, _ = pair_below(table, x, z)
+    else:
+        s0, s1, d0, _ = pair_above(table, x, z, amplitude_power(table, z))
+    return even * s0, even * (s0 - s1), even * (s0 + z * d0), even * (2.0 * d0 + z * (s1 - s0))
+
+
 @kernel(contract=True)
 def sums(table: Any, waves: Any, series: Any, x: float, whole: float = 0.0) -> tuple[float, float, float, float]:
     """Return w0, w1, v and v1 at whole + x >= 0; `series` has a row (n, cos, sin) for each harmonic."""
     if waves.size > COSINES and series.shape[0] > 0 and waves[COSINES] * (whole + x) >= 1.0:
         return tabulated_sums(table, waves, x, whole)
+    if series.shape[0] == 1 and series[0, 0] == 1.0 and series[0, 2] == 0.0:
+        return _of_one_cosine(table, series[0, 1], x, whole)
     return summed(table, waves, series, x, 0.0, whole)
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from gradhesion.core._jit import NO, constant, kernel
 from gradhesion.core.branches import END, START
+from gradhesion.core.general.arches import folds_between
 from gradhesion.core.general.branches import END_LEVEL, START_LEVEL, fill_branches
 from gradhesion.core.general.contact import climb_is_one_disc
 from gradhesion.core.general.curve import Basis, Curve
@@ -232,7 +233,7 @@ def go_through(
     places = places_between(begin, end)
     if kind == DOWN:
         places = places[::-1].copy()
-    left = (0.0, 0.0, 0.0, 0.0, 0.0)
+    left = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     sign = 1.0 if kind == UP else -1.0
     now, last = places[0], places[places.size - 1]
     rows = work[2][0]
@@ -292,7 +293,7 @@ def folds_before(
     """Put the folds before the regular waves into `zeros`; return what find_folds does, -1 where they do not fit."""
     _, _, cut, again, begin, _, _ = middle
     inner = max(first, NEAREST) + BEGINNING if again > 0.0 else begin + cut
-    count, rises, tangency = find_folds(basis, curve, first, inner, search, zeros, 0.0)
+    count, rises, tangency = folds_between(basis, curve, first, inner, search, zeros)
     if count >= 0 and again > 0.0:
         number, still, outermost = find_folds(basis, curve, again, begin + cut, search, zeros[count:], 0.0)
         count = count + number if number >= 0 and still == (rises == (count % 2 == 0)) else -1

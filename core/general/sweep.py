@@ -52,6 +52,18 @@ def rows_of(profile: Profile) -> NDArray[np.float64]:
     return np.array(rows, dtype=float).reshape(-1, 3)
 
 
+def in_own_wavelength(profile: Profile) -> tuple[float, NDArray[np.float64]]:
+    """Return n and the harmonics of a wavelength n times shorter, over which A is n times as large.
+
+    n is 1 but for a single harmonic, which is the first one of its own wavelength.
+    """
+    rows = rows_of(profile)
+    if len(rows) != 1:
+        return 1.0, rows
+    n, even, odd = rows[0].tolist()
+    return n, np.array([[1.0, even, odd]])
+
+
 def front_of(k: float, exponent: float) -> float:
     """Return G(m/2) G((1+k)/2)/(2 G((1+k+m)/2)), by which r^m/m presses a^m deep."""
     return 1.0 / (1.0 + k) if exponent == 2.0 else float(0.5 * beta(0.5 * exponent, 0.5 * (1.0 + k)))
@@ -166,15 +178,15 @@ def solve_general(
     slots = np.array([*places, int(check_contact) - 1, int(turned)])
     out = np.full((len(rows), scenes.k.size, scenes.rim.shape[1]), np.nan)
     status = np.zeros(out.shape[1:], dtype=np.int8)
-    series = rows_of(profile)
-    amplitude = scenes.amplitude if series.size else 0.0 * scenes.amplitude
+    n, series = in_own_wavelength(profile)
+    wavelength, amplitude = scenes.wavelength / n, n * scenes.amplitude if series.size else 0.0 * scenes.amplitude
 
     solve = solve_pull_offs if set(rows) <= set(PULL_OFF) else solve_scenes
 
     def work(exponent: float, index: NDArray[np.int64]) -> None:
         table, cosines = tables_of(exponent, series)
         front = front_of(exponent, profile.exponent)
-        arrays = (scenes.stretch, scenes.wavelength, amplitude, scenes.compliance, scenes.rim)
+        arrays = (scenes.stretch, wavelength, amplitude, scenes.compliance, scenes.rim)
         solve(table, cosines, series, profile.exponent, front, index, *arrays, slots, out, status)
 
     run_by_exponent(scenes.k, work, workers, scenes.rim.shape[1])

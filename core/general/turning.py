@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.general.sweep import front_of, prepared, rows_of, run_by_exponent, tables_of
+from gradhesion.core.general.sweep import front_of, in_own_wavelength, prepared, run_by_exponent, tables_of
 from gradhesion.core.general.turn_curve import turn_scenes
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.names import PARAMETERS
@@ -38,15 +38,15 @@ def turning_general(
     scenes = prepared(parameters, loading, (*PARAMETERS[-1:], turn))
     assert scenes.target is not None  # noqa: S101 -- it was asked for
     rims, targets = scenes.rim, scenes.target
-    series = rows_of(profile)
-    amplitude = scenes.amplitude if series.size else 0.0 * scenes.amplitude
+    n, series = in_own_wavelength(profile)
+    wavelength, amplitude = scenes.wavelength / n, n * scenes.amplitude if series.size else 0.0 * scenes.amplitude
     radii = np.empty((scenes.k.size, rims.shape[1]))
     flags = np.zeros(radii.shape, dtype=np.int8)
 
     def work(exponent: float, index: NDArray[np.int64]) -> None:
         table, cosines = tables_of(exponent, series)
         front = front_of(exponent, profile.exponent)
-        arrays = (scenes.stretch, scenes.wavelength, amplitude, scenes.compliance, rims, targets)
+        arrays = (scenes.stretch, wavelength, amplitude, scenes.compliance, rims, targets)
         modes = (turn == "load_max", check_contact)
         turn_scenes(table, cosines, series, profile.exponent, front, index, *arrays, *modes, radii, flags)
 

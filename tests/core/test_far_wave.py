@@ -68,7 +68,7 @@ def test_the_loss_is_that_of_any_profile(k: float, chi: float, waves: float, tab
     table, cosines = tables_of(k)
     basis, other = (table, cosines, rows), (0.5 * curve[0], 2.0, curve[1], 1.0, 0.0)
     room, cut = room_for_waves(rows), cut_of(table, rows)
-    nowhere = (0.0, 0.0, 0.0, 0.0, 0.0)
+    nowhere = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     for part in (0.3, 0.9):
         wave = round(part * waves) + 0.37
         outwards, _, _ = step_of_wave(UP, basis, other, cut, nowhere, wave, room, True)
