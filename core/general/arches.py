@@ -1,27 +1,34 @@
-"""The folds of one cosine on a paraboloid under any control, arch by arch (core/folds.py): a tenth of the work of cells.
+"""The folds of one cosine on a paraboloid under any control, arch by arch (core/folds.py), a tenth of the work.
 
 With X = z^((3+k)/2) the folds stand where G(X) = b X + g Q(X) is equal to q, and G is concave or convex on an arch.
 Under a load q is one number, and core/folds.py tells all. A machine has a q that rises from (1-k)/2 to (3+k)/2. Where
 an arch has the same number of folds for the q of its inner edge and for that of its outer edge, it has as many for what
 lies between, one on each flank, if G has a margin over what q may rise by within the arch: on a flank G is monotone,
 concave or convex, and steeper than its chord on one side of a fold, so that G - q goes through zero once. Where that
-does not tell, cells do.
+does not tell, the arch is cut into pieces on which G - q is monotone, or surely not zero.
 """
 
 import math
 from typing import Any, Final
 
+import numpy as np
+
 from gradhesion.core._jit import NO, kernel
 from gradhesion.core.curve import Curve as OneWave
+from gradhesion.core.curve import slope
 from gradhesion.core.folds import CLOSE, fold_of_arch, survey_arch
-from gradhesion.core.general.curve import Basis, Curve, level_at, slope
-from gradhesion.core.general.folds import find_folds
+from gradhesion.core.general.curve import Basis, Curve, level_at
+from gradhesion.core.general.curve import slope as general_slope
+from gradhesion.core.general.folds import find_folds, refine
 from gradhesion.core.struve.arches import inner_edge, summit
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 
-_STEPS: Final = 60
-_SURE: Final = 1e-14
+_PIECES: Final = 64
+_NARROW: Final = 1e-6
+"""Piece over its place below which its folds hardly can be told apart."""
+_MOST: Final = 64
+"""Folds of an arch that there is room for."""
 
 
 @kernel()
@@ -57,29 +64,70 @@ def _fastest(k: float, curve: Curve, low: float, high: float) -> float:
 
 
 @kernel()
-def _refined(basis: Basis, curve: Curve, x: float, low: float, high: float, rising: bool) -> tuple[float, float]:
-    """Return where D goes through zero between two places, and dD/dz there (Newton from a guess, in the bracket)."""
-    rate, last = 0.0, 0.0
-    for _ in range(_STEPS):
-        value, rate, _ = slope(basis, curve, x)
-        if value == 0.0:
-            break
-        if (value < 0.0) == rising:
-            low = x
-        else:
-            high = x
-        step = -value / (TWO_PI * rate)
-        x += step
-        if not low < x < high:
-            x = 0.5 * (low + high)
-            last = 0.0
-            if x <= low or x >= high:
-                break
-        elif step * step <= _SURE * x * abs(last):  # what is left is about step^2/last
-            break
-        else:
-            last = step
-    return x, rate
+def _line(table: Any, own: OneWave, x: float) -> tuple[float, float, float]:
+    """Return X, G and dG/dX at x."""
+    n = 0.5 * (1.0 + table.k)
+    z = TWO_PI * x
+    value, rate, _, _ = slope(table, own, 0.0, x)
+    front = 1.0 / amplitude_power(table, z)
+    return z * front, front * value, (n * value / z + rate) / (1.0 + n)
+
+
+@kernel()
+def _on_piece(table: Any, curve: Curve, own: OneWave, concave: bool, low: float, high: float) -> int:
+    """Return how often G - q goes through zero between two places of an arch: 1, 0, or -1 if that is not sure.
+
+    It goes through it once where it is monotone and of different signs, and never where bounds say so.
+    """
+    k = table.k
+    begin, first, first_rate = _line(table, own, low)
+    end, last, last_rate = _line(table, own, high)
+    least, most = _level(table, curve, low), _level(table, curve, high)
+    steepest = _fastest(k, curve, low, high) / (0.5 * (3.0 + k) * begin)
+    below, above = first < least, last < most
+    rises = (last_rate if concave else first_rate) > steepest
+    falls = (first_rate if concave else last_rate) < 0.0
+    if rises or falls:
+        return 1 if below != above else 0
+    if below != above:
+        return -1
+    # a curve lies on one side of its chord, and on the other one of its tangents
+    cross = (last - first + first_rate * begin - last_rate * end) / (first_rate - last_rate)
+    bound = first + first_rate * (cross - begin)
+    if below and (bound if concave else max(first, last)) < least:
+        return 0
+    if not below and (min(first, last) if concave else bound) > most:
+        return 0
+    return -1
+
+
+@kernel()
+def _on_pieces(
+    basis: Basis, curve: Curve, own: OneWave, i: int, low: float, high: float, work: Any, zeros: Any
+) -> tuple[int, float]:
+    """Put the folds on a part of arch i into `zeros`, piece by piece; return their number and the nearest miss."""
+    table, _, _ = basis
+    ends = np.empty(_PIECES)
+    ends[0] = high
+    top, count, tangency = 0, 0, math.inf
+    while top >= 0:
+        end = ends[top]
+        found = _on_piece(table, curve, own, i % 2 == 0, low, end)
+        if found < 0 and top + 1 < _PIECES and end - low > _NARROW * end:
+            top += 1
+            ends[top] = math.sqrt(low * end)
+            continue
+        if found < 0:
+            found, _, place = find_folds(basis, curve, low, end, work, zeros[count:], 0.0)
+            tangency = min(tangency, place)
+            count += max(0, found)
+        elif found == 1:
+            value, _, _ = general_slope(basis, curve, low)
+            zeros[count], _ = refine(basis, curve, 0.5 * (low + end), low, end, value < 0.0, 0.0)
+            count += 1
+        low = end
+        top -= 1
+    return count, tangency
 
 
 @kernel()
@@ -126,7 +174,7 @@ def _on_arch_of_machine(
         begin, end = low, high
         if kind == 2:
             begin, end = (low, peak) if j == 0 else (peak, high)
-        x, rate = _refined(basis, curve, guess if begin < guess < end else 0.5 * (begin + end), begin, end, rising)
+        x, rate = refine(basis, curve, guess, begin, end, rising, 0.0)
         if rising and not rate > (1.0 + n) * steepest:
             return -1, math.inf
         zeros[count + j] = x
@@ -151,7 +199,7 @@ def folds_by_arches(
     edge, _, _ = inner_edge(table, i)
     while edge < last:
         high, _, _ = inner_edge(table, i + 1)
-        if count + 4 > zeros.size:
+        if count + _MOST > zeros.size:
             return -1, NO, tangency
         begin, found = count, 0
         if constant:
@@ -169,9 +217,7 @@ def folds_by_arches(
             if miss <= CLOSE:
                 tangency = min(tangency, edge)
         if found < 0:
-            found, _, place = find_folds(basis, curve, max(first, edge), min(high, last), work, zeros[count:], 0.0)
-            if found < 0:
-                return -1, NO, tangency
+            found, place = _on_pieces(basis, curve, own, i, max(first, edge), min(high, last), work, zeros[count:])
             tangency = min(tangency, place)
         for j in range(found):
             if zeros[begin + j] < last:

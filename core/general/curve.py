@@ -106,5 +106,7 @@ def size(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> float:
     waves = 0.0
     for i in range(series.shape[0]):
         n = series[i, 0]
-        waves += math.hypot(series[i, 1], series[i, 2]) * n ** (0.5 * (1.0 - table.k))
-    return (alpha + beta / (power * power)) * (B * z**m + z * power * (1.0 + g * table.amplitude * waves) + g * waves)
+        height = abs(series[i, 1]) if series[i, 2] == 0.0 else math.hypot(series[i, 1], series[i, 2])
+        waves += height if n == 1.0 else height * n ** (0.5 * (1.0 - table.k))
+    bend = B * z * z if m == 2.0 else B * z**m
+    return (alpha + beta / (power * power)) * (bend + z * power * (1.0 + g * table.amplitude * waves) + g * waves)

@@ -10,9 +10,9 @@ import math
 from typing import Any, Final, TypeAlias
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.general.curve import Basis, Curve, slope, state
+from gradhesion.core.general.curve import Basis, Curve, slope
 from gradhesion.core.general.series import sums
-from gradhesion.core.jump_energy import NODES, WEIGHTS
+from gradhesion.core.jump_energy import LONG, NODES, SHORT, SHORT_NODES, SHORT_WEIGHTS, WEIGHTS
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 
@@ -20,9 +20,17 @@ Left: TypeAlias = tuple[float, float, float, float, float, float, float]
 """A place on the curve that tells the coordinate of a jump: whole waves, x beyond them, there the waves of depth and of
 load, by how much the coordinate there exceeds that of the jump (0 where the jump leaves the curve there), and there
 B z^m and z^c."""
-_PANEL: Final = 1.25
-"""Waves a panel of 16 nodes: they leave 1e-14 of a term cos 2 z, the fastest there is."""
+_PANEL: Final = LONG
+"""Waves a panel of 16 nodes."""
+_SHORT: Final = SHORT / LONG
+"""The part of it for which 12 nodes serve."""
+_GROWTH: Final = 4.5
+"""Outer over inner end of a panel: its distance from the branch point leaves 1e-15."""
+_GROWTH_OF_MACHINE: Final = 3.0
+"""The same where alpha + beta z^(1+k) has zeros beside the panel."""
 _POWER: Final = 7
+_INNER_NODES: Final = NODES**_POWER
+_INNER_WEIGHTS: Final = WEIGHTS * _POWER * NODES ** (_POWER - 1)
 _SMOOTH: Final = 1.0 / 9.0
 """Innermost panel over the radius, or over that where powers of z change their balance."""
 _STEPS: Final = 200
@@ -118,10 +126,16 @@ def drop(basis: Basis, curve: Curve, left: Left, low: float, high: float, whole:
         panels = max(1, math.ceil((high - low) / width - 1e-9))
         width = (high - low) / panels if panels < 3 else width
         part = 0.0
-        for i in range(NODES.size):
-            x = low + width * NODES[i]
-            u = _rise(basis, curve, left, x, whole)
-            part -= WEIGHTS[i] * (whole + x) * u * (2.0 + u)
+        if width <= _SHORT * longest and width <= whole + low:
+            for i in range(SHORT_NODES.size):
+                x = low + width * SHORT_NODES[i]
+                u = _rise(basis, curve, left, x, whole)
+                part -= SHORT_WEIGHTS[i] * (whole + x) * u * (2.0 + u)
+        else:
+            for i in range(NODES.size):
+                x = low + width * NODES[i]
+                u = _rise(basis, curve, left, x, whole)
+                part -= WEIGHTS[i] * (whole + x) * u * (2.0 + u)
         total += width * part
         low = low + width if panels > 1 else high
     return total
@@ -135,12 +149,18 @@ def jump_energy(basis: Basis, curve: Curve, start: float, end: float, whole: flo
     return total * (TWO_PI * TWO_PI if end > start else -TWO_PI * TWO_PI)
 
 
-@kernel()
+@kernel(contract=True)
 def _from_zero(basis: Basis, curve: Curve, x: float, level: float) -> float:
     """Return x (1 - rho^2) at a radius of a jump from or to zero contact."""
-    _, _, _, alpha, beta = curve
-    _, stretch, front, depth, load = state(basis, curve, x, 0.0)
-    u = (alpha * depth + beta * load - level) / ((alpha + beta * front) * stretch)
+    table, cosines, series = basis
+    B, m, g, alpha, beta = curve
+    z = TWO_PI * x
+    power = amplitude_power(table, z)
+    stretch, t = z * power, beta / (power * power)
+    w0, w1, _, _ = sums(table, cosines, series, x, 0.0)
+    bend = B * z * z if m == 2.0 else B * z**m
+    depth, height = bend + g * z * w0 - stretch, bend * (m / (1.0 + table.k + m)) + g * z * w1 - stretch
+    u = (alpha * depth + t * height - level) / ((alpha + t) * stretch)
     return -x * u * (2.0 + u)
 
 
@@ -155,11 +175,13 @@ def energy_from_zero(basis: Basis, curve: Curve, x: float, level: float) -> floa
     _, _, _, alpha, beta = curve
     longest = _longest_panel(series)
     inner = min(_SMOOTH * x, longest * (0.25 / (_PANEL * TWO_PI)))
+    growth = _GROWTH
     if alpha * beta > 0.0:  # the machine's share of the stiffness changes there
+        growth = _GROWTH_OF_MACHINE
         inner = min(inner, _SMOOTH * (alpha / beta) ** (1.0 / (1.0 + table.k)) / TWO_PI)
     total, high = 0.0, x
     while high > inner:
-        low = max(high - longest, high / 3.0)
+        low = max(high - longest, high / growth)
         part = 0.0
         for i in range(NODES.size):
             part += WEIGHTS[i] * _from_zero(basis, curve, low + (high - low) * NODES[i], level)
@@ -167,6 +189,5 @@ def energy_from_zero(basis: Basis, curve: Curve, x: float, level: float) -> floa
         high = low
     part = 0.0
     for i in range(NODES.size):
-        most = NODES[i] ** (_POWER - 1)
-        part += WEIGHTS[i] * _POWER * most * _from_zero(basis, curve, high * most * NODES[i], level)
+        part += _INNER_WEIGHTS[i] * _from_zero(basis, curve, high * _INNER_NODES[i], level)
     return (total + high * part) * TWO_PI * TWO_PI

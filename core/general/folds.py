@@ -18,6 +18,7 @@ MOST_FOLDS: Final = 400_000
 _SHARE: Final = 0.5
 """Longest cell over its distance from zero contact, where powers of z have a branch point."""
 _STEPS: Final = 80
+_SURE: Final = 1e-15
 _NEAR: Final = 1e-6
 """Least |D| over the ends' below which it is compared with the terms of D."""
 
@@ -38,29 +39,35 @@ def cell_width(series: Any, x: float) -> float:
 
 
 @kernel()
-def refine(basis: Basis, curve: Curve, low: float, high: float, rising: bool, whole: float) -> float:
-    """Return where D goes through zero between two radii of different signs (Newton, kept in the bracket)."""
-    x = 0.5 * (low + high)
-    last = math.inf
+def refine(
+    basis: Basis, curve: Curve, guess: float, low: float, high: float, rising: bool, whole: float
+) -> tuple[float, float]:
+    """Return where D goes through zero between two radii of different signs, and dD/dz there or nearby.
+
+    Newton's method from a guess, kept in the bracket.
+    """
+    x = guess if low < guess < high else 0.5 * (low + high)
+    last, rate = 0.0, 0.0
     for _ in range(_STEPS):
         value, rate, _ = slope(basis, curve, x, whole)
         if value == 0.0:
-            return x
+            break
         if (value < 0.0) == rising:
             low = x
         else:
             high = x
         step = -value / (TWO_PI * rate)
-        if abs(step) <= 2e-16 * abs(x) or (abs(step) >= 0.5 * last and abs(step) < 1e-10 * abs(x)):
-            return x
-        last = abs(step)
         x += step
         if not low < x < high:
             x = 0.5 * (low + high)
-            last = math.inf
+            last = 0.0
             if x <= low or x >= high:
-                return x
-    return x
+                break
+        elif step * step <= _SURE * abs(x) * abs(last):  # what is left is about step^2/last
+            break
+        else:
+            last = step
+    return x, rate
 
 
 @kernel(entry=True)
@@ -114,12 +121,12 @@ def folds_of_cell(
             if x < high:
                 value, _, _ = slope(basis, curve, x, whole)
             if (value < 0.0) != negative:
-                zeros[count] = refine(basis, curve, here, x, negative, whole)
+                zeros[count], _ = refine(basis, curve, here, here, x, negative, whole)
                 count += 1
                 negative = value < 0.0
             here = x
     if (at_high < 0.0) != negative:
-        zeros[count] = refine(basis, curve, here, high, negative, whole)
+        zeros[count], _ = refine(basis, curve, here, here, high, negative, whole)
         count += 1
     return count, at_high, miss
 

@@ -14,7 +14,7 @@ which may be many waves: of those the lowest is found by bisection (lowest_wave.
 """
 
 import math
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 
@@ -29,15 +29,17 @@ from gradhesion.core.general.waves import NEAREST, cut_of, falls_at_cut, highest
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.cosine_bins import integral_at_zero
 
+Terms: TypeAlias = tuple[float, float, float, float, float]
+"""What `chi_terms` returns."""
 _EXCESS: Final = 2.1
 _REMAINDER: Final = 2.53
-_WORTH: Final = 1.0 + 4.0 * 2.0**-52
+WORTH: Final = 1.0 + 4.0 * 2.0**-52
 _SAMPLES: Final = 16
 """Samples for each wave of the shortest harmonic."""
 _HALVINGS: Final = 60
 _ROUNDING: Final = 1e-14
 _BLOCK: Final = 0.9
-_INWARDS: Final = 0.3
+INWARDS: Final = 0.3
 """Longest cell over the distance of its outer end from zero contact."""
 _PHASELESS: Final = 1e12
 _FAR: Final = 64.0
@@ -89,7 +91,7 @@ def deepest_wave(table: Any, series: Any) -> float:
 
 
 @kernel()
-def _chi_terms(table: Any, series: Any, gain: float, deepest: float) -> tuple[float, float, float, float, float]:
+def chi_terms(table: Any, series: Any, gain: float, deepest: float) -> Terms:
     """Return the terms of the bounds: h n^c, h n^(c-2), the deepest wave, h n^(c-1), and that of small z.
 
     `deepest` is what `deepest_wave` returns.
@@ -108,7 +110,7 @@ def _chi_terms(table: Any, series: Any, gain: float, deepest: float) -> tuple[fl
 
 
 @kernel()
-def _chi(terms: tuple[float, float, float, float, float], z: float) -> float:
+def _chi(terms: Terms, z: float) -> float:
     """Return a bound of the waves over z^c that holds from z on outwards."""
     first, second, deepest, third, _ = terms
     return min(first + second / (z * z), deepest + third / z)
@@ -155,7 +157,7 @@ def _better(
 
 @kernel()
 def _in_question(
-    terms: tuple[float, float, float, float, float],
+    terms: Terms,
     curve: Curve,
     k: float,
     start: float,
@@ -232,7 +234,7 @@ def lowest_load(
     k = table.k
     c = 0.5 * (1.0 - k)
     controlled = (B, m, g, 0.0, 1.0)
-    terms = _chi_terms(table, series, g, deepest)
+    terms = chi_terms(table, series, g, deepest)
     bend, power = B * m / (1.0 + k + m), m - c
     e = 0.5 * (3.0 + k)
     # where the floor of the far field is lowest
@@ -253,7 +255,7 @@ def lowest_load(
     low, left = start, MOST_CELLS
     while low < x_rim and left > 0:
         z_low = TWO_PI * low
-        if _floor(bend, power, k, _chi(terms, z_low), z_low, math.inf) >= best[0] * _WORTH and low > start:
+        if _floor(bend, power, k, _chi(terms, z_low), z_low, math.inf) >= best[0] * WORTH and low > start:
             break
         high = min(x_rim, low + cell_width(series, low))
         best = _better(basis, controlled, low, high, work, cell_zeros, best, 0.0)
@@ -262,18 +264,18 @@ def lowest_load(
     high = start
     while left > 0:
         z_high = TWO_PI * high
-        if best[0] < 0.0 and _innermost(terms, c, e, z_high) >= best[0] * _WORTH:
+        if best[0] < 0.0 and innermost(terms, k, z_high) >= best[0] * WORTH:
             break
         low = _BLOCK * high
         near = terms[4] * z_high ** (1.0 - c)
         chi = min(near, _chi(terms, TWO_PI * low))
-        if best[0] < 0.0 and _floor(bend, power, k, chi, TWO_PI * low, z_high) >= best[0] * _WORTH:
+        if best[0] < 0.0 and _floor(bend, power, k, chi, TWO_PI * low, z_high) >= best[0] * WORTH:
             high = low
             continue
-        low = high - min(cell_width(series, high), _INWARDS * high)
+        low = high - min(cell_width(series, high), INWARDS * high)
         left -= 1
         chi = min(near, _chi(terms, TWO_PI * low))
-        if not (best[0] < 0.0 and _floor(bend, power, k, chi, TWO_PI * low, z_high) >= best[0] * _WORTH):
+        if not (best[0] < 0.0 and _floor(bend, power, k, chi, TWO_PI * low, z_high) >= best[0] * WORTH):
             best = _better(basis, controlled, low, high, work, cell_zeros, best, 0.0)
         if high < 1e-100:
             return math.nan, math.nan, 0.0
@@ -284,10 +286,20 @@ def lowest_load(
 
 
 @kernel()
-def _innermost(terms: tuple[float, float, float, float, float], c: float, e: float, z: float) -> float:
+def innermost(terms: Terms, k: float, z: float) -> float:
     """Return a bound below the load everywhere up to z: both parts grow with z."""
     first, second, _, _, near = terms
+    c, e = 0.5 * (1.0 - k), 0.5 * (3.0 + k)
     waves = near * z ** (e + 1.0 - c)
     if z > 1.0:
         waves = min(waves, max(near, first * z**e + second))
     return -(z**e) - waves
+
+
+@kernel()
+def floor_of_cell(terms: Terms, curve: Curve, k: float, low: float, high: float) -> float:
+    """Return a bound below the load between two z."""
+    B, m, _, _, _ = curve
+    c = 0.5 * (1.0 - k)
+    chi = min(terms[4] * high ** (1.0 - c), _chi(terms, low))
+    return _floor(B * m / (1.0 + k + m), m - c, k, chi, low, high)

@@ -13,7 +13,8 @@ from gradhesion.core.general.contact import disc_limits, is_one_disc
 from gradhesion.core.general.curve import Basis, Curve, coordinate, state
 from gradhesion.core.general.folds import MOST_CELLS, room
 from gradhesion.core.general.path import depth_at_full_contact, walk
-from gradhesion.core.general.pull_off import deepest_wave, lowest_load
+from gradhesion.core.general.pull_off import deepest_wave
+from gradhesion.core.general.pull_offs import lowest_loads
 from gradhesion.core.general.stride import FEW, REGULAR, Middle, middle_of, stride
 from gradhesion.core.general.waves import highest_harmonic
 from gradhesion.core.general.window import first_fold_bound, last_fold_bound
@@ -275,25 +276,17 @@ def _pull_offs(
     work: Any,
     deepest: float,
 ) -> None:
-    """Find the pull-off of a curve for all its rims; `scales` are those of its load and of its places.
-
-    That of the largest rim serves all rims beyond its place.
-    """
+    """Find the pull-off of a curve for all its rims; `scales` are those of its load and of its places."""
     force_scale, wavelength = scales
-    furthest, free = 0.0, (0.0, math.inf, 0.0)
+    places, lows, found = np.empty(rims.size), np.empty(rims.size), np.empty((rims.size, 3))
     for i in range(rims.size):
-        if rims[i] > 0.0:
-            furthest = max(furthest, rims[i])
-    if rims.size > 1 and furthest > 0.0:
-        free = lowest_load(basis, curve, furthest / wavelength, 0.0, work, deepest)
+        places[i] = rims[i] / wavelength
+        lows[i] = fma(-places[i], wavelength, rims[i]) / wavelength if places[i] < math.inf else 0.0
+    lowest_loads(basis, curve, places, lows, work, deepest, found)
     for i in range(rims.size):
         if not rims[i] > 0.0:
             continue
-        x = rims[i] / wavelength
-        lowest, place, second = free
-        if not (lowest < 0.0 and place < x and second >= lowest * (1.0 - CLOSE)):
-            x_low = fma(-x, wavelength, rims[i]) / wavelength if x < math.inf else 0.0
-            lowest, place, second = lowest_load(basis, curve, x, x_low, work, deepest)
+        x, lowest, place, second = places[i], found[i, 0], found[i, 1], found[i, 2]
         if not lowest < 0.0:
             status[i] |= NO_VALUE
             lowest = place = math.nan

@@ -23,8 +23,9 @@ from gradhesion.core.general.branches import END_LEVEL, START_LEVEL
 from gradhesion.core.general.cells import MOST
 from gradhesion.core.general.curve import Basis, Curve, coordinate, slope
 from gradhesion.core.general.energy import Left, drop, find_landing, place_left
-from gradhesion.core.general.folds import folds_of_cell, room
+from gradhesion.core.general.folds import folds_of_cell, refine, room
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
+from gradhesion.core.struve.power import amplitude_power
 
 Step: TypeAlias = tuple[float, float, int]
 """What the jumps of a wave lose, their number, and the pattern they make: 0 for none, -1 where they are not regular."""
@@ -34,6 +35,9 @@ NEAREST: Final = 8.0
 """The innermost wave: z > 40 there."""
 _SAMPLES: Final = 16
 _HALVINGS: Final = 50
+_STEPS: Final = 8
+_LEVEL: Final = 1e-8
+"""Distance from a crest in z, whose square is below rounding."""
 _MODULUS: Final = 2_147_483_647
 
 
@@ -96,6 +100,44 @@ def falls_at_cut(basis: Basis, curve: Curve, cut: float, wave: float) -> bool:
 
 
 @kernel()
+def _branch_of_one_harmonic(basis: Basis, curve: Curve, wave: float, low: float, at_low: float, rows: Any) -> int:
+    """Do what `branches_of_wave` does for one harmonic: D has one crest a wave, and rises and falls monotonously.
+
+    Of what else is in D the rise over a wave is a part 3/z, at most, of what the waves themselves rise, or no fold is
+    left.
+    """
+    table, _, series = basis
+    _, _, g, _, _ = curve
+    z = TWO_PI * (wave + low)
+    bend = g * table.amplitude * math.hypot(series[0, 1], series[0, 2]) * z * amplitude_power(table, z)
+    high = low + 1.0
+    at_high, _, _ = slope(basis, curve, high, wave)
+    if at_high >= 0.0:
+        return -1
+    crest = low + 0.5
+    value, rate, _ = slope(basis, curve, crest, wave)
+    for _ in range(_STEPS):
+        step = rate / bend
+        if value > 0.0 or abs(step) < _LEVEL:
+            break
+        crest += min(max(step / TWO_PI, -0.1), 0.1)
+        value, rate, _ = slope(basis, curve, crest, wave)
+    if value <= 0.0:
+        return 0
+    rows[START, 0], _ = refine(basis, curve, _between(low, crest, at_low, value), low, crest, True, wave)
+    rows[END, 0], _ = refine(basis, curve, _between(high, crest, at_high, value), crest, high, False, wave)
+    rows[START_LEVEL, 0] = coordinate(basis, curve, rows[START, 0], wave)
+    rows[END_LEVEL, 0] = coordinate(basis, curve, rows[END, 0], wave)
+    return 1
+
+
+@kernel()
+def _between(trough: float, crest: float, below: float, above: float) -> float:
+    """Return about where a half wave of a cosine is zero, from its values at its two ends."""
+    return trough + (crest - trough) * math.acos(1.0 - 2.0 * below / (below - above)) / math.pi
+
+
+@kernel()
 def branches_of_wave(basis: Basis, curve: Curve, wave: float, low: float, work: Any, rows: Any) -> int:
     """Put the branches between wave + low and wave + low + 1 into `rows`; return their number, -1 if one is cut."""
     _, _, series = basis
@@ -104,6 +146,8 @@ def branches_of_wave(basis: Basis, curve: Curve, wave: float, low: float, work: 
     value, _, _ = slope(basis, curve, low, wave)
     if value >= 0.0:
         return -1
+    if series.shape[0] == 1 and series[0, 0] == 1.0:
+        return _branch_of_one_harmonic(basis, curve, wave, low, value, rows)
     count, inside = 0, False
     for i in range(cells):
         begin, end = low + i / cells, low + (i + 1) / cells

@@ -19,6 +19,8 @@ from gradhesion.core.struve.cosine_bins import integral_at_zero
 _EXCESS = 0.35
 _INNERMOST = 1e-30
 """z where a search begins if depth rises from zero contact on (k = 1)."""
+_PLACES = (1.0, 1e-1, 1e-2, 1e-4, 1e-8, 1e-16)
+"""Where the search begins if the coordinate surely falls there, and so before."""
 _BISECTIONS = 200
 _OUTERMOST = 1e250
 
@@ -59,6 +61,10 @@ def first_fold_bound(basis: Basis, curve: Curve) -> float:
     if not _surely_falls(level, push, s, n, bounds, _INNERMOST, NO):
         return _INNERMOST
     low = _INNERMOST
+    for place in _PLACES:
+        if _surely_falls(level, push, s, n, bounds, place, NO):
+            low = place
+            break
     for far_out in (False, True):  # both right sides grow, the second from z = 1 on
         if far_out and (low < 1.0 or not _surely_falls(level, push, s, n, bounds, low, YES)):
             break

@@ -14,7 +14,7 @@ from gradhesion.core.general.energy import drop, energy_from_zero, jump_energy, 
 from gradhesion.core.general.folds import room
 from gradhesion.core.general.passage import jump_between, jump_from_zero
 from gradhesion.core.general.path import walk
-from gradhesion.core.general.pull_off import lowest_load
+from gradhesion.core.general.pull_off import deepest_wave, lowest_load
 from gradhesion.core.general.scene import curve_of
 from gradhesion.core.general.series import sums
 from gradhesion.core.general.stride import REGULAR, middle_of, stride
@@ -246,7 +246,7 @@ def test_machines_from_stiff_to_soft() -> None:
 def test_the_lowest_of_many_waves(m: float, waves: float) -> None:
     """No trough within a thousand waves of it is lower."""
     basis, curve, rim = _curve(0.3, m, PAIR, "load", waves, 0.3)
-    lowest, place, second = lowest_load(basis, curve, rim, 0.0, room())
+    lowest, place, second = lowest_load(basis, curve, rim, 0.0, room(), deepest_wave(basis[0], basis[2]))
     assert lowest <= second < 0.0
     work, cut = room_for_waves(basis[2]), cut_of(basis[0], basis[2])
     rows = work[2][0]
