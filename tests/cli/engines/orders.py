@@ -36,7 +36,7 @@ def solve(parameters, *arguments, **options):
 
 blocks.solve, solve.really = solve, really
 if "OTHER_NUMPY" in os.environ:
-    import numpy
+    import numba, numpy  # numba looks at the version when it is imported
     numpy.__version__ = "1.0"
 """
 
