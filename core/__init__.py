@@ -12,7 +12,17 @@ if TYPE_CHECKING:
     from gradhesion.core.curves import draw_curves
     from gradhesion.core.kinds import KERNELS, KINDS, NEEDS, kind_of_curves, kind_of_map, kind_of_turning
     from gradhesion.core.loading_control import CONTROLS, Loading
-    from gradhesion.core.names import CURVES, OUTPUTS, PARAMETERS, RANGE, REPORTS, SOLVERS, TURNS, VALIDITY
+    from gradhesion.core.names import (
+        CURVES,
+        OUTPUTS,
+        PARAMETERS,
+        RANGE,
+        REPORTS,
+        SENSITIVITIES,
+        SOLVERS,
+        TURNS,
+        VALIDITY,
+    )
     from gradhesion.core.profile import Harmonic, Profile
     from gradhesion.core.sources import SOURCES
     from gradhesion.core.status import DOUBTFUL, FAILED, FLAGS, doubts_about
@@ -34,6 +44,7 @@ __all__ = [
     "PARAMETERS",
     "RANGE",
     "REPORTS",
+    "SENSITIVITIES",
     "SOLVERS",
     "SOURCES",
     "TURNS",
@@ -60,7 +71,7 @@ _HOMES: Final = {
     "curves": ("draw_curves",),
     "kinds": ("KERNELS", "KINDS", "NEEDS", "kind_of_curves", "kind_of_map", "kind_of_turning"),
     "loading_control": ("CONTROLS", "Loading"),
-    "names": ("CURVES", "OUTPUTS", "PARAMETERS", "RANGE", "REPORTS", "SOLVERS", "TURNS", "VALIDITY"),
+    "names": ("CURVES", "OUTPUTS", "PARAMETERS", "RANGE", "REPORTS", "SENSITIVITIES", "SOLVERS", "TURNS", "VALIDITY"),
     "profile": ("Harmonic", "Profile"),
     "sources": ("SOURCES",),
     "status": ("DOUBTFUL", "FAILED", "FLAGS", "doubts_about"),

@@ -22,9 +22,12 @@ from gradhesion.core.branches import (
     LOADING_JUMPS,
     LOADING_LOSS,
     RUN,
+    RUN_AFTER,
+    RUN_BEFORE,
     RUN_FIRST,
     RUN_LANDING,
     RUN_LAST,
+    RUN_LOWEST,
     START,
     START_DEPTH,
     TANGENCY,
@@ -235,6 +238,7 @@ def _unload_through(table: Any, curve: Curve, near: int, waves: Any, trace: Any,
     """Give the first branch after the gap what unloading loses from there, if it goes on into the gap."""
     before, after, final = waves
     lowest = _lowest_wave(table, curve, before, after)
+    trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER], trace[RUN, RUN_LOWEST] = before, after, lowest
     if lowest == after:  # nothing in the gap is lower
         return
     loss, jumps, last = 0.0, 1.0, 0.0

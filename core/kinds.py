@@ -7,6 +7,7 @@
     asymptotic         the two other solvers of it
     envelope
     curves             the curves of it
+    sensitivities      how strongly its force and energy depend on its parameters
     general_force      the same of any other profile or control
     general_energy
     general_reports
@@ -34,6 +35,7 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "asymptotic": ("energy",),
     "envelope": ("asymptotic",),
     "curves": ("energy", "asymptotic"),
+    "sensitivities": ("energy",),
     "general_force": ("force",),
     "general_energy": ("energy", "general_force"),
     "general_reports": ("general_energy",),
@@ -55,6 +57,7 @@ KERNELS: Final[dict[str, int]] = {
     "asymptotic": 32,
     "envelope": 1,
     "curves": 22,
+    "sensitivities": 28,
     "general_force": 63,
     "general_energy": 114,
     "general_reports": 10,

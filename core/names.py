@@ -32,6 +32,8 @@ REPORTS: Final = (
     "energy_gain",
 )
 """All that can be asked for beside the results, in the order of the rows (report.py)."""
+SENSITIVITIES: Final = ("pull_off_force_sensitivity", "dissipated_energy_sensitivity")
+"""How strongly a value depends on each parameter: along a last axis of the parameters (answers/sensitivity.py)."""
 VALIDITY: Final = ("tabor_parameter", "wave_tabor_parameter", "wave_slope", "johnson_alpha")
 """What says where the model applies (validity.py): known without solving anything, whatever the solver."""
 RANGE: Final = "adhesion_range_over_R"

@@ -14,7 +14,7 @@ from gradhesion.core.general.sweep import equivalent_wave, solve_general
 from gradhesion.core.general.turning import turning_general
 from gradhesion.core.kinds import kind_of_map, kind_of_turning
 from gradhesion.core.loading_control import Loading
-from gradhesion.core.names import OUTPUTS, PARAMETERS, PULL_OFF, REPORTS, RESULTS, SOLVERS, TURNS
+from gradhesion.core.names import OUTPUTS, PARAMETERS, PULL_OFF, REPORTS, RESULTS, SENSITIVITIES, SOLVERS, TURNS
 from gradhesion.core.processors import processors
 from gradhesion.core.profile import Profile
 from gradhesion.core.report import NEEDED
@@ -27,17 +27,20 @@ def _checked(
 ) -> str | None:
     """Refuse what cannot be solved; return the name of what the cycles turn at, None if that is the rim."""
     reports = [name for name in outputs if name in REPORTS]
-    unknown = [name for name in outputs if name not in OUTPUTS and name not in reports]
+    slopes = [name for name in outputs if name in SENSITIVITIES]
+    unknown = [name for name in outputs if name not in (*OUTPUTS, *reports, *slopes)]
     missing = [name for name in PARAMETERS if name not in parameters]
     if unknown or missing or solver not in SOLVERS:
         raise ValueError(f"unknown outputs {unknown}, missing parameters {missing}, solver {solver!r}")
     turns = [name for name in TURNS if name in parameters]
     if len(turns) > 1:
         raise ValueError(f"{' and '.join(turns)} are given: a cycle turns at one of them")
-    if solver != "exact" and (reports or turns):
-        raise ValueError(f"{[*reports, *turns]} are known of the exact solver only, not of {solver!r}")
+    if solver != "exact" and (reports or turns or slopes):
+        raise ValueError(f"{[*reports, *slopes, *turns]} are known of the exact solver only, not of {solver!r}")
     if ("machine_stiffness" in parameters) != (loading.control == "machine"):
         raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
+    if slopes and (loading != Loading() or equivalent_wave(profile) is None):
+        raise ValueError(f"{slopes} are known of the paraboloid with one cosine wave under displacement control only")
     if loading.control == "load" and "energy_residual" in reports:
         raise ValueError("energy_residual: a dead load closes no loop; ask for it under another control")
     other = solver == "asymptotic" and profile != Profile()
@@ -58,6 +61,30 @@ def _as_one_wave(
         "lambda_over_R": np.asarray(parameters["lambda_over_R"], dtype=float) / wavelengths_a_wave,
         "A": np.asarray(parameters["A"], dtype=float) * amplitude_factor,
     }
+
+
+def wanted_for(outputs: Sequence[str], *, turned: bool) -> Sequence[str]:
+    """Return what is solved: sensitivities start from values."""
+    if not set(outputs) & {*SENSITIVITIES}:
+        return outputs
+    from gradhesion.core.answers.sensitivity import wanted_for as all_wanted  # noqa: PLC0415 (kernels of their own)
+
+    return all_wanted(outputs, turned=turned)
+
+
+def _sensed(
+    parameters: Mapping[str, ArrayLike], asked: Sequence[str], found: Results, workers: int, turn: str | None
+) -> Results:
+    """Return the sensitivities that are asked for, from what is solved."""
+    from gradhesion.core.answers.sensitivity import sensitivities  # noqa: PLC0415 (kernels of their own)
+
+    def force_of(scenes: Mapping[str, ArrayLike]) -> NDArray[np.float64]:
+        """Return the force of other scenes that turn as these do."""
+        return solve(scenes, ["pull_off_force"], check_contact=False, threads=workers)["pull_off_force"]
+
+    slopes: Results = {**sensitivities(parameters, asked, found, workers, turn, force_of)}
+    note_compiled("sensitivities")
+    return slopes
 
 
 def solve(
@@ -88,7 +115,9 @@ def solve(
         the value (of rounding, and of the sum over waves); energy_residual, the energy less the loop integral of the
         load, whose own rounding is that of the load (NaN beyond 2,000 waves); roughness_parameter chi = r/s;
         saturation_radius in R, beyond which there is no fold; adhesion_gain and energy_gain over the smooth punch of
-        the same material and rim.
+        the same material and rim. Of a paraboloid with one cosine wave under displacement control also
+        pull_off_force_sensitivity and dissipated_energy_sensitivity, d ln(value)/d ln p of every parameter, for k and
+        nu d ln(value)/dp.
     solver
         One of `SOLVERS`.
     check_contact
@@ -107,7 +136,8 @@ def solve(
     Returns
     -------
     An array of the broadcast shape for each output (float64; int32 for jumps, 2^31 - 1 for more) and `status` (int8,
-    bits of status.FLAGS). A scene outside the ranges has NaN (-1 jumps) and the bit no_value; delta_max of an
+    bits of status.FLAGS). Sensitivities have a last axis more: the parameters in the order of `PARAMETERS`, and the one
+    of `TURNS` that is given. A scene outside the ranges has NaN (-1 jumps) and the bit no_value; delta_max of an
     unbounded punch is inf.
 
     Raises
@@ -133,6 +163,8 @@ def solve(
     profile, loading = profile or Profile(), loading or Loading()
     turn = _checked(parameters, outputs, solver, profile, loading)
     workers = threads or processors()
+    asked = outputs
+    outputs = wanted_for(outputs, turned=turn is not None)
     alike = equivalent_wave(profile) if loading == Loading() else None
     if alike is not None and profile != Profile():
         parameters = _as_one_wave(parameters, *alike)
@@ -171,4 +203,6 @@ def solve(
         found = turned_results(parameters, turn, outputs, radii, flags, solved, again)
         note_compiled(kind_of_turning(profile, loading))
     note_compiled(kind_of_map(outputs, solver, profile, loading))
-    return {name: found[name] for name in (*outputs, "status")}
+    if set(asked) & {*SENSITIVITIES}:
+        found |= _sensed(parameters, asked, found, workers, turn)
+    return {name: found[name] for name in (*asked, "status")}

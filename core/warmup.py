@@ -8,7 +8,7 @@ from gradhesion.core.curves import CURVES, GENERAL_CURVES, draw_curves
 from gradhesion.core.kinds import KINDS
 from gradhesion.core.loading_control import Loading
 from gradhesion.core.material import stiffness
-from gradhesion.core.names import OUTPUTS, REPORTS
+from gradhesion.core.names import OUTPUTS, REPORTS, SENSITIVITIES
 from gradhesion.core.profile import Harmonic, Profile
 from gradhesion.core.struve.table import build_table
 from gradhesion.core.sweep import solve
@@ -77,6 +77,8 @@ def compile_kind(kind: str) -> None:
             _compile_general_curves()
         case "curves":
             _compile_curves()
+        case "sensitivities":
+            solve(SCENE, SENSITIVITIES, threads=1)
         case _:
             raise ValueError(f"kind {kind!r}: it is one of {', '.join(KINDS)}")
     note_compiled(kind)

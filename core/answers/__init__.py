@@ -1,1 +1,1 @@
-"""Answers that take many scenes, or a search: arrays in, arrays out."""
+"""Answers beyond a map of values: what measured data say, and how strongly a value depends on its parameters."""
