@@ -11,7 +11,7 @@ import xarray
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.keys import INPUTS, PHYSICAL, SETTINGS
-from gradhesion.cli.names import OUTPUTS, SCENE, SOLVER
+from gradhesion.cli.names import OUTPUTS, PARAMETER, PHYSICAL_PARAMETER, SCENE, SOLVER
 from gradhesion.cli.study.axes import Values, mistakes_of_grid
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.study import Study, study_from
@@ -210,7 +210,7 @@ def _take_values(given: Given, name: str, value: Any) -> None:
 
 def _align(given: Given) -> None:
     """Check that the dimensions of all arrays go together."""
-    taken = {*OUTPUTS, SOLVER, "status"}
+    taken = {*OUTPUTS, SOLVER, PARAMETER, PHYSICAL_PARAMETER, "status"}
     for name, array in given.arrays.items():
         for dim in map(str, array.dims):
             if dim in taken:

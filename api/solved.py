@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.dataset import attributes, variables
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import REALISATION, SI, SOLVER, UNITS
+from gradhesion.cli.names import PHYSICAL_PARAMETER, REALISATION, SI, SOLVER, UNITS, labels_of
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.work.blocks import solved_by
+from gradhesion.cli.work.blocks import physical_of, solved_by
 from gradhesion.core import PARAMETERS
 from gradhesion.core.reduced import parameters_from, scales_in_si, sources_of
 
@@ -44,8 +44,11 @@ def solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarr
         if study.spectrum is not None:
             scales = {unit: scale[..., None] for unit, scale in scales.items()}
         found |= {name + SI: found[name] * scales[UNITS[name]] for name in study.in_si}
+    if PHYSICAL_PARAMETER in study.labels:
+        found |= physical_of(study, arrays, found)
     described = variables(study)
-    beside = " ".join(name for name in described if name not in found and name not in (*dims, SOLVER, REALISATION))
+    apart = (*dims, *study.labels, SOLVER, REALISATION)
+    beside = " ".join(name for name in described if name not in found and name not in apart)
     made = {}
     for name, variable in described.items():
         own, values = dims, found.get(name)
@@ -56,6 +59,7 @@ def solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarr
                 *(one for one in (SOLVER,) if one in described),
                 *dims,
                 *(one for one in (REALISATION,) if one in described),
+                *(one for one in (labels_of(name),) if one),
             )
             given |= {"coordinates": beside} if beside else {}
         elif name in parameters:

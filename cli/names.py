@@ -39,8 +39,35 @@ OUTPUTS: Final = {
     "wave_tabor_parameter": "Tabor parameter of the crests of the waviness",
     "wave_slope": "steepest slope of the waviness",
     "johnson_alpha": "Johnson's parameter alpha = 1/(sqrt(pi) chi) of the waviness",
+    "pull_off_force_sensitivity": "sensitivity of the pull-off force F to each parameter p: d ln F/d ln p (k, nu: /dp)",
+    "dissipated_energy_sensitivity": "sensitivity of the energy H to each parameter p: d ln H/d ln p (k, nu: /dp)",
 }
 """Every output of a map, with its `long_name`."""
+
+SENSITIVITIES: Final = tuple(name for name in OUTPUTS if name.endswith("_sensitivity"))
+"""Those that have an item for each parameter."""
+
+PARAMETER: Final = "parameter"
+"""The dimension of what a sensitivity is to, after those of the scenes."""
+
+PHYSICAL_PARAMETER: Final = "physical_parameter"
+"""The same of the quantities with units."""
+
+OF_PHYSICAL: Final = "_physical"
+"""What is added to the name of a sensitivity, for that of the value in SI units to the quantities with units."""
+
+
+def labels_of(variable: str) -> str:
+    """
+    Name the dimension that a variable of a map has after those of the scenes; empty if it has none.
+
+    >>> labels_of("pull_off_force_sensitivity"), labels_of("pull_off_force")
+    ('parameter', '')
+    """
+    if variable.removesuffix(OF_PHYSICAL) not in SENSITIVITIES:
+        return ""
+    return PHYSICAL_PARAMETER if variable.endswith(OF_PHYSICAL) else PARAMETER
+
 
 EXTENTS: Final = {
     "equilibrium": "point",
@@ -211,7 +238,7 @@ FLAGS: Final = {
 SOLVERS: Final = "how the scenes are solved"
 """The `long_name` of `solver`."""
 
-SYMBOLS: Final = {
+SYMBOLS: Final[dict[str, str]] = {
     **{name: key.symbol for name, key in INPUTS.items()},
     "pull_off_force": r"pull-off force $F\,/\,(\frac{3}{2}\pi R\Delta\gamma)$",
     "pull_off_radius": "radius at pull-off $a/R$",
@@ -246,11 +273,28 @@ SYMBOLS: Final = {
     "dissipated_energy_error_si": "error of the energy",
     "energy_residual_si": "residual of the energy",
     "saturation_radius_si": "saturation radius $a$",
+    "pull_off_force_sensitivity": r"strongest on $F$",
+    "dissipated_energy_sensitivity": r"strongest on $H$",
     "status": "status",
     "solver": "solver",
     "realisation": "realisation",
 }
 """Every variable as a picture names it."""
+
+
+def _sensitivity_symbols() -> dict[str, str]:
+    """Name each item of the sensitivities."""
+    found = {}
+    for output, value in (("pull_off_force_sensitivity", "F"), ("dissipated_energy_sensitivity", "H")):
+        found[output + OF_PHYSICAL] = SYMBOLS[output]
+        for name, key in INPUTS.items():
+            step = "d" if name in ("k", "nu") else r"d\,\ln"
+            found[f"{output}_{name}"] = rf"$d\,\ln {value}/{step}$ {key.symbol}"
+            found[f"{output}{OF_PHYSICAL}_{name}"] = found[f"{output}_{name}"]
+    return found
+
+
+SYMBOLS.update(_sensitivity_symbols())
 
 SCENE: Final = "scene"
 """The one dimension of a dataset with `layout = "points"`."""

@@ -51,7 +51,8 @@ def doubts_about(result: str, *, turned: bool = False) -> int:
     Where cycles turn at a depth or a load (`turned`), loading decides where, and a loading that is not one disc casts
     doubt on all that it leads to.
     """
-    return DOUBTFUL if turned or result in _OF_LOADING else DOUBTFUL & ~LOADING_NOT_ONE_DISC
+    value = result.split("_sensitivity", maxsplit=1)[0]  # which is as good as its value
+    return DOUBTFUL if turned or value in _OF_LOADING else DOUBTFUL & ~LOADING_NOT_ONE_DISC
 
 
 FAILED: Final = TOLERANCE_NOT_MET | NO_VALUE

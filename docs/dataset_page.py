@@ -11,7 +11,7 @@ from gradhesion.cli import names
 from gradhesion.cli.dataset.dataset import attributes
 from gradhesion.cli.keys import INPUTS, PARAMETERS
 from gradhesion.cli.study.study import study_from
-from gradhesion.core import DOUBTFUL, FAILED, FLAGS, REPORTS
+from gradhesion.core import DOUBTFUL, FAILED, FLAGS, REPORTS, SENSITIVITIES
 from gradhesion.core import status as status_module
 
 NO_FLAGS: Final = ("FLAGS", "DOUBTFUL", "FAILED")
@@ -81,7 +81,7 @@ def _sections() -> Iterator[str]:
 def _outputs() -> list[list[str]]:
     """Write a row for each output of a map."""
     return [
-        [code(name), words, code(names.UNITS.get(name, "")), "yes" if name in REPORTS else ""]
+        [code(name), words, code(names.UNITS.get(name, "")), "yes" if name in (*REPORTS, *SENSITIVITIES) else ""]
         for name, words in names.OUTPUTS.items()
     ]
 

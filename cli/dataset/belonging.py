@@ -13,7 +13,7 @@ from gradhesion.cli.dataset.coordinates import following
 from gradhesion.cli.dataset.reader import study_text
 from gradhesion.cli.errors import DatasetError, StudyError
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import SOLVER
+from gradhesion.cli.names import SOLVER, labels_of
 from gradhesion.cli.study.points import COMMENT, points_of
 from gradhesion.cli.study.study import Study, study_from
 
@@ -83,7 +83,8 @@ def _check_variables(dataset: xarray.Dataset, study: Study, path: Path) -> None:
     for name in (*study.variables, "status"):
         if name not in dataset.data_vars:
             raise _apart(path, f"its study requests {name}, which the dataset lacks")
-        if dict(dataset[name].sizes) != study.sizes:
+        own = labels_of(name)
+        if dict(dataset[name].sizes) != study.sizes | ({own: len(study.labels[own])} if own else {}):
             raise _apart(path, f"the axes of {name} are not those of its study")
     if SOLVER in study.sizes and (
         SOLVER not in dataset.coords or tuple(dataset[SOLVER].values) != tuple(study.method.solver)

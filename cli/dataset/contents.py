@@ -33,18 +33,27 @@ class Contents(Protocol):
         """Join parts in memory."""
 
 
+def _long_name(name: str) -> str:
+    """Say what an output of a map is, also the sensitivity of one in SI units."""
+    if not name.endswith(names.OF_PHYSICAL):
+        return names.OUTPUTS[name]
+    told = names.OUTPUTS[name.removesuffix(names.OF_PHYSICAL)]
+    return told.split(" to each parameter")[0] + " in SI units to each quantity q with a unit: d ln/d ln q"
+
+
 class _OfMap:
     """One value a scene."""
 
     filled = True
 
     def described(self, study: Study, name: str) -> Variable:
-        attributes = {"units": "1", "ancillary_variables": "status", "long_name": names.OUTPUTS[name]}
+        attributes = {"units": "1", "ancillary_variables": "status", "long_name": _long_name(name)}
         if name in ("dissipated_energy", "unloading_energy") and study.loading.control == "load":
             attributes["long_name"] = names.OUTPUTS[name].replace(",", " without its jump-out, which has no bound,")
         if name.endswith("_jumps"):
             return Variable(dimensions=tuple(study.sizes), dtype="i4", attributes=attributes)
-        return Variable(dimensions=tuple(study.sizes), dtype="f8", attributes=attributes, blank=np.nan)
+        own = (*study.sizes, names.labels_of(name)) if names.labels_of(name) else tuple(study.sizes)
+        return Variable(dimensions=own, dtype="f8", attributes=attributes, blank=np.nan)
 
     def parts(self, study: Study, threads: int | None) -> Iterator[Part]:
         return solved(study, threads)
@@ -54,7 +63,7 @@ class _OfMap:
         for block, values in parts:
             for name, part in values.items():
                 if name not in whole:
-                    whole[name] = np.empty(study.shape, part.dtype)
+                    whole[name] = np.empty(study.shape_of(name, study.shape), part.dtype)
                 whole[name][block] = part
         return whole
 

@@ -41,6 +41,10 @@ def coordinates(study: Study) -> dict[str, Variable]:
         )
     if any(names.is_of_a_state(name) for name in study.outputs):
         described[names.STATE] = _states(study)
+    for name, own_labels in study.labels.items():
+        values = np.array(own_labels, dtype=object)
+        told = {"long_name": "what a sensitivity is to"}
+        described[name] = Variable(dimensions=(name,), dtype="str", attributes=told, values=values)
     for name, key in INPUTS.items():
         attributes = {"units": key.unit, "long_name": key.about}
         if name in study.left_out:

@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 def variables(study: Study) -> dict[str, Variable]:
     """Describe the variables of a study's dataset, coordinates first."""
     described = coordinates(study)
-    beside = " ".join(name for name in described if name not in (*study.sizes, names.STATE))
+    apart = (*study.sizes, *study.labels, names.STATE)
+    beside = " ".join(name for name in described if name not in apart)
     outputs = {name: _output(study, name) for name in study.variables}
     outputs["status"] = _status(study)
     if beside:

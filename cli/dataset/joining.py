@@ -103,7 +103,7 @@ class Joined:
             if here.size == 0:
                 continue
             whole = source if self.axis in source.dims else source.expand_dims(self.axis)
-            part = whole[list(filled)].isel({**cut, self.axis: own[1, here]}).transpose(*dimensions)
+            part = whole[list(filled)].isel({**cut, self.axis: own[1, here]}).transpose(*dimensions, ...)
             for name, values in filled.items():
                 np.moveaxis(values, along, 0)[here] = np.moveaxis(part[name].values, along, 0)
         return filled

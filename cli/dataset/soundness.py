@@ -10,7 +10,20 @@ from numpy.typing import NDArray
 from gradhesion.cli.dataset.curve_variables import variables_of_curves
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import EXTENTS, OUTPUTS, RAGGED, REALISATION, SCENE, SI, SOLVER, STATE, STATE_CURVES
+from gradhesion.cli.names import (
+    EXTENTS,
+    OUTPUTS,
+    PARAMETER,
+    PHYSICAL_PARAMETER,
+    RAGGED,
+    REALISATION,
+    SCENE,
+    SI,
+    SOLVER,
+    STATE,
+    STATE_CURVES,
+    labels_of,
+)
 from gradhesion.core.loading_control import CONTROLS
 
 if TYPE_CHECKING:
@@ -75,7 +88,8 @@ def _of_attributes(dataset: "xarray.Dataset") -> Iterator[str]:
 def _of_variables(dataset: "xarray.Dataset") -> Iterator[str]:
     """Say which variables have another type, or attributes of another."""
     for name, variable in dataset.variables.items():
-        if variable.dtype.kind not in ("OU" if name == SOLVER else "OUf" if name == STATE else "fiu"):
+        words = "OU" if name in (SOLVER, PARAMETER, PHYSICAL_PARAMETER) else "OUf" if name == STATE else "fiu"
+        if variable.dtype.kind not in words:
             yield f"the type of {name} is {variable.dtype}"
         for attribute in ("units", "long_name"):
             if not isinstance(variable.attrs.get(attribute, ""), str):
@@ -101,7 +115,9 @@ def _of_axes(dataset: "xarray.Dataset") -> Iterator[str]:
         elif own == (name,) and not _is_axis(dataset[name].values, infinite=bool(key.infinite)):
             yield f"the values of {name} are none of an axis"
     for name in map(str, dataset.data_vars):
-        if name.removesuffix(SI) in OUTPUTS and dataset[name].dims != axes:
+        labels = (labels_of(name),) if labels_of(name) else ()
+        known = name.removesuffix(SI) in OUTPUTS or labels
+        if known and (dataset[name].dims != (*axes, *labels) or not {*labels} <= {*dataset.coords}):
             yield f"the axes of {name} are not those of status"
 
 

@@ -1,5 +1,6 @@
 """The dataset of a study, written block by block, and the blocks kept until it is complete."""
 
+import math
 import os
 import shutil
 from collections.abc import Callable, Generator, Iterable
@@ -263,6 +264,8 @@ def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
     for name, size in study.sizes.items():
         file.createDimension(name, size)
     described_all = dataset.variables(study)
+    for name, labels in study.labels.items():
+        file.createDimension(name, len(labels))
     if STATE in described_all:
         file.createDimension(STATE, np.size(np.asarray(described_all[STATE].values)))
     for name, described in described_all.items():
@@ -296,9 +299,11 @@ def _chunks(dimensions: tuple[netCDF4.Dimension, ...], cells: int) -> tuple[int,
 
 def _check_space(study: Study, path: Path, folder: Folder) -> None:
     """Refuse a dataset that cannot fit on its disk, with its parts."""
-    least = study.scenes * LEAST_SHARE * sum(8 for output in study.variables if not output.endswith("_jumps"))
+    values = (math.prod(study.shape_of(name, ())) for name in study.variables if not name.endswith("_jumps"))
+    least = study.scenes * LEAST_SHARE * 8 * sum(values)
     if study.has_parts:
-        least += study.scenes * sum(kind.itemsize for kind in types_of(study).values())
+        types = types_of(study).items()
+        least += study.scenes * sum(kind.itemsize * math.prod(study.shape_of(name, ())) for name, kind in types)
         least -= folder.bytes_of_parts()
     with writing(path):
         free = shutil.disk_usage(folder.path).free

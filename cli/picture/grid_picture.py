@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.reductions import Taken
 from gradhesion.cli.dataset.selection import Selection
+from gradhesion.cli.dataset.sensitivities import parameters_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SOLVER, SYMBOLS
 from gradhesion.cli.picture import panels
@@ -81,6 +82,10 @@ def draw_grid(
         codes = np.unique(finite)
         cut = cut.copy(data=np.searchsorted(codes, cut)).where(cut.notnull())
         levels = panels.levels_of_flags(codes, looks)
+    elif labels := parameters_of(dataset[name]):
+        codes = np.unique(finite)
+        cut = cut.copy(data=np.searchsorted(codes, cut)).where(cut.notnull())
+        levels = panels.levels_of_names([SYMBOLS[labels[int(code)]] for code in codes], looks)
     else:
         levels = panels.levels_of(float(finite.min()), float(finite.max()), whole=whole, looks=looks)
     contours = []

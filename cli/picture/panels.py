@@ -128,9 +128,14 @@ def levels_of_flags(codes: Values, looks: Looks = PLAIN) -> Levels:
     for code in codes:
         flags = [name.replace("_", " ") for name, bit in FLAGS.items() if int(code) & bit]
         names.append("\n+ ".join(flags) or "nothing to report")
-    edges: Values = np.arange(codes.size + 1, dtype=np.float64) - 0.5
+    return levels_of_names(names, looks)
+
+
+def levels_of_names(names: Sequence[str], looks: Looks = PLAIN) -> Levels:
+    """Give each of some names a level of its own; values are to be places among them."""
+    edges: Values = np.arange(len(names) + 1, dtype=np.float64) - 0.5
     norm = BoundaryNorm(edges, looks.colours.N)
-    return Levels(levels=edges, norm=norm, extremes=(0.0, codes.size - 1.0), names=tuple(names), looks=looks)
+    return Levels(levels=edges, norm=norm, extremes=(0.0, len(names) - 1.0), names=tuple(names), looks=looks)
 
 
 def draw_map(

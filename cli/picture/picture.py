@@ -7,6 +7,7 @@ import xarray
 from matplotlib.figure import Figure
 
 from gradhesion.cli.dataset.selection import Selection
+from gradhesion.cli.dataset.sensitivities import parts_of, spread, with_influence
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SCENE, SI
 from gradhesion.cli.picture.contour_numbers import number_contours
@@ -26,6 +27,12 @@ TITLE: Final = 0.5
 
 NARROW: Final = 2.4
 """The width of a variable, in inches, below which variables stand below each other if a width is given."""
+
+MOST_BESIDE: Final = 3
+"""Variables that stand in one line."""
+
+ROW: Final = 3
+"""Variables in a line where there are more."""
 
 WHOLE: Final = Selection()
 """All of a dataset."""
@@ -61,6 +68,13 @@ def drawn(
     DatasetError
         A variable is not there or has no value, or nothing varies that it could be drawn over.
     """
+    of_each = {str(name): parts_of(dataset, str(name)) for name in dataset.data_vars}
+    dataset = spread(dataset)
+    parts = {name: with_influence(dataset, name, [*own]) if own else [name] for name, own in of_each.items()}
+    if not asked and not {"pull_off_force", "dissipated_energy"} & {*parts}:
+        asked = next(iter(parts.values()))
+    elif asked:
+        asked = [one for name in asked for one in parts.get(name, [name])]
     chosen = _chosen(dataset, asked)
     narrow = placed(selection.narrowed(dataset), selection, x, y)
     points = SCENE in narrow.dims
@@ -81,11 +95,11 @@ def drawn(
         shape = shape_of(sizes, plan) if plan else (1, 1)
         strips = shape[1] > 1 and shape[0] == 1  # strips of panels stand below each other
         narrow_page = looks.width is not None and looks.width < NARROW * len(chosen)
-        below = len(chosen) if strips or narrow_page else 1
-        beside = len(chosen) // below
-        parts = figure.subfigures(below, beside, squeeze=False).ravel()
+        below = len(chosen) if strips or narrow_page else 1 if len(chosen) <= MOST_BESIDE else -(-len(chosen) // ROW)
+        beside = -(-len(chosen) // below)
+        figures = figure.subfigures(below, beside, squeeze=False).ravel()
         made = []
-        for part, name in zip(parts, chosen, strict=True):
+        for part, name in zip(figures, chosen, strict=False):
             if plan:
                 made.append(draw_grid(part, narrow, name, plan, selection, looks))
             else:
@@ -98,7 +112,7 @@ def drawn(
             captions = []
             words += [in_lines(made[0].caption, width)] if made[0].caption else []
         more = 0.0
-        for part, caption in zip(parts, captions, strict=False):
+        for part, caption in zip(figures, captions, strict=False):
             if caption:
                 part.suptitle(caption, fontsize=CAPTION)
                 more = max(more, LINE * (1 + caption.count("\n")))

@@ -6,6 +6,7 @@ import numpy as np
 import xarray
 from matplotlib.figure import SubFigure
 
+from gradhesion.cli.dataset.sensitivities import parameters_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SOLVER, SYMBOLS
 from gradhesion.cli.picture import panels
@@ -49,6 +50,10 @@ def draw_scenes(
         codes = np.unique(finite)
         values = np.where(np.isnan(values), np.nan, np.searchsorted(codes, values))
         levels = panels.levels_of_flags(codes, looks)
+    elif labels := parameters_of(variable):
+        codes = np.unique(finite)
+        values = np.where(np.isnan(values), np.nan, np.searchsorted(codes, values))
+        levels = panels.levels_of_names([SYMBOLS[labels[int(code)]] for code in codes], looks)
     else:
         levels = panels.levels_of(float(finite.min()), float(finite.max()), looks=looks)
     series = dict(zip(solvers, np.atleast_2d(values)[:, x.order], strict=True))

@@ -12,17 +12,17 @@ from gradhesion.cli.study.axes import Values, expanded, mistake_of_range, mistak
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.mistakes import Checked, Mistake
 from gradhesion.cli.study.points import Points
-from gradhesion.cli.study.punch import mistakes_of_punch
+from gradhesion.cli.study.punch import mistakes_of_punch, profile_of
 from gradhesion.cli.study.roles import mistakes_of_roles
 from gradhesion.cli.study.states import mistakes_of_states
 from gradhesion.cli.study.turn import mistakes_of_turn
 from gradhesion.cli.study.validity import mistakes_of_range
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
-from gradhesion.core import REPORTS, SOLVERS
+from gradhesion.core import REPORTS, SENSITIVITIES, SOLVERS
 
 LAYOUTS: Final = ("grid", "points")
 
-EXACT_ONLY: Final = REPORTS
+EXACT_ONLY: Final = (*REPORTS, *SENSITIVITIES)
 """The outputs that come with the exact solver alone."""
 
 
@@ -44,6 +44,7 @@ def mistakes_between_keys(checked: Checked, points: Points) -> tuple[dict[str, V
     mistakes += mistakes_of_points(sound) if is_points else mistakes_of_grid(sound)
     mistakes += mistakes_of_roles(checked, sound)
     mistakes += mistakes_of_punch(checked, sound)
+    mistakes += _mistakes_of_sensitivities(checked)
     mistakes += mistakes_of_turn(checked)
     mistakes += mistakes_of_states(checked, sound)
     mistakes += mistakes_of_range(checked)
@@ -119,6 +120,29 @@ def _mistakes_of_method(checked: Checked) -> Iterator[Mistake]:
         if name in EXACT_ONLY:
             sentence = f'the solver "{other}" has no such output; remove it, or write solver = "exact"'
             yield Mistake(("outputs", i), name, sentence)
+
+
+def _mistakes_of_sensitivities(checked: Checked) -> Iterator[Mistake]:
+    """Check that sensitivities are asked for of a punch that has them."""
+    from gradhesion.core.general.sweep import equivalent_wave  # noqa: PLC0415 (SciPy, for these outputs alone)
+
+    form = checked.form
+    asked = [i for i, name in enumerate(form.outputs) if name in SENSITIVITIES]
+    if (
+        not asked
+        or _kind_of(checked) != "map"
+        or any(path[:1] in (("profile",), ("loading",)) for path in checked.wrong)
+    ):
+        return
+    wrong = ""
+    if form.loading.control != "displacement":
+        wrong = f'control = "{form.loading.control}"'
+    elif form.profile.spectrum or form.profile.file or equivalent_wave(profile_of(form.profile)) is None:
+        wrong = "this profile"
+    if wrong:
+        sentence = f"not known with {wrong}, but of a paraboloid with one cosine wave under displacement control; "
+        for i in asked:
+            yield Mistake(("outputs", i), form.outputs[i], sentence + "remove it")
 
 
 def _mistakes_of_size(checked: Checked, lengths: list[int], realisations: int, *, points: bool) -> Iterator[Mistake]:

@@ -15,7 +15,17 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.keys import INPUTS, TURNS
-from gradhesion.cli.names import REALISATION, SCENE, SI, SOLVER, UNITS
+from gradhesion.cli.names import (
+    OF_PHYSICAL,
+    PARAMETER,
+    PHYSICAL_PARAMETER,
+    REALISATION,
+    SCENE,
+    SI,
+    SOLVER,
+    UNITS,
+    labels_of,
+)
 from gradhesion.cli.study import places
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.kinds import KINDS
@@ -30,6 +40,7 @@ from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
 from gradhesion.cli.terminal import wording
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.loading_control import Loading
+from gradhesion.core.names import PARAMETERS, RANGE, SENSITIVITIES
 from gradhesion.core.profile import Profile
 
 MOST_MISTAKES: Final = 30
@@ -96,7 +107,21 @@ class Study:
     @property
     def variables(self) -> tuple[str, ...]:
         """The names of all variables of its dataset but `status`."""
-        return (*self.outputs, *(name + SI for name in self.in_si))
+        physical = [name + OF_PHYSICAL for name in self.outputs if name in SENSITIVITIES and "R" in self.parameters]
+        return (*self.outputs, *(name + SI for name in self.in_si), *physical)
+
+    @property
+    def labels(self) -> dict[str, tuple[str, ...]]:
+        """What its sensitivities are to, by the dimension along which they stand; nothing if it has none."""
+        asked = {labels_of(name) for name in self.variables} - {""}
+        keys = (*PARAMETERS, *((self.turn,) if self.turn else ()))
+        given = [INPUTS[name] for name in self.parameters]
+        units = tuple(
+            key.name
+            for key in given
+            if key.table == "physical" and key.gives != RANGE and not np.all(np.isinf(self.parameters[key.name]))
+        )
+        return {name: own for name, own in ((PARAMETER, keys), (PHYSICAL_PARAMETER, units)) if name in asked}
 
     @property
     def made(self) -> tuple[str, ...]:
@@ -148,6 +173,11 @@ class Study:
     def sha256(self) -> str:
         """The fingerprint of its text."""
         return hashlib.sha256(self.text.encode()).hexdigest()
+
+    def shape_of(self, name: str, scenes: tuple[int, ...]) -> tuple[int, ...]:
+        """Give the lengths of a variable of a map for scenes of a shape: sensitivities have one dimension more."""
+        own = labels_of(name)
+        return (*scenes, len(self.labels[own])) if own else scenes
 
     def chunked(self, cells: int | None) -> "Study":
         """Give the same study with other chunks, unless `cells` is None."""

@@ -9,6 +9,7 @@ import xarray
 
 from gradhesion.cli.dataset.curve_variables import variables_of_curves
 from gradhesion.cli.dataset.reader import tiling_of
+from gradhesion.cli.dataset.sensitivities import parts_of, spread
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import INTEGERS, REALISATION, SOLVER
@@ -29,6 +30,10 @@ def tabled(dataset: xarray.Dataset, file: Path, chosen: Sequence[str]) -> Iterat
     DatasetError
         A variable is not there, the chosen ones have no lines in common, or there are too many lines.
     """
+    parts = {name: parts_of(dataset, str(name)) for name in dataset.data_vars}
+    chosen = [one for name in chosen for one in (parts.get(name) or [name])]
+    dataset = spread(dataset)
+    dataset = dataset.drop_vars([name for name, own in parts.items() if own])  # which is the strongest, readers can see
     names = _variables(dataset, file, chosen)
     first = dataset[names[0]]
     if first.size > MOST:

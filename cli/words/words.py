@@ -10,11 +10,13 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import names
 from gradhesion.cli.dataset.reader import has_curves, tiling_of
+from gradhesion.cli.dataset.sensitivities import parts_of
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import control_in_words
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.words.curve_words import curves_told
+from gradhesion.cli.words.sensitivity_words import sensitivity_told
 from gradhesion.cli.words.validity_words import validity_told
 from gradhesion.core import FAILED, FLAGS
 from gradhesion.core.loading_control import Loading
@@ -127,6 +129,9 @@ def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
             continue
         yield ""
         yield f"{name}: {dataset[name].attrs.get('long_name', 'of no name')}{_unit(dataset[name], ', in ')}"
+        if parts_of(dataset, str(name)):
+            yield from sensitivity_told(dataset[name], str(name))
+            continue
         extremes = _extremes(dataset[name])
         if not extremes:
             yield "  no value in any scene"

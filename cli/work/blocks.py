@@ -8,12 +8,13 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import SI, UNITS
+from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.names import OF_PHYSICAL, PARAMETER, PHYSICAL_PARAMETER, SI, UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.scenes import solve
-from gradhesion.core import PARAMETERS
+from gradhesion.core import PARAMETERS, RANGE, SENSITIVITIES
 from gradhesion.core.profile import Profile
 
 _T = TypeVar("_T")
@@ -35,7 +36,27 @@ def solve_block(study: Study, block: Block, threads: int | None) -> dict[str, ND
     scales = scales_of(study, study.apart(block)[1])
     if study.spectrum is not None:
         scales = {unit: scale[..., None] for unit, scale in scales.items()}
-    return found | {name + SI: found[name] * scales[UNITS[name]] for name in study.in_si}
+    found |= {name + SI: found[name] * scales[UNITS[name]] for name in study.in_si}
+    if PHYSICAL_PARAMETER in study.labels:
+        found |= physical_of(study, study.parameters_of(study.apart(block)[1]), found)
+    return found
+
+
+def physical_of(
+    study: Study, given: Mapping[str, NDArray[np.float64]], found: Mapping[str, NDArray[Any]]
+) -> dict[str, NDArray[np.float64]]:
+    """Give the sensitivities to quantities with units, from those that are found."""
+    from gradhesion.core.answers.physical import physical_sensitivities  # noqa: PLC0415 (300 ms for SciPy)
+
+    plain = {name: values for name, values in given.items() if name != RANGE and INPUTS[name].gives != RANGE}
+    labels = study.labels
+    return {
+        name + OF_PHYSICAL: physical_sensitivities(
+            plain, labels[PHYSICAL_PARAMETER], labels[PARAMETER], name, found[name]
+        )
+        for name in study.outputs
+        if name in SENSITIVITIES
+    }
 
 
 def scales_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:

@@ -18,6 +18,7 @@ WORDS = {
     "asymptotic": "the asymptotic solver",
     "envelope": "the envelope solver",
     "curves": "curves",
+    "sensitivities": "sensitivities",
 }
 """The kinds of work, in words."""
 

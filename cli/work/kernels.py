@@ -17,7 +17,16 @@ from gradhesion.cli.errors import CompilerError
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.locks import closing, try_lock
-from gradhesion.core import NEEDS, VALIDITY, compiled_before, kind_of_curves, kind_of_map, kind_of_turning, place
+from gradhesion.core import (
+    NEEDS,
+    SENSITIVITIES,
+    VALIDITY,
+    compiled_before,
+    kind_of_curves,
+    kind_of_map,
+    kind_of_turning,
+    place,
+)
 
 PAUSE: Final = 0.2
 """Seconds between two looks at what another process compiles."""
@@ -33,8 +42,9 @@ def kinds_of(study: Study) -> tuple[str, ...]:
     solvers = study.method.solver
     solvers = (solvers,) if isinstance(solvers, str) else solvers
     outputs = [name for name in study.outputs if name not in VALIDITY]
+    slopes = ("sensitivities",) if {*outputs} & {*SENSITIVITIES} else ()
     kinds = (kind_of_map(outputs, solver, study.profile, study.loading) for solver in solvers)
-    return (*dict.fromkeys(kinds), *turning)
+    return (*dict.fromkeys(kinds), *turning, *slopes)
 
 
 def missing_of(kinds: Sequence[str]) -> list[str]:

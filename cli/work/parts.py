@@ -7,6 +7,7 @@ neither the name of a part nor its age matters.
 
 import hashlib
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import asdict, fields
 from importlib.metadata import version
@@ -20,7 +21,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.disk import write_whole
 from gradhesion.cli.files import read_at_most
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.study.tiling import Block, shape_of, size_of
+from gradhesion.cli.study.tiling import Block, shape_of
 from gradhesion.core import SOURCES
 
 FORMAT: Final = 1
@@ -68,7 +69,8 @@ def types_of(study: Study) -> dict[str, np.dtype[Any]]:
 
 def bytes_of(study: Study, block: Block) -> int:
     """Count the bytes of the values of a block."""
-    return size_of(block) * sum(kind.itemsize for kind in types_of(study).values())
+    shape = shape_of(block)
+    return sum(kind.itemsize * math.prod(study.shape_of(name, shape)) for name, kind in types_of(study).items())
 
 
 def key_of(study: Study, block: Block) -> str:
@@ -122,6 +124,7 @@ def read_part(path: Path, key: str, study: Study, block: Block) -> Results:
         raise PartError("damaged")
     values = {}
     for name, kind in types_of(study).items():
-        values[name] = np.frombuffer(content, kind, size_of(block), at).reshape(shape)
+        own = study.shape_of(name, shape)
+        values[name] = np.frombuffer(content, kind, math.prod(own), at).reshape(own)
         at += values[name].nbytes
     return values

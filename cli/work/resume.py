@@ -61,7 +61,7 @@ def blank(study: Study, block: Block) -> Results:
     """Make the values of a block that has none."""
     shape = shape_of(block)
     values = {
-        name: np.full(shape, np.nan if kind.kind == "f" else -1, kind)
+        name: np.full(study.shape_of(name, shape), np.nan if kind.kind == "f" else -1, kind)
         for name, kind in types_of(study).items()
         if name != "status"
     }

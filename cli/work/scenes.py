@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion import core
-from gradhesion.core import VALIDITY
+from gradhesion.core import SENSITIVITIES, VALIDITY
 from gradhesion.core.profile import Profile
 from gradhesion.core.status import NO_VALUE
 
@@ -33,7 +33,10 @@ def solve(
 
     found: dict[str, NDArray[Any]] = {**validity(scenes, known, profile)}
     shape = np.broadcast_shapes(solved["status"].shape, *(values.shape for values in found.values()))
-    whole = {name: np.broadcast_to(values, shape) for name, values in (solved | found).items()}
+    whole = {
+        name: np.broadcast_to(values, (*shape, *values.shape[len(shape) :]) if name in SENSITIVITIES else shape)
+        for name, values in (solved | found).items()
+    }
     failed = (whole["status"] & NO_VALUE) != 0
     whole |= {name: np.where(failed, np.nan, whole[name]) for name in known}
     return {name: whole[name] for name in (*outputs, "status")}

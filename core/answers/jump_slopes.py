@@ -16,7 +16,7 @@ by that depth alone.
 
 from typing import Any, Final
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import YES, kernel
 from gradhesion.core.curve import Curve, depth, wave
 from gradhesion.core.jump_energy import (
     LONG,
@@ -156,7 +156,7 @@ def add_slopes(table: Any, curve: Curve, near: Any, start: float, end: float, wo
     """Add the slopes of a jump that leaves the curve at x = start and ends at x = end; `work` holds 48 floats."""
     b, g, lag = curve
     if end == 0.0:  # k = 1: the contact shrinks to a point
-        add_slopes_to_zero(table, curve, near, start, True, total)
+        add_slopes_to_zero(table, curve, near, start, YES, total)
         return
     z1, power, s0, _, _, _, _ = wave(table, lag, start)
     left = (z1, z1 * s0, z1 * power)

@@ -8,7 +8,7 @@ than the slopes tells whether those of unloading are there.
 import math
 from typing import Any
 
-from gradhesion.core._jit import NO, kernel
+from gradhesion.core._jit import NO, YES, kernel
 from gradhesion.core.answers.jump_slopes import DEPTH, SLOPES, add_slopes, add_slopes_to_zero, rim_slope
 from gradhesion.core.answers.wave_slopes import add_slopes_of_waves
 from gradhesion.core.branches import (
@@ -44,7 +44,7 @@ ROWS = 2 * SLOPES + 1
 def _enter(table: Any, curve: Curve, near: Any, now: int, left: float, x: float, work: Any, total: Any) -> None:
     """Add a jump of loading, from zero contact if it is on no branch yet."""
     if now < 0:
-        add_slopes_to_zero(table, curve, near, x, False, total)
+        add_slopes_to_zero(table, curve, near, x, NO, total)
     else:
         add_slopes(table, curve, near, left, x, work, total)
 
@@ -63,7 +63,7 @@ def fill_loading(table: Any, curve: Curve, near: Any, count: int, trace: Any, fi
             if trace[RUN, RUN_LANDING] > 0.0:
                 _enter(table, curve, near, now, left, trace[RUN, RUN_LANDING], work, total)
             first, last = trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST]
-            add_slopes_of_waves(table, curve, near, first, last, True, final, work, total)
+            add_slopes_of_waves(table, curve, near, first, last, YES, final, work, total)
         else:
             _enter(table, curve, near, now, left, trace[ARRIVAL, branch], work, total)
         slopes[LOADED : LOADED + SLOPES, branch] = total
@@ -95,7 +95,7 @@ def _leave(table: Any, curve: Curve, near: Any, trace: Any, now: int, slopes: An
     if trace[START, now] > 0.0:
         lower = int(trace[NEXT, now])
         if lower < 0:
-            add_slopes_to_zero(table, curve, near, trace[START, now], True, total)
+            add_slopes_to_zero(table, curve, near, trace[START, now], YES, total)
         else:
             add_slopes(table, curve, near, trace[START, now], trace[LANDING, now], work, total)
             total += slopes[UNLOADED : UNLOADED + SLOPES, lower]
@@ -119,8 +119,8 @@ def _leave_through(table: Any, curve: Curve, near: Any, trace: Any, gap: int, fi
             add_slopes(table, curve, near, start, landing, work, total)
             total += slopes[UNLOADED : UNLOADED + SLOPES, lower]
         else:
-            add_slopes_to_zero(table, curve, near, start, True, total)
-    add_slopes_of_waves(table, curve, near, lowest + 1.0, after, False, final, work, total)
+            add_slopes_to_zero(table, curve, near, start, YES, total)
+    add_slopes_of_waves(table, curve, near, lowest + 1.0, after, NO, final, work, total)
     slopes[UNLOADED : UNLOADED + SLOPES, gap] = total
     slopes[KNOWN, gap] = 1.0
 
@@ -160,7 +160,7 @@ def add_unloading(
         return 0.0
     before = total[DEPTH]
     if now < 0:
-        add_slopes_to_zero(table, curve, near, rim, True, total)
+        add_slopes_to_zero(table, curve, near, rim, YES, total)
     else:
         add_slopes(table, curve, near, rim, landing, slopes[ROWS], total)
     by_depth = total[DEPTH] - before
