@@ -57,7 +57,7 @@ KERNELS: Final[dict[str, int]] = {
     "asymptotic": 32,
     "envelope": 1,
     "curves": 22,
-    "sensitivities": 28,
+    "sensitivities": 30,
     "general_force": 63,
     "general_energy": 114,
     "general_reports": 10,

@@ -71,7 +71,6 @@ def panel_slopes_above(
     stretch_middle = middle * amplitude_power(table, middle)
     tail = table.tail
     cos_phase, sin_phase = table.cos_phase, table.sin_phase
-    bends, gains = work[:16], work[16:32]
     for i in range(16):
         x = begin + width * NODES[i]
         z = TWO_PI * (whole + x)
@@ -93,14 +92,14 @@ def panel_slopes_above(
         cosine_z = cosine * cos_phase + sine * sin_phase
         bend = 0.5 * (z + z1) * (TWO_PI * (x - start))
         gain = height + stretch * (p * s + q * inverse * cosine_z) - wave1
-        part = -2.0 * WEIGHTS[i] * z * (b * bend + g * gain + stretch1) / (stretch * stretch)
-        bends[i], gains[i] = part * bend, part * gain
-        work[32 + i] = part
+        work[i] = -2.0 * WEIGHTS[i] * z * (b * bend + g * gain + stretch1) / (stretch * stretch)
+        work[16 + i] = bend
+        work[32 + i] = gain
     by_bend, by_gain, by_depth = 0.0, 0.0, 0.0
     for i in range(16):
-        by_bend += bends[i]
-        by_gain += gains[i]
-        by_depth -= work[32 + i]
+        by_bend += work[i] * work[16 + i]
+        by_gain += work[i] * work[32 + i]
+        by_depth -= work[i]
     return by_bend * width, by_gain * width, by_depth * width
 
 
