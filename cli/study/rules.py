@@ -124,8 +124,6 @@ def _mistakes_of_method(checked: Checked) -> Iterator[Mistake]:
 
 def _mistakes_of_sensitivities(checked: Checked) -> Iterator[Mistake]:
     """Check that sensitivities are asked for of a punch that has them."""
-    from gradhesion.core.general.sweep import equivalent_wave  # noqa: PLC0415 (SciPy, for these outputs alone)
-
     form = checked.form
     asked = [i for i, name in enumerate(form.outputs) if name in SENSITIVITIES]
     if (
@@ -134,6 +132,8 @@ def _mistakes_of_sensitivities(checked: Checked) -> Iterator[Mistake]:
         or any(path[:1] in (("profile",), ("loading",)) for path in checked.wrong)
     ):
         return
+    from gradhesion.core.general.sweep import equivalent_wave  # noqa: PLC0415 (the compiler, for these outputs alone)
+
     wrong = ""
     if form.loading.control != "displacement":
         wrong = f'control = "{form.loading.control}"'
