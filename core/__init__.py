@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
     from gradhesion.core._jit import watch_compilation
+    from gradhesion.core.applicability import validity
     from gradhesion.core.cache import CACHE_FOLDER, compiled_before, place
     from gradhesion.core.curves import draw_curves
     from gradhesion.core.kinds import KERNELS, KINDS, NEEDS, kind_of_curves, kind_of_map, kind_of_turning
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     from gradhesion.core.sources import SOURCES
     from gradhesion.core.status import DOUBTFUL, FAILED, FLAGS, doubts_about
     from gradhesion.core.sweep import solve
-    from gradhesion.core.validity import validity
     from gradhesion.core.warmup import compile_kind
 
 __all__ = [
@@ -76,7 +76,7 @@ _HOMES: Final = {
     "sources": ("SOURCES",),
     "status": ("DOUBTFUL", "FAILED", "FLAGS", "doubts_about"),
     "sweep": ("solve",),
-    "validity": ("validity",),
+    "applicability": ("validity",),
     "warmup": ("compile_kind",),
 }
 _HOME_OF: Final = {name: home for home, names in _HOMES.items() for name in names}

@@ -2,7 +2,8 @@
 
 import json
 import tomllib
-from typing import Final
+from contextlib import suppress
+from typing import Any, Final
 
 import xarray
 
@@ -15,6 +16,13 @@ from gradhesion.cli.study.study import toml_of
 
 OF_AXES: Final = ("parameters", "physical")
 """The tables whose keys are those of the scene."""
+
+
+def _stored(dataset: xarray.Dataset) -> dict[str, Any]:
+    """Read the study that a dataset holds; nothing where it is missing or changed."""
+    with suppress(tomllib.TOMLDecodeError, RecursionError):
+        return tomllib.loads(str(dataset.attrs.get("study", "")))
+    return {}
 
 
 def scene_study(dataset: xarray.Dataset) -> Entry:
@@ -30,7 +38,7 @@ def scene_study(dataset: xarray.Dataset) -> Entry:
     outputs, keywords
         The outputs, and what else a call in Python takes, as Python.
     """
-    stored = tomllib.loads(str(dataset.attrs.get("study", "")))
+    stored = _stored(dataset)
     own = [str(name) for name in dataset.data_vars if name != "status" and not str(name).endswith(SI)]
     outputs = stored.get("outputs", own)
     keys = {name: INPUTS[name].table for name in given(dataset.coords)}

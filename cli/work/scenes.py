@@ -29,7 +29,7 @@ def solve(
     solved = core.solve(scenes, [name for name in outputs if name not in known], profile=profile, **settings)
     if not known:
         return solved
-    from gradhesion.core.validity import validity  # noqa: PLC0415 (300 ms for SciPy)
+    from gradhesion.core.applicability import validity  # noqa: PLC0415 (300 ms for SciPy)
 
     found: dict[str, NDArray[Any]] = {**validity(scenes, known, profile)}
     shape = np.broadcast_shapes(solved["status"].shape, *(values.shape for values in found.values()))

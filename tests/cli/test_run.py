@@ -40,8 +40,8 @@ def test_the_names_are_those_of_the_core() -> None:
     from gradhesion import core
 
     assert tuple(PARAMETERS) == tuple(core.PARAMETERS)
-    assert tuple(OUTPUTS) == (*core.OUTPUTS, *core.REPORTS, *core.VALIDITY)
-    assert (*core.REPORTS,) == EXACT_ONLY
+    assert tuple(OUTPUTS) == (*core.OUTPUTS, *core.REPORTS, *core.VALIDITY, *core.SENSITIVITIES)
+    assert (*core.REPORTS, *core.SENSITIVITIES) == EXACT_ONLY
 
 
 def test_the_dataset_keeps_its_contract(dataset_file: Path, study_file: Path) -> None:
