@@ -1,6 +1,20 @@
 """Adhesive contact of a wavy axisymmetric punch on a power-law graded half-space: arrays in, arrays out.
 
 A name is imported when it is first used: neither a name of a parameter nor a profile needs the compiler.
+
+Arrays of the kernels, by the names that they have throughout:
+
+    table       the functions of one gradient exponent, a record (struve/layout.py); with others a `basis`
+    series      (harmonics, 3)         n, cos and sin of each harmonic, in units of A (general/curve.py)
+    curve       a tuple of numbers     of one cosine, of any profile and control, or of a short wave (passage.py)
+    trace       (ROWS, branches)       the branches of a curve and the cycle on them, one row a quantity (branches.py)
+    rims        (1 or curves, rims)    radii a_max/R up to which a curve is solved; x is the same over the wavelength
+    targets     as `rims`              depths in R or loads in 1.5 pi R dgamma at which cycles turn (turning.py)
+    index       (scenes of a task,)    numbers of the curves of one exponent, out of all
+    stiffness, stretch, wavelength, amplitude, compliance    (curves,)    M, s, lambda/R, A, and K/S of each curve
+    slots       (RESULTS + 2,)         the row of `out` for each result, -1 for what nobody asked for (results.py)
+    out         (results, curves, rims), status of the same curves and rims: what is returned
+    work, values, scratch              room, so that kernels allocate nothing in their loops
 """
 
 from importlib import import_module
