@@ -4,9 +4,8 @@ from typing import Any
 
 import xarray
 
-from gradhesion.cli.dataset.reader import check_ours
+from gradhesion.cli.dataset.reader import check_ours, is_turned
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.keys import TURNS
 from gradhesion.cli.names import CURVES, SI
 from gradhesion.cli.terminal.wording import did_you_mean
 from gradhesion.core.status import FAILED, FLAGS, doubts_about
@@ -62,7 +61,7 @@ class Accessor:
             known = [str(name) for name in self._dataset.data_vars if name != "status"]
             if variable not in known:
                 raise DatasetError(f"{variable}: no variable of this dataset; {did_you_mean(variable, known)}")
-            plain, turned = variable.removesuffix(SI), any(name in self._dataset.coords for name in TURNS)
+            plain, turned = variable.removesuffix(SI), is_turned(self._dataset)
             bits |= doubts_about(next((curve for curve, own in CURVES.items() if plain in own), plain), turned=turned)
         return (self._dataset["status"] & bits) == 0
 

@@ -13,6 +13,7 @@ import xarray
 from gradhesion.cli.dataset.soundness import check_form, check_size
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.files import is_file, kind_of
+from gradhesion.cli.keys import TURNS
 from gradhesion.cli.names import EXTENTS, RAGGED
 from gradhesion.cli.study.tiling import CHUNK, Tiling
 
@@ -121,6 +122,11 @@ def has_curves(dataset: "Dataset") -> bool:
     return any(extent in dataset.dims for extent in EXTENTS.values()) or any(
         name in dataset for name in RAGGED.values()
     )
+
+
+def is_turned(dataset: "Dataset") -> bool:
+    """Report whether the cycles of a dataset turn at a depth or a load, so that loading decides on all that follows."""
+    return any(name in dataset.coords for name in TURNS)
 
 
 def tiling_of(variable: "xarray.DataArray") -> Tiling:

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import names
 from gradhesion.cli.dataset.curve_variables import curve_of
+from gradhesion.cli.dataset.reader import is_turned
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.plain import in_order, symbol, title, words
-from gradhesion.cli.keys import TURNS
 from gradhesion.cli.names import INTEGERS, SCENE, SOLVER
 from gradhesion.cli.picture.labels import Unit, unit_for
 from gradhesion.cli.picture.scales import scale
@@ -193,7 +193,7 @@ def _variable(dataset: xarray.Dataset, name: str, units: Mapping[str, Unit]) -> 
     flat = rounded(values.ravel())
     finite = flat[np.isfinite(flat)]
     positive = finite[finite > 0]
-    curve, turned = curve_of(name) or "", any(turn in dataset.coords for turn in TURNS)
+    curve, turned = curve_of(name) or "", is_turned(dataset)
     return named | {
         "values": flat,
         "length": values.shape[-1] if curve else 1,

@@ -5,13 +5,11 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
-import xarray
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from gradhesion.cli import names
-from gradhesion.cli.keys import TURNS
 from gradhesion.core import DOUBTFUL, FLAGS, doubts_about
 
 INK: Final = "0.25"
@@ -53,11 +51,6 @@ def _doubts() -> tuple[Doubt, ...]:
 
 DOUBTS: Final = _doubts()
 """Every flag that makes values doubtful."""
-
-
-def is_turned(dataset: xarray.Dataset) -> bool:
-    """Tell whether the cycles of a dataset turn at a depth or a load, so that loading decides on all that follows."""
-    return any(name in dataset.coords for name in TURNS)
 
 
 def doubts_in(status: NDArray[Any], variable: str, *, turned: bool = False) -> list[Doubt]:

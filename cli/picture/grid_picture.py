@@ -13,13 +13,14 @@ from matplotlib.contour import QuadContourSet
 from matplotlib.figure import SubFigure
 from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.reader import is_turned
 from gradhesion.cli.dataset.reductions import Taken
 from gradhesion.cli.dataset.selection import Selection
 from gradhesion.cli.dataset.sensitivities import parameters_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SOLVER, SYMBOLS
 from gradhesion.cli.picture import panels
-from gradhesion.cli.picture.doubts import END, Doubt, doubts_in, entries, is_turned
+from gradhesion.cli.picture.doubts import END, Doubt, doubts_in, entries
 from gradhesion.cli.picture.labels import Unit, effective, equation, label, unit_for
 from gradhesion.cli.picture.layout import PANELS, Plan, items_of
 from gradhesion.cli.picture.looks import PLAIN, Looks

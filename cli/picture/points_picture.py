@@ -6,12 +6,13 @@ import numpy as np
 import xarray
 from matplotlib.figure import SubFigure
 
+from gradhesion.cli.dataset.reader import is_turned
 from gradhesion.cli.dataset.sensitivities import parameters_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SOLVER, SYMBOLS
 from gradhesion.cli.picture import panels
 from gradhesion.cli.picture.density import draw_density, number_scenes
-from gradhesion.cli.picture.doubts import doubts_in, entries, is_turned
+from gradhesion.cli.picture.doubts import doubts_in, entries
 from gradhesion.cli.picture.grid_picture import Part
 from gradhesion.cli.picture.labels import effective, equation, label, unit_for
 from gradhesion.cli.picture.looks import PLAIN, Looks

@@ -19,7 +19,7 @@ def mistakes_of_roles(checked: Checked, sound: Mapping[str, Values]) -> Iterator
     if ("parameters",) in checked.wrong and "parameters" not in checked.data:
         return
     for role in (key for key in INPUTS.values() if key.role):
-        if role.name == "modulus" and _with_units(checked):
+        if role.name == "modulus" and has_units(checked):
             yield from _mistakes_of_modulus(checked)
         else:
             yield from _mistakes_of_role(role, checked, sound)
@@ -44,12 +44,12 @@ def _is_zero(parameter: str, sound: Mapping[str, Values]) -> bool:
     return bool(own) and not any(np.any(np.asarray(values)) for values in own)
 
 
-def _with_units(checked: Checked) -> bool:
+def has_units(checked: Checked) -> bool:
     """Report whether the study has a table [physical], right or wrong."""
     return isinstance(checked.data.get("physical"), Mapping)
 
 
-def _given(checked: Checked, path: Path) -> bool:
+def is_given(checked: Checked, path: Path) -> bool:
     """Report whether a key is there, right or wrong."""
     table = checked.data.get(str(path[0]))
     return isinstance(table, Mapping) and path[1] in table
@@ -58,15 +58,15 @@ def _given(checked: Checked, path: Path) -> bool:
 def _mistakes_of_modulus(checked: Checked) -> Iterator[Mistake]:
     """Check that all quantities are there that make the reduced modulus."""
     path: Path = ("parameters", "modulus")
-    if _given(checked, path):
-        yield _mixed(path, checked, ["R", "E_star", "work_of_adhesion"])
+    if is_given(checked, path):
+        yield mixed(path, checked, ["R", "E_star", "work_of_adhesion"])
     ways: dict[str, list[Path]] = {}
     for key in INPUTS.values():
         if key.table == "physical" and key.gives == "modulus":
             ways.setdefault(key.instead_of or key.name, []).append(("physical", key.name))
     for paths in ways.values():
         yield from _repeated(paths, checked, "the modulus")
-        if not any(_given(checked, path) or path in checked.meant for path in paths):
+        if not any(is_given(checked, path) or path in checked.meant for path in paths):
             yield _absent(paths, "quantity", "")
 
 
@@ -76,15 +76,15 @@ def _mistakes_of_role(role: Key, checked: Checked, sound: Mapping[str, Values]) 
     keys = [key for key in INPUTS.values() if key.gives == role.name and not key.is_parameter]
     tied: list[Path] = [(key.table, key.name) for key in keys if key.table == "parameters"]
     united: list[Path] = [(key.table, key.name) for key in keys if key.table == "physical"]
-    if _with_units(checked) and role.name != "A":
-        if _given(checked, plain):
-            yield _mixed(plain, checked, [str(path[1]) for path in united])
+    if has_units(checked) and role.name != "A":
+        if is_given(checked, plain):
+            yield mixed(plain, checked, [str(path[1]) for path in united])
             return
         paths = [*united, *tied]
     else:
-        paths = [plain, *tied, *(united if _with_units(checked) else [])]
+        paths = [plain, *tied, *(united if has_units(checked) else [])]
     yield from _repeated(paths, checked, role.role)
-    if any(_given(checked, path) or path in checked.meant for path in paths) or role.name == "a_max_over_R":
+    if any(is_given(checked, path) or path in checked.meant for path in paths) or role.name == "a_max_over_R":
         return
     other, condition = ABSENT.get(role.name, ("", ""))
     if not (other and _is_zero(other, sound)):
@@ -92,7 +92,7 @@ def _mistakes_of_role(role: Key, checked: Checked, sound: Mapping[str, Values]) 
         yield _absent(paths, what, f"unless {condition} everywhere, " if condition else "")
 
 
-def _mixed(path: Path, checked: Checked, keys: list[str]) -> Mistake:
+def mixed(path: Path, checked: Checked, keys: list[str]) -> Mistake:
     """Say that a ratio stands beside quantities with units."""
     sentence = (
         "a ratio, where [physical] gives quantities with units, and the two ways do not mix; remove it "
@@ -103,7 +103,7 @@ def _mixed(path: Path, checked: Checked, keys: list[str]) -> Mistake:
 
 def _repeated(paths: list[Path], checked: Checked, role: str) -> Iterator[Mistake]:
     """Say which keys give again what another gives already."""
-    given = [path for path in paths if _given(checked, path)]
+    given = [path for path in paths if is_given(checked, path)]
     for path in given[1:]:
         sentence = f"{given[0][1]} gives {role} already; keep one of the two and remove the other"
         yield Mistake(path, checked.data[str(path[0])][path[1]], sentence)
