@@ -21,6 +21,8 @@ PICTURES: Final[dict[str, Callable[..., None]]] = {
 PANELS: Final = {"fig4a": 3, "fig9": 2, "extra_roughness": 2}
 """The pictures of several panels, side by side."""
 
+STUDIES: Final = Path(__file__).resolve().parents[1] / "configs"
+
 UNDATED: Final = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
 """The same dataset gives the same file."""
 
@@ -45,6 +47,21 @@ def draw(name: str, dataset: xarray.Dataset, files: list[Path], dpi: float | Non
             figure.savefig(file, dpi=dpi or "figure", metadata=UNDATED.get(file.suffix))
 
 
+def missing_of(name: str, dataset: xarray.Dataset) -> list[str]:
+    """List the variables that a dataset lacks, and the axes in which it differs from the study of a picture."""
+    from gradhesion.cli.study.study import load_study  # noqa: PLC0415 (0.2 s that a picture does not need)
+
+    study = load_study(study_of(name))
+    axes = sorted({*study.sizes} ^ {str(axis) for axis in dataset["status"].dims})
+    return [variable for variable in study.outputs if variable not in dataset] + axes
+
+
+def study_of(name: str) -> Path:
+    """Return the study that a picture is drawn from: that of its name, or of all its panels a, b, ..."""
+    own = STUDIES / f"{name}.toml"
+    return own if own.exists() else STUDIES / f"{name[:-1]}.toml"
+
+
 def main() -> None:
     """Read the command line, and draw."""
     parser = argparse.ArgumentParser(prog="python -m figures", description=__doc__)
@@ -53,8 +70,15 @@ def main() -> None:
     parser.add_argument("pictures", type=Path, nargs="+", metavar="PICTURE", help=".png, .pdf or .svg")
     parser.add_argument("--dpi", type=float, help="of a .png [300]")
     arguments = parser.parse_args()
-    with xarray.open_dataset(arguments.dataset) as dataset:
-        draw(arguments.name, dataset, arguments.pictures, arguments.dpi)
+    name, file = arguments.name, arguments.dataset
+    remedy = f"write it with `gradhesion run {study_of(name).relative_to(STUDIES.parent)}`"
+    if not file.is_file():
+        parser.exit(2, f"{file}: no such file; {remedy}\n")
+    with xarray.open_dataset(file) as dataset:
+        missing = missing_of(name, dataset) if "status" in dataset else ["status"]
+        if missing:
+            parser.exit(2, f"{file}: not a dataset that {name} is drawn from ({', '.join(missing)}); {remedy}\n")
+        draw(name, dataset, arguments.pictures, arguments.dpi)
 
 
 if __name__ == "__main__":

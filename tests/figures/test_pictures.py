@@ -86,6 +86,18 @@ def test_the_command_line_draws(computed: Compute, tmp_path: Path) -> None:
     assert b"<svg" in names[1].read_bytes()
 
 
+def test_another_dataset_is_refused_in_one_sentence(computed: Compute, tmp_path: Path) -> None:
+    computed("fig8").to_netcdf(tmp_path / "other.nc")
+    for file, what in (("other.nc", "not a dataset that fig3a is drawn from ("), ("none.nc", "no such file")):
+        command = [sys.executable, "-m", "figures", "fig3a", str(tmp_path / file), str(tmp_path / "x.png")]
+        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+        assert done.returncode == 2
+        assert what in done.stderr
+        assert done.stderr.count("\n") == 1
+        assert "write it with `gradhesion run configs/fig3.toml`" in done.stderr
+    assert not (tmp_path / "x.png").exists()
+
+
 def test_the_corners_of_the_path_are_named_from_a_to_l(computed: Compute) -> None:
     dataset = computed("fig3")
     assert len(corners_of(dataset)) == 12
