@@ -25,10 +25,10 @@ if TYPE_CHECKING:
     )
     from gradhesion.cli.names import CURVES, OUTPUTS
     from gradhesion.cli.study.study import Study
-    from gradhesion.core.loading_control import CONTROLS
-    from gradhesion.core.names import SOLVERS
-    from gradhesion.core.profile import Harmonic, Profile
-    from gradhesion.core.status import FLAGS
+    from gradhesion.core.problem.control import CONTROLS
+    from gradhesion.core.problem.names import SOLVERS
+    from gradhesion.core.problem.profile import Harmonic, Profile
+    from gradhesion.core.problem.status import FLAGS
     from gradhesion.datasets import open_dataset as open  # noqa: A004 (gr.open)
     from gradhesion.datasets import verify
     from gradhesion.names import PARAMETERS
@@ -74,10 +74,10 @@ _HOMES: Final = {
     ),
     "cli.names": ("CURVES", "OUTPUTS"),
     "cli.study.study": ("Study",),
-    "core.loading_control": ("CONTROLS",),
-    "core.names": ("SOLVERS",),
-    "core.profile": ("Harmonic", "Profile"),
-    "core.status": ("FLAGS",),
+    "core.problem.control": ("CONTROLS",),
+    "core.problem.names": ("SOLVERS",),
+    "core.problem.profile": ("Harmonic", "Profile"),
+    "core.problem.status": ("FLAGS",),
     "datasets": ("open", "verify"),
     "names": ("PARAMETERS",),
     "pictures": ("explore", "plot"),

@@ -8,7 +8,7 @@ from gradhesion.cli.dataset.reader import check_ours, is_turned
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import CURVES, SI
 from gradhesion.cli.terminal.wording import did_you_mean
-from gradhesion.core.status import FAILED, FLAGS, doubts_about
+from gradhesion.core.problem.status import FAILED, FLAGS, doubts_about
 
 
 @xarray.register_dataset_accessor("gr")  # type: ignore[no-untyped-call]

@@ -16,7 +16,7 @@ from gradhesion.cli.study.axes import Values, mistakes_of_grid
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.study import Study, study_from
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
-from gradhesion.core.profile import Profile
+from gradhesion.core.problem.profile import Profile
 from gradhesion.values import array_of, numbers_of, of_xarray
 from gradhesion.wording import without_tables
 

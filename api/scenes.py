@@ -13,7 +13,7 @@ from gradhesion.cli.names import SCENE
 from gradhesion.cli.study.study import study_from
 from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.kernels import kinds_of
-from gradhesion.core.profile import Profile
+from gradhesion.core.problem.profile import Profile
 from gradhesion.given import given_in
 from gradhesion.solved import solved
 

@@ -13,7 +13,7 @@ from gradhesion.cli.names import PHYSICAL_PARAMETER, REALISATION, SI, SOLVER, UN
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.work.blocks import physical_of, solved_by
 from gradhesion.core import PARAMETERS
-from gradhesion.core.reduced import parameters_from, scales_in_si, sources_of
+from gradhesion.core.variables.reduced import parameters_from, scales_in_si, sources_of
 
 Arrays = Mapping[str, xarray.DataArray]
 

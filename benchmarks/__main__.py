@@ -50,7 +50,7 @@ z = 2 pi x rounded, from which most of its error beyond z = 1000 comes; its NaNs
 
 Random scenes, each on a curve of its own, in one call of `gradhesion.core.solve`: lambda/L from 0.06 to 2, r/s from 0
 to 1.5, a_max/L from 1 to 4, k one of {", ".join(map(str, draw.EXPONENTS))}. L = (R^2 dgamma/M)^(1/(3+k)) is the
-length of the contact, r/s the share of the adhesion that short waves take or add (`core/envelope.py`).
+length of the contact, r/s the share of the adhesion that short waves take or add (`core/closed/envelope.py`).
 
 Aims: 0.6 us for the force, 5 us for both, 0.05 us where the punch is smooth. Long waves leave few jumps, short ones
 many, and the cost of the energy is that of the jumps. Where all materials differ, the gamma functions of the stiffness

@@ -7,13 +7,14 @@ import numpy as np
 
 from benchmarks.clock import seconds_of, table
 from benchmarks.draw import mixture
-from gradhesion.core import contact, solve
-from gradhesion.core.branches import ROWS
-from gradhesion.core.cosine_sweep import table_of
-from gradhesion.core.curve import curve_of
-from gradhesion.core.cycle import extent, is_long, walk
-from gradhesion.core.material import stiffness
-from gradhesion.core.status import LOADING_NOT_ONE_DISC
+from gradhesion.core import solve
+from gradhesion.core.arrays.tables import table_of
+from gradhesion.core.contact import cosine_disc as contact
+from gradhesion.core.curve.branches import ROWS
+from gradhesion.core.curve.cosine import curve_of
+from gradhesion.core.path.cosine import extent, is_long, walk
+from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC
 
 BOTH = ("pull_off_force", "dissipated_energy")
 

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 import numpy as np
 from scipy.special import gamma, struve
 
-from gradhesion.core.material import stiffness
+from gradhesion.core.problem.material import stiffness
 
 
 def solve_on_grid(scene: Mapping[str, float], points: int) -> tuple[float, float]:

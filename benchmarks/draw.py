@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from scipy.special import gamma
 
-from gradhesion.core.material import stiffness
+from gradhesion.core.problem.material import stiffness
 
 EXPONENTS = (0.0, 0.1, 0.3, 0.5, 0.7, 0.9)
 NU, C0 = 0.3, 0.01

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from gradhesion.core import Harmonic, Loading, Profile, solve
-from gradhesion.core.cosine_sweep import table_of
+from gradhesion.core.arrays.tables import table_of
 from gradhesion.twin import stated
 from gradhesion.twin.general import Shape
 from tests.core.test_stated_errors import walked

@@ -9,7 +9,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from gradhesion.core.processors import processors
+from gradhesion.core.arrays.processors import processors
 
 STUDY = """title = "Ten million scenes"
 outputs = ["pull_off_force", "dissipated_energy"]

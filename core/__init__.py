@@ -5,11 +5,11 @@ A name is imported when it is first used: neither a name of a parameter nor a pr
 Arrays of the kernels, by the names that they have throughout:
 
     table       the functions of one gradient exponent, a record (struve/layout.py); with others a `basis`
-    series      (harmonics, 3)         n, cos and sin of each harmonic, in units of A (general/curve.py)
-    curve       a tuple of numbers     of one cosine, of any profile and control, or of a short wave (passage.py)
+    series      (harmonics, 3)         n, cos and sin of each harmonic, in units of A (curve/general.py)
+    curve       a tuple of numbers     of one cosine, of any profile and control, or of a short wave (path/passage.py)
     trace       (ROWS, branches)       the branches of a curve and the cycle on them, one row a quantity (branches.py)
     rims        (1 or curves, rims)    radii a_max/R up to which a curve is solved; x is the same over the wavelength
-    targets     as `rims`              depths in R or loads in 1.5 pi R dgamma at which cycles turn (turning.py)
+    targets     as `rims`              depths in R or loads in 1.5 pi R dgamma at which cycles turn (turning/cosine.py)
     index       (scenes of a task,)    numbers of the curves of one exponent, out of all
     stiffness, stretch, wavelength, amplitude, compliance    (curves,)    M, s, lambda/R, A, and K/S of each curve
     slots       (RESULTS + 2,)         the row of `out` for each result, -1 for what nobody asked for (results.py)
@@ -22,12 +22,12 @@ from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
     from gradhesion.core._jit import watch_compilation
-    from gradhesion.core.applicability import validity
     from gradhesion.core.cache import CACHE_FOLDER, compiled_before, place
+    from gradhesion.core.closed.applicability import validity
     from gradhesion.core.curves import draw_curves
-    from gradhesion.core.kinds import KERNELS, KINDS, NEEDS, kind_of_curves, kind_of_map, kind_of_turning
-    from gradhesion.core.loading_control import CONTROLS, Loading
-    from gradhesion.core.names import (
+    from gradhesion.core.kinds import APART, KERNELS, KINDS, NEEDS, kind_of_curves, kind_of_map, kind_of_turning
+    from gradhesion.core.problem.control import CONTROLS, Loading
+    from gradhesion.core.problem.names import (
         CURVES,
         OUTPUTS,
         PARAMETERS,
@@ -38,13 +38,14 @@ if TYPE_CHECKING:
         TURNS,
         VALIDITY,
     )
-    from gradhesion.core.profile import Harmonic, Profile
+    from gradhesion.core.problem.profile import Harmonic, Profile
+    from gradhesion.core.problem.status import DOUBTFUL, FAILED, FLAGS, doubts_about
     from gradhesion.core.sources import SOURCES
-    from gradhesion.core.status import DOUBTFUL, FAILED, FLAGS, doubts_about
     from gradhesion.core.sweep import solve
     from gradhesion.core.warmup import compile_kind
 
 __all__ = [
+    "APART",
     "CACHE_FOLDER",
     "CONTROLS",
     "CURVES",
@@ -83,14 +84,24 @@ _HOMES: Final = {
     "_jit": ("watch_compilation",),
     "cache": ("CACHE_FOLDER", "compiled_before", "place"),
     "curves": ("draw_curves",),
-    "kinds": ("KERNELS", "KINDS", "NEEDS", "kind_of_curves", "kind_of_map", "kind_of_turning"),
-    "loading_control": ("CONTROLS", "Loading"),
-    "names": ("CURVES", "OUTPUTS", "PARAMETERS", "RANGE", "REPORTS", "SENSITIVITIES", "SOLVERS", "TURNS", "VALIDITY"),
-    "profile": ("Harmonic", "Profile"),
+    "kinds": ("APART", "KERNELS", "KINDS", "NEEDS", "kind_of_curves", "kind_of_map", "kind_of_turning"),
+    "problem.control": ("CONTROLS", "Loading"),
+    "problem.names": (
+        "CURVES",
+        "OUTPUTS",
+        "PARAMETERS",
+        "RANGE",
+        "REPORTS",
+        "SENSITIVITIES",
+        "SOLVERS",
+        "TURNS",
+        "VALIDITY",
+    ),
+    "problem.profile": ("Harmonic", "Profile"),
     "sources": ("SOURCES",),
-    "status": ("DOUBTFUL", "FAILED", "FLAGS", "doubts_about"),
+    "problem.status": ("DOUBTFUL", "FAILED", "FLAGS", "doubts_about"),
     "sweep": ("solve",),
-    "applicability": ("validity",),
+    "closed.applicability": ("validity",),
     "warmup": ("compile_kind",),
 }
 _HOME_OF: Final = {name: home for home, names in _HOMES.items() for name in names}

@@ -1,8 +1,8 @@
 """Where compiled kernels are kept, what has been compiled there, and the removal of what no version uses any more.
 
 Numba notices an edit in the file of a kernel, but not in the files of the kernels that it calls. The folder of the
-compiled code is therefore named after a digest of all sources of the core and of where they stand (numba keeps code of
-one place for that place alone): an edit anywhere compiles all of it anew.
+compiled code is therefore named after a digest of all sources of the core that have kernels and of where they stand
+(numba keeps code of one place for that place alone): an edit in any of them compiles all of it anew.
 
 The folder is the first of these that can be written: in `NUMBA_CACHE_DIR`, if that is set; in the user's cache; in the
 folder for temporary files, if nobody else can write there. Without any of them nothing is kept.
@@ -26,9 +26,9 @@ import numba
 import platformdirs
 from llvmlite import binding
 
-from gradhesion.core.sources import CORE, SOURCES
+from gradhesion.core.sources import COMPILED, CORE
 
-_NAME: Final = f"kernels-{hashlib.sha256(f'{CORE}{SOURCES}'.encode()).hexdigest()[:16]}"
+_NAME: Final = f"kernels-{hashlib.sha256(f'{CORE}{COMPILED}'.encode()).hexdigest()[:16]}"
 _OURS: Final = re.compile(r"kernels-[0-9a-f]{16}")
 _KEPT: Final = re.compile(r".*\.(nbi|nbc)(\.tmp\..*)?|compiled-.*|lock")
 """The files of such a folder: numba's index and code, finished or not, and the marks of what is compiled."""

@@ -21,10 +21,10 @@ and `tables` is what all of them share.
 from collections.abc import Sequence
 from typing import Final
 
-from gradhesion.core.general.sweep import equivalent_wave
-from gradhesion.core.loading_control import Loading
-from gradhesion.core.names import PULL_OFF, REPORTS
-from gradhesion.core.profile import Profile
+from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.names import PULL_OFF, REPORTS
+from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.shape import equivalent_wave
 
 NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "tables": (),
@@ -44,8 +44,10 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "general_curves": ("general_energy", "curves"),
 }
 """The kinds that are compiled before a kind, directly: those of whose kernels it needs the same, or others of the same
-name. Processes that compile kinds side by side, each after those that it needs, compile nothing twice, and no two write
-to one index of the cache."""
+name. Processes that compile kinds side by side, each after those that it needs and none beside one of `APART`, compile
+nothing twice, and no two write to one index of the cache."""
+APART: Final = tuple({"asymptotic", general} for general in ("general_energy", "general_reports", "general_turning"))
+"""Kinds that do not need each other, and yet compile kernels of the same name: not to be compiled side by side."""
 KINDS: Final = tuple(NEEDS)
 """All kinds, each after those that it needs."""
 KERNELS: Final[dict[str, int]] = {

@@ -1,4 +1,4 @@
-"""A digest of all sources of the core: what is computed by one of them is comparable bit by bit."""
+"""Digests of the sources of the core: what is computed by the same is comparable bit by bit."""
 
 import hashlib
 from pathlib import Path
@@ -7,10 +7,16 @@ from typing import Final
 CORE: Final = Path(__file__).parent
 
 
-def digest_of(folder: Path) -> str:
-    """Return a digest of the names and the bytes of all Python files of a folder."""
+WITHOUT_KERNELS: Final = ("answers", "equations")
+"""The rooms in which nothing is compiled."""
+
+
+def digest_of(folder: Path, without: tuple[str, ...] = ()) -> str:
+    """Return a digest of the names and the bytes of all Python files of a folder, but for some of its folders."""
     digest = hashlib.sha256()
     for source in sorted(folder.rglob("*.py")):
+        if source.relative_to(folder).parts[0] in without:
+            continue
         digest.update(source.relative_to(folder).as_posix().encode())
         digest.update(source.read_bytes())
     return digest.hexdigest()
@@ -18,3 +24,5 @@ def digest_of(folder: Path) -> str:
 
 SOURCES: Final = digest_of(CORE)
 """The digest of the core, wherever it stands."""
+COMPILED: Final = digest_of(CORE, WITHOUT_KERNELS)
+"""The digest of what has kernels or is called by those who have."""

@@ -6,20 +6,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gradhesion.core.arrays.cosine import solve_cosine, turning_cosine
+from gradhesion.core.arrays.general import solve_general
+from gradhesion.core.arrays.general_report import report_general
+from gradhesion.core.arrays.general_turning import turning_general
+from gradhesion.core.arrays.processors import processors
+from gradhesion.core.arrays.turned import Results, turned_results
 from gradhesion.core.cache import note_compiled
-from gradhesion.core.cosine_sweep import solve_cosine, turning_cosine
-from gradhesion.core.general.envelope import solve_envelope
-from gradhesion.core.general.report import report_general
-from gradhesion.core.general.sweep import equivalent_wave, solve_general
-from gradhesion.core.general.turning import turning_general
+from gradhesion.core.closed.general_envelope import solve_envelope
 from gradhesion.core.kinds import kind_of_map, kind_of_turning
-from gradhesion.core.loading_control import Loading
-from gradhesion.core.names import OUTPUTS, PARAMETERS, PULL_OFF, REPORTS, RESULTS, SENSITIVITIES, SOLVERS, TURNS
-from gradhesion.core.processors import processors
-from gradhesion.core.profile import Profile
-from gradhesion.core.report import NEEDED
-from gradhesion.core.status import NO_VALUE
-from gradhesion.core.turned import Results, turned_results
+from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.names import OUTPUTS, PARAMETERS, PULL_OFF, REPORTS, RESULTS, SENSITIVITIES, SOLVERS, TURNS
+from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.shape import equivalent_wave
+from gradhesion.core.problem.status import NO_VALUE
+from gradhesion.core.scene.cosine_report import NEEDED
 
 
 def _checked(
@@ -67,7 +68,7 @@ def wanted_for(outputs: Sequence[str], *, turned: bool) -> Sequence[str]:
     """Return what is solved: sensitivities start from values."""
     if not set(outputs) & {*SENSITIVITIES}:
         return outputs
-    from gradhesion.core.answers.sensitivity import wanted_for as all_wanted  # noqa: PLC0415 (kernels of their own)
+    from gradhesion.core.sensitivities.sensitivity import wanted_for as all_wanted  # noqa: PLC0415 (kernels of their own)
 
     return all_wanted(outputs, turned=turned)
 
@@ -76,7 +77,7 @@ def _sensed(
     parameters: Mapping[str, ArrayLike], asked: Sequence[str], found: Results, workers: int, turn: str | None
 ) -> Results:
     """Return the sensitivities that are asked for, from what is solved."""
-    from gradhesion.core.answers.sensitivity import sensitivities  # noqa: PLC0415 (kernels of their own)
+    from gradhesion.core.sensitivities.sensitivity import sensitivities  # noqa: PLC0415 (kernels of their own)
 
     def force_of(scenes: Mapping[str, ArrayLike]) -> NDArray[np.float64]:
         """Return the force of other scenes that turn as these do."""

@@ -6,10 +6,10 @@ from typing import Any, Final
 from gradhesion.core.cache import note_compiled
 from gradhesion.core.curves import CURVES, GENERAL_CURVES, draw_curves
 from gradhesion.core.kinds import KINDS
-from gradhesion.core.loading_control import Loading
-from gradhesion.core.material import stiffness
-from gradhesion.core.names import OUTPUTS, REPORTS, SENSITIVITIES
-from gradhesion.core.profile import Harmonic, Profile
+from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.names import OUTPUTS, REPORTS, SENSITIVITIES
+from gradhesion.core.problem.profile import Harmonic, Profile
 from gradhesion.core.struve.table import build_table
 from gradhesion.core.sweep import solve
 
@@ -24,7 +24,7 @@ SCENE: Final[dict[str, float]] = {
 }
 SPRING: Final[dict[str, float]] = {"machine_stiffness": 3.0}
 MANY: Final = Profile(exponent=2.5, harmonics=tuple(Harmonic(n=n, cos=1.0 / n) for n in range(1, 25)))
-"""More harmonics than are summed one by one (general/series_table.py)."""
+"""More harmonics than are summed one by one (struve/series_table.py)."""
 
 
 def _compile_curves() -> None:

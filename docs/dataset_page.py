@@ -12,10 +12,10 @@ from gradhesion.cli.dataset.dataset import attributes
 from gradhesion.cli.keys import INPUTS, PARAMETERS
 from gradhesion.cli.study.study import study_from
 from gradhesion.core import DOUBTFUL, FAILED, FLAGS, REPORTS, SENSITIVITIES
-from gradhesion.core import status as status_module
+from gradhesion.core.problem import status as status_module
 
 NO_FLAGS: Final = ("FLAGS", "DOUBTFUL", "FAILED")
-"""What `core.status` defines beside its flags."""
+"""What `core.problem.status` defines beside its flags."""
 
 ATTRIBUTES: Final = {
     "Conventions": "the conventions of names and units",

@@ -6,7 +6,7 @@ from scipy.optimize import brentq
 
 from figures.curves import Values, values_of
 from gradhesion.core.equations import effective, envelopes
-from gradhesion.core.material import stiffness
+from gradhesion.core.problem.material import stiffness
 
 _POINTS = 200
 

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from figures.style import DASHES, FORCE, INK, WAVELENGTH, key, shades
-from gradhesion.core.status import LOADING_NOT_ONE_DISC
+from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC
 
 LINES = (0.0, 0.2, 0.4, 0.6, 0.7, 0.8, 0.9)
 """The exponents of the lines in Fig. 4a; the panel of maxima has all."""

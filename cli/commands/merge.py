@@ -81,7 +81,7 @@ def _merge_shards(file: Path, start: float, *, overwrite: bool, quiet: bool) -> 
 def _counted(file: Path) -> tuple[int, int]:
     """Count the scenes of a dataset, and those that have failed."""
     from gradhesion.cli.dataset.reader import opened, tiling_of
-    from gradhesion.core.status import FAILED
+    from gradhesion.core.problem.status import FAILED
 
     with opened(file) as dataset:
         status = dataset["status"]

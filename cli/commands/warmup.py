@@ -23,7 +23,7 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:
     from gradhesion.cli.work.kernels import missing_of, refuse_without_compiler
     from gradhesion.cli.work.warming import warm
     from gradhesion.core import KINDS, place
-    from gradhesion.core.processors import processors
+    from gradhesion.core.arrays.processors import processors
 
     refuse_without_compiler()
     kinds = KINDS if everything else ("energy", "envelope", "curves")

@@ -18,7 +18,7 @@ from gradhesion.cli.names import REALISATION, SI, SOLVER, labels_of
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.core import FAILED, PARAMETERS
 from gradhesion.core.answers.spectrum import random_profile
-from gradhesion.core.status import CLOSE_TO_A_JUMP, NO_VALUE
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, NO_VALUE
 from gradhesion.twin import stated
 from gradhesion.twin.general import Shape
 

@@ -24,7 +24,7 @@ from gradhesion.cli.names import (
     STATE_CURVES,
     labels_of,
 )
-from gradhesion.core.loading_control import CONTROLS
+from gradhesion.core.problem.control import CONTROLS
 
 if TYPE_CHECKING:
     import netCDF4

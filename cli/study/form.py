@@ -14,7 +14,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Fiel
 from gradhesion.cli.keys import INPUTS, KEYS, MACHINE, Key
 from gradhesion.cli.study.quantities import si_value
 from gradhesion.cli.terminal.wording import example
-from gradhesion.core.profile import MOST_HARMONICS
+from gradhesion.core.problem.profile import MOST_HARMONICS
 
 MOST_WAVES: Final = 10_000
 """The shortest wave of a series, in waves a wavelength: beyond it hardly any scene can be followed."""

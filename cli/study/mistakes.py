@@ -12,7 +12,7 @@ from gradhesion.cli.keys import FILE_KEYS, INPUTS, Path, keys_of
 from gradhesion.cli.study.form import MOST_REALISATIONS, MOST_WAVES, Form
 from gradhesion.cli.study.places import dotted
 from gradhesion.cli.terminal.wording import did_you_mean, example, nearest
-from gradhesion.core.profile import MOST_HARMONICS
+from gradhesion.core.problem.profile import MOST_HARMONICS
 
 _OF_INPUTS: Final = ("parameters", "physical", "loading")
 """The tables whose keys are inputs."""

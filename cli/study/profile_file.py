@@ -18,7 +18,7 @@ from gradhesion.cli.study.columns import Columns, ColumnsError, read_columns
 from gradhesion.cli.study.mistakes import Mistake
 from gradhesion.cli.study.quantities import si_value
 from gradhesion.cli.terminal.wording import did_you_mean, example, shown
-from gradhesion.core.profile import Profile
+from gradhesion.core.problem.profile import Profile
 
 if TYPE_CHECKING:
     from gradhesion.core.answers.profile_fit import FittedProfile

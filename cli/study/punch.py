@@ -12,8 +12,8 @@ from gradhesion.cli.study.form import ProfileTable
 from gradhesion.cli.study.mistakes import Checked, Mistake
 from gradhesion.cli.terminal.wording import did_you_mean, example
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
-from gradhesion.core.loading_control import CONTROLS
-from gradhesion.core.profile import MOST_HARMONICS, Harmonic, Profile
+from gradhesion.core.problem.control import CONTROLS
+from gradhesion.core.problem.profile import MOST_HARMONICS, Harmonic, Profile
 
 _SERIES: Final[Path] = ("profile", "harmonics")
 _SPECTRUM: Final[Path] = ("profile", "spectrum")

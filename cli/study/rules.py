@@ -132,7 +132,7 @@ def _mistakes_of_sensitivities(checked: Checked) -> Iterator[Mistake]:
         or any(path[:1] in (("profile",), ("loading",)) for path in checked.wrong)
     ):
         return
-    from gradhesion.core.general.sweep import equivalent_wave  # noqa: PLC0415 (the compiler, for these outputs alone)
+    from gradhesion.core.problem.shape import equivalent_wave  # noqa: PLC0415 (the compiler, for these outputs alone)
 
     wrong = ""
     if form.loading.control != "displacement":

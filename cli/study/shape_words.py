@@ -1,8 +1,8 @@
 """The shape of a punch and the control of its loading in words, for datasets and `gradhesion info`."""
 
 from gradhesion.core.answers.spectrum import Spectrum
-from gradhesion.core.loading_control import Loading
-from gradhesion.core.profile import Harmonic, Profile
+from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.profile import Harmonic, Profile
 
 
 def shape_in_words(profile: Profile, spectrum: Spectrum | None = None) -> str:

@@ -39,9 +39,9 @@ from gradhesion.cli.study.source import Source, read_source
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
 from gradhesion.cli.terminal import wording
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
-from gradhesion.core.loading_control import Loading
-from gradhesion.core.names import PARAMETERS, RANGE, SENSITIVITIES
-from gradhesion.core.profile import Profile
+from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.names import PARAMETERS, RANGE, SENSITIVITIES
+from gradhesion.core.problem.profile import Profile
 
 MOST_MISTAKES: Final = 30
 """Mistakes to print: whoever has more is served by the first."""

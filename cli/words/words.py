@@ -19,7 +19,7 @@ from gradhesion.cli.words.curve_words import curves_told
 from gradhesion.cli.words.sensitivity_words import sensitivity_told
 from gradhesion.cli.words.validity_words import validity_told
 from gradhesion.core import FAILED, FLAGS
-from gradhesion.core.loading_control import Loading
+from gradhesion.core.problem.control import Loading
 
 FEW: Final = 8
 """Values of an axis that are listed one by one."""

@@ -15,7 +15,7 @@ from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.scenes import solve
 from gradhesion.core import PARAMETERS, RANGE, SENSITIVITIES
-from gradhesion.core.profile import Profile
+from gradhesion.core.problem.profile import Profile
 
 _T = TypeVar("_T")
 
@@ -25,7 +25,7 @@ def scenes_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
     given = study.parameters_of(block)
     if given.keys() >= {*PARAMETERS}:
         return given
-    from gradhesion.core.reduced import parameters_from  # noqa: PLC0415 (300 ms for SciPy)
+    from gradhesion.core.variables.reduced import parameters_from  # noqa: PLC0415 (300 ms for SciPy)
 
     return parameters_from(given)
 
@@ -46,7 +46,7 @@ def physical_of(
     study: Study, given: Mapping[str, NDArray[np.float64]], found: Mapping[str, NDArray[Any]]
 ) -> dict[str, NDArray[np.float64]]:
     """Give the sensitivities to quantities with units, from those that are found."""
-    from gradhesion.core.answers.physical import physical_sensitivities  # noqa: PLC0415 (300 ms for SciPy)
+    from gradhesion.core.sensitivities.physical import physical_sensitivities  # noqa: PLC0415 (300 ms for SciPy)
 
     plain = {name: values for name, values in given.items() if name != RANGE and INPUTS[name].gives != RANGE}
     labels = study.labels
@@ -63,7 +63,7 @@ def scales_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
     """Give what results are multiplied by for SI units, by the unit; nothing if the study has none."""
     if not study.in_si:
         return {}
-    from gradhesion.core.reduced import scales_in_si  # noqa: PLC0415 (300 ms for SciPy)
+    from gradhesion.core.variables.reduced import scales_in_si  # noqa: PLC0415 (300 ms for SciPy)
 
     given = study.parameters_of(block)
     scales = scales_in_si(given["R"], given["work_of_adhesion"])

@@ -13,8 +13,8 @@ from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, RAGGED, SI, STATE_CU
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work.blocks import awaited, scales_of, scenes_of
-from gradhesion.core.processors import processors
-from gradhesion.core.status import NO_VALUE
+from gradhesion.core.arrays.processors import processors
+from gradhesion.core.problem.status import NO_VALUE
 
 AHEAD: Final = 2
 """Scenes drawn ahead a thread."""
@@ -101,7 +101,7 @@ def _draw(study: Study, block: Block) -> Drawing:
 
 def _of_states(study: Study, scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict[str, NDArray[Any]], int]:
     """Draw the curves of the states of one scene: those of given radii, or the named ones of its cycle."""
-    from gradhesion.core.equations import states  # noqa: PLC0415 (300 ms for SciPy)
+    from gradhesion.core.curves import states  # noqa: PLC0415 (300 ms for SciPy)
 
     if study.states:
         chosen, status = states.equilibrium_states(scene, study.states, study.profile), 0

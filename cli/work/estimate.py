@@ -14,7 +14,7 @@ from gradhesion.cli.work.manifest import differences_of, manifest_of
 from gradhesion.cli.work.parts import bytes_of, key_of
 from gradhesion.cli.work.probe import probe
 from gradhesion.cli.work.resume import found
-from gradhesion.core.processors import processors
+from gradhesion.core.arrays.processors import processors
 
 BASE: Final = 205e6
 """Bytes of the program itself, its libraries and kernels, as measured."""

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from gradhesion import core
 from gradhesion.core import SENSITIVITIES, VALIDITY
-from gradhesion.core.profile import Profile
-from gradhesion.core.status import NO_VALUE
+from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.status import NO_VALUE
 
 
 def solve(
@@ -29,7 +29,7 @@ def solve(
     solved = core.solve(scenes, [name for name in outputs if name not in known], profile=profile, **settings)
     if not known:
         return solved
-    from gradhesion.core.applicability import validity  # noqa: PLC0415 (300 ms for SciPy)
+    from gradhesion.core.closed.applicability import validity  # noqa: PLC0415 (300 ms for SciPy)
 
     found: dict[str, NDArray[Any]] = {**validity(scenes, known, profile)}
     shape = np.broadcast_shapes(solved["status"].shape, *(values.shape for values in found.values()))

@@ -6,15 +6,15 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 
 from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.kernels import compile_kinds, missing_of
-from gradhesion.core import NEEDS, compile_kind, watch_compilation
+from gradhesion.core import APART, NEEDS, compile_kind, watch_compilation
 
 
 def warm(kinds: Sequence[str], workers: int, done: Callable[[str, list[str]], None] = lambda *_: None) -> None:
     """
     Compile the kernels of some kinds of work by several processes.
 
-    A kind is begun when those that it needs are done, so that no two processes compile the same kernel. `done` gets
-    each kind with the names of the kernels that were compiled for it.
+    A kind is begun when those that it needs are done, and not beside one of `APART`, so that no two processes compile
+    the same kernel. `done` gets each kind with the names of the kernels that were compiled for it.
     """
     left = missing_of(kinds)
     if workers == 1 or len(left) < 2:
@@ -28,6 +28,8 @@ def warm(kinds: Sequence[str], workers: int, done: Callable[[str, list[str]], No
         while left or running:
             begun = {*left, *running.values()}
             for kind in [kind for kind in left if not begun & {*NEEDS[kind]}]:
+                if any(kind in pair and pair & {*running.values()} for pair in APART):
+                    continue
                 running[pool.submit(_compile, kind)] = kind
                 left.remove(kind)
             finished, _ = wait(running, timeout=0.2, return_when=FIRST_COMPLETED)

@@ -1,1 +1,1 @@
-"""Answers beyond a map of values: what measured data say, and how strongly a value depends on its parameters."""
+"""Answers beyond a map of values, from arrays to arrays without a kernel: fits of measured data, and spectra."""

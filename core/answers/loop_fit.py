@@ -24,10 +24,10 @@ from scipy.stats import qmc, t
 from threadpoolctl import threadpool_limits
 
 from gradhesion.core.curves.draw import draw_curves
-from gradhesion.core.names import PARAMETERS
-from gradhesion.core.profile import Profile
-from gradhesion.core.reduced import parameters_from
+from gradhesion.core.problem.names import PARAMETERS
+from gradhesion.core.problem.profile import Profile
 from gradhesion.core.sweep import solve
+from gradhesion.core.variables.reduced import parameters_from
 
 _Array = NDArray[np.float64]
 

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import least_squares, minimize_scalar
 from threadpoolctl import threadpool_limits
 
-from gradhesion.core.profile import MOST_HARMONICS, Harmonic, Profile
+from gradhesion.core.problem.profile import MOST_HARMONICS, Harmonic, Profile
 
 _Array = NDArray[np.float64]
 

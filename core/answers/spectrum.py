@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gradhesion.core.profile import HIGHEST, MOST_HARMONICS, Harmonic, Profile
+from gradhesion.core.problem.profile import HIGHEST, MOST_HARMONICS, Harmonic, Profile
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -17,10 +17,10 @@ from gradhesion.core.curves.jumps import list_jumps
 from gradhesion.core.curves.path import draw_path
 from gradhesion.core.curves.smooth import draw_smooth
 from gradhesion.core.curves.subject import BEYOND, Subject, subject_of
-from gradhesion.core.loading_control import Loading
-from gradhesion.core.names import CURVES, PARAMETERS, TURNS
-from gradhesion.core.profile import Profile
-from gradhesion.core.status import FAILED, NO_VALUE
+from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.names import CURVES, PARAMETERS, TURNS
+from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.status import FAILED, NO_VALUE
 from gradhesion.core.sweep import solve
 
 _TYPES: Final[dict[str, type[np.signedinteger[Any]]]] = {

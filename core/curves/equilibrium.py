@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.branches import END, START
+from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curves.forms import fill_points
 from gradhesion.core.curves.sampling import sample
 from gradhesion.core.curves.subject import Form, Subject

@@ -1,10 +1,10 @@
 """The curves that can be drawn, in reduced form: depth and load at a place.
 
-EXACT      the curve of one wave (curve.py); a place is x = a/lambda, `numbers` are its bend and gain
+EXACT      the curve of one wave (curve/cosine.py); a place is x = a/lambda, `numbers` are its bend and gain
 SHORT      its leading asymptotic form (asymptotic.py); a place is z = 2 pi a/lambda, `numbers` are the wave's five
 PLAIN      a smooth punch of any pull (smooth.py, envelope.py), z^2/2 - pull z^((1-k)/2) and X [X/(3+k) - pull] with
            X = z^((3+k)/2); a place is z = a/l with the bend 1, `numbers` are k, the pull and a height that depth gains
-GENERAL    any power and any waves (core/general/curve.py); a place is x = a/lambda, `numbers` are those of its curve
+GENERAL    any power and any waves (core/curve/general.py); a place is x = a/lambda, `numbers` are those of its curve
            with half the shortest wave and the sum of the amplitudes, and its basis stands for the table
 
 All other numbers are padded to five, so that one compiled sampler serves all forms but the general one, which the
@@ -17,10 +17,10 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core import asymptotic
 from gradhesion.core._jit import kernel
-from gradhesion.core.curve import wave
-from gradhesion.core.general.curve import state
+from gradhesion.core.curve import short_wave as asymptotic
+from gradhesion.core.curve.cosine import wave
+from gradhesion.core.curve.general import state
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 
@@ -35,7 +35,7 @@ GENERAL_NUMBERS: Final = 7
 
 @kernel(contract=True)
 def _exact_point(table: Any, numbers: Numbers, x: float) -> tuple[float, float]:
-    """Return depth and load of curve.py."""
+    """Return depth and load of curve/cosine.py."""
     if x == 0.0:
         return (-1.0 if table.k == 1.0 else 0.0), 0.0
     b, g, _, _, _ = numbers
@@ -56,7 +56,7 @@ def _plain_point(numbers: Numbers, z: float) -> tuple[float, float]:
 
 @kernel()
 def _general_point(basis: Any, numbers: Any, x: float) -> tuple[float, float]:
-    """Return depth and load of general/curve.py."""
+    """Return depth and load of curve/general.py."""
     if x == 0.0:
         return (-1.0 if basis[0].k == 1.0 else 0.0), 0.0
     _, _, _, depth, load = state(basis, numbers[:5], x, 0.0)

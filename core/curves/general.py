@@ -1,6 +1,6 @@
 """A scene of any profile under any control made ready for drawing, and its punch without waves.
 
-The branches of the subject are those of the coordinate that is prescribed (core/general/curve.py): there the contact is
+The branches of the subject are those of the coordinate that is prescribed (core/curve/general.py): there the contact is
 stable under the control in force. The other extrema of depth and of load are its `load_folds`.
 """
 
@@ -11,23 +11,24 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.branches import ARRIVAL, END, START
-from gradhesion.core.curve import force_unit
+from gradhesion.core.arrays.prepared import compliance_of
+from gradhesion.core.arrays.tables import tables_of
+from gradhesion.core.curve.arches import folds_between
+from gradhesion.core.curve.branches import ARRIVAL, END, START
+from gradhesion.core.curve.cosine import force_unit
+from gradhesion.core.curve.general import Basis, curve_of
+from gradhesion.core.curve.general_folds import room
+from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.curves.equilibrium import draw_through
 from gradhesion.core.curves.forms import GENERAL, Numbers, general_numbers
 from gradhesion.core.curves.smooth import VARIABLES
 from gradhesion.core.curves.subject import BEYOND, BEYOND_SMOOTH, Form, Subject
-from gradhesion.core.general.arches import folds_between
-from gradhesion.core.general.curve import Basis
-from gradhesion.core.general.folds import room
-from gradhesion.core.general.path import walk
-from gradhesion.core.general.scene import curve_of
-from gradhesion.core.general.sweep import compliance_of, front_of, rows_of, tables_of
-from gradhesion.core.general.window import first_fold_bound, last_fold_bound
-from gradhesion.core.loading_control import Loading
-from gradhesion.core.material import stiffness
-from gradhesion.core.names import PARAMETERS
-from gradhesion.core.profile import Profile
+from gradhesion.core.path.general import walk
+from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.names import PARAMETERS
+from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.shape import front_of, rows_of
 from gradhesion.core.struve.circle import TWO_PI
 
 MOST_FOLDS: Final = 20_000
@@ -52,7 +53,7 @@ def _turns(basis: Basis, numbers: Numbers, furthest: float) -> NDArray[np.float6
 def _trace(
     basis: Basis, numbers: Numbers, furthest: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | tuple[None, NDArray[np.float64]]:
-    """Return the branches with what general/path.py notes of them, and the other extrema of depth and load.
+    """Return the branches with what path/general.py notes of them, and the other extrema of depth and load.
 
     The rim is no end of a branch.
     """

@@ -1,4 +1,4 @@
-"""The path of a cycle of any profile under any control, read from what core/general/path.py notes of its branches.
+"""The path of a cycle of any profile under any control, read from what core/path/general.py notes of its branches.
 
 Jumps keep the coordinate Y = alpha depth + beta load that is prescribed. Without contact the load is zero and the depth
 Y/alpha. Under load control (alpha = 0) the punch falls without end once contact is lost: the path ends there, with
@@ -10,13 +10,13 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, START_DEPTH
+from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, START_DEPTH
+from gradhesion.core.curve.general_energy import energy_from_zero, jump_energy
 from gradhesion.core.curves.forms import point
 from gradhesion.core.curves.path import BRANCH, DEPTH, JOINED, JUMP, LOAD, PLACE, UNLOADING, draw_corners
 from gradhesion.core.curves.subject import Subject
-from gradhesion.core.general.energy import energy_from_zero, jump_energy
+from gradhesion.core.path.unloading import descend, leave_rim
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.unloading import descend, leave_rim
 
 _ROWS: Final = 7
 

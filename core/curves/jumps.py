@@ -1,6 +1,7 @@
 """The jumps of a cycle under controlled displacement, one by one: where they happen, and what each of them costs.
 
-They are the corners of the path (path.py) that are reached by a jump; their energies are those of jump_energy.py.
+They are the corners of the path (path.py) that are reached by a jump; their energies are those of
+curve/cosine_energy.py.
 """
 
 from typing import Any
@@ -9,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.branches import ROWS, WORK
-from gradhesion.core.curve import Curve
+from gradhesion.core.closed.smooth import smooth_energy_from_zero
+from gradhesion.core.curve.branches import ROWS, WORK
+from gradhesion.core.curve.cosine import Curve
+from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
 from gradhesion.core.curves.forms import EXACT, Numbers
 from gradhesion.core.curves.path import DEPTH, JUMP, LOAD, PLACE, UNLOADING, find_corners
 from gradhesion.core.curves.subject import Subject
-from gradhesion.core.jump_energy import energy_from_zero, jump_energy
-from gradhesion.core.smooth import smooth_energy_from_zero
 from gradhesion.core.struve.circle import TWO_PI
 
 

@@ -6,11 +6,11 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.asymptotic import Wave, folds_of_half, half_at, window_end
-from gradhesion.core.branches import END, START
-from gradhesion.core.curve import Curve, slope
-from gradhesion.core.cycle import COUNTABLE, MOST_ARCHES
-from gradhesion.core.folds import first_arch, fold_of_arch, last_arch, survey_arch
+from gradhesion.core.curve.branches import END, START
+from gradhesion.core.curve.cosine import Curve, slope
+from gradhesion.core.curve.cosine_folds import first_arch, fold_of_arch, last_arch, survey_arch
+from gradhesion.core.curve.short_wave import Wave, folds_of_half, half_at, window_end
+from gradhesion.core.path.cosine import COUNTABLE, MOST_ARCHES
 from gradhesion.core.struve.circle import TWO_PI
 
 MOST_FOLDS: Final = 100_000

@@ -11,14 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core._jit import NO, NONE, YES, kernel
-from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, START_DEPTH
-from gradhesion.core.curve import Curve
+from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, START_DEPTH
+from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.curves.equilibrium import scales_of
 from gradhesion.core.curves.forms import EXACT, Numbers, pinned_load, point
 from gradhesion.core.curves.knots import landed
 from gradhesion.core.curves.sampling import sample
 from gradhesion.core.curves.subject import Form, Subject
-from gradhesion.core.unloading import descend, leave_rim
+from gradhesion.core.path.unloading import descend, leave_rim
 
 PLACE, DEPTH, LOAD, JOINED, BRANCH, JUMP, UNLOADING = 0, 1, 2, 3, 4, 5, 6
 """Rows of the corners."""

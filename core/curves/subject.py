@@ -8,15 +8,15 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core import smooth
-from gradhesion.core.branches import ARRIVAL, END, END_DEPTH, ROWS, START, START_DEPTH, UNKNOWN, UNLOADING_JUMPS
-from gradhesion.core.cosine_sweep import table_of
-from gradhesion.core.curve import curve_of, force_unit
+from gradhesion.core.arrays.tables import table_of
+from gradhesion.core.closed import smooth
+from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, ROWS, START, START_DEPTH, UNKNOWN, UNLOADING_JUMPS
+from gradhesion.core.curve.cosine import curve_of, force_unit
 from gradhesion.core.curves import knots
 from gradhesion.core.curves.forms import EXACT, PLAIN, Numbers
-from gradhesion.core.cycle import extent, is_endless_wave, is_smooth, walk
-from gradhesion.core.material import stiffness
-from gradhesion.core.names import PARAMETERS
+from gradhesion.core.path.cosine import extent, is_endless_wave, is_smooth, walk
+from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.names import PARAMETERS
 
 BEYOND: Final = 1.05
 """How far an unbounded punch is drawn beyond the last that happens to it."""
@@ -48,8 +48,9 @@ class Form:
 class Subject:
     """What all curves of a scene are drawn from.
 
-    Lengths are in R. `trace` holds the branches of the exact curve (branches.py) and `load_folds` the places where its
-    load is extremal, both in places of the form `exact`; it is None where the curve folds too often to be drawn.
+    Lengths are in R. `trace` holds the branches of the exact curve (curve/branches.py) and `load_folds` the places
+    where its load is extremal, both in places of the form `exact`; it is None where the curve folds too often to be
+    drawn.
     """
 
     table: Any
@@ -87,7 +88,7 @@ def plain_form(table: Any, stretch: float, pull: float, height: float = 0.0) -> 
 
 
 def wavy_form(table: Any, stretch: float, wavelength: float, mean_height: float) -> Form:
-    """Return the exact form of one wave, in the scales of scene.py."""
+    """Return the exact form of one wave, in the scales of scene/cosine.py."""
     k = float(table["k"])
     (bend, gain, _), length, depth_scale = curve_of(k, stretch, wavelength, mean_height)
     load_scale = force_unit(k, length, depth_scale)

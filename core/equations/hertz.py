@@ -5,7 +5,7 @@
 
 For f1 = r^m/(m R^(m-1)) both integrals are powers, (5.5) and (5.6) as corrected in docs/theory.md; a cosine wave adds
 2 pi A a S0 and 2 pi A a^(2+k) S1 (pair.py). Lengths are in R, loads in 1.5 pi R dgamma, M in dgamma/R^(1+k)
-(core/material.py). Source: Jin, Guo & Wan (2013).
+(core/problem/material.py). Source: Jin, Guo & Wan (2013).
 """
 
 import math
@@ -25,7 +25,7 @@ def disc_stiffness(k: ArrayLike, stiffness: ArrayLike, radius: ArrayLike) -> Arr
     k
         Gradient exponent, 0 to 1.
     stiffness
-        M R^(1+k)/dgamma > 0 (core/material.py).
+        M R^(1+k)/dgamma > 0 (core/problem/material.py).
     radius
         a/R >= 0.
 
@@ -193,7 +193,7 @@ def load(
     k, radius, wavelength, amplitude, exponent
         As in `indentation`.
     stiffness
-        M R^(1+k)/dgamma > 0 (core/material.py).
+        M R^(1+k)/dgamma > 0 (core/problem/material.py).
 
     Returns
     -------

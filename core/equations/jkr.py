@@ -4,7 +4,8 @@
     equilibrium G = dgamma:   delta = delta_H - Delta,   P = P_H - K a^(1+k) Delta
 
 Depth under displacement control folds where q = a delta_H'/Delta meets (1-k)/2, and load where it meets (3+k)/2.
-Lengths are in R, loads in 1.5 pi R dgamma, M in dgamma/R^(1+k) (core/material.py). Source: Jin, Guo & Wan (2013).
+Lengths are in R, loads in 1.5 pi R dgamma, M in dgamma/R^(1+k) (core/problem/material.py). Source: Jin, Guo & Wan
+(2013).
 """
 
 import math

@@ -5,7 +5,7 @@
 for r < a, compression positive. The integral is the contact without adhesion (3.4); the second term is a flat punch
 (3.1) that is pulled out by delta_H - delta, which is Delta in equilibrium (4.9). P = 2 pi int r p dr. For k < 1 the
 pressure is infinite at the edge r = a, unless delta = delta_H; at k = 1 it is finite there. Lengths are in R,
-pressures in dgamma/R, M in dgamma/R^(1+k) (core/material.py). The profile is a power and a Fourier series as in
+pressures in dgamma/R, M in dgamma/R^(1+k) (core/problem/material.py). The profile is a power and a Fourier series as in
 general.py; one cosine wave is cosines = [-A]. Source: Jin, Guo & Wan (2013) as corrected in docs/theory.md.
 """
 

@@ -4,9 +4,9 @@ With n = (1+k)/2, V = S0 + z S0' and X = z^(1+n), the folds of any curve of one 
 
     b X + g Q = level,    Q = z^n V
 
-(physics in curve.py): where the curve Q(X), which depends on k alone, meets a straight line. Between two inflections
-Q(X) is concave or convex, and a line meets such an *arch* at most twice. So the signs at the two edges of an arch,
-and at most one extremum between them, tell the number of folds on it for certain.
+(physics in curve/cosine.py): where the curve Q(X), which depends on k alone, meets a straight line. Between two
+inflections Q(X) is concave or convex, and a line meets such an *arch* at most twice. So the signs at the two edges of
+an arch, and at most one extremum between them, tell the number of folds on it for certain.
 
     dQ/dX = R/(1+n),   R = n V/z + V'
     V' = 2 S0' + z (S1 - S0),   V'' = (1-k) S1 - (2-k) S0 - z S0',   V''' = (1-k) S1' - (3-k) S0' - z (S1 - S0)

@@ -7,7 +7,7 @@ import pytest
 import xarray
 
 import gradhesion as gr
-from gradhesion.core.status import DOUBTFUL, FAILED
+from gradhesion.core.problem.status import DOUBTFUL, FAILED
 
 PUNCH: dict[str, Any] = {
     "k": 0.0,

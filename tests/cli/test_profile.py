@@ -16,8 +16,8 @@ from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.names import CURVES, STATE_CURVES
 from gradhesion.cli.study.study import load_study, study_from
 from gradhesion.core import draw_curves, solve
-from gradhesion.core.loading_control import Loading
-from gradhesion.core.profile import Harmonic, Profile
+from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.profile import Harmonic, Profile
 
 Call = Callable[..., Result]
 SCENES = json.loads((Path(__file__).parents[1] / "reference" / "general.json").read_text())["scenes"]

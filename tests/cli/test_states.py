@@ -12,7 +12,7 @@ from gradhesion.cli.errors import DatasetError, StudyError
 from gradhesion.cli.picture.curve_picture import drawn_curves
 from gradhesion.cli.study.study import Study, study_from
 from gradhesion.cli.words.words import described
-from gradhesion.core.equations import states
+from gradhesion.core.curves import states
 
 SCENE = {"k": 0.1, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.2, "A": 0.055}
 

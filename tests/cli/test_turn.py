@@ -15,7 +15,7 @@ from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.study import study_from
 from gradhesion.cli.study.turn import KEYS
 from gradhesion.core import TURNS, solve
-from gradhesion.core.status import doubts_about
+from gradhesion.core.problem.status import doubts_about
 
 Call = Callable[..., Result]
 SCENE = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.05, "A": 0.06}

@@ -16,7 +16,7 @@ REFERENCE = Path(__file__).parents[1] / "reference"
 @pytest.fixture(scope="session")
 def table_of() -> Callable[[float], Any]:
     """Give the table of an exponent, made once."""
-    from gradhesion.core.cosine_sweep import table_of
+    from gradhesion.core.arrays.tables import table_of
 
     return table_of
 

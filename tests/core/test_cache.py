@@ -107,7 +107,7 @@ def test_an_import_never_fails(given: bool, tmp_path: Path) -> None:
     code = (
         "import tempfile, os; tempfile._candidate_tempdir_list = lambda: []\n"
         "from gradhesion.core import place, solve\n"
-        "from gradhesion.core.material import theta\n"
+        "from gradhesion.core.problem.material import theta\n"
         "print(place().folder, float(theta(0.0, 0.3).round(12)))"
     )
     done = subprocess.run(

@@ -14,9 +14,9 @@ from scipy.optimize import brentq
 from gradhesion.core import FAILED, OUTPUTS, draw_curves, solve
 from gradhesion.core.equations import effective, energy, envelopes, gap, hertz, jkr, profile, saturation, short_waves
 from gradhesion.core.equations.fourier import sampled_coefficients
-from gradhesion.core.loading_control import Loading
-from gradhesion.core.material import stiffness
-from gradhesion.core.status import LOADING_NOT_ONE_DISC
+from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC
 
 pytestmark = pytest.mark.slow
 

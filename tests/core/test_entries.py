@@ -73,7 +73,7 @@ def test_python_calls_no_inner_kernel(name: str) -> None:
 
 
 def test_inner_kernels_are_found() -> None:
-    from gradhesion.core import scene
+    from gradhesion.core.scene import cosine as scene
 
     code = "def draw():\n    return scene._solve_smooth(0) + _solve_force(1)\n"
     found = inner_kernels_named(outside_of_kernels(ast.parse(code)), vars(scene) | {"scene": scene})
@@ -107,7 +107,8 @@ def test_nobody_else_calls_one(path: str) -> None:
 
 
 def test_a_kernel_that_python_does_not_call_has_no_wrapper() -> None:
-    from gradhesion.core import contact, scene
+    from gradhesion.core.contact import cosine_disc as contact
+    from gradhesion.core.scene import cosine as scene
 
     assert is_inner(scene._solve_force)
     assert not is_inner(scene.solve_curve)

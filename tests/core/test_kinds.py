@@ -64,8 +64,14 @@ def compiled_by(folder: Path, code: str) -> list[str]:
 def test_a_force_compiles_what_a_force_needs(tmp_path: Path) -> None:
     tables = compiled_by(tmp_path, "compile_kind('tables')")
     force = compiled_by(tmp_path, "compile_kind('force')")
-    assert "scene.solve_pull_off" in force
-    cycle = {"scene.solve_curve", "cycle.walk", "cycle.stride", "jump_energy.jump_energy", "contact.disc_limits"}
+    assert "scene.cosine.solve_pull_off" in force
+    cycle = {
+        "scene.cosine.solve_curve",
+        "path.cosine.walk",
+        "path.cosine.stride",
+        "curve.cosine_energy.jump_energy",
+        "contact.cosine_disc.disc_limits",
+    }
     assert not cycle & {*tables, *force}
     assert (len(tables), len(force)) == (KERNELS["tables"], KERNELS["force"])
     assert len({*force}) == len(force), "no kernel for two types"

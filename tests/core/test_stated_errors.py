@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from gradhesion.core import solve
-from gradhesion.core.branches import ROWS
-from gradhesion.core.curve import curve_of, depth
-from gradhesion.core.cycle import extent, is_long, is_unresolved, walk
-from gradhesion.core.loading import loading_to
-from gradhesion.core.material import stiffness
-from gradhesion.core.unloading import unloading_from
+from gradhesion.core.curve.branches import ROWS
+from gradhesion.core.curve.cosine import curve_of, depth
+from gradhesion.core.path.cosine import extent, is_long, is_unresolved, walk
+from gradhesion.core.path.loading import loading_to
+from gradhesion.core.path.unloading import unloading_from
+from gradhesion.core.problem.material import stiffness
 
 LOOSE = 50.0
 """Median of stated over true errors: 30 on the 10,000 scenes of docs/accuracy.md, more or less on some hundred."""

@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import FAILED, FLAGS, OUTPUTS, PARAMETERS, SOLVERS, cosine_sweep, solve
-from gradhesion.core.names import RESULTS
-from gradhesion.core.status import NO_VALUE
+from gradhesion.core import FAILED, FLAGS, OUTPUTS, PARAMETERS, SOLVERS, solve
+from gradhesion.core.arrays import cosine as cosine_sweep
+from gradhesion.core.problem.names import RESULTS
+from gradhesion.core.problem.status import NO_VALUE
 
 EPS = 2.0**-52
 

@@ -17,8 +17,8 @@ from figures.fig3 import corners_of
 from figures.fig8 import parts_of
 from gradhesion.core import PARAMETERS, TURNS, solve
 from gradhesion.core.equations import effective, energy, envelopes, hertz
-from gradhesion.core.material import stiffness
-from gradhesion.core.status import LOADING_NOT_ONE_DISC, PULL_OFF_AT_RIM
+from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC, PULL_OFF_AT_RIM
 
 Compute = Callable[..., xarray.Dataset]
 Values = NDArray[np.float64]

@@ -188,8 +188,8 @@ def test_an_editable_installation_has_the_same_package_and_sees_new_modules(tmp_
     # -S, and other packages by their path alone: the editable installation of this very environment must not answer.
     code = (
         f"import sys, site; site.addsitedir({str(installed)!r}); sys.path.append({sysconfig.get_path('purelib')!r}); "
-        "import gradhesion, gradhesion.added, gradhesion.core.status, gradhesion.configs, gradhesion.cli.study.study; "
-        "print(gradhesion.__file__, gradhesion.added.__file__, gradhesion.core.status.__file__, "
+        "import gradhesion, gradhesion.added, gradhesion.core.problem.status, gradhesion.configs, gradhesion.cli.study.study; "
+        "print(gradhesion.__file__, gradhesion.added.__file__, gradhesion.core.problem.status.__file__, "
         "gradhesion.cli.study.study.__file__, gradhesion.configs.__file__, gradhesion.load.__module__)"
     )
     done = subprocess.run(

@@ -48,12 +48,12 @@ def test_every_function_has_an_example(function: str) -> None:
 def test_every_function_that_is_named_exists() -> None:
     named = set(re.findall(r"`([a-z_]+\.[a-z_]+)`", TEXT)) - {"theory.md"}
     assert named == set(FUNCTIONS)
-    for name in re.findall(r"`core\.(\w+)\.(\w+)`", TEXT):
+    for name in re.findall(r"`core\.([\w.]+)\.(\w+)`", TEXT):
         assert hasattr(importlib.import_module(f"gradhesion.core.{name[0]}"), name[1])
 
 
 def test_every_test_that_is_named_exists() -> None:
-    named = re.findall(r"`((?:tests/core/)?test_\w+\.py)::(\w+)`", TEXT)
+    named = re.findall(r"`((?:tests/core/(?:\w+/)?)?test_\w+\.py)::(\w+)`", TEXT)
     assert len(named) > 40
     for file, test in named:
         path = ROOT / file if file.startswith("tests/") else ROOT / "tests" / "core" / "equations" / file

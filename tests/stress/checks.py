@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from gradhesion.core import FAILED, OUTPUTS, solve
 from gradhesion.core.equations import saturation
-from gradhesion.core.material import stiffness
-from gradhesion.core.status import LOADING_NOT_ONE_DISC
+from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC
 
 from .draw import Scenes, groups
 

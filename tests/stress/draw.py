@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core import PARAMETERS
-from gradhesion.core.material import stiffness
+from gradhesion.core.problem.material import stiffness
 
 Scenes: TypeAlias = dict[str, NDArray[np.float64]]
 

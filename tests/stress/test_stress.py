@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import REPORTS, solve
-from gradhesion.core.status import NO_VALUE
+from gradhesion.core.problem.status import NO_VALUE
 
 from .checks import CHECKS, values_or_status
 from .draw import eventful, hostile

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from gradhesion.core import Harmonic, Loading, Profile
-from gradhesion.core.loading_control import CONTROLS
+from gradhesion.core.problem.control import CONTROLS
 from gradhesion.twin.general import Shape
 
 EXPONENTS = (0.0, 1e-9, 0.23, 0.5, 0.71, 0.94, 1 - 1e-9, 1.0)

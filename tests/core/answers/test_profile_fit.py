@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core.answers.profile_fit import FittedProfile, fit_profile
-from gradhesion.core.profile import MOST_HARMONICS
+from gradhesion.core.problem.profile import MOST_HARMONICS
 
 EPS = np.finfo(float).eps
 

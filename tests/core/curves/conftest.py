@@ -10,7 +10,7 @@ import pytest
 
 from gradhesion.core.curves.forms import fill_points
 from gradhesion.core.curves.subject import Form, Subject, subject_of
-from gradhesion.core.material import stiffness
+from gradhesion.core.problem.material import stiffness
 
 SCENES: dict[str, dict[str, float]] = {
     "wavy": {},

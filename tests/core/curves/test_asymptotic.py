@@ -7,7 +7,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from gradhesion.core.branches import END, START
+from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curves.asymptotic import draw_asymptotic
 from gradhesion.core.curves.forms import SHORT, fill_points
 from gradhesion.core.curves.smooth import draw_smooth

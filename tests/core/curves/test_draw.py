@@ -8,7 +8,7 @@ import pytest
 
 from gradhesion.core import draw_curves, solve
 from gradhesion.core.curves import CURVES, INTEGERS
-from gradhesion.core.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 
 
 def test_every_curve_has_its_variables_of_one_length_and_type(any_scene: dict[str, float]) -> None:

@@ -52,7 +52,7 @@ def test_the_plain_form(z: float, table_of: Callable[[float], Any]) -> None:
 
 
 def test_the_short_form_is_that_of_the_solver(table_of: Callable[[float], Any]) -> None:
-    from gradhesion.core import asymptotic
+    from gradhesion.core.curve import short_wave as asymptotic
 
     wave = (0.37, 0.02, 0.4, 0.5, 1.07)
     assert point(SHORT, table_of(0.37), wave, 12.3) == (asymptotic.depth(wave, 12.3), asymptotic.load(wave, 12.3))

@@ -10,7 +10,7 @@ import pytest
 from gradhesion.core import Harmonic, Loading, Profile, draw_curves, solve
 from gradhesion.core.curves import general, general_path
 from gradhesion.core.curves.equilibrium import draw_equilibrium
-from gradhesion.core.status import NO_VALUE
+from gradhesion.core.problem.status import NO_VALUE
 
 EPS = float(np.finfo(float).eps)
 SCENE = {

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from gradhesion.core import draw_curves, solve
-from gradhesion.core.branches import END, START
+from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curves.subject import subject_of
-from gradhesion.core.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 
 TESTS = Path(__file__).parents[2]
 
@@ -56,7 +56,7 @@ def test_they_sum_up_to_what_a_map_has(any_scene: dict[str, float]) -> None:
     solved = solve(any_scene, ["dissipated_energy", "loading_jumps", "unloading_jumps"])
     assert (jumps["unloading"] == 0).sum() == solved["loading_jumps"]
     assert (jumps["unloading"] == 1).sum() == solved["unloading_jumps"]
-    # beyond 80 waves a map sums them without walking (wave_sum.py)
+    # beyond 80 waves a map sums them without walking (waves/cosine_sum.py)
     assert abs(jumps["energy"].sum() - solved["dissipated_energy"]) <= 1e-12 * np.abs(jumps["energy"]).sum()
 
 

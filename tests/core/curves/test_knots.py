@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import asymptotic
-from gradhesion.core.branches import END, START
-from gradhesion.core.curve import slope, wave
+from gradhesion.core.curve import short_wave as asymptotic
+from gradhesion.core.curve.branches import END, START
+from gradhesion.core.curve.cosine import slope, wave
 from gradhesion.core.curves import knots
 from gradhesion.core.curves.subject import Subject, subject_of
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from gradhesion.core import solve
-from gradhesion.core.branches import END, START
-from gradhesion.core.curve import slope
+from gradhesion.core.curve.branches import END, START
+from gradhesion.core.curve.cosine import slope
 from gradhesion.core.curves.forms import PLAIN, fill_points
 from gradhesion.core.curves.path import draw_path
 from gradhesion.core.curves.subject import Form, Subject, subject_of

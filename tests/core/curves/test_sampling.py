@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core.cosine_sweep import table_of
+from gradhesion.core.arrays.tables import table_of
 from gradhesion.core.curves.equilibrium import scales_of
 from gradhesion.core.curves.forms import PLAIN, fill_points
 from gradhesion.core.curves.sampling import TOLERANCE, sample

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from gradhesion.core import solve
-from gradhesion.core.branches import ARRIVAL, START
+from gradhesion.core.curve.branches import ARRIVAL, START
 from gradhesion.core.curves.forms import EXACT, PLAIN
 from gradhesion.core.curves.subject import BEYOND, BEYOND_SMOOTH, subject_of
-from gradhesion.core.material import stiffness
+from gradhesion.core.problem.material import stiffness
 
 
 def _zero_depth(scene: dict[str, float]) -> float:

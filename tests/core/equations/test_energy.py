@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 from gradhesion.core import solve
 from gradhesion.core.equations import effective, energy, envelopes
-from gradhesion.core.material import stiffness
+from gradhesion.core.problem.material import stiffness
 
 EPS = float(np.finfo(float).eps)
 WAVELENGTH = 0.01

@@ -8,7 +8,7 @@ from scipy.optimize import minimize_scalar
 
 from gradhesion.core import solve
 from gradhesion.core.equations import envelopes, jkr, short_waves
-from gradhesion.core.material import stiffness
+from gradhesion.core.problem.material import stiffness
 
 EPS = float(np.finfo(float).eps)
 M, WAVELENGTH, AMPLITUDE = 150.0, 0.003, 0.02

@@ -11,7 +11,7 @@ from scipy.special import struve
 
 from gradhesion.core import solve
 from gradhesion.core.equations import hertz, jkr
-from gradhesion.core.material import stiffness
+from gradhesion.core.problem.material import stiffness
 
 WAVE = (0.13, 0.017)
 M = 210.0

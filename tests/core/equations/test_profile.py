@@ -7,13 +7,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 from gradhesion.core.equations import general
-from gradhesion.core.equations.profile import (
-    DEEPEST_SINC,
-    height,
-    is_monotonic,
-    largest_monotonic_amplitude,
-    slope,
-)
+from gradhesion.core.equations.profile import DEEPEST_SINC, height, is_monotonic, largest_monotonic_amplitude, slope
 
 
 def test_height_is_a_power_and_a_wave() -> None:

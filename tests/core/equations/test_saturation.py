@@ -7,7 +7,7 @@ import pytest
 
 from gradhesion.core import solve
 from gradhesion.core.equations import energy, envelopes, jkr, saturation
-from gradhesion.core.material import stiffness
+from gradhesion.core.problem.material import stiffness
 
 SCENE = {"nu": 0.3, "modulus": 300.0, "c0_over_R": 0.01, "A": 0.03}
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.general.series import integrals
 from gradhesion.core.struve.cosine_bins import build_cosine_bins, integral_at_zero
+from gradhesion.core.struve.series import integrals
 from gradhesion.core.struve.table import build_table
 
 pytestmark = pytest.mark.slow

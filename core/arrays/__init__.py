@@ -1,0 +1,1 @@
+"""Arrays of scenes: grouped by what they share, and spread over threads."""

@@ -1,0 +1,115 @@
+"""Arrays of scenes of one cosine wave under displacement control, in tasks of one gradient exponent.
+
+The work is cut into tasks of a fixed size, so that results do not depend on the number of threads.
+"""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gradhesion.core.arrays.grouping import Grouped, grouped
+from gradhesion.core.arrays.tables import table_of
+from gradhesion.core.curve.branches import ROWS
+from gradhesion.core.problem.material import fill_stiffness
+from gradhesion.core.problem.names import PARAMETERS, PULL_OFF, REPORTS, RESULTS
+from gradhesion.core.problem.results import typed
+from gradhesion.core.problem.status import NO_VALUE
+from gradhesion.core.scene.cosine_report import NEEDED, report_curves
+from gradhesion.core.scene.solvers import LOOPS, PULL_OFF_LOOP
+from gradhesion.core.turning.cosine import turn_curves
+
+_BRANCHES: Final = 192
+"""Branches of a curve that a task has room for."""
+
+
+def _run(curves: Grouped, workers: int, work: Callable[[Any, NDArray[np.int64], NDArray[np.float64]], None]) -> None:
+    """Do the work on every task: with the table of its exponent, the numbers of its curves, and their stiffness."""
+    stiffnesses = np.empty(curves.k.size)
+
+    def one(task: tuple[float, NDArray[np.int64]]) -> None:
+        exponent, index = task
+        fill_stiffness(exponent, index, curves.nu, curves.modulus, curves.c0_over_R, stiffnesses)
+        # beyond 0 to 1 the stiffness has no value
+        work(table_of(exponent if 0.0 <= exponent <= 1.0 else 0.0), index, stiffnesses)
+
+    tasks = curves.tasks()
+    workers = min(workers, len(tasks))
+    if workers > 1:
+        with ThreadPoolExecutor(workers) as pool:
+            list(pool.map(one, tasks))
+    else:
+        for task in tasks:
+            one(task)
+
+
+def solve_cosine(
+    parameters: Mapping[str, ArrayLike],
+    outputs: Sequence[str],
+    solver: str,
+    workers: int,
+    *,
+    check_contact: bool = True,
+    turned: bool = False,
+) -> dict[str, NDArray[Any]]:
+    """Solve all scenes of the broadcast parameters, as `solve` of core/sweep.py; `turned` as in arrays/general.py."""
+    reports = [name for name in outputs if name in REPORTS]
+    rows = list(dict.fromkeys([*outputs, *(NEEDED[name] for name in reports if name in NEEDED)]))
+    curves = grouped(parameters)
+    (rims,) = curves.rims
+    without_rim = ~(rims > 0.0)
+    rims[without_rim] = math.inf
+    slots = np.array(
+        [*(rows.index(name) if name in rows else -1 for name in RESULTS), int(check_contact) - 1, int(turned)]
+    )
+    slots_of_reports = np.array([rows.index(name) if name in reports else -1 for name in REPORTS])
+    out = np.empty((len(rows), *curves.size))
+    status = np.zeros(curves.size, dtype=np.int8)
+    solve_curves = PULL_OFF_LOOP if solver == "exact" and set(outputs) <= set(PULL_OFF) else LOOPS[solver]
+
+    def work(table: Any, index: NDArray[np.int64], stiffnesses: NDArray[np.float64]) -> None:
+        scratch = np.empty((ROWS, _BRANCHES))
+        curves_of = (table, index, stiffnesses, curves.lambda_over_R, curves.A, rims)
+        solve_curves(*curves_of, slots, out, status, scratch)
+        if reports:
+            report_curves(*curves_of, slots, slots_of_reports, out, status, scratch)
+
+    _run(curves, workers, work)
+    if without_rim.any():
+        out[:, np.broadcast_to(without_rim, status.shape)] = math.nan
+        status[np.broadcast_to(without_rim, status.shape)] = NO_VALUE
+    found = {name: typed(name, out[rows.index(name)]).reshape(curves.shape) for name in outputs}
+    return found | {"status": status.reshape(curves.shape)}
+
+
+def turning_cosine(
+    parameters: Mapping[str, ArrayLike], turn: str, workers: int, *, check_contact: bool = True
+) -> tuple[NDArray[np.float64], NDArray[np.int8]]:
+    """Return where the cycles turn, and what `status` has to say of that.
+
+    Parameters
+    ----------
+    parameters, turn, workers, check_contact
+        As those of `solve`; `turn` is the one of `TURNS` that `parameters` has.
+
+    Returns
+    -------
+    The radius a/R at which unloading starts, 0 where no contact is made, NaN where there is no value; and the bits
+    close_to_a_jump (a step is within 4e-12 of the target's terms), loading_contact_not_one_disc (of the contact that
+    turns) and no_value. Both have the broadcast shape.
+    """
+    curves = grouped(parameters, (*PARAMETERS[-1:], turn))
+    rims, targets = curves.rims
+    radii = np.empty(curves.size)
+    flags = np.zeros(curves.size, dtype=np.int8)
+
+    def work(table: Any, index: NDArray[np.int64], stiffnesses: NDArray[np.float64]) -> None:
+        scratch = np.empty((ROWS, _BRANCHES))
+        curves_of = (table, index, stiffnesses, curves.lambda_over_R, curves.A, rims, targets)
+        turn_curves(*curves_of, turn == "load_max", check_contact, radii, flags, scratch)
+
+    _run(curves, workers, work)
+    return radii.reshape(curves.shape), flags.reshape(curves.shape)

@@ -1,0 +1,56 @@
+"""Arrays of general scenes, in tasks of one gradient exponent."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gradhesion.core.arrays.prepared import prepared, run_by_exponent
+from gradhesion.core.arrays.tables import tables_of
+from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.names import PULL_OFF, RESULTS
+from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.results import typed
+from gradhesion.core.problem.shape import front_of, in_own_wavelength
+from gradhesion.core.scene.general import solve_pull_offs, solve_scenes
+
+
+def solve_general(
+    parameters: Mapping[str, ArrayLike],
+    outputs: Sequence[str],
+    profile: Profile,
+    loading: Loading,
+    workers: int,
+    *,
+    check_contact: bool = True,
+    turned: bool = False,
+) -> dict[str, NDArray[Any]]:
+    """Solve all scenes of broadcast parameters for one profile and control, as `solve` of core/sweep.py.
+
+    Scenes that differ along the last axes in a_max alone are solved on one trace.
+    `turned` is whether a_max is where the cycles turn, not the rim of a punch.
+    """
+    scenes = prepared(parameters, loading)
+    rows = list(dict.fromkeys(outputs))
+    places = [rows.index(name) if name in rows else -1 for name in RESULTS]
+    slots = np.array([*places, int(check_contact) - 1, int(turned)])
+    out = np.full((len(rows), scenes.k.size, scenes.rim.shape[1]), np.nan)
+    status = np.zeros(out.shape[1:], dtype=np.int8)
+    n, series = in_own_wavelength(profile)
+    wavelength, amplitude = scenes.wavelength / n, n * scenes.amplitude if series.size else 0.0 * scenes.amplitude
+
+    solve = solve_pull_offs if set(rows) <= set(PULL_OFF) else solve_scenes
+
+    def work(exponent: float, index: NDArray[np.int64]) -> None:
+        table, cosines = tables_of(exponent, series)
+        front = front_of(exponent, profile.exponent)
+        arrays = (scenes.stretch, wavelength, amplitude, scenes.compliance, scenes.rim)
+        solve(table, cosines, series, profile.exponent, front, index, *arrays, slots, out, status)
+
+    run_by_exponent(scenes.k, work, workers, scenes.rim.shape[1])
+    result: dict[str, NDArray[Any]] = {}
+    for name in outputs:
+        result[name] = typed(name, out[rows.index(name)]).reshape(scenes.shape)
+    result["status"] = status.reshape(scenes.shape)
+    return result

@@ -1,0 +1,66 @@
+"""Reports on arrays of general scenes: stated errors, the residual of the energy, gains over the smooth punch."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gradhesion.core.arrays.general import solve_general
+from gradhesion.core.arrays.prepared import prepared, run_by_exponent
+from gradhesion.core.arrays.tables import tables_of
+from gradhesion.core.closed.general_envelope import chis
+from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.shape import front_of, in_own_wavelength
+from gradhesion.core.problem.status import NO_VALUE
+from gradhesion.core.scene.general_report import ROWS, report_scenes
+
+_GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
+
+
+def report_general(
+    parameters: Mapping[str, ArrayLike],
+    reports: Sequence[str],
+    found: Mapping[str, NDArray[Any]],
+    profile: Profile,
+    loading: Loading,
+    workers: int,
+) -> dict[str, NDArray[Any]]:
+    """Report on scenes that `solve_general` has solved; `found` has the results that the reports start from."""
+    scenes = prepared(parameters, loading)
+    status = found["status"].ravel()
+    n, series = in_own_wavelength(profile)
+    k, stretch, wavelength, amplitude, compliance = map(
+        scenes.of_each, (scenes.k, scenes.stretch, scenes.wavelength, scenes.amplitude, scenes.compliance)
+    )
+    amplitude = amplitude if series.size else 0.0 * amplitude
+    rim = np.array(np.broadcast_to(scenes.rim, (scenes.k.size, scenes.rim.shape[1])), order="C").ravel()
+    out = np.full((len(ROWS), k.size), np.nan)
+    wanted = np.array([name in reports for name in ROWS])
+    none = np.full(k.size, np.nan)
+    radius, energy = (
+        found[name].ravel() if name in found else none for name in ("pull_off_radius", "dissipated_energy")
+    )
+
+    def work(exponent: float, index: NDArray[np.int64]) -> None:
+        table, cosines = tables_of(exponent, series)
+        front = front_of(exponent, profile.exponent)
+        arrays = (stretch, wavelength / n, n * amplitude, compliance, rim, radius, energy)
+        report_scenes(table, cosines, series, profile.exponent, front, index, *arrays, wanted, out, status)
+
+    if wanted.any():
+        run_by_exponent(k, work, workers)
+    made: dict[str, NDArray[Any]] = {
+        name: row.reshape(scenes.shape) for name, row in zip(ROWS, out, strict=True) if name in reports
+    }
+    if "roughness_parameter" in reports:
+        _, down = chis(np.where(status & NO_VALUE, np.nan, k), stretch, wavelength, amplitude, profile)
+        made["roughness_parameter"] = down.reshape(scenes.shape)
+    gains = [name for name in reports if name in _GAINS]
+    if gains:
+        even = {**parameters, "A": 0.0 * np.asarray(parameters["A"], dtype=float)}
+        smooth = solve_general(even, [_GAINS[name] for name in gains], profile, loading, workers, check_contact=False)
+        with np.errstate(all="ignore"):
+            made |= {name: found[_GAINS[name]] / smooth[_GAINS[name]] for name in gains}
+    return made

@@ -1,0 +1,56 @@
+"""Arrays of general scenes that turn at a depth or a load: where they do."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gradhesion.core.arrays.prepared import prepared, run_by_exponent
+from gradhesion.core.arrays.tables import tables_of
+from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.names import PARAMETERS
+from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.shape import front_of, in_own_wavelength
+from gradhesion.core.turning.general import turn_scenes
+
+
+def turning_general(
+    parameters: Mapping[str, ArrayLike],
+    turn: str,
+    profile: Profile,
+    loading: Loading,
+    workers: int,
+    *,
+    check_contact: bool = True,
+) -> tuple[NDArray[np.float64], NDArray[np.int8]]:
+    """Return where the cycles turn, and what `status` has to say of that.
+
+    Parameters
+    ----------
+    parameters, turn, profile, loading, workers, check_contact
+        As those of `solve` of core/sweep.py; `turn` is the one of `TURNS` that `parameters` has. Scenes that differ
+        along the last axes in it and in a_max alone are followed on one trace.
+
+    Returns
+    -------
+    The radius a/R at which unloading starts, 0 where no contact is made, NaN where there is no value; and the bits
+    close_to_a_jump (a step is within 4e-12 of the target's terms), loading_contact_not_one_disc (of the contact that
+    turns) and no_value. Both have the broadcast shape.
+    """
+    scenes = prepared(parameters, loading, (*PARAMETERS[-1:], turn))
+    assert scenes.target is not None  # noqa: S101 -- it was asked for
+    rims, targets = scenes.rim, scenes.target
+    n, series = in_own_wavelength(profile)
+    wavelength, amplitude = scenes.wavelength / n, n * scenes.amplitude if series.size else 0.0 * scenes.amplitude
+    radii = np.empty((scenes.k.size, rims.shape[1]))
+    flags = np.zeros(radii.shape, dtype=np.int8)
+
+    def work(exponent: float, index: NDArray[np.int64]) -> None:
+        table, cosines = tables_of(exponent, series)
+        front = front_of(exponent, profile.exponent)
+        arrays = (scenes.stretch, wavelength, amplitude, scenes.compliance, rims, targets)
+        modes = (turn == "load_max", check_contact)
+        turn_scenes(table, cosines, series, profile.exponent, front, index, *arrays, *modes, radii, flags)
+
+    run_by_exponent(scenes.k, work, workers, rims.shape[1])
+    return radii.reshape(scenes.shape), flags.reshape(scenes.shape)

@@ -1,0 +1,92 @@
+"""General scenes as curves with their rims, and their tasks of one gradient exponent."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gradhesion.core.arrays.grouping import grouped
+from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.names import PARAMETERS
+
+_TASK: Final = 16
+"""Scenes a task: each takes longer than one of one cosine."""
+
+
+def compliance_of(
+    loading: Loading,
+    k: NDArray[np.float64],
+    modulus: NDArray[np.float64],
+    material: NDArray[np.float64],
+    machine: NDArray[np.float64] | None = None,
+) -> NDArray[np.float64]:
+    """Return K/S over 1/R^(1+k): 0 under displacement control, inf under load control, NaN where S is out of range."""
+    if machine is None:
+        return np.full(k.shape, math.inf if loading.control == "load" else 0.0)
+    with np.errstate(all="ignore"):
+        spring = np.where(machine > 0.0, machine * modulus, np.nan)
+        compliance = 2.0 ** (1.0 - k) / (1.0 + k) * material / spring
+    return np.where(compliance == np.inf, np.nan, compliance)
+
+
+@dataclass(frozen=True)
+class Scenes:
+    """The scenes of broadcast parameters as curves with their rims, and what the kernels take of them.
+
+    `rim`, and `target` at which cycles turn, have the shape (curves, rims), or (1, rims) where all curves have the
+    same; the others have the shape (curves,). `shape` is that of the parameters, in the order of curves and rims.
+    """
+
+    shape: tuple[int, ...]
+    k: NDArray[np.float64]
+    stretch: NDArray[np.float64]
+    wavelength: NDArray[np.float64]
+    amplitude: NDArray[np.float64]
+    compliance: NDArray[np.float64]
+    rim: NDArray[np.float64]
+    target: NDArray[np.float64] | None = None
+
+    def of_each(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the values of the curves for each scene, flat."""
+        return np.repeat(values, self.rim.shape[1])
+
+
+def prepared(parameters: Mapping[str, ArrayLike], loading: Loading, along: Sequence[str] = PARAMETERS[-1:]) -> Scenes:
+    """Return the scenes of broadcast parameters.
+
+    Those that differ along the last axes only in what is named by `along` (a_max, and where the cycle turns) are one
+    curve.
+    """
+    curves = grouped(parameters, along, ("machine_stiffness",) if loading.control == "machine" else ())
+    material = stiffness(curves.k, curves.nu, curves.modulus, curves.c0_over_R)
+    with np.errstate(all="ignore"):
+        stretch = np.sqrt(2.0 ** (1.0 + curves.k) * math.pi / material)
+    compliance = compliance_of(loading, curves.k, curves.modulus, material, *curves.others)
+    return Scenes(curves.shape, curves.k, stretch, curves.lambda_over_R, curves.A, compliance, *curves.rims)
+
+
+def run_by_exponent(
+    k: NDArray[np.float64], work: Callable[[float, NDArray[np.int64]], None], workers: int, rims: int = 1
+) -> None:
+    """Do the work on curves by their numbers, in tasks of one gradient exponent each."""
+    size = max(1, _TASK // max(1, rims))
+
+    def one(task: tuple[float, NDArray[np.int64]]) -> None:
+        exponent, index = task
+        work(exponent if 0.0 <= exponent <= 1.0 else 0.0, index)  # beyond, the stretch has no value
+
+    order = np.argsort(k, kind="stable")
+    first = np.flatnonzero(np.concatenate([[True], k[order][1:] != k[order][:-1]])) if k.size else np.array([], int)
+    groups = np.split(order, first[1:]) if k.size else []
+    tasks = [(float(k[g[0]]), g[i : i + size]) for g in groups for i in range(0, g.size, size)]
+    if min(workers, len(tasks)) > 1:
+        with ThreadPoolExecutor(min(workers, len(tasks))) as pool:
+            list(pool.map(one, tasks))
+    else:
+        for task in tasks:
+            one(task)

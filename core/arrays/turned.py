@@ -1,0 +1,84 @@
+"""The results of cycles that turn before the rim: those of a punch with its rim where they turn.
+
+Loading does not depend on where it will turn, and unloading from a branch not on how the contact got there, so that
+force, energy and counts are those of a punch whose rim is at the turning radius (docs/theory.md, section 16).
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Final, Protocol, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gradhesion.core.problem.status import JUMP_IN_TO_RIM, NO_VALUE
+
+Results: TypeAlias = dict[str, NDArray[Any]]
+_GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
+_OF_THE_CURVE: Final = ("roughness_parameter", "saturation_radius")
+"""What belongs to the curve, whether or not contact is made."""
+_NOTHING: Final = {"pull_off_radius": np.nan, "delta_jump_out": np.nan}
+"""What a cycle without contact has not; all else of it is 0."""
+
+
+class Solver(Protocol):
+    """What solves scenes up to their rims."""
+
+    def __call__(self, scenes: Mapping[str, ArrayLike], wanted: Sequence[str], *, turned: bool) -> Results:
+        """Return the results `wanted` and `status`, all of the broadcast shape."""
+        ...
+
+
+def turned_results(
+    parameters: Mapping[str, ArrayLike],
+    turn: str,
+    outputs: Sequence[str],
+    radii: NDArray[np.float64],
+    flags: NDArray[np.int8],
+    solve: Solver,
+    smooth: Callable[[Mapping[str, ArrayLike], Sequence[str]], Results],
+) -> Results:
+    """Solve scenes that turn at given radii.
+
+    Parameters
+    ----------
+    parameters, turn, outputs
+        As those of `solve` in core/sweep.py; `turn` is the one of `TURNS` that `parameters` has.
+    radii, flags
+        Where unloading starts, and what the status has to say of it; of the broadcast shape (turning_cosine).
+    solve
+        What solves scenes up to their rims.
+    smooth
+        What solves scenes that turn as these do; the gains are over those of the smooth punch.
+
+    Returns
+    -------
+    All `outputs` and `status`. Without contact (radius 0) force, energies and counts are 0, `delta_max` is the depth at
+    which the cycle turns, radii and the depth of the jump-out are NaN. The gains are those over the smooth punch that
+    turns at the same depth or load.
+    """
+    limits = np.broadcast_to(np.asarray(parameters["a_max_over_R"], dtype=float), radii.shape)
+    targets = np.broadcast_to(np.asarray(parameters[turn], dtype=float), radii.shape)
+    away, short = radii == 0.0, radii < limits
+    gains = [name for name in outputs if name in _GAINS]
+    others = [name for name in outputs if name not in (*gains, "turning_radius")]
+    wanted = list(dict.fromkeys([*others, *(_GAINS[name] for name in gains)]))
+    scenes = {name: value for name, value in parameters.items() if name != turn}
+    found = solve(scenes | {"a_max_over_R": np.where(away, limits, radii)}, wanted, turned=True)
+    none = ((found["status"] | flags) & NO_VALUE) != 0
+    if turn == "indentation_max_over_R" and "delta_max" in found:
+        # under a load or by a machine a jump may have passed the depth
+        held = np.isclose(found["delta_max"], targets, rtol=1e-10, atol=1e-14)
+        found["delta_max"] = np.where(short & ~none & held, targets, found["delta_max"])
+    for name in (name for name in wanted if away.any() and name not in _OF_THE_CURVE):
+        empty = targets if name == "delta_max" else _NOTHING.get(name, 0)
+        found[name] = np.where(away, empty, found[name]).astype(found[name].dtype)
+    if gains:
+        even = {**parameters, "A": 0.0 * np.asarray(parameters["A"], dtype=float)}
+        plain = smooth(even, [_GAINS[name] for name in gains])
+        with np.errstate(all="ignore"):
+            found |= {name: found[_GAINS[name]] / plain[_GAINS[name]] for name in gains}
+    status = np.where(away, 0, np.where(short, found["status"] & ~JUMP_IN_TO_RIM, found["status"])) | flags
+    return found | {
+        "status": np.where(none & ~away, NO_VALUE, status).astype(np.int8),
+        "turning_radius": np.where(none & ~away, np.nan, radii),
+    }

@@ -1,0 +1,1 @@
+"""Closed forms: the smooth punch, the envelopes of short waves, and where the theory applies."""

@@ -1,0 +1,109 @@
+"""Where the model applies: how short attraction must be, how steep waves are, how strong against adhesion.
+
+    tabor_parameter        h/z0, the height h = L^m/R^(m-1) of the neck over the range z0 of the attraction, with
+                           L^(2m-1+k) = R^(2m-2) dgamma/M;   m = 2:  L^2/(R z0),  L^(3+k) = R^2 dgamma/M
+    wave_tabor_parameter   L_c^2/(R_c z0),  L_c^(3+k) = R_c^2 dgamma/M,  R_c = lambda/(4 pi^2 A) the radius of a crest
+    wave_slope             2 pi A, the steepest slope of the waves
+    johnson_alpha          1/(sqrt(pi) chi), chi = r/s of the unloading envelope (core/equations/envelopes.py);
+                           k = 0 and one cosine:  sqrt(2 lambda dgamma/(pi^2 E* h^2)),  h = A lambda
+
+Of a series slope and crest are the steepest and the sharpest of the period. Lengths are in R. Sources: Tabor (1977),
+Johnson (1995) and Johnson & Greenwood (1997), carried over to a graded half-space in docs/validity.md.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gradhesion.core.closed.crest import swings
+from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
+from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.names import PARAMETERS, RANGE, VALIDITY
+from gradhesion.core.problem.profile import Profile
+
+_Array = NDArray[np.float64]
+_SLOPE: Final = -1.0
+_CURVATURE: Final = -3.0
+"""The exponents k at which zeta of closed/crest.py is f2'/(2 pi A) and f2''/(4 pi^2 A)."""
+
+
+def validity(
+    parameters: Mapping[str, ArrayLike], outputs: Sequence[str] = VALIDITY, profile: Profile | None = None
+) -> dict[str, _Array]:
+    """Return the numbers that say where the model applies.
+
+    Parameters
+    ----------
+    parameters
+        An array for each name of `PARAMETERS`, with their ranges; for the Tabor parameters also adhesion_range_over_R,
+        the range z0/R of the attraction, > 0 and finite. All broadcastable; a_max_over_R has no effect.
+    outputs
+        Names out of `VALIDITY`.
+    profile
+        The shape of the punch, a paraboloid with one cosine wave if not given.
+
+    Returns
+    -------
+    An array of the broadcast shape for each output; NaN outside the ranges. wave_tabor_parameter is NaN and
+    johnson_alpha inf where A = 0. Accurate to a few units in the last place, and wave_tabor_parameter and
+    johnson_alpha of a series to those of its terms.
+
+    Raises
+    ------
+    ValueError
+        For an unknown output, or parameters that are missing or do not broadcast.
+
+    Examples
+    --------
+    A steel ball of 1 mm on rubber has a Tabor number of hundreds; so JKR holds:
+
+    >>> ball = dict(k=0.0, nu=0.5, modulus=1e4, c0_over_R=1.0, lambda_over_R=1.0, A=0.0, a_max_over_R=np.inf)
+    >>> numbers = validity(ball | {"adhesion_range_over_R": 3e-7}, ["tabor_parameter", "wave_slope"])
+    >>> round(float(numbers["tabor_parameter"])), float(numbers["wave_slope"])
+    (7181, 0.0)
+    """
+    profile = profile or Profile()
+    needed = (*PARAMETERS, *((RANGE,) if any("tabor" in name for name in outputs) else ()))
+    unknown = [name for name in outputs if name not in VALIDITY]
+    missing = [name for name in needed if name not in parameters]
+    if unknown or missing:
+        raise ValueError(f"unknown outputs {unknown}, missing parameters {missing}")
+    arrays = {name: np.asarray(parameters[name], dtype=float) for name in (*PARAMETERS, *needed)}
+    shape = np.broadcast_shapes(*(np.shape(array) for array in arrays.values()))
+    k, nu, modulus, c0, wavelength, amplitude = (arrays[name] for name in PARAMETERS[:6])
+    rows = tuple((float(wave.n), wave.cos, wave.sin) for wave in profile.harmonics if wave.cos or wave.sin)
+    with np.errstate(all="ignore"):  # what overflows has no value
+        M = stiffness(k, nu, modulus, c0)
+        sound = np.isfinite(M) & (wavelength > 0.0) & (amplitude >= 0.0) & (arrays["a_max_over_R"] > 0.0)
+        sound &= np.isfinite(wavelength) & np.isfinite(amplitude)
+        found = {}
+        for name in outputs:
+            if name == "wave_slope":
+                values = 2.0 * math.pi * amplitude * max(swings(_SLOPE, rows))
+            elif name == "johnson_alpha":
+                chi = waviness_strength(k, wavelength, amplitude) * _falls(k, rows) / adhesion_strength(k, M)
+                values = 1.0 / (math.sqrt(math.pi) * chi)
+            elif name == "tabor_parameter":
+                m = profile.exponent
+                values = M ** (-m / (2.0 * m - 1.0 + k)) / _range(arrays[RANGE])
+            else:
+                crest = wavelength / (4.0 * math.pi**2 * amplitude * swings(_CURVATURE, rows)[0])
+                values = (crest**2 / M) ** (2.0 / (3.0 + k)) / (crest * _range(arrays[RANGE]))
+                values = np.where(np.isfinite(crest), values, np.nan)
+            found[name] = np.array(np.broadcast_to(np.where(sound, values, np.nan), shape))
+    return found
+
+
+def _range(values: _Array) -> _Array:
+    """Return the range of attraction, NaN out of range."""
+    return np.where((values > 0.0) & np.isfinite(values), values, np.nan)
+
+
+def _falls(k: _Array, rows: tuple[tuple[float, float, float], ...]) -> _Array:
+    """Return how deep zeta falls, for each exponent."""
+    exponents, places = np.unique(k, return_inverse=True)
+    depths = np.array([swings(float(one), rows)[1] if 0.0 <= one <= 1.0 else np.nan for one in exponents])
+    return depths[places].reshape(k.shape)

@@ -1,0 +1,1 @@
+"""Equilibrium curves of one cosine, of any profile and control, of a short wave: states, folds, branches, energies."""

@@ -1,0 +1,157 @@
+"""The branches of a curve: the parts on which depth rises with the radius, where the contact is stable.
+
+They are kept in a *trace*, an array of one column a branch with the rows named here: the two folds that bound the
+branch, how loading arrives on it, where unloading goes from its start, and what it loses from there to the end of
+contact. Two rows more are room for the nodes of curve/cosine_energy.py and contact/cosine_gap.py and the waves of
+waves/cosine_sum.py, one tells of waves that are not walked, and the first column of the last one has the innermost
+place at which a pair of folds is about to be born (path/ties.py).
+"""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.curve.cosine import Curve, depth, slope
+from gradhesion.core.curve.cosine_folds import CLOSE, fold_of_arch, survey_arch
+from gradhesion.core.struve.circle import TWO_PI
+
+START, START_DEPTH, END, END_DEPTH = 0, 1, 2, 3
+ARRIVAL, LOADING_LOSS, LOADING_JUMPS = 4, 5, 6
+NEXT, LANDING = 7, 8
+"""Where unloading goes from the start of a branch: the next branch that it visits, -1 for none, and where it lands."""
+UNLOADING_LOSS, UNLOADING_JUMPS, LAST_DEPTH, CALLER = 9, 10, 11, 12
+WORK, VALUES, RUN = 13, 14, 15
+GAP, RUN_FIRST, RUN_LAST, RUN_LANDING = 0, 1, 2, 3
+RUN_BEFORE, RUN_AFTER, RUN_LOWEST = 4, 5, 6
+"""What the row RUN holds: the first branch beyond waves that were not walked, the first and the last of these waves
+that loading leaves, and where it lands among them (0 if on the way from one wave to the next); the wave of the last
+branch before the gap, that of the first one after it, and the one of them or between that starts lowest."""
+TANGENCY = 16
+HIGHEST, LOADING_IS_CLOSE, UNLOADING_IS_CLOSE = 17, 18, 19
+"""The highest depth up to the end of a branch, 0 at least, whether a decision of loading was close up to there, and
+whether one of unloading is from the start of the branch on (path/ties.py)."""
+ROWS = 20
+UNKNOWN: Final = -1.0
+"""Unloading jumps of a branch that unloading has not visited yet."""
+_STEPS: Final = 100
+
+
+@kernel()
+def branch_within(count: int, trace: Any, x: float) -> int:
+    """Return the last branch that starts within x, -1 if none does."""
+    low, high = -1, count
+    while high - low > 1:
+        middle = (low + high) // 2
+        if trace[START, middle] <= x:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+@kernel()
+def ends(trace: Any, branch: int) -> tuple[float, float, float, float]:
+    """Return the place and depth of a branch's start, and those of its end."""
+    return trace[START, branch], trace[START_DEPTH, branch], trace[END, branch], trace[END_DEPTH, branch]
+
+
+@kernel()
+def find_depth(table: Any, curve: Curve, target: float, branch: tuple[float, float, float, float]) -> float:
+    """Return where a branch meets a depth between those of its two ends (Halley, kept in the bracket)."""
+    level = 0.5 * (1.0 - table.k)
+    low, low_depth, high, high_depth = branch
+    endless = high == math.inf
+    if endless:
+        b, _, _ = curve
+        step = min(0.25 + 0.25 * low, 1e-9 * low + math.sqrt(2.0 * max(0.0, target - low_depth) / b) / TWO_PI)
+        high = low + step
+        high_depth = depth(table, curve, high)
+        while high_depth <= target:
+            low, low_depth = high, high_depth
+            step *= 2.0
+            high += step
+            high_depth = depth(table, curve, high)
+    # a half wave of a cosine has both its ends level, as the branch has
+    share = (target - low_depth) / (high_depth - low_depth)
+    if not 0.0 < share < 1.0:
+        return low if share <= 0.0 else high
+    x = low + (high - low) * math.acos(1.0 - 2.0 * share) / math.pi
+    x = x if low < x < high else 0.5 * (low + high)
+    for _ in range(_STEPS):
+        d, d1, _, rest = slope(table, curve, level, x)
+        rest -= target
+        if rest == 0.0:
+            return x
+        if rest < 0.0:
+            low = x
+        else:
+            high = x
+        bend = 0.5 * rest * d1
+        if endless and abs(bend) > 0.5 * d * d:  # that of the last waves, which says nothing of a place far beyond them
+            bend = 0.0
+        step = -rest * d / (d * d - bend)
+        x += step / TWO_PI
+        # the loss is stationary at the place of landing: its error is the square of what is left here
+        if low <= x <= high and abs(step) * (abs(d1) + abs(d)) < 1e-3 * abs(d):
+            return x
+        if not low < x < high:
+            x = 0.5 * (low + high)
+            if x <= low or x >= high:
+                return x
+    return x
+
+
+@kernel()
+def room_for(trace: Any, columns: float) -> Any:
+    """Return the trace, or a larger one that is still empty."""
+    if columns <= trace.shape[1]:
+        return trace
+    return np.empty((ROWS, int(columns)))
+
+
+@kernel()
+def append_branches(table: Any, curve: Curve, first: int, final: float, furthest: float, trace: Any, count: int) -> int:
+    """Append the branches that start on arch `first` or later and within `furthest`; return the new count.
+
+    The last branch is complete: it ends at its true fold, or at infinity where no arch up to `final` ends it.
+    """
+    level = 0.5 * (1.0 - table.k)
+    inside = False
+    if count == 0:
+        trace[TANGENCY, 0] = math.inf
+    if level == 0.0 and first == 0:  # k = 1: the first branch starts at zero contact, at the depth -1
+        trace[START, count], trace[START_DEPTH, count], trace[UNLOADING_JUMPS, count] = 0.0, -1.0, UNKNOWN
+        inside = True
+    i = first
+    while i <= final:
+        survey = survey_arch(table, curve, level, i)
+        kind, place, missing, high = survey
+        if kind == 0 and missing <= CLOSE:
+            trace[TANGENCY, 0] = min(trace[TANGENCY, 0], place)
+        rising = kind == 1 or (kind == 2 and i % 2 == 0)
+        for _ in range(abs(kind)):
+            if rising or inside:
+                row = START if rising else END
+                guess = 2.0 * trace[row, count - 1] - trace[row, count - 2] if count > 1 else 0.0
+                x, bottom = fold_of_arch(table, curve, level, i, survey, rising, guess)
+                if rising:
+                    if x > furthest:
+                        return count
+                    trace[START, count], trace[START_DEPTH, count] = x, bottom
+                    trace[UNLOADING_JUMPS, count] = UNKNOWN
+                else:
+                    trace[END, count], trace[END_DEPTH, count] = x, bottom
+                    count += 1
+                    if x > furthest:
+                        return count
+            inside = rising
+            rising = not rising
+        if not inside and high > furthest:
+            return count
+        i += 1
+    if inside:
+        trace[END, count] = trace[END_DEPTH, count] = math.inf
+        count += 1
+    return count

@@ -1,0 +1,101 @@
+"""All zeros of a smooth function on a cell: isolated on its interpolant by the signs of Bernstein coefficients.
+
+On a cell of a quarter of the shortest wave, no longer than half its distance from z = 0, the function D of
+curve/general.py is its interpolant at 13 Chebyshev points to 1e-12. A polynomial has no more zeros in an interval than
+its Bernstein coefficients change sign there, and as many up to an even number; intervals with two changes or more are
+halved (de Casteljau). A pair that is not told apart after 20 halvings is two zeros on either side of an extremum of the
+function itself, or none.
+"""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+
+from gradhesion.core._jit import kernel
+
+DEGREE: Final = 12
+HALVINGS: Final = 20
+STACK: Final = HALVINGS + 2
+MOST: Final = 2 * DEGREE
+
+
+def _to_bernstein() -> np.ndarray:
+    """Return the matrix from values at `NODES` to Bernstein coefficients on [0, 1]."""
+    from math import comb  # noqa: PLC0415 -- of this table alone
+
+    basis = np.array([[comb(DEGREE, j) * u**j * (1.0 - u) ** (DEGREE - j) for j in range(DEGREE + 1)] for u in NODES])
+    return np.ascontiguousarray(np.linalg.inv(basis))
+
+
+NODES: Final = np.sin(0.5 * np.pi * np.arange(DEGREE + 1) / DEGREE) ** 2
+"""Chebyshev points on [0, 1], the ends among them."""
+MATRIX: Final = _to_bernstein()
+
+
+@kernel()
+def _changes(coefficients: Any) -> int:
+    """Return how often the sign changes; zero counts as positive."""
+    count = 0
+    for j in range(DEGREE):
+        if (coefficients[j] < 0.0) != (coefficients[j + 1] < 0.0):
+            count += 1
+    return count
+
+
+@kernel()
+def isolate(values: Any, stack: Any, spans: Any, found: Any) -> tuple[int, float]:
+    """Put the parts of [0, 1] that hold zeros of an interpolant into `found`, from left to right.
+
+    Parameters
+    ----------
+    values
+        Those at `NODES`.
+    stack, spans
+        Room, of shapes (STACK, DEGREE + 1) and (STACK, 3).
+    found
+        Rows (left, right, sign, kind): kind 1 holds one zero, kind 2 a close pair or none; sign is that of the value at
+        the left end. Shape (MOST, 4).
+
+    Returns
+    -------
+    The number of rows, and a number below |interpolant| wherever it is in no row: nearly zero at a near miss.
+    """
+    for j in range(DEGREE + 1):
+        total = 0.0
+        for i in range(DEGREE + 1):
+            total += MATRIX[j, i] * values[i]
+        stack[0, j] = total
+    stack[0, 0], stack[0, DEGREE] = values[0], values[DEGREE]
+    spans[0, 0], spans[0, 1], spans[0, 2] = 0.0, 1.0, 0.0
+    top, count = 0, 0
+    nearest = math.inf
+    while top >= 0:
+        changes = _changes(stack[top])
+        left, right, halvings = spans[top, 0], spans[top, 1], spans[top, 2]
+        if changes == 0:
+            for j in range(DEGREE + 1):
+                nearest = min(nearest, abs(stack[top, j]))
+            top -= 1
+        elif changes == 1 or halvings >= HALVINGS:
+            if count == MOST:
+                return count, nearest
+            found[count, 0], found[count, 1] = left, right
+            found[count, 2] = -1.0 if stack[top, 0] < 0.0 else 1.0
+            found[count, 3] = 1.0 if changes % 2 == 1 else 2.0
+            count += 1
+            top -= 1
+        else:  # the left half goes on top, the right half below it
+            middle = 0.5 * (left + right)
+            for j in range(DEGREE + 1):
+                stack[top + 1, j] = stack[top, j]
+            for step in range(DEGREE):
+                # after step s the last item is final: the right half's coefficient of that rank
+                stack[top, DEGREE - step] = stack[top + 1, DEGREE]
+                for j in range(DEGREE, step, -1):
+                    stack[top + 1, j] = 0.5 * (stack[top + 1, j - 1] + stack[top + 1, j])
+            stack[top, 0] = stack[top + 1, DEGREE]
+            spans[top, 0], spans[top, 1], spans[top, 2] = middle, right, halvings + 1.0
+            spans[top + 1, 0], spans[top + 1, 1], spans[top + 1, 2] = left, middle, halvings + 1.0
+            top += 1
+    return count, nearest

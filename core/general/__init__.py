@@ -1,1 +1,0 @@
-"""Any power for the punch, any Fourier series for its waves, any control of its loading."""

@@ -1,0 +1,1 @@
+"""The path of a cycle: its branches, loading, unloading, near-degenerate decisions, and what jumps lose."""

@@ -1,0 +1,56 @@
+"""The branches of a general curve with the cycle on them: where loading arrives, where unloading goes, what they lose.
+
+The records are those of one cosine (core/curve/branches.py), and the same kernels fill and read them
+(core/path/loading.py, core/path/unloading.py, by way of core/path/passage.py). They serve all rims of a curve: loading
+does not depend on the rim until it gets there, and unloading does not depend on where it came from.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from gradhesion.core._jit import NO, kernel
+from gradhesion.core.curve.arches import folds_between
+from gradhesion.core.curve.branches import ROWS, UNKNOWN, UNLOADING_JUMPS
+from gradhesion.core.curve.general import Basis, Curve, state
+from gradhesion.core.curve.general_branches import fill_branches
+from gradhesion.core.curve.general_folds import MOST_FOLDS, room
+from gradhesion.core.path.general_ties import first_close_pair
+from gradhesion.core.path.loading import load_up
+from gradhesion.core.path.ties import note_loading
+
+
+@kernel()
+def walk(
+    basis: Basis, curve: Curve, first: float, last: float, furthest: float, losses: bool
+) -> tuple[int, Any, float]:
+    """Follow loading up to x = `furthest`, fold by fold: they stand between the places `first` and `last`.
+
+    Returns
+    -------
+    The number of branches, -1 if there are too many to be looked at; the trace, whose last branch ends at `furthest` if
+    no fold ends it before; and the innermost place at which a pair of folds is about to be born or to vanish, else inf.
+    """
+    zeros = np.empty(MOST_FOLDS)
+    count, rises, tangency = 0, NO, math.inf
+    last = min(last, furthest)
+    if first < last:
+        count, rises, tangency = folds_between(basis, curve, first, last, room(), zeros)
+    trace = np.empty((ROWS, max(0, count) // 2 + 2))
+    if count < 0:
+        return -1, trace, tangency
+    branches = fill_branches(basis, curve, zeros, count, rises, furthest, trace, 0.0)
+    trace[UNLOADING_JUMPS, :branches] = UNKNOWN
+    load_up(basis, curve, branches, trace, furthest, losses)
+    note_loading(basis, curve, branches, trace, furthest)
+    return branches, trace, min(tangency, first_close_pair(zeros, count, 0.0))
+
+
+@kernel()
+def depth_at_full_contact(basis: Basis, curve: Curve, rim: float, level: float, whole: float) -> float:
+    """Return the depth at which loading ends: pinned at the rim, at the coordinate `level` or that of the rim."""
+    _, _, _, alpha, beta = curve
+    _, _, front, depth, load = state(basis, curve, rim, whole)
+    own = alpha * depth + beta * load
+    return depth + max(0.0, level - own) / (alpha + beta * front)

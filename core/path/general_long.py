@@ -1,0 +1,377 @@
+"""Cycles of long curves: the regular waves between the beginning and the rim, or the end of folds, are summed.
+
+Near its beginning, and near its end, a curve is walked fold by fold (path/general.py). Between them the highest ends of
+branches of every wave, and their lowest starts, are looked at on some waves: loading goes up, wave by wave, where the
+one rise, and unloading goes down where the other fall inwards. Where they do not, waves are passed.
+"""
+
+import math
+from typing import Any, Final, TypeAlias
+
+import numpy as np
+
+from gradhesion.core._jit import NO, constant, kernel
+from gradhesion.core.contact.general_disc import climb_is_one_disc
+from gradhesion.core.curve.arches import folds_between
+from gradhesion.core.curve.branches import END, START
+from gradhesion.core.curve.general import Basis, Curve
+from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, fill_branches
+from gradhesion.core.curve.general_folds import MOST_FOLDS, find_folds, room
+from gradhesion.core.path.general_ties import first_close_pair, is_at_a_fold
+from gradhesion.core.path.pieces import State, climb, descend, leave, leave_rim, reach_rim
+from gradhesion.core.waves.general import (
+    DOWN,
+    NEAREST,
+    UP,
+    branches_of_wave,
+    cut_of,
+    falls_at_cut,
+    highest_end,
+    lowest_start,
+    room_for_waves,
+)
+from gradhesion.core.waves.general_sum import sum_of_waves
+
+BEGINNING: Final = 16.0
+"""Waves walked at the beginning."""
+NEAR_RIM: Final = 3.0
+"""Waves walked before the rim."""
+NEAR_END: Final = 8.0
+"""Waves walked before the folds end, and after."""
+SHORTEST: Final = 64.0
+"""Waves in the middle that are worth being summed."""
+LONGEST_WALK: Final = 512.0
+"""Waves up to which a curve is walked."""
+_SAMPLES: Final = 40
+_TESTED: Final = 12
+"""Waves on which the contact is tested."""
+IRREGULAR, FEW, REGULAR = map(constant, range(3))
+"""Long curves that cannot be summed; whose folds end so early that they can be walked; and that are summed."""
+Middle: TypeAlias = tuple[int, float, float, float, float, float, bool]
+"""Which of these, the place up to which folds are looked for, the cut of waves/general.py, and what `regular_waves`
+returns: where folds may begin anew, the first and the last wave to be summed, and whether folds end beyond."""
+MOST_WAVES: Final = 1e14
+"""Waves beyond which the coordinates of neighbours cannot be told apart."""
+
+
+@kernel()
+def places_between(low: float, high: float) -> Any:
+    """Return whole waves between two, in equal ratios."""
+    places = np.empty(_SAMPLES)
+    for i in range(_SAMPLES):
+        places[i] = np.floor(low * (high / low) ** (i / (_SAMPLES - 1.0)))
+    places[0], places[_SAMPLES - 1] = low, high
+    return places
+
+
+@kernel()
+def _change(basis: Basis, curve: Curve, cut: float, low: float, high: float) -> float:
+    """Return the last whole wave that begins as `low` does, with a fall or not, where `high` does not."""
+    first = falls_at_cut(basis, curve, cut, low)
+    while high - low > 1.0:
+        middle = np.floor(0.5 * (low + high))
+        if falls_at_cut(basis, curve, cut, middle) == first:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+@kernel()
+def regular_waves(
+    basis: Basis, curve: Curve, cut: float, first: float, last: float
+) -> tuple[float, float, float, bool]:
+    """Return which waves of a long curve are to be summed, folds standing between the places `first` and `last` only.
+
+    Returns
+    -------
+    The wave from which on folds may begin anew, 0 if they do not cease; the first and the last wave that are to be
+    summed; and whether folds end beyond.
+    """
+    low = np.ceil(max(first, NEAREST))
+    high = np.floor(last - cut)
+    places = places_between(low, high)
+    outer = _SAMPLES - 1
+    while outer >= 0 and not falls_at_cut(basis, curve, cut, places[outer]):
+        outer -= 1
+    if outer < 0:
+        return 0.0, low, low, True
+    ends = outer < _SAMPLES - 1
+    end = high - NEAR_RIM
+    if ends:
+        end = _change(basis, curve, cut, places[outer], places[outer + 1]) - NEAR_END
+    inner = outer
+    while inner > 0 and falls_at_cut(basis, curve, cut, places[inner - 1]):
+        inner -= 1
+    if inner == 0:
+        return 0.0, low + BEGINNING, end, ends
+    begin = _change(basis, curve, cut, places[inner - 1], places[inner])
+    again = begin - BEGINNING
+    for i in range(inner):
+        if falls_at_cut(basis, curve, cut, places[i]):
+            again = 0.0
+    return again if again > low + BEGINNING else 0.0, begin + BEGINNING, end, ends
+
+
+@kernel()
+def _highest(basis: Basis, curve: Curve, cut: float, wave: float, work: Any) -> float:
+    """Return the highest end of a branch of a wave, -inf without any."""
+    rows = work[2][0]
+    best = highest_end(rows, branches_of_wave(basis, curve, wave, cut, work, rows))
+    return rows[END_LEVEL, best] if best >= 0 else -math.inf
+
+
+@kernel()
+def _lowest(basis: Basis, curve: Curve, cut: float, wave: float, work: Any) -> float:
+    """Return the lowest start of a branch of a wave, inf without any."""
+    rows = work[2][0]
+    best = lowest_start(rows, branches_of_wave(basis, curve, wave, cut, work, rows))
+    return rows[START_LEVEL, best] if best >= 0 else math.inf
+
+
+@kernel()
+def _goes_on(basis: Basis, curve: Curve, cut: float, wave: float, kind: int, work: Any) -> bool:
+    """Return whether loading goes up from a wave to the next one, or unloading down from the next one to it."""
+    if kind == UP:
+        return _highest(basis, curve, cut, wave + 1.0, work) > _highest(basis, curve, cut, wave, work)
+    return _lowest(basis, curve, cut, wave, work) < _lowest(basis, curve, cut, wave + 1.0, work)
+
+
+@kernel()
+def _reaches(basis: Basis, curve: Curve, cut: float, wave: float, kind: int, level: float, work: Any) -> bool:
+    """Return whether a wave ends above a level, or starts below it."""
+    if kind == UP:
+        return _highest(basis, curve, cut, wave, work) > level
+    return _lowest(basis, curve, cut, wave, work) < level
+
+
+@kernel()
+def first_that_reaches(
+    basis: Basis, curve: Curve, cut: float, places: Any, now: float, kind: int, level: float, work: Any
+) -> float:
+    """Return the first wave from `now` on, in the order of `places`, that reaches a level; NaN if none does."""
+    if _reaches(basis, curve, cut, now, kind, level, work):
+        return now
+    sign = 1.0 if kind == UP else -1.0
+    for i in range(places.size):
+        if sign * (places[i] - now) <= 0.0 or not _reaches(basis, curve, cut, places[i], kind, level, work):
+            continue
+        low, high = now, places[i]
+        if i > 0 and sign * (places[i - 1] - now) > 0.0:
+            low = places[i - 1]
+        while abs(high - low) > 1.0:
+            middle = np.floor(0.5 * (low + high))
+            if _reaches(basis, curve, cut, middle, kind, level, work):
+                high = middle
+            else:
+                low = middle
+        return high
+    return math.nan
+
+
+@kernel()
+def last_of_climb(basis: Basis, curve: Curve, cut: float, places: Any, now: float, kind: int, work: Any) -> float:
+    """Return the wave up to which loading or unloading goes from wave to wave."""
+    sign = 1.0 if kind == UP else -1.0
+    step = 0.0 if kind == UP else -1.0
+    end = places[places.size - 1]
+    if now == end or not _goes_on(basis, curve, cut, now + step, kind, work):
+        return now
+    low = now
+    for i in range(places.size):
+        if sign * (places[i] - low) <= 0.0:
+            continue
+        if places[i] != end and _goes_on(basis, curve, cut, places[i] + step, kind, work):
+            low = places[i]
+            continue
+        high = places[i]
+        if high == end and _goes_on(basis, curve, cut, end - sign + step, kind, work):
+            return end
+        while abs(high - low) > 1.0:
+            middle = np.floor(0.5 * (low + high))
+            if _goes_on(basis, curve, cut, middle + step, kind, work):
+                low = middle
+            else:
+                high = middle
+        return high
+    return low
+
+
+@kernel()
+def _waves_are_one_disc(basis: Basis, curve: Curve, cut: float, first: float, last: float, work: Any) -> bool:
+    """Return whether loading keeps the contact one disc on some of the waves `first` to `last`."""
+    _, _, rows = work
+    for i in range(_TESTED):
+        before = np.floor(first * (last / first) ** (i / (_TESTED - 1.0)) + 0.5) - 1.0
+        highest = highest_end(rows[0], branches_of_wave(basis, curve, before, cut, work, rows[0]))
+        count = branches_of_wave(basis, curve, before, cut + 1.0, work, rows[1])
+        if highest >= 0:
+            left, level = before + rows[0, END, highest], rows[0, END_LEVEL, highest]
+            if not climb_is_one_disc(basis, curve, count, rows[1], -math.inf, left, level, before):
+                return False
+    return True
+
+
+@kernel()
+def go_through(
+    basis: Basis,
+    curve: Curve,
+    cut: float,
+    begin: float,
+    end: float,
+    kind: int,
+    state: State,
+    work: Any,
+    losses: bool,
+    test: bool,
+) -> tuple[State, bool]:
+    """Follow loading from wave `begin` to `end`, or unloading from `end` to `begin`; the loss is NaN if it cannot be.
+
+    Returns
+    -------
+    The state, and whether the contact stays one disc as far as was asked.
+    """
+    one_disc = True
+    places = places_between(begin, end)
+    if kind == DOWN:
+        places = places[::-1].copy()
+    left = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    sign = 1.0 if kind == UP else -1.0
+    now, last = places[0], places[places.size - 1]
+    rows = work[2][0]
+    while sign * (last - now) >= 0.0:
+        now = first_that_reaches(basis, curve, cut, places, now, kind, state[2], work)
+        if math.isnan(now):
+            break
+        count = branches_of_wave(basis, curve, now, cut, work, rows)
+        if kind == UP:
+            if test and one_disc:
+                one_disc = climb_is_one_disc(basis, curve, count, rows, -math.inf, state[3] + state[4], state[2], now)
+            state = climb(basis, curve, count, rows, state, losses, now)
+        else:
+            state = descend(basis, curve, count, rows, state, losses, now)
+        far = last_of_climb(basis, curve, cut, places, now, kind, work)
+        if far != now:
+            first, final = (now + 1.0, far) if kind == UP else (far + 1.0, now)
+            if test and one_disc:
+                one_disc = _waves_are_one_disc(basis, curve, cut, first, final, work)
+            loss, jumps = sum_of_waves(kind, basis, curve, cut, left, first, final, work, losses)
+            count = branches_of_wave(basis, curve, far, cut, work, rows)
+            if kind == UP:
+                best = highest_end(rows, count)
+                level, x = rows[END_LEVEL, best], rows[END, best]
+            else:
+                best = lowest_start(rows, count)
+                level, x = rows[START_LEVEL, best], rows[START, best]
+            state = (state[0] + loss, state[1] + jumps, level, far, x, state[5])
+        now = far + sign
+    return state, one_disc
+
+
+@kernel()
+def middle_of(basis: Basis, curve: Curve, first: float, last: float, apart: float) -> Middle:
+    """Return what of a long curve, whose folds stand between `first` and `last` only, is to be summed.
+
+    The sums begin and end `apart` waves further in than they could.
+    """
+    table, _, series = basis
+    if last > MOST_WAVES or last - first < 2.0 * SHORTEST:
+        return IRREGULAR, last, 0.0, 0.0, 0.0, 0.0, NO
+    cut = cut_of(table, series)
+    again, begin, end, ends = regular_waves(basis, curve, cut, first, last)
+    until = end + 1.0 + 2.0 * NEAR_END if ends else last + 1.0
+    begin, end = begin + apart, end - apart
+    if end - begin >= SHORTEST:
+        return REGULAR, until, cut, again, begin, end, ends
+    if ends and again == 0.0:
+        return FEW, min(last, max(begin, end + NEAR_END) + NEAR_END + apart), cut, again, begin, end, ends
+    return IRREGULAR, last, cut, again, begin, end, ends
+
+
+@kernel()
+def folds_before(
+    basis: Basis, curve: Curve, first: float, middle: Middle, search: Any, zeros: Any
+) -> tuple[int, bool, float]:
+    """Put the folds before the regular waves into `zeros`; return what find_folds does, -1 where they do not fit."""
+    _, _, cut, again, begin, _, _ = middle
+    inner = max(first, NEAREST) + BEGINNING if again > 0.0 else begin + cut
+    count, rises, tangency = folds_between(basis, curve, first, inner, search, zeros)
+    if count >= 0 and again > 0.0:
+        number, still, outermost = find_folds(basis, curve, again, begin + cut, search, zeros[count:], 0.0)
+        count = count + number if number >= 0 and still == (rises == (count % 2 == 0)) else -1
+        tangency = min(tangency, outermost)
+    if count < 0 or rises == (count % 2 == 0):
+        return -1, rises, tangency
+    return count, rises, tangency
+
+
+@kernel()
+def stride(
+    basis: Basis,
+    curve: Curve,
+    first: float,
+    middle: Middle,
+    rim: float,
+    rim_low: float,
+    tasks: tuple[bool, bool, bool, bool],
+) -> Any:
+    """Follow the cycle on a long curve up to one rim; `rim_low` is the rounding error of the rim.
+
+    The contact is tested on the way into the regular waves and out of them, and on some of these.
+
+    Parameters
+    ----------
+    basis, curve, first
+        The curve, and the place before which there is no fold.
+    middle
+        What `middle_of` has returned, REGULAR.
+    rim, rim_low
+        The rim.
+    tasks
+        Whether what is lost is wanted, whether what the end of contact loses is a part of it, whether loading is tested
+        for keeping the contact one disc, and whether the rim is a place that loading surely reaches.
+
+    Returns
+    -------
+    Whether it could be done; the states at the end of loading and of unloading (the coordinate that loading ends with,
+    and the place that the last jump leaves, 0 if contact ends at a point), whether a decision was close, whether
+    the contact stays one disc as far as was asked, and the rim as whole waves and x beyond them.
+    """
+    _, _, series = basis
+    losses, last_loss, test, turned = tasks
+    _, until, cut, _, begin, end, _ = middle
+    nothing = (0.0, 0.0, 0.0, 0.0, 0.0, NO)
+    search = room()
+    zeros = np.empty(MOST_FOLDS)
+    count, rises, tangency = folds_before(basis, curve, first, middle, search, zeros)
+    if count < 0:
+        return False, nothing, nothing, False, True, 0.0, rim
+    near = np.empty((4, count // 2 + 2))
+    branches = fill_branches(basis, curve, zeros, count, rises, begin + cut, near, 0.0)
+    close = tangency < math.inf or first_close_pair(zeros, count, 0.0) < math.inf
+    whole = end + 1.0
+    x = (rim - whole) + rim_low
+    furthest = min(x, until - whole)
+    count, rises, tangency = find_folds(basis, curve, cut, furthest, search, zeros, whole)
+    if count < 0 or rises:
+        return False, nothing, nothing, False, True, 0.0, rim
+    far = np.empty((4, count // 2 + 2))
+    outer = fill_branches(basis, curve, zeros, count, rises, x, far, whole)
+    close = close or tangency < math.inf or first_close_pair(zeros, count, whole) < math.inf
+    close = close or (x < math.inf and not turned and is_at_a_fold(basis, curve, x, whole))
+    work = room_for_waves(series)
+    one_disc = not test or climb_is_one_disc(basis, curve, branches, near, -math.inf, 0.0, 0.0, 0.0)
+    loading = climb(basis, curve, branches, near, nothing, losses, 0.0)
+    loading, open_too = go_through(basis, curve, cut, begin, end, UP, loading, work, losses, test and one_disc)
+    one_disc = one_disc and open_too
+    if test and one_disc:
+        one_disc = climb_is_one_disc(basis, curve, outer, far, x, loading[3] + loading[4], loading[2], whole)
+    loading = climb(basis, curve, outer, far, loading, losses, whole, x if turned else -1.0)
+    loading = reach_rim(basis, curve, x, loading, losses, whole)
+    inside, unloading = leave_rim(basis, curve, outer, far, x, whole)
+    unloading = descend(basis, curve, inside, far, unloading, losses, whole)
+    unloading, _ = go_through(basis, curve, cut, begin, end, DOWN, unloading, work, losses, NO)
+    unloading = descend(basis, curve, branches, near, unloading, losses, 0.0)
+    unloading = leave(basis, curve, unloading, losses and last_loss)
+    done = not (math.isnan(loading[0] + loading[1]) or math.isnan(unloading[0] + unloading[1]))
+    return done, loading, unloading, close or loading[5] or unloading[5], one_disc, whole, x

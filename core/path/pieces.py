@@ -1,0 +1,100 @@
+"""Loading and unloading over pieces of a long curve (path/general_long.py), from a state to a state.
+
+Loading follows the running maximum of the coordinate outwards, unloading its running minimum inwards. A piece is an
+array of branches in the rows of curve/general_branches.py, with places x beyond some whole waves (struve/series.py);
+its last branch may end at the rim.
+"""
+
+import math
+from typing import Any, TypeAlias
+
+from gradhesion.core._jit import NO, kernel
+from gradhesion.core.curve.branches import END, START, ends
+from gradhesion.core.curve.general import Basis, Curve, coordinate
+from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, find_level
+from gradhesion.core.path.general_ties import is_near
+from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
+
+State: TypeAlias = tuple[float, float, float, float, float, bool]
+"""Of loading or unloading: its loss and jumps so far, the coordinate, the place that it leaves next (whole waves and x
+beyond them, both 0 for no contact), and whether a decision was close."""
+
+
+@kernel()
+def _leap(basis: Basis, curve: Curve, state: State, x: float, whole: float) -> float:
+    """Return e of the jump outwards from a state to whole + x."""
+    _, _, level, waves, left, _ = state
+    if waves + left == 0.0:
+        return jump_from_zero(basis, curve, x, level, whole)
+    return jump_between(basis, curve, left, (whole - waves) + x, waves)
+
+
+@kernel()
+def climb(
+    basis: Basis, curve: Curve, count: int, trace: Any, state: State, losses: bool, whole: float, sure: float = -1.0
+) -> State:
+    """Follow loading from a state over the branches of a trace, `whole` waves out.
+
+    It surely reaches the place `sure`: whether the curve there is higher is no close decision.
+    """
+    for branch in range(count):
+        loss, jumps, level, _, _, close = state
+        top = trace[END_LEVEL, branch]
+        end = trace[END, branch]
+        if top < math.inf and end != sure and is_near(basis, curve, top, level, end, whole):
+            close = True
+        if top > level:
+            if losses:
+                loss += _leap(basis, curve, state, find_level(basis, curve, level, ends(trace, branch), whole), whole)
+            state = (loss, jumps + 1.0, top, whole, end, close)
+        else:
+            state = (loss, jumps, level, state[3], state[4], close)
+    return state
+
+
+@kernel()
+def reach_rim(basis: Basis, curve: Curve, rim: float, state: State, losses: bool, whole: float) -> State:
+    """Follow loading from its last branch to the rim."""
+    loss, jumps, level, waves, left, close = state
+    if (waves - whole) + left < rim < math.inf:
+        if losses:
+            loss += _leap(basis, curve, state, rim, whole)
+        jumps += 1.0
+    return loss, jumps, level, waves, left, close
+
+
+@kernel()
+def leave_rim(basis: Basis, curve: Curve, count: int, trace: Any, rim: float, whole: float) -> tuple[int, State]:
+    """Return the branches of a trace inside of where unloading is when it has left the rim, and its state."""
+    if count > 0 and trace[END, count - 1] == rim:
+        return count - 1, (0.0, 0.0, trace[START_LEVEL, count - 1], whole, trace[START, count - 1], NO)
+    return count, (0.0, 0.0, coordinate(basis, curve, rim, whole), whole, rim, NO)
+
+
+@kernel()
+def descend(basis: Basis, curve: Curve, count: int, trace: Any, state: State, losses: bool, whole: float) -> State:
+    """Follow unloading from a state inwards over the first `count` branches of a trace, `whole` waves out."""
+    for branch in range(count - 1, -1, -1):
+        loss, jumps, level, waves, left, close = state
+        bottom = trace[START_LEVEL, branch]
+        if is_near(basis, curve, bottom, level, left, waves):
+            close = True
+        if bottom < level:
+            if losses:
+                x = find_level(basis, curve, level, ends(trace, branch), whole)
+                loss += jump_between(basis, curve, left, (whole - waves) + x, waves)
+            state = (loss, jumps + 1.0, bottom, whole, trace[START, branch], close)
+        else:
+            state = (loss, jumps, level, waves, left, close)
+    return state
+
+
+@kernel()
+def leave(basis: Basis, curve: Curve, state: State, losses: bool) -> State:
+    """Follow unloading from the last branch to zero contact."""
+    loss, jumps, level, waves, left, close = state
+    if waves + left > 0.0:
+        jumps += 1.0
+        if losses:
+            loss -= jump_from_zero(basis, curve, left, level, waves)
+    return loss, jumps, level, waves, left, close

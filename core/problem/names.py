@@ -1,0 +1,74 @@
+"""The names that a study may use: importing them costs no compiler and no solver."""
+
+from typing import Final
+
+PARAMETERS: Final = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
+"""The seven parameters of a scene, in the order of a dataset's dimensions."""
+RESULTS: Final = (
+    "pull_off_force",
+    "pull_off_radius",
+    "dissipated_energy",
+    "loading_jumps",
+    "unloading_jumps",
+    "delta_max",
+    "delta_jump_out",
+    "loading_energy",
+    "unloading_energy",
+)
+"""The results of a cycle that the kernels compute, in the order of their rows (problem/results.py)."""
+OUTPUTS: Final = (*RESULTS, "turning_radius")
+"""All results of a scene: those of its cycle, and where it turns."""
+TURNS: Final = ("indentation_max_over_R", "load_max")
+"""Where the cycle turns before the rim, at most one of them: a depth in R, or a load in 1.5 pi R dgamma."""
+PULL_OFF: Final = ("pull_off_force", "pull_off_radius")
+"""The results that need no path of loading and unloading."""
+REPORTS: Final = (
+    "pull_off_force_error",
+    "dissipated_energy_error",
+    "energy_residual",
+    "roughness_parameter",
+    "saturation_radius",
+    "adhesion_gain",
+    "energy_gain",
+)
+"""All that can be asked for beside the results, in the order of the rows (scene/cosine_report.py)."""
+SENSITIVITIES: Final = ("pull_off_force_sensitivity", "dissipated_energy_sensitivity")
+"""How strongly a value depends on each parameter: along a last axis of parameters (sensitivities/sensitivity.py)."""
+VALIDITY: Final = ("tabor_parameter", "wave_tabor_parameter", "wave_slope", "johnson_alpha")
+"""What says where the model applies (closed/applicability.py): known without solving anything, whatever the solver."""
+RANGE: Final = "adhesion_range_over_R"
+"""The parameter of the Tabor parameters: the range of the attraction."""
+SOLVERS: Final = ("exact", "asymptotic", "envelope")
+"""For wavelengths far below the contact radius: the leading term (curve/short_wave.py), and closed/envelope.py."""
+CURVES: Final[dict[str, tuple[str, ...]]] = {
+    "equilibrium": ("contact_radius", "indentation", "load", "stable"),
+    "path": (
+        "path_contact_radius",
+        "path_indentation",
+        "path_load",
+        "path_branch",
+        "path_jump",
+        "path_unloading",
+    ),
+    "asymptotic": ("asymptotic_contact_radius", "asymptotic_indentation", "asymptotic_load"),
+    "envelope": (
+        "envelope_contact_radius",
+        "loading_envelope_indentation",
+        "loading_envelope_load",
+        "unloading_envelope_indentation",
+        "unloading_envelope_load",
+    ),
+    "effective": ("effective_contact_radius", "effective_indentation", "effective_load", "effective_jump"),
+    "smooth": ("smooth_contact_radius", "smooth_indentation", "smooth_load"),
+    "jumps": (
+        "jump_indentation",
+        "jump_radius_before",
+        "jump_radius_after",
+        "jump_energy",
+        "jump_load_before",
+        "jump_load_after",
+        "jump_unloading",
+        "jump_at_rim",
+    ),
+}
+"""The variables of every curve, in order; those of the jumps have an item a jump, the others a point."""

@@ -1,0 +1,44 @@
+"""A profile as the kernels take it: its power's factor, its harmonics as rows, and when it is one cosine wave."""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import beta
+
+from gradhesion.core.problem.profile import Profile
+
+
+def rows_of(profile: Profile) -> NDArray[np.float64]:
+    """Return the harmonics that have an amplitude, as rows (n, cos, sin)."""
+    rows = [(h.n, h.cos, h.sin) for h in sorted(profile.harmonics, key=lambda h: h.n) if h.cos != 0.0 or h.sin != 0.0]
+    return np.array(rows, dtype=float).reshape(-1, 3)
+
+
+def in_own_wavelength(profile: Profile) -> tuple[float, NDArray[np.float64]]:
+    """Return n and the harmonics of a wavelength n times shorter, over which A is n times as large.
+
+    n is 1 but for a single harmonic, which is the first one of its own wavelength.
+    """
+    rows = rows_of(profile)
+    if len(rows) != 1:
+        return 1.0, rows
+    n, even, odd = rows[0].tolist()
+    return n, np.array([[1.0, even, odd]])
+
+
+def front_of(k: float, exponent: float) -> float:
+    """Return G(m/2) G((1+k)/2)/(2 G((1+k+m)/2)), by which r^m/m presses a^m deep."""
+    return 1.0 / (1.0 + k) if exponent == 2.0 else float(0.5 * beta(0.5 * exponent, 0.5 * (1.0 + k)))
+
+
+def equivalent_wave(profile: Profile) -> tuple[int, float] | None:
+    """Return n and the factor of A for which a profile is a paraboloid with one cosine wave of length lambda/n.
+
+    None where it is not. A is over the wavelength, so that a wave n times shorter has an A n times as large.
+    """
+    rows = rows_of(profile)
+    if profile.exponent != 2.0 or len(rows) > 1:
+        return None
+    if len(rows) == 0:
+        return 1, 0.0
+    n, even, odd = rows[0].tolist()
+    return (int(n), n * even) if even > 0.0 and odd == 0.0 else None

@@ -1,0 +1,60 @@
+"""What a scene has to report: one small set of bit flags, 0 where there is nothing to say."""
+
+from typing import Final
+
+LOADING_NOT_ONE_DISC: Final = 1
+"""On loading the surfaces would overlap outside the contact, which is no single disc then (contact/cosine_disc.py,
+contact/general_disc.py); or a punch of several waves touches elsewhere before its centre does. Told where the loading
+path
+is followed, that is, where anything but the pull-off is asked for."""
+UNLOADING_NOT_ONE_DISC: Final = 2
+"""The same of unloading. Never so, whatever the profile and the control (docs/theory.md, sections 12 and 15)."""
+PULL_OFF_AT_RIM: Final = 4
+"""The pull-off force is met at the rim (told where it is asked for)."""
+JUMP_IN_TO_RIM: Final = 8
+"""Full contact at the first touch: the jump at the depth 0 meets no stable contact within the rim. Told where the
+loading path is followed."""
+CLOSE_TO_A_JUMP: Final = 16
+"""An error of 1e-12 in an input could change the number of jumps, or move the pull-off to another trough."""
+TOLERANCE_NOT_MET: Final = 32
+"""The energy is not as good as promised: its estimated error, where that is asked for, is above 1e-9 of its terms."""
+NO_VALUE: Final = 64
+"""A parameter is not a number or outside its range, or the scene cannot be resolved: the values are NaN."""
+
+FLAGS: Final = {
+    "loading_contact_not_one_disc": LOADING_NOT_ONE_DISC,
+    "unloading_contact_not_one_disc": UNLOADING_NOT_ONE_DISC,
+    "pull_off_at_rim": PULL_OFF_AT_RIM,
+    "jump_in_to_rim": JUMP_IN_TO_RIM,
+    "close_to_a_jump": CLOSE_TO_A_JUMP,
+    "tolerance_not_met": TOLERANCE_NOT_MET,
+    "no_value": NO_VALUE,
+}
+"""Name of every flag, with its bit; not every solver sets every one."""
+
+DOUBTFUL: Final = LOADING_NOT_ONE_DISC | UNLOADING_NOT_ONE_DISC | TOLERANCE_NOT_MET
+"""The bits of a scene whose values are there and may not hold."""
+_OF_LOADING: Final = (
+    "dissipated_energy",
+    "loading_energy",
+    "energy_gain",
+    "loading_jumps",
+    "delta_max",
+    "path",
+    "jumps",
+)
+"""Results and curves that depend on how full contact is reached (docs/theory.md, section 12)."""
+
+
+def doubts_about(result: str, *, turned: bool = False) -> int:
+    """Return the bits of `DOUBTFUL` that cast doubt on a result or a curve.
+
+    Where cycles turn at a depth or a load (`turned`), loading decides where, and a loading that is not one disc casts
+    doubt on all that it leads to.
+    """
+    value = result.split("_sensitivity", maxsplit=1)[0]  # which is as good as its value
+    return DOUBTFUL if turned or value in _OF_LOADING else DOUBTFUL & ~LOADING_NOT_ONE_DISC
+
+
+FAILED: Final = TOLERANCE_NOT_MET | NO_VALUE
+"""The bits that mean that a scene has failed (the others only inform)."""

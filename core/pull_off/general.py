@@ -1,0 +1,305 @@
+"""The pull-off force of any profile: the lowest load over all contact radii up to the rim.
+
+The waves of the load, z w1, are for every k within z^c times
+
+    C sum h_n n^c (1 + 2.1/(n z)^2)   and   max(-wave of their leading term) + 2.53 C sum h_n n^(c-1)/z
+
+and, for z small, within sum h_n n z T0(0)/(2+k). So the load lies nowhere below
+
+    X [ B m/(1+k+m) z^(m-c) - 1 - chi(z) ],   X = z^((3+k)/2)
+
+with a chi that falls as z grows. The search starts where this is lowest and goes outwards cell by cell on both sides,
+leaving out what cannot hold anything lower than the best trough found. The bound is too low by some parts in a hundred,
+which may be many waves: of those the lowest is found by bisection (waves/lowest.py).
+"""
+
+import math
+from typing import Any, Final, TypeAlias
+
+import numpy as np
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.curve.arches import is_one_cosine, one_cosine
+from gradhesion.core.curve.cells import MOST
+from gradhesion.core.curve.general import Basis, Curve, coordinate, slope, state
+from gradhesion.core.curve.general_folds import MOST_CELLS, cell_width, folds_of_cell
+from gradhesion.core.pull_off import cosine as pull_off
+from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
+from gradhesion.core.struve.cosine_bins import integral_at_zero
+from gradhesion.core.waves.general import NEAREST, cut_of, falls_at_cut, highest_harmonic, room_for_waves
+from gradhesion.core.waves.lowest import Lowest, lower, lowest_of_waves
+
+Terms: TypeAlias = tuple[float, float, float, float, float]
+"""What `chi_terms` returns."""
+_EXCESS: Final = 2.1
+_REMAINDER: Final = 2.53
+WORTH: Final = 1.0 + 4.0 * 2.0**-52
+_SAMPLES: Final = 16
+"""Samples for each wave of the shortest harmonic."""
+_HALVINGS: Final = 60
+_ROUNDING: Final = 1e-14
+_BLOCK: Final = 0.9
+INWARDS: Final = 0.3
+"""Longest cell over the distance of its outer end from zero contact."""
+_PHASELESS: Final = 1e12
+_FAR: Final = 64.0
+"""Waves from which on there may be many in question."""
+_MANY: Final = 32.0
+"""Waves in question of which the lowest is searched for by their number."""
+
+
+@kernel()
+def _wave_of_load(table: Any, series: Any, u: float) -> tuple[float, float]:
+    """Return sum n^c [-cos_n sin(n z - phi) - sin_n cos(n z - phi)] at z = 2 pi u, and its slope."""
+    c = 0.5 * (1.0 - table.k)
+    value, rate = 0.0, 0.0
+    for i in range(series.shape[0]):
+        n = series[i, 0]
+        sine, cosine = sine_cosine_of_turns(n * u)
+        s = (sine * table.cos_phase - cosine * table.sin_phase) / table.amplitude
+        t = (cosine * table.cos_phase + sine * table.sin_phase) / table.amplitude
+        value -= n**c * (series[i, 1] * s + series[i, 2] * t)
+        rate -= n ** (c + 1.0) * (series[i, 1] * t - series[i, 2] * s)
+    return value, rate
+
+
+@kernel()
+def deepest_wave(table: Any, series: Any) -> float:
+    """Return the highest crest of -z^(1-c) w1/C's leading term."""
+    samples = int(_SAMPLES * highest_harmonic(series))
+    values = np.empty(samples)
+    deepest, bends = 0.0, 0.0
+    for j in range(samples):
+        values[j], _ = _wave_of_load(table, series, j / samples)
+        deepest = max(deepest, values[j])
+    for i in range(series.shape[0]):
+        bends += math.hypot(series[i, 1], series[i, 2]) * series[i, 0] ** (2.5 - 0.5 * table.k)
+    # a crest is higher than its sample by this at most
+    highest = deepest - 0.5 * (math.pi / max(1, samples)) ** 2 * bends
+    for j in range(samples):
+        if values[j] >= max(highest, values[j - 1], values[(j + 1) % samples]):
+            low, high = (j - 1.0) / samples, (j + 1.0) / samples
+            for _ in range(_HALVINGS):
+                middle = 0.5 * (low + high)
+                value, rate = _wave_of_load(table, series, middle)
+                deepest = max(deepest, value)
+                if rate > 0.0:
+                    low = middle
+                else:
+                    high = middle
+    return deepest * (1.0 + _ROUNDING)
+
+
+@kernel()
+def chi_terms(table: Any, series: Any, gain: float, deepest: float) -> Terms:
+    """Return the terms of the bounds: h n^c, h n^(c-2), the deepest wave, h n^(c-1), and that of small z.
+
+    `deepest` is what `deepest_wave` returns.
+    """
+    c = 0.5 * (1.0 - table.k)
+    first, second, third = 0.0, 0.0, 0.0
+    near = 0.0
+    for i in range(series.shape[0]):
+        n = series[i, 0]
+        h = gain * math.hypot(series[i, 1], series[i, 2])
+        first += table.amplitude * h * n**c
+        second += _EXCESS * table.amplitude * h * n ** (c - 2.0)
+        third += _REMAINDER * table.amplitude * h * n ** (c - 1.0)
+        near += h * n * integral_at_zero(table.k) / (2.0 + table.k)
+    return first, second, gain * table.amplitude * deepest, third, near
+
+
+@kernel()
+def _chi(terms: Terms, z: float) -> float:
+    """Return a bound of the waves over z^c that holds from z on outwards."""
+    first, second, deepest, third, _ = terms
+    return min(first + second / (z * z), deepest + third / z)
+
+
+@kernel()
+def _floor(bend: float, power: float, k: float, chi: float, low: float, high: float) -> float:
+    """Return the lowest of X [bend z^power - 1 - chi] for z in low .. high: X = z^e falls and then rises."""
+    e = 0.5 * (3.0 + k)
+    lowest = ((1.0 + chi) * e / (bend * (power + e))) ** (1.0 / power)
+    z = min(max(lowest, low), high)
+    return z**e * (bend * z**power - 1.0 - chi)
+
+
+@kernel()
+def load_at_rim(basis: Basis, curve: Curve, x: float, x_low: float) -> float:
+    """Return the load at x + x_low, where x_low is the rounding error of x."""
+    _, _, _, _, load = state(basis, curve, x, 0.0)
+    _, _, rate = slope(basis, curve, x, 0.0)
+    return load + rate * (TWO_PI * x_low)
+
+
+@kernel()
+def _better(
+    basis: Basis,
+    curve: Curve,
+    low: float,
+    high: float,
+    work: Any,
+    cell_zeros: Any,
+    best: Lowest,
+    whole: float,
+) -> Lowest:
+    """Return the lowest load so far, its place, and the second lowest, a cell taken in."""
+    at_low, _, _ = slope(basis, curve, low, whole)
+    found, _, _ = folds_of_cell(basis, curve, low, high, at_low, work, cell_zeros, whole)
+    falling = at_low < 0.0
+    for i in range(found):
+        if falling:
+            best = lower(best, coordinate(basis, curve, cell_zeros[i], whole), whole + cell_zeros[i])
+        falling = not falling
+    return best
+
+
+@kernel()
+def _in_question(
+    terms: Terms,
+    curve: Curve,
+    k: float,
+    start: float,
+    rim: float,
+    load: float,
+) -> tuple[float, float]:
+    """Return places between which the lowest load stands, some load being known: both bounds are lowest at `start`."""
+    B, m, _, _, _ = curve
+    bend, power = B * m / (1.0 + k + m), m - 0.5 * (1.0 - k)
+    inner, low = 0.0, start
+    outer, high = rim, start
+    if _floor(bend, power, k, _chi(terms, _BLOCK * rim), _BLOCK * rim, rim) < load:
+        high = rim
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (inner + low)
+        if _floor(bend, power, k, _chi(terms, _BLOCK * middle), _BLOCK * middle, middle) < load:
+            low = middle
+        else:
+            inner = middle
+        middle = 0.5 * (high + outer) if outer < math.inf else 2.0 * high
+        if _floor(bend, power, k, _chi(terms, _BLOCK * middle), middle, math.inf) < load:
+            high = middle
+        else:
+            outer = middle
+    return inner / TWO_PI, min(outer, rim) / TWO_PI
+
+
+@kernel()
+def _lowest_far(
+    basis: Basis, curve: Curve, terms: Any, start: float, x_rim: float, x_rim_low: float, best: Lowest, search: Any
+) -> tuple[bool, Lowest]:
+    """Do what `lowest_load` does where it is one of many waves; tell whether it is."""
+    table, _, series = basis
+    cut = cut_of(table, series)
+    wave = np.floor(min(start, x_rim - 1.0) - cut)
+    if wave < NEAREST or not falls_at_cut(basis, curve, cut, wave):
+        return False, best
+    work = room_for_waves(series)
+    found, near = lowest_of_waves(basis, curve, cut, wave, wave, best, work)
+    if not (found and near[0] < 0.0):
+        return False, best
+    low, high = _in_question(terms, curve, table.k, TWO_PI * start, TWO_PI * x_rim, near[0])
+    last = np.floor(min(high + 1.0, x_rim - cut - 1.0))
+    low = np.floor(low - 1.0)
+    if low < NEAREST or last - low < _MANY:
+        return False, best
+    found, best = lowest_of_waves(basis, curve, cut, low, last, best, work)
+    if not found:
+        return False, best
+    if high + 2.0 >= x_rim:  # what is left of a wave before the rim
+        whole = last + 1.0
+        end = (x_rim - whole) + x_rim_low
+        place = cut
+        while place < end:
+            beyond = min(end, place + cell_width(series, x_rim))
+            best = _better(basis, curve, place, beyond, search, work[1], best, whole)
+            place = beyond
+    return True, best
+
+
+@kernel()
+def lowest_load(
+    basis: Basis, curve: Curve, x_rim: float, x_rim_low: float, work: Any, deepest: float
+) -> tuple[float, float, float]:
+    """Return the lowest reduced load over (0, x_rim], the x where it is met, and the second lowest trough (or 0).
+
+    NaN if there are too many waves to look at. `work` is the room of a search for folds, `deepest` what `deepest_wave`
+    returns. Of one cosine on a paraboloid core/pull_off/cosine.py knows it; what is prescribed does not matter.
+    """
+    table, _, series = basis
+    B, m, g, _, _ = curve
+    if is_one_cosine(series, m) and g > 0.0:
+        return pull_off.lowest_load(table, one_cosine(series, curve), x_rim, x_rim_low)
+    k = table.k
+    c = 0.5 * (1.0 - k)
+    controlled = (B, m, g, 0.0, 1.0)
+    terms = chi_terms(table, series, g, deepest)
+    bend, power = B * m / (1.0 + k + m), m - c
+    e = 0.5 * (3.0 + k)
+    # where the floor of the far field is lowest
+    z = ((1.0 + terms[2]) * e / (bend * (power + e))) ** (1.0 / power)
+    start = min(z / TWO_PI, x_rim)
+    if not (1e-100 < start < math.inf) or (start > _PHASELESS and series.shape[0] > 0):
+        return math.nan, math.nan, 0.0
+    best = (0.0, 0.0, 0.0)
+    if x_rim < math.inf:
+        at_rim = load_at_rim(basis, controlled, x_rim, x_rim_low)
+        if at_rim < 0.0:
+            best = (at_rim, x_rim, 0.0)
+    if start > _FAR and series.shape[0] > 1:  # of one harmonic the bound is sharp
+        found, lowest = _lowest_far(basis, controlled, terms, start, x_rim, x_rim_low, best, work)
+        if found:
+            return lowest
+    cell_zeros = np.empty(MOST)
+    low, left = start, MOST_CELLS
+    while low < x_rim and left > 0:
+        z_low = TWO_PI * low
+        if _floor(bend, power, k, _chi(terms, z_low), z_low, math.inf) >= best[0] * WORTH and low > start:
+            break
+        high = min(x_rim, low + cell_width(series, low))
+        best = _better(basis, controlled, low, high, work, cell_zeros, best, 0.0)
+        low = high
+        left -= 1
+    high = start
+    while left > 0:
+        z_high = TWO_PI * high
+        if best[0] < 0.0 and innermost(terms, k, z_high) >= best[0] * WORTH:
+            break
+        low = _BLOCK * high
+        near = terms[4] * z_high ** (1.0 - c)
+        chi = min(near, _chi(terms, TWO_PI * low))
+        if best[0] < 0.0 and _floor(bend, power, k, chi, TWO_PI * low, z_high) >= best[0] * WORTH:
+            high = low
+            continue
+        low = high - min(cell_width(series, high), INWARDS * high)
+        left -= 1
+        chi = min(near, _chi(terms, TWO_PI * low))
+        if not (best[0] < 0.0 and _floor(bend, power, k, chi, TWO_PI * low, z_high) >= best[0] * WORTH):
+            best = _better(basis, controlled, low, high, work, cell_zeros, best, 0.0)
+        if high < 1e-100:
+            return math.nan, math.nan, 0.0
+        high = low
+    if left == 0:
+        return math.nan, math.nan, 0.0
+    return best
+
+
+@kernel()
+def innermost(terms: Terms, k: float, z: float) -> float:
+    """Return a bound below the load everywhere up to z: both parts grow with z."""
+    first, second, _, _, near = terms
+    c, e = 0.5 * (1.0 - k), 0.5 * (3.0 + k)
+    waves = near * z ** (e + 1.0 - c)
+    if z > 1.0:
+        waves = min(waves, max(near, first * z**e + second))
+    return -(z**e) - waves
+
+
+@kernel()
+def floor_of_cell(terms: Terms, curve: Curve, k: float, low: float, high: float) -> float:
+    """Return a bound below the load between two z."""
+    B, m, _, _, _ = curve
+    c = 0.5 * (1.0 - k)
+    chi = min(terms[4] * high ** (1.0 - c), _chi(terms, low))
+    return _floor(B * m / (1.0 + k + m), m - c, k, chi, low, high)

@@ -1,0 +1,1 @@
+"""From the numbers of one scene to its results and its stated errors."""

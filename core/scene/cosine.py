@@ -1,0 +1,275 @@
+"""From the numbers of a scene to its results: the kernel that a single scene and a sweep of millions share.
+
+A scene is reduced to its curve (curve/cosine.py) and its rim. Lengths are in R, energies in R^2 dgamma, M in
+dgamma/R^(1+k).
+
+Nothing is computed that only a result needs for which nobody asked.
+"""
+
+import math
+from typing import Any
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.closed import smooth
+from gradhesion.core.contact.cosine_disc import disc_limits, is_one_disc
+from gradhesion.core.curve.cosine import Curve, curve_of, depth, force_unit
+from gradhesion.core.curve.cosine_folds import CLOSE
+from gradhesion.core.path.cosine import (
+    LARGEST,
+    SMALLEST,
+    extent,
+    is_endless_wave,
+    is_long,
+    is_smooth,
+    is_unresolved,
+    stride,
+    walk,
+)
+from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
+from gradhesion.core.path.ties import first_close_pair, is_close_to_a_jump
+from gradhesion.core.path.unloading import unloading_from
+from gradhesion.core.problem.results import (
+    CONTACT,
+    DEEPEST,
+    ENERGY,
+    FORCE,
+    LAST,
+    LOADED,
+    LOADING,
+    RADIUS,
+    TURNED,
+    UNLOADED,
+    UNLOADING,
+    put,
+    wants_cycle,
+    wants_folds,
+    wants_force,
+    wants_losses,
+)
+from gradhesion.core.problem.status import (
+    CLOSE_TO_A_JUMP,
+    JUMP_IN_TO_RIM,
+    LOADING_NOT_ONE_DISC,
+    NO_VALUE,
+    PULL_OFF_AT_RIM,
+)
+from gradhesion.core.pull_off.cosine import lowest_load
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.intrinsics import fma
+
+
+@kernel()
+def _solve_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: Any, out: Any, status: Any) -> None:
+    """Solve a smooth punch for all its rims."""
+    length = smooth.smooth_length(k, stretch)
+    depth_scale = 2.0 * length * length / (1.0 + k)
+    for i in range(rims.size):
+        z_rim = rims[i] / length
+        if wants_force(slots):
+            force, z = smooth.smooth_force(k, constants[0], z_rim)
+            put(out, slots, FORCE, i, force)
+            put(out, slots, RADIUS, i, z * length if z < z_rim else rims[i])
+            if z == z_rim:
+                status[i] |= PULL_OFF_AT_RIM
+        if wants_cycle(slots):
+            loaded, unloaded, unloading_jumps, last = smooth.smooth_cycle(k, constants, z_rim)
+            scale = TWO_PI * length * length
+            put(out, slots, ENERGY, i, scale * (loaded + unloaded))
+            put(out, slots, LOADED, i, scale * loaded)
+            put(out, slots, UNLOADED, i, scale * unloaded)
+            put(out, slots, LOADING, i, 1.0)
+            put(out, slots, UNLOADING, i, unloading_jumps)
+            put(out, slots, LAST, i, depth_scale * last)
+        if slots[DEEPEST] >= 0:
+            deepest = depth_scale * max(0.0, smooth.smooth_depth(k, z_rim))
+            if z_rim > LARGEST:  # its square may overflow, and nothing else counts
+                deepest = rims[i] * rims[i] / (1.0 + k)
+            put(out, slots, DEEPEST, i, deepest)
+        if wants_folds(slots) and z_rim < constants[1]:
+            status[i] |= JUMP_IN_TO_RIM
+
+
+@kernel()
+def _solve_force(
+    table: Any, curve: Curve, scale: float, wavelength: float, rims: Any, slots: Any, out: Any, status: Any
+) -> None:
+    """Find the pull-off of a wavy punch for all its rims; that without a rim serves all rims beyond its place."""
+    free_load, free_x, free_second = 0.0, math.inf, 0.0
+    if rims.size > 1:
+        free_load, free_x, free_second = lowest_load(table, curve, math.inf, 0.0)
+    for i in range(rims.size):
+        x = rims[i] / wavelength
+        lowest, place, second = free_load, free_x, free_second
+        if not (free_load < 0.0 and free_x <= x):
+            x_low = fma(-x, wavelength, rims[i]) / wavelength if x < math.inf else 0.0
+            lowest, place, second = lowest_load(table, curve, x, x_low)
+        if second < lowest * (1.0 - CLOSE):
+            status[i] |= CLOSE_TO_A_JUMP
+        put(out, slots, FORCE, i, -scale * lowest)
+        put(out, slots, RADIUS, i, place * wavelength if place != x else rims[i])
+        if place == x:
+            status[i] |= PULL_OFF_AT_RIM
+
+
+@kernel()
+def _cycle_at_rim(
+    table: Any,
+    curve: Curve,
+    scales: Any,
+    count: int,
+    trace: Any,
+    limits: tuple[float, float, float],
+    x: float,
+    slots: Any,
+    out: Any,
+    status: Any,
+    i: int,
+) -> None:
+    """Read the cycle of one rim off a trace, and what there is to report."""
+    energy_scale, depth_scale = scales
+    losses = wants_losses(slots)
+    inner, outer, tangency = limits
+    rim_depth = depth(table, curve, x) if x < math.inf else math.inf
+    if wants_cycle(slots):
+        loading_loss, loading_jumps = loading_to(table, curve, count, trace, x, losses)
+        unloading_loss, unloading_jumps, last = unloading_from(table, curve, count, trace, x, rim_depth, losses)
+        energy = energy_scale * (loading_loss + unloading_loss)
+        if not abs(energy) < math.inf:  # an overflow
+            energy = math.nan
+            status[i] |= NO_VALUE
+        if is_close_to_a_jump(table, curve, count, trace, tangency, x, rim_depth, slots[TURNED] > 0):
+            status[i] |= CLOSE_TO_A_JUMP
+        put(out, slots, ENERGY, i, energy)
+        put(out, slots, LOADED, i, energy_scale * loading_loss)
+        put(out, slots, UNLOADED, i, energy_scale * unloading_loss)
+        put(out, slots, LOADING, i, loading_jumps)
+        put(out, slots, UNLOADING, i, unloading_jumps)
+        put(out, slots, LAST, i, depth_scale * last)
+    put(out, slots, DEEPEST, i, depth_scale * highest_depth(count, trace, x, rim_depth))
+    if jumps_in_to(count, trace, x):
+        status[i] |= JUMP_IN_TO_RIM
+    if not is_one_disc(table, curve, (inner, outer), x, trace):
+        status[i] |= LOADING_NOT_ONE_DISC
+
+
+@kernel()
+def _limits(
+    table: Any, curve: Curve, count: int, trace: Any, furthest: float, slots: Any
+) -> tuple[float, float, float]:
+    """Return the radii between which loading ceases to keep the contact one disc, if that is asked for.
+
+    And the first place at which a pair of folds is about to be born or to vanish; all of it serves all rims.
+    """
+    tangency = first_close_pair(count, trace)
+    if slots[CONTACT] < 0:
+        return math.inf, math.inf, tangency
+    inner, outer = disc_limits(table, curve, count, trace, furthest)
+    return inner, outer, tangency
+
+
+@kernel()
+def _solve_cycle(
+    table: Any,
+    curve: Curve,
+    arches: tuple[float, float],
+    scales: Any,
+    wavelength: float,
+    rims: Any,
+    slots: Any,
+    out: Any,
+    status: Any,
+    scratch: Any,
+) -> None:
+    """Follow the cycle of a wavy punch for all its rims: those within a walk share one trace."""
+    losses = wants_losses(slots)
+    furthest = 0.0
+    for i in range(rims.size):
+        x = rims[i] / wavelength
+        if is_unresolved(arches, x):
+            status[i] |= NO_VALUE
+        elif not is_long(table, arches, x):
+            furthest = max(furthest, x)
+    if furthest > 0.0:
+        count, trace = walk(table, curve, arches, furthest, scratch, losses)
+        limits = _limits(table, curve, count, trace, furthest, slots)
+    for i in range(rims.size):
+        x = rims[i] / wavelength
+        if not is_unresolved(arches, x) and not is_long(table, arches, x):
+            _cycle_at_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i)
+    for i in range(rims.size):
+        x = rims[i] / wavelength
+        if not is_unresolved(arches, x) and is_long(table, arches, x):
+            count, trace = stride(table, curve, arches, x, scratch, losses, 1.0)
+            limits = _limits(table, curve, count, trace, x, slots)
+            _cycle_at_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i)
+
+
+@kernel()
+def _mark_unresolved(wavelength: float, rims: Any, out: Any, status: Any) -> None:
+    """Give no value to rims that have none, or whose size over the wavelength has none."""
+    for i in range(rims.size):
+        if status[i] & NO_VALUE or not rims[i] / wavelength > SMALLEST or LARGEST < rims[i] / wavelength < math.inf:
+            out[:, i] = math.nan
+            status[i] = NO_VALUE
+
+
+@kernel()
+def solve_pull_off(
+    table: Any,
+    constants: Any,
+    stretch: float,
+    wavelength: float,
+    amplitude: float,
+    rims: Any,
+    slots: Any,
+    out: Any,
+    status: Any,
+) -> None:
+    """Do what `solve_curve` does where nothing but the pull-off is asked for: no cycle is compiled with it."""
+    k = table.k
+    if is_endless_wave(wavelength, amplitude):
+        _solve_smooth(k, constants, stretch, rims, slots, out, status)
+        return
+    curve, length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
+    if not (0.0 < curve[0] < LARGEST and curve[1] < LARGEST):
+        out[:, :] = math.nan
+        status[:] = NO_VALUE
+        return
+    _solve_force(table, curve, force_unit(k, length, depth_scale), wavelength, rims, slots, out, status)
+    _mark_unresolved(wavelength, rims, out, status)
+
+
+@kernel()
+def solve_curve(
+    table: Any,
+    constants: Any,
+    stretch: float,
+    wavelength: float,
+    amplitude: float,
+    rims: Any,
+    slots: Any,
+    out: Any,
+    status: Any,
+    scratch: Any,
+) -> None:
+    """Solve one curve (k, s, lambda, A) for all its rims a_max."""
+    k = table.k
+    if is_endless_wave(wavelength, amplitude):  # A = 0 among them
+        _solve_smooth(k, constants, stretch, rims, slots, out, status)
+        return
+    curve, length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
+    if not (0.0 < curve[0] < LARGEST and curve[1] < LARGEST):  # powers of them would overflow
+        out[:, :] = math.nan
+        status[:] = NO_VALUE
+        return
+    folds = wants_folds(slots)
+    arches = extent(table, curve) if folds else (0.0, 0.0)
+    if folds and is_smooth(arches):
+        _solve_smooth(k, constants, stretch, rims, slots, out, status)
+        return
+    if wants_force(slots):
+        _solve_force(table, curve, force_unit(k, length, depth_scale), wavelength, rims, slots, out, status)
+    if folds:
+        scales = (TWO_PI * length * length, depth_scale)
+        _solve_cycle(table, curve, arches, scales, wavelength, rims, slots, out, status, scratch)
+    _mark_unresolved(wavelength, rims, out, status)

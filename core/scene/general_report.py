@@ -1,0 +1,247 @@
+"""What a general scene can tell of itself on request, as core/scene/cosine_report.py does for one cosine wave.
+
+    error of the force   6 eps times the sizes of the terms of the load at pull-off, every wave for itself
+    error of the energy  20 eps [2 pi a^2 (1 + chi)^2 dgamma + H], a the outermost radius of a jump and chi that of all
+                         waves at their crests, since |rho| <= 1 + 2 chi on a jump; H is most where a spring lets go
+
+and where waves are summed (path/general_long.py) four times the difference from a sum that begins and ends elsewhere.
+
+The residual is the energy less the loop integral of P over what is prescribed, by Gauss's rule along the branches: a
+computation that shares no integrand with the energies of jumps. A dead load closes no loop and has none.
+"""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+
+from gradhesion.core._jit import NO, YES, kernel
+from gradhesion.core.curve.branches import ARRIVAL, END, LANDING, NEXT, START
+from gradhesion.core.curve.cosine_energy import NODES, WEIGHTS
+from gradhesion.core.curve.general import Basis, Curve, coordinate, curve_of, slope, state
+from gradhesion.core.curve.general_folds import MOST_CELLS, cell_width, folds_of_cell, room
+from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
+from gradhesion.core.path.general import walk
+from gradhesion.core.path.general_long import FEW, LONGEST_WALK, NEAR_END, REGULAR, middle_of, regular_waves, stride
+from gradhesion.core.path.loading import highest_depth, loading_to
+from gradhesion.core.path.unloading import descend, leave_rim, unloading_from
+from gradhesion.core.problem.status import NO_VALUE, TOLERANCE_NOT_MET
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.intrinsics import fma
+from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.struve.series import integrals
+from gradhesion.core.waves.general import cut_of
+
+ROWS: Final = ("pull_off_force_error", "dissipated_energy_error", "energy_residual", "saturation_radius")
+"""What the kernel finds; the others are ratios of what is known."""
+_FORCE_ROUNDING: Final = 6.0 * 2.0**-52
+_ENERGY_ROUNDING: Final = 20.0 * 2.0**-52
+"""The true errors on scenes of the twin are at most 3.4 and 11 eps (docs/accuracy.md)."""
+_PANEL: Final = 0.6
+"""Waves a panel of 16 nodes of the loop."""
+_INWARDS: Final = 0.3
+_APART: Final = 5.0
+"""Waves by which the other sum begins later and ends earlier."""
+_LOOPED: Final = 2048.0
+"""Waves up to which a loop is integrated."""
+_PROMISED: Final = 1e-9
+"""Error of the energy, in parts of its terms, above which a scene does not meet the tolerance (docs/accuracy.md)."""
+_NEGLIGIBLE: Final = 1e-8
+"""Of the outer end of a branch that begins in a point (k = 1), up to where its work is about the cube of it."""
+
+
+@kernel()
+def _crests(table: Any, series: Any, gain: float) -> float:
+    """Return chi of all waves at their crests."""
+    total = 0.0
+    for i in range(series.shape[0]):
+        total += math.hypot(series[i, 1], series[i, 2]) * series[i, 0] ** (0.5 * (1.0 - table.k))
+    return gain * table.amplitude * total
+
+
+@kernel()
+def _force_terms(basis: Basis, curve: Curve, x: float) -> float:
+    """Return the size of the terms of the load at x."""
+    table, cosines, series = basis
+    B, m, g, _, _ = curve
+    z = TWO_PI * x
+    power = amplitude_power(table, z)
+    waves = 0.0
+    for i in range(series.shape[0]):
+        n = series[i, 0]
+        h = n * math.hypot(series[i, 1], series[i, 2])
+        _, s0, s1, _, t0, t1 = integrals(table, cosines, n * x, 0.0)
+        waves += h * min(abs(s0) + abs(s1) + abs(t0) + abs(t1), 4.0)
+        waves += h * min(1.0, table.amplitude * (n * z) ** (-0.5 * (1.0 + table.k)))
+    return (B * z**m * (m / (1.0 + table.k + m)) + z * power + g * z * waves) / (power * power)
+
+
+@kernel()
+def _work(basis: Basis, curve: Curve, low: float, high: float) -> float:
+    """Return the integral of the load over the coordinate along a branch, from its inner end to its outer one."""
+    _, _, series = basis
+    shortest = 0.0
+    for i in range(series.shape[0]):
+        shortest = max(shortest, series[i, 0])
+    longest = _PANEL / shortest if shortest > 0.0 else math.inf
+    total, end = 0.0, max(low, _NEGLIGIBLE * high)
+    while high > end:
+        width = min(longest, high / 3.0, high - low)
+        part = 0.0
+        for i in range(NODES.size):
+            x = high - width * NODES[i]
+            _, _, _, _, load = state(basis, curve, x, 0.0)
+            _, _, rate = slope(basis, curve, x, 0.0)
+            part += WEIGHTS[i] * load * rate
+        total += width * part
+        high = max(low, high - width)
+    return total * TWO_PI
+
+
+@kernel()
+def loop(basis: Basis, curve: Curve, count: int, trace: Any, rim: float) -> tuple[float, float]:
+    """Return the loop integral of the load over the coordinate, and the outermost radius that a jump passes.
+
+    The trace is that of path/general.py, walked as far as the rim at least.
+    """
+    _, _, _, alpha, beta = curve
+    total, outermost = 0.0, 0.0
+    arrival = math.inf  # on the branch of the rim
+    for branch in range(count):
+        if not trace[ARRIVAL, branch] <= rim or trace[ARRIVAL, branch] == math.inf:
+            continue
+        outermost = trace[ARRIVAL, branch]
+        if trace[END, branch] < rim:
+            total += _work(basis, curve, outermost, trace[END, branch])
+        else:
+            arrival = outermost
+    level = math.inf
+    if rim < math.inf:
+        level = coordinate(basis, curve, rim)
+        _, _, front, _, load = state(basis, curve, rim)
+        pinned = highest_depth(count, trace, rim, level) - level
+        total -= pinned * (load + 0.5 * pinned * front / (alpha + beta * front))
+        outermost = outermost if arrival < math.inf else rim
+    now, landing = leave_rim(basis, curve, count, trace, rim, level)
+    if now >= 0:
+        descend(basis, curve, trace, now, NO)
+    while now >= 0:
+        # loading that lands on the branch of the rim as well goes the rest of it both ways
+        high = arrival if landing == rim and arrival < math.inf else landing
+        total -= _work(basis, curve, trace[START, now], high)
+        landing = trace[LANDING, now]
+        now = int(trace[NEXT, now])
+    return total, outermost
+
+
+@kernel()
+def outermost_fold(basis: Basis, curve: Curve) -> float:
+    """Return x of the last fold of a curve, 0 if it has none, inf if folds need not end; NaN if it is not found."""
+    table, _, series = basis
+    first, high = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
+    if high == math.inf:
+        return high
+    if series.shape[0] > 0 and high - first > LONGEST_WALK:
+        _, begin, end, ends = regular_waves(basis, curve, cut_of(table, series), first, high)
+        if ends:
+            high = min(high, max(begin, end + NEAR_END) + 2.0 * NEAR_END)
+    zeros, work = np.empty(32), room()
+    for _ in range(MOST_CELLS):
+        if not high > first:
+            return 0.0
+        low = max(first, high - min(cell_width(series, high), _INWARDS * high))
+        value, _, _ = slope(basis, curve, low, 0.0)
+        found, _, _ = folds_of_cell(basis, curve, low, high, value, work, zeros, 0.0)
+        if found > 0:
+            return zeros[found - 1]
+        high = low
+    return math.nan
+
+
+@kernel()
+def _other_sum(basis: Basis, curve: Curve, first: float, last: float, rim: float, rim_low: float) -> float:
+    """Return the energy of a long curve over 2 pi l^2 dgamma by other sums, NaN if it cannot be summed."""
+    _, _, _, alpha, _ = curve
+    middle = middle_of(basis, curve, first, last, _APART)
+    kind, until, _, _, _, _, _ = middle
+    if kind == REGULAR:
+        tasks = (YES, alpha > 0.0, NO, NO)
+        done, loading, unloading, _, _, _, _ = stride(basis, curve, first, middle, rim, rim_low, tasks)
+        return loading[0] + unloading[0] if done else math.nan
+    if kind == FEW:
+        count, trace, _ = walk(basis, curve, first, until, rim, YES)
+        if count >= 0:
+            level = coordinate(basis, curve, rim) if rim < math.inf else math.inf
+            loss, _ = loading_to(basis, curve, count, trace, rim, YES)
+            unloaded, _, _ = unloading_from(basis, curve, count, trace, rim, level, YES)
+            return loss + unloaded
+    return math.nan
+
+
+@kernel()
+def _energy_reports(
+    basis: Basis, curve: Curve, rim: float, rim_low: float, energy: float
+) -> tuple[float, float, float]:
+    """Return the size of the terms of the energy, its error but rounding, and its loop integral, over 2 pi l^2 dgamma.
+
+    NaN if not known.
+    """
+    table, _, series = basis
+    _, _, g, alpha, _ = curve
+    first = first_fold_bound(basis, curve) / TWO_PI
+    last = min(rim, last_fold_bound(basis, curve) / TWO_PI)
+    waves = last - first
+    if last == math.inf:
+        return math.nan, math.nan, math.nan
+    apart, total, outermost = 0.0, math.nan, last
+    if series.shape[0] > 0 and waves > LONGEST_WALK:
+        apart = 4.0 * abs(energy - _other_sum(basis, curve, first, last, rim, rim_low))
+    if not waves > _LOOPED:
+        count, trace, _ = walk(basis, curve, first, last, rim, NO)
+        if count >= 0:
+            total, outermost = loop(basis, curve, count, trace, rim)
+    residual = 2.0 / (1.0 + table.k) * total / alpha if alpha > 0.0 else math.nan
+    return (TWO_PI * outermost * (1.0 + _crests(table, series, g))) ** 2, apart, residual
+
+
+@kernel()
+def report_scenes(
+    table: Any,
+    cosines: Any,
+    series: Any,
+    exponent: float,
+    front: float,
+    index: Any,
+    stretch: Any,
+    wavelength: Any,
+    amplitude: Any,
+    compliance: Any,
+    rim: Any,
+    radius: Any,
+    energy: Any,
+    wanted: Any,
+    out: Any,
+    status: Any,
+) -> None:
+    """Report on the scenes `index` of one gradient exponent that have values."""
+    smooth = np.zeros((0, 3))
+    for j in range(index.size):
+        i = index[j]
+        if status[i] & NO_VALUE:
+            continue
+        basis = (table, cosines, series if amplitude[i] > 0.0 else smooth)
+        curve, length, unit = curve_of(table.k, exponent, front, stretch[i], wavelength[i], amplitude[i], compliance[i])
+        if wanted[0]:
+            scale = 8.0 / (3.0 * (1.0 + table.k)) * length * length / unit
+            out[0, i] = _FORCE_ROUNDING * scale * _force_terms(basis, curve, radius[i] / wavelength[i])
+        if wanted[1] or wanted[2]:
+            x, scale = rim[i] / wavelength[i], TWO_PI * length * length
+            x_low = fma(-x, wavelength[i], rim[i]) / wavelength[i] if x < math.inf else 0.0
+            terms, apart, total = _energy_reports(basis, curve, x, x_low, energy[i] / scale)
+            terms = scale * terms + abs(energy[i])
+            out[1, i] = _ENERGY_ROUNDING * terms + scale * apart
+            out[2, i] = energy[i] - scale * total
+            if out[1, i] > _PROMISED * terms:
+                status[i] |= TOLERANCE_NOT_MET
+        if wanted[3]:
+            out[3, i] = outermost_fold(basis, curve) * wavelength[i]

@@ -1,0 +1,1 @@
+"""How strongly force and energy depend on each parameter."""

@@ -1,0 +1,171 @@
+"""The slopes of the energy of a whole cycle: those of its jumps, read off the trace of its curve.
+
+Slopes are kept with the branches, as a trace keeps losses: those of loading up to where it arrives on a branch, and
+those of unloading from the start of a branch to the end of contact. So all rims of a curve share them. One row more
+than the slopes tells whether those of unloading are there.
+"""
+
+import math
+from typing import Any
+
+from gradhesion.core._jit import NO, YES, kernel
+from gradhesion.core.curve.branches import (
+    ARRIVAL,
+    END,
+    END_DEPTH,
+    GAP,
+    LANDING,
+    NEXT,
+    RUN,
+    RUN_AFTER,
+    RUN_BEFORE,
+    RUN_FIRST,
+    RUN_LANDING,
+    RUN_LAST,
+    RUN_LOWEST,
+    START,
+    UNLOADING_JUMPS,
+    ends,
+    find_depth,
+)
+from gradhesion.core.curve.cosine import Curve, slope
+from gradhesion.core.path.unloading import descend, leave_rim, next_lower
+from gradhesion.core.sensitivities.jump_slopes import DEPTH, SLOPES, add_slopes, add_slopes_to_zero, rim_slope
+from gradhesion.core.sensitivities.wave_slopes import add_slopes_of_waves
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.waves.cosine import branch_of_wave
+
+LOADED, UNLOADED, KNOWN = 0, SLOPES, 2 * SLOPES
+ROWS = 2 * SLOPES + 1
+"""Rows of the array that goes with a trace."""
+
+
+@kernel()
+def _enter(table: Any, curve: Curve, near: Any, now: int, left: float, x: float, work: Any, total: Any) -> None:
+    """Add a jump of loading, from zero contact if it is on no branch yet."""
+    if now < 0:
+        add_slopes_to_zero(table, curve, near, x, NO, total)
+    else:
+        add_slopes(table, curve, near, left, x, work, total)
+
+
+@kernel()
+def fill_loading(table: Any, curve: Curve, near: Any, count: int, trace: Any, final: float, slopes: Any) -> None:
+    """Put the slopes of loading to where it arrives on each branch into their rows."""
+    work, total = slopes[ROWS], slopes[ROWS + 1, :SLOPES]
+    total[:] = 0.0
+    now, gap = -1, trace[RUN, GAP]
+    for branch in range(count):
+        if trace[ARRIVAL, branch] == math.inf:
+            continue
+        left = trace[END, now] if now >= 0 else 0.0
+        if now < gap and branch == gap and trace[RUN, RUN_LAST] >= trace[RUN, RUN_FIRST]:
+            if trace[RUN, RUN_LANDING] > 0.0:
+                _enter(table, curve, near, now, left, trace[RUN, RUN_LANDING], work, total)
+            first, last = trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST]
+            add_slopes_of_waves(table, curve, near, first, last, YES, final, work, total)
+        else:
+            _enter(table, curve, near, now, left, trace[ARRIVAL, branch], work, total)
+        slopes[LOADED : LOADED + SLOPES, branch] = total
+        now = branch
+
+
+@kernel()
+def add_loading(
+    table: Any, curve: Curve, near: Any, count: int, trace: Any, rim: float, slopes: Any, total: Any
+) -> float:
+    """Add the slopes of loading up to a rim; return that by ln x of the rim."""
+    now = count - 1
+    while now >= 0 and not trace[ARRIVAL, now] <= rim:
+        now -= 1
+    left, level = (trace[END, now], trace[END_DEPTH, now]) if now >= 0 else (0.0, 0.0)
+    if now >= 0:
+        total += slopes[LOADED : LOADED + SLOPES, now]
+    if left >= rim:
+        return 0.0
+    _enter(table, curve, near, now, left, rim, slopes[ROWS], total)
+    return rim_slope(table, curve, level, rim)
+
+
+@kernel()
+def _leave(table: Any, curve: Curve, near: Any, trace: Any, now: int, slopes: Any) -> None:
+    """Put the slopes of unloading from the start of a branch into its rows; those of all further in are there."""
+    total, work = slopes[ROWS + 1, :SLOPES], slopes[ROWS]
+    total[:] = 0.0
+    if trace[START, now] > 0.0:
+        lower = int(trace[NEXT, now])
+        if lower < 0:
+            add_slopes_to_zero(table, curve, near, trace[START, now], YES, total)
+        else:
+            add_slopes(table, curve, near, trace[START, now], trace[LANDING, now], work, total)
+            total += slopes[UNLOADED : UNLOADED + SLOPES, lower]
+    slopes[UNLOADED : UNLOADED + SLOPES, now] = total
+    slopes[KNOWN, now] = 1.0
+
+
+@kernel()
+def _leave_through(table: Any, curve: Curve, near: Any, trace: Any, gap: int, final: float, slopes: Any) -> None:
+    """Do the same for the first branch after a gap, from which unloading goes on into the gap."""
+    before, after, lowest = trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER], trace[RUN, RUN_LOWEST]
+    total, work = slopes[ROWS + 1, :SLOPES], slopes[ROWS]
+    if lowest == before and gap > 0:
+        total[:] = slopes[UNLOADED : UNLOADED + SLOPES, gap - 1]
+    else:
+        total[:] = 0.0
+        start, level, _, _ = branch_of_wave(table, curve, lowest)
+        lower = next_lower(trace, gap - 1, level)
+        if lower >= 0:
+            landing = find_depth(table, curve, level, ends(trace, lower))
+            add_slopes(table, curve, near, start, landing, work, total)
+            total += slopes[UNLOADED : UNLOADED + SLOPES, lower]
+        else:
+            add_slopes_to_zero(table, curve, near, start, YES, total)
+    add_slopes_of_waves(table, curve, near, lowest + 1.0, after, NO, final, work, total)
+    slopes[UNLOADED : UNLOADED + SLOPES, gap] = total
+    slopes[KNOWN, gap] = 1.0
+
+
+@kernel()
+def fill_unloading(table: Any, curve: Curve, near: Any, count: int, trace: Any, final: float, slopes: Any) -> None:
+    """Put the slopes of unloading from the start of each branch that it has visited into their rows."""
+    gap = trace[RUN, GAP]
+    for branch in range(count):
+        if trace[UNLOADING_JUMPS, branch] >= 0.0 and slopes[KNOWN, branch] == 0.0:
+            if branch == gap and trace[RUN, RUN_LOWEST] != trace[RUN, RUN_AFTER]:
+                _leave_through(table, curve, near, trace, branch, final, slopes)
+            else:
+                _leave(table, curve, near, trace, branch, slopes)
+
+
+@kernel()
+def add_unloading(
+    table: Any,
+    curve: Curve,
+    near: Any,
+    count: int,
+    trace: Any,
+    rim: float,
+    rim_depth: float,
+    final: float,
+    slopes: Any,
+    total: Any,
+) -> float:
+    """Add the slopes of unloading from a rim; return that by ln x of the rim."""
+    now, landing = leave_rim(table, curve, count, trace, rim, rim_depth)
+    if now >= 0:
+        descend(table, curve, trace, now, NO)
+        fill_unloading(table, curve, near, count, trace, final, slopes)
+    if now >= 0 and landing == rim:
+        total += slopes[UNLOADED : UNLOADED + SLOPES, now]
+        return 0.0
+    before = total[DEPTH]
+    if now < 0:
+        add_slopes_to_zero(table, curve, near, rim, YES, total)
+    else:
+        add_slopes(table, curve, near, rim, landing, slopes[ROWS], total)
+    by_depth = total[DEPTH] - before
+    if now >= 0:
+        total += slopes[UNLOADED : UNLOADED + SLOPES, now]
+    level = 0.5 * (1.0 - table.k)
+    steepness, _, _, _ = slope(table, curve, level, rim)
+    return float(by_depth * steepness * TWO_PI * rim)

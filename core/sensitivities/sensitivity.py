@@ -1,0 +1,189 @@
+"""Sensitivities: how strongly the pull-off force and the dissipated energy depend on each parameter of a scene.
+
+    d ln(value)/d ln p,    for k and nu, which may be 0, d ln(value)/dp
+
+at fixed other parameters. The material enters through M = theta(k, nu) modulus c0^-k alone, so that with m the
+sensitivity to M those to modulus, c0 and nu are m, -k m and m d ln theta/d nu, and that to k is the one at fixed M with
+m (d ln theta/dk - ln c0) more.
+
+Of a cycle that turns at a depth or a load the energy depends on the turn only by steps, and the force only where it is
+met there: at a depth d(a_t) the place a_t moves by -(dd/dp)/(dd/da).
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gradhesion.core.problem.names import PARAMETERS, SENSITIVITIES
+from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
+from gradhesion.core.sensitivities.cosine import sense_cosine
+from gradhesion.core.sensitivities.cosine_slopes import BY_EXPONENT, BY_RIM
+from gradhesion.core.sensitivities.material_slopes import theta_slopes
+
+NEEDED: Final = {
+    "pull_off_force_sensitivity": ("pull_off_force", "pull_off_radius"),
+    "dissipated_energy_sensitivity": ("dissipated_energy",),
+}
+"""The results that a sensitivity starts from; the first is the value itself."""
+_HELD: Final = 1e-10
+"""How near the greatest depth is to the one to turn at, where no jump has passed that."""
+_STEP: Final = 2e-3
+_FORWARD: Final = (-25.0 / 12.0, 4.0, -3.0, 4.0 / 3.0, -0.25)
+"""Of a force that is met where a jump lands beyond the turn: the one case that is left to differences, good to 1e-9."""
+
+
+def by_parameters(
+    parameters: Mapping[str, ArrayLike], reduced: NDArray[np.float64], values: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the sensitivities to the seven parameters of a scene along a last axis.
+
+    Parameters
+    ----------
+    parameters
+        Those of the scenes.
+    reduced
+        The sensitivities to M, lambda, A, a_max, and that to k at fixed M; shape (5, *scenes).
+    values
+        Those whose sensitivities they are; shape `scenes`.
+    """
+    given = [np.asarray(parameters[name], dtype=float) for name in PARAMETERS]
+    k, nu, _, c0_over_R, _, amplitude, rim = np.broadcast_arrays(*given)
+    stiffness, wavelength, height, radius, exponent = reduced
+    by_k, by_nu = theta_slopes(k, nu)
+    found = np.empty((*values.shape, len(PARAMETERS)))
+    k, nu, c0_over_R, amplitude, rim = (np.broadcast_to(a, values.shape) for a in (k, nu, c0_over_R, amplitude, rim))
+    with np.errstate(all="ignore"):  # what is out of range has no value
+        found[..., 0] = exponent + stiffness * (by_k - np.log(c0_over_R))
+        found[..., 1] = stiffness * by_nu
+        found[..., 2] = stiffness
+        found[..., 3] = np.where(k == 0.0, 0.0, -k * stiffness)
+        found[..., 4] = np.where(amplitude == 0.0, 0.0, wavelength)
+        found[..., 5] = np.where(amplitude == 0.0, 0.0, height)
+        found[..., 6] = np.where(np.isinf(rim), 0.0, radius)
+        found[~(values > 0.0)] = np.nan
+    return found
+
+
+def wanted_for(outputs: Sequence[str], *, turned: bool = False) -> list[str]:
+    """Return the results that are solved for outputs: sensitivities start from values, and from where cycles turn.
+
+    Examples
+    --------
+    >>> wanted_for(["dissipated_energy_sensitivity"])
+    ['dissipated_energy']
+    """
+    asked = [name for name in outputs if name in SENSITIVITIES]
+    more = [one for name in asked for one in NEEDED[name]]
+    if turned and "pull_off_force_sensitivity" in asked:
+        more.append("delta_max")
+    if turned and asked:
+        more.append("turning_radius")
+    return list(dict.fromkeys([*(name for name in outputs if name not in asked), *more]))
+
+
+def _move_with_turn(
+    turn: str,
+    target: NDArray[np.float64],
+    moves: NDArray[np.bool_],
+    solved: Mapping[str, NDArray[Any]],
+    reduced: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Let the place where a cycle turns move with the parameters, for forces that are met there.
+
+    Returns
+    -------
+    The sensitivity of the force to where the cycle turns, and where nothing is known yet: where a jump has passed what
+    the cycle turns at. `reduced` is changed in place.
+    """
+    held = np.full(moves.shape, False)
+    if turn == "indentation_max_over_R":
+        held = moves & np.isclose(solved["delta_max"], target, rtol=_HELD, atol=_HELD * _HELD)
+    force, depth = reduced[0], reduced[2]
+    with np.errstate(all="ignore"):
+        by_place = np.where(held, force[BY_RIM], 0.0)
+        shift = by_place / depth[BY_RIM]
+        by_turn = np.where(held, shift * target, 0.0)
+        for row in (*range(int(BY_RIM)), int(BY_EXPONENT)):
+            force[row] = np.where(held, force[row] - shift * depth[row], force[row])
+    force[BY_RIM] = np.where(moves, 0.0, force[BY_RIM])
+    return by_turn, moves & ~held
+
+
+def _by_differences(
+    parameters: Mapping[str, ArrayLike],
+    where: NDArray[np.bool_],
+    force_of: Callable[[Mapping[str, ArrayLike]], NDArray[np.float64]],
+) -> NDArray[np.float64]:
+    """Return the sensitivities of the force of some scenes to all parameters by differences of fourth order."""
+    given = {name: np.asarray(value, dtype=float) for name, value in parameters.items()}
+    scenes = {name: np.broadcast_to(value, where.shape)[where] for name, value in given.items()}
+    found = np.zeros((int(where.sum()), len(scenes)))
+    names = [*PARAMETERS, *(name for name in scenes if name not in PARAMETERS)]
+    for i, name in enumerate(names):
+        centre = scenes[name]
+        step = np.full(centre.shape, _STEP) if name in PARAMETERS[:2] else _STEP * centre
+        inside = step if name not in PARAMETERS[:2] else np.where(centre < 0.25, step, -step)
+        values = [force_of(scenes | {name: centre + j * inside}) for j in range(5)]
+        change = sum(weight * value for weight, value in zip(_FORWARD, values, strict=True)) / _STEP
+        found[:, i] = change / values[0] * np.sign(inside / step)
+    return found
+
+
+def sensitivities(
+    parameters: Mapping[str, ArrayLike],
+    outputs: Sequence[str],
+    solved: Mapping[str, NDArray[Any]],
+    workers: int,
+    turn: str | None,
+    force_of: Callable[[Mapping[str, ArrayLike]], NDArray[np.float64]],
+) -> dict[str, NDArray[np.float64]]:
+    """Return the sensitivities that are asked for, of scenes of one cosine wave under displacement control.
+
+    Parameters
+    ----------
+    parameters, outputs
+        As those of `solve`.
+    solved
+        What `wanted_for` names, and `status`.
+    workers
+        Threads.
+    turn
+        The one of `TURNS` that the cycles turn at, None for the rim.
+    force_of
+        What gives the pull-off force of other scenes that turn as these do.
+
+    Returns
+    -------
+    Arrays of shape (*scenes, 7), or 8 with the turn: its parameter is the last one. NaN where the value is not
+    positive, and at k = 1 that to nu.
+    """
+    asked = [name for name in SENSITIVITIES if name in outputs]
+    scenes: dict[str, ArrayLike] = {name: parameters[name] for name in PARAMETERS}
+    shape = solved["status"].shape
+    moves = np.full(shape, False)
+    if turn is not None:
+        limits = np.broadcast_to(np.asarray(parameters["a_max_over_R"], dtype=float), shape)
+        radii = solved["turning_radius"]
+        moves = radii < limits
+        scenes["a_max_over_R"] = np.where(radii > 0.0, radii, limits)
+        solved = {**solved, "status": np.where(radii > 0.0, solved["status"], solved["status"] | NO_VALUE)}
+    force, energy = ("pull_off_force_sensitivity" in asked, "dissipated_energy_sensitivity" in asked)
+    reduced = sense_cosine(scenes, solved, workers, force=force, energy=energy, turned=turn is not None)
+    found = {}
+    for name in asked:
+        part, values = SENSITIVITIES.index(name), solved[NEEDED[name][0]]
+        to_turn, unknown = np.zeros(shape), np.full(shape, False)
+        if turn is not None and part == 0:
+            target = np.broadcast_to(np.asarray(parameters[turn], dtype=float), shape)
+            met = moves & ((solved["status"] & PULL_OFF_AT_RIM) != 0)
+            to_turn, unknown = _move_with_turn(turn, target, met, solved, reduced)
+        one = by_parameters(parameters, reduced[part], values)
+        if turn is not None:
+            to_turn = np.where(values > 0.0, to_turn, np.nan)
+            one = np.concatenate([one, to_turn[..., None]], axis=-1)
+        if unknown.any():
+            one[unknown] = _by_differences(parameters, unknown, force_of)
+        found[name] = one
+    return found

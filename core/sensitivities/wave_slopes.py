@@ -1,0 +1,147 @@
+"""The slopes of a sum over waves: those of each jump, summed as waves/cosine_sum.py sums what the jumps lose.
+
+At a fixed index of the wave the slope is as smooth a function of the index as the loss, with the same branch points; at
+the inner one its power is 1/2 in the place of 3/2, which Gauss's rule takes in v as well.
+"""
+
+import math
+from typing import Any, Final
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.curve.cosine import Curve
+from gradhesion.core.curve.cosine_energy import LONG, NODES, SHORT_NODES, SHORT_WEIGHTS, WEIGHTS, panel_above
+from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, EXPONENT, GAIN, SLOPES, panel_slopes_above
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.waves.cosine import _fold, _landing, _slope
+from gradhesion.core.waves.cosine_sum import (
+    _DIRECT,
+    _EDGE,
+    _EDGE_NEAR,
+    _EVEN,
+    _FRACTION,
+    _LONG,
+    _LONGEST,
+    _NEAR,
+    _PART,
+    _REMOTE,
+    _WIDE,
+    branch_points,
+    limit_terms,
+)
+
+_SAMPLES: Final = 64
+"""Where the rows of `work` begin that hold slopes: the nodes of a panel stand before them."""
+ROOM: Final = 112
+"""Floats that `work` holds."""
+
+
+@kernel()
+def slopes_of_wave(table: Any, curve: Curve, near: Any, wave: float, outwards: bool, work: Any, found: Any) -> None:
+    """Put the slopes of the jump from a wave to the next one, as waves/cosine.py finds it, into `found`."""
+    tables, curves, weights = near
+    whole = wave - 2.0
+    centre = table.phase / TWO_PI + 2.0
+    start = _fold(table, curve, whole, centre, not outwards)
+    _, _, _, z, height, stretch = _slope(table, curve, whole, start)
+    left = (z, height, stretch)
+    landing = _landing(table, curve, whole, left, start, centre + (1.0 if outwards else -1.0), not outwards)
+    low, high = min(start, landing), max(start, landing)
+    panels = int((high - low) / LONG) + 1
+    width = (high - low) / panels
+    sign = TWO_PI if outwards else -TWO_PI
+    found[:] = 0.0
+    for i in range(panels):
+        bend, gain, level = panel_slopes_above(table, curve, whole, start, left, low + i * width, width, work)
+        found[BEND] += sign * bend
+        found[GAIN] += sign * gain
+        found[DEPTH] += sign * level
+    for j in range(weights.size):
+        other = (curves[j, 0], curves[j, 1], 0.0)
+        _, _, _, z, height, stretch = _slope(tables[j], other, whole, start)
+        left = (z, height, stretch)
+        for i in range(panels):
+            loss = panel_above(tables[j], other, whole, start, left, low + i * width, width, work)
+            found[EXPONENT] += sign * weights[j] * loss
+
+
+@kernel()
+def _add_outer_part(
+    table: Any, curve: Curve, near: Any, begin: float, end: float, outer: float, outwards: bool, work: Any, total: Any
+) -> None:
+    """Add the integral in y."""
+    found = work[_SAMPLES + 6 * SLOPES : _SAMPLES + 7 * SLOPES]
+    outer = min(max(outer, end), _REMOTE * end)
+    low = math.sqrt(1.0 - (end / outer) ** 0.25)
+    high = math.sqrt(1.0 - (begin / outer) ** 0.25)
+    for i in range(NODES.size):
+        y = low + (high - low) * NODES[i]
+        rest = 1.0 - y * y
+        slopes_of_wave(table, curve, near, outer * rest**4, outwards, work, found)
+        total += (WEIGHTS[i] * 8.0 * outer * y * rest**3 * (high - low)) * found
+
+
+@kernel()
+def _add_inner_part(
+    table: Any, curve: Curve, near: Any, begin: float, end: float, inner: float, outwards: bool, work: Any, total: Any
+) -> None:
+    """Add the integral in v."""
+    found = work[_SAMPLES + 6 * SLOPES : _SAMPLES + 7 * SLOPES]
+    inner = min(inner, begin)
+    low, high = math.sqrt(begin - inner), math.sqrt(end - inner)
+    for i in range(SHORT_NODES.size):
+        v = low + (high - low) * SHORT_NODES[i]
+        slopes_of_wave(table, curve, near, inner + v * v, outwards, work, found)
+        total += (SHORT_WEIGHTS[i] * 2.0 * v * (high - low)) * found
+
+
+@kernel()
+def _add_integral(
+    table: Any, curve: Curve, near: Any, begin: float, end: float, points: Any, outwards: bool, work: Any, total: Any
+) -> None:
+    """Add the integral over the index of the wave."""
+    inner, outer = points
+    if inner > _WIDE * begin or end > _LONG * begin:
+        middle = max(begin, min(_PART * max(inner, begin), math.sqrt(begin * end)))
+        _add_inner_part(table, curve, near, begin, middle, inner, outwards, work, total)
+        begin = middle
+    if end > _LONGEST * begin:
+        _add_outer_part(table, curve, near, begin, _FRACTION * end, outer, outwards, work, total)
+        begin = _FRACTION * end
+    _add_outer_part(table, curve, near, begin, end, outer, outwards, work, total)
+
+
+@kernel()
+def add_slopes_of_waves(
+    table: Any, curve: Curve, near: Any, first: float, last: float, outwards: bool, final: float, work: Any, total: Any
+) -> None:
+    """Add the slopes of what the jumps from the waves `first` to `last` lose, as `sum_of_waves` of cosine_sum.py."""
+    found = work[_SAMPLES + 6 * SLOPES : _SAMPLES + 7 * SLOPES]
+    points = branch_points(table, curve, final, outwards)
+    if last - first > _EVEN:
+        _add_integral(table, curve, near, first - 0.5, last + 0.5, points, outwards, work, total)
+        return
+    edge = _EDGE_NEAR if abs(first - points[0]) < _NEAR else _EDGE
+    if last - first < _DIRECT + edge:
+        wave = first
+        while wave <= last:
+            slopes_of_wave(table, curve, near, wave, outwards, work, found)
+            total += found
+            wave += 1.0
+        return
+    values = work[_SAMPLES : _SAMPLES + 6 * SLOPES].reshape((SLOPES, 6))
+    for i in range(edge + _EDGE):
+        slopes_of_wave(table, curve, near, first + i, outwards, work, found)
+        if i < edge:
+            total += found
+        if i >= edge - _EDGE:
+            values[:, i - edge + _EDGE] = found
+    for j in range(SLOPES):
+        total[j] += limit_terms(values[j])
+    for i in range(2 * _EDGE):
+        slopes_of_wave(table, curve, near, last - (2 * _EDGE - 1) + i, outwards, work, found)
+        values[:, i] = found
+        if i >= _EDGE:
+            total += found
+    for j in range(SLOPES):
+        total[j] -= limit_terms(values[j])
+    _add_integral(table, curve, near, first + edge - 0.5, last - _EDGE + 0.5, points, outwards, work, total)

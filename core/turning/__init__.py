@@ -1,0 +1,1 @@
+"""Where a cycle turns before the rim."""

@@ -1,0 +1,119 @@
+"""What depth or load loading passes on its way: where it lands on a branch, each extremum, and where it leaves.
+
+Between two corners of one branch the measured coordinate, depth or load, rises or falls throughout. Where it is first
+as large as a target, loading has either just landed, or stands between two corners.
+"""
+
+import math
+from typing import Any, Final, TypeAlias
+
+import numpy as np
+
+from gradhesion.core._jit import NO, constant, kernel
+from gradhesion.core.curve.arches import folds_between
+from gradhesion.core.curve.branches import ARRIVAL, END
+from gradhesion.core.curve.cosine_folds import CLOSE
+from gradhesion.core.curve.general import Basis, Curve, coordinate, size
+from gradhesion.core.curve.general_branches import find_level
+from gradhesion.core.curve.general_folds import find_folds
+from gradhesion.core.curve.window import last_fold_bound
+from gradhesion.core.struve.circle import TWO_PI
+
+PLACE, VALUE, TERMS, KIND = 0, 1, 2, 3
+"""Rows: x beyond whole waves, the measured coordinate there, the size of its terms, and what the corner is."""
+LANDING, FOLD, OPEN = map(constant, range(3))
+"""Where a jump lands, a fold of the measured or of the prescribed coordinate, and the end of what is known."""
+ROWS: Final = 4
+
+Found: TypeAlias = tuple[bool, float, bool]
+"""Whether the target is reached, at which x, and whether a step of that place is near."""
+
+
+@kernel()
+def measured_by(curve: Curve, by_load: bool) -> Curve:
+    """Return the curve whose coordinate is the load, or the depth."""
+    B, m, g, _, _ = curve
+    return (B, m, g, 0.0, 1.0) if by_load else (B, m, g, 1.0, 0.0)
+
+
+@kernel()
+def _put(basis: Basis, measured: Curve, corners: Any, count: int, x: float, kind: int, whole: float) -> tuple[Any, int]:
+    """Append a corner; return the corners, moved where there was no room, and their number."""
+    if count == corners.shape[1]:
+        more = np.empty((ROWS, 2 * count))
+        more[:, :count] = corners
+        corners = more
+    corners[PLACE, count], corners[VALUE, count] = x, coordinate(basis, measured, x, whole)
+    corners[TERMS, count], corners[KIND, count] = size(basis, measured, x, whole), kind
+    return corners, count + 1
+
+
+@kernel()
+def append_corners(
+    basis: Basis, curve: Curve, by_load: bool, way: tuple[float, float, bool], room: Any, corners: Any, count: int
+) -> tuple[Any, int]:
+    """Append the corners of what loading passes of one branch.
+
+    Parameters
+    ----------
+    basis, curve
+        The curve.
+    by_load
+        Whether the load is measured, else the depth.
+    way
+        The x of landing, that of the end, and whether this is a fold of the curve.
+    room
+        The arrays of a search, one for zeros, and the whole waves beyond which places are told.
+    corners, count
+        To which they are appended.
+    """
+    search, zeros, whole = room
+    begin, end, ends_in_fold = way
+    _, _, _, alpha, _ = curve
+    measured = measured_by(curve, by_load)
+    corners, count = _put(basis, measured, corners, count, begin, LANDING, whole)
+    if begin < end and by_load and alpha > 0.0:  # depth rises on every branch, and load under its own control
+        last = min(end, last_fold_bound(basis, measured) / TWO_PI - whole)
+        found = 0
+        if begin < last:
+            if whole == 0.0:
+                found, _, _ = folds_between(basis, measured, begin, last, search, zeros)
+            else:
+                found, _, _ = find_folds(basis, measured, begin, last, search, zeros, whole)
+        for i in range(found):
+            corners, count = _put(basis, measured, corners, count, zeros[i], FOLD, whole)
+    return _put(basis, measured, corners, count, end, FOLD if ends_in_fold else OPEN, whole)
+
+
+@kernel()
+def corners_of(
+    basis: Basis, curve: Curve, by_load: bool, branches: int, trace: Any, furthest: float, room: Any
+) -> tuple[Any, int]:
+    """Return the corners of all that loading visits up to x = `furthest`, and their number."""
+    corners, count = np.empty((ROWS, 2 * branches + 16)), 0
+    for branch in range(branches):
+        begin, end = trace[ARRIVAL, branch], trace[END, branch]
+        if begin <= furthest and begin < math.inf:
+            way = (begin, min(end, furthest), end < furthest)
+            corners, count = append_corners(basis, curve, by_load, way, room, corners, count)
+    return corners, count
+
+
+@kernel()
+def first_reached(
+    basis: Basis, curve: Curve, by_load: bool, corners: Any, count: int, target: float, whole: float
+) -> Found:
+    """Return where loading first reaches a target on the way through some corners."""
+    measured = measured_by(curve, by_load)
+    close = NO
+    for i in range(count):
+        value, kind = corners[VALUE, i], corners[KIND, i]
+        if kind == FOLD and abs(value - target) <= CLOSE * corners[TERMS, i]:
+            close = True
+        if value < target:
+            continue
+        if kind == LANDING:
+            return True, corners[PLACE, i], close
+        low, high = corners[PLACE, i - 1], corners[PLACE, i]
+        return True, find_level(basis, measured, target, (low, corners[VALUE, i - 1], high, value), whole), close
+    return False, math.inf, close

@@ -1,0 +1,276 @@
+"""Where the cycles of one cosine wave turn: at a depth, or at a load (physics in docs/theory.md, section 16).
+
+Nothing beyond the place is walked where the lower envelope reaches the target, and no branch before the place where the
+upper one does (turning/cosine_reach.py). All scenes of a curve share one trace.
+"""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+
+from gradhesion.core._jit import NO, YES, kernel
+from gradhesion.core.closed import smooth
+from gradhesion.core.contact.cosine_disc import ALWAYS_ONE, least_opening
+from gradhesion.core.curve.branches import END, END_DEPTH, GAP, RUN, START, START_DEPTH, VALUES, WORK, ends, find_depth
+from gradhesion.core.curve.cosine import Curve, curve_of, depth, force_unit
+from gradhesion.core.curve.cosine_folds import CLOSE
+from gradhesion.core.path.cosine import (
+    LARGEST,
+    MOST_ARCHES,
+    extent,
+    is_endless_wave,
+    is_long,
+    is_smooth,
+    is_unresolved,
+    stride,
+    walk,
+)
+from gradhesion.core.path.ties import rim_is_close
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.turning.cosine_reach import reach, reach_outwards
+from gradhesion.core.turning.first_reached import (
+    peaks_of,
+    turn_at_depth,
+    turn_at_load,
+    turn_long_at_depth,
+    turn_long_at_load,
+)
+
+_STEPS: Final = 200
+_AROUND: Final = 1.25
+"""Waves beyond a regular one within which the next branch meets every depth of it."""
+
+
+@kernel()
+def _is_first_contact(k: float, b: float, target: float) -> bool:
+    """Return whether a depth is that of the first contact, 0, as far as anybody can tell."""
+    return abs(target) <= CLOSE * (2.0 / b) ** ((1.0 - k) / (3.0 + k))
+
+
+@kernel()
+def _is_vague(table: Any, arches: tuple[float, float], reach: float) -> bool:
+    """Return whether folds stand so far out that no float tells the waves at which loading looks."""
+    return is_long(table, arches, reach) and min(arches[1], 2.0 * reach) > MOST_ARCHES
+
+
+@kernel()
+def _is_one_disc(table: Any, curve: Curve, count: int, trace: Any, long: bool, x: float, rim: float) -> bool:
+    """Return whether the contact that turns at x is one disc, out to the rim of the punch."""
+    _, g, _ = curve
+    if g * table.amplitude <= ALWAYS_ONE:
+        return True
+    level = depth(table, curve, x)
+    now = count - 1
+    while now >= 0 and trace[START, now] > x:
+        now -= 1
+    gap = int(trace[RUN, GAP]) if long else count + 1
+    if now >= 0 and (not long or now >= gap or x <= trace[END, now]):
+        if trace[END, now] == math.inf:
+            return True
+        lowest = math.inf
+        end = min(rim, reach_outwards(table, curve, max(0.0, level), NO))
+        for other in range(now + 1, count):
+            if other == gap:
+                break
+            lowest = min(lowest, trace[START_DEPTH, other])
+            if trace[END_DEPTH, other] > level:
+                end = min(rim, find_depth(table, curve, level, ends(trace, other)))
+                z = TWO_PI * x
+                if lowest + z * amplitude_power(table, z) >= level:
+                    return True
+                break
+    else:
+        end = min(rim, x + _AROUND)
+    return not x < end or least_opening(table, curve, x, end, trace[WORK], trace[VALUES]) >= 0.0
+
+
+@kernel()
+def _turn_smooth(k: float, stretch: float, rims: Any, targets: Any, by_load: bool, radii: Any, flags: Any) -> None:
+    """Turn a smooth punch, all its rims, in closed form (closed/smooth.py)."""
+    length = smooth.smooth_length(k, stretch)
+    depth_scale = 2.0 * length * length / (1.0 + k)
+    z_in = 2.0 ** (2.0 / (3.0 + k))
+    for i in range(rims.size):
+        if not _has_value(rims[i], targets[i], by_load):
+            radii[i], flags[i] = math.nan, NO_VALUE
+            continue
+        if by_load:
+            half = 0.5 * (3.0 + k)
+            abscissa = half * (1.0 + math.sqrt(1.0 + 2.0 * targets[i] / (smooth.FORCE_SCALE * half)))
+            z = abscissa ** (1.0 / half)
+        else:
+            target = targets[i] / depth_scale
+            if abs(target) <= CLOSE:
+                flags[i] |= CLOSE_TO_A_JUMP
+            if target < 0.0:
+                radii[i] = 0.0
+                continue
+            z = z_in + math.sqrt(2.0 * target)
+            for _ in range(_STEPS):
+                power = z ** (0.5 * (1.0 - k))
+                step = (0.5 * z * z - power - target) / (z - 0.5 * (1.0 - k) * power / z)
+                z -= step
+                if not step > 1e-16 * z:
+                    break
+            z = max(z, z_in)
+        radii[i] = min(rims[i], z * length)
+
+
+@kernel()
+def _has_value(rim: float, target: float, by_load: bool) -> bool:
+    """Return whether rim and target are in their ranges."""
+    return rim > 0.0 and abs(target) < math.inf and (target > 0.0 or not by_load)
+
+
+@kernel()
+def _turn_rim(
+    table: Any,
+    curve: Curve,
+    count: int,
+    trace: Any,
+    peaks: Any,
+    long: bool,
+    reach: float,
+    scene: tuple[float, float, float],
+    modes: tuple[bool, bool],
+) -> tuple[float, int]:
+    """Return x where one scene turns, inf for the rim, and its flags; `scene` is rim, target and lambda/R."""
+    rim, target, wavelength = scene
+    by_load, check = modes
+    b, _, _ = curve
+    if by_load:
+        if long:
+            x, close = turn_long_at_load(table, curve, count, trace, peaks, reach, target)
+        else:
+            x, close = turn_at_load(table, curve, 0, count, trace, peaks, reach, target)
+    else:
+        if long:
+            x, close = turn_long_at_depth(table, curve, count, trace, reach, target)
+        else:
+            x, close = turn_at_depth(table, curve, 0, count, trace, reach, target)
+        close = close or _is_first_contact(table.k, b, target)
+    flags = 0
+    if not (x < rim and x * wavelength < rim * wavelength):
+        x = math.inf
+        level = depth(table, curve, rim) if rim < math.inf else math.inf
+        close = close or rim_is_close(table, curve, count, trace, rim, level)
+    elif check and not _is_one_disc(table, curve, count, trace, long, x, rim):
+        flags |= LOADING_NOT_ONE_DISC
+    return x, flags | CLOSE_TO_A_JUMP if close else flags
+
+
+@kernel()
+def _turn_curve(
+    table: Any,
+    curve: Curve,
+    arches: tuple[float, float],
+    scales: tuple[float, float],
+    rims: Any,
+    targets: Any,
+    modes: tuple[bool, bool],
+    radii: Any,
+    flags: Any,
+    scratch: Any,
+) -> None:
+    """Turn a wavy punch, all its rims: those that need no long curve share one trace."""
+    wavelength, unit = scales
+    by_load, _ = modes
+    b, g, _ = curve
+    least, greatest = math.inf, -math.inf
+    for i in range(rims.size):
+        target = targets[i] / unit
+        radii[i], flags[i] = rims[i], 0
+        if not _has_value(rims[i], target, by_load):
+            radii[i], flags[i] = math.nan, NO_VALUE
+        elif target < 0.0:  # the first contact is at the depth 0
+            radii[i], flags[i] = 0.0, CLOSE_TO_A_JUMP if _is_first_contact(table.k, b, target) else 0
+        else:
+            least, greatest = min(least, target), max(greatest, target)
+    if greatest < least:
+        return
+    furthest = 0.0
+    reaches = np.zeros(rims.size)
+    bound = reach_outwards(table, curve, greatest, by_load)
+    for i in range(rims.size):
+        if radii[i] > 0.0:
+            reaches[i] = min(rims[i] / wavelength, bound)
+            if is_long(table, arches, reaches[i]):
+                reaches[i] = min(rims[i] / wavelength, reach_outwards(table, curve, targets[i] / unit, by_load))
+            if is_unresolved(arches, reaches[i]) or _is_vague(table, arches, reaches[i]):
+                radii[i], flags[i], reaches[i] = math.nan, NO_VALUE, 0.0
+            elif not is_long(table, arches, reaches[i]):
+                furthest = max(furthest, reaches[i])
+    inner = reach(table.k, b, 1.0 - g * table.amplitude, least, YES, NO) if by_load else 0.0
+    if furthest > 0.0:
+        count, trace = walk(table, curve, arches, furthest, scratch, NO)
+        peaks = peaks_of(table, curve, count, trace, inner, rims.size) if by_load else reaches
+        for i in range(rims.size):
+            if reaches[i] > 0.0 and not is_long(table, arches, reaches[i]):
+                scene = (rims[i] / wavelength, targets[i] / unit, wavelength)
+                x, flags[i] = _turn_rim(table, curve, count, trace, peaks, False, reaches[i], scene, modes)
+                radii[i] = min(rims[i], x * wavelength)
+    for i in range(rims.size):
+        if reaches[i] > 0.0 and is_long(table, arches, reaches[i]):
+            count, trace = stride(table, curve, arches, reaches[i], scratch, NO, 1.0)
+            peaks = peaks_of(table, curve, count, trace, inner, 1) if by_load else reaches
+            scene = (rims[i] / wavelength, targets[i] / unit, wavelength)
+            x, flags[i] = _turn_rim(table, curve, count, trace, peaks, True, reaches[i], scene, modes)
+            radii[i] = min(rims[i], x * wavelength)
+
+
+@kernel()
+def turn_curves(
+    table: Any,
+    index: Any,
+    stiffness: Any,
+    wavelength: Any,
+    amplitude: Any,
+    rims: Any,
+    targets: Any,
+    by_load: bool,
+    check: bool,
+    radii: Any,
+    flags: Any,
+    scratch: Any,
+) -> None:
+    """Find where the curves `index` of one gradient exponent turn.
+
+    Parameters
+    ----------
+    table, index, stiffness, wavelength, amplitude, rims, scratch
+        As those of the loops of scene/solvers.py.
+    targets
+        What the cycles turn at, of the shape of the rims: depths in R, or loads in 1.5 pi R dgamma.
+    by_load, check
+        Whether they are loads; whether the contact that turns is tested for being one disc.
+    radii, flags
+        The results, of the shape (curves, rims): a/R, 0 without contact, NaN without a value; and bits of the status.
+    """
+    k = table.k
+    front = 2.0 ** (1.0 + k) * math.pi
+    for j in range(index.size):
+        i = index[j]
+        row = i if rims.shape[0] > 1 else 0
+        stretch = math.sqrt(front / stiffness[i])
+        if not (0.0 < stretch < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf):
+            radii[i, :], flags[i, :] = math.nan, NO_VALUE
+            continue
+        plain = is_endless_wave(wavelength[i], amplitude[i])
+        curve, length, unit = curve_of(k, stretch, wavelength[i], amplitude[i] * wavelength[i])
+        arches = (0.0, 0.0)
+        if not plain:
+            if not (0.0 < curve[0] < LARGEST and curve[1] < LARGEST):
+                radii[i, :], flags[i, :] = math.nan, NO_VALUE
+                continue
+            arches = extent(table, curve)
+            plain = is_smooth(arches)
+        if by_load:
+            unit = force_unit(k, length, unit)
+        if plain:
+            _turn_smooth(k, stretch, rims[row], targets[row], by_load, radii[i], flags[i])
+        else:
+            scales, modes = (wavelength[i], unit), (by_load, check)
+            _turn_curve(table, curve, arches, scales, rims[row], targets[row], modes, radii[i], flags[i], scratch)

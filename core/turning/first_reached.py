@@ -1,0 +1,275 @@
+"""Where loading of one cosine first reaches a depth or a load, branch by branch of a trace (curve/branches.py).
+
+Loading holds at the running maximum of the depth. So a depth is first reached on the first branch that ends deeper.
+Along a branch the load, whose slope has the level (3+k)/2 (curve/cosine.py), falls at first and in the end; it is
+searched arch by arch, between the place where loading arrives and the place that it leaves. A load that a jump passes
+turns the cycle where the jump ends.
+"""
+
+import math
+from typing import Any, Final, TypeAlias
+
+import numpy as np
+
+from gradhesion.core._jit import NO, YES, kernel
+from gradhesion.core.curve.branches import (
+    ARRIVAL,
+    END,
+    END_DEPTH,
+    GAP,
+    RUN,
+    RUN_FIRST,
+    RUN_LANDING,
+    RUN_LAST,
+    START,
+    WORK,
+    ends,
+    find_depth,
+)
+from gradhesion.core.curve.cosine import Curve, depth, load, slope
+from gradhesion.core.curve.cosine_folds import fold_of_arch, survey_arch
+from gradhesion.core.path.cosine import first_wave_above, wave_of
+from gradhesion.core.path.ties import tolerance
+from gradhesion.core.struve.arches import inner_edge
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.waves.cosine import branch_of_wave, jump_of_wave
+
+Turn: TypeAlias = tuple[float, bool]
+"""Where a cycle turns (inf if not here), and whether a step of that is close."""
+_STEPS: Final = 200
+_SURE: Final = 1e-8
+"""The last step of Newton's method, in curvature lengths."""
+_FEW: Final = 3
+"""Turning points of a curve up to which each looks for itself."""
+
+
+@kernel()
+def _value(table: Any, curve: Curve, x: float, by_load: bool) -> float:
+    """Return the depth or the load."""
+    return load(table, curve, x) if by_load else depth(table, curve, x)
+
+
+@kernel()
+def _size(table: Any, curve: Curve, x: float, by_load: bool) -> float:
+    """Return CLOSE times the size of the terms of the depth or the load."""
+    size = tolerance(table, curve, x)
+    if not by_load:
+        return size
+    power = amplitude_power(table, TWO_PI * x)
+    return size / (power * power)
+
+
+@kernel()
+def _find(table: Any, curve: Curve, low: float, high: float, target: float, by_load: bool) -> float:
+    """Return where the depth (or the load) rises through a target between two places (Newton, kept in the bracket)."""
+    k = table.k
+    level = 0.5 * (3.0 + k) if by_load else 0.5 * (1.0 - k)
+    x = 0.5 * (low + high)
+    if not by_load:
+        branch = (low, _value(table, curve, low, NO) if low > 0.0 else -1.0, high, _value(table, curve, high, NO))
+        x = find_depth(table, curve, target, branch)
+    for _ in range(_STEPS):
+        d, d1, _, rest = slope(table, curve, level, x)
+        rate = d
+        if by_load:
+            power = amplitude_power(table, TWO_PI * x)
+            rate /= power * power
+            rest = load(table, curve, x)
+        rest -= target
+        if rest == 0.0:
+            return x
+        if rest < 0.0:
+            low = x
+        else:
+            high = x
+        step = -rest / rate
+        small = abs(step) * (abs(d1) + abs(d)) <= _SURE * min(1.0, TWO_PI * x) * abs(d)  # what is left is its square
+        x += step / TWO_PI
+        if small and low < x < high:
+            return x
+        if not low < x < high:
+            x = 0.5 * (low + high)
+            if x <= low or x >= high:
+                return x
+    return x
+
+
+@kernel()
+def _load_between(table: Any, curve: Curve, low: float, high: float, target: float) -> Turn:
+    """Return where the load first reaches a target between two places; at `low` it is below."""
+    level = 0.5 * (3.0 + table.k)
+    close = False
+    before = low
+    i = max(0, int(2.0 * low - table.phase / math.pi) - 1)
+    edge, _, _ = inner_edge(table, i)
+    while edge < high:
+        survey = survey_arch(table, curve, level, i)
+        kind = survey[0]
+        rising = kind == 1 or (kind == 2 and i % 2 == 0)
+        for _ in range(abs(kind)):
+            x, _ = fold_of_arch(table, curve, level, i, survey, rising, 0.0)
+            if low < x < high:
+                if not rising:  # the load is largest here
+                    above = load(table, curve, x) - target
+                    close = close or abs(above) <= _size(table, curve, x, YES)
+                    if above >= 0.0:
+                        return _find(table, curve, before, x, target, YES), close
+                before = x
+            rising = not rising
+        edge = survey[3]
+        i += 1
+    above = load(table, curve, high) - target
+    close = close or abs(above) <= _size(table, curve, high, YES)
+    return _find(table, curve, before, high, target, YES) if above >= 0.0 else math.inf, close
+
+
+@kernel()
+def _turn_on(
+    table: Any, curve: Curve, arrival: float, branch: tuple[float, float, float, float], reach: float, target: float
+) -> Turn:
+    """Return where the load first reaches a target on a branch that loading visits from its arrival on."""
+    _, _, end, _ = branch
+    high = min(end, reach)
+    if load(table, curve, arrival) >= target:
+        return arrival, False
+    if not arrival < high:
+        return math.inf, False
+    return _load_between(table, curve, arrival, high, target)
+
+
+@kernel()
+def turn_at_depth(table: Any, curve: Curve, first: int, last: int, trace: Any, reach: float, target: float) -> Turn:
+    """Return where loading first reaches a depth on the branches `first` to `last` - 1 of a trace."""
+    close = False
+    for branch in range(first, last):
+        end, bottom = trace[END, branch], trace[END_DEPTH, branch]
+        if end < math.inf:
+            close = close or abs(bottom - target) <= tolerance(table, curve, end)
+        if bottom > target:
+            high = min(end, reach)
+            if high <= trace[START, branch] or _value(table, curve, high, NO) < target:
+                return math.inf, close  # beyond the rim
+            return _find(table, curve, trace[START, branch], high, target, NO), close
+    return math.inf, close
+
+
+@kernel()
+def _peak(table: Any, curve: Curve, low: float, high: float) -> float:
+    """Return the largest load between the place where loading arrives on a branch and the end of that."""
+    level = 0.5 * (3.0 + table.k)
+    highest = max(load(table, curve, low), load(table, curve, high))
+    i = max(0, int(2.0 * low - table.phase / math.pi) - 1)
+    edge, _, _ = inner_edge(table, i)
+    while edge < high:
+        survey = survey_arch(table, curve, level, i)
+        kind = survey[0]
+        if kind in (-1, 2):
+            x, _ = fold_of_arch(table, curve, level, i, survey, NO, 0.0)
+            if low < x < high:
+                highest = max(highest, load(table, curve, x))
+        edge = survey[3]
+        i += 1
+    return highest
+
+
+@kernel()
+def peaks_of(table: Any, curve: Curve, count: int, trace: Any, inner: float, targets: int) -> Any:
+    """Return the largest load of loading on each branch, or a bound of it.
+
+    It is -inf for a branch that ends before `inner`, where no target is reached, and inf for one that does not end, or
+    where `targets` are so few that it is not worth knowing.
+    """
+    peaks = np.full(count, math.inf)
+    for branch in range(count):
+        if trace[END, branch] < inner:
+            peaks[branch] = -math.inf
+        elif targets > _FEW and trace[ARRIVAL, branch] < math.inf and trace[END, branch] < math.inf:
+            peaks[branch] = _peak(table, curve, trace[ARRIVAL, branch], trace[END, branch])
+    return peaks
+
+
+@kernel()
+def turn_at_load(
+    table: Any, curve: Curve, first: int, last: int, trace: Any, peaks: Any, reach: float, target: float
+) -> Turn:
+    """Return where loading first reaches a load on the branches `first` to `last` - 1 of a trace."""
+    close = False
+    for branch in range(first, last):
+        arrival, peak = trace[ARRIVAL, branch], peaks[branch]
+        if not arrival <= reach:
+            continue
+        if peak < target:
+            close = close or target - peak <= _size(table, curve, trace[END, branch], YES)
+            continue
+        x, near = _turn_on(table, curve, arrival, ends(trace, branch), reach, target)
+        close = close or near
+        if x < math.inf:
+            return x, close
+    return math.inf, close
+
+
+@kernel()
+def _turn_on_wave(table: Any, curve: Curve, trace: Any, wave: float, reach: float, target: float) -> Turn:
+    """Return where loading first reaches a load on a regular wave."""
+    arrival = trace[RUN, RUN_LANDING] if wave == trace[RUN, RUN_FIRST] else 0.0
+    if arrival == 0.0:
+        landing, _ = jump_of_wave(table, curve, wave - 1.0, YES, trace[WORK])
+        arrival = wave - 1.0 + landing
+    return _turn_on(table, curve, arrival, branch_of_wave(table, curve, wave), reach, target)
+
+
+@kernel()
+def turn_on_waves(table: Any, curve: Curve, trace: Any, reach: float, target: float) -> Turn:
+    """Return where loading first reaches a load on the regular waves that it visits: their loads rise outwards."""
+    low, high = trace[RUN, RUN_FIRST] - 1.0, trace[RUN, RUN_LAST]
+    if high <= low:
+        return math.inf, False
+    found, close = _turn_on_wave(table, curve, trace, high, reach, target)
+    if found == math.inf:
+        return found, close
+    while high - low > 1.0:
+        middle = np.floor(0.5 * (low + high))
+        x, near = _turn_on_wave(table, curve, trace, middle, reach, target)
+        if x < math.inf:
+            high, found, close = middle, x, near
+        else:
+            low, close = middle, close or near
+    return found, close
+
+
+@kernel()
+def turn_long_at_load(
+    table: Any, curve: Curve, count: int, trace: Any, peaks: Any, reach: float, target: float
+) -> Turn:
+    """Return where loading first reaches a load on a long curve (stride of path/cosine.py)."""
+    gap = int(trace[RUN, GAP])
+    x, close = turn_at_load(table, curve, 0, gap, trace, peaks, reach, target)
+    if x == math.inf:
+        x, near = turn_on_waves(table, curve, trace, reach, target)
+        close = close or near
+    if x == math.inf:
+        x, near = turn_at_load(table, curve, gap, count, trace, peaks, reach, target)
+        close = close or near
+    return x, close
+
+
+@kernel()
+def turn_long_at_depth(table: Any, curve: Curve, count: int, trace: Any, reach: float, target: float) -> Turn:
+    """Return where loading first reaches a depth on a long curve (stride of path/cosine.py)."""
+    gap = int(trace[RUN, GAP])
+    x, close = turn_at_depth(table, curve, 0, gap, trace, reach, target)
+    if x < math.inf:
+        return x, close
+    if trace[END_DEPTH, gap] > target:
+        before, after = wave_of(table, trace[START, gap - 1]) if gap > 0 else 0.0, wave_of(table, trace[START, gap])
+        wave = first_wave_above(table, curve, before, after, target)
+        if wave < after:
+            start, _, end, bottom = branch_of_wave(table, curve, wave)
+            if wave - 1.0 > before:
+                _, _, place, below = branch_of_wave(table, curve, wave - 1.0)
+                close = close or abs(below - target) <= tolerance(table, curve, place)
+            close = close or abs(bottom - target) <= tolerance(table, curve, end)
+            return _find(table, curve, start, end, target, NO), close
+    x, near = turn_at_depth(table, curve, gap, count, trace, reach, target)
+    return x, close or near

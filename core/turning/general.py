@@ -1,0 +1,265 @@
+"""Where cycles of one general curve turn: where loading first reaches a depth, or a load."""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.contact.general_disc import is_surely_open, least_opening
+from gradhesion.core.curve.branches import END_DEPTH, START, START_DEPTH, ends
+from gradhesion.core.curve.cosine import force_unit
+from gradhesion.core.curve.cosine_folds import CLOSE
+from gradhesion.core.curve.general import Basis, Curve, coordinate, curve_of
+from gradhesion.core.curve.general_branches import find_level
+from gradhesion.core.curve.general_folds import MOST_CELLS, MOST_FOLDS, room
+from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
+from gradhesion.core.path.general import walk
+from gradhesion.core.path.general_long import FEW, LONGEST_WALK, REGULAR, middle_of
+from gradhesion.core.path.general_ties import is_at_a_fold
+from gradhesion.core.path.ties import rim_is_close
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.turning.corners import corners_of, first_reached
+from gradhesion.core.turning.general_far import turn_far
+from gradhesion.core.turning.general_reach import reach
+from gradhesion.core.waves.general import highest_harmonic
+
+_TRIALS: Final = 12
+"""Times that a trace is made longer: a jump may land beyond where the target is surely exceeded."""
+_LONGER: Final = 1.5
+
+
+@kernel()
+def _is_first_contact(k: float, curve: Curve, target: float) -> bool:
+    """Return whether a depth is that of the first contact, 0, as far as anybody can tell: against that of the punch."""
+    B, m, _, _, _ = curve
+    return abs(target) <= CLOSE * B ** (-0.5 * (1.0 - k) / (m - 0.5 * (1.0 - k)))
+
+
+@kernel()
+def _is_one_disc(basis: Basis, curve: Curve, count: int, trace: Any, x: float, rim: float) -> bool:
+    """Return whether the contact that turns at x is one disc, out to the rim of the punch."""
+    level = coordinate(basis, curve, x)
+    lowest, end = math.inf, math.inf
+    for branch in range(count):
+        if trace[START, branch] <= x:
+            continue
+        lowest = min(lowest, trace[START_DEPTH, branch])
+        if trace[END_DEPTH, branch] > level:
+            end = find_level(basis, curve, level, ends(trace, branch))
+            break
+    if end < math.inf and is_surely_open(basis, curve, x, level - lowest):
+        return True
+    if end == math.inf:
+        if x > last_fold_bound(basis, curve) / TWO_PI:  # from here on the coordinate rises
+            return True
+        end = reach(basis, curve, level)
+    end = min(end, rim)
+    return not x < end or least_opening(basis, curve, x, end) >= 0.0
+
+
+@kernel()
+def _turn_walked(
+    basis: Basis,
+    curve: Curve,
+    by_load: bool,
+    check: bool,
+    bounds: tuple[float, float],
+    rims: Any,
+    targets: Any,
+    reaches: Any,
+    chosen: Any,
+    places: Any,
+    flags: Any,
+) -> bool:
+    """Find the places x where the chosen scenes of a curve turn, on one trace; return whether it could be walked.
+
+    `chosen` is no longer so of those that are found.
+    """
+    first, last = bounds
+    search = (room(), np.empty(MOST_FOLDS), 0.0)
+    for _ in range(_TRIALS):
+        furthest, left = 0.0, False
+        for i in range(rims.size):
+            if chosen[i]:
+                furthest = max(furthest, min(rims[i], reaches[i]))
+        count, trace, _ = walk(basis, curve, first, last, furthest, False)
+        if count < 0 or furthest == math.inf:
+            return False
+        corners, number = corners_of(basis, curve, by_load, count, trace, furthest, search)
+        for i in range(rims.size):
+            if not chosen[i]:
+                continue
+            found, x, close = first_reached(basis, curve, by_load, corners, number, targets[i], 0.0)
+            if not found and furthest < rims[i]:
+                reaches[i] *= _LONGER
+                left = True
+                continue
+            chosen[i] = False
+            places[i] = min(x, rims[i])
+            if not x < rims[i]:
+                level = coordinate(basis, curve, rims[i]) if rims[i] < math.inf else math.inf
+                close = close or rim_is_close(basis, curve, count, trace, rims[i], level)
+            elif check and not _is_one_disc(basis, curve, count, trace, x, rims[i]):
+                flags[i] |= LOADING_NOT_ONE_DISC
+            if close:
+                flags[i] |= CLOSE_TO_A_JUMP
+        if not left:
+            return True
+    return False
+
+
+@kernel()
+def _turn_one_far(
+    basis: Basis,
+    curve: Curve,
+    by_load: bool,
+    check: bool,
+    bounds: tuple[float, float],
+    rim: float,
+    target: float,
+    surely: float,
+) -> tuple[bool, float, int]:
+    """Find where one scene of a long curve turns; return whether that could be done, x, and its flags."""
+    first, last = bounds
+    for _ in range(_TRIALS):
+        furthest = min(rim, surely)
+        middle = middle_of(basis, curve, first, min(furthest, last), 0.0)
+        if middle[0] != REGULAR:
+            return False, rim, 0
+        done, here, whole = turn_far(basis, curve, (by_load, target), first, middle, furthest)
+        if not done:
+            return False, rim, 0
+        found, x, close = here
+        flags = CLOSE_TO_A_JUMP if close else 0
+        if found and whole + x < rim:
+            if check:
+                empty = np.empty((1, 0))
+                if not _is_one_disc(basis, curve, 0, empty, whole + x, rim):
+                    flags |= LOADING_NOT_ONE_DISC
+            return True, whole + x, flags
+        if furthest >= rim:
+            if rim < math.inf and is_at_a_fold(basis, curve, rim, 0.0):
+                flags |= CLOSE_TO_A_JUMP
+            return True, rim, flags
+        surely *= _LONGER
+    return False, rim, 0
+
+
+@kernel()
+def _turn_curve(
+    basis: Basis,
+    curve: Curve,
+    unit: float,
+    wavelength: float,
+    by_load: bool,
+    check: bool,
+    rims: Any,
+    targets: Any,
+    radii: Any,
+    flags: Any,
+) -> None:
+    """Find where the cycles of a curve turn; targets are in `unit`."""
+    table, _, series = basis
+    B, m, g, _, _ = curve
+    count = rims.size
+    highest = highest_harmonic(series)
+    first, last = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
+    measured = (B, m, g, 0.0, 1.0) if by_load else (B, m, g, 1.0, 0.0)
+    edges, reduced, reaches, places = np.empty(count), np.empty(count), np.empty(count), np.empty(count)
+    chosen, alone = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+    together = False
+    for i in range(count):
+        target = targets[i] / unit
+        edges[i], reduced[i], places[i] = rims[i] / wavelength, target, math.nan
+        if not (rims[i] > 0.0 and abs(target) < math.inf and (target > 0.0 or not by_load)):
+            continue
+        if not by_load and _is_first_contact(table.k, curve, target):
+            flags[i] |= CLOSE_TO_A_JUMP
+        if target < 0.0:
+            places[i] = 0.0
+            continue
+        reaches[i] = reach(basis, measured, target)
+        waves = min(edges[i], reaches[i], last) - first
+        if series.shape[0] > 0 and LONGEST_WALK < waves < math.inf:
+            middle = middle_of(basis, curve, first, min(edges[i], reaches[i], last), 0.0)
+            if middle[0] == REGULAR:
+                done, x, found = _turn_one_far(
+                    basis, curve, by_load, check, (first, last), edges[i], target, reaches[i]
+                )
+                if done:
+                    places[i] = x
+                    flags[i] |= found
+                    continue
+            alone[i] = True
+            bounds = (first, middle[1] if middle[0] == FEW else last)
+            if (middle[0] == FEW or waves * highest < MOST_CELLS) and _turn_walked(
+                basis, curve, by_load, check, bounds, edges, reduced, reaches, alone, places, flags
+            ):
+                continue
+            alone[i] = False
+            places[i] = math.nan
+        elif waves * highest < MOST_CELLS:
+            chosen[i] = together = True
+    if together and not _turn_walked(
+        basis, curve, by_load, check, (first, last), edges, reduced, reaches, chosen, places, flags
+    ):
+        for i in range(count):  # too many folds up to the furthest of them
+            if chosen[i]:
+                alone[i] = True
+                _turn_walked(basis, curve, by_load, check, (first, last), edges, reduced, reaches, alone, places, flags)
+                alone[i] = False
+    for i in range(count):
+        if math.isnan(places[i]):
+            radii[i], flags[i] = math.nan, NO_VALUE
+        else:
+            radii[i] = rims[i] if places[i] == edges[i] else min(rims[i], places[i] * wavelength)
+
+
+@kernel()
+def turn_scenes(
+    table: Any,
+    cosines: Any,
+    series: Any,
+    exponent: float,
+    front: float,
+    index: Any,
+    stretch: Any,
+    wavelength: Any,
+    amplitude: Any,
+    compliance: Any,
+    rims: Any,
+    targets: Any,
+    by_load: bool,
+    check: bool,
+    radii: Any,
+    flags: Any,
+) -> None:
+    """Find where the cycles of the curves `index` of one gradient exponent turn.
+
+    Parameters
+    ----------
+    table, cosines, series, exponent, front, index, stretch, wavelength, amplitude, compliance, rims
+        As those of `solve_scenes` in scene/general.py.
+    targets
+        What the cycles turn at, of the shape of the rims: depths in R, or loads in 1.5 pi R dgamma.
+    by_load, check
+        Whether they are loads; whether the contact that turns is tested for being one disc.
+    radii, flags
+        The results, of the shape (curves, rims): a/R, 0 without contact, NaN without a value; and bits of the status.
+    """
+    smooth = np.zeros((0, 3))
+    for j in range(index.size):
+        i = index[j]
+        row = i if rims.shape[0] > 1 else 0
+        valid = 0.0 < stretch[i] < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf
+        valid = valid and compliance[i] >= 0.0
+        basis = (table, cosines, series if amplitude[i] > 0.0 else smooth)
+        curve, length, unit = curve_of(table.k, exponent, front, stretch[i], wavelength[i], amplitude[i], compliance[i])
+        if not (valid and 0.0 < curve[0] < math.inf and 0.0 <= curve[2] < math.inf):
+            radii[i, :], flags[i, :] = math.nan, NO_VALUE
+            continue
+        if by_load:
+            unit = force_unit(table.k, length, unit)
+        _turn_curve(basis, curve, unit, wavelength[i], by_load, check, rims[row], targets[row], radii[i], flags[i])

@@ -1,0 +1,147 @@
+"""Where a cycle turns on a long curve: before the regular waves that are not walked, on one of them, or beyond."""
+
+import math
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from gradhesion.core._jit import NO, YES, kernel
+from gradhesion.core.curve.branches import END, END_DEPTH, ROWS, ends
+from gradhesion.core.curve.general import Basis, Curve
+from gradhesion.core.curve.general_branches import fill_branches, find_level
+from gradhesion.core.curve.general_folds import MOST_FOLDS, find_folds, room
+from gradhesion.core.path.general_long import Middle, first_that_reaches, folds_before, last_of_climb, places_between
+from gradhesion.core.path.loading import load_up
+from gradhesion.core.turning.corners import ROWS as CORNER_ROWS
+from gradhesion.core.turning.corners import Found, append_corners, corners_of, first_reached
+from gradhesion.core.waves.general import UP, branches_of_wave, highest_end, room_for_waves
+
+Way: TypeAlias = tuple[bool, float]
+"""Whether the load is measured, else the depth, and the target."""
+
+
+@kernel()
+def _turn_on_piece(
+    basis: Basis, curve: Curve, way: Way, count: int, rows: Any, level: float, end: float, search: Any
+) -> tuple[Found, float]:
+    """Follow loading from a coordinate over some branches; return where it reaches the target, and its last coordinate.
+
+    A branch that ends at x = `end` ends in no fold. `search` has what append_corners takes as room.
+    """
+    by_load, target = way
+    _, _, whole = search
+    corners, number, close = np.empty((CORNER_ROWS, 16)), 0, NO
+    for branch in range(count):
+        if rows[END_DEPTH, branch] <= level:
+            continue
+        begin = find_level(basis, curve, level, ends(rows, branch), whole)
+        piece = (begin, rows[END, branch], rows[END, branch] != end)
+        corners, number = append_corners(basis, curve, by_load, piece, search, corners, 0)
+        found, x, near = first_reached(basis, curve, by_load, corners, number, target, whole)
+        close = close or near
+        level = rows[END_DEPTH, branch]
+        if found:
+            return (True, x, close), level
+    return (False, math.inf, close), level
+
+
+@kernel()
+def _turn_on_wave(basis: Basis, curve: Curve, way: Way, cut: float, wave: float, work: Any, zeros: Any) -> Found:
+    """Return where loading, come from the wave before, reaches the target on a wave."""
+    _, _, rows = work
+    before = highest_end(rows[0], branches_of_wave(basis, curve, wave - 1.0, cut, work, rows[0]))
+    level = rows[0, END_DEPTH, before]
+    count = branches_of_wave(basis, curve, wave, cut, work, rows[1])
+    found, _ = _turn_on_piece(basis, curve, way, count, rows[1], level, math.inf, (work[0], zeros, wave))
+    return found
+
+
+@kernel()
+def _first_of_waves(
+    basis: Basis, curve: Curve, way: Way, cut: float, low: float, high: float, work: Any, zeros: Any
+) -> tuple[Found, float]:
+    """Return where loading reaches the target on its way from wave to wave, after `low`, up to `high`, and on which.
+
+    What it reaches on a wave rises with the wave.
+    """
+    found, x, close = _turn_on_wave(basis, curve, way, cut, high, work, zeros)
+    if not found:
+        return (found, x, close), high
+    while high - low > 1.0:
+        middle = np.floor(0.5 * (low + high))
+        here, place, near = _turn_on_wave(basis, curve, way, cut, middle, work, zeros)
+        if here:
+            high, x, close = middle, place, near
+        else:
+            low, close = middle, close or near
+    return (found, x, close), high
+
+
+@kernel()
+def turn_far(
+    basis: Basis, curve: Curve, way: Way, first: float, middle: Middle, furthest: float
+) -> tuple[bool, Found, float]:
+    """Return where loading reaches a target on a long curve up to x = `furthest`.
+
+    Parameters
+    ----------
+    basis, curve, first
+        The curve, and the place before which there is no fold.
+    way
+        What is measured, and the target.
+    middle
+        What `middle_of` of path/general_long.py has returned, REGULAR.
+    furthest
+        Up to where loading is followed.
+
+    Returns
+    -------
+    Whether it could be done; what it has found; and the whole waves beyond which the place is told.
+    """
+    _, _, series = basis
+    by_load, target = way
+    _, until, cut, _, begin, end, _ = middle
+    search, zeros = room(), np.empty(MOST_FOLDS)
+    nothing = (False, math.inf, False)
+    count, rises, _ = folds_before(basis, curve, first, middle, search, zeros)
+    if count < 0:
+        return False, nothing, 0.0
+    near = np.empty((ROWS, count // 2 + 2))
+    branches = fill_branches(basis, curve, zeros, count, rises, begin + cut, near, 0.0)
+    now = load_up(basis, curve, branches, near, math.inf, NO)
+    corners, number = corners_of(basis, curve, by_load, branches, near, math.inf, (search, zeros, 0.0))
+    found, x, close = first_reached(basis, curve, by_load, corners, number, target, 0.0)
+    if found:
+        return True, (found, x, close), 0.0
+    level = near[END_DEPTH, now] if now >= 0 else 0.0
+    work = room_for_waves(series)
+    rows = work[2][0]
+    places = places_between(begin, end)
+    wave = begin
+    while wave <= end:
+        wave = first_that_reaches(basis, curve, cut, places, wave, UP, level, work)
+        if math.isnan(wave):
+            break
+        count = branches_of_wave(basis, curve, wave, cut, work, rows)
+        here, level = _turn_on_piece(basis, curve, way, count, rows, level, math.inf, (search, zeros, wave))
+        close = close or here[2]
+        if here[0]:
+            return True, (YES, here[1], close), wave
+        far = last_of_climb(basis, curve, cut, places, wave, UP, work)
+        if far != wave:
+            here, there = _first_of_waves(basis, curve, way, cut, wave, far, work, zeros)
+            close = close or here[2]
+            if here[0]:
+                return True, (YES, here[1], close), there
+            best = highest_end(rows, branches_of_wave(basis, curve, far, cut, work, rows))
+            level = rows[END_DEPTH, best]
+        wave = far + 1.0
+    whole = end + 1.0
+    x = furthest - whole
+    count, rises, _ = find_folds(basis, curve, cut, min(x, until - whole), search, zeros, whole)
+    if count < 0 or rises:
+        return False, nothing, 0.0
+    outer = np.empty((ROWS, count // 2 + 2))
+    branches = fill_branches(basis, curve, zeros, count, rises, x, outer, whole)
+    here, _ = _turn_on_piece(basis, curve, way, branches, outer, level, x, (search, zeros, whole))
+    return True, (here[0], here[1], close or here[2]), whole

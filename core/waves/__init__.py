@@ -1,0 +1,1 @@
+"""One wave far out on a curve, and sums over many."""

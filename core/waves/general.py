@@ -1,0 +1,245 @@
+"""What one wave far from zero contact adds to a cycle: a smooth function of its number.
+
+A place is whole waves and a part, and phases come from the part alone (struve/series.py): the number of a wave may be
+any real one. Waves are cut where the leading term of V,
+
+    z^c F(u),    F = C sum n^(1+c) [cos_n cos(2 pi n u - phi) - sin_n sin(2 pi n u - phi)],
+
+is least. What else is in D changes slowly, so that there the coordinate falls as long as it falls anywhere in the wave:
+every branch lies within one wave.
+
+Loading goes from the highest end of branches of each wave to that of the next, past every end that is higher than all
+before; unloading from the lowest start to that of the wave before.
+"""
+
+import math
+from typing import Any, Final, TypeAlias
+
+import numpy as np
+
+from gradhesion.core._jit import constant, kernel
+from gradhesion.core.curve.branches import END, START
+from gradhesion.core.curve.cells import MOST
+from gradhesion.core.curve.general import Basis, Curve, coordinate, slope
+from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL
+from gradhesion.core.curve.general_energy import Left, drop, find_landing, place_left
+from gradhesion.core.curve.general_folds import folds_of_cell, refine, room
+from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
+from gradhesion.core.struve.power import amplitude_power
+
+Step: TypeAlias = tuple[float, float, int]
+"""What the jumps of a wave lose, their number, and the pattern they make: 0 for none, -1 where they are not regular."""
+UP, DOWN, PASSING = map(constant, range(3))
+"""Loading through a wave, unloading through it, and a jump that passes it."""
+NEAREST: Final = 8.0
+"""The innermost wave: z > 40 there."""
+_SAMPLES: Final = 16
+_HALVINGS: Final = 50
+_STEPS: Final = 8
+_LEVEL: Final = 1e-8
+"""Distance from a crest in z, whose square is below rounding."""
+_MODULUS: Final = 2_147_483_647
+
+
+@kernel()
+def highest_harmonic(series: Any) -> float:
+    """Return n of the highest harmonic, 0 without any."""
+    shortest = 0.0
+    for i in range(series.shape[0]):
+        shortest = max(shortest, series[i, 0])
+    return shortest
+
+
+@kernel()
+def _leading(table: Any, series: Any, u: float) -> tuple[float, float]:
+    """Return F and its slope over 2 pi."""
+    value, rate = 0.0, 0.0
+    power = 0.5 * (3.0 - table.k)
+    for i in range(series.shape[0]):
+        n = series[i, 0]
+        sine, cosine = sine_cosine_of_turns(n * u)
+        c = cosine * table.cos_phase + sine * table.sin_phase
+        s = sine * table.cos_phase - cosine * table.sin_phase
+        value += n**power * (series[i, 1] * c - series[i, 2] * s)
+        rate -= n ** (power + 1.0) * (series[i, 1] * s + series[i, 2] * c)
+    return value, rate
+
+
+@kernel()
+def cut_of(table: Any, series: Any) -> float:
+    """Return u in 0 .. 1 at which F is least."""
+    samples = int(_SAMPLES * highest_harmonic(series))
+    least, best = math.inf, 0
+    for j in range(samples):
+        value, _ = _leading(table, series, j / samples)
+        if value < least:
+            least, best = value, j
+    low, high = (best - 1.0) / samples, (best + 1.0) / samples
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        _, rate = _leading(table, series, middle)
+        if rate < 0.0:
+            low = middle
+        else:
+            high = middle
+    cut = 0.5 * (low + high)
+    return cut - np.floor(cut)
+
+
+@kernel()
+def room_for_waves(series: Any) -> Any:
+    """Return the arrays that waves are worked on in: of a search, zeros of a cell, and branches of two waves."""
+    return room(), np.empty(MOST), np.empty((2, 4, 2 * int(highest_harmonic(series)) + 8))
+
+
+@kernel()
+def falls_at_cut(basis: Basis, curve: Curve, cut: float, wave: float) -> bool:
+    """Return whether a wave begins with a fall."""
+    value, _, _ = slope(basis, curve, cut, wave)
+    return value < 0.0
+
+
+@kernel()
+def _branch_of_one_harmonic(basis: Basis, curve: Curve, wave: float, low: float, at_low: float, rows: Any) -> int:
+    """Do what `branches_of_wave` does for one harmonic: D has one crest a wave, and rises and falls monotonously.
+
+    Of what else is in D the rise over a wave is a part 3/z, at most, of what the waves themselves rise, or no fold is
+    left.
+    """
+    table, _, series = basis
+    _, _, g, _, _ = curve
+    z = TWO_PI * (wave + low)
+    bend = g * table.amplitude * math.hypot(series[0, 1], series[0, 2]) * z * amplitude_power(table, z)
+    high = low + 1.0
+    at_high, _, _ = slope(basis, curve, high, wave)
+    if at_high >= 0.0:
+        return -1
+    crest = low + 0.5
+    value, rate, _ = slope(basis, curve, crest, wave)
+    for _ in range(_STEPS):
+        step = rate / bend
+        if value > 0.0 or abs(step) < _LEVEL:
+            break
+        crest += min(max(step / TWO_PI, -0.1), 0.1)
+        value, rate, _ = slope(basis, curve, crest, wave)
+    if value <= 0.0:
+        return 0
+    rows[START, 0], _ = refine(basis, curve, _between(low, crest, at_low, value), low, crest, True, wave)
+    rows[END, 0], _ = refine(basis, curve, _between(high, crest, at_high, value), crest, high, False, wave)
+    rows[START_LEVEL, 0] = coordinate(basis, curve, rows[START, 0], wave)
+    rows[END_LEVEL, 0] = coordinate(basis, curve, rows[END, 0], wave)
+    return 1
+
+
+@kernel()
+def _between(trough: float, crest: float, below: float, above: float) -> float:
+    """Return about where a half wave of a cosine is zero, from its values at its two ends."""
+    return trough + (crest - trough) * math.acos(1.0 - 2.0 * below / (below - above)) / math.pi
+
+
+@kernel()
+def branches_of_wave(basis: Basis, curve: Curve, wave: float, low: float, work: Any, rows: Any) -> int:
+    """Put the branches between wave + low and wave + low + 1 into `rows`; return their number, -1 if one is cut."""
+    _, _, series = basis
+    search, zeros, _ = work
+    cells = 4 * int(highest_harmonic(series))
+    value, _, _ = slope(basis, curve, low, wave)
+    if value >= 0.0:
+        return -1
+    if series.shape[0] == 1 and series[0, 0] == 1.0:
+        return _branch_of_one_harmonic(basis, curve, wave, low, value, rows)
+    count, inside = 0, False
+    for i in range(cells):
+        begin, end = low + i / cells, low + (i + 1) / cells
+        found, value, _ = folds_of_cell(basis, curve, begin, end, value, search, zeros, wave)
+        for j in range(found):
+            if count == rows.shape[1]:
+                return -1
+            level = coordinate(basis, curve, zeros[j], wave)
+            if inside:
+                rows[END, count], rows[END_LEVEL, count] = zeros[j], level
+                count += 1
+            else:
+                rows[START, count], rows[START_LEVEL, count] = zeros[j], level
+            inside = not inside
+    return -1 if inside else count
+
+
+@kernel()
+def highest_end(rows: Any, count: int) -> int:
+    """Return the branch that ends highest, -1 without any."""
+    best, level = -1, -math.inf
+    for i in range(count):
+        if rows[END_LEVEL, i] > level:
+            best, level = i, rows[END_LEVEL, i]
+    return best
+
+
+@kernel()
+def lowest_start(rows: Any, count: int) -> int:
+    """Return the branch that starts lowest, -1 without any."""
+    best, level = -1, math.inf
+    for i in range(count):
+        if rows[START_LEVEL, i] < level:
+            best, level = i, rows[START_LEVEL, i]
+    return best
+
+
+@kernel()
+def _step_up(basis: Basis, curve: Curve, cut: float, wave: float, work: Any, losses: bool) -> Step:
+    """Load from the highest end of the wave before to that of a wave."""
+    _, _, rows = work
+    before = wave - 1.0
+    first = highest_end(rows[0], branches_of_wave(basis, curve, before, cut, work, rows[0]))
+    count = branches_of_wave(basis, curve, before, cut + 1.0, work, rows[1])
+    if first < 0 or count < 0:
+        return 0.0, 0.0, -1
+    level, left = rows[0, END_LEVEL, first], rows[0, END, first]
+    loss, jumps, pattern = 0.0, 0.0, count * 4099 + first
+    for i in range(count):
+        if rows[1, END_LEVEL, i] <= level:
+            continue
+        if losses:
+            place = place_left(basis, curve, left, before)
+            x = find_landing(basis, curve, place, rows[1, START, i], rows[1, END, i], before)
+            loss += drop(basis, curve, place, left, x, before)
+        jumps += 1.0
+        level, left = rows[1, END_LEVEL, i], rows[1, END, i]
+        pattern = (pattern * 4099 + i + 1) % _MODULUS
+    return TWO_PI * TWO_PI * loss, jumps, pattern if jumps > 0.0 else -1
+
+
+@kernel()
+def _step_down(basis: Basis, curve: Curve, cut: float, wave: float, work: Any, losses: bool) -> Step:
+    """Unload from the lowest start of a wave to that of the wave before."""
+    _, _, rows = work
+    before = wave - 1.0
+    first = lowest_start(rows[1], branches_of_wave(basis, curve, before, cut + 1.0, work, rows[1]))
+    count = branches_of_wave(basis, curve, before, cut, work, rows[0])
+    if first < 0 or count < 0:
+        return 0.0, 0.0, -1
+    level, left = rows[1, START_LEVEL, first], rows[1, START, first]
+    loss, jumps, pattern = 0.0, 0.0, count * 4099 + first
+    for i in range(count - 1, -1, -1):
+        if rows[0, START_LEVEL, i] >= level:
+            continue
+        if losses:
+            place = place_left(basis, curve, left, before)
+            x = find_landing(basis, curve, place, rows[0, START, i], rows[0, END, i], before)
+            loss -= drop(basis, curve, place, x, left, before)
+        jumps += 1.0
+        level, left = rows[0, START_LEVEL, i], rows[0, START, i]
+        pattern = (pattern * 4099 + i + 1) % _MODULUS
+    return TWO_PI * TWO_PI * loss, jumps, pattern if jumps > 0.0 else -1
+
+
+@kernel()
+def step_of_wave(
+    kind: int, basis: Basis, curve: Curve, cut: float, left: Left, wave: float, work: Any, losses: bool
+) -> Step:
+    """Return what a wave adds: to loading or unloading, or to a jump outwards from `left` that passes it."""
+    if kind == UP:
+        return _step_up(basis, curve, cut, wave, work, losses)
+    if kind == DOWN:
+        return _step_down(basis, curve, cut, wave, work, losses)
+    return TWO_PI * TWO_PI * drop(basis, curve, left, 0.0, 1.0, wave), 0.0, 0

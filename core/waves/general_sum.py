@@ -1,0 +1,217 @@
+"""Sums over millions of waves from a few hundred of them.
+
+As long as the pattern of its jumps stays the same, what a wave adds is a smooth function of its number w, which may be
+any real one (waves/general.py). Over such a run a .. b the sum is an integral and Euler's and Maclaurin's terms,
+
+    sum_{w=p}^{q} e_w = int_{p-1/2}^{q+1/2} e dw - [e'/24 - 7 e'''/5760 + 31 e^(5)/967680] between the two limits,
+
+with some waves at either end summed one by one. Patterns change where a pair of folds is born or dies, or where one end
+of a branch overtakes another: there e is a power series in the root of the distance. With
+
+    log w = log a + (log b - log a) sin^2(theta/2)
+
+it is analytic in theta, and so are powers of w. The integral is taken at 17 Chebyshev points of theta, halved until the
+last coefficients vanish. Runs are told by their patterns at those points, and where they end by bisection.
+"""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+
+from gradhesion.core._jit import NO, kernel
+from gradhesion.core.curve.general import Basis, Curve
+from gradhesion.core.curve.general_energy import Left
+from gradhesion.core.waves.cosine_sum import limit_terms
+from gradhesion.core.waves.general import step_of_wave
+
+_POINTS: Final = 17
+_PLACES: Final = np.cos(np.pi * np.arange(_POINTS)[::-1] / (_POINTS - 1))
+"""On [-1, 1], from left to right."""
+_EDGE: Final = 8
+"""Waves at either end of a run that are summed one by one."""
+_DIRECT: Final = 48
+"""Waves up to which a run is summed one by one."""
+_NARROW: Final = 32.0
+"""Waves within which the points of an integral need not be put closer: they are summed one by one."""
+_TOLERANCE: Final = 1e-12
+"""Last coefficients over the integral: what they leave out is smaller still."""
+_ROOM: Final = 4096
+_MOST_STEPS: Final = 400_000
+
+
+def _coefficients() -> np.ndarray:
+    """Return the matrix from values at `_PLACES` to Chebyshev coefficients."""
+    return np.ascontiguousarray(np.linalg.inv(np.polynomial.chebyshev.chebvander(_PLACES, _POINTS - 1)))
+
+
+_MATRIX: Final = _coefficients()
+_LAST: Final = 3
+
+
+@kernel()
+def _integrate(values: Any) -> tuple[float, float]:
+    """Return the integral of an interpolant over [-1, 1] and the size of its last coefficients."""
+    total, rest = 0.0, 0.0
+    for j in range(_POINTS):
+        coefficient = 0.0
+        for i in range(_POINTS):
+            coefficient += _MATRIX[j, i] * values[i]
+        if j % 2 == 0:
+            total += 2.0 * coefficient / (1.0 - j * j)
+        if j >= _POINTS - _LAST:
+            rest = max(rest, abs(coefficient))
+    return total, rest
+
+
+@kernel()
+def _angle_of(wave: float, low: float, span: float) -> float:
+    return 2.0 * math.asin(math.sqrt(min(1.0, max(0.0, (math.log(wave) - low) / span))))
+
+
+@kernel()
+def _wave_at(angle: float, low: float, span: float) -> float:
+    return math.exp(low + span * math.sin(0.5 * angle) ** 2)
+
+
+@kernel()
+def _last_of_run(
+    kind: int, basis: Basis, curve: Curve, cut: float, left: Left, low: float, high: float, work: Any
+) -> tuple[float, int]:
+    """Return the last wave from `low` on, before `high`, of the pattern that `low` has, and the steps it took."""
+    _, _, pattern = step_of_wave(kind, basis, curve, cut, left, low, work, NO)
+    steps = 1
+    while high - low > 1.0:
+        middle = np.floor(0.5 * (low + high))
+        _, _, there = step_of_wave(kind, basis, curve, cut, left, middle, work, NO)
+        steps += 1
+        if there == pattern:
+            low = middle
+        else:
+            high = middle
+    return low, steps
+
+
+@kernel()
+def _integral_of_run(
+    kind: int, basis: Basis, curve: Curve, cut: float, left: Left, run: Any, scale: float, work: Any, losses: bool
+) -> Any:
+    """Integrate over a run (first, last wave) without its ends, as long as it has one pattern.
+
+    Returns
+    -------
+    Whether it is done; the integral, jumps a wave, pattern; the runs to take instead, and their number; the scale; the
+    steps that it took.
+    """
+    first, last = run
+    low = math.log(first - 0.5)
+    span = math.log(last + 0.5) - low
+    runs = np.empty((2 * _POINTS, 2))
+    panels = np.empty((64, 2))
+    panels[0, 0] = _angle_of(first + _EDGE - 0.5, low, span)
+    panels[0, 1] = _angle_of(last - _EDGE + 0.5, low, span)
+    top, steps = 0, 0
+    total, jumps, pattern = 0.0, 0.0, 0
+    values, waves, patterns = np.empty(_POINTS), np.empty(_POINTS), np.empty(_POINTS, np.int64)
+    while top >= 0:
+        begin, end = panels[top]
+        top -= 1
+        half = 0.5 * (end - begin)
+        for i in range(_POINTS):
+            angle = begin + half * (1.0 + _PLACES[i])
+            waves[i] = _wave_at(angle, low, span)
+            value, jumps, patterns[i] = step_of_wave(kind, basis, curve, cut, left, waves[i], work, losses)
+            values[i] = value * waves[i] * 0.5 * span * math.sin(angle)
+        steps += _POINTS
+        pattern = patterns[0]
+        count, start = 0, first
+        for i in range(_POINTS - 1):
+            if patterns[i + 1] != patterns[i]:
+                here = max(start, np.floor(waves[i]))
+                there = min(last, np.floor(waves[i + 1]) + 1.0)
+                if there <= here:
+                    continue
+                here, taken = _last_of_run(kind, basis, curve, cut, left, here, there, work)
+                steps += taken
+                runs[count, 0], runs[count, 1] = start, here
+                start = here + 1.0
+                count += 1
+        if count > 0:
+            runs[count, 0], runs[count, 1] = start, last
+            return False, 0.0, 0.0, 0, runs, count + 1, scale, steps
+        part, rest = _integrate(values)
+        part, rest = half * part, half * rest
+        scale = max(scale, abs(part))
+        if rest <= _TOLERANCE * scale:
+            total += part
+        elif waves[_POINTS - 1] - waves[0] < _NARROW or top + 2 >= panels.shape[0]:
+            begin, end = np.floor(waves[0]), np.floor(waves[_POINTS - 1]) + 1.0
+            runs[0, 0], runs[0, 1] = first, begin - 1.0
+            runs[1, 0], runs[1, 1] = begin, end
+            runs[2, 0], runs[2, 1] = end + 1.0, last
+            return False, 0.0, 0.0, 0, runs, 3, scale, steps
+        else:
+            panels[top + 1, 0], panels[top + 1, 1] = begin, begin + half
+            panels[top + 2, 0], panels[top + 2, 1] = begin + half, end
+            top += 2
+    return True, total, jumps, pattern, runs, 0, scale, steps
+
+
+@kernel()
+def sum_of_waves(
+    kind: int, basis: Basis, curve: Curve, cut: float, left: Left, first: float, last: float, work: Any, losses: bool
+) -> tuple[float, float]:
+    """Return what the waves `first` to `last` add, and the number of their jumps; NaN where they are not regular."""
+    stack = np.empty((_ROOM, 2))
+    stack[0, 0], stack[0, 1] = first, last
+    values = np.empty(6)
+    top, steps = 0, 0
+    total, jumps, scale = 0.0, 0.0, 0.0
+    while top >= 0:
+        begin, end = stack[top]
+        top -= 1
+        if end - begin < _DIRECT:
+            wave = begin
+            while wave <= end:
+                loss, number, pattern = step_of_wave(kind, basis, curve, cut, left, wave, work, losses)
+                if pattern < 0:
+                    return math.nan, math.nan
+                total += loss
+                jumps += number
+                wave += 1.0
+                steps += 1
+            continue
+        done, integral, number, pattern, runs, count, scale, taken = _integral_of_run(
+            kind, basis, curve, cut, left, (begin, end), scale, work, losses
+        )
+        steps += taken
+        if steps > _MOST_STEPS or (done and pattern < 0) or top + count >= _ROOM:
+            return math.nan, math.nan
+        for i in range(count):
+            if runs[i, 1] >= runs[i, 0]:
+                top += 1
+                stack[top, 0], stack[top, 1] = runs[i, 0], runs[i, 1]
+        if not done:
+            continue
+        part = integral
+        even = True
+        for side in range(2):
+            for i in range(_EDGE + 3):
+                wave = begin + i if side == 0 else end - i
+                loss, _, there = step_of_wave(kind, basis, curve, cut, left, wave, work, losses)
+                even = even and there == pattern
+                if i < _EDGE:
+                    part += loss
+                if i >= _EDGE - 3:
+                    values[i - _EDGE + 3 if side == 0 else _EDGE + 2 - i] = loss
+            part += limit_terms(values) if side == 0 else -limit_terms(values)
+        steps += 2 * _EDGE + 6
+        if even:
+            total += part
+            jumps += number * (end - begin + 1.0)
+        else:  # a pattern of some waves at an end: these one by one
+            stack[top + 1, 0], stack[top + 1, 1] = begin, begin + _EDGE + 3.0
+            stack[top + 2, 0], stack[top + 2, 1] = begin + _EDGE + 4.0, end - _EDGE - 4.0
+            stack[top + 3, 0], stack[top + 3, 1] = end - _EDGE - 3.0, end
+            top += 3
+    return total, jumps

@@ -1,0 +1,136 @@
+"""What a scene tells of itself: its errors cover the true ones, the rest is checked by another route."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gradhesion.core import PARAMETERS, REPORTS, solve
+from gradhesion.core.equations.jkr import indentation
+from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.status import NO_VALUE, TOLERANCE_NOT_MET
+
+STORED = Path(__file__).parents[1] / "twin" / "scenes.json"
+SCENE: dict[str, Any] = {
+    "k": 0.3,
+    "nu": 0.3,
+    "modulus": 500.0,
+    "c0_over_R": 0.01,
+    "lambda_over_R": 0.1,
+    "A": 0.03,
+    "a_max_over_R": 0.8,
+}
+
+
+@pytest.fixture(scope="module")
+def stored() -> tuple[dict[str, Any], dict[str, Any]]:
+    """2,184 scenes solved to 30 digits by another method: parameters and values."""
+    data = json.loads(STORED.read_text(encoding="utf-8"))
+    columns = dict(zip(data["columns"], zip(*data["scenes"], strict=True), strict=True))
+    return {name: np.array(columns[name], dtype=float) for name in PARAMETERS}, columns
+
+
+@pytest.mark.parametrize("name", ["pull_off_force", "dissipated_energy"])
+def test_errors_are_covered(name: str, stored: tuple[dict[str, Any], dict[str, Any]]) -> None:
+    """In 99.9 % of all scenes, and without crying wolf: in the median the estimate is at most 100 times too large."""
+    parameters, columns = stored
+    result = solve(parameters, (name, f"{name}_error"))
+    true = np.abs(result[name] - np.array(columns[name], dtype=float))
+    estimate = result[f"{name}_error"]
+    assert np.mean(true <= estimate) >= 0.999
+    some = true > 0.0
+    assert np.median(estimate[some] / true[some]) <= 100.0
+    assert np.all(estimate > 0.0)
+
+
+def test_the_residual_is_rounding(stored: tuple[dict[str, Any], dict[str, Any]]) -> None:
+    """The loop integral is another way to the energy; its own rounding grows with the load that cancels in it."""
+    parameters, columns = stored
+    result = solve(parameters, ("dissipated_energy", "energy_residual"))
+    share = np.abs(result["energy_residual"] / result["dissipated_energy"])
+    few = np.array(columns["loading_jumps"], dtype=float) <= 5
+    assert np.median(share) <= 8e-15
+    assert np.quantile(share[few], 0.99) <= 1e-12
+    assert share.max() <= 1e-7
+
+
+def test_a_residual_of_too_many_waves_has_no_value() -> None:
+    result = solve(SCENE | {"lambda_over_R": 1e-5, "A": 0.05, "k": 0.0, "modulus": 1e4}, ("energy_residual",))
+    assert np.isnan(result["energy_residual"])
+    assert result["status"] & NO_VALUE == 0
+
+
+@pytest.mark.parametrize("k", [0.0, 0.3, 0.8])
+def test_roughness_parameter(k: float) -> None:
+    """chi = r/s, with s = sqrt(2^(1+k) pi dgamma/M); at k = 0, M = E*, and r = sqrt(pi) G(1/2) A lambda^(1/2)."""
+    found = solve(SCENE | {"k": k}, ("roughness_parameter",))["roughness_parameter"]
+    if k == 0.0:
+        r = math.pi * SCENE["A"] * math.sqrt(SCENE["lambda_over_R"])
+        assert math.isclose(found, r / math.sqrt(2 * math.pi / SCENE["modulus"]), rel_tol=1e-14)
+    chi = solve(SCENE | {"k": k, "lambda_over_R": 1e-5, "A": 3.0, "a_max_over_R": np.inf}, REPORTS)
+    # short waves: the pull-off force is (1 + chi)^2 of the smooth one
+    assert math.isclose(chi["adhesion_gain"], (1 + chi["roughness_parameter"]) ** 2, rel_tol=1e-4)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.3, 0.8, 0.97])
+@pytest.mark.parametrize("amplitude", [0.0, 0.01, 0.05])
+def test_nothing_folds_beyond_the_saturation_radius(k: float, amplitude: float) -> None:
+    scene = SCENE | {"k": k, "A": amplitude}
+    fold = float(solve(scene, ("saturation_radius",))["saturation_radius"])
+    material = stiffness(k, scene["nu"], scene["modulus"], scene["c0_over_R"])
+    radii = np.linspace(fold, 4 * fold + 1.0, 4000)
+    depths = indentation(k, material, radii, scene["lambda_over_R"], amplitude)
+    assert np.all(np.diff(depths) > 0.0)
+    just = fold - np.array([2e-3, 1e-3, 0.0]) * min(fold, scene["lambda_over_R"])
+    inside = indentation(k, material, just, scene["lambda_over_R"], amplitude)
+    assert inside[0] > inside[1] > inside[2]
+
+
+def test_gains_are_those_over_the_smooth_punch() -> None:
+    names = ("pull_off_force", "dissipated_energy", "adhesion_gain", "energy_gain")
+    rims = np.array([0.05, 0.2, 0.8, np.inf])
+    wavy, smooth = solve(SCENE | {"a_max_over_R": rims}, names), solve(SCENE | {"A": 0.0, "a_max_over_R": rims}, names)
+    np.testing.assert_allclose(wavy["adhesion_gain"], wavy["pull_off_force"] / smooth["pull_off_force"], rtol=1e-15)
+    np.testing.assert_allclose(wavy["energy_gain"], wavy["dissipated_energy"] / smooth["dissipated_energy"], rtol=1e-15)
+    assert np.all(smooth["adhesion_gain"] == 1.0)
+    assert np.all(smooth["energy_gain"] == 1.0)
+
+
+def test_asking_changes_no_value(stored: tuple[dict[str, Any], dict[str, Any]]) -> None:
+    parameters = {name: values[:300] for name, values in stored[0].items()}
+    plain, asked = solve(parameters), solve(parameters, (*REPORTS, "pull_off_force", "dissipated_energy"))
+    for name, values in plain.items():
+        np.testing.assert_array_equal(values, asked[name])
+    assert set(asked) == {*REPORTS, "pull_off_force", "dissipated_energy", "status"}
+
+
+def test_no_value() -> None:
+    result = solve(SCENE | {"A": np.array([0.02, -1.0]), "a_max_over_R": np.array([-0.5, 0.5])}, REPORTS)
+    for name in REPORTS:
+        assert np.all(np.isnan(result[name]))
+
+
+def test_a_sum_that_is_not_good_enough_is_flagged() -> None:
+    """At a k next to 1 two ways to sum strong waves part at 1e-9 of the energy."""
+    scene = {
+        "k": 0.9999999999999999,
+        "nu": 0.0,
+        "modulus": 0.07588826475707715,
+        "c0_over_R": 44163.252642665706,
+        "lambda_over_R": 5.535848215797105e-07,
+        "A": 8.519679504817615,
+        "a_max_over_R": 13.381106318807108,
+    }
+    names = ("dissipated_energy", "dissipated_energy_error")
+    result = solve(scene, names)
+    assert result["status"] & TOLERANCE_NOT_MET
+    assert result["dissipated_energy_error"] > 1e-9 * result["dissipated_energy"]
+    assert solve(scene | {"A": 0.1}, names)["status"] & TOLERANCE_NOT_MET == 0
+
+
+def test_only_the_exact_solver_reports() -> None:
+    with pytest.raises(ValueError, match="exact solver only"):
+        solve(SCENE, ("energy_gain",), solver="envelope")

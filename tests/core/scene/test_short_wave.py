@@ -1,0 +1,176 @@
+"""The leading term of a short wave against its own curve on a dense grid, and against the exact solution it tends to."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from gradhesion.core import OUTPUTS, solve
+from gradhesion.core.problem.material import stiffness
+
+NU, C0 = 0.23, 0.17
+Scene = dict[str, float]
+
+
+def r_per_amplitude(k: float, wavelength: float) -> float:
+    return math.pi ** ((1 - k) / 2) * math.gamma((1 + k) / 2) * wavelength ** ((1 + k) / 2)
+
+
+def stretch_of(k: float, M: float) -> float:
+    return math.sqrt(2 ** (1 + k) * math.pi / M)
+
+
+def scene_of(k: float, M: float, wavelength: float, chi: float, a_max: float) -> Scene:
+    """Return the parameters of a scene from its stiffness and chi."""
+    nu = 0.5 if k == 1.0 else NU
+    return {
+        "k": k,
+        "nu": nu,
+        "modulus": M / float(stiffness(k, nu, 1.0, C0)),
+        "c0_over_R": C0,
+        "lambda_over_R": wavelength,
+        "A": chi * stretch_of(k, M) / r_per_amplitude(k, wavelength),
+        "a_max_over_R": a_max,
+    }
+
+
+def asymptotic(scene: Any) -> dict[str, NDArray[Any]]:
+    return solve(scene, OUTPUTS, solver="asymptotic")
+
+
+def on_a_grid(k: float, M: float, wavelength: float, chi: float, rim: float) -> tuple[float, float, float, float]:
+    """Return force, energy, delta_max and delta_jump_out from running maxima and minima of (5.15)-(5.20)."""
+    s, c, points = stretch_of(k, M), (1 - k) / 2, 200_000
+    t = np.arange(1, points + 1) / points
+    a, da = rim * t**1.5, 1.5 * rim * np.sqrt(t) / points
+    da[-1] /= 2
+    sine = np.sin(2 * np.pi * a / wavelength - (1 + k) * np.pi / 4)
+    stretch = s * a**c
+    far = a**2 / (1 + k) + wavelength * chi * s / r_per_amplitude(k, wavelength) + chi * stretch * sine
+    depth = far - stretch
+    load = (
+        2 ** (1 - k)
+        * M
+        / (1 + k)
+        * (2 * a ** (3 + k) / ((1 + k) * (3 + k)) - s * (1 - chi * sine) * a ** ((3 + k) / 2))
+    )
+    rising = np.flatnonzero(np.diff(depth) > 0)
+    first = int(rising[0]) if rising.size else points - 1  # no equilibrium is stable before
+    loading = np.maximum(0, np.maximum.accumulate(np.where(np.arange(points) < first, -np.inf, depth)))
+    unloading = np.minimum.accumulate(depth[::-1])[::-1]
+    lost = 2 * np.pi * a * (((far - unloading) / stretch) ** 2 - ((far - loading) / stretch) ** 2)
+    return -load.min() / (1.5 * math.pi), float(np.sum(lost * da)), loading[-1], unloading[0]
+
+
+@pytest.mark.parametrize("k", [0.0, 0.22, 0.51, 0.87, 1.0])
+def test_it_solves_its_own_curve(k: float) -> None:
+    rng = np.random.default_rng(round(100 * k))
+    for _ in range(12):
+        M = 10 ** rng.uniform(0, 4)
+        length = M ** (-1 / (3 + k))
+        wavelength, chi = length * 10 ** rng.uniform(-1.6, -0.2), 10 ** rng.uniform(-2.5, 0.6)
+        rim = length * rng.uniform(0.9, 3.7)
+        result = asymptotic(scene_of(k, M, wavelength, chi, rim))
+        force, energy, deepest, last = on_a_grid(k, M, wavelength, chi, rim)
+        assert result["status"] == 0
+        assert result["pull_off_force"] == pytest.approx(force, rel=1e-5)
+        assert result["dissipated_energy"] == pytest.approx(energy, rel=1e-5)
+        assert result["delta_max"] == pytest.approx(deepest, abs=3e-5 * length**2)
+        assert result["delta_jump_out"] == pytest.approx(last, abs=3e-5 * length**2)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.33, 0.68])
+@pytest.mark.parametrize("chi", [0.21, 1.4])
+def test_it_tends_to_the_exact_solution(k: float, chi: float) -> None:
+    wavelengths = [0.08, 0.008, 0.0008]
+    errors = []
+    for wavelength in wavelengths:
+        scene = scene_of(k, 110.0, wavelength, chi, 0.97)
+        exact, result = solve(scene, OUTPUTS), asymptotic(scene)
+        errors.append([abs(float(result[name] / exact[name] - 1)) for name in ("pull_off_force", "dissipated_energy")])
+    force, energy = np.array(errors).T
+    assert np.all(force <= 0.2 * np.array(wavelengths))
+    assert np.all(energy <= 0.05 * np.array(wavelengths))
+    assert np.all(energy[1:] < 0.07 * energy[:-1])
+
+
+def test_it_is_far_better_than_the_envelopes() -> None:
+    scene = scene_of(0.3, 110.0, 0.01, 0.4, 0.97)
+    exact, result, envelope = (
+        float(solve(scene, ["dissipated_energy"], solver=solver)["dissipated_energy"])
+        for solver in ("exact", "asymptotic", "envelope")
+    )
+    assert 100 * abs(result - exact) < abs(envelope - exact)
+
+
+@pytest.mark.parametrize("rim", [0.31, 0.77, 1.9, math.inf])
+def test_at_k_1_the_depth_is_exact_and_with_it_the_cycle(rim: float) -> None:
+    scene = scene_of(1.0, 63.0, 0.043, 0.24, rim)
+    exact, result = solve(scene, OUTPUTS), asymptotic(scene)
+    assert result["loading_jumps"] == exact["loading_jumps"]
+    assert result["unloading_jumps"] == exact["unloading_jumps"]
+    assert result["dissipated_energy"] == pytest.approx(exact["dissipated_energy"], rel=1e-10)
+    assert result["delta_max"] == pytest.approx(exact["delta_max"], rel=1e-12)
+    assert result["delta_jump_out"] == pytest.approx(exact["delta_jump_out"], rel=1e-12)
+
+
+@pytest.mark.parametrize("wavelength", [0.021, 1e-6])
+def test_several_rims_are_as_one_by_one(wavelength: float) -> None:
+    # of the short waves, only the first two rims have few enough
+    scene: Any = scene_of(0.42, 210.0, wavelength, 0.37, 1.0)
+    rims = np.array([0.07, 0.31, 0.9, math.inf])
+    together = asymptotic(scene | {"a_max_over_R": rims})
+    for i, rim in enumerate(rims):
+        for name, value in asymptotic(scene | {"a_max_over_R": rim}).items():
+            np.testing.assert_array_equal(value, together[name][i], err_msg=name)
+
+
+def test_a_long_jump_in_is_integrated_in_closed_form() -> None:
+    # hardly a wave: 40,000 of them within the jump-in, to the smooth punch by the size of the wave alone
+    k, M = 0.37, 150.0
+    length = M ** (-1 / (3 + k))
+    wavelength = 5e-5 * length
+    scene = scene_of(k, M, wavelength, 1e-9, 3.1 * length)
+    result, smooth = asymptotic(scene), solve(scene | {"A": 0.0}, OUTPUTS)
+    assert result["loading_jumps"] == 1
+    assert result["dissipated_energy"] == pytest.approx(smooth["dissipated_energy"], rel=1e-8)
+    assert result["pull_off_force"] == pytest.approx(smooth["pull_off_force"], rel=1e-8)
+
+
+def test_more_waves_than_are_walked_leave_the_energy_without_a_value() -> None:
+    k, chi = 0.2, 0.4
+    result = asymptotic(scene_of(k, 100.0, 1e-8, chi, 2.0))
+    assert result["status"] == 64
+    assert np.isnan(result["dissipated_energy"])
+    assert result["loading_jumps"] == -1
+    assert result["pull_off_force"] == pytest.approx((3 + k) / 3 * (1 + chi) ** 2, rel=1e-9)
+
+
+def test_without_waviness_it_is_the_smooth_punch() -> None:
+    scene = scene_of(0.6, 77.0, 0.03, 0.0, 1.3)
+    exact = solve(scene, OUTPUTS)
+    for name, value in asymptotic(scene).items():
+        assert value == pytest.approx(exact[name], rel=1e-14), name
+
+
+def test_hostile_scenes_end_with_a_value_or_a_status() -> None:
+    rng, n = np.random.default_rng(11), 300
+    k = rng.choice([0.0, 1e-16, 0.3, 0.9, 1 - 1e-12, 1.0], n)
+    result = asymptotic(
+        {
+            "k": k,
+            "nu": np.where(k == 1, 0.5, rng.uniform(-0.99, 0.5, n)),
+            "modulus": 10 ** rng.uniform(-9, 15, n),
+            "c0_over_R": 10 ** rng.uniform(-12, 9, n),
+            "lambda_over_R": 10 ** rng.uniform(-12, 6, n),
+            "A": np.where(rng.random(n) < 0.1, 0.0, 10 ** rng.uniform(-300, 3, n)),
+            "a_max_over_R": np.where(rng.random(n) < 0.1, math.inf, 10 ** rng.uniform(-12, 9, n)),
+        }
+    )
+    good = result["status"] == 0
+    assert np.all(np.isfinite(result["pull_off_force"][good]))
+    assert np.all(result["dissipated_energy"][good] >= 0)
+    assert np.all(np.isfinite(result["dissipated_energy"][good]))
+    assert np.all(np.isnan(result["dissipated_energy"][~good]))

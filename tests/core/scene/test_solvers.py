@@ -1,0 +1,95 @@
+"""The loop of the solvers: what each compiles, what is kept on disk, and curves that no solver takes."""
+
+import math
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gradhesion.core import OUTPUTS, SOLVERS, cache, solve
+from gradhesion.core.arrays.tables import table_of
+from gradhesion.core.curve.branches import ROWS
+from gradhesion.core.problem.status import NO_VALUE
+from gradhesion.core.scene import cosine as scene
+from gradhesion.core.scene import short_wave as asymptotic_cycle
+from gradhesion.core.scene import solvers
+
+SCENE = {"k": 0.2, "nu": 0.3, "modulus": 90.0, "c0_over_R": 1.1, "lambda_over_R": 0.1, "A": 0.01, "a_max_over_R": 0.7}
+
+
+def run(loop: Any, rims: np.ndarray, curves: int = 3) -> tuple[np.ndarray, np.ndarray]:
+    """Run a loop over the outer two of several curves, all outputs and the test of the contact asked for."""
+    out, status = (
+        np.full((len(OUTPUTS), curves, rims.shape[1]), -7.0),
+        np.full((curves, rims.shape[1]), NO_VALUE, np.int8),
+    )
+    stiffness, wavelength, amplitude = np.linspace(70, 90, curves), np.full(curves, 0.1), np.full(curves, 0.01)
+    index, slots = np.array([0, curves - 1]), np.arange(len(OUTPUTS) + 1)
+    scratch = np.empty((ROWS, 192))
+    loop(table_of(0.2), index, stiffness, wavelength, amplitude, rims, slots, out, status, scratch)
+    return out, status
+
+
+def test_the_order_is_that_of_the_codes() -> None:
+    assert SOLVERS[solvers.EXACT] == "exact"
+    assert SOLVERS[solvers.ASYMPTOTIC] == "asymptotic"
+    assert SOLVERS[solvers.ENVELOPE] == "envelope"
+
+
+def test_a_loop_compiles_its_own_solver_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cache, "place", lambda: cache.Place(tmp_path))
+    monkeypatch.setattr(scene, "solve_curve", None)  # to compile this would be an error
+    monkeypatch.setattr(asymptotic_cycle, "solve_curve", None)
+    out, _ = run(solvers.loop_of(solvers.ENVELOPE), np.array([[0.3, 0.7]]))
+    assert np.isfinite(out[:, [0, 2]]).all()
+
+
+def test_loops_are_kept_on_disk() -> None:
+    for solver in SOLVERS:
+        solve(SCENE, OUTPUTS, solver=solver)
+    if not cache.CACHE_FOLDER.is_dir():
+        pytest.skip("no folder for compiled code")
+    code = (
+        "from gradhesion.core import OUTPUTS, solve, solvers\n"
+        f"for name, loop in solvers.LOOPS.items(): solve({SCENE!r}, OUTPUTS, solver=name, threads=1)\n"
+        "print([sum(loop.stats.cache_misses.values()) for loop in solvers.LOOPS.values()])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "[0, 0, 0]\n"
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_only_the_curves_of_the_index_are_solved(solver: str) -> None:
+    out, status = run(solvers.LOOPS[solver], np.array([[0.3, 0.7]]))
+    assert np.all(out[:, 1] == -7.0)
+    np.testing.assert_array_equal((status & NO_VALUE) != 0, [[False, False], [True, True], [False, False]])
+    # rims of their own, the same for all curves
+    own, _ = run(solvers.LOOPS[solver], np.array([[0.3, 0.7]] * 3))
+    np.testing.assert_array_equal(out, own)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"modulus": math.nan},
+        {"modulus": math.inf},
+        {"modulus": -90.0},
+        {"modulus": 1e300, "c0_over_R": 1e-300},
+        {"lambda_over_R": 0.0},
+        {"lambda_over_R": math.inf},
+        {"A": -1e-3},
+        {"A": math.inf},
+        {"A": math.nan},
+    ],
+)
+def test_a_curve_out_of_range_has_no_value(solver: str, change: dict[str, float]) -> None:
+    result = solve(SCENE | change | {"k": 0.9, "a_max_over_R": [0.3, math.inf]}, OUTPUTS, solver=solver)
+    assert np.all(result["status"] == NO_VALUE)
+    for name in OUTPUTS:
+        assert (
+            np.all(result[name] == -1) if name in ("loading_jumps", "unloading_jumps") else np.isnan(result[name]).all()
+        )
