@@ -11,8 +11,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.arrays.grouping import Grouped, grouped
-from gradhesion.core.arrays.tables import table_of
+from gradhesion.core.arrays.grouping import Grouped, Task, grouped
+from gradhesion.core.arrays.tables import tables_for
 from gradhesion.core.curve.branches import ROWS
 from gradhesion.core.problem.material import fill_stiffness
 from gradhesion.core.problem.names import PARAMETERS, PULL_OFF, REPORTS, RESULTS
@@ -22,19 +22,27 @@ from gradhesion.core.scene.cosine_report import NEEDED, report_curves
 from gradhesion.core.scene.solvers import LOOPS, PULL_OFF_LOOP
 from gradhesion.core.turning.cosine import turn_curves
 
-_BRANCHES: Final = 192
+BRANCHES: Final = 192
 """Branches of a curve that a task has room for."""
 
 
-def _run(curves: Grouped, workers: int, work: Callable[[Any, NDArray[np.int64], NDArray[np.float64]], None]) -> None:
-    """Do the work on every task: with the table of its exponent, the numbers of its curves, and their stiffness."""
-    stiffnesses = np.empty(curves.k.size)
+def run_tasks(
+    curves: Grouped,
+    workers: int,
+    work: Callable[[NDArray[Any], Task, NDArray[np.float64]], None],
+    *,
+    forces: bool = False,
+) -> None:
+    """Do the work on every task: with the tables of its exponents, the task itself, and the stiffness of all curves.
 
-    def one(task: tuple[float, NDArray[np.int64]]) -> None:
-        exponent, index = task
-        fill_stiffness(exponent, index, curves.nu, curves.modulus, curves.c0_over_R, stiffnesses)
-        # beyond 0 to 1 the stiffness has no value
-        work(table_of(exponent if 0.0 <= exponent <= 1.0 else 0.0), index, stiffnesses)
+    With `forces` the tables serve pull-off forces alone.
+    """
+    stiffness = np.empty(curves.k.size)
+
+    def one(task: Task) -> None:
+        tables = tables_for(task, forces=forces)
+        fill_stiffness(tables, task.which, task.index, curves.k, curves.nu, curves.modulus, curves.c0_over_R, stiffness)
+        work(tables, task, stiffness)
 
     tasks = curves.tasks()
     workers = min(workers, len(tasks))
@@ -70,14 +78,14 @@ def solve_cosine(
     status = np.zeros(curves.size, dtype=np.int8)
     solve_curves = PULL_OFF_LOOP if solver == "exact" and set(outputs) <= set(PULL_OFF) else LOOPS[solver]
 
-    def work(table: Any, index: NDArray[np.int64], stiffnesses: NDArray[np.float64]) -> None:
-        scratch = np.empty((ROWS, _BRANCHES))
-        curves_of = (table, index, stiffnesses, curves.lambda_over_R, curves.A, rims)
+    def work(tables: NDArray[Any], task: Task, stiffness: NDArray[np.float64]) -> None:
+        scratch = np.empty((ROWS, BRANCHES))
+        curves_of = (tables, task.which, task.index, stiffness, curves.lambda_over_R, curves.A, rims)
         solve_curves(*curves_of, slots, out, status, scratch)
         if reports:
             report_curves(*curves_of, slots, slots_of_reports, out, status, scratch)
 
-    _run(curves, workers, work)
+    run_tasks(curves, workers, work, forces=solve_curves is PULL_OFF_LOOP)
     if without_rim.any():
         out[:, np.broadcast_to(without_rim, status.shape)] = math.nan
         status[np.broadcast_to(without_rim, status.shape)] = NO_VALUE
@@ -106,10 +114,10 @@ def turning_cosine(
     radii = np.empty(curves.size)
     flags = np.zeros(curves.size, dtype=np.int8)
 
-    def work(table: Any, index: NDArray[np.int64], stiffnesses: NDArray[np.float64]) -> None:
-        scratch = np.empty((ROWS, _BRANCHES))
-        curves_of = (table, index, stiffnesses, curves.lambda_over_R, curves.A, rims, targets)
+    def work(tables: NDArray[Any], task: Task, stiffness: NDArray[np.float64]) -> None:
+        scratch = np.empty((ROWS, BRANCHES))
+        curves_of = (tables, task.which, task.index, stiffness, curves.lambda_over_R, curves.A, rims, targets)
         turn_curves(*curves_of, turn == "load_max", check_contact, radii, flags, scratch)
 
-    _run(curves, workers, work)
+    run_tasks(curves, workers, work)
     return radii.reshape(curves.shape), flags.reshape(curves.shape)

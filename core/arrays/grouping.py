@@ -12,6 +12,32 @@ from gradhesion.core.problem.names import PARAMETERS
 
 _TASK: Final = 2048
 """Scenes a task: some milliseconds, a thousand times the cost of handing it to a thread."""
+_FEW: Final = 64
+"""Curves of an exponent from which on a table of its own is worth its time."""
+_TOGETHER: Final = 64
+"""Exponents of few curves that are one task."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """Curves that are worked on at once.
+
+    Attributes
+    ----------
+    exponents
+        Their gradient exponents, shape (exponents,): one, or many of few curves each.
+    which
+        Of each curve, the number of its exponent; shape (curves,).
+    index
+        Of each curve, its number among all; shape (curves,).
+    interpolated
+        Whether its tables are worth no more than being interpolated (struve/interpolated.py).
+    """
+
+    exponents: NDArray[np.float64]
+    which: NDArray[np.int64]
+    index: NDArray[np.int64]
+    interpolated: bool = False
 
 
 @dataclass(frozen=True)
@@ -46,24 +72,38 @@ class Grouped:
         """The number of curves, and of rims on each."""
         return self.k.size, self.rims[0].shape[1]
 
-    def tasks(self) -> list[tuple[float, NDArray[np.int64]]]:
-        """Cut the curves into tasks of one exponent each."""
+    def tasks(self) -> list[Task]:
+        """Cut the curves into tasks: those of one exponent, or those of many exponents that have few curves each."""
         k, size = self.k, max(1, _TASK // max(1, self.rims[0].shape[1]))
         if k.size == 0:
             return []
         order = np.arange(k.size) if np.all(k[1:] >= k[:-1]) else np.argsort(k, kind="stable")
         ordered = k[order]
         first = np.flatnonzero(np.concatenate([[True], ordered[1:] != ordered[:-1]]))
+        counts = np.diff(first, append=k.size)
+        few = counts < _FEW
+        if few.sum() < 2 * _TOGETHER:
+            few[:] = False
         tasks = []
-        for exponent, group in zip(ordered[first].tolist(), np.split(order, first[1:]), strict=True):
-            tasks += [(exponent, group[i : i + size]) for i in range(0, group.size, size)]
+        for begin, count in zip(first[~few].tolist(), counts[~few].tolist(), strict=True):
+            group = order[begin : begin + count]
+            for i in range(0, count, size):
+                index = group[i : i + size]
+                tasks.append(Task(ordered[begin : begin + 1], np.zeros(index.size, dtype=np.int64), index))
+        exponents, left = ordered[first[few]], order[np.repeat(few, counts)]
+        ends = np.cumsum(counts[few])
+        together = max(1, min(_TOGETHER, size))
+        for i in range(0, exponents.size, together):
+            begin, end = ends[i] - counts[few][i], ends[min(i + together, exponents.size) - 1]
+            which = np.repeat(np.arange(min(together, exponents.size - i)), counts[few][i : i + together])
+            tasks.append(Task(exponents[i : i + together], which, left[begin:end], interpolated=True))
         return tasks
 
 
 def _shared_axes(shapes: Sequence[tuple[int, ...]], dimensions: int) -> int:
     """Return how many of the last axes no parameter of a curve varies along."""
     for axis in range(dimensions):
-        if any(shape[dimensions - 1 - axis] > 1 for shape in shapes):
+        if any(shape[dimensions - 1 - axis] != 1 for shape in shapes):
             return axis
     return dimensions
 
@@ -96,6 +136,6 @@ def grouped(
     lead = (slice(None),) * len(curve_shape) + (0,) * shared
     own = any(length > 1 for array in of_rims for length in array.shape[: len(curve_shape)])
     rows = curve_shape if own else (1,) * len(curve_shape)
-    rims = tuple(_flat(array, rows + rim_shape).reshape(-1, math.prod(rim_shape)) for array in of_rims)
+    rims = tuple(_flat(array, rows + rim_shape).reshape(math.prod(rows), math.prod(rim_shape)) for array in of_rims)
     k, nu, modulus, c0, wavelength, amplitude, *others = (_flat(array[lead], curve_shape) for array in of_curves)
     return Grouped(shape, k, nu, modulus, c0, wavelength, amplitude, rims, tuple(others))

@@ -6,13 +6,36 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.core.arrays.grouping import Task
 from gradhesion.core.struve.cosine_bins import build_cosine_bins
+from gradhesion.core.struve.interpolated import interpolated_tables
 from gradhesion.core.struve.series import with_table
 from gradhesion.core.struve.series_table import has_table
 from gradhesion.core.struve.table import build_table
 
-table_of = lru_cache(maxsize=128)(build_table)
-"""The table of an exponent, kept for the next call (56 kB each)."""
+
+@lru_cache(maxsize=128)
+def _own(k: float) -> NDArray[Any]:
+    return np.array([build_table(k)])
+
+
+def table_of(k: float) -> Any:
+    """Return the table of an exponent, kept for the next call (75 kB each)."""
+    return _own(k)[0]
+
+
+def interpolated_table(k: float) -> Any:
+    """Return the table of an exponent at a tenth of the time, with larger errors."""
+    return interpolated_tables(np.array([k]), forces=False)[0]
+
+
+def tables_for(task: Task, *, forces: bool = False) -> NDArray[Any]:
+    """Return the tables of a task, shape (exponents,): that of exponent 0 for what is no exponent.
+
+    With `forces` only pull-off forces are read from them.
+    """
+    exponents = np.where((task.exponents >= 0.0) & (task.exponents <= 1.0), task.exponents, 0.0)
+    return interpolated_tables(exponents, forces=forces) if task.interpolated else _own(float(exponents[0]))
 
 
 @lru_cache(maxsize=128)

@@ -15,28 +15,43 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core._jit import kernel
+from gradhesion.core.struve.theta import front_of, gammas_by_table, gammas_of, sinc
 
 
 @kernel(entry=True)
-def _sinc(x: float) -> float:
-    """Return sin(pi x)/(pi x)."""
-    return math.sin(math.pi * x) / (math.pi * x) if x != 0.0 else 1.0
+def _square(k: float, nu: float) -> float:
+    """Return beta^2 without cancellation at k = 1, nu = 1/2."""
+    return (1.0 + k) * ((1.0 - k) * nu + (1.0 - 2.0 * nu)) / (1.0 - nu)
+
+
+@kernel(entry=True)
+def _rest(k: float, nu: float) -> float:
+    """Return cos(k pi/2)/(beta sin(beta pi/2)) times sinc(beta/2): (1-k)/beta^2 sinc((1-k)/2)."""
+    rest = 1.0 - k  # exact near k = 1
+    quotient = (1.0 - nu) / ((1.0 + k) * (nu + (1.0 - 2.0 * nu) / rest)) if rest > 0.0 else 0.5
+    return quotient * sinc(0.5 * rest)
+
+
+@kernel(entry=True)
+def _is_out_of_range(k: float, nu: float) -> bool:
+    """Return whether theta has no value: outside 0 <= k <= 1, -1 < nu <= 1/2, and at k = 1, nu < 1/2 (no stiffness)."""
+    return not (0.0 <= k <= 1.0 and -1.0 < nu <= 0.5) or (k == 1.0 and nu < 0.5)
 
 
 @kernel()
 def theta_of(k: float, nu: float) -> float:
-    """Return theta, NaN outside 0 <= k <= 1, -1 < nu <= 1/2 and at k = 1, nu < 1/2 (no stiffness)."""
-    if not (0.0 <= k <= 1.0 and -1.0 < nu <= 0.5) or (k == 1.0 and nu < 0.5):
+    """Return theta, NaN out of range."""
+    if _is_out_of_range(k, nu):
         return math.nan
-    rest = 1.0 - k  # exact near k = 1
-    square = (1.0 + k) * (rest * nu + (1.0 - 2.0 * nu)) / (1.0 - nu)  # beta^2 without cancellation at k = 1, nu = 1/2
-    beta = math.sqrt(square)
-    # cos(k pi/2)/(beta sin(beta pi/2)) = (1-k)/beta^2 sinc((1-k)/2)/sinc(beta/2)
-    quotient = (1.0 - nu) / ((1.0 + k) * (nu + (1.0 - 2.0 * nu) / rest)) if rest > 0.0 else 0.5
-    quotient *= _sinc(0.5 * rest) / _sinc(0.5 * beta)
-    gammas = math.gamma(1.0 + 0.5 * k) / math.gamma(0.5 * (1.0 + k)) * math.gamma(2.0 + k)
-    gammas /= math.gamma(0.5 * (3.0 + k + beta)) * math.gamma(0.5 * (3.0 + k - beta))
-    return math.sqrt(math.pi) * (1.0 + k) * gammas * quotient
+    return front_of(k) * gammas_of(k, _square(k, nu)) * _rest(k, nu)
+
+
+@kernel()
+def _theta_by_table(table: Any, k: float, nu: float) -> float:
+    """Return theta, NaN out of range; the table is that of k, if k has one."""
+    if _is_out_of_range(k, nu):
+        return math.nan
+    return table.theta_front * gammas_by_table(table, _square(k, nu)) * _rest(k, nu)
 
 
 @kernel(entry=True)
@@ -71,15 +86,21 @@ def theta(k: ArrayLike, nu: ArrayLike) -> NDArray[np.float64]:
 
 
 @kernel()
-def fill_stiffness(k: float, index: Any, nu: Any, modulus: Any, c0_over_R: Any, out: Any) -> None:
-    """Put M R^(1+k)/dgamma of the scenes `index`, all of one exponent, into `out`; NaN outside the ranges."""
-    value, last = math.nan, math.nan
+def fill_stiffness(
+    tables: Any, which: Any, index: Any, k: Any, nu: Any, modulus: Any, c0_over_R: Any, out: Any
+) -> None:
+    """Put M R^(1+k)/dgamma of the scenes `index` into `out`, NaN outside the ranges; `which` are their tables."""
+    value, power = math.nan, math.nan
+    before = index[0] if index.size > 0 else 0
     for j in range(index.size):
         i = index[j]
-        if nu[i] != last:
-            value, last = theta_of(k, nu[i]), nu[i]
+        if j == 0 or k[i] != k[before] or nu[i] != nu[before]:
+            value = _theta_by_table(tables[which[j]], k[i], nu[i])
+        if j == 0 or k[i] != k[before] or c0_over_R[i] != c0_over_R[before]:
+            power = c0_over_R[i] ** k[i]
+        before = i
         valid = modulus[i] > 0.0 and c0_over_R[i] > 0.0
-        out[i] = value * modulus[i] / c0_over_R[i] ** k if valid else math.nan
+        out[i] = value * modulus[i] / power if valid else math.nan
 
 
 def stiffness(k: ArrayLike, nu: ArrayLike, modulus: ArrayLike, c0_over_R: ArrayLike) -> NDArray[np.float64]:

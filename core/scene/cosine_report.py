@@ -149,6 +149,7 @@ def _report_energy(
     else:
         count, trace = walk(table, curve, arches, x, scratch, YES)
         error = _ROUNDING * scale * _energy_terms(table, curve, count, trace, x)
+    error *= table.rounding
     terms = scale * _energy_terms(table, curve, count, trace, x)
     if error > _PROMISED * terms:
         status[i] |= TOLERANCE_NOT_MET
@@ -228,7 +229,7 @@ def _report_curve(
         put(out, slots, SATURATION, i, saturation)
         if slots[FORCE_ERROR] >= 0:
             x = out[results[RADIUS], i] / wavelength
-            out[slots[FORCE_ERROR], i] = _ROUNDING * force_scale * _force_terms(table, curve, x)
+            out[slots[FORCE_ERROR], i] = _ROUNDING * table.rounding * force_scale * _force_terms(table, curve, x)
         if slots[ENERGY_ERROR] >= 0 or slots[RESIDUAL] >= 0:
             x = rims[i] / wavelength
             scale = TWO_PI * length * length
@@ -237,7 +238,8 @@ def _report_curve(
 
 @kernel()
 def report_curves(
-    table: Any,
+    tables: Any,
+    which: Any,
     index: Any,
     stiffness: Any,
     wavelength: Any,
@@ -249,11 +251,10 @@ def report_curves(
     status: Any,
     scratch: Any,
 ) -> None:
-    """Report on the curves `index` of one gradient exponent; `results` are the slots of what is solved already."""
-    constants = smooth.smooth_constants(table.k)
-    front = 2.0 ** (1.0 + table.k) * math.pi
+    """Report on the curves `index`, `which` are their tables; `results` are the slots of what is solved already."""
     for j in range(index.size):
-        i = index[j]
+        i, table = index[j], tables[which[j]]
+        constants, front = smooth.smooth_constants(table.k), 2.0 ** (1.0 + table.k) * math.pi
         row = rims[i if rims.shape[0] > 1 else 0]
         values, flags = out[:, i], status[i]
         stretch = math.sqrt(front / stiffness[i])

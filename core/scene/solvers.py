@@ -1,4 +1,4 @@
-"""The solvers, and the one loop over the curves of a gradient exponent that they share.
+"""The solvers, and the one loop over curves that they share.
 
 The solver is a constant of the loop: numba drops the branches of the others before it looks at them, so that only the
 solver in use is compiled, and keeps one version of the loop for each. (A loop that took the solver as an argument, or
@@ -32,7 +32,8 @@ def loop_of(solver: int) -> Callable[..., None]:
 
     @kernel()
     def solve_curves(
-        table: Any,
+        tables: Any,
+        which: Any,
         index: Any,
         stiffness: Any,
         wavelength: Any,
@@ -43,11 +44,14 @@ def loop_of(solver: int) -> Callable[..., None]:
         status: Any,
         scratch: Any,
     ) -> None:
-        """Solve the curves `index` of one gradient exponent; `rims` has one row, or one a curve."""
-        constants = smooth_constants(table.k)
-        front = 2.0 ** (1.0 + table.k) * math.pi
+        """Solve the curves `index`, `which` are the tables of theirs; `rims` has one row, or one a curve."""
+        table = tables[0]
+        constants, front = smooth_constants(table.k), 2.0 ** (1.0 + table.k) * math.pi
         for j in range(index.size):
             i = index[j]
+            if which[j] != (which[j - 1] if j > 0 else 0):
+                table = tables[which[j]]
+                constants, front = smooth_constants(table.k), 2.0 ** (1.0 + table.k) * math.pi
             row = rims[i if rims.shape[0] > 1 else 0]
             values, flags = out[:, i], status[i]
             stretch = math.sqrt(front / stiffness[i])  # s = sqrt(2^(1+k) pi dgamma/M)

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.arrays.cosine import _BRANCHES, _run
-from gradhesion.core.arrays.grouping import grouped
-from gradhesion.core.arrays.tables import table_of
+from gradhesion.core.arrays.cosine import BRANCHES, run_tasks
+from gradhesion.core.arrays.grouping import Task, grouped
+from gradhesion.core.arrays.tables import interpolated_table, table_of
 from gradhesion.core.curve.branches import ROWS
 from gradhesion.core.sensitivities.cosine_slopes import COUNT, sense_curves
 from gradhesion.core.sensitivities.neighbours import neighbours_of
@@ -50,11 +50,13 @@ def sense_cosine(
     energies, radii = (np.ascontiguousarray(array.reshape(curves.size)) for array in (energies, radii))
     found = np.full((3, COUNT, *curves.size), math.nan)
 
-    def work(table: Any, index: NDArray[np.int64], stiffnesses: NDArray[np.float64]) -> None:
-        scratch = np.empty((ROWS, _BRANCHES))
-        near = neighbours_of(float(table["k"]), table_of)
-        curves_of = (index, stiffnesses, curves.lambda_over_R, curves.A, rims)
-        sense_curves(table, *near, *curves_of, force, energy, energies, radii, turned, found, status, scratch)
+    def work(tables: NDArray[Any], task: Task, stiffness: NDArray[np.float64]) -> None:
+        scratch = np.empty((ROWS, BRANCHES))
+        source = interpolated_table if task.interpolated else table_of
+        for number, table in enumerate(tables):
+            near = neighbours_of(float(table["k"]), source)
+            curves_of = (task.index[task.which == number], stiffness, curves.lambda_over_R, curves.A, rims)
+            sense_curves(table, *near, *curves_of, force, energy, energies, radii, turned, found, status, scratch)
 
-    _run(curves, workers, work)
+    run_tasks(curves, workers, work)
     return found.reshape((3, COUNT, *curves.shape))

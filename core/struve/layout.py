@@ -34,10 +34,12 @@ ARCHES: Final = 256
 """Arches of the fold function that are tabulated, two a wave; those further out are found when asked for."""
 FRACTIONAL_NODES: Final = 16
 """Nodes of the fractional integral over one wave: its polynomial leaves 1e-10 of a cosine."""
+THETA_TERMS: Final = 16
 
 TABLE: Final = np.dtype(
     [
         ("k", "f8"),
+        ("rounding", "f8"),  # its errors over those of a table that is built for its exponent
         ("amplitude", "f8"),  # C = 2^((k-1)/2) G((1+k)/2), the amplitude of z^((1+k)/2) S0
         ("phase", "f8"),  # phi = (1+k) pi/4
         ("cos_phase", "f8"),  # C cos phi
@@ -53,6 +55,8 @@ TABLE: Final = np.dtype(
         ("moment_logarithm", "f8"),
         ("arches", "f8", (ARCHES + 1, 6)),  # x, X, Q at the inner edge, then at the summit; see arches.py
         ("fractional", "f8", (FRACTIONAL_NODES, FRACTIONAL_NODES + 1)),  # see fractional.py
+        ("theta", "f8", (THETA_TERMS,)),  # see theta.py
+        ("theta_front", "f8"),  # sqrt(pi) (1+k) G(1+k/2) G(2+k)/G((1+k)/2)
     ],
     align=True,
 )

@@ -11,14 +11,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.struve import arches, bins, fractional, large, moments
+from gradhesion.core.struve import arches, bins, fractional, large, moments, theta
 from gradhesion.core.struve.layout import TABLE
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.power import build_power
 
 
-@kernel(entry=True)
-def _fill(table: Any, k: float, economisation: Any, nodes: Any, fit: Any, moment_economisation: Any) -> None:
+@kernel()
+def fill_constants(table: Any, k: float) -> None:
+    """Fill the constants of the amplitude and the phase."""
     table.k = k
     amplitude = 2.0 ** (0.5 * (k - 1.0)) * math.gamma(0.5 * (k + 1.0))
     table.amplitude = amplitude
@@ -27,18 +28,36 @@ def _fill(table: Any, k: float, economisation: Any, nodes: Any, fit: Any, moment
     cosine, sine = math.cos(0.25 * math.pi * k), math.sin(0.25 * math.pi * k)
     table.cos_phase = math.sqrt(0.5) * amplitude * (cosine - sine)
     table.sin_phase = math.sqrt(0.5) * amplitude * (cosine + sine)
+
+
+@kernel(entry=True)
+def _fill(
+    table: Any,
+    k: float,
+    economisation: Any,
+    nodes: Any,
+    fit: Any,
+    moment_economisation: Any,
+    theta_nodes: Any,
+    theta_fit: Any,
+) -> None:
+    fill_constants(table, k)
+    table.rounding = 1.0
     bins.build_bins(k, table.bins, economisation)
     large.build_tail(k, table.tail, nodes, fit)
     build_power(k, table.power_mantissa, table.power_exponent)
     moments.build_moments(table, moment_economisation)
     arches.build_arches(table)
     fractional.build_fractional(k, table.fractional)
+    theta.build_theta(k, table.theta, theta_nodes, theta_fit)
+    table.theta_front = theta.front_of(k)
 
 
 def build_table(k: float) -> Any:
     """Return the table of the gradient exponent 0 <= k <= 1, one record of layout.TABLE."""
     table = np.zeros(1, dtype=TABLE)[0]
-    _fill(table, float(k), bins.ECONOMISATION, large.NODES, large.FIT, moments.ECONOMISATION)
+    of_bins = (bins.ECONOMISATION, large.NODES, large.FIT, moments.ECONOMISATION)
+    _fill(table, float(k), *of_bins, theta.NODES, theta.FIT)
     return table
 
 

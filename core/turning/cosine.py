@@ -223,7 +223,8 @@ def _turn_curve(
 
 @kernel()
 def turn_curves(
-    table: Any,
+    tables: Any,
+    which: Any,
     index: Any,
     stiffness: Any,
     wavelength: Any,
@@ -236,11 +237,11 @@ def turn_curves(
     flags: Any,
     scratch: Any,
 ) -> None:
-    """Find where the curves `index` of one gradient exponent turn.
+    """Find where the curves `index` turn.
 
     Parameters
     ----------
-    table, index, stiffness, wavelength, amplitude, rims, scratch
+    tables, which, index, stiffness, wavelength, amplitude, rims, scratch
         As those of the loops of scene/solvers.py.
     targets
         What the cycles turn at, of the shape of the rims: depths in R, or loads in 1.5 pi R dgamma.
@@ -249,10 +250,10 @@ def turn_curves(
     radii, flags
         The results, of the shape (curves, rims): a/R, 0 without contact, NaN without a value; and bits of the status.
     """
-    k = table.k
-    front = 2.0 ** (1.0 + k) * math.pi
     for j in range(index.size):
-        i = index[j]
+        i, table = index[j], tables[which[j]]
+        k = table.k
+        front = 2.0 ** (1.0 + k) * math.pi
         row = i if rims.shape[0] > 1 else 0
         stretch = math.sqrt(front / stiffness[i])
         if not (0.0 < stretch < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf):

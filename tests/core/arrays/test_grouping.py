@@ -1,0 +1,53 @@
+"""Scenes in groups, and groups in tasks."""
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from gradhesion.core.arrays.grouping import Grouped, grouped
+
+
+def curves_of(k: NDArray[np.float64], rims: int = 1) -> Grouped:
+    """Give curves of some exponents with as many rims each."""
+    rest = {"nu": 0.3, "modulus": 100.0, "c0_over_R": 0.1, "lambda_over_R": 0.1, "A": 0.01}
+    return grouped({"k": k[:, None], **rest, "a_max_over_R": np.linspace(0.1, 1.0, rims)})
+
+
+@pytest.mark.parametrize("rims", [1, 100])
+@pytest.mark.parametrize(
+    "counts", [[5000], [3, 1, 4], [1] * 1000, [70] * 10 + [2] * 500, [1] * 100, [63] * 128 + [64] * 3]
+)
+def test_every_curve_is_in_one_task(counts: list[int], rims: int) -> None:
+    rng = np.random.default_rng(1)
+    k = rng.permutation(np.repeat(rng.uniform(0.0, 1.0, len(counts)), counts))
+    tasks = curves_of(k, rims).tasks()
+    found = np.concatenate([task.index for task in tasks])
+    np.testing.assert_array_equal(np.sort(found), np.arange(k.size))
+    for task in tasks:
+        assert task.which.shape == task.index.shape
+        np.testing.assert_array_equal(task.exponents[task.which], k[task.index])
+        assert task.index.size * rims <= 64 * 2048
+        assert task.interpolated or task.exponents.size == 1
+
+
+def test_exponents_of_few_curves_share_a_task() -> None:
+    rng = np.random.default_rng(2)
+    many = rng.uniform(0.0, 1.0, 10_000)
+    tasks = curves_of(many).tasks()
+    assert all(task.interpolated for task in tasks)
+    assert len(tasks) == -(-many.size // 64)
+    few = np.repeat(many[:40], 10)  # tables of their own, which are kept, cost no more
+    assert not any(task.interpolated for task in curves_of(few).tasks())
+    mixed = curves_of(np.concatenate([np.full(500, 0.3), many])).tasks()
+    own = [task for task in mixed if not task.interpolated]
+    assert [(task.exponents.tolist(), task.index.size) for task in own] == [([0.3], 500)]
+
+
+def test_no_curve_no_task() -> None:
+    assert curves_of(np.empty(0)).tasks() == []
+
+
+def test_what_is_no_exponent_is_in_a_task_too() -> None:
+    k = np.concatenate([[np.nan, np.nan, -1.0, 2.0], np.random.default_rng(3).uniform(0.0, 1.0, 300)])
+    found = np.concatenate([task.index for task in curves_of(k).tasks()])
+    np.testing.assert_array_equal(np.sort(found), np.arange(k.size))
