@@ -204,7 +204,7 @@ def test_regular_waves_alone(k: float, table_of: Callable[[float], Any]) -> None
 
 
 def _scenes() -> dict[str, Array]:
-    file = Path(__file__).parents[1] / "reference" / "scenes.json"
+    file = Path(__file__).parents[2] / "reference" / "scenes.json"
     rows = [scene["parameters"] for scene in json.loads(file.read_text(encoding="utf-8"))["scenes"]]
     return {
         name: np.array([math.inf if row[name] is None else float(row[name]) for row in rows]) for name in PARAMETERS

@@ -16,7 +16,7 @@ from gradhesion.core import FAILED, OUTPUTS, PARAMETERS, solve
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.status import JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, PULL_OFF_AT_RIM
 
-TESTS = Path(__file__).parents[1]
+TESTS = Path(__file__).parents[2]
 EPS = 2.0**-52
 FORCE, ENERGY, RADIUS = 24 * EPS, 64 * EPS, 1e-13
 """Asked are 5e-14, 1e-12 and 1e-7. The reduction to b and g is some twelve roundings, the powers among them of 3 ulp, and

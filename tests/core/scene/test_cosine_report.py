@@ -13,7 +13,7 @@ from gradhesion.core.equations.jkr import indentation
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.status import NO_VALUE, TOLERANCE_NOT_MET
 
-STORED = Path(__file__).parents[1] / "twin" / "scenes.json"
+STORED = Path(__file__).parents[2] / "twin" / "scenes.json"
 SCENE: dict[str, Any] = {
     "k": 0.3,
     "nu": 0.3,

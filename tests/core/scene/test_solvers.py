@@ -28,8 +28,9 @@ def run(loop: Any, rims: np.ndarray, curves: int = 3) -> tuple[np.ndarray, np.nd
     )
     stiffness, wavelength, amplitude = np.linspace(70, 90, curves), np.full(curves, 0.1), np.full(curves, 0.01)
     index, slots = np.array([0, curves - 1]), np.arange(len(OUTPUTS) + 1)
+    tables, which = np.array([table_of(0.2)]), np.zeros(2, dtype=np.int64)
     scratch = np.empty((ROWS, 192))
-    loop(table_of(0.2), index, stiffness, wavelength, amplitude, rims, slots, out, status, scratch)
+    loop(tables, which, index, stiffness, wavelength, amplitude, rims, slots, out, status, scratch)
     return out, status
 
 
@@ -53,7 +54,8 @@ def test_loops_are_kept_on_disk() -> None:
     if not cache.CACHE_FOLDER.is_dir():
         pytest.skip("no folder for compiled code")
     code = (
-        "from gradhesion.core import OUTPUTS, solve, solvers\n"
+        "from gradhesion.core import OUTPUTS, solve\n"
+        "from gradhesion.core.scene import solvers\n"
         f"for name, loop in solvers.LOOPS.items(): solve({SCENE!r}, OUTPUTS, solver=name, threads=1)\n"
         "print([sum(loop.stats.cache_misses.values()) for loop in solvers.LOOPS.values()])\n"
     )
