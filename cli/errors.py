@@ -13,7 +13,7 @@ EXIT_CODES: Final = {
     3: "written, but some scenes have failed (their `status` reports why); or `verify` has found a value beyond its "
     "stated error",
     4: "the output cannot be written (it exists, no space, no permission, another run is writing it, or parts of "
-    "another study are kept), or the scheduler is gone; existing files are untouched",
+    "another study are kept), or the scheduler or all workers are gone; existing files are untouched",
     130: "interrupted; existing files are untouched, finished parts are kept, and the same command resumes",
     141: "the reader of the output has closed it, as with `| head`",
 }

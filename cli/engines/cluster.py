@@ -9,6 +9,7 @@ from gradhesion.cli.engines import Work
 from gradhesion.cli.engines.dispatch import Dispatch
 from gradhesion.cli.engines.local import local_client
 from gradhesion.cli.engines.scheduler import client_of, silent
+from gradhesion.cli.engines.watch import DESERTED, DESERTED_HERE
 from gradhesion.cli.work.kernels import compile_kinds, kinds_of
 from gradhesion.cli.work.parts import key_of
 from gradhesion.cli.work.resume import Solved, found
@@ -33,7 +34,7 @@ class Cluster:
         ClusterError
             No scheduler answers, or no worker is usable.
         OutputError
-            A part cannot be written, or the scheduler is lost.
+            A part cannot be written, the scheduler is lost, or it has no worker for too long.
         """
         study, left = work.study, []
         for number in work.numbers:
@@ -49,7 +50,17 @@ class Cluster:
         if self.scheduler is None:
             compile_kinds(kinds_of(study))  # before there are processes that would all do so
         with silent(), self._client(len(left)) as client:
-            yield from Dispatch(client, work, quiet=self.quiet).results(left)
+            dispatch = Dispatch(client, work, deserted=self._deserted(), quiet=self.quiet)
+            yield from dispatch.results(left)
+
+    def _deserted(self) -> float:
+        """Give the seconds without any worker after which a run ends."""
+        import dask  # noqa: PLC0415 (not there without the extra)
+
+        own = dask.config.get("distributed.scheduler.no-workers-timeout", None)
+        if own is not None:
+            return float(dask.utils.parse_timedelta(own))
+        return DESERTED_HERE if self.scheduler is None else DESERTED
 
     def _client(self, most: int) -> AbstractContextManager[Any]:
         """Make a client of the scheduler, or of a cluster of this machine."""

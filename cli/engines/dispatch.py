@@ -8,7 +8,7 @@ from typing import Any, Final
 
 from gradhesion.cli.engines import Work
 from gradhesion.cli.engines.scheduler import asked
-from gradhesion.cli.engines.watch import Watch
+from gradhesion.cli.engines.watch import Watch, without_workers
 from gradhesion.cli.engines.worker import RefusedError, UnsolvedError, UnwritableError, carry_out, needed, seen
 from gradhesion.cli.errors import ClusterError, OutputError
 from gradhesion.cli.terminal import interrupts
@@ -18,6 +18,8 @@ from gradhesion.cli.work.resume import Solved, blank, found
 TASKS: Final = 256
 """With the scheduler at least, so that a cluster that adapts sees what is to be done."""
 TASKS_A_THREAD: Final = 3
+WITHOUT_WORKER: Final = ("NoWorkerError", "NoValidWorkerError")
+"""What a task ends with that had no worker for as long as its scheduler lets it wait; the last argument is the time."""
 POLL: Final = 0.2
 """Seconds between two looks at what may have happened beside."""
 
@@ -25,10 +27,10 @@ POLL: Final = 0.2
 class Dispatch:
     """Hands out the blocks of a study."""
 
-    def __init__(self, client: Any, work: Work, *, quiet: bool = False) -> None:
+    def __init__(self, client: Any, work: Work, *, deserted: float, quiet: bool = False) -> None:
         self._client = client
         self._work = work
-        self._watch = Watch(client, quiet=quiet)
+        self._watch = Watch(client, deserted=deserted, quiet=quiet)
         self._order = (str(work.folder.path), work.study.sha256)
         self._needed = needed()
         self._count = 0
@@ -45,7 +47,7 @@ class Dispatch:
         ClusterError
             No worker can do the work.
         OutputError
-            A part cannot be written, or the scheduler is lost.
+            A part cannot be written, the scheduler is lost, or there is no worker for too long.
         """
         suspects = yield from self._together(numbers)
         for number in suspects:
@@ -97,6 +99,8 @@ class Dispatch:
                     )
                 case UnsolvedError() as error:
                     yield self._given_up(number, str(error))
+                case error if type(error).__name__ in WITHOUT_WORKER:
+                    raise without_workers(error.args[-1])
                 case error:
                     yield self._given_up(number, f"{type(error).__name__}: {error}")
         return killed

@@ -4,7 +4,7 @@ import time
 from typing import Any, Final
 
 from gradhesion.cli.engines.scheduler import asked, patience
-from gradhesion.cli.errors import ClusterError
+from gradhesion.cli.errors import ClusterError, OutputError
 from gradhesion.cli.terminal import messages
 
 PERIOD: Final = 1.0
@@ -13,17 +13,23 @@ LONELY: Final = 10.0
 """Seconds without a finished block until a message, if there is no worker; the next comes after twice the time."""
 STILL: Final = 600.0
 """The same if there are workers."""
+DESERTED: Final = 86_400.0
+"""Seconds without any worker after which a run ends: the jobs of workers may wait in a queue for hours."""
+DESERTED_HERE: Final = 60.0
+"""The same of a cluster of this machine, which replaces a worker that has died in seconds."""
 
 
 class Watch:
     """Watches the workers of a client."""
 
-    def __init__(self, client: Any, *, quiet: bool = False) -> None:
+    def __init__(self, client: Any, *, deserted: float, quiet: bool = False) -> None:
         self._client = client
+        self._deserted = deserted
         self._quiet = quiet
         self._refused: dict[str, str] = {}
         self._workers: dict[str, int] = {}
         self._looked = -PERIOD
+        self._seen = time.monotonic()
         self.moved()
 
     @property
@@ -69,7 +75,7 @@ class Watch:
         ClusterError
             All that are there are refused.
         OutputError
-            The scheduler is lost.
+            The scheduler is lost, or has had no worker for so long that none will come.
         """
         if time.monotonic() - self._looked < PERIOD:
             return
@@ -77,6 +83,10 @@ class Watch:
         self._workers = asked(client, lambda: client.sync(client.scheduler.ncores, callback_timeout=patience()))
         self._looked = time.monotonic()
         many = len(self._workers)
+        if many:
+            self._seen = self._looked
+        elif self._looked - self._seen > self._deserted:
+            raise without_workers(self._deserted)
         if many and not self.fit:
             worker = min(self._workers)
             raise ClusterError(
@@ -90,10 +100,29 @@ class Watch:
                 f"with {many:,} workers there; a block takes as long as `gradhesion plan` shows, and workers whose "
                 "lifetime is shorter finish none"
             )
-            sentence = f"no block has been finished for {seconds:.0f} s, {why if many else 'waiting for workers'}"
+            alone = f"waiting for workers; without any for {in_words(self._deserted)} the run ends"
+            sentence = f"no block has been finished for {seconds:.0f} s, {why if many else alone}"
             self._say("waiting", sentence, seconds=seconds, workers=many)
 
     def _say(self, event: str, sentence: str, **fields: Any) -> None:
         """Print a message, unless all is to be quiet."""
         if not self._quiet:
             messages.say(event, sentence, **fields)
+
+
+def without_workers(seconds: float) -> OutputError:
+    """Make the error of a run that no worker is left for."""
+    return OutputError(
+        f"--engine dask: no worker has been there for {in_words(seconds)}; finished parts are kept, and the same "
+        "command resumes once there are workers"
+    )
+
+
+def in_words(seconds: float) -> str:
+    """
+    Write down a time.
+
+    >>> in_words(60.0), in_words(86_400.0)
+    ('60 s', '24 h')
+    """
+    return f"{seconds:.3g} s" if seconds < 7200.0 else f"{seconds / 3600.0:.3g} h"

@@ -2,10 +2,12 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +23,8 @@ from pathlib import Path
 import gradhesion.cli.work.blocks as blocks
 
 orders = Path({folder!r})
+if (orders / "dead").exists():
+    os._exit(1)
 really = getattr(blocks.solve, "really", blocks.solve)  # it may be imported again
 
 def solve(parameters, *arguments, **options):
@@ -66,8 +70,15 @@ class Orders:
     def give(self, **order: Any) -> None:
         (self.folder / "new.json").write_text(json.dumps(order))
         (self.folder / "new.json").replace(self.folder / "order.json")
-        for path in self.folder.glob("*.busy"):
+        for path in (*self.folder.glob("*.busy"), *self.folder.glob("dead")):
             path.unlink()
+
+    def no_more(self) -> None:
+        """Have every worker die that works, and none start again."""
+        (self.folder / "dead").touch()
+        for process in self.busy():
+            with suppress(ProcessLookupError):
+                os.kill(process, signal.SIGKILL)
 
     def busy(self) -> list[int]:
         """The processes that have begun a block."""
@@ -77,11 +88,12 @@ class Orders:
 class ByHand:
     """A scheduler and workers that are started by hand."""
 
-    def __init__(self, folder: Path, orders: Orders) -> None:
+    def __init__(self, folder: Path, orders: Orders, **environment: str) -> None:
         self.file = folder / "scheduler.json"
         self.orders = orders
         self.processes: list[subprocess.Popen[bytes]] = []
-        self.scheduler = self.start("scheduler", "--host=127.0.0.1", "--port=0", "--dashboard-address=127.0.0.1:0")
+        options = ("--host=127.0.0.1", "--port=0", "--dashboard-address=127.0.0.1:0")
+        self.scheduler = self.start("scheduler", *options, **environment)
         deadline = time.monotonic() + 60
         while not self.file.exists() and time.monotonic() < deadline:
             time.sleep(0.01)

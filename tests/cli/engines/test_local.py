@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from itertools import product
 from pathlib import Path
@@ -85,6 +86,45 @@ def test_a_local_cluster_comes_and_goes(
     (worker,) = orders.busy()
     with pytest.raises(ProcessLookupError):
         os.kill(worker, 0)
+
+
+def test_workers_that_all_die_end_the_run_and_lose_nothing(
+    gradhesion: Call,
+    study_file: Path,
+    whole: dict[str, bytes],
+    output: Path,
+    orders: Orders,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Every worker is killed at its second block, and whatever is started in its place ends at once."""
+    monkeypatch.setattr("gradhesion.cli.engines.cluster.DESERTED_HERE", 3.0)
+    monkeypatch.setattr("gradhesion.cli.engines.watch.LONELY", 1.0)
+    orders.give(sleep=0.5)
+    folder = folder_of(output)
+
+    def end() -> None:
+        deadline = time.monotonic() + 60
+        while not folder.parts() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        orders.no_more()
+
+    thread = threading.Thread(target=end)
+    thread.start()
+    result = gradhesion("run", study_file, "-o", output, "--engine=dask", "--threads=1")
+    thread.join()
+    assert result.exit_code == 4, result.stderr
+    first, *_, last = result.stderr.splitlines()
+    assert first.endswith("waiting for workers; without any for 3 s the run ends")
+    assert last == (
+        "--engine dask: no worker has been there for 3 s; finished parts are kept, and the same command resumes once "
+        "there are workers"
+    )
+    kept = len(folder.parts())
+    assert 0 < kept < 6
+    assert not output.exists()
+    orders.give()
+    assert f"reused {kept} block" in gradhesion("run", study_file, "-o", output).stderr
+    assert values_of(output) == whole
 
 
 def test_an_interrupt_ends_workers_and_keeps_parts(tmp_path: Path) -> None:

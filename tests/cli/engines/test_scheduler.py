@@ -3,6 +3,7 @@
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ import pytest
 from distributed import Client
 
 from gradhesion.cli.work.folder import folder_of
-from tests.cli.engines.orders import HUGE, ByHand, Call, values_of
+from tests.cli.engines.orders import HUGE, ByHand, Call, Orders, values_of
 
 pytestmark = pytest.mark.slow
 
@@ -93,6 +94,47 @@ def test_a_scheduler_that_is_lost(
     ]
     assert not output.exists()
     by_hand.orders.give()
+    assert gradhesion("run", study_file, "-o", output).exit_code == 0
+    assert values_of(output) == whole
+
+
+@pytest.mark.parametrize("whose", ["client", "scheduler"])
+def test_a_scheduler_that_no_worker_is_left_for(
+    whose: str,
+    gradhesion: Call,
+    study_file: Path,
+    whole: dict[str, bytes],
+    output: Path,
+    tmp_path: Path,
+    orders: Orders,
+) -> None:
+    """The seconds are Dask's own setting: of this command, or of the scheduler, which then ends the tasks itself."""
+    timeout = {"DASK_DISTRIBUTED__SCHEDULER__NO_WORKERS_TIMEOUT": "1s"} if whose == "scheduler" else {}
+    cluster = ByHand(tmp_path, orders, **timeout)
+    try:
+        orders.give(sleep=0.5)
+        cluster.worker()
+
+        def end() -> None:
+            deadline = time.monotonic() + 60
+            while not folder_of(output).parts() and time.monotonic() < deadline:
+                time.sleep(0.01)
+            orders.no_more()
+
+        thread = threading.Thread(target=end)
+        thread.start()
+        with dask.config.set({} if timeout else {"distributed.scheduler.no-workers-timeout": "2s"}):
+            alone = gradhesion("run", study_file, "-o", output, "--engine=dask", "--scheduler", cluster.file)
+        thread.join()
+    finally:
+        cluster.end()
+    assert alone.exit_code == 4, alone.stderr
+    assert alone.stderr.splitlines()[-1] == (
+        f"--engine dask: no worker has been there for {1 if timeout else 2} s; finished parts are kept, and the "
+        "same command resumes once there are workers"
+    )
+    assert 0 < len(folder_of(output).parts()) < 6
+    orders.give()
     assert gradhesion("run", study_file, "-o", output).exit_code == 0
     assert values_of(output) == whole
 
