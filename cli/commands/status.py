@@ -32,8 +32,7 @@ def status(file: Path, as_json: bool) -> None:
         show_block(json.dumps(found, indent=2))
         return
     if found["state"] == "complete":
-        written = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(found["written"]))
-        show(f"{file}: complete, {bytes_in_words(found['bytes'])}, written {written}")
+        show(f"{file}: complete, {bytes_in_words(found['bytes'])}, written {_date(found['written'])}")
         return
     blocks, scenes = (f"{found[name]:,}" if found[name] else "?" for name in ("blocks", "scenes"))
     end = "" if found["state"] == "running" else "; the same command resumes"
@@ -76,15 +75,14 @@ def status_of(file: Path) -> dict[str, Any]:
 
 def _run(state: "State") -> dict[str, Any]:
     """Add the rate and the time left to the state of a run."""
-    seconds = state.updated - state.started
+    seconds = _seconds(state)
     solved = state.scenes_done - state.scenes_reused
     left = (state.scenes - state.scenes_done) * seconds / solved if solved else None
-    return {**asdict(state), "rate": solved / seconds if seconds > 0 else 0.0, "seconds_left": left}
+    return {**asdict(state), "seconds": seconds, "rate": solved / seconds if seconds > 0 else 0.0, "seconds_left": left}
 
 
 def _words(run: dict[str, Any], *, running: bool) -> str:
     """Describe the state of a run."""
-    seconds = run["updated"] - run["started"]
     solved = run["scenes_done"] - run["scenes_reused"]
     share = run["scenes_done"] / max(1, run["scenes"])
     words = [
@@ -92,9 +90,22 @@ def _words(run: dict[str, Any], *, running: bool) -> str:
         f"{run['blocks_reused']:,} of them reused",
         f"{run['scenes_done']:,} of {counted(run['scenes'], 'scene')} ({share:.0%})",
         f"{run['scenes_failed']:,} failed",
-        f"{rate(solved, seconds)} per s",
+        f"{rate(solved, run['seconds'])} per s",
     ]
     if running and run["seconds_left"] is not None:
         words.append(f"{run['seconds_left']:.0f} s left")
     shard = f"shard {run['shard'].replace('-', ' ')}, " if run["shard"] else ""
     return f"{shard}{', '.join(words)} (reported {max(0.0, time.time() - run['updated']):.0f} s ago)"
+
+
+def _seconds(state: "State") -> float:
+    """Give the time that a run has taken; states of earlier versions have the two dates alone, and clocks are set."""
+    return max(0.0, state.updated - state.started) if state.seconds is None else state.seconds
+
+
+def _date(seconds: float) -> str:
+    """Write a date; some file systems keep dates that no calendar has."""
+    try:
+        return time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(seconds))
+    except (OverflowError, ValueError, OSError):
+        return "at no date that is one"

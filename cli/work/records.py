@@ -56,6 +56,8 @@ class State:
     blocks: Count
     started: Time
     updated: Time = 0.0
+    seconds: Annotated[float, Field(ge=0.0, lt=1e11)] | None = None
+    """Between the two, by a clock that nobody sets."""
     pid: Count = 0
     host: str = ""
     blocks_done: Count = 0

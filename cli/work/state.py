@@ -17,8 +17,9 @@ class Keeper:
     """Keeps the file of a state up to date; a file that cannot be written is no reason to end a run."""
 
     def __init__(self, path: Path, *, scenes: int, blocks: int) -> None:
-        self.state = State(scenes, blocks, time.time(), pid=os.getpid(), host=platform.node())
+        self.state = State(scenes, blocks, _now(), pid=os.getpid(), host=platform.node())
         self._path = path
+        self._begun = time.monotonic()
         self._last = -PERIOD
         self.write()
 
@@ -36,7 +37,13 @@ class Keeper:
 
     def write(self) -> None:
         """Write the state now."""
-        self.state.updated = time.time()
+        self.state.updated = _now()
         self._last = time.monotonic()
+        self.state.seconds = self._last - self._begun
         with suppress(OSError):
             write_record(self._path, self.state, sync=False)
+
+
+def _now() -> float:
+    """Give the seconds since 1970; a clock that is set to before says 0."""
+    return max(0.0, time.time())

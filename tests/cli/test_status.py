@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -77,7 +76,7 @@ def test_rate_and_time_left_leave_out_what_was_reused(gradhesion: Call, data: di
         keeper = Keeper(folder.path / "state-2-of-3.json", scenes=1000, blocks=10)
         keeper.add(scenes=600, failed=3, reused=True, raised=False)
         keeper.add(scenes=100, failed=0, reused=False, raised=False)
-        keeper.state.started = time.time() - 50.0
+        keeper._begun -= 50.0
         keeper.write()
         told = gradhesion("status", output).stdout.splitlines()[1]
     assert told.startswith(f"  shard 2 of 3, process {os.getpid()} on ")

@@ -13,9 +13,10 @@ from typing import Any
 from urllib.error import HTTPError
 from urllib.request import urlopen
 
+import dask
 import psutil
 import pytest
-from distributed import Security
+from distributed import Scheduler, Security
 from distributed.comm import CommClosedError, connect
 
 from gradhesion.cli.engines.local import local_client
@@ -86,6 +87,38 @@ def test_a_local_cluster_comes_and_goes(
     (worker,) = orders.busy()
     with pytest.raises(ProcessLookupError):
         os.kill(worker, 0)
+
+
+def test_a_clock_that_is_set_forward_loses_nothing(
+    gradhesion: Call,
+    study_file: Path,
+    whole: dict[str, bytes],
+    output: Path,
+    orders: Orders,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Dask then takes every worker for one that has been silent for days, and starts them anew."""
+    restarted: list[str] = []
+    restart, check = Scheduler.restart_workers, Scheduler.check_worker_ttl
+
+    async def restarting(self: Scheduler, workers: list[str], **options: Any) -> Any:
+        restarted.extend(workers)
+        return await restart(self, workers, **options)
+
+    async def late_check(self: Scheduler) -> None:
+        if orders.busy() and not restarted:
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setattr("distributed.scheduler.time", lambda: time.time() + 1e6)
+                await check(self)
+
+    monkeypatch.setattr(Scheduler, "restart_workers", restarting)
+    monkeypatch.setattr(Scheduler, "check_worker_ttl", late_check)
+    orders.give(sleep=0.7)
+    with dask.config.set({"distributed.scheduler.worker-ttl": "1s"}):
+        result = gradhesion("run", study_file, "-o", output, "--engine=dask", "--threads=1")
+    assert result.exit_code == 0, result.stderr
+    assert restarted
+    assert values_of(output) == whole
 
 
 def test_workers_that_all_die_end_the_run_and_lose_nothing(
