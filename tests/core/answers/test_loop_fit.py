@@ -1,6 +1,5 @@
 """Loops that are drawn with known parameters give them back: exactly, with noise within their intervals, with offsets."""
 
-import itertools
 import math
 from typing import Any
 
@@ -8,7 +7,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import draw_curves
-from gradhesion.core.answers.loop_fit import CannotTellApartError, distances, fit_loop
+from gradhesion.core.answers.loop_fit import CannotTellApartError, fit_loop
 
 R, NU = 5e-6, 0.3
 
@@ -65,7 +64,6 @@ def test_a_smooth_punch_gives_the_modulus_and_work_of_adhesion_of_jkr_back() -> 
     assert found.chi_square == pytest.approx(found.degrees_of_freedom, rel=5 * math.sqrt(2 / 500))
 
 
-@pytest.mark.slow
 def test_waves_offsets_and_material_at_once() -> None:
     free = STIFF_AND_STICKY | {"wavelength": (0.2e-6, 1.5e-6), "A": (0.002, 0.05)}
     *points, noise = loop(offset=(2e-9, 1e-8), seed=1)
@@ -88,7 +86,6 @@ def test_waves_offsets_and_material_at_once() -> None:
     np.testing.assert_allclose(found.correlation, found.correlation.T, atol=1e-12)
 
 
-@pytest.mark.slow
 def test_the_intervals_of_smooth_loops_cover_the_truth() -> None:
     """Of 40 loops the 95 % intervals of both parameters hold it in 33 or more: fewer have a chance of 2e-3."""
     covered = dict.fromkeys(STIFF_AND_STICKY, 0)
@@ -138,7 +135,6 @@ D, P, U = (
 )
 WRONG: dict[str, tuple[dict[str, Any], str]] = {
     "no unloading": ({"unloading": np.zeros(6, bool)}, "has no points of unloading"),
-    "no loading": ({"unloading": np.ones(6, bool)}, "has no points of loading"),
     "few points": ({"indentation": D[:4], "load": P[:4], "unloading": U[:4]}, "4 points cannot give 4 numbers"),
     "nan": ({"load": P * np.nan}, "finite numbers"),
     "lengths": ({"unloading": U[:5]}, "one length"),
@@ -162,12 +158,3 @@ def test_what_cannot_be_fitted_is_refused(name: str) -> None:
     with pytest.raises(ValueError, match=r"\w") as caught:
         fit_loop(**(given | change))
     assert words in str(caught.value)
-
-
-def test_distances_are_those_to_a_connected_curve() -> None:
-    rng = np.random.default_rng(2)
-    chain, points = rng.standard_normal((7, 2)), rng.standard_normal((40, 2))
-    fine = np.concatenate([np.linspace(one, other, 20_001) for one, other in itertools.pairwise(chain)])
-    expected = [np.hypot(*(fine - point).T).min() for point in points]
-    np.testing.assert_allclose(np.abs(distances(points, chain)), expected, atol=1e-6)
-    np.testing.assert_allclose(distances(points, chain[::-1]), -distances(points, chain), atol=1e-12)
