@@ -25,10 +25,10 @@ if TYPE_CHECKING:
     )
     from gradhesion.cli.names import CURVES, OUTPUTS
     from gradhesion.cli.study.study import Study
+    from gradhesion.core.answers.flags import FLAGS
     from gradhesion.core.problem.control import CONTROLS
     from gradhesion.core.problem.names import SOLVERS
     from gradhesion.core.problem.profile import Harmonic, Profile
-    from gradhesion.core.problem.status import FLAGS
     from gradhesion.datasets import open_dataset as open  # noqa: A004 (gr.open)
     from gradhesion.datasets import verify
     from gradhesion.names import PARAMETERS
@@ -77,7 +77,7 @@ _HOMES: Final = {
     "core.problem.control": ("CONTROLS",),
     "core.problem.names": ("SOLVERS",),
     "core.problem.profile": ("Harmonic", "Profile"),
-    "core.problem.status": ("FLAGS",),
+    "core.answers.flags": ("FLAGS",),
     "datasets": ("open", "verify"),
     "names": ("PARAMETERS",),
     "pictures": ("explore", "plot"),

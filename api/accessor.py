@@ -2,13 +2,15 @@
 
 from typing import Any
 
+import numpy as np
 import xarray
 
+from gradhesion.cli.dataset.doubtful import doubts_of
 from gradhesion.cli.dataset.reader import check_ours, is_turned
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import CURVES, SI
 from gradhesion.cli.terminal.wording import did_you_mean
-from gradhesion.core.problem.status import FAILED, FLAGS, doubts_about
+from gradhesion.core.answers.flags import FLAGS
+from gradhesion.core.problem.status import FAILED
 
 
 @xarray.register_dataset_accessor("gr")  # type: ignore[no-untyped-call]
@@ -61,9 +63,8 @@ class Accessor:
             known = [str(name) for name in self._dataset.data_vars if name != "status"]
             if variable not in known:
                 raise DatasetError(f"{variable}: no variable of this dataset; {did_you_mean(variable, known)}")
-            plain, turned = variable.removesuffix(SI), is_turned(self._dataset)
-            bits |= doubts_about(next((curve for curve, own in CURVES.items() if plain in own), plain), turned=turned)
-        return (self._dataset["status"] & bits) == 0
+            bits |= doubts_of(variable, turned=is_turned(self._dataset))
+        return (self._dataset["status"].astype(np.int16) & bits) == 0
 
     def flagged(self, flag: str) -> xarray.DataArray:
         """
@@ -85,7 +86,7 @@ class Accessor:
         """
         if flag not in FLAGS:
             raise DatasetError(f"{flag}: no flag of status; {did_you_mean(flag, list(FLAGS))}")
-        return (self._dataset["status"] & FLAGS[flag]) != 0
+        return (self._dataset["status"].astype(np.int16) & FLAGS[flag]) != 0
 
     def plot(self, variables: Any = None, **choices: Any) -> Any:
         """Draw the dataset, as `gradhesion.plot(dataset, variables, ...)`; the axes of its panels are returned."""

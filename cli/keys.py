@@ -34,6 +34,8 @@ class Key:
     """Of a parameter that other keys can give: what it stands for, in words."""
     instead_of: str = ""
     """The key of the same table that it replaces."""
+    also: tuple[str, ...] = ()
+    """Other tables that have a key of this name."""
     bounds: Mapping[str, float] = field(default_factory=dict)
     """Of a number: its bounds by the names of pydantic."""
     infinite: str = ""
@@ -332,6 +334,11 @@ _SETTINGS: Final = (
         example="a table [states] with contact_radius_over_R",
     ),
     Key(
+        name="uncertainty",
+        about="how far the inputs may be off: outputs get standard deviations, and quantiles by samples",
+        example='a table [uncertainty] with modulus = "5 %"',
+    ),
+    Key(
         name="method",
         about="how the scenes are solved",
         example='a table [method] with solver = "exact", "asymptotic" or "envelope"',
@@ -403,7 +410,21 @@ _SETTINGS: Final = (
         about="how many profiles are drawn: the last dimension of the dataset",
         example="realisations = 100",
     ),
-    Key(name="seed", table="spectrum", about="what the phases of the waves follow from", example="seed = 1"),
+    Key(
+        name="seed",
+        table="spectrum",
+        also=("uncertainty",),
+        about="what the random numbers follow from",
+        example="seed = 1",
+    ),
+    Key(
+        name="samples",
+        table="uncertainty",
+        about="quasi-random samples of the inputs, a power of two; 0: standard deviations by sensitivities alone",
+        example="samples = 1024",
+    ),
+    Key(name="low", table="deviation", about="the least value of a uniform distribution", example="low = 0.28"),
+    Key(name="high", table="deviation", about="the greatest value of a uniform distribution", example="high = 0.32"),
     Key(
         name="harmonics",
         table="profile",
@@ -467,4 +488,4 @@ def keys_of(table: str) -> tuple[str, ...]:
     >>> keys_of("loading"), keys_of("harmonics")
     (('control', 'machine_stiffness'), ('n', 'cos', 'sin'))
     """
-    return tuple(name for name, key in KEYS.items() if key.table == table)
+    return tuple(name for name, key in KEYS.items() if table in (key.table, *key.also))

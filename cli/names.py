@@ -69,6 +69,40 @@ def labels_of(variable: str) -> str:
     return PHYSICAL_PARAMETER if variable.endswith(OF_PHYSICAL) else PARAMETER
 
 
+SPREAD: Final = {
+    "std": "standard deviation of the {}",
+    "mean": "mean of the {}, of samples of the uncertain inputs",
+    "p05": "5 % quantile of the {}, of samples of the uncertain inputs",
+    "p50": "median of the {}, of samples of the uncertain inputs",
+    "p95": "95 % quantile of the {}, of samples of the uncertain inputs",
+}
+"""What a study with [uncertainty] has beside an output, by the ending, with its `long_name`."""
+
+SPREADABLE: Final = tuple(
+    name
+    for name in OUTPUTS
+    if name not in SENSITIVITIES and not name.endswith(("_jumps", "_error")) and name != "energy_residual"
+)
+"""The outputs that have a spread: values of a scene, which no count is, nor what is known of an error."""
+
+OF_LINEAR: Final = tuple(name.removesuffix("_sensitivity") for name in SENSITIVITIES)
+"""The outputs whose standard deviation is known by sensitivities."""
+
+SPREADS: Final = {f"{name}_{how}": words.format(OUTPUTS[name]) for name in SPREADABLE for how, words in SPREAD.items()}
+"""Every variable of a spread, with its `long_name`."""
+
+
+def value_of(variable: str) -> str:
+    """
+    Name the output that a variable of a map says something of: itself, or what it is the spread of.
+
+    >>> value_of("pull_off_force_p95_si"), value_of("delta_max")
+    ('pull_off_force', 'delta_max')
+    """
+    plain = variable.removesuffix("_si")
+    return plain.rpartition("_")[0] if plain in SPREADS else plain
+
+
 EXTENTS: Final = {
     "equilibrium": "point",
     "path": "path_point",
@@ -175,7 +209,7 @@ def is_of_a_state(variable: str) -> bool:
 def _units() -> dict[str, str]:
     """Find the unit of each output by what it is over in the dataset."""
     signs = {"R/dgamma": "Pa", "(1.5 pi R dgamma)": "N", "R^2 dgamma": "J", "/R": "m"}
-    own = OUTPUTS | {name: long_name for curve in CURVES.values() for name, long_name in curve.items()}
+    own = OUTPUTS | SPREADS | {name: long_name for curve in CURVES.values() for name, long_name in curve.items()}
     return {
         name: next(unit for sign, unit in signs.items() if sign in long_name)
         for name, long_name in own.items()
@@ -232,6 +266,9 @@ FLAGS: Final = {
     "close_to_a_jump": "an input error of 1e-12 could change a number of jumps or the place of the pull-off",
     "tolerance_not_met": "the accuracy asked for is not reached",
     "no_value": "a parameter is outside its range, or the scene cannot be resolved",
+    "linear_deviation_off": "a linear standard deviation is off: a kink is near",
+    "resolution_too_coarse": "a sweep at twice the resolution finds another optimum",
+    "nothing_feasible": "no point of the sweep meets what is required",
 }
 """Every flag of `status`, in words."""
 
@@ -295,6 +332,22 @@ def _sensitivity_symbols() -> dict[str, str]:
 
 
 SYMBOLS.update(_sensitivity_symbols())
+
+
+def _spread_symbols() -> dict[str, str]:
+    """Name the spread of each output."""
+    words = {"std": "std of {}", "mean": "mean of {}", "p05": "{}, 5 %", "p50": "{}, median", "p95": "{}, 95 %"}
+    plain = {f"{name}_{how}": one.format(SYMBOLS[name]) for name in SPREADABLE for how, one in words.items()}
+    in_si = {
+        f"{name}_{how}{SI}": one.format(SYMBOLS[name + SI])
+        for name in SPREADABLE
+        if name in UNITS
+        for how, one in words.items()
+    }
+    return plain | in_si
+
+
+SYMBOLS.update(_spread_symbols())
 
 SCENE: Final = "scene"
 """The one dimension of a dataset with `layout = "points"`."""

@@ -2,7 +2,7 @@
 
 import ast
 import inspect
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from typing import Final
 
@@ -11,10 +11,15 @@ from gradhesion.cli import names
 from gradhesion.cli.dataset.dataset import attributes
 from gradhesion.cli.keys import INPUTS, PARAMETERS
 from gradhesion.cli.study.study import study_from
-from gradhesion.core import DOUBTFUL, FAILED, FLAGS, REPORTS, SENSITIVITIES
+from gradhesion.core import DOUBTFUL, FAILED, REPORTS, SENSITIVITIES
+from gradhesion.core.answers import flags as flags_module
+from gradhesion.core.answers.flags import FLAGS
 from gradhesion.core.problem import status as status_module
 
-NO_FLAGS: Final = ("FLAGS", "DOUBTFUL", "FAILED")
+MODULES: Final = (status_module, flags_module)
+"""Where flags are defined: those of a scene, and those of answers."""
+
+NO_FLAGS: Final = ("FLAGS", "DOUBTFUL", "FAILED", "ANSWER_FLAGS")
 """What `core.problem.status` defines beside its flags."""
 
 ATTRIBUTES: Final = {
@@ -62,6 +67,14 @@ def _sections() -> Iterator[str]:
         f"`{names.SI}`. Variables marked in the last column are available with the exact solver only."
     )
     yield table(("variable", "long_name", "in SI", "exact solver only"), _outputs())
+    yield "## Spreads of uncertain inputs"
+    yield (
+        "With `[uncertainty]` a map has a standard deviation beside each output: linear, by sensitivities, of "
+        f"{_listed(names.OF_LINEAR)}; of the samples of the others. With samples it also has their statistics. `X` "
+        f"stands for any of {_listed(names.SPREADABLE)}; copies in SI end in `{names.SI}`."
+    )
+    spreads = ([code(f"X_{how}"), words.format("output")] for how, words in names.SPREAD.items())
+    yield table(("variable", "what"), spreads)
     yield "## Variables of curves"
     yield (
         "Each curve has its own dimension, along which shorter curves are padded with missing values; jumps are a "
@@ -71,11 +84,17 @@ def _sections() -> Iterator[str]:
     yield "## Status"
     yield (
         f"Every dataset has `status`, {names.STATUS}. Each bit is a flag. A scene with {_named(FAILED)} has failed. "
-        f"Its values are doubtful with {_named(DOUBTFUL)}. The approximate solvers set the last flag only."
+        f"Its values are doubtful with {_named(DOUBTFUL)}. The approximate solvers set `no_value` only. The flags "
+        "after it are there with uncertain inputs and in datasets of optima, whose `status` is int16."
     )
     yield table(("flag", "bit", "in words", "of a scene"), _flags())
     yield "## Global attributes"
     yield table(("attribute", "what it is"), ([code(name), ATTRIBUTES[name]] for name in _attributes()))
+
+
+def _listed(names_of: Iterable[str]) -> str:
+    """Write names one after the other."""
+    return ", ".join(map(code, names_of))
 
 
 def _outputs() -> list[list[str]]:
@@ -104,12 +123,17 @@ def _curves() -> list[list[str]]:
 def _flags() -> list[list[str]]:
     """Write a row for each flag, with what its definition says of it."""
     said: dict[str, str] = {}
-    statements = ast.parse(inspect.getsource(status_module)).body
+    statements = [one for module in MODULES for one in ast.parse(inspect.getsource(module)).body]
     for definition, words in pairwise(statements):
         match definition, words:
             case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=str(text))):
                 said[name] = " ".join(text.split())
-    constants = {getattr(status_module, constant): text for constant, text in said.items() if constant not in NO_FLAGS}
+    constants = {
+        getattr(module, constant): text
+        for module in MODULES
+        for constant, text in said.items()
+        if constant not in NO_FLAGS and hasattr(module, constant)
+    }
     return [[code(name), str(bit), names.FLAGS[name], constants[bit]] for name, bit in FLAGS.items()]
 
 

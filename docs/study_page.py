@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
 from docs.tables import code, table
-from gradhesion.cli.keys import INPUTS, PHYSICAL, REDUCED, SETTINGS
+from gradhesion.cli.keys import INPUTS, KEYS, PHYSICAL, REDUCED, SETTINGS, keys_of
 from gradhesion.cli.names import OUTPUTS
 from gradhesion.cli.study.form import Form
 from gradhesion.cli.study.kinds import KINDS
@@ -51,6 +51,7 @@ def _sections() -> Iterator[str]:
     yield table(HEADS, _rows(schema["$defs"]["SpectrumTable"]))
     yield from _of_table("loading", tables["loading"])
     yield from _of_table("states", tables["states"])
+    yield from _of_uncertainty(tables["uncertainty"])
     yield from _of_table("method", tables["method"])
     yield "## Axes"
     yield (
@@ -105,6 +106,26 @@ def _of_table(name: str, own: Mapping[str, Any] | None) -> Iterator[str]:
     yield f"## [{name}]"
     yield f"Optional: {SETTINGS[name].about}."
     yield table(HEADS, _rows(own))
+
+
+def _of_uncertainty(own: Mapping[str, Any] | None) -> Iterator[str]:
+    """Write the table of uncertain inputs."""
+    assert own
+    yield "## [uncertainty]"
+    yield f"Optional: {SETTINGS['uncertainty'].about} ([uncertain inputs](../sensitivities.md#uncertain-inputs))."
+    yield (
+        "Any key of `[parameters]`, `[physical]` or `[loading]` that the study gives: a percentage of the value of "
+        'each scene (`modulus = "5 %"`), a standard deviation in the unit of the key (`A = 0.002`, `c0 = "1 nm"`), or '
+        "a uniform distribution (`nu = { low = 0.28, high = 0.32 }`). Normal distributions are truncated at the bounds "
+        "of the key. Besides:"
+    )
+    yield table(HEADS, _rows({"properties": {name: own["properties"][name] for name in keys_of("uncertainty")}}))
+    yield "A uniform distribution:"
+    allowed = "that of the key"
+    yield table(
+        HEADS,
+        ([code(name), "number or string", allowed, "required", KEYS[name].about] for name in keys_of("deviation")),
+    )
 
 
 def _rows(own: Mapping[str, Any], *, bounds: bool = True) -> Iterator[list[str]]:

@@ -71,7 +71,7 @@ def _lines(found: "Estimate") -> list[str]:
         state = "a run is writing it"
     lines = [
         f"output    {found.output} ({state})",
-        f"scenes    {found.scenes:,}; axes: {axes}",
+        f"scenes    {found.scenes:,}{_each(found.solutions_of_scene)}; axes: {axes}",
         f"outputs   {', '.join(found.outputs)}",
     ]
     if found.kind != "map":
@@ -101,6 +101,16 @@ def _lines(found: "Estimate") -> list[str]:
     else:
         lines.append("time      that of writing alone: every block is complete")
     return lines
+
+
+def _each(solutions: int) -> str:
+    """
+    Say how often each scene is solved.
+
+    >>> _each(1), _each(1024)
+    ('', ', each solved about 1,024 times')
+    """
+    return f", each solved about {solutions:,} times" if solutions > 1 else ""
 
 
 def duration(seconds: float) -> str:

@@ -135,6 +135,8 @@ def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet
     if not quiet:
         numbers = {"blocks_reused": written.reused, "blocks_computed": written.computed, "failed": written.failed}
         messages.say("done", _told(path, scenes, written, seconds), scenes=scenes, seconds=seconds, **numbers)
+        for sentence in written.cautions:
+            messages.say("caution", f"{path}: {sentence}")
     for sentence in written.raised:
         messages.say("raised", f"{path}: {sentence}")
     if written.raised:

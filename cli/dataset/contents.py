@@ -36,7 +36,7 @@ class Contents(Protocol):
 def _long_name(name: str) -> str:
     """Say what an output of a map is, also the sensitivity of one in SI units."""
     if not name.endswith(names.OF_PHYSICAL):
-        return names.OUTPUTS[name]
+        return (names.OUTPUTS | names.SPREADS)[name]
     told = names.OUTPUTS[name.removesuffix(names.OF_PHYSICAL)]
     return told.split(" to each parameter")[0] + " in SI units to each quantity q with a unit: d ln/d ln q"
 
@@ -48,6 +48,9 @@ class _OfMap:
 
     def described(self, study: Study, name: str) -> Variable:
         attributes = {"units": "1", "ancillary_variables": "status", "long_name": _long_name(name)}
+        if name.endswith("_std"):
+            linear = names.value_of(name) in study.linear
+            attributes["comment"] = "linear, by sensitivities" if linear else "of samples of the uncertain inputs"
         if name in ("dissipated_energy", "unloading_energy") and study.loading.control == "load":
             attributes["long_name"] = names.OUTPUTS[name].replace(",", " without its jump-out, which has no bound,")
         if name.endswith("_jumps"):

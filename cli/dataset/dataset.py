@@ -8,15 +8,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gradhesion.cli import names
+from gradhesion.cli.dataset.cautions import cautions, flagged_in
 from gradhesion.cli.dataset.contents import CONTENTS
 from gradhesion.cli.dataset.coordinates import coordinates
 from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.study.shape_words import profile_table, shape_in_words
 from gradhesion.cli.study.study import Study
+from gradhesion.cli.terminal import messages
 from gradhesion.cli.work import curves
 from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.kernels import kinds_of
 from gradhesion.core import FLAGS
+from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
 
 if TYPE_CHECKING:
     import xarray
@@ -47,13 +50,14 @@ def _output(study: Study, name: str) -> Variable:
 
 def _status(study: Study) -> Variable:
     """Describe the status of the scenes."""
+    flags, dtype = (ALL_FLAGS, "i2") if study.has_answers else (FLAGS, "i1")
     attributes = {
         "units": "1",
         "long_name": names.STATUS,
-        "flag_masks": np.array(list(FLAGS.values()), dtype=np.int8),
-        "flag_meanings": " ".join(FLAGS),
+        "flag_masks": np.array(list(flags.values()), dtype=dtype),
+        "flag_meanings": " ".join(flags),
     }
-    return Variable(dimensions=tuple(study.sizes), dtype="i1", attributes=attributes)
+    return Variable(dimensions=tuple(study.sizes), dtype=dtype, attributes=attributes)
 
 
 def attributes(study: Study, history: str) -> dict[str, Any]:
@@ -113,6 +117,8 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
     described = variables(study)
     kind = CONTENTS[study.kind]
     found = kind.joined(study, kind.parts(study, threads))
+    for sentence in cautions(study, flagged_in(found["status"])):
+        messages.say("caution", f"{study.name}: {sentence}")
     made = {}
     for name, variable in described.items():
         if variable.made:

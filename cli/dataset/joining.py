@@ -40,7 +40,7 @@ def joined(sources: Sources) -> tuple[Study, "Joined"]:
     for file, other in others:
         if {one.layout, other.layout} != {"grid"}:
             raise DatasetError(f"{file}, {first}: {wanted}, not points")
-        for what in ("outputs", "method", "profile", "spectrum", "loading"):
+        for what in ("outputs", "method", "profile", "spectrum", "loading", "uncertainty"):
             if getattr(one, what) != getattr(other, what):
                 raise DatasetError(f"{file}: has another {what.rstrip('s')} than {first}; join datasets that share it")
         if one.parameters.keys() != other.parameters.keys():

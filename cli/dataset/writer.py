@@ -3,6 +3,7 @@
 import math
 import os
 import shutil
+from collections import Counter
 from collections.abc import Callable, Generator, Iterable
 from contextlib import ExitStack, closing, suppress
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ import netCDF4
 import numpy as np
 
 from gradhesion.cli.dataset import dataset
+from gradhesion.cli.dataset.cautions import cautions, flagged_in
 from gradhesion.cli.dataset.contents import CONTENTS
 from gradhesion.cli.disk import refuse_beside, refuse_existing, refuse_unnamed, settled, to_disk, writing
 from gradhesion.cli.engines import Engine, Work
@@ -53,6 +55,8 @@ class Written:
     """Blocks."""
     raised: tuple[str, ...] = ()
     """A sentence for each block that could not be solved."""
+    cautions: tuple[str, ...] = ()
+    """What is to be known of its answers."""
     complete: bool = False
     """Whether an earlier run had written it, and was killed before it could say so."""
 
@@ -140,6 +144,7 @@ def _merge(
     count = len(study.tiling)
     keeper = Keeper(folder.path / "state.json", scenes=study.scenes, blocks=count)
     raised: dict[int, str] = {}
+    flagged = Counter[str]()
     with writing(path):
         file = netCDF4.Dataset(folder.merged, "w", format="NETCDF4")
     try:
@@ -153,6 +158,7 @@ def _merge(
             begun += sum(int(solved.values[one].item()) for one in RAGGED.values() if one in solved.values)
             if solved.error:
                 raised[number] = _sentence(study, number, solved)
+            flagged.update(flagged_in(solved.values["status"]))
             scenes, failed = size_of(solved.block), solved.failed
             keeper.add(scenes=scenes, failed=failed, reused=solved.reused, raised=bool(solved.error))
             if failed and fail_fast:
@@ -173,6 +179,7 @@ def _merge(
         reused=state.blocks_reused,
         computed=state.blocks_done - state.blocks_reused,
         raised=tuple(raised[number] for number in sorted(raised)),
+        cautions=tuple(cautions(study, flagged)),
     )
 
 
@@ -275,7 +282,7 @@ def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
                 if dimension not in file.dimensions:
                     file.createDimension(dimension, None)  # it grows with the longest curve
             settings |= {"compression": "zlib", "complevel": 1, "shuffle": True}
-            settings["chunksizes"] = _chunks(tuple(file.dimensions[one] for one in described.dimensions), study.chunk)
+            settings["chunksizes"] = _chunks(tuple(file.dimensions[one] for one in described.dimensions), study.cells)
         if described.blank is not None:
             settings["fill_value"] = described.blank
         dtype = str if described.dtype == "str" else described.dtype

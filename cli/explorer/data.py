@@ -10,13 +10,15 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import names
 from gradhesion.cli.dataset.curve_variables import curve_of
+from gradhesion.cli.dataset.doubtful import DOUBTS, doubts_of
 from gradhesion.cli.dataset.reader import is_turned
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.plain import in_order, symbol, title, words
 from gradhesion.cli.names import INTEGERS, SCENE, SOLVER
 from gradhesion.cli.picture.labels import Unit, unit_for
 from gradhesion.cli.picture.scales import scale
-from gradhesion.core import DOUBTFUL, FAILED, FLAGS, doubts_about
+from gradhesion.core import FAILED
+from gradhesion.core.answers.flags import FLAGS
 
 DIGITS: Final = 6
 """Significant digits of a value: as many as single precision keeps of any decimal number."""
@@ -79,7 +81,7 @@ def study_data(dataset: xarray.Dataset, units: Mapping[str, Unit] = MappingProxy
     if not any(np.isfinite(variable["values"]).any() for variable in variables):
         listed = ", ".join(variable["name"] for variable in variables)
         raise DatasetError(f"{listed}: no value in any scene; `gradhesion info` reports why")
-    status = dataset["status"].values.astype(np.uint8).ravel()
+    status = dataset["status"].values.astype(np.uint16).ravel()
     known = [str(name) for name in dataset.coords if name not in axes]
     solvers = [SOLVER] if SOLVER in known else []
     study = {
@@ -87,7 +89,7 @@ def study_data(dataset: xarray.Dataset, units: Mapping[str, Unit] = MappingProxy
         "parameters": [_parameter(dataset, name, axes) for name in (*solvers, *in_order(known))],
         "status": status,
         "flags": [
-            {"bit": bit, "words": names.FLAGS[name], "doubtful": bool(bit & DOUBTFUL), "failed": bool(bit & FAILED)}
+            {"bit": bit, "words": names.FLAGS[name], "doubtful": bool(bit & DOUBTS), "failed": bool(bit & FAILED)}
             for name, bit in FLAGS.items()
         ],
         "found": int(np.bitwise_or.reduce(status, initial=0)),
@@ -198,7 +200,7 @@ def _variable(dataset: xarray.Dataset, name: str, units: Mapping[str, Unit]) -> 
         "values": flat,
         "length": values.shape[-1] if curve else 1,
         "curve": curve,
-        "doubts": doubts_about(curve or name.removesuffix(names.SI), turned=turned) & DOUBTFUL,
+        "doubts": doubts_of(name, turned=turned),
         "least": float(finite.min()) if finite.size else None,
         "greatest": float(finite.max()) if finite.size else None,
         "gaps": bool(finite.size < flat.size),

@@ -10,7 +10,9 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from gradhesion.cli import names
-from gradhesion.core import DOUBTFUL, FLAGS, doubts_about
+from gradhesion.cli.dataset import doubtful
+from gradhesion.cli.dataset.doubtful import doubts_of
+from gradhesion.core.answers.flags import FLAGS
 
 INK: Final = "0.25"
 """The colour of marks in a legend."""
@@ -35,14 +37,14 @@ class Doubt:
 
     def marks(self, status: NDArray[Any]) -> NDArray[np.bool_]:
         """Report which scenes have the flag."""
-        flags: NDArray[np.bool_] = (status & self.bit) != 0
+        flags: NDArray[np.bool_] = (status.astype(np.int16) & self.bit) != 0
         return flags
 
 
 def _doubts() -> tuple[Doubt, ...]:
     """Give each flag that makes values doubtful a look of its own."""
-    flags = [(name, bit) for name, bit in FLAGS.items() if bit & DOUBTFUL]
-    looks = (("////", "o", 3.5), ("\\\\\\\\", "s", 5.5), ("xxxx", "D", 7.0))
+    flags = [(name, bit) for name, bit in FLAGS.items() if bit & doubtful.DOUBTS]
+    looks = (("////", "o", 3.5), ("\\\\\\\\", "s", 5.5), ("xxxx", "D", 7.0), ("----", "v", 8.0), ("||||", "p", 8.0))
     return tuple(
         Doubt(bit=bit, words=names.FLAGS[name], hatch=hatch, mark=mark, size=size)
         for (name, bit), (hatch, mark, size) in zip(flags, looks, strict=True)
@@ -57,11 +59,7 @@ def doubts_in(status: NDArray[Any], variable: str, *, turned: bool = False) -> l
     """List the doubts that some scenes cast on a variable; none on `status` itself."""
     if variable == "status":
         return []
-    return [
-        doubt
-        for doubt in DOUBTS
-        if doubt.bit & doubts_about(variable.removesuffix(names.SI), turned=turned) and doubt.marks(status).any()
-    ]
+    return [doubt for doubt in DOUBTS if doubt.bit & doubts_of(variable, turned=turned) and doubt.marks(status).any()]
 
 
 END: Final = Doubt(bit=0, words="extreme at an end of its axis: it may lie beyond", hatch="....", mark="^", size=4.5)

@@ -16,7 +16,7 @@ from gradhesion.cli.picture.doubts import CROSS, GREY, INK, Doubt
 from gradhesion.cli.picture.labels import Unit
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.scales import Scale
-from gradhesion.core import FLAGS
+from gradhesion.core.answers.flags import FLAGS
 
 Values = NDArray[np.float64]
 Flags = NDArray[np.bool_]

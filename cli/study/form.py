@@ -9,9 +9,10 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, Union
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, create_model
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, WithJsonSchema, create_model
 
 from gradhesion.cli.keys import INPUTS, KEYS, MACHINE, Key
+from gradhesion.cli.study.deviation import Deviation, deviation_of
 from gradhesion.cli.study.quantities import si_value
 from gradhesion.cli.terminal.wording import example
 from gradhesion.core.problem.profile import MOST_HARMONICS
@@ -22,6 +23,9 @@ MOST_WAVES: Final = 10_000
 
 MOST_REALISATIONS: Final = 100_000
 """Profiles of one study: each is solved by itself."""
+
+MOST_SAMPLES: Final = 2**20
+"""Samples of the inputs of one scene: all are in memory."""
 
 MOST_STATES: Final = 100
 """States of one study: their curves are for looking at."""
@@ -184,6 +188,49 @@ else:
     MachineStiffness = _input(INPUTS[MACHINE])
 
 
+def _deviation(key: Key) -> Any:
+    """Make the type of the deviation of an input."""
+    schema = {"type": ["number", "string", "object"]}
+    read = BeforeValidator(lambda value: None if value is None else deviation_of(value, key.name))
+    about = f"how far {key.name} may be off: {key.about}"
+    return Annotated[Deviation | None, read, WithJsonSchema(schema), Field(description=about)]
+
+
+def _samples(value: object) -> object:
+    """Check the number of samples."""
+    if (
+        isinstance(value, int)
+        and not isinstance(value, bool)
+        and (value == 0 or (2 <= value <= MOST_SAMPLES and value & (value - 1) == 0))
+    ):
+        return value
+    raise ValueError(
+        f"the number of samples is a power of two up to {MOST_SAMPLES:,}, or 0 for none; "
+        f"{example(('uncertainty', 'samples'))}"
+    )
+
+
+def _uncertainty() -> type[Table]:
+    """Make the table of uncertain inputs."""
+    fields: Any = {
+        **{name: (_deviation(key), None) for name, key in INPUTS.items()},
+        "samples": (_of("samples", Annotated[int, BeforeValidator(_samples)]), 0),
+        "seed": (_of("seed", int, ge=0, lt=2**63), 0),
+    }
+    return create_model("UncertaintyTable", __base__=Table, **fields)
+
+
+if TYPE_CHECKING:
+
+    class UncertaintyTable(Table):
+        """How far the inputs may be off."""
+
+        samples: int
+        seed: int
+else:
+    UncertaintyTable = _uncertainty()
+
+
 class LoadingTable(Table):
     """What drives the punch."""
 
@@ -217,6 +264,9 @@ class Form(Table):
     profile: Annotated[ProfileTable, Field(description=KEYS["profile"].about, default_factory=ProfileTable)]
     loading: Annotated[LoadingTable, Field(description=KEYS["loading"].about, default_factory=LoadingTable)]
     states: Annotated[StatesTable, Field(description=KEYS["states"].about, default_factory=StatesTable)]
+    uncertainty: Annotated[
+        UncertaintyTable, Field(description=KEYS["uncertainty"].about, default_factory=UncertaintyTable)
+    ]
     method: Annotated[MethodTable, Field(description=KEYS["method"].about, default_factory=MethodTable)]
 
     @property

@@ -17,6 +17,9 @@ from gradhesion.core.problem.profile import MOST_HARMONICS
 _OF_INPUTS: Final = ("parameters", "physical", "loading")
 """The tables whose keys are inputs."""
 
+_TABLES: Final = ("parameters", "physical", "profile", "loading", "states", "uncertainty", "method")
+"""Every table at the top."""
+
 _REQUIRED: Final[dict[Path, Any]] = {
     ("outputs",): ["pull_off_force"],
     ("parameters",): {},
@@ -105,9 +108,11 @@ def _unknown_key(path: Path) -> tuple[Path, str]:
     """Report which key was meant, and say so."""
     tables: dict[Path, tuple[str, ...]] = {
         (): keys_of(""),
-        **{(name,): keys_of(name) for name in ("parameters", "physical", "profile", "loading", "states", "method")},
+        **{(name,): keys_of(name) for name in _TABLES},
     }
     table, key = path[:-1], str(path[-1])
+    if table == ("uncertainty",):
+        return path, f"no input of a study; {did_you_mean(key, (*INPUTS, *keys_of('uncertainty')))}"
     files = FILE_KEYS if table == ("parameters", "points") else ()
     inner = "spectrum" if table == ("profile", "spectrum") else "harmonics" if table[:1] == ("profile",) else "range"
     known = files or tables.get(table, keys_of(inner))
@@ -128,6 +133,8 @@ def _sentence(detail: ErrorDetails, path: Path) -> str:
         return str(detail["ctx"]["error"])
     if path[0] == "profile" and len(path) > 1:
         return _profile_sentence(kind, path)
+    if path == ("uncertainty", "seed"):
+        return f"the seed is an integer of 0 or more; {example(path)}"
     if path[:2] == ("parameters", "points"):
         return _file_sentence(kind, path)
     if (

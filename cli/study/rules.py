@@ -16,6 +16,7 @@ from gradhesion.cli.study.punch import mistakes_of_punch, profile_of
 from gradhesion.cli.study.roles import mistakes_of_roles
 from gradhesion.cli.study.states import mistakes_of_states
 from gradhesion.cli.study.turn import mistakes_of_turn
+from gradhesion.cli.study.uncertainty import mistakes_of_uncertainty
 from gradhesion.cli.study.validity import mistakes_of_range
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core import REPORTS, SENSITIVITIES, SOLVERS
@@ -44,10 +45,12 @@ def mistakes_between_keys(checked: Checked, points: Points) -> tuple[dict[str, V
     mistakes += mistakes_of_points(sound) if is_points else mistakes_of_grid(sound)
     mistakes += mistakes_of_roles(checked, sound)
     mistakes += mistakes_of_punch(checked, sound)
-    mistakes += _mistakes_of_sensitivities(checked)
+    without_slopes = _why_without_sensitivities(checked)
+    mistakes += _mistakes_of_sensitivities(checked, without_slopes)
     mistakes += mistakes_of_turn(checked)
     mistakes += mistakes_of_states(checked, sound)
     mistakes += mistakes_of_range(checked)
+    mistakes += mistakes_of_uncertainty(checked, sound, without_slopes)
     lengths = [np.size(values) for values in sound.values()]
     spectrum = checked.form.profile.spectrum
     realisations = 1 if spectrum is None else spectrum.realisations
@@ -122,27 +125,31 @@ def _mistakes_of_method(checked: Checked) -> Iterator[Mistake]:
             yield Mistake(("outputs", i), name, sentence)
 
 
-def _mistakes_of_sensitivities(checked: Checked) -> Iterator[Mistake]:
-    """Check that sensitivities are asked for of a punch that has them."""
+def _why_without_sensitivities(checked: Checked) -> str:
+    """Say what the values of a study have no sensitivities with; empty if they have, or if nothing needs them."""
     form = checked.form
-    asked = [i for i, name in enumerate(form.outputs) if name in SENSITIVITIES]
+    needed = {*SENSITIVITIES} & {*form.outputs} or "uncertainty" in checked.data
     if (
-        not asked
+        not needed
         or _kind_of(checked) != "map"
         or any(path[:1] in (("profile",), ("loading",)) for path in checked.wrong)
     ):
-        return
+        return ""
     from gradhesion.core.problem.shape import equivalent_wave  # noqa: PLC0415 (the compiler, for these outputs alone)
 
-    wrong = ""
     if form.loading.control != "displacement":
-        wrong = f'control = "{form.loading.control}"'
-    elif form.profile.spectrum or form.profile.file or equivalent_wave(profile_of(form.profile)) is None:
-        wrong = "this profile"
-    if wrong:
-        sentence = f"not known with {wrong}, but of a paraboloid with one cosine wave under displacement control; "
-        for i in asked:
-            yield Mistake(("outputs", i), form.outputs[i], sentence + "remove it")
+        return f'control = "{form.loading.control}"'
+    if form.profile.spectrum or form.profile.file or equivalent_wave(profile_of(form.profile)) is None:
+        return "this profile"
+    return ""
+
+
+def _mistakes_of_sensitivities(checked: Checked, without: str) -> Iterator[Mistake]:
+    """Check that sensitivities are asked for of a punch that has them."""
+    for i, name in enumerate(checked.form.outputs):
+        if without and name in SENSITIVITIES:
+            sentence = f"not known with {without}, but of a paraboloid with one cosine wave under displacement control"
+            yield Mistake(("outputs", i), name, f"{sentence}; remove it")
 
 
 def _mistakes_of_size(checked: Checked, lengths: list[int], realisations: int, *, points: bool) -> Iterator[Mistake]:

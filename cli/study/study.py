@@ -37,11 +37,15 @@ from gradhesion.cli.study.roles import left_out
 from gradhesion.cli.study.rules import mistakes_between_keys
 from gradhesion.cli.study.source import Source, read_source
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
+from gradhesion.cli.study.uncertainty import Uncertainty, uncertainty_of
 from gradhesion.cli.terminal import wording
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import PARAMETERS, RANGE, SENSITIVITIES
 from gradhesion.core.problem.profile import Profile
+
+FEW_SAMPLES: Final = 32
+"""Samples of each scene that check a linear standard deviation."""
 
 MOST_MISTAKES: Final = 30
 """Mistakes to print: whoever has more is served by the first."""
@@ -82,6 +86,8 @@ class Study:
     method: Method
     profile: Profile = field(default_factory=Profile)
     loading: Loading = field(default_factory=Loading)
+    uncertainty: Uncertainty = field(default_factory=Uncertainty)
+    """How far its inputs may be off."""
     states: tuple[float, ...] = ()
     """The contact radii a/R whose pressure and surface are drawn; empty: the named states of the cycle."""
     text: str
@@ -105,10 +111,26 @@ class Study:
         return tuple(name for name in self.outputs if name in UNITS) if "R" in self.parameters else ()
 
     @property
+    def linear(self) -> tuple[str, ...]:
+        """The outputs whose standard deviation follows from sensitivities."""
+        return self.uncertainty.linear(self.outputs, exact=self.method.solver == "exact")
+
+    @property
+    def spreads(self) -> tuple[str, ...]:
+        """The variables that tell how uncertain its outputs are, those in SI units last."""
+        own = self.uncertainty.spreads(self.outputs, exact=self.method.solver == "exact")
+        return (*own, *(name + SI for name in own if name in UNITS and "R" in self.parameters))
+
+    @property
     def variables(self) -> tuple[str, ...]:
         """The names of all variables of its dataset but `status`."""
         physical = [name + OF_PHYSICAL for name in self.outputs if name in SENSITIVITIES and "R" in self.parameters]
-        return (*self.outputs, *(name + SI for name in self.in_si), *physical)
+        return (*self.outputs, *(name + SI for name in self.in_si), *physical, *self.spreads)
+
+    @property
+    def has_answers(self) -> bool:
+        """Whether `status` has flags beside those of a scene."""
+        return bool(self.uncertainty)
 
     @property
     def labels(self) -> dict[str, tuple[str, ...]]:
@@ -167,7 +189,19 @@ class Study:
     @cached_property
     def tiling(self) -> Tiling:
         """The blocks of its scenes."""
-        return KINDS[self.kind].tiling(self.shape, self.chunk)
+        return KINDS[self.kind].tiling(self.shape, self.cells)
+
+    @property
+    def cells(self) -> int:
+        """Cells of a chunk of the dataset, at most: fewer where each of them takes many scenes."""
+        return max(1, self.chunk // self.solutions)
+
+    @property
+    def solutions(self) -> int:
+        """How often each scene is solved, about: itself, with samples of its inputs, or beside them."""
+        if not self.uncertainty:
+            return 1
+        return 1 + (self.uncertainty.samples or FEW_SAMPLES)
 
     @property
     def sha256(self) -> str:
@@ -300,6 +334,7 @@ def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = N
         spectrum=spectrum_of(form.profile),
         loading=Loading(control=form.loading.control),
         states=form.states.radii,
+        uncertainty=uncertainty_of(found),
         text=text or toml_of(data),
         left_out=frozenset(absent.keys() - {"a_max", "a_max_over_R"}),
         folder=source.folder,

@@ -17,8 +17,10 @@ from gradhesion.cli.study.shape_words import control_in_words
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.words.curve_words import curves_told
 from gradhesion.cli.words.sensitivity_words import sensitivity_told
+from gradhesion.cli.words.uncertainty_words import uncertainty_told
 from gradhesion.cli.words.validity_words import validity_told
-from gradhesion.core import FAILED, FLAGS
+from gradhesion.core import FAILED
+from gradhesion.core.answers.flags import FLAGS
 from gradhesion.core.problem.control import Loading
 
 FEW: Final = 8
@@ -35,6 +37,7 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
         yield from _fit(dataset)
         yield f"control: {control_in_words(Loading(control=dataset.attrs.get('control', 'displacement')))}"
     yield from _parameters(dataset)
+    yield from uncertainty_told(dataset)
     yield from curves_told(dataset) if has_curves(dataset) else _outputs(dataset)
     yield from _status(dataset)
     if beyond := list(validity_told(dataset)):
@@ -171,7 +174,7 @@ def _status(dataset: xarray.Dataset) -> Iterator[str]:
     counts = dict.fromkeys(FLAGS, 0)
     failed = 0
     for block in tiling_of(dataset["status"]):
-        status: NDArray[np.int8] = dataset["status"][block].values
+        status: NDArray[np.int16] = dataset["status"][block].values.astype(np.int16)
         failed += int(np.count_nonzero(status & FAILED))
         for name, bit in FLAGS.items():
             counts[name] += int(np.count_nonzero(status & bit))

@@ -22,7 +22,11 @@ _T = TypeVar("_T")
 
 def scenes_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
     """Give the parameters of a block of the axes as the core knows them; NaN is one that does not exist."""
-    given = study.parameters_of(block)
+    return scenes_from(study.parameters_of(block))
+
+
+def scenes_from(given: dict[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
+    """Give the parameters of scenes as the core knows them, from what a study gives."""
     if given.keys() >= {*PARAMETERS}:
         return given
     from gradhesion.core.variables.reduced import parameters_from  # noqa: PLC0415 (300 ms for SciPy)
@@ -32,13 +36,43 @@ def scenes_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
 
 def solve_block(study: Study, block: Block, threads: int | None) -> dict[str, NDArray[Any]]:
     """Solve a block of a study: the values of its variables and `status`."""
-    found = _solved(study, block, threads)
-    scales = scales_of(study, study.apart(block)[1])
+    if study.uncertainty:
+        from gradhesion.cli.work.spreads import solve_uncertain  # noqa: PLC0415 (SciPy's statistics)
+
+        return solve_uncertain(study, block, threads)
+    several, axes, _ = study.apart(block)
+    return solve_given(study, study.parameters_of(axes), several, block, threads)
+
+
+def solve_given(
+    study: Study,
+    given: dict[str, NDArray[np.float64]],
+    several: Block,
+    block: Block,
+    threads: int | None,
+) -> dict[str, NDArray[Any]]:
+    """
+    Solve scenes that are given as those of a study are, for its outputs.
+
+    Parameters
+    ----------
+    given
+        What the study gives; the arrays broadcast to the scenes.
+    several, block
+        Which of its solvers, and the block whose punches these are.
+
+    Returns
+    -------
+    The outputs, those in SI units and by quantities with units, and `status`: along the solvers, if there are several,
+    the scenes, and random punches.
+    """
+    found = _solved(study, scenes_from(given), several, block, threads)
+    scales = scales_from(study, given)
     if study.spectrum is not None:
         scales = {unit: scale[..., None] for unit, scale in scales.items()}
     found |= {name + SI: found[name] * scales[UNITS[name]] for name in study.in_si}
     if PHYSICAL_PARAMETER in study.labels:
-        found |= physical_of(study, study.parameters_of(study.apart(block)[1]), found)
+        found |= physical_of(study, given, found)
     return found
 
 
@@ -60,12 +94,16 @@ def physical_of(
 
 
 def scales_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
-    """Give what results are multiplied by for SI units, by the unit; nothing if the study has none."""
+    """Give what results of a block are multiplied by for SI units, by the unit; nothing if the study has none."""
+    return scales_from(study, study.parameters_of(block))
+
+
+def scales_from(study: Study, given: Mapping[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
+    """Give the same of scenes that are given as those of a study are."""
     if not study.in_si:
         return {}
     from gradhesion.core.variables.reduced import scales_in_si  # noqa: PLC0415 (300 ms for SciPy)
 
-    given = study.parameters_of(block)
     scales = scales_in_si(given["R"], given["work_of_adhesion"])
     if any(UNITS[name] == "Pa" for name in study.in_si):
         from gradhesion.core.equations.pressure import pressure_unit  # noqa: PLC0415 (300 ms for SciPy)
@@ -74,14 +112,16 @@ def scales_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
     return scales
 
 
-def _solved(study: Study, block: Block, threads: int | None) -> dict[str, NDArray[Any]]:
-    """Solve a block of a study: its outputs and `status`."""
+def _solved(
+    study: Study, scenes: Mapping[str, NDArray[np.float64]], several: Block, block: Block, threads: int | None
+) -> dict[str, NDArray[Any]]:
+    """Solve scenes for the outputs of a study, and `status`."""
     solvers = study.method.solver
     settings: dict[str, Any] = {"check_contact": study.method.check_contact, "threads": threads}
     settings |= {"loading": study.loading}
-    several, axes, profiles = study.apart(block)
+    _, _, profiles = study.apart(block)
     asked = (solvers,) if isinstance(solvers, str) else solvers[several[0]]
-    return solved_by(scenes_of(study, axes), study, asked, profiles, **settings)
+    return solved_by(scenes, study, asked, profiles, **settings)
 
 
 def solved_by(

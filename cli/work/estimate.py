@@ -36,6 +36,8 @@ class Estimate:
     """Whether a run is at work on this output."""
     kind: str
     scenes: int
+    solutions_of_scene: int
+    """How often a scene is solved with other inputs: its samples."""
     sizes: dict[str, int]
     outputs: tuple[str, ...]
     blocks: int
@@ -94,6 +96,7 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
         running=not foreign and folder.busy(),
         kind=study.kind,
         scenes=study.scenes,
+        solutions_of_scene=study.solutions,
         sizes=study.sizes,
         outputs=study.outputs,
         blocks=count,

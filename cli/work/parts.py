@@ -53,8 +53,11 @@ def settings_of(study: Study) -> dict[str, Any]:
         "points",
         "measured",
         "spectrum",
+        "uncertainty",
     )
     settings = {field.name: getattr(study, field.name) for field in fields(study) if field.name not in aside}
+    if study.uncertainty:
+        settings |= {"uncertainty": repr(study.uncertainty)}
     if study.spectrum is not None:
         settings |= {f"spectrum.{name}": value for name, value in asdict(study.spectrum).items()}
         del settings["spectrum.realisations"]  # each of them is the same however many there are
@@ -64,7 +67,7 @@ def settings_of(study: Study) -> dict[str, Any]:
 def types_of(study: Study) -> dict[str, np.dtype[Any]]:
     """Give the types of the results of a map, in the order of a part."""
     types = {name: "<i4" if name.endswith("_jumps") else "<f8" for name in study.variables}
-    return {name: np.dtype(kind) for name, kind in (types | {"status": "|i1"}).items()}
+    return {name: np.dtype(kind) for name, kind in (types | {"status": "<i2" if study.has_answers else "|i1"}).items()}
 
 
 def bytes_of(study: Study, block: Block) -> int:

@@ -43,7 +43,7 @@ def probe(study: Study, numbers: Sequence[int]) -> Probe | None:
         return None
     spread = [numbers[int(i * len(numbers))] for i in _spread(min(PIECES, 4 * len(numbers)))]
     place = _spread(PIECES)
-    cells = FIRST_CELLS
+    cells = min(FIRST_CELLS, study.cells)
     start = time.monotonic()
     solve_block(study, _piece(study.tiling[spread[0]], 1, 0.0), 1)  # compiles, if need be
     rates: list[float] = []
@@ -61,7 +61,7 @@ def probe(study: Study, numbers: Sequence[int]) -> Probe | None:
         compressed += sum(_compressed(array) for array in values.values())
         compressing += time.perf_counter() - start
         plain += sum(array.nbytes for array in values.values())
-        cells = max(1, min(CELLS, int(SECONDS_OF_PIECE / max(rates))))
+        cells = max(1, min(CELLS, study.cells, int(SECONDS_OF_PIECE / max(rates))))
         if time.monotonic() - begun > SECONDS:
             break
     return Probe(

@@ -65,7 +65,7 @@ def blank(study: Study, block: Block) -> Results:
         for name, kind in types_of(study).items()
         if name != "status"
     }
-    return values | {"status": np.full(shape, FLAGS["no_value"], np.int8)}
+    return values | {"status": np.full(shape, FLAGS["no_value"], types_of(study)["status"])}
 
 
 def place_of(study: Study, block: Block) -> str:

@@ -22,8 +22,9 @@ from gradhesion.cli.picture.picture import drawn
 from gradhesion.cli.picture.pictured import save
 from gradhesion.cli.study.study import study_from
 from gradhesion.core import CURVES, DOUBTFUL, FLAGS, OUTPUTS, REPORTS, solve
+from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
 
-LOADING, UNLOADING, TOLERANCE = DOUBTS
+LOADING, UNLOADING, TOLERANCE, *OF_ANSWERS = DOUBTS
 
 
 def _legend(figure: Figure) -> list[str]:
@@ -61,8 +62,9 @@ MAP = {"k": {"start": 0.0, "stop": 0.9, "num": 7}}
 
 
 def test_every_flag_has_words_and_every_doubt_looks_of_its_own() -> None:
-    assert list(names.FLAGS) == list(FLAGS)
-    assert sum(doubt.bit for doubt in DOUBTS) == DOUBTFUL
+    assert list(names.FLAGS) == list(ALL_FLAGS)
+    assert sum(doubt.bit for doubt in (LOADING, UNLOADING, TOLERANCE)) == DOUBTFUL
+    assert {doubt.bit for doubt in OF_ANSWERS} <= {*ALL_FLAGS.values()} - {*FLAGS.values()}
     for looks in ([doubt.hatch for doubt in DOUBTS], [doubt.mark for doubt in DOUBTS]):
         assert len(set(looks)) == len(DOUBTS)
     sizes = [doubt.size for doubt in DOUBTS]
@@ -111,12 +113,12 @@ def test_a_map_may_have_every_doubt_and_failures_at_once(make: Callable[..., xar
     dataset["status"][1:3, 2:5] = FLAGS["no_value"] | LOADING.bit
     dataset["dissipated_energy"][1:3, 2:5] = np.nan
     figure = drawn(dataset, [])
-    assert _legend(figure) == [*(doubt.words for doubt in DOUBTS), GAP], "once for all panels"
+    assert _legend(figure) == [*(doubt.words for doubt in (LOADING, UNLOADING, TOLERANCE)), GAP], "once for all panels"
     save(figure, tmp_path / "x.png", "png")
     for axes in figure.subfigs[1].axes[:2]:
         assert axes.patch.get_facecolor()[:3] == to_rgb(GREY)
         failed = dataset["lambda_over_R"].values[3], dataset["k"].values[1]
-        for doubt in (None, *DOUBTS):
+        for doubt in (None, LOADING, UNLOADING, TOLERANCE):
             paths = _hatched(axes, doubt)
             assert paths
             assert not any(path.contains_point(failed) for path in paths), "the grey shows through"

@@ -1,0 +1,32 @@
+"""What a user should know of a dataset that is written: cells whose answers may not hold, as a share of all."""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli.study.study import Study
+from gradhesion.cli.terminal.amounts import counted
+from gradhesion.core.answers.flags import ANSWER_FLAGS
+
+
+def flagged_in(status: NDArray[np.integer]) -> dict[str, int]:
+    """Count the cells that have each flag of answers."""
+    return {name: int(np.count_nonzero(status.astype(np.int16) & bit)) for name, bit in ANSWER_FLAGS.items()}
+
+
+def cautions(study: Study, flagged: Mapping[str, int]) -> Iterator[str]:
+    """Say of each flag in what share of the cells it is set, and what to do."""
+    off = flagged.get("linear_deviation_off", 0)
+    if off:
+        share = f"{off:,} of {counted(study.scenes, 'scene')} ({off / study.scenes:.1%})"
+        if study.uncertainty.samples:
+            yield (
+                f"the linear and the sampled standard deviation differ by more than a tenth in {share}: a kink lies "
+                "within the spread of the inputs, or the value bends; trust the samples there"
+            )
+        else:
+            yield (
+                f"the linear standard deviation is off in {share}: a kink lies within the spread of the inputs, or the "
+                "value bends; draw samples there, with samples = 1024 under [uncertainty]"
+            )

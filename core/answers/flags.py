@@ -1,0 +1,23 @@
+"""What answers that are drawn from several scenes have to report, beside the flags of a scene (status.py)."""
+
+from typing import Final
+
+from gradhesion.core.problem.status import FLAGS as OF_SCENES
+
+LINEAR_DEVIATION_OFF: Final = 128
+"""A linear standard deviation is off, for a kink lies within the spread of the inputs or the value bends: by more than
+a tenth of that of the samples, or without any by 2 % at 32 samples of its own. Told with [uncertainty] only."""
+RESOLUTION_TOO_COARSE: Final = 256
+"""A sweep at twice the resolution finds another optimum: there may be more between its points. Told of optima only."""
+NOTHING_FEASIBLE: Final = 512
+"""No point of the sweep meets what is required. Told of optima only."""
+
+ANSWER_FLAGS: Final = {
+    "linear_deviation_off": LINEAR_DEVIATION_OFF,
+    "resolution_too_coarse": RESOLUTION_TOO_COARSE,
+    "nothing_feasible": NOTHING_FEASIBLE,
+}
+"""Name of every flag of answers, with its bit."""
+
+FLAGS: Final = OF_SCENES | ANSWER_FLAGS
+"""Name of every flag of a dataset, with its bit; those of a scene first."""

@@ -1,0 +1,109 @@
+"""Slopes of a value to whatever its scene is given by: parameters, reduced variables, quantities with units.
+
+Sensitivities (sensitivity.py) are to the parameters of `solve`. How each of these follows from what is given
+(reduced.py) is found by differences of fourth order, of logarithms, which are exact for powers.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gradhesion.core.variables.reduced import WAYS, parameters_from
+
+PLAIN: Final = ("k", "nu")
+"""Parameters whose sensitivities are to themselves, not to their logarithms: they may be 0."""
+_STEP: Final = 2.0**-6
+"""Of a logarithm: 4 eps/step is left of rounding, and of what is no power step^4/30 of the fifth derivative."""
+_PLAIN_STEP: Final = 2.0**-9
+"""Of k and nu."""
+_CENTRED: Final = {-2: 1.0 / 12.0, -1: -2.0 / 3.0, 1: 2.0 / 3.0, 2: -1.0 / 12.0}
+_FORWARD: Final = {0: -25.0 / 12.0, 1: 4.0, 2: -3.0, 3: 4.0 / 3.0, 4: -0.25}
+
+_Array = NDArray[np.float64]
+
+
+def slopes_to_keys(
+    given: Mapping[str, ArrayLike],
+    keys: Sequence[str],
+    parameters: Sequence[str],
+    value: ArrayLike,
+    sensitivity: _Array,
+    powers: Mapping[str, float] | None = None,
+) -> dict[str, _Array]:
+    """Return d(value)/d(key) for keys out of `given`.
+
+    Parameters
+    ----------
+    given
+        What gives the scenes, as `parameters_from` takes it; all broadcast to the scenes.
+    keys
+        To what.
+    parameters
+        What `sensitivity` is to, in order.
+    value
+        The value, of shape `scenes`.
+    sensitivity
+        d ln(value)/d ln(parameter), for k and nu d ln(value)/d(parameter); shape (*scenes, parameters).
+    powers
+        Of the keys in the unit of the value: those of R and of the work of adhesion for a value in SI units.
+
+    Returns
+    -------
+    An array of shape `scenes` for each key; NaN where the key is 0, or the sensitivity missing.
+
+    Examples
+    --------
+    A value that goes with the square of lambda/R, at lambda/R = 3, to a wavelength in um with R = 2 um:
+
+    >>> names = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
+    >>> ball = dict(k=0.0, nu=0.3, R=2e-6, work_of_adhesion=0.05, E_star=1e9, c0=1e-6, wavelength=6e-6, A=0.01,
+    ...             a_max_over_R=np.inf)
+    >>> slopes = slopes_to_keys(ball, ["wavelength"], names, 9.0, np.array([0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0]))
+    >>> round(float(slopes["wavelength"]), 3)  # d 9 (w/6e-6)^2/dw = 18/6e-6
+    3000000.0
+    """
+    arrays = {name: np.asarray(one, dtype=float) for name, one in given.items()}
+    values, found = np.asarray(value, dtype=float), {}
+    for key in keys:
+        total = np.full(values.shape, (powers or {}).get(key, 0.0))
+        for name, influence in _influences(arrays, key, parameters).items():
+            part = sensitivity[..., parameters.index(name)] * influence
+            total = total + np.where(influence == 0.0, 0.0, part)
+        with np.errstate(all="ignore"):
+            found[key] = values * (total if key in PLAIN else total / _nonzero(arrays[key]))
+    return found
+
+
+def _nonzero(values: _Array) -> _Array:
+    """Give zeros no value."""
+    return np.where(values == 0.0, np.nan, values)
+
+
+def _influences(given: Mapping[str, _Array], key: str, parameters: Sequence[str]) -> dict[str, _Array]:
+    """Return d ln(parameter)/d ln(key), without the logarithm of k and nu, for all parameters that depend on a key."""
+    others = {way for ways in WAYS.values() for way in ways}
+    if key in parameters and not others & given.keys():
+        return {key: np.ones(())}
+    if key in PLAIN:
+        # inwards at the ends of the range, where nothing is on the other side
+        sides = np.where(given[key] > 0.25, -1.0, 1.0) if key == "k" else np.where(given[key] > 0.0, -1.0, 1.0)
+        points = [(weight, given[key] + i * sides * _PLAIN_STEP) for i, weight in _FORWARD.items()]
+        step = sides * _PLAIN_STEP
+    else:
+        points = [(weight, given[key] * np.exp(i * _STEP)) for i, weight in _CENTRED.items()]
+        step = np.asarray(_STEP)
+    found: dict[str, _Array] = {}
+    for weight, moved in points:
+        made = parameters_from({**given, key: moved})
+        for name in parameters:
+            with np.errstate(all="ignore"):  # what is 0 or infinite has no logarithm, and no influence
+                one = made[name] if name in PLAIN else np.log(np.abs(made[name]))
+                found[name] = found.get(name, np.zeros(())) + weight * one
+    influences = {}
+    for name, total in found.items():
+        with np.errstate(all="ignore"):
+            change = total / step
+        influences[name] = np.where(np.isfinite(change) & (np.abs(change) > 1e-9), change, 0.0)
+    return influences

@@ -1,0 +1,170 @@
+"""Uncertain inputs: the spread of a value, linearly from its slopes, or from quasi-random samples of the inputs.
+
+With independent inputs of standard deviations sigma_i, to first order
+
+    sigma^2 = sum_i (dV/dp_i)^2 sigma_i^2
+
+This holds where no kink of the value lies within the spread of the inputs. Whether one does is asked of the value
+itself, at a few samples: there the straight line and the value are to have the same deviation.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.special import ndtr, ndtri
+from scipy.stats import qmc
+
+QUANTILES: Final = {"p05": 0.05, "p50": 0.5, "p95": 0.95}
+"""The quantiles of the samples, by their names."""
+STATISTICS: Final = ("mean", *QUANTILES)
+"""All that is known of samples."""
+TENTH: Final = 0.1
+"""Two standard deviations differ where they do by more of the larger one."""
+FEW: Final = 32
+"""Samples that check a straight line, where no more are asked for. Of 600 values with six inputs known to 1 %, those
+that pass are right to 3 %, but for three that are off by 8 to 10 %; 8 samples miss some that are off by half."""
+AT_FEW: Final = 0.02
+"""By what share deviations of these samples may differ."""
+_LEAST_SHARE: Final = 2.0**-54
+"""Samples are strictly between the bounds: a modulus of 0 has no value."""
+
+_Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spread:
+    """How an input is distributed about the value of a scene.
+
+    Parameters
+    ----------
+    deviation
+        The standard deviation of a normal distribution, > 0; without meaning if it is `uniform`.
+    relative
+        Whether that is a share of the value of the scene.
+    low, high
+        Where the normal distribution is truncated, or between which the input is `uniform`, whatever the scene.
+    uniform
+        Whether all values between `low` and `high` are equally likely.
+
+    Examples
+    --------
+    >>> amplitude = Spread(deviation=0.05, relative=True, low=0.0)
+    >>> amplitude.quantiles(0.02, [0.5]).round(12).tolist(), round(float(amplitude.standard_deviation(0.02)), 9)
+    ([0.02], 0.001)
+    """
+
+    deviation: float = 1.0
+    relative: bool = False
+    low: float = -np.inf
+    high: float = np.inf
+    uniform: bool = False
+
+    def _normal(self, values: ArrayLike) -> tuple[_Array, _Array, _Array, _Array]:
+        """Return centre and deviation of the normal distribution, and its bounds in deviations from the centre."""
+        centre = np.asarray(values, dtype=float)
+        deviation = self.deviation * (np.abs(centre) if self.relative else np.ones_like(centre))
+        return centre, deviation, (self.low - centre) / deviation, (self.high - centre) / deviation
+
+    def standard_deviation(self, values: ArrayLike) -> _Array:
+        """Return the standard deviation of the distribution, truncated as it is, about each value."""
+        if self.uniform:
+            return np.full(np.shape(values), (self.high - self.low) / np.sqrt(12.0))
+        _, deviation, low, high = self._normal(values)
+        share = ndtr(high) - ndtr(low)
+        at_low, at_high = (np.exp(-0.5 * end * end) / np.sqrt(2.0 * np.pi) for end in (low, high))
+        low, high = (np.where(np.isfinite(end), end, 0.0) for end in (low, high))
+        mean = (at_low - at_high) / share
+        return deviation * np.sqrt(1.0 + (low * at_low - high * at_high) / share - mean * mean)
+
+    def quantiles(self, values: ArrayLike, shares: ArrayLike) -> _Array:
+        """Return the inputs below which these shares lie, strictly between the bounds; both arguments broadcast."""
+        inner = np.clip(np.asarray(shares, dtype=float), _LEAST_SHARE, 1.0 - _LEAST_SHARE)
+        if self.uniform:
+            return self.low + (self.high - self.low) * inner + 0.0 * np.asarray(values, dtype=float)
+        centre, deviation, low, high = self._normal(values)
+        below, above = ndtr(low), ndtr(high)
+        found = centre + deviation * ndtri(below + (above - below) * inner)
+        # a bound far out has a share of 0 or 1, and rounding may reach one that is near
+        return np.clip(found, np.nextafter(self.low, np.inf), np.nextafter(self.high, -np.inf))
+
+
+def drawn_shares(inputs: int, count: int, seed: int) -> _Array:
+    """Return quasi-random shares, a scrambled sequence of Sobol's: one row an input.
+
+    Parameters
+    ----------
+    inputs
+        Their number, 1 or more.
+    count
+        Of samples, a power of two.
+    seed
+        What the scrambling follows from.
+
+    Examples
+    --------
+    Each of 2^m equal parts of every input has one sample:
+
+    >>> shares = drawn_shares(3, 8, seed=1)
+    >>> np.sort(np.floor(8 * shares), axis=1).astype(int).tolist()[2]
+    [0, 1, 2, 3, 4, 5, 6, 7]
+    """
+    sequence = qmc.Sobol(inputs, scramble=True, rng=np.random.default_rng(seed))
+    return np.ascontiguousarray(sequence.random(count).T)
+
+
+def linear_deviation(slopes: Sequence[ArrayLike], deviations: Sequence[ArrayLike]) -> _Array:
+    """Return the standard deviation of a value by its slopes to independent inputs.
+
+    Examples
+    --------
+    >>> float(linear_deviation([3.0, 4.0], [1.0, 1.0]))
+    5.0
+    """
+    parts = [np.asarray(slope, dtype=float) * deviation for slope, deviation in zip(slopes, deviations, strict=True)]
+    return np.sqrt(np.sum([part * part for part in parts], axis=0))
+
+
+def differ(one: ArrayLike, other: ArrayLike, share: float = TENTH) -> NDArray[np.bool_]:
+    """Return where two deviations differ by more than a share of the larger; where one of them is missing they do.
+
+    Examples
+    --------
+    >>> differ([1.0, 1.0, 0.0, np.nan], [1.05, 1.2, 0.0, 1.0]).tolist()
+    [False, True, False, True]
+    """
+    first, second = np.asarray(one, dtype=float), np.asarray(other, dtype=float)
+    close: NDArray[np.bool_] = np.abs(first - second) <= share * np.maximum(first, second)
+    return ~close
+
+
+def statistics_of(samples: _Array, axis: int) -> Mapping[str, _Array]:
+    """Return mean, quantiles and standard deviation ("std") of samples; those without a value (NaN) are left out.
+
+    Examples
+    --------
+    >>> found = statistics_of(np.array([[1.0, 2.0, 3.0], [np.nan, 5.0, 5.0], [np.nan, np.nan, np.nan]]), axis=1)
+    >>> found["mean"].tolist(), found["p50"].tolist()
+    ([2.0, 5.0, nan], [2.0, 5.0, nan])
+    """
+    there = ~np.isnan(samples)
+    counts = there.sum(axis)
+    with np.errstate(all="ignore"):  # none has no mean, and infinite ones have no deviation
+        mean = np.sum(samples, axis, where=there) / counts
+        apart = samples - np.expand_dims(mean, axis)
+        found = {"mean": mean, "std": np.sqrt(np.sum(apart * apart, axis, where=there) / counts)}
+        ordered = np.sort(samples, axis)  # NaN last
+        for name, share in QUANTILES.items():
+            found[name] = _quantile(ordered, counts, share, axis)
+    return found
+
+
+def _quantile(ordered: _Array, counts: NDArray[np.int64], share: float, axis: int) -> _Array:
+    """Return a quantile of sorted samples of which the first `counts` have values, interpolated between two of them."""
+    place = share * np.maximum(counts - 1, 0)
+    low = np.floor(place).astype(np.int64)
+    high = np.minimum(low + 1, np.maximum(counts - 1, 0))
+    below, above = (np.take_along_axis(ordered, np.expand_dims(item, axis), axis).squeeze(axis) for item in (low, high))
+    return np.where(above > below, below + (place - low) * (above - below), below)

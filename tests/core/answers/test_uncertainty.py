@@ -1,0 +1,94 @@
+"""Distributions of inputs against SciPy's, statistics against numpy's, and what differs."""
+
+import numpy as np
+import pytest
+from scipy.stats import truncnorm
+
+from gradhesion.core.answers.uncertainty import (
+    FEW,
+    QUANTILES,
+    Spread,
+    differ,
+    drawn_shares,
+    linear_deviation,
+    statistics_of,
+)
+
+SHARES = np.array([1e-12, 0.003, 0.31, 0.5, 0.77, 0.9999])
+EPS = float(np.finfo(float).eps)
+
+
+@pytest.mark.parametrize(
+    ("centre", "spread"),
+    [
+        (0.02, Spread(deviation=0.013, low=0.0)),
+        (0.31, Spread(deviation=0.27, low=-1.0, high=0.5)),
+        (0.97, Spread(deviation=0.05, relative=True, low=0.0, high=1.0)),
+        (430.0, Spread(deviation=0.07, relative=True, low=0.0)),
+    ],
+)
+def test_a_truncated_normal_distribution(centre: float, spread: Spread) -> None:
+    deviation = spread.deviation * (centre if spread.relative else 1.0)
+    exact = truncnorm((spread.low - centre) / deviation, (spread.high - centre) / deviation, centre, deviation)
+    # the quantile function loses eps over the density of the share, which is least at the ends
+    np.testing.assert_allclose(spread.quantiles(centre, SHARES), exact.ppf(SHARES), rtol=1e-11, atol=1e-12)
+    assert spread.standard_deviation(centre) == pytest.approx(exact.std(), rel=1e-9)
+
+
+def test_a_uniform_distribution_is_that_of_every_scene() -> None:
+    spread = Spread(low=0.28, high=0.32, uniform=True)
+    centres = np.array([[0.29], [0.31]])
+    assert spread.quantiles(centres, [0.0, 0.25, 1.0]) == pytest.approx(np.array(2 * [[0.28, 0.29, 0.32]]), rel=4 * EPS)
+    assert spread.standard_deviation(centres) == pytest.approx(np.full((2, 1), 0.04 / np.sqrt(12.0)), rel=4 * EPS)
+
+
+def test_samples_lie_strictly_between_the_bounds() -> None:
+    spread = Spread(deviation=0.3, low=0.0, high=1.0)
+    for centre in (0.0, 1.0, 0.5):
+        ends = spread.quantiles(centre, [0.0, 1.0])
+        assert 0.0 < ends[0] < ends[1] < 1.0
+
+
+def test_shares_fill_the_cube_evenly_and_follow_from_the_seed() -> None:
+    shares = drawn_shares(4, 64, seed=7)
+    assert shares.shape == (4, 64)
+    np.testing.assert_array_equal(np.sort(np.floor(64 * shares), axis=1), np.tile(np.arange(64.0), (4, 1)))
+    np.testing.assert_array_equal(shares, drawn_shares(4, 64, seed=7))
+    assert not np.array_equal(shares, drawn_shares(4, 64, seed=8))
+
+
+def test_a_straight_line_has_the_deviation_of_its_samples() -> None:
+    """Quasi-random samples of two normal inputs: as good as 1/count, but for their tails."""
+    slopes, deviations = [2.0, -0.7], [0.3, 0.5]
+    shares = drawn_shares(2, 2**14, seed=3)
+    spreads = [Spread(deviation=one) for one in deviations]
+    values = sum(slope * one.quantiles(1.0, own) for slope, one, own in zip(slopes, spreads, shares, strict=True))
+    assert linear_deviation(slopes, deviations) == pytest.approx(np.std(values), rel=1e-3)
+
+
+def test_statistics_leave_out_what_has_no_value() -> None:
+    samples = np.random.default_rng(11).normal(size=(5, 3, 37))
+    samples[0, 1, :9] = np.nan
+    samples[2, 2] = np.nan
+    found = statistics_of(samples, -1)
+    own = samples.copy()
+    own[2, 2] = 0.0
+    for name, share in QUANTILES.items():
+        exact = np.nanquantile(own, share, axis=-1)
+        exact[2, 2] = np.nan
+        np.testing.assert_allclose(found[name], exact, rtol=8 * EPS, atol=8 * EPS)
+    there = np.arange(15).reshape(5, 3) != 8
+    np.testing.assert_allclose(found["mean"][there], np.nanmean(own, axis=-1)[there], rtol=1e-13, atol=1e-14)
+    np.testing.assert_allclose(found["std"][there], np.nanstd(own, axis=-1)[there], rtol=1e-13)
+    assert np.isnan([found[name][2, 2] for name in found]).all()
+
+
+def test_infinite_samples_have_quantiles() -> None:
+    found = statistics_of(np.array([1.0, 2.0, np.inf, np.inf]), -1)
+    assert [float(found[name]) for name in ("p05", "p50", "p95", "mean")] == [1.15, np.inf, np.inf, np.inf]
+
+
+def test_what_differs() -> None:
+    assert differ([1.0, 1.0, 1.0], [0.91, 0.89, np.nan]).tolist() == [False, True, True]
+    assert differ([1.0, 1.0], [0.99, 0.97], 0.02).tolist() == [False, True]
+    assert FEW & (FEW - 1) == 0
