@@ -12,11 +12,13 @@ from matplotlib.figure import Figure
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.dataset.reader import has_curves
 from gradhesion.cli.dataset.selection import selection_of
+from gradhesion.cli.dataset.soundness import is_fit, refuse_fit
 from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.errors import DatasetError, MissingExtraError, OutputError
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import SCENE, SOLVER
 from gradhesion.cli.picture.curve_picture import drawn_curves
+from gradhesion.cli.picture.fit_picture import drawn_fit
 from gradhesion.cli.picture.looks import Looks, looks_of
 from gradhesion.cli.picture.picture import drawn
 from gradhesion.cli.picture.pictured import styled
@@ -80,7 +82,7 @@ def plot(
     data: str | Path | None = None,
 ) -> Panels:
     r"""
-    Draw a dataset: lines over one axis, a map over two, panels of maps over more; curves as curves.
+    Draw a dataset: lines over one axis, a map over two, panels of maps over more; curves as curves, a fit as a whole.
 
     Parameters
     ----------
@@ -147,6 +149,9 @@ def plot(
             caption=caption,
             style=style,
         )
+        if is_fit(values):
+            choices = {"at": at, "over": over, "variables": names, "x": x, "y": y, "data": data}
+            return Panels(drawn_fit(values, looks, [word for word, value in choices.items() if value]), looks)
         _check_dimensions(values)
         selection = selection_of(values, _wishes(at), _wishes(over), interpolate=interpolate)
         points = None if data is None else Path(data)
@@ -213,6 +218,7 @@ def explore(
     if path.suffix.lower() not in {".html", ".htm"}:
         raise OutputError(f"{path}: the name of a page ends in .html")
     with in_python(), data_of(dataset) as values, replacement(path, overwrite=overwrite) as temporary:
+        refuse_fit(values, "a page")
         _check_dimensions(values)
         name = str(values.attrs["title"]) if isinstance(dataset, xarray.Dataset) else Path(dataset).name
         text = page(values, name, _listed(variables), _wishes(at))

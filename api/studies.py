@@ -10,7 +10,8 @@ import xarray
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.study.study import Study, load_study, study_from
+from gradhesion.cli.study.fit import FitStudy
+from gradhesion.cli.study.study import Study, any_from, load_any
 from gradhesion.wording import in_python
 
 
@@ -18,7 +19,7 @@ def load(
     study: str | Path | Mapping[str, Any],
     *,
     set: Mapping[str, Any] | None = None,  # noqa: A002 (as the option --set)
-) -> Study:
+) -> Study | FitStudy:
     """
     Read a study, check it as a whole, and expand its axes.
 
@@ -31,7 +32,8 @@ def load(
 
     Returns
     -------
-    The study, frozen: `parameters`, `outputs`, `sizes`, `scenes`, `text` (as TOML) and more.
+    The study, frozen: `parameters`, `outputs`, `sizes`, `scenes`, `text` (as TOML) and more; that of a fit has `fixed`,
+    `free` and `loop`.
 
     Raises
     ------
@@ -49,12 +51,12 @@ def load(
     changes = {} if set is None else set
     with in_python():
         if isinstance(study, Mapping):
-            return study_from(_changed(study, changes))
-        return load_study(study, [f"{key}={_toml(value)}" for key, value in changes.items()])
+            return any_from(_changed(study, changes))
+        return load_any(study, [f"{key}={_toml(value)}" for key, value in changes.items()])
 
 
 def run(
-    study: str | Path | Mapping[str, Any] | Study,
+    study: str | Path | Mapping[str, Any] | Study | FitStudy,
     *,
     set: Mapping[str, Any] | None = None,  # noqa: A002 (as the option --set)
     threads: int | None = None,
@@ -76,7 +78,8 @@ def run(
     Raises
     ------
     StudyError
-        The study cannot be read or is wrong; the error lists all of them.
+        The study cannot be read or is wrong; the error lists all of them. Of a fit: what is searched cannot be told
+        apart.
 
     Examples
     --------
@@ -88,11 +91,16 @@ def run(
     """
     if threads is not None and threads < 1:
         raise StudyError(f"threads = {threads}: the number of threads is 1 or more, or None for all processors")
-    if not isinstance(study, Study):
+    if not isinstance(study, Study | FitStudy):
         study = load(study, set=set)
     elif set:
         with in_python():
-            study = study_from(_changed(tomllib.loads(study.text), set), folder=study.folder)
+            study = any_from(_changed(tomllib.loads(study.text), set), folder=study.folder)
+    if isinstance(study, FitStudy):
+        from gradhesion.cli.dataset.fit import compute_fit  # noqa: PLC0415 (the compiler, which `load` does not need)
+
+        with in_python():
+            return compute_fit(study)
     from gradhesion.cli.dataset.dataset import compute  # noqa: PLC0415 (the compiler, which `load` does not need)
 
     return compute(study, threads=threads)

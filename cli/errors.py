@@ -10,8 +10,8 @@ from typing import Final
 EXIT_CODES: Final = {
     0: "success",
     2: "the command, the study or the dataset is wrong; no scheduler answers, or no worker is usable",
-    3: "written, but some scenes have failed (their `status` reports why); or `verify` has found a value beyond its "
-    "stated error",
+    3: "written, but some scenes have failed (their `status` reports why), or a fit did not converge or ends at an end "
+    "of a range; or `verify` has found a value beyond its stated error",
     4: "the output cannot be written (it exists, no space, no permission, another run is writing it, or parts of "
     "another study are kept), or the scheduler or all workers are gone; existing files are untouched",
     130: "interrupted; existing files are untouched, finished parts are kept, and the same command resumes",
@@ -55,6 +55,12 @@ class DatasetError(GradhesionError, ValueError):
 
 class ScenesFailedError(GradhesionError):
     """The dataset is written, but some of its scenes have no value."""
+
+    exit_code = 3
+
+
+class FitDoubtfulError(GradhesionError):
+    """The fit is written, but it did not converge or ends at an end of a range."""
 
     exit_code = 3
 

@@ -348,6 +348,40 @@ def _spread_symbols() -> dict[str, str]:
 
 
 SYMBOLS.update(_spread_symbols())
+OTHER_PARAMETER: Final = "other_parameter"
+"""The second dimension of the correlations of a fit."""
+
+PARAMETER_UNITS: Final = "parameter_units"
+"""The units of what is fitted, along `parameter`."""
+
+FIT: Final = {
+    "value": "value of what is fitted, in its unit",
+    "standard_deviation": "standard deviation of the value, in its unit",
+    "low": "lower end of the 95 % interval, in its unit",
+    "high": "upper end of the 95 % interval, in its unit",
+    "on_bound": "whether the value is at an end of its searched range",
+    "correlation": "correlation of the values",
+    "chi_square": "sum of the squares of the residuals",
+    "degrees_of_freedom": "number of points less that of what is fitted",
+    "converged": "whether the least misfit was found to within its tolerance",
+}
+"""The variables of a fit, but for its points."""
+
+FIT_POINTS: Final = {
+    "measured_point": {
+        "measured_indentation": "measured indentation depth",
+        "measured_load": "measured load, negative if it pulls",
+        "measured_unloading": "whether the point is of loading or of unloading",
+        "measured_cycle": "number of the cycle",
+        "residual": "signed distance of the point to the fitted path, in standard deviations of the noise",
+    },
+    "fitted_point": {
+        "fitted_indentation": "indentation depth on the fitted path, with its offset",
+        "fitted_load": "load on the fitted path, with its offset",
+        "fitted_unloading": "whether the path loads or unloads",
+    },
+}
+"""The variables of the points of a fit, by their dimension."""
 
 SCENE: Final = "scene"
 """The one dimension of a dataset with `layout = "points"`."""

@@ -81,6 +81,14 @@ def _sections() -> Iterator[str]:
         "contiguous ragged array. Request a curve by its name, or single variables of it."
     )
     yield table(("curve", "dimension", "variable", "long_name", "0 and 1 mean"), _curves())
+    yield "## Variables of a fit"
+    yield (
+        f"A fit has the dimension `{names.PARAMETER}` of what is fitted, with its units in `{names.PARAMETER_UNITS}`; "
+        f"`{names.OTHER_PARAMETER}` is the same again, for correlations. Fixed parameters are coordinates without a "
+        "dimension, in SI units. Offsets are added to the path, so that it is drawn through the data. `status` has the "
+        "flags of the fitted cycle."
+    )
+    yield table(("variable", "dimensions", "long_name"), _of_fits())
     yield "## Status"
     yield (
         f"Every dataset has `status`, {names.STATUS}. Each bit is a flag. A scene with {_named(FAILED)} has failed. "
@@ -118,6 +126,16 @@ def _curves() -> list[list[str]]:
         for curve, own in names.CURVES.items()
         for name, words in own.items()
     ]
+
+
+def _of_fits() -> list[list[str]]:
+    """Write a row for each variable of a fit."""
+    scalar = ("chi_square", "degrees_of_freedom", "converged")
+    own = {name: "" if name in scalar else names.PARAMETER for name in names.FIT}
+    own["correlation"] = f"{names.PARAMETER}, {names.OTHER_PARAMETER}"
+    rows = [[code(name), code(own[name]), words] for name, words in names.FIT.items()]
+    points = ((along, name, words) for along, each in names.FIT_POINTS.items() for name, words in each.items())
+    return rows + [[code(name), code(along), words] for along, name, words in points]
 
 
 def _flags() -> list[list[str]]:

@@ -7,6 +7,7 @@ from typing import Any, Final
 from docs.tables import code, table
 from gradhesion.cli.keys import INPUTS, KEYS, PHYSICAL, REDUCED, SETTINGS, keys_of
 from gradhesion.cli.names import OUTPUTS
+from gradhesion.cli.study.fit_form import FitForm
 from gradhesion.cli.study.form import Form
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.quantities import WORDS
@@ -53,12 +54,34 @@ def _sections() -> Iterator[str]:
     yield from _of_table("states", tables["states"])
     yield from _of_uncertainty(tables["uncertainty"])
     yield from _of_table("method", tables["method"])
+    yield from _of_fits()
     yield "## Axes"
     yield (
         "A number is fixed. A list of numbers is an axis, and so is a range: a table with the keys below. A range has "
         "finite ends; a list may contain `inf`. An axis must not repeat a value."
     )
     yield table(HEADS, _rows(schema["$defs"]["Range_k"], bounds=False))
+
+
+def _of_fits() -> Iterator[str]:
+    """Write the tables of studies of kind "fit"."""
+    own = FitForm.model_json_schema()["$defs"]
+    yield '## Studies of `kind = "fit"`'
+    yield (
+        "[Fit a loop](../fit.md) describes them. Besides `title`, `kind` and `profile` they have the tables below and "
+        "no `outputs`, `layout`, `loading`, `states` or `method`. In `[parameters]` and `[physical]` a number is "
+        "fixed; a table `{ start, stop }` is a range that is searched, above 0 but for `k` and `nu`, and gives a parameter that "
+        'is fitted. `indentation_max` may be `"data"`, the default: the cycle turns where the data do. Reduced '
+        "variables, `machine_stiffness` and lists are as above, or have no place: a fit has no axes."
+    )
+    yield "### [data]"
+    yield f"Required: {SETTINGS['data'].about}."
+    yield table(HEADS, _rows(own["DataTable"]))
+    yield "The table of a column, instead of its name alone:"
+    yield table(HEADS, _rows(own["ColumnTable"]))
+    yield "### [fit]"
+    yield f"Optional: {SETTINGS['fit'].about}."
+    yield table(HEADS, _rows(own["FitTable"]))
 
 
 def _target(entry: Mapping[str, Any], schema: Mapping[str, Any]) -> Mapping[str, Any] | None:
@@ -164,7 +187,7 @@ def _type(entry: Mapping[str, Any]) -> str:
     forms = [form for form in entry.get("oneOf", entry.get("anyOf", [entry])) if form.get("type") != "null"]
     if any("Range_" in str(form.get("$ref")) for form in forms):
         return "number, list or range"
-    names = {"array": "list", "": "table"} | TYPES
+    names = {"array": "list", "": "table", "object": "table"} | TYPES
     return " or ".join(names[form.get("type", "")] for form in forms)
 
 

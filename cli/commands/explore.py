@@ -30,10 +30,12 @@ def explore(
 
     from gradhesion.cli.dataset.reader import opened
     from gradhesion.cli.dataset.selection import nearest_values
+    from gradhesion.cli.dataset.soundness import refuse_fit
     from gradhesion.cli.disk import replacement, writing
     from gradhesion.cli.explorer.page import page
 
     with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
+        refuse_fit(dataset, "a page", file)
         text = page(dataset, file.name, names, at)
         with writing(path):
             temporary.write_text(text, encoding="utf-8")

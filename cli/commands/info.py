@@ -24,6 +24,8 @@ def info(file: Path, form: str, variables: tuple[str, ...], jumps: bool) -> None
     or are doubtful, and the origin of the dataset.
     """
     from gradhesion.cli.dataset.reader import opened
+    from gradhesion.cli.dataset.soundness import is_fit
+    from gradhesion.cli.words.fit_words import fit_described, fit_tabled
     from gradhesion.cli.words.jump_words import jumps_listed
     from gradhesion.cli.words.table import tabled
     from gradhesion.cli.words.words import described
@@ -31,6 +33,10 @@ def info(file: Path, form: str, variables: tuple[str, ...], jumps: bool) -> None
     if variables and (jumps or form != "csv"):
         raise click.UsageError("--variable chooses what a table has; add --format csv, and leave --jumps out")
     with opened(file) as dataset:
+        if is_fit(dataset) and not jumps:
+            for line in fit_tabled(dataset) if form == "csv" else fit_described(dataset, file):
+                show(line)
+            return
         if not jumps and form == "words":
             for line in described(dataset, file):
                 show(line)

@@ -12,6 +12,7 @@ from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.terminal.output import show, show_block
 
 if TYPE_CHECKING:
+    from gradhesion.cli.study.fit import FitStudy
     from gradhesion.cli.study.study import Study
     from gradhesion.cli.work.estimate import Estimate
 
@@ -42,10 +43,37 @@ def plan(
     Prints scenes and blocks, what an earlier run has left and why the rest cannot be reused, disk space, memory and
     time. The time is estimated by solving scenes of STUDY for a second or two. Nothing is written.
     """
-    from gradhesion.cli.study.study import load_study
+    from gradhesion.cli.study.fit import FitStudy
+    from gradhesion.cli.study.study import load_any
 
-    asked = load_study(study, overrides).chunked(chunk)
-    show_plan(asked, output or Path("outputs") / f"{asked.name}.nc", threads, as_json=as_json)
+    asked = load_any(study, overrides)
+    path = output or Path("outputs") / f"{asked.name}.nc"
+    if isinstance(asked, FitStudy):
+        show_fit_plan(asked, path, as_json=as_json)
+    else:
+        show_plan(asked.chunked(chunk), path, threads, as_json=as_json)
+
+
+def show_fit_plan(study: "FitStudy", output: Path, *, as_json: bool = False) -> None:
+    """Print the plan of a fit."""
+    found = {
+        "output": str(output),
+        "output_exists": output.exists(),
+        "kind": study.kind,
+        "points": study.loop.depth.size,
+        "cycles": study.loop.cycles,
+        "parameters": list(study.parameters),
+        "starts": study.starts,
+    }
+    if as_json:
+        show_block(json.dumps(found, indent=2))
+        return
+    state = "exists; run needs --overwrite" if found["output_exists"] else "new"
+    show(f"output    {output} ({state})")
+    show(f"points    {counted(study.loop.depth.size, 'point')} in {counted(study.loop.cycles, 'cycle')}")
+    show(f"fitted    {', '.join(study.parameters)}; from at most {counted(study.starts, 'start')}")
+    for note in study.notes:
+        show(f"note      {note}")
 
 
 def show_plan(study: "Study", output: Path, threads: int | None, *, as_json: bool = False) -> None:

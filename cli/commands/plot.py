@@ -55,7 +55,8 @@ def plot(
 ) -> None:
     """Draw a dataset: lines, maps, panels or curves.
 
-    The shape of FILE decides: lines over one axis, a map over two, panels over more; curves are drawn as curves.
+    The shape of FILE decides: lines over one axis, a map over two, panels over more; curves are drawn as curves, and a
+    fit with its data and residuals.
     Options fix an axis (--at A=0.02), reduce it (--over k=max) or place it (--x, --y), and set size, colours, labels.
     """
     path = output or file.parent / f"{file.stem or 'dataset'}.png"
@@ -66,27 +67,34 @@ def plot(
 
     from gradhesion.cli.dataset.reader import has_curves, opened
     from gradhesion.cli.dataset.selection import nearest_values, selection_of
+    from gradhesion.cli.dataset.soundness import is_fit
     from gradhesion.cli.disk import replacement, writing
     from gradhesion.cli.errors import DatasetError
     from gradhesion.cli.picture.curve_picture import drawn_curves
+    from gradhesion.cli.picture.fit_picture import drawn_fit
     from gradhesion.cli.picture.looks import looks_of
     from gradhesion.cli.picture.picture import drawn
     from gradhesion.cli.picture.pictured import save
 
     chosen = looks_of(**looks)
+    choices = {"--at": at, "--over": over, "--variable": names, "--x": x, "--y": y, "--data": data}
+    given = [word for word, value in choices.items() if value]
     with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
-        selection = selection_of(dataset, at, over, interpolate=interpolate)
-        notes = [] if interpolate else nearest_values(dataset, at)
-        if data is not None and not has_curves(dataset):
-            raise DatasetError(f"--data {data}: measured points go on curves, and {file} has a map; leave it out")
-        if not has_curves(dataset):
-            figure = drawn(dataset, names, selection, x=x, y=y, looks=chosen)
-        elif given := [word for word, on in (("--over", over), ("--interpolate", interpolate)) if on]:
-            raise DatasetError(f"{given[0]}: curves are drawn as they are; choose scenes with --at")
+        if is_fit(dataset):
+            figure, notes = drawn_fit(dataset, chosen, given), []
         else:
-            figure = drawn_curves(
-                selection.narrowed(dataset), names, x=x, y=y, looks=chosen, data=data, notes=notes.append
-            )
+            selection = selection_of(dataset, at, over, interpolate=interpolate)
+            notes = [] if interpolate else nearest_values(dataset, at)
+            if data is not None and not has_curves(dataset):
+                raise DatasetError(f"--data {data}: measured points go on curves, and {file} has a map; leave it out")
+            if not has_curves(dataset):
+                figure = drawn(dataset, names, selection, x=x, y=y, looks=chosen)
+            elif of_maps := [word for word, on in (("--over", over), ("--interpolate", interpolate)) if on]:
+                raise DatasetError(f"{of_maps[0]}: curves are drawn as they are; choose scenes with --at")
+            else:
+                figure = drawn_curves(
+                    selection.narrowed(dataset), names, x=x, y=y, looks=chosen, data=data, notes=notes.append
+                )
         with writing(path):
             save(figure, temporary, form, chosen)
     if not quiet:

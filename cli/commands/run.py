@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import click
 
 from gradhesion.cli.commands.examples import example
-from gradhesion.cli.commands.plan import chunk_option, show_plan
-from gradhesion.cli.errors import ScenesFailedError
+from gradhesion.cli.commands.plan import chunk_option, show_fit_plan, show_plan
+from gradhesion.cli.errors import FitDoubtfulError, ScenesFailedError
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.terminal.printable import printable_line
@@ -21,6 +21,7 @@ from gradhesion.cli.terminal.progress import progress, rate
 if TYPE_CHECKING:
     from gradhesion.cli.dataset.writer import Written
     from gradhesion.cli.engines import Engine
+    from gradhesion.cli.study.fit import FitStudy
     from gradhesion.cli.study.study import Study
 
 
@@ -83,14 +84,25 @@ def run(
     STUDY is a TOML file. Interrupted runs resume where they stopped: give the same command again.
     """
     from gradhesion.cli.dataset.writer import write
-    from gradhesion.cli.study.study import load_study
+    from gradhesion.cli.study.fit import FitStudy
+    from gradhesion.cli.study.study import load_any
     from gradhesion.cli.work.compiling import prepare
     from gradhesion.cli.work.kernels import kinds_of
 
     if scheduler is not None and (engine != "dask" or threads is not None):
         raise click.UsageError("--scheduler goes with --engine dask, and without --threads: its workers have their own")
-    asked = load_study(study, overrides).chunked(chunk)
-    path = output or Path("outputs") / f"{asked.name}.nc"
+    loaded = load_any(study, overrides)
+    path = output or Path("outputs") / f"{loaded.name}.nc"
+    if isinstance(loaded, FitStudy):
+        refused = {"--shard": shard, "--fresh": fresh, "--fail-fast": fail_fast, "--engine dask": engine != "threads"}
+        if given := [word for word, on in refused.items() if on]:
+            raise click.UsageError(f"{given[0]}: a fit has no blocks of scenes; run it without")
+        if dry_run:
+            show_fit_plan(loaded, path)
+            return
+        _run_fit(loaded, path, overwrite=overwrite, quiet=quiet)
+        return
+    asked = loaded.chunked(chunk)
     if dry_run:
         show_plan(asked, path, threads)
         return
@@ -116,6 +128,33 @@ def run(
             advance=advance,
         )
     finish(path, asked.scenes, written, time.monotonic() - start, quiet=quiet)
+
+
+def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> None:
+    """Fit a loop and write what was found."""
+    from gradhesion.cli.dataset.fit import write_fit
+    from gradhesion.cli.disk import refuse_existing
+    from gradhesion.cli.work.compiling import prepare
+    from gradhesion.cli.work.fitting import doubts_of, fitted, kinds_of_fit
+
+    refuse_existing(path, path, overwrite=overwrite)
+    for note in () if quiet else study.notes:
+        messages.say("note", note)
+    prepare(kinds_of_fit(study), quiet=quiet)
+    start = time.monotonic()
+    found = fitted(study)
+    seconds = time.monotonic() - start
+    write_fit(study, found, path, history=history_now(), overwrite=overwrite)
+    if not quiet:
+        values = ", ".join(f"{name} = {value:.4g}" for name, value in found.values.items())
+        messages.say(
+            "done",
+            f"{path}: {counted(study.loop.depth.size, 'point')} fitted in {seconds:.1f} s, "
+            f"{bytes_in_words(path.stat().st_size)}: {values}",
+            seconds=seconds,
+        )
+    if doubts := doubts_of(found):
+        raise FitDoubtfulError([f"{path}: {sentence}" for sentence in doubts])
 
 
 def history_now() -> str:

@@ -6,6 +6,7 @@ from pathlib import Path
 import click
 
 from gradhesion.cli.commands.examples import example
+from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.output import show, show_block
 
@@ -18,9 +19,16 @@ def validate(study: Path, overrides: tuple[str, ...]) -> None:
 
     STUDY is a TOML file. Each error is printed with its line and a suggested fix. Nothing is computed.
     """
-    from gradhesion.cli.study.study import load_study
+    from gradhesion.cli.study.fit import FitStudy
+    from gradhesion.cli.study.study import load_any
 
-    asked = load_study(study, overrides)
+    asked = load_any(study, overrides)
+    if isinstance(asked, FitStudy):
+        points, fitted = counted(asked.loop.depth.size, "point"), ", ".join(asked.parameters)
+        show(f"{study}: valid; a fit of {points} in {counted(asked.loop.cycles, 'cycle')}; fitted: {fitted}")
+        for note in asked.notes:
+            messages.say("note", note)
+        return
     axes = ", ".join(f"{name} ({size:,})" for name, size in asked.sizes.items()) or "none"
     outputs = ", ".join(asked.outputs)
     show(f"{study}: valid; a {asked.kind} of {counted(asked.scenes, 'scene')}; axes: {axes}; outputs: {outputs}")
@@ -33,7 +41,17 @@ def schema() -> None:
     Editors use it to complete and check studies; `run` and `validate` use it too. What it cannot express (lists of
     unequal length, repeated values) is checked by `gradhesion validate`.
     """
+    from pydantic.json_schema import models_json_schema
+
+    from gradhesion.cli.study.fit_form import FitForm
     from gradhesion.cli.study.form import Form
 
-    document = {"$schema": "https://json-schema.org/draft/2020-12/schema", **Form.model_json_schema()}
+    places, own = models_json_schema([(Form, "validation"), (FitForm, "validation")])
+    document = {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "if": {"properties": {"kind": {"const": "fit"}}, "required": ["kind"]},
+        "then": places[FitForm, "validation"],
+        "else": places[Form, "validation"],
+        **own,
+    }
     show_block(json.dumps(document, indent=2))

@@ -1,6 +1,7 @@
 """What a study's dataset holds: names, dimensions and attributes by CF-1.11, the same in a file and in xarray."""
 
 import platform
+from collections.abc import Mapping
 from dataclasses import replace
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
@@ -12,6 +13,7 @@ from gradhesion.cli.dataset.cautions import cautions, flagged_in
 from gradhesion.cli.dataset.contents import CONTENTS
 from gradhesion.cli.dataset.coordinates import coordinates
 from gradhesion.cli.dataset.variable import Variable
+from gradhesion.cli.study.fit import FitStudy
 from gradhesion.cli.study.shape_words import profile_table, shape_in_words
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import messages
@@ -62,15 +64,23 @@ def _status(study: Study) -> Variable:
 
 def attributes(study: Study, history: str) -> dict[str, Any]:
     """List the global attributes of a study's dataset: what it is, where it comes from, how to make it again."""
+    own = {
+        "profile": shape_in_words(study.profile, study.spectrum),
+        **_of_fit(study),
+        "control": study.loading.control,
+    }
+    return origin(study, history, own)
+
+
+def origin(study: Study | FitStudy, history: str, own: Mapping[str, Any]) -> dict[str, Any]:
+    """List the global attributes of any dataset, those of its `own` among them."""
     return {
         "Conventions": "CF-1.11",
         "title": study.title,
         "source": f"gradhesion {version('gradhesion')}",
         "history": history,
         "references": names.REFERENCES,
-        "profile": shape_in_words(study.profile, study.spectrum),
-        **_of_fit(study),
-        "control": study.loading.control,
+        **own,
         "study": study.text,
         "study_sha256": study.sha256,
         "python_version": platform.python_version(),

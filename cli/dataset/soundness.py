@@ -12,8 +12,11 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import (
     EXTENTS,
+    FIT_POINTS,
+    OTHER_PARAMETER,
     OUTPUTS,
     PARAMETER,
+    PARAMETER_UNITS,
     PHYSICAL_PARAMETER,
     RAGGED,
     REALISATION,
@@ -32,6 +35,9 @@ if TYPE_CHECKING:
 
 PACKED: Final = 2**14
 """Bytes of values for each byte of a file, at most: deflate packs 1,032 into one, and others hardly more."""
+
+_WORDS: Final = (SOLVER, PARAMETER, PHYSICAL_PARAMETER, OTHER_PARAMETER, PARAMETER_UNITS)
+"""The variables that hold words."""
 
 _TEXTS: Final = ("title", "source", "history", "profile", "control", "study", "study_sha256")
 
@@ -67,7 +73,13 @@ def check_form(dataset: "xarray.Dataset", path: Path | str) -> None:
     DatasetError
         One is not as we write it; the message says which.
     """
-    for fault in (*_of_attributes(dataset), *_of_variables(dataset), *_of_axes(dataset), *_of_curves(dataset)):
+    for fault in (
+        *_of_attributes(dataset),
+        *_of_variables(dataset),
+        *_of_axes(dataset),
+        *_of_curves(dataset),
+        *_of_fit(dataset),
+    ):
         raise _damaged(path, fault)
 
 
@@ -88,7 +100,7 @@ def _of_attributes(dataset: "xarray.Dataset") -> Iterator[str]:
 def _of_variables(dataset: "xarray.Dataset") -> Iterator[str]:
     """Say which variables have another type, or attributes of another."""
     for name, variable in dataset.variables.items():
-        words = "OU" if name in (SOLVER, PARAMETER, PHYSICAL_PARAMETER) else "OUf" if name == STATE else "fiu"
+        words = "OU" if name in _WORDS else "OUf" if name == STATE else "fiu"
         if variable.dtype.kind not in words:
             yield f"the type of {name} is {variable.dtype}"
         for attribute in ("units", "long_name"):
@@ -119,6 +131,41 @@ def _of_axes(dataset: "xarray.Dataset") -> Iterator[str]:
         known = name.removesuffix(SI) in OUTPUTS or labels
         if known and (dataset[name].dims != (*axes, *labels) or not {*labels} <= {*dataset.coords}):
             yield f"the axes of {name} are not those of status"
+
+
+def _of_fit(dataset: "xarray.Dataset") -> Iterator[str]:
+    """Say what a fit lacks."""
+    if not is_fit(dataset):
+        return
+    dimensions: dict[str, tuple[str, ...]] = dict.fromkeys(
+        ("value", "standard_deviation", "low", "high", "on_bound"), (PARAMETER,)
+    )
+    dimensions |= {"correlation": (PARAMETER, OTHER_PARAMETER), PARAMETER_UNITS: (PARAMETER,), PARAMETER: (PARAMETER,)}
+    dimensions |= dict.fromkeys(("chi_square", "degrees_of_freedom", "converged"), ())
+    dimensions |= {name: (along,) for along, own in FIT_POINTS.items() for name in own}
+    for name, own in dimensions.items():
+        if name not in dataset.variables:
+            yield f"it has no {name}"
+        elif dataset[name].dims != own:
+            yield f"the dimensions of {name} are not those of a fit"
+
+
+def is_fit(dataset: "xarray.Dataset") -> bool:
+    """Report whether a dataset is that of a fit."""
+    return "chi_square" in dataset.variables
+
+
+def refuse_fit(dataset: "xarray.Dataset", what: str, path: Path | str = "the dataset") -> None:
+    """
+    Refuse a fit where scenes are wanted.
+
+    Raises
+    ------
+    DatasetError
+        It is one.
+    """
+    if is_fit(dataset):
+        raise DatasetError(f"{path}: is that of a fit, and {what} is of scenes; `gradhesion plot` draws it")
 
 
 def _is_axis(values: NDArray[Any], *, infinite: bool) -> bool:

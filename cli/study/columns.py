@@ -8,16 +8,17 @@ import csv
 import hashlib
 import io
 import re
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.files import read_at_most
-from gradhesion.cli.terminal.wording import shown
+from gradhesion.cli.terminal.wording import did_you_mean, shown
 
 MOST_BYTES: Final = 2**29
 """The largest file that is read: ten million rows of some columns."""
@@ -57,7 +58,11 @@ class Columns:
         return next(iter(self.values.values())).size
 
 
-def read_columns(path: Path, only: Collection[str] | None = None) -> Columns:
+Words = Mapping[str, Mapping[str, float]]
+"""Of columns of words: the number for each word that they may have."""
+
+
+def read_columns(path: Path, only: Collection[str] | None = None, words: Words | None = None) -> Columns:
     """
     Read a file.
 
@@ -69,6 +74,8 @@ def read_columns(path: Path, only: Collection[str] | None = None) -> Columns:
         tabs (or else spaces), and each one that follows is a row of numbers, nan and inf among them.
     only
         The names of the columns that are read, of those that are there; the others may hold anything. All if None.
+    words
+        The columns of a text that have words, with the number for each of them.
 
     Returns
     -------
@@ -99,11 +106,12 @@ def read_columns(path: Path, only: Collection[str] | None = None) -> Columns:
     sha256 = hashlib.sha256(content).hexdigest()
     if content.startswith(_MAGIC):
         return _of_netcdf(content, sha256, only)
-    return _of_text(content, sha256, only)
+    return _of_text(content, sha256, only, words)
 
 
-def _of_text(content: bytes, sha256: str, only: Collection[str] | None = None) -> Columns:
+def _of_text(content: bytes, sha256: str, only: Collection[str] | None = None, words: Words | None = None) -> Columns:
     """Read the columns of a text."""
+    words = words or {}
     lines = _lines(content)
     try:
         number, header = next(lines)
@@ -123,15 +131,20 @@ def _of_text(content: bytes, sha256: str, only: Collection[str] | None = None) -
         if next(lines, None) is None:
             raise ColumnsError(f"the header on line {number} has no row of numbers below it; add one")
         wanted = None if only is None else read
-        table = np.loadtxt(text, delimiter=delimiter, comments="#", ndmin=2, quotechar='"', usecols=wanted)
+        coded: dict[int | str, Callable[[str], Any]] = {
+            i: partial(_number_of, known=words[name]) for i, name in enumerate(names) if name in words and i in read
+        }
+        table = np.loadtxt(
+            text, delimiter=delimiter, comments="#", ndmin=2, quotechar='"', usecols=wanted, converters=coded or None
+        )
     except UnicodeDecodeError:
         raise ColumnsError("the file is no text in UTF-8; save it as UTF-8") from None
     except ValueError as error:
         if isinstance(error, ColumnsError):
             raise
-        raise ColumnsError(_sentence(content, number, names, delimiter, read)) from None
+        raise ColumnsError(_sentence(content, number, names, delimiter, read, words)) from None
     if table.shape[1] != len(read):
-        raise ColumnsError(_sentence(content, number, names, delimiter, read))
+        raise ColumnsError(_sentence(content, number, names, delimiter, read, words))
 
     def place(row: int) -> str:
         for at, (line, _) in enumerate(_lines(content)):
@@ -199,7 +212,15 @@ def _is_number(cell: str) -> bool:
     return True
 
 
-def _sentence(content: bytes, header: int, names: list[str], delimiter: str | None, read: Sequence[int]) -> str:
+def _number_of(cell: str, known: Mapping[str, float]) -> float:
+    """Give the number for a word; what says that there is none is NaN."""
+    word = cell.strip().lower()
+    return known[word] if word in known else float("nan" if word == "nan" else "no number")
+
+
+def _sentence(
+    content: bytes, header: int, names: list[str], delimiter: str | None, read: Sequence[int], words: Words
+) -> str:
     """Say in which line a text is no table of numbers."""
     for number, line in _lines(content):
         if number <= header:
@@ -209,6 +230,10 @@ def _sentence(content: bytes, header: int, names: list[str], delimiter: str | No
             short = f"{len(cells):,} values under {len(names):,} names"
             return f"line {number} has {short}; give each row one value a column, separated as the header is"
         for name, cell in ((names[i], cells[i]) for i in read):
+            if name in words and cell.lower() not in (*words[name], "nan"):
+                return f"line {number}: {name} = {shown(cell)}; {did_you_mean(cell, [*words[name]])}"
+            if name in words:
+                continue
             if not cell:
                 return f"line {number} has no value of {shown(name)}; give it one or remove the row"
             if not _is_number(cell):

@@ -1,4 +1,4 @@
-"""The kinds of a study: a map has one value a scene, a curve study one curve a scene."""
+"""The kinds of a study: a map has one value a scene, a curve study one curve a scene, a fit has no scenes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -60,6 +60,14 @@ KINDS: Final[dict[str, Kind]] = {
         outputs=tuple(dict.fromkeys((*CURVES, *(name for own in CURVES.values() for name in own)))),
         most_scenes=1_000,  # curves are for looking at, and each has thousands of values
         remedy='use fewer values, split the study, or write kind = "map"',
+        has_parts=False,
+        has_solver=False,
+    ),
+    "fit": Kind(  # a study of its own form (cli/study/fit.py)
+        name="fit",
+        outputs=(),
+        most_scenes=1,
+        remedy="fit one loop a study",
         has_parts=False,
         has_solver=False,
     ),

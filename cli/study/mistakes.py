@@ -17,10 +17,13 @@ from gradhesion.core.problem.profile import MOST_HARMONICS
 _OF_INPUTS: Final = ("parameters", "physical", "loading")
 """The tables whose keys are inputs."""
 
-_TABLES: Final = ("parameters", "physical", "profile", "loading", "states", "uncertainty", "method")
+OF_A_FIT: Final = ("data", "fit")
+"""The tables of studies of kind "fit" alone."""
+
+_TABLES: Final = ("parameters", "physical", "profile", "loading", "states", "uncertainty", "method", "data", "fit")
 """Every table at the top."""
 
-_REQUIRED: Final[dict[Path, Any]] = {
+REQUIRED: Final[dict[Path, Any]] = {
     ("outputs",): ["pull_off_force"],
     ("parameters",): {},
     ("parameters", "k"): 0.5,
@@ -53,10 +56,21 @@ class Checked:
     """The keys that are not missing, but misspelt or in the wrong table."""
 
 
-def checked(data: Mapping[str, Any]) -> Checked:
-    """Check the form of a study, each key for itself."""
+def checked(data: Mapping[str, Any], model: Any = Form, required: Mapping[Path, Any] = REQUIRED) -> Checked:
+    """
+    Check the form of a study, each key for itself.
+
+    Parameters
+    ----------
+    data
+        The keys.
+    model
+        The form of studies of its kind.
+    required
+        The keys that the form needs, with valid values that stand for wrong ones.
+    """
     try:
-        form = Form.model_validate(data)
+        form = model.model_validate(data)
     except ValidationError as error:
         details = error.errors(include_url=False, include_context=True)
     else:
@@ -76,7 +90,7 @@ def checked(data: Mapping[str, Any]) -> Checked:
             mistakes.append(Mistake(path, detail["input"], _sentence(detail, path)))
     mistakes += [mistake for path, mistake in missing.items() if path not in meant]
     wrong = {path[: _depth(path)] for path in (*missing, *(mistake.path for mistake in mistakes))}
-    form = Form.model_validate(_without(data, wrong))
+    form = model.model_validate(_without(data, wrong, required))
     return Checked(form=form, data=data, mistakes=tuple(mistakes), wrong=frozenset(wrong), meant=frozenset(meant))
 
 
@@ -85,14 +99,14 @@ def _depth(path: Path) -> int:
     return 2 if len(path) > 1 and isinstance(path[1], str) else 1
 
 
-def _without(data: Mapping[str, Any], wrong: Iterable[Path]) -> dict[str, Any]:
+def _without(data: Mapping[str, Any], wrong: Iterable[Path], required: Mapping[Path, Any]) -> dict[str, Any]:
     """Leave out the keys that are wrong, but for those that a form needs."""
     sound = {key: {**value} if isinstance(value, Mapping) else value for key, value in data.items()}
     for path in wrong:
         table: Any = sound if len(path) == 1 else sound.get(str(path[0]), {})
         if isinstance(table, dict):
             table.pop(path[-1], None)
-    for path, value in _REQUIRED.items():
+    for path, value in required.items():
         table = sound if len(path) == 1 else sound[str(path[0])]
         table.setdefault(str(path[-1]), {**value} if isinstance(value, dict) else value)
     return sound
@@ -106,10 +120,7 @@ def _path(detail: ErrorDetails) -> Path:
 
 def _unknown_key(path: Path) -> tuple[Path, str]:
     """Report which key was meant, and say so."""
-    tables: dict[Path, tuple[str, ...]] = {
-        (): keys_of(""),
-        **{(name,): keys_of(name) for name in _TABLES},
-    }
+    tables: dict[Path, tuple[str, ...]] = {(): keys_of(""), **{(name,): keys_of(name) for name in _TABLES}}
     table, key = path[:-1], str(path[-1])
     if table == ("uncertainty",):
         return path, f"no input of a study; {did_you_mean(key, (*INPUTS, *keys_of('uncertainty')))}"
@@ -120,6 +131,8 @@ def _unknown_key(path: Path) -> tuple[Path, str]:
         if other != table and key in keys:
             home = f"under [{dotted(other)}]" if other else "at the top, before the first [table]"
             return (*other, key), f"this key belongs {home}; move it there"
+    if not table and key in OF_A_FIT:
+        return path, 'this table is of a fit; write kind = "fit" at the top, or remove it'
     near = nearest(key, known)
     return (*table, near or ""), f"unknown key; {did_you_mean(key, known)}"
 

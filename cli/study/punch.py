@@ -46,7 +46,7 @@ def profile_of(table: ProfileTable) -> Profile:
 
 def mistakes_of_punch(checked: Checked, sound: Mapping[str, Values]) -> Iterator[Mistake]:
     """Check the profile, the control, and what is asked of them."""
-    series = list(_mistakes_of_series(checked, sound))
+    series = list(mistakes_of_series(checked, sound))
     yield from series
     yield from _mistakes_without_a_file(checked)
     yield from _mistakes_of_spectrum(checked)
@@ -54,7 +54,7 @@ def mistakes_of_punch(checked: Checked, sound: Mapping[str, Values]) -> Iterator
     yield from _mistakes_of_default_only(checked, sound_series=not series)
 
 
-def _mistakes_of_series(checked: Checked, sound: Mapping[str, Values]) -> Iterator[Mistake]:
+def mistakes_of_series(checked: Checked, sound: Mapping[str, Values]) -> Iterator[Mistake]:
     """Check the waves of a profile: each n once, and not all of them zero if A is not."""
     wrong = {mistake.path[:3] for mistake in checked.mistakes}
     if _SERIES in wrong or ("profile",) in checked.wrong:

@@ -28,8 +28,9 @@ from gradhesion.cli.names import (
 )
 from gradhesion.cli.study import places
 from gradhesion.cli.study.axes import Values
+from gradhesion.cli.study.fit import FitStudy, fit_from
 from gradhesion.cli.study.kinds import KINDS
-from gradhesion.cli.study.mistakes import checked
+from gradhesion.cli.study.mistakes import Mistake, checked
 from gradhesion.cli.study.points import Points, points_of
 from gradhesion.cli.study.profile_file import Measured, measured_in
 from gradhesion.cli.study.punch import profile_of, spectrum_of
@@ -39,6 +40,7 @@ from gradhesion.cli.study.source import Source, read_source
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
 from gradhesion.cli.study.uncertainty import Uncertainty, uncertainty_of
 from gradhesion.cli.terminal import wording
+from gradhesion.cli.terminal.wording import nearest
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import PARAMETERS, RANGE, SENSITIVITIES
@@ -281,33 +283,59 @@ def study_from(
     StudyError
         The study is wrong; the error has all mistakes.
     """
+    return _study(_source(data, name, folder), columns)
+
+
+def load_any(path: str | Path, overrides: Iterable[str] = ()) -> Study | FitStudy:
+    """Read a study of scenes, or one of a fit, from a file; as `load_study`."""
+    source = read_source(Path(path), overrides)
+    return _fit(source) if is_fit(source.data) else _study(source)
+
+
+def any_from(data: Mapping[str, Any], name: str = "study", *, folder: str | Path = "") -> Study | FitStudy:
+    """Make a study of scenes, or one of a fit, from a mapping; as `study_from`."""
+    source = _source(data, name, folder)
+    return _fit(source) if is_fit(source.data) else _study(source)
+
+
+def is_fit(data: Mapping[str, Any]) -> bool:
+    """Report whether the keys are meant to be those of a fit."""
+    kind = data.get("kind")
+    return isinstance(kind, str) and nearest(kind, tuple(KINDS)) == "fit"
+
+
+def _fit(source: Source) -> FitStudy:
+    """Check a fit as a whole and read its data."""
+    fit, mistakes = fit_from(source)
+    _refuse(source, mistakes)
+    assert fit is not None  # noqa: S101 (it has no mistakes)
+    return fit
+
+
+def _source(data: Mapping[str, Any], name: str, folder: str | Path) -> Source:
+    """Make the source of a study that is a mapping."""
     if places.is_deep(data):
         raise StudyError(
             f"{name}: not a study, tables or lists are nested more than {places.DEEPEST} deep; remove some levels"
         )
     home = Path(folder).absolute()
-    return _study(Source(name=name, data=_plain(data), text="", place=lambda _: name, folder=home), columns)
+    return Source(name=name, data=_plain(data), text="", place=lambda _: name, folder=home)
 
 
 def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = None) -> Study:
     """Check a study as a whole and expand it."""
+    if is_fit(source.data):
+        raise StudyError(f"{source.name}: a fit has no scenes; `gradhesion run` and gradhesion.run fit it")
     points = points_of(source.data, source.folder, columns)
     measured = measured_in(source.data, source.folder)
     found = checked(measured.beside(points.beside(source.data)))
     sound, between = mistakes_between_keys(found, points)
-    sentences = []
-    for mistake in (*points.mistakes, *measured.mistakes, *found.mistakes, *between):
-        if mistake.value is None and (points.unread or (measured.unread and mistake not in measured.mistakes)):
-            continue
-        value = "" if mistake.value is None else f" = {wording.shown(mistake.value)}"
-        sentences.append(f"{source.place(mistake.path)}: {places.dotted(mistake.path)}{value}: {mistake.sentence}")
-    sentences.sort(key=_line)
-    mistakes = [*source.mistakes, *sentences]
-    if len(mistakes) > MOST_MISTAKES:
-        more = f"... and {len(mistakes) - MOST_MISTAKES} more mistakes; fix these first"
-        mistakes = [*mistakes[:MOST_MISTAKES], more]
-    if mistakes:
-        raise StudyError(mistakes)
+    mistakes = [
+        mistake
+        for mistake in (*points.mistakes, *measured.mistakes, *found.mistakes, *between)
+        if mistake.value is not None or not (points.unread or (measured.unread and mistake not in measured.mistakes))
+    ]
+    _refuse(source, mistakes)
     form = found.form
     absent = left_out(sound, with_units="physical" in form.model_fields_set)
     given = sound | absent
@@ -341,6 +369,21 @@ def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = N
         points=points,
         measured=measured,
     )
+
+
+def _refuse(source: Source, mistakes: Iterable[Mistake]) -> None:
+    """Raise what is wrong with a study, if anything is."""
+    sentences = []
+    for mistake in mistakes:
+        value = "" if mistake.value is None else f" = {wording.shown(mistake.value)}"
+        sentences.append(f"{source.place(mistake.path)}: {places.dotted(mistake.path)}{value}: {mistake.sentence}")
+    sentences.sort(key=_line)
+    found = [*source.mistakes, *sentences]
+    if len(found) > MOST_MISTAKES:
+        more = f"... and {len(found) - MOST_MISTAKES} more mistakes; fix these first"
+        found = [*found[:MOST_MISTAKES], more]
+    if found:
+        raise StudyError(found)
 
 
 def _line(sentence: str) -> tuple[str, int]:

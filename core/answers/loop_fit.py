@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.stats import t
 from threadpoolctl import threadpool_limits
 
+from gradhesion.core.answers.loop_intervals import profile_interval
 from gradhesion.core.answers.loop_misfit import Misfit
 from gradhesion.core.answers.loop_path import LINEAR
 from gradhesion.core.answers.loop_search import starts_of
@@ -37,6 +38,8 @@ _SINGULAR: Final = 3e-4
 """Of singular values over the largest: below it a combination of parameters has no effect but that of chords."""
 _SIGMAS: Final = 3.0
 """Of the distribution of chi square: a start that is refined to within is not followed by others."""
+INTERVALS: Final = ("linear", "profile")
+"""Where intervals come from."""
 LEVEL: Final = 0.95
 """What an interval covers."""
 
@@ -50,7 +53,8 @@ class FittedLoop:
     names
         The free parameters in their order, then `OFFSETS` if these are fitted.
     values, standard_deviations, low, high
-        By name; low and high bound the 95 % interval of the linear problem (of its logarithm where that is searched).
+        By name; low and high bound the 95 % interval, of the linear problem (of its logarithm where that is searched)
+        or by profile likelihood.
     correlation
         Of all of them, a square in the order of the names.
     on_bound
@@ -63,6 +67,8 @@ class FittedLoop:
         The vertices of the path, offsets included: rows of depth in m and load in N.
     converged
         Whether the last refinement did.
+    status
+        What `solve` reports of the fitted cycle.
     """
 
     names: tuple[str, ...]
@@ -78,6 +84,7 @@ class FittedLoop:
     loading: _Array
     unloading: _Array
     converged: bool
+    status: int
 
 
 class CannotTellApartError(ValueError):
@@ -103,6 +110,7 @@ def fit_loop(
     offsets: bool = True,
     profile: Profile | None = None,
     through_machine: bool = False,
+    intervals: str = "linear",
     candidates: int = 512,
     starts: int = 32,
     seed: int = 0,
@@ -131,6 +139,8 @@ def fit_loop(
     through_machine
         Whether the depths are those of the far end of a machine, depth + load/spring_constant; then spring_constant in
         N/m is fixed or free.
+    intervals
+        "linear", those of the linear problem at the minimum, or "profile", by profile likelihoods (loop_intervals.py).
     candidates, starts
         How many combinations over the ranges have their paths compared, the best by force and last depth of 32 times as
         many, and how many of them are refined.
@@ -146,8 +156,8 @@ def fit_loop(
     CannotTellApartError
         Some of the free parameters have one effect.
     ValueError
-        For too few points, no points of loading or unloading, ranges or noise out of range, or where no candidate has a
-        path.
+        For other intervals, too few points, no points of unloading, ranges or noise out of range, or where no
+        candidate has a path.
 
     Examples
     --------
@@ -163,6 +173,8 @@ def fit_loop(
     >>> round(found.values["E_star"] / E_star, 3), round(found.values["work_of_adhesion"] / work, 3)
     (1.0, 1.0)
     """
+    if intervals not in INTERVALS:
+        raise ValueError(f"intervals = {intervals!r}: they are {' or '.join(INTERVALS)}")
     points = np.column_stack([np.asarray(indentation, dtype=float).ravel(), np.asarray(load, dtype=float).ravel()])
     back = np.asarray(unloading, dtype=bool).ravel()
     _check(points, back, free, noise, unknown=len(free) + 2 * offsets)
@@ -171,7 +183,8 @@ def fit_loop(
     )
     with threadpool_limits(1):  # matrices of a few columns: threads only wait for each other
         few = slice(None, None, max(1, back.size // _FEW))
-        return _described(misfit, misfit.refined(_best(misfit, starts_of(misfit, candidates, seed)[:starts], few)))
+        done = misfit.refined(_best(misfit, starts_of(misfit, candidates, seed)[:starts], few))
+        return _described(misfit, done, intervals)
 
 
 def _best(misfit: Misfit, begun: _Array, few: slice) -> _Array:
@@ -215,7 +228,7 @@ def _check(
         raise CannotTellApartError(through_stiffness)
 
 
-def _described(misfit: Misfit, done: Any) -> FittedLoop:
+def _described(misfit: Misfit, done: Any, intervals: str) -> FittedLoop:
     """Describe a minimum."""
     names, residual = misfit.names, misfit.residual(done.x)
     sizes = misfit.sizes(done.x)
@@ -232,10 +245,17 @@ def _described(misfit: Misfit, done: Any) -> FittedLoop:
         raise CannotTellApartError([name for name, w in zip(names, weights, strict=True) if w > 0.2])
     degrees = residual.size - len(names)
     covariance = np.linalg.inv(jacobian.T @ jacobian) * np.outer(sizes, sizes)
-    covariance *= max(1.0, float(residual @ residual) / degrees)  # noise may be larger than it was said to be
+    unit = max(1.0, float(residual @ residual) / degrees)  # noise may be larger than it was said to be
+    covariance *= unit
     spread = np.sqrt(np.diag(covariance))
     values, factor = misfit.named(done.x), float(t.ppf(0.5 * (1.0 + LEVEL), degrees))
-    low, high = misfit.named(done.x - factor * spread), misfit.named(done.x + factor * spread)
+    ends = done.x - factor * spread, done.x + factor * spread
+    if intervals == "profile":
+        pairs = [
+            profile_interval(misfit, done.x, i, covariance[i] / spread[i], factor, unit) for i in range(len(names))
+        ]
+        ends = np.array([pair[0] for pair in pairs]), np.array([pair[1] for pair in pairs])
+    low, high = misfit.named(ends[0]), misfit.named(ends[1])
     by_value = {name: 1.0 if name in LINEAR else values[name] for name in names}
     path = misfit.path(done.x)
     if path is None:
@@ -254,4 +274,5 @@ def _described(misfit: Misfit, done: Any) -> FittedLoop:
         loading=path.places[: path.turn + 1],
         unloading=path.places[path.turn :],
         converged=bool(done.status > 0),
+        status=misfit.model.status(done.x),
     )

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from gradhesion.core.answers.loop_distance import Feet, feet
-from gradhesion.core.answers.loop_path import LINEAR, OFFSETS, LoopModel, LoopPath
+from gradhesion.core.answers.loop_path import LINEAR, LoopModel, LoopPath
+from gradhesion.core.answers.loop_points import OFFSETS
 from gradhesion.core.problem.profile import Profile
 
 _Array = NDArray[np.float64]

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from gradhesion.core.answers.loop_points import OFFSETS
 from gradhesion.core.curve.branches import ARRIVAL, END, START
 from gradhesion.core.curves import general, general_path, path
 from gradhesion.core.curves.forms import GENERAL, point
@@ -26,13 +27,12 @@ from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import PARAMETERS, TURNS
 from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.status import JUMP_IN_TO_RIM, NO_VALUE
 from gradhesion.core.sweep import solve
 from gradhesion.core.variables.reduced import WAYS, parameters_from
 
 _Array = NDArray[np.float64]
 
-OFFSETS: Final = ("indentation_offset", "load_offset")
-"""What is added to the depth and the load of the path."""
 LINEAR: Final = ("k", "nu", "indentation_max", *OFFSETS)
 """What is searched as it is; all else by its logarithm."""
 _STEP: Final = 1e-5
@@ -148,6 +148,24 @@ class LoopModel:
             np.concatenate([[False], jump, [False]]),
             int(np.count_nonzero(~unloading)),
         )
+
+    def status(self, vector: _Array) -> int:
+        """Return what `solve` reports of the cycle, turned at the radius at which its path does."""
+        drawn = self.path(vector)
+        if drawn is None:
+            return NO_VALUE
+        given = self.given(self.values(vector))
+        made = {name: float(value) for name, value in parameters_from(given).items()}
+        scene = {name: made[name] for name in PARAMETERS}
+        if self.loading.control == "machine":
+            scene["machine_stiffness"] = made["machine_stiffness"]
+        radius = float(drawn.radius[drawn.turn]) / float(given["R"])
+        if radius == 0.0:
+            return 0
+        scene["a_max_over_R"] = min(scene["a_max_over_R"], radius)
+        wanted = ["dissipated_energy", "loading_jumps", "unloading_jumps"]
+        found = int(solve(scene, wanted, profile=self.profile, loading=self.loading, threads=1)["status"])
+        return found & ~(JUMP_IN_TO_RIM if radius < made["a_max_over_R"] else 0)
 
     def _drawn(
         self, scene: Mapping[str, float], targets: Mapping[str, float], compliance: float

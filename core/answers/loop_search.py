@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.stats import qmc
 
 from gradhesion.core.answers.loop_misfit import Misfit
-from gradhesion.core.answers.loop_path import OFFSETS
+from gradhesion.core.answers.loop_points import OFFSETS
 from gradhesion.core.problem.names import PARAMETERS
 from gradhesion.core.sweep import solve
 from gradhesion.core.variables.reduced import parameters_from

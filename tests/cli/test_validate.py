@@ -8,6 +8,7 @@ from pathlib import Path
 from click.testing import Result
 
 from gradhesion.cli.keys import keys_of
+from gradhesion.cli.study.fit_form import FitForm
 from gradhesion.cli.study.form import Form
 
 Call = Callable[..., Result]
@@ -32,11 +33,18 @@ def test_all_mistakes_of_a_study(gradhesion: Call, study_file: Path) -> None:
 def test_the_schema_is_that_of_validation(gradhesion: Call, root: Path) -> None:
     told = json.loads(gradhesion("schema").stdout)
     assert told.pop("$schema").startswith("https://json-schema.org/")
-    assert told == Form.model_json_schema()
-    parameters = told["$defs"]["Parameters"]
-    assert set(parameters["properties"]) == {*keys_of("parameters")}
-    assert parameters["additionalProperties"] is False
+    assert told["else"] == {"$ref": "#/$defs/Form"}
+    assert told["then"] == {"$ref": "#/$defs/FitForm"}
+    own = told["$defs"]
+    for form in (Form, FitForm):
+        expected = form.model_json_schema()
+        assert {name: own[name] for name in expected.pop("$defs")} | {form.__name__: own[form.__name__]} == (
+            form.model_json_schema()["$defs"] | {form.__name__: expected}
+        )
+    assert set(own["Parameters"]["properties"]) == {*keys_of("parameters")}
+    assert own["Parameters"]["additionalProperties"] is False
     for config in (root / "configs").glob("*.toml"):
         keys = tomllib.loads(config.read_text())
-        assert keys.keys() <= told["properties"].keys()
-        assert keys["parameters"].keys() <= parameters["properties"].keys()
+        of_a_fit = keys.get("kind") == "fit"
+        assert keys.keys() <= own["FitForm" if of_a_fit else "Form"]["properties"].keys()
+        assert keys["parameters"].keys() <= own["FitParameters" if of_a_fit else "Parameters"]["properties"].keys()

@@ -14,6 +14,8 @@ import pytest
 from click.testing import CliRunner
 
 from gradhesion.cli.main import cli
+from gradhesion.cli.study.fit_form import REQUIRED, FitForm
+from gradhesion.cli.study.mistakes import checked
 from gradhesion.cli.study.study import study_from
 
 from .pages import PAGES, ROOT, Block, blocks_of, commands_of, made_smaller, same
@@ -95,7 +97,10 @@ def _check_study(block: Block) -> None:
     study = {**WHOLE, **table}
     if "physical" in table and "parameters" not in table:
         study["parameters"] = {"k": 0.3, "nu": 0.3, "A": 0.02}
-    assert study_from(study).scenes >= 1, block.place
+    if study.get("kind") == "fit":  # a whole one: its form is checked, its file is that of the page
+        assert checked(table, FitForm, REQUIRED).mistakes == (), block.place
+    else:
+        assert study_from(study).scenes >= 1, block.place
 
 
 @pytest.fixture(scope="module")

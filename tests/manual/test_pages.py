@@ -18,7 +18,7 @@ from docs import notebooks  # noqa: E402
 from docs.__main__ import FOLDER, PAGES  # noqa: E402
 from gradhesion.cli import errors, main  # noqa: E402
 from gradhesion.cli.keys import INPUTS, SETTINGS  # noqa: E402
-from gradhesion.cli.names import CURVES, OUTPUTS  # noqa: E402
+from gradhesion.cli.names import CURVES, FIT, FIT_POINTS, OUTPUTS  # noqa: E402
 from gradhesion.core import FLAGS  # noqa: E402
 
 SYNONYMS = (
@@ -48,8 +48,11 @@ def test_every_key_output_and_flag_stands_in_the_manual() -> None:
         (FOLDER / "reference" / f"{name}.md").read_text(encoding="utf-8") for name in ("study", "dataset")
     )
     tables = ("parameters", "physical", "profile", "loading", "states", "uncertainty", "method")
-    assert all(f"\n| `{key}` |" in study for key in (*INPUTS, *SETTINGS) if key not in tables)
+    of_a_fit = ("data", "fit")
+    assert all(f"\n| `{key}` |" in study for key in (*INPUTS, *SETTINGS) if key not in (*tables, *of_a_fit))
     assert all(f"\n## [{name}]\n" in study for name in tables)
+    assert all(f"\n### [{name}]\n" in study for name in of_a_fit)
+    assert all(f"| `{name}` |" in dataset for name in (*FIT, *(name for own in FIT_POINTS.values() for name in own)))
     assert all(f"| `{name}` |" in dataset for name in (*INPUTS, *OUTPUTS, *FLAGS, *CURVES))
     assert all(f"| `{name}` |" in dataset for own in CURVES.values() for name in own)
 

@@ -8,7 +8,8 @@ import pytest
 
 from gradhesion.core import draw_curves, solve
 from gradhesion.core.answers.loop_distance import feet
-from gradhesion.core.answers.loop_path import OFFSETS, LoopModel
+from gradhesion.core.answers.loop_path import LoopModel
+from gradhesion.core.answers.loop_points import OFFSETS
 from gradhesion.core.problem.profile import Harmonic, Profile
 
 R = 5e-6

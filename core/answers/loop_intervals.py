@@ -1,0 +1,73 @@
+"""Intervals of fitted numbers by profile likelihoods: how far each can be moved, all others fitted anew.
+
+The sum of squares of the residuals, less its minimum, grows as the square of the way for a linear problem; an interval
+ends where it has grown to the square of a quantile of Student's t. The root of it is nearly linear in the way, so that
+a secant finds the end in a few steps.
+"""
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.core.answers.loop_misfit import Misfit
+
+_Array = NDArray[np.float64]
+
+_NEAR: Final = 0.01
+"""Of the quantile: as near as the end of an interval is looked for."""
+_TRIALS: Final = 8
+"""Steps to an end, at most."""
+_FURTHEST: Final = 4.0
+"""Of a step, in parts of the way so far: beyond, a linear estimate is not to be relied on."""
+
+
+def profile_interval(
+    misfit: Misfit, best: _Array, number: int, along: _Array, factor: float, unit: float
+) -> tuple[float, float]:
+    """Return how low and how high one number may be.
+
+    Parameters
+    ----------
+    misfit
+        The loop.
+    best
+        The minimum.
+    number
+        Which of its numbers is moved.
+    along
+        How all numbers move with it, by the linear problem: its standard deviation times the correlations; its own item
+        is that standard deviation.
+    factor
+        The quantile that an interval reaches to, in standard deviations.
+    unit
+        The variance of a residual, by which sums of squares are divided.
+
+    Returns
+    -------
+    The ends, as numbers are searched; an end of the range where the misfit does not grow enough within it. Where the
+    misfit is lower than at `best` on the way, it counts as that of `best`.
+    """
+    least = float(np.sum(misfit.residual(best) ** 2))
+    ends = []
+    for sign in (-1.0, 1.0):
+        limit = misfit.low[number] if sign < 0.0 else misfit.high[number]
+        most = sign * (limit - best[number])
+        way, before, start = factor * float(along[number]), (0.0, 0.0), best
+        for _ in range(_TRIALS):
+            at_limit = way >= most
+            way = min(way, most)
+            moved = start + (sign * way - (start[number] - best[number])) * along / along[number]
+            moved = np.clip(moved, misfit.low, misfit.high)
+            moved[number] = best[number] + sign * way
+            found = misfit.refined(moved, held=number, most=20).x
+            grown = float(np.sum(misfit.residual(found) ** 2)) - least
+            reached = float(np.sqrt(max(0.0, grown) / unit))
+            if abs(reached - factor) < _NEAR * factor or (at_limit and reached < factor):
+                break
+            slope = (reached - before[1]) / (way - before[0]) if way != before[0] else 0.0
+            step = (factor - reached) / slope if slope > 0.0 else way
+            before, start = (way, reached), found
+            way = float(np.clip(way + step, 0.2 * way, (1.0 + _FURTHEST) * way))
+        ends.append(float(best[number] + sign * way))
+    return ends[0], ends[1]
