@@ -70,7 +70,7 @@ def _of_fits() -> Iterator[str]:
     yield (
         "[Fit a loop](../fit.md) describes them. Besides `title`, `kind` and `profile` they have the tables below and "
         "no `outputs`, `layout`, `loading`, `states` or `method`. In `[parameters]` and `[physical]` a number is "
-        "fixed; a table `{ start, stop }` is a range that is searched, above 0 but for `k` and `nu`, and gives a parameter "
+        "fixed; a table `{ start, stop }` is a range that is searched, above 0 but for `k` and `nu`, for a parameter "
         'that is fitted. `indentation_max` may be `"data"`, the default: the cycle turns where the data do. Reduced '
         "variables, `machine_stiffness` and lists are as above, or have no place: a fit has no axes."
     )

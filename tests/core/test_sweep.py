@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import FAILED, FLAGS, OUTPUTS, PARAMETERS, SOLVERS, solve
-from gradhesion.core.arrays import cosine as cosine_sweep
+from gradhesion.core.arrays import tables
 from gradhesion.core.problem.names import RESULTS
 from gradhesion.core.problem.status import NO_VALUE
 
@@ -258,9 +258,9 @@ def test_mistakes_of_the_caller(call: Callable[..., object], scene: dict[str, fl
 
 def test_a_table_is_made_once(scene: dict[str, float]) -> None:
     solve(scene)
-    before = cosine_sweep.table_of.cache_info().misses
+    before = tables._own.cache_info().misses
     solve(scene | {"A": np.linspace(0, 0.1, 5000)})
-    assert cosine_sweep.table_of.cache_info().misses == before
+    assert tables._own.cache_info().misses == before
 
 
 def test_inputs_are_left_alone(mixture: dict[str, np.ndarray]) -> None:

@@ -11,7 +11,7 @@ import pytest
 from gradhesion.core import PARAMETERS, REPORTS, solve
 from gradhesion.core.equations.jkr import indentation
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.problem.status import NO_VALUE, TOLERANCE_NOT_MET
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, NO_VALUE, TOLERANCE_NOT_MET
 
 STORED = Path(__file__).parents[2] / "twin" / "scenes.json"
 SCENE: dict[str, Any] = {
@@ -49,12 +49,20 @@ def test_errors_are_covered(name: str, stored: tuple[dict[str, Any], dict[str, A
 def test_the_residual_is_rounding(stored: tuple[dict[str, Any], dict[str, Any]]) -> None:
     """The loop integral is another way to the energy; its own rounding grows with the load that cancels in it."""
     parameters, columns = stored
-    result = solve(parameters, ("dissipated_energy", "energy_residual"))
+    result = solve(parameters, ("dissipated_energy", "energy_residual", "delta_max"))
     share = np.abs(result["energy_residual"] / result["dissipated_energy"])
     few = np.array(columns["loading_jumps"], dtype=float) <= 5
     assert np.median(share) <= 8e-15
     assert np.quantile(share[few], 0.99) <= 1e-12
-    assert share.max() <= 1e-7
+    # work of the load, M a^(3+k), over the deeper of the two depths; hundreds of branches are summed
+    rim = parameters["a_max_over_R"]
+    depth = np.maximum(rim**2, np.abs(result["delta_max"]))
+    work = stiffness(*(parameters[name] for name in PARAMETERS[:4])) * rim ** (3.0 + parameters["k"]) * depth
+    plain = (result["status"] & CLOSE_TO_A_JUMP) == 0
+    size = work + result["dissipated_energy"]
+    assert (np.abs(result["energy_residual"]) <= 512 * 2.0**-52 * size)[plain].all()
+    # where a depth is met or missed by 4e-12 of it, the place is uncertain by the root of that
+    assert share[~plain].max() <= 3e-6
 
 
 def test_a_residual_of_too_many_waves_has_no_value() -> None:
