@@ -299,7 +299,7 @@ _SETTINGS: Final = (
     ),
     Key(
         name="kind",
-        about="one value per scene, curves of each scene, or parameters from a measured loop",
+        about="one value per scene, curves of each scene, optima, or parameters from a measured loop",
         example='kind = "map"',
     ),
     Key(
@@ -336,6 +336,11 @@ _SETTINGS: Final = (
         name="states",
         about='the states of contact whose pressure and surface are drawn, for kind = "curve"',
         example="a table [states] with contact_radius_over_R",
+    ),
+    Key(
+        name="optimum",
+        about='what is sought, for kind = "optimum": the goal, the inputs that are searched, and what is required',
+        example='a table [optimum] with maximise = "pull_off_force" and over = ["lambda_over_R"]',
     ),
     Key(
         name="uncertainty",
@@ -504,6 +509,54 @@ _SETTINGS: Final = (
         table="uncertainty",
         about="quasi-random samples of the inputs, a power of two; 0: standard deviations by sensitivities alone",
         example="samples = 1024",
+    ),
+    Key(
+        name="maximise",
+        table="optimum",
+        about="the output that is to be as large as possible; two: their best compromises",
+        example='maximise = "pull_off_force"',
+    ),
+    Key(
+        name="minimise",
+        table="optimum",
+        about="the output that is to be as small as possible, instead or besides",
+        example='minimise = "dissipated_energy"',
+    ),
+    Key(
+        name="over",
+        table="optimum",
+        about="the inputs that are searched between bounds, { start, stop } without num",
+        example='over = ["lambda_over_R"]',
+    ),
+    Key(
+        name="resolution",
+        table="optimum",
+        about="points of the sweep along each input, between which no peak is to be missed",
+        example="resolution = 200",
+    ),
+    Key(
+        name="require",
+        table="optimum",
+        about="what an optimum has to meet",
+        example="require = { one_disc = true, minimum = { dissipated_energy = 0.1 } }",
+    ),
+    Key(
+        name="one_disc",
+        table="require",
+        about="whether contact on loading is to be one disc",
+        example="one_disc = true",
+    ),
+    Key(
+        name="minimum",
+        table="require",
+        about="the least values of other outputs",
+        example="minimum = { dissipated_energy = 0.1 }",
+    ),
+    Key(
+        name="maximum",
+        table="require",
+        about="the greatest values of other outputs",
+        example="maximum = { pull_off_radius = 0.2 }",
     ),
     Key(name="low", table="deviation", about="the least value of a uniform distribution", example="low = 0.28"),
     Key(name="high", table="deviation", about="the greatest value of a uniform distribution", example="high = 0.32"),

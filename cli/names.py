@@ -4,6 +4,15 @@ from typing import Final
 
 from gradhesion.cli.keys import INPUTS
 
+BEST: Final = "best_"
+"""What a variable of a dataset of optima begins with, before the name of an output or of an input."""
+
+ON_BOUND: Final = "on_bound"
+"""The flags of a dataset of optima that say at which bounds an optimum is."""
+
+PARETO_POINT: Final = "pareto_point"
+"""The dimension of the best compromises of two outputs."""
+
 
 def unit_of(name: str) -> str:
     """
@@ -12,6 +21,7 @@ def unit_of(name: str) -> str:
     >>> unit_of("R"), unit_of("chi"), unit_of("dissipated_energy"), unit_of("dissipated_energy_si")
     ('m', '1', '1', 'J')
     """
+    name = name.removeprefix(BEST)
     if name in INPUTS:
         return INPUTS[name].unit
     return UNITS.get(name.removesuffix(SI), "1") if name.endswith(SI) else "1"
@@ -64,7 +74,7 @@ def labels_of(variable: str) -> str:
     >>> labels_of("pull_off_force_sensitivity"), labels_of("pull_off_force")
     ('parameter', '')
     """
-    if variable.removesuffix(OF_PHYSICAL) not in SENSITIVITIES:
+    if variable.removesuffix(OF_PHYSICAL).removeprefix(BEST) not in SENSITIVITIES:
         return ""
     return PHYSICAL_PARAMETER if variable.endswith(OF_PHYSICAL) else PARAMETER
 
@@ -99,7 +109,7 @@ def value_of(variable: str) -> str:
     >>> value_of("pull_off_force_p95_si"), value_of("delta_max")
     ('pull_off_force', 'delta_max')
     """
-    plain = variable.removesuffix("_si")
+    plain = variable.removesuffix("_si").removeprefix(BEST)
     return plain.rpartition("_")[0] if plain in SPREADS else plain
 
 
@@ -348,6 +358,9 @@ def _spread_symbols() -> dict[str, str]:
 
 
 SYMBOLS.update(_spread_symbols())
+SYMBOLS.update({BEST + name: f"best {symbol}" for name, symbol in SYMBOLS.items()})
+SYMBOLS[ON_BOUND] = "at a bound"
+
 OTHER_PARAMETER: Final = "other_parameter"
 """The second dimension of the correlations of a fit."""
 

@@ -75,6 +75,23 @@ def _sections() -> Iterator[str]:
     )
     spreads = ([code(f"X_{how}"), words.format("output")] for how, words in names.SPREAD.items())
     yield table(("variable", "what"), spreads)
+    yield "## Variables of optima"
+    yield (
+        "A study of an optimum has one value per cell of the axes that are left. `X` stands for an output that is "
+        "sought or limited, or for an input that is searched; copies of outputs in SI end in `_si`. With two goals, "
+        f"variables have a last dimension `{names.PARETO_POINT}` along which shorter fronts are padded."
+    )
+    yield table(
+        ("variable", "what"),
+        [
+            [code(f"{names.BEST}X"), "the output at the optimum, or where the optimum is"],
+            [
+                code(f"{names.BEST}X_sensitivity"),
+                "of a force or an energy that is sought: its sensitivities there; those of the best value as well",
+            ],
+            [code(names.ON_BOUND), "the bounds at which the optimum is, as flags; 0: none"],
+        ],
+    )
     yield "## Variables of curves"
     yield (
         "Each curve has its own dimension, along which shorter curves are padded with missing values; jumps are a "

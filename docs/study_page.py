@@ -52,6 +52,7 @@ def _sections() -> Iterator[str]:
     yield table(HEADS, _rows(schema["$defs"]["SpectrumTable"]))
     yield from _of_table("loading", tables["loading"])
     yield from _of_table("states", tables["states"])
+    yield from _of_optimum(tables["optimum"], schema["$defs"]["RequireTable"])
     yield from _of_uncertainty(tables["uncertainty"])
     yield from _of_table("method", tables["method"])
     yield from _of_fits()
@@ -85,8 +86,9 @@ def _of_fits() -> Iterator[str]:
 
 
 def _target(entry: Mapping[str, Any], schema: Mapping[str, Any]) -> Mapping[str, Any] | None:
-    """Find what a key of the top stands for if it is a table."""
-    name = str(entry.get("$ref", "")).rpartition("/")[2]
+    """Find what a key of the top stands for if it is a table, one that may be left out among them."""
+    form = next((one for one in entry.get("anyOf", ()) if "$ref" in one), entry)
+    name = str(form.get("$ref", "")).rpartition("/")[2]
     return schema["$defs"][name] if name else None
 
 
@@ -129,6 +131,19 @@ def _of_table(name: str, own: Mapping[str, Any] | None) -> Iterator[str]:
     yield f"## [{name}]"
     yield f"Optional: {SETTINGS[name].about}."
     yield table(HEADS, _rows(own))
+
+
+def _of_optimum(own: Mapping[str, Any] | None, requirements: Mapping[str, Any]) -> Iterator[str]:
+    """Write the table of what is sought."""
+    assert own
+    yield "## [optimum]"
+    yield (
+        f'Required for `kind = "optimum"`: {SETTINGS["optimum"].about} ([optima](../optima.md)). Such a study has no '
+        "`outputs`. One goal or two: any output with one value a scene but counts, in SI units with the suffix `_si`."
+    )
+    yield table(HEADS, _rows(own))
+    yield "The table `require`:"
+    yield table(HEADS, _rows(requirements))
 
 
 def _of_uncertainty(own: Mapping[str, Any] | None) -> Iterator[str]:
@@ -185,6 +200,7 @@ def _type(entry: Mapping[str, Any]) -> str:
     if isinstance(entry.get("type"), str) and "anyOf" in entry:
         return TYPES[entry["type"]]
     forms = [form for form in entry.get("oneOf", entry.get("anyOf", [entry])) if form.get("type") != "null"]
+    forms = [inner for form in forms for inner in form.get("oneOf", [form])]
     if any("Range_" in str(form.get("$ref")) for form in forms):
         return "number, list or range"
     names = {"array": "list", "": "table", "object": "table"} | TYPES

@@ -102,8 +102,9 @@ def _lines(found: "Estimate") -> list[str]:
         f"scenes    {found.scenes:,}{_each(found.solutions_of_scene)}; axes: {axes}",
         f"outputs   {', '.join(found.outputs)}",
     ]
-    if found.kind != "map":
-        return [*lines, "curves    computed scene by scene; no parts, no estimate of time"]
+    if not found.has_blocks:
+        what = {"curve": "curves", "optimum": "fronts"}[found.kind]
+        return [*lines, f"{what:<10}computed scene by scene; no parts, no estimate of time"]
     why = "; ".join(f"{number:,} {reason}" for reason, number in found.not_reused.items())
     lines.append(f"blocks    {found.blocks:,}; {found.blocks_reused:,} reused{f'; {why}' if why else ''}")
     lines += [f"          run would refuse: {difference}" for difference in found.differences]

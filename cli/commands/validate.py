@@ -30,8 +30,9 @@ def validate(study: Path, overrides: tuple[str, ...]) -> None:
             messages.say("note", note)
         return
     axes = ", ".join(f"{name} ({size:,})" for name, size in asked.sizes.items()) or "none"
-    outputs = ", ".join(asked.outputs)
-    show(f"{study}: valid; a {asked.kind} of {counted(asked.scenes, 'scene')}; axes: {axes}; outputs: {outputs}")
+    outputs = ", ".join(asked.outputs or asked.variables)
+    kind = f"{'an' if asked.kind[0] in 'aeiou' else 'a'} {asked.kind}"
+    show(f"{study}: valid; {kind} of {counted(asked.scenes, 'scene')}; axes: {axes}; outputs: {outputs}")
 
 
 @click.command(epilog=example("schema > study.schema.json"))

@@ -17,6 +17,17 @@ def flagged_in(status: NDArray[np.integer]) -> dict[str, int]:
 
 def cautions(study: Study, flagged: Mapping[str, int]) -> Iterator[str]:
     """Say of each flag in what share of the cells it is set, and what to do."""
+    coarse, nothing = flagged.get("resolution_too_coarse", 0), flagged.get("nothing_feasible", 0)
+    if coarse:
+        yield (
+            f"a sweep at twice the resolution finds another optimum in {coarse:,} of {counted(study.scenes, 'scene')}, "
+            f"and there may be more between; raise resolution = {study.search.resolution} under [optimum]"
+        )
+    if nothing:
+        yield (
+            f"nothing meets what is required in {nothing:,} of {counted(study.scenes, 'scene')}, which have no "
+            "optimum; require less, or widen the bounds"
+        )
     off = flagged.get("linear_deviation_off", 0)
     if off:
         share = f"{off:,} of {counted(study.scenes, 'scene')} ({off / study.scenes:.1%})"

@@ -1,6 +1,7 @@
 """How the variables of a map and of a curve study are described and computed: one value, or one curve, a scene."""
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from typing import Any, Final, Protocol
 
 import numpy as np
@@ -8,6 +9,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import names
 from gradhesion.cli.dataset.variable import Variable
+from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work import curves
@@ -101,5 +103,56 @@ class _OfCurves:
         return curves.gathered(study, list(parts))
 
 
-CONTENTS: Final[dict[str, Contents]] = {"map": _OfMap(), "curve": _OfCurves()}
-"""By the kind of a study."""
+class _OfOptima(_OfMap):
+    """The best of what is searched, a value a cell."""
+
+    def described(self, study: Study, name: str) -> Variable:
+        if name != names.ON_BOUND:
+            plain = name.removeprefix(names.BEST)
+            own = (*study.sizes, names.labels_of(name)) if names.labels_of(name) else tuple(study.sizes)
+            long_name = INPUTS[plain].about if plain in INPUTS else _long_name(plain)
+            attributes: dict[str, Any] = {
+                "units": names.unit_of(name),
+                "ancillary_variables": "status",
+                "long_name": f"best {long_name}",
+            }
+            if plain not in INPUTS:
+                attributes |= {"units": "1", "long_name": f"{long_name}, at the optimum"}
+            return Variable(dimensions=own, dtype="f8", attributes=attributes, blank=np.nan)
+        ends = [f"{one.name}_at_its_{end}_bound" for one in study.search.inputs for end in ("lower", "upper")]
+        flags: dict[str, Any] = {
+            "units": "1",
+            "long_name": "bounds at which the optimum is (0: none)",
+            "flag_masks": np.array([1 << i for i in range(len(ends))], dtype="i1"),
+            "flag_meanings": " ".join(ends),
+        }
+        return Variable(dimensions=tuple(study.sizes), dtype="i1", attributes=flags)
+
+
+class _OfFronts(_OfOptima):
+    """The best compromises of two outputs, as many as a cell has."""
+
+    filled = False
+
+    def described(self, study: Study, name: str) -> Variable:
+        plain = super().described(study, name)
+        return replace(plain, dimensions=(*plain.dimensions, names.PARETO_POINT))
+
+    def joined(self, study: Study, parts: Iterable[Part]) -> dict[str, NDArray[Any]]:
+        every = list(parts)
+        longest = max(values[study.variables[0]].shape[-1] for _, values in every)
+        whole: dict[str, NDArray[Any]] = {name: np.full((*study.shape, longest), np.nan) for name in study.variables}
+        whole["status"] = np.zeros(study.shape, np.int16)
+        for block, values in every:
+            for name, part in values.items():
+                whole[name][curves.within(name, block, part)] = part
+        return whole
+
+
+CONTENTS: Final[dict[str, Contents]] = {
+    "map": _OfMap(),
+    "curve": _OfCurves(),
+    "optimum": _OfOptima(),
+    "pareto": _OfFronts(),
+}
+"""By the sort of a study."""

@@ -13,7 +13,7 @@ from gradhesion.cli.study.points import COMMENT
 from gradhesion.cli.study.roles import ABSENT
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
-from gradhesion.cli.work.blocks import scenes_of
+from gradhesion.cli.work.blocks import scenes_from
 
 RMS: Final = {
     "A": "rms height over wavelength of the random waviness",
@@ -82,7 +82,7 @@ def following(study: Study, name: str) -> tuple[str, ...]:
     """Name the axes along which a parameter varies that is not given but made from others."""
     from gradhesion.core.variables.reduced import sources_of  # noqa: PLC0415 (300 ms for SciPy)
 
-    sources = sources_of(name, study.parameters)
+    sources = sources_of(name, dict.fromkeys(study.given))
     return tuple(axis for axis in study.axes if axis in sources or study.layout == "points")
 
 
@@ -90,4 +90,5 @@ def _made(study: Study, name: str, own: tuple[str, ...], block: Block) -> NDArra
     """Compute a block, of its own axes, of a parameter that is made from others."""
     cuts = dict(zip(own, block, strict=True))
     whole = tuple(cuts.get(axis, slice(0, 1)) for axis in study.axes)
-    return np.broadcast_to(scenes_of(study, whole)[name], shape_of(whole)).reshape(shape_of(block))
+    given = study.parameters_of(whole) | {one.name: np.asarray(one.low) for one in study.search.inputs}
+    return np.broadcast_to(scenes_from(given)[name], shape_of(whole)).reshape(shape_of(block))

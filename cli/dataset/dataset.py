@@ -43,7 +43,7 @@ def variables(study: Study) -> dict[str, Variable]:
 
 def _output(study: Study, name: str) -> Variable:
     """Describe a result, perhaps in SI units."""
-    plain = CONTENTS[study.kind].described(study, name.removesuffix(names.SI))
+    plain = CONTENTS[study.sort.name].described(study, name.removesuffix(names.SI))
     if not name.endswith(names.SI):
         return plain
     long_name = names.long_name_in_si(plain.attributes["long_name"])
@@ -125,7 +125,7 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
 
     prepare(kinds_of(study))
     described = variables(study)
-    kind = CONTENTS[study.kind]
+    kind = CONTENTS[study.sort.name]
     found = kind.joined(study, kind.parts(study, threads))
     for sentence in cautions(study, flagged_in(found["status"])):
         messages.say("caution", f"{study.name}: {sentence}")

@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from gradhesion.cli.names import CURVES, value_of
+from gradhesion.cli.names import BEST, CURVES, value_of
 from gradhesion.core import doubts_about
 from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF, RESOLUTION_TOO_COARSE
 from gradhesion.core.problem.status import DOUBTFUL
@@ -23,4 +23,6 @@ def doubts_of(variable: str, *, turned: bool = False) -> int:
     plain = value_of(variable)
     curve = next((curve for curve, own in CURVES.items() if plain in own), plain)
     bits = doubts_about(curve, turned=turned)
+    if variable.startswith(BEST):
+        bits |= RESOLUTION_TOO_COARSE
     return bits | LINEAR_DEVIATION_OFF if variable.removesuffix("_si").endswith("_std") else bits

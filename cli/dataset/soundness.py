@@ -11,12 +11,14 @@ from gradhesion.cli.dataset.curve_variables import variables_of_curves
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import (
+    BEST,
     EXTENTS,
     FIT_POINTS,
     OTHER_PARAMETER,
     OUTPUTS,
     PARAMETER,
     PARAMETER_UNITS,
+    PARETO_POINT,
     PHYSICAL_PARAMETER,
     RAGGED,
     REALISATION,
@@ -128,8 +130,10 @@ def _of_axes(dataset: "xarray.Dataset") -> Iterator[str]:
             yield f"the values of {name} are none of an axis"
     for name in map(str, dataset.data_vars):
         labels = (labels_of(name),) if labels_of(name) else ()
-        known = name.removesuffix(SI) in OUTPUTS or labels
-        if known and (dataset[name].dims != (*axes, *labels) or not {*labels} <= {*dataset.coords}):
+        if name.startswith(BEST) and PARETO_POINT in dataset.dims:
+            labels = (*labels, PARETO_POINT)
+        known = name.removesuffix(SI).removeprefix(BEST) in (OUTPUTS | INPUTS) or labels
+        if known and (dataset[name].dims != (*axes, *labels) or not {*labels} <= {PARETO_POINT, *dataset.coords}):
             yield f"the axes of {name} are not those of status"
 
 

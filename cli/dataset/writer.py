@@ -21,7 +21,6 @@ from gradhesion.cli.engines import Engine, Work
 from gradhesion.cli.engines.threads import Threads
 from gradhesion.cli.errors import OutputError, ScenesFailedError
 from gradhesion.cli.names import RAGGED, STATE
-from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Tiling, size_of
 from gradhesion.cli.terminal.amounts import counted, two_in_words
@@ -241,10 +240,10 @@ def _solved(
     study: Study, path: Path, folder: Folder, threads: int | None, engine: Engine
 ) -> Generator[tuple[int, Solved], None, None]:
     """Give the blocks of a study with their values; of curves each scene is one."""
-    if KINDS[study.kind].has_parts:
+    if study.sort.has_parts:
         yield from engine.results(Work(study, path, folder, range(len(study.tiling))))
     else:
-        yield from ((i, Solved(*part)) for i, part in enumerate(CONTENTS[study.kind].parts(study, threads)))
+        yield from ((i, Solved(*part)) for i, part in enumerate(CONTENTS[study.sort.name].parts(study, threads)))
 
 
 def _finished(folder: Folder, target: Path, study: Study) -> Written | None:
@@ -264,7 +263,7 @@ def _finished(folder: Folder, target: Path, study: Study) -> Written | None:
 
 def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
     """Write all of a dataset but the values of its outputs."""
-    filled = CONTENTS[study.kind].filled
+    filled = CONTENTS[study.sort.name].filled
     if filled:
         file.set_fill_off()
     file.setncatts(dataset.attributes(study, history))

@@ -10,7 +10,7 @@ from gradhesion.cli.dataset.reader import has_curves
 from gradhesion.cli.dataset.selection import selection_of
 from gradhesion.cli.dataset.sensitivities import parts_of, spread
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import RAGGED, SCENE, SI, STATE_CURVES
+from gradhesion.cli.names import PARETO_POINT, RAGGED, SCENE, SI, STATE_CURVES
 from gradhesion.cli.picture.curve_units import wants_si
 from gradhesion.cli.terminal.wording import did_you_mean
 
@@ -31,6 +31,8 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
     --------
     gradhesion.cli.dataset.dataset.selection : how a value is found on an axis.
     """
+    if PARETO_POINT in dataset.dims:
+        raise DatasetError("best compromises have no page; draw them with `gradhesion plot`")
     parts = [str(name) for name in dataset.data_vars if parts_of(dataset, str(name))]
     dataset = spread(dataset).drop_vars(parts)
     known = [str(name) for name in dataset.data_vars if name != "status" and _is_shown(dataset, str(name))]

@@ -9,9 +9,10 @@ from matplotlib.figure import Figure
 from gradhesion.cli.dataset.selection import Selection
 from gradhesion.cli.dataset.sensitivities import parts_of, spread, with_influence
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import SCENE, SI
+from gradhesion.cli.names import BEST, ON_BOUND, PARETO_POINT, SCENE, SI
 from gradhesion.cli.picture.contour_numbers import number_contours
 from gradhesion.cli.picture.doubts import ORDER
+from gradhesion.cli.picture.front_picture import draw_fronts
 from gradhesion.cli.picture.grid_picture import draw_grid, shape_of
 from gradhesion.cli.picture.layout import placed, plan_of
 from gradhesion.cli.picture.looks import PLAIN, Looks
@@ -68,10 +69,14 @@ def drawn(
     DatasetError
         A variable is not there or has no value, or nothing varies that it could be drawn over.
     """
+    if PARETO_POINT in dataset.dims:
+        return draw_fronts(dataset, asked, selection, x, y, looks)
     of_each = {str(name): parts_of(dataset, str(name)) for name in dataset.data_vars}
     dataset = spread(dataset)
     parts = {name: with_influence(dataset, name, [*own]) if own else [name] for name, own in of_each.items()}
-    if not asked and not {"pull_off_force", "dissipated_energy"} & {*parts}:
+    if not asked and ON_BOUND in parts:  # of an optimum what is best, and where, in units if it has them
+        asked = [name for name in parts if name.startswith(BEST) and not of_each[name] and name + SI not in parts]
+    elif not asked and not {"pull_off_force", "dissipated_energy"} & {*parts}:
         asked = next(iter(parts.values()))
     elif asked:
         asked = [one for name in asked for one in parts.get(name, [name])]

@@ -27,6 +27,9 @@ MOST_REALISATIONS: Final = 100_000
 MOST_SAMPLES: Final = 2**20
 """Samples of the inputs of one scene: all are in memory."""
 
+MOST_RESOLUTION: Final = 1_000_000
+"""Points of a sweep along one input."""
+
 MOST_STATES: Final = 100
 """States of one study: their curves are for looking at."""
 
@@ -231,6 +234,38 @@ else:
     UncertaintyTable = _uncertainty()
 
 
+Limit = Annotated[float, Field(allow_inf_nan=False)]
+
+
+class RequireTable(Table):
+    """What an optimum has to meet."""
+
+    one_disc: Annotated[bool, Field(description=KEYS["one_disc"].about)] = False
+    minimum: Annotated[dict[str, Limit], Field(description=KEYS["minimum"].about, default_factory=dict)]
+    maximum: Annotated[dict[str, Limit], Field(description=KEYS["maximum"].about, default_factory=dict)]
+
+
+Goals = Annotated[
+    Annotated[str, Tag("name")] | Annotated[list[str], Field(min_length=1), Tag("list")],
+    Discriminator(lambda value: "list" if isinstance(value, list) else "name"),
+]
+
+
+class OptimumTable(Table):
+    """What is sought."""
+
+    maximise: Annotated[Goals | None, Field(description=KEYS["maximise"].about)] = None
+    minimise: Annotated[Goals | None, Field(description=KEYS["minimise"].about)] = None
+    over: Annotated[list[str], Field(description=KEYS["over"].about, default_factory=list)]
+    resolution: Annotated[int, Field(ge=3, le=MOST_RESOLUTION, description=KEYS["resolution"].about)] = 200
+    require: Annotated[RequireTable, Field(description=KEYS["require"].about, default_factory=RequireTable)]
+
+    def goals(self, key: str) -> tuple[str, ...]:
+        """Give what is named under one of the two keys."""
+        value = getattr(self, key)
+        return () if value is None else (value,) if isinstance(value, str) else tuple(value)
+
+
 class LoadingTable(Table):
     """What drives the punch."""
 
@@ -264,6 +299,7 @@ class Form(Table):
     profile: Annotated[ProfileTable, Field(description=KEYS["profile"].about, default_factory=ProfileTable)]
     loading: Annotated[LoadingTable, Field(description=KEYS["loading"].about, default_factory=LoadingTable)]
     states: Annotated[StatesTable, Field(description=KEYS["states"].about, default_factory=StatesTable)]
+    optimum: Annotated[OptimumTable | None, Field(description=KEYS["optimum"].about)] = None
     uncertainty: Annotated[
         UncertaintyTable, Field(description=KEYS["uncertainty"].about, default_factory=UncertaintyTable)
     ]

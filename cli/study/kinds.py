@@ -1,4 +1,4 @@
-"""The kinds of a study: a map has one value a scene, a curve study one curve a scene, a fit has no scenes."""
+"""The kinds of a study: a map has one value a scene, a curve study one curve, an optimum the best of many scenes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -46,6 +46,16 @@ class _Curves(Kind):
         return Tiling(shape, cells=1, chunks=1)
 
 
+PARETO: Final = Kind(
+    name="pareto",
+    outputs=(),
+    most_scenes=100_000,  # each has hundreds of points, and all are in memory
+    remedy="use fewer values, or split the study",
+    has_parts=False,
+    has_solver=True,
+)
+"""Optima of two outputs: the best compromises, as many as there are."""
+
 KINDS: Final[dict[str, Kind]] = {
     "map": Kind(
         name="map",
@@ -70,6 +80,14 @@ KINDS: Final[dict[str, Kind]] = {
         remedy="fit one loop a study",
         has_parts=False,
         has_solver=False,
+    ),
+    "optimum": Kind(
+        name="optimum",
+        outputs=(),
+        most_scenes=2**31,
+        remedy="use fewer values, or split the study",
+        has_parts=True,
+        has_solver=True,
     ),
 }
 """Every kind, by the word in a study."""

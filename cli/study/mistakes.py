@@ -9,7 +9,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from gradhesion.cli.keys import FILE_KEYS, INPUTS, Path, keys_of
-from gradhesion.cli.study.form import MOST_REALISATIONS, MOST_WAVES, Form
+from gradhesion.cli.study.form import MOST_REALISATIONS, MOST_RESOLUTION, MOST_WAVES, Form
 from gradhesion.cli.study.places import dotted
 from gradhesion.cli.terminal.wording import did_you_mean, example, nearest
 from gradhesion.core.problem.profile import MOST_HARMONICS
@@ -20,7 +20,17 @@ _OF_INPUTS: Final = ("parameters", "physical", "loading")
 OF_A_FIT: Final = ("data", "fit")
 """The tables of studies of kind "fit" alone."""
 
-_TABLES: Final = ("parameters", "physical", "profile", "loading", "states", "uncertainty", "method", "data", "fit")
+_TABLES: Final = (
+    "parameters",
+    "physical",
+    "profile",
+    "loading",
+    "states",
+    "optimum",
+    "uncertainty",
+    "method",
+    *OF_A_FIT,
+)
 """Every table at the top."""
 
 REQUIRED: Final[dict[Path, Any]] = {
@@ -115,6 +125,8 @@ def _without(data: Mapping[str, Any], wrong: Iterable[Path], required: Mapping[P
 def _path(detail: ErrorDetails) -> Path:
     """Take the tag of the form (number, list, range, name) out of pydantic's path of a parameter or solver."""
     steps = detail["loc"]
+    if steps[:2] in (("optimum", "maximise"), ("optimum", "minimise")):
+        return steps[:2]
     return (*steps[:2], *steps[3:]) if steps[0] in ("parameters", "physical", "loading", "method") else steps
 
 
@@ -126,6 +138,7 @@ def _unknown_key(path: Path) -> tuple[Path, str]:
         return path, f"no input of a study; {did_you_mean(key, (*INPUTS, *keys_of('uncertainty')))}"
     files = FILE_KEYS if table == ("parameters", "points") else ()
     inner = "spectrum" if table == ("profile", "spectrum") else "harmonics" if table[:1] == ("profile",) else "range"
+    inner = "require" if table == ("optimum", "require") else inner
     known = files or tables.get(table, keys_of(inner))
     for other, keys in tables.items():
         if other != table and key in keys:
@@ -146,6 +159,8 @@ def _sentence(detail: ErrorDetails, path: Path) -> str:
         return str(detail["ctx"]["error"])
     if path[0] == "profile" and len(path) > 1:
         return _profile_sentence(kind, path)
+    if path[0] == "optimum" and len(path) > 1:
+        return _optimum_sentence(kind, path)
     if path == ("uncertainty", "seed"):
         return f"the seed is an integer of 0 or more; {example(path)}"
     if path[:2] == ("parameters", "points"):
@@ -213,6 +228,22 @@ def _spectrum_sentence(kind: str, path: Path) -> str:
     if kind == "missing":
         return f"a spectrum needs this key; {example(path)}"
     return f"{allowed.get(last, 'this must be a table')}; {example(path)}"
+
+
+def _optimum_sentence(kind: str, path: Path) -> str:
+    """Say what is wrong with what is sought."""
+    if path[-1] in ("minimum", "maximum") or (len(path) > 3 and path[2] in ("minimum", "maximum")):
+        return f"this must be a table of outputs with finite numbers; {example(path[:3])}"
+    allowed = {
+        "maximise": "this must be the name of an output in quotes, or a list of two",
+        "minimise": "this must be the name of an output in quotes, or a list of two",
+        "over": "this must be a list of inputs",
+        "resolution": f"the resolution is an integer from 3 to {MOST_RESOLUTION:,}",
+        "one_disc": "this must be true or false",
+    }
+    word = str(path[2]) if path[1] == "require" and len(path) > 2 else str(path[1])
+    required = "this key is required" if kind == "missing" else allowed.get(word, "this must be a table")
+    return f"{required}; {example((*path[:1], word))}"
 
 
 def _profile_sentence(kind: str, path: Path) -> str:

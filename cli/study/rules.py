@@ -9,11 +9,13 @@ import numpy as np
 from gradhesion.cli.keys import INPUTS, Path
 from gradhesion.cli.names import CURVES
 from gradhesion.cli.study.axes import Values, expanded, mistake_of_range, mistakes_of_grid, mistakes_of_points
+from gradhesion.cli.study.form import Range
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.mistakes import Checked, Mistake
 from gradhesion.cli.study.points import Points
 from gradhesion.cli.study.punch import mistakes_of_punch, profile_of
 from gradhesion.cli.study.roles import mistakes_of_roles
+from gradhesion.cli.study.search import Sought, mistakes_of_search
 from gradhesion.cli.study.states import mistakes_of_states
 from gradhesion.cli.study.turn import mistakes_of_turn
 from gradhesion.cli.study.uncertainty import mistakes_of_uncertainty
@@ -27,7 +29,7 @@ EXACT_ONLY: Final = (*REPORTS, *SENSITIVITIES)
 """The outputs that come with the exact solver alone."""
 
 
-def mistakes_between_keys(checked: Checked, points: Points) -> tuple[dict[str, Values], list[Mistake]]:
+def mistakes_between_keys(checked: Checked, points: Points, sought: Sought) -> tuple[dict[str, Values], list[Mistake]]:
     """Expand the inputs that are right, and list what is wrong between the keys of a study."""
     mistakes = [*_mistakes_of_choice(checked), *_mistakes_of_outputs(checked), *_mistakes_of_method(checked)]
     sound: dict[str, Values] = {}
@@ -36,22 +38,26 @@ def mistakes_between_keys(checked: Checked, points: Points) -> tuple[dict[str, V
         if path in checked.wrong or path[:1] in checked.wrong:
             continue
         mistake = mistake_of_range(path, checked.data[str(path[0])][name], entry)
+        if name in sought.over and isinstance(entry, Range) and entry.start == entry.stop:
+            mistake = None  # which is said of bounds in other words
         if mistake:
             mistakes.append(mistake)
         else:
             sound[name] = expanded(entry)
     sound = points.into(sound)
+    axes = {name: values for name, values in sound.items() if name not in sought.over}
     is_points = nearest(checked.form.layout, LAYOUTS) == "points"
-    mistakes += mistakes_of_points(sound) if is_points else mistakes_of_grid(sound)
+    mistakes += mistakes_of_points(axes) if is_points else mistakes_of_grid(sound)
+    mistakes += mistakes_of_search(checked, sought, sound)
     mistakes += mistakes_of_roles(checked, sound)
     mistakes += mistakes_of_punch(checked, sound)
-    without_slopes = _why_without_sensitivities(checked)
+    without_slopes = without_sensitivities(checked)
     mistakes += _mistakes_of_sensitivities(checked, without_slopes)
     mistakes += mistakes_of_turn(checked)
     mistakes += mistakes_of_states(checked, sound)
     mistakes += mistakes_of_range(checked)
     mistakes += mistakes_of_uncertainty(checked, sound, without_slopes)
-    lengths = [np.size(values) for values in sound.values()]
+    lengths = [np.size(values) for values in axes.values()]
     spectrum = checked.form.profile.spectrum
     realisations = 1 if spectrum is None else spectrum.realisations
     mistakes += _mistakes_of_size(checked, lengths, realisations, points=is_points)
@@ -80,9 +86,9 @@ def _mistakes_of_choice(checked: Checked) -> Iterator[Mistake]:
 def _mistakes_of_outputs(checked: Checked) -> Iterator[Mistake]:
     """Check that each output belongs to the kind of the study, and is asked for once."""
     asked: Any = checked.data.get("outputs")
-    if not isinstance(asked, list):
-        return
     kind = KINDS[_kind_of(checked)]
+    if not isinstance(asked, list) or not kind.outputs:
+        return
     others = {name: other.name for other in KINDS.values() if other is not kind for name in other.outputs}
     for i, name in enumerate(asked):
         path: Path = ("outputs", i)
@@ -125,13 +131,13 @@ def _mistakes_of_method(checked: Checked) -> Iterator[Mistake]:
             yield Mistake(("outputs", i), name, sentence)
 
 
-def _why_without_sensitivities(checked: Checked) -> str:
+def without_sensitivities(checked: Checked) -> str:
     """Say what the values of a study have no sensitivities with; empty if they have, or if nothing needs them."""
     form = checked.form
-    needed = {*SENSITIVITIES} & {*form.outputs} or "uncertainty" in checked.data
+    needed = {*SENSITIVITIES} & {*form.outputs} or {"uncertainty", "optimum"} & checked.data.keys()
     if (
         not needed
-        or _kind_of(checked) != "map"
+        or _kind_of(checked) == "curve"
         or any(path[:1] in (("profile",), ("loading",)) for path in checked.wrong)
     ):
         return ""

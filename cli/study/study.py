@@ -16,7 +16,9 @@ from numpy.typing import NDArray
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.keys import INPUTS, TURNS
 from gradhesion.cli.names import (
+    BEST,
     OF_PHYSICAL,
+    ON_BOUND,
     PARAMETER,
     PHYSICAL_PARAMETER,
     REALISATION,
@@ -29,13 +31,14 @@ from gradhesion.cli.names import (
 from gradhesion.cli.study import places
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.fit import FitStudy, fit_from
-from gradhesion.cli.study.kinds import KINDS
+from gradhesion.cli.study.kinds import KINDS, PARETO, Kind
 from gradhesion.cli.study.mistakes import Mistake, checked
 from gradhesion.cli.study.points import Points, points_of
 from gradhesion.cli.study.profile_file import Measured, measured_in
 from gradhesion.cli.study.punch import profile_of, spectrum_of
 from gradhesion.cli.study.roles import left_out
-from gradhesion.cli.study.rules import mistakes_between_keys
+from gradhesion.cli.study.rules import mistakes_between_keys, without_sensitivities
+from gradhesion.cli.study.search import Search, search_of, sought_in
 from gradhesion.cli.study.source import Source, read_source
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
 from gradhesion.cli.study.uncertainty import Uncertainty, uncertainty_of
@@ -88,6 +91,10 @@ class Study:
     method: Method
     profile: Profile = field(default_factory=Profile)
     loading: Loading = field(default_factory=Loading)
+    search: Search = field(default_factory=Search)
+    """What is sought in the place of values; the inputs that are searched are no parameters of it."""
+    without: frozenset[str] = frozenset()
+    """The sensitivities that are not known of its punch and control."""
     uncertainty: Uncertainty = field(default_factory=Uncertainty)
     """How far its inputs may be off."""
     states: tuple[float, ...] = ()
@@ -126,13 +133,46 @@ class Study:
     @property
     def variables(self) -> tuple[str, ...]:
         """The names of all variables of its dataset but `status`."""
+        if self.search:
+            return self._best
         physical = [name + OF_PHYSICAL for name in self.outputs if name in SENSITIVITIES and "R" in self.parameters]
         return (*self.outputs, *(name + SI for name in self.in_si), *physical, *self.spreads)
 
     @property
+    def _best(self) -> tuple[str, ...]:
+        """The variables of a dataset of optima."""
+        search = self.search
+        in_si = [name + SI for name in search.reported if name in UNITS and "R" in self.given]
+        slopes = [search.slope] if self.has_slopes else []
+        whole = [*search.reported, *in_si, *(one.name for one in search.inputs), *slopes]
+        return (*(BEST + name for name in whole), *(() if search.is_front else (ON_BOUND,)))
+
+    @property
+    def has_slopes(self) -> bool:
+        """Whether the exact slopes of what is sought are known."""
+        return bool(self.search.slope) and self.method.solver == "exact" and self.search.slope not in self.without
+
+    @property
+    def given(self) -> tuple[str, ...]:
+        """The names of all that it gives: its parameters, and the inputs that are searched."""
+        return (*self.parameters, *(one.name for one in self.search.inputs))
+
+    @property
+    def solved(self) -> tuple[str, ...]:
+        """The outputs that its scenes are solved for."""
+        if self.search:
+            return (*self.search.solved, *((self.search.slope,) if self.has_slopes else ()))
+        return (*self.outputs, *(f"{name}_sensitivity" for name in self.linear))
+
+    @property
     def has_answers(self) -> bool:
         """Whether `status` has flags beside those of a scene."""
-        return bool(self.uncertainty)
+        return bool(self.uncertainty or self.search)
+
+    @property
+    def sort(self) -> Kind:
+        """What studies like it have in common."""
+        return PARETO if self.search.is_front else KINDS[self.kind]
 
     @property
     def labels(self) -> dict[str, tuple[str, ...]]:
@@ -151,12 +191,18 @@ class Study:
     def made(self) -> tuple[str, ...]:
         """The parameters that are not given, but follow from what is."""
         wanted = {INPUTS[name].gives for name in self.parameters} - self.parameters.keys()
-        return tuple(name for name in INPUTS if name in wanted)
+        made = tuple(name for name in INPUTS if name in wanted)
+        if not self.search:
+            return made
+        from gradhesion.core.variables.reduced import sources_of  # noqa: PLC0415 (300 ms for SciPy)
+
+        searched = {one.name for one in self.search.inputs}
+        return tuple(name for name in made if not searched & {*sources_of(name, dict.fromkeys(self.given))})
 
     @property
     def turn(self) -> str:
         """The parameter at which its cycles turn before the rim; empty if they turn there."""
-        return next((INPUTS[name].gives for name in self.parameters if INPUTS[name].gives in TURNS), "")
+        return next((INPUTS[name].gives for name in self.given if INPUTS[name].gives in TURNS), "")
 
     @property
     def sizes(self) -> dict[str, int]:
@@ -186,12 +232,12 @@ class Study:
     @property
     def has_parts(self) -> bool:
         """Whether finished blocks are kept: one block is done or not."""
-        return KINDS[self.kind].has_parts and len(self.tiling) > 1
+        return self.sort.has_parts and len(self.tiling) > 1
 
     @cached_property
     def tiling(self) -> Tiling:
         """The blocks of its scenes."""
-        return KINDS[self.kind].tiling(self.shape, self.cells)
+        return self.sort.tiling(self.shape, self.cells)
 
     @property
     def cells(self) -> int:
@@ -201,6 +247,8 @@ class Study:
     @property
     def solutions(self) -> int:
         """How often each scene is solved, about: itself, with samples of its inputs, or beside them."""
+        if self.search:
+            return self.search.points
         if not self.uncertainty:
             return 1
         return 1 + (self.uncertainty.samples or FEW_SAMPLES)
@@ -328,8 +376,9 @@ def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = N
         raise StudyError(f"{source.name}: a fit has no scenes; `gradhesion run` and gradhesion.run fit it")
     points = points_of(source.data, source.folder, columns)
     measured = measured_in(source.data, source.folder)
-    found = checked(measured.beside(points.beside(source.data)))
-    sound, between = mistakes_between_keys(found, points)
+    sought = sought_in(source.data)
+    found = checked(measured.beside(points.beside(sought.beside())))
+    sound, between = mistakes_between_keys(found, points, sought)
     mistakes = [
         mistake
         for mistake in (*points.mistakes, *measured.mistakes, *found.mistakes, *between)
@@ -339,7 +388,7 @@ def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = N
     form = found.form
     absent = left_out(sound, with_units="physical" in form.model_fields_set)
     given = sound | absent
-    parameters = {name: given[name] for name in INPUTS if name in given}
+    parameters = {name: given[name] for name in INPUTS if name in given and name not in sought.over}
     for values in parameters.values():
         if isinstance(values, np.ndarray):
             if form.layout == "grid" and not (np.all(np.diff(values) > 0) or np.all(np.diff(values) < 0)):
@@ -353,7 +402,7 @@ def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = N
         title=form.title or source.name,
         kind=form.kind,
         layout=form.layout,
-        outputs=KINDS[form.kind].variables(form.outputs),
+        outputs=() if form.kind == "optimum" else KINDS[form.kind].variables(form.outputs),
         parameters=parameters,
         method=Method(
             solver=solver if isinstance(solver, str) else tuple(solver), check_contact=form.method.check_contact
@@ -362,6 +411,8 @@ def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = N
         spectrum=spectrum_of(form.profile),
         loading=Loading(control=form.loading.control),
         states=form.states.radii,
+        search=search_of(found, sought),
+        without=frozenset(SENSITIVITIES if without_sensitivities(found) else ()),
         uncertainty=uncertainty_of(found),
         text=text or toml_of(data),
         left_out=frozenset(absent.keys() - {"a_max", "a_max_over_R"}),

@@ -16,6 +16,7 @@ from gradhesion.cli.names import REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import control_in_words
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.words.curve_words import curves_told
+from gradhesion.cli.words.optimum_words import bounds_told, points_told
 from gradhesion.cli.words.sensitivity_words import sensitivity_told
 from gradhesion.cli.words.uncertainty_words import uncertainty_told
 from gradhesion.cli.words.validity_words import validity_told
@@ -38,6 +39,7 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
         yield f"control: {control_in_words(Loading(control=dataset.attrs.get('control', 'displacement')))}"
     yield from _parameters(dataset)
     yield from uncertainty_told(dataset)
+    yield from points_told(dataset)
     yield from curves_told(dataset) if has_curves(dataset) else _outputs(dataset)
     yield from _status(dataset)
     if beyond := list(validity_told(dataset)):
@@ -132,6 +134,9 @@ def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
             continue
         yield ""
         yield f"{name}: {dataset[name].attrs.get('long_name', 'of no name')}{_unit(dataset[name], ', in ')}"
+        if name == names.ON_BOUND:
+            yield from bounds_told(dataset[name])
+            continue
         if parts_of(dataset, str(name)):
             yield from sensitivity_told(dataset[name], str(name))
             continue

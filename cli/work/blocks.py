@@ -36,6 +36,10 @@ def scenes_from(given: dict[str, NDArray[np.float64]]) -> dict[str, NDArray[np.f
 
 def solve_block(study: Study, block: Block, threads: int | None) -> dict[str, NDArray[Any]]:
     """Solve a block of a study: the values of its variables and `status`."""
+    if study.search:
+        from gradhesion.cli.work.optima import best_of_block, fronts_of_block  # noqa: PLC0415 (SciPy's optimisers)
+
+        return (fronts_of_block if study.search.is_front else best_of_block)(study, block, threads)
     if study.uncertainty:
         from gradhesion.cli.work.spreads import solve_uncertain  # noqa: PLC0415 (SciPy's statistics)
 

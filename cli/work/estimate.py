@@ -35,6 +35,8 @@ class Estimate:
     running: bool
     """Whether a run is at work on this output."""
     kind: str
+    has_blocks: bool
+    """Whether it is computed block by block, so that its cost can be probed."""
     scenes: int
     solutions_of_scene: int
     """How often a scene is solved with other inputs: its samples."""
@@ -64,7 +66,7 @@ class Estimate:
 def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate:
     """Find out what a run would do and cost; writes nothing."""
     folder = folder_of(output)
-    is_map = study.kind == "map"
+    is_map = study.sort.has_parts
     count = len(study.tiling)
     of_block = bytes_of(study, study.tiling[0]) if is_map else 0
     foreign, old = folder.foreign(), folder.manifest()
@@ -95,10 +97,11 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
         output_exists=output.exists(),
         running=not foreign and folder.busy(),
         kind=study.kind,
+        has_blocks=is_map,
         scenes=study.scenes,
         solutions_of_scene=study.solutions,
         sizes=study.sizes,
-        outputs=study.outputs,
+        outputs=study.outputs or study.variables,
         blocks=count,
         blocks_reused=len(reused),
         not_reused=dict(reasons),

@@ -41,8 +41,8 @@ def kinds_of(study: Study) -> tuple[str, ...]:
         return (*turning, kind_of_curves(study.profile, study.loading))
     solvers = study.method.solver
     solvers = (solvers,) if isinstance(solvers, str) else solvers
-    outputs = [name for name in study.outputs if name not in VALIDITY]
-    slopes = ("sensitivities",) if {*outputs} & {*SENSITIVITIES} or study.linear else ()
+    outputs = [name for name in study.solved if name not in VALIDITY]
+    slopes = ("sensitivities",) if {*outputs} & {*SENSITIVITIES} else ()
     kinds = (kind_of_map(outputs, solver, study.profile, study.loading) for solver in solvers)
     return (*dict.fromkeys(kinds), *turning, *slopes)
 

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.disk import write_whole
 from gradhesion.cli.files import read_at_most
+from gradhesion.cli.names import ON_BOUND
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
 from gradhesion.core import SOURCES
@@ -54,10 +55,11 @@ def settings_of(study: Study) -> dict[str, Any]:
         "measured",
         "spectrum",
         "uncertainty",
+        "search",
+        "without",
     )
     settings = {field.name: getattr(study, field.name) for field in fields(study) if field.name not in aside}
-    if study.uncertainty:
-        settings |= {"uncertainty": repr(study.uncertainty)}
+    settings |= {name: repr(own) for name, own in (("uncertainty", study.uncertainty), ("search", study.search)) if own}
     if study.spectrum is not None:
         settings |= {f"spectrum.{name}": value for name, value in asdict(study.spectrum).items()}
         del settings["spectrum.realisations"]  # each of them is the same however many there are
@@ -67,6 +69,7 @@ def settings_of(study: Study) -> dict[str, Any]:
 def types_of(study: Study) -> dict[str, np.dtype[Any]]:
     """Give the types of the results of a map, in the order of a part."""
     types = {name: "<i4" if name.endswith("_jumps") else "<f8" for name in study.variables}
+    types |= {ON_BOUND: "|i1"} if ON_BOUND in types else {}
     return {name: np.dtype(kind) for name, kind in (types | {"status": "<i2" if study.has_answers else "|i1"}).items()}
 
 

@@ -126,3 +126,19 @@ def test_both_solvers_agree_where_there_are_no_waves(run: Run) -> None:
     for name in ("pull_off_force", "dissipated_energy"):
         exact, envelope = (found[name].sel(solver=solver) for solver in ("exact", "envelope"))
         np.testing.assert_allclose(exact, envelope, rtol=1e-11)
+
+
+def test_no_wavelength_is_better_than_the_best() -> None:
+    """For each exponent, against 20,000 wavelengths; the slope is 0 there."""
+    best = gr.run(CONFIGS / "optimum.toml")
+    study = gr.load(CONFIGS / "optimum.toml")
+    assert study.kind == "optimum"
+    (searched,) = study.search.inputs
+    waves = np.geomspace(searched.low, searched.high, 20_000)[:, None]
+    scenes = {name: best[name].values for name in study.parameters}
+    force = gr.core.solve(scenes | {"lambda_over_R": waves}, ["pull_off_force"])["pull_off_force"].max(axis=0)
+    assert np.all(best["best_pull_off_force"].values >= force * (1.0 - 1e-15))
+    np.testing.assert_allclose(best["best_pull_off_force"], force, rtol=1e-6)
+    slopes = best["best_pull_off_force_sensitivity"].sel(parameter="lambda_over_R")
+    np.testing.assert_allclose(slopes, 0.0, atol=1e-13)
+    assert not best["on_bound"].any()

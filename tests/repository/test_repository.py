@@ -124,6 +124,7 @@ OF_FEATURES = (
     "cone",
     "dead_load",
     "materials",
+    "optimum",
     "reduced",
     "reduced_rim",
     "series",

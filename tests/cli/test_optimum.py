@@ -1,0 +1,343 @@
+"""Studies of optima: against brute force, in blocks, in units, with requirements, as fronts, and what is refused."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+from click.testing import Result
+
+import gradhesion as gr
+from gradhesion.cli.dataset import compute
+from gradhesion.cli.errors import StudyError
+from gradhesion.cli.study import study_from
+from gradhesion.core import solve
+
+Call = Callable[..., Result]
+WAVES = {"start": 0.05, "stop": 1.0, "spacing": "log"}
+PUNCH: dict[str, Any] = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "A": 0.02, "a_max_over_R": 1.0}
+
+
+@pytest.fixture
+def study() -> dict[str, Any]:
+    """The best wavelength for three exponents."""
+    return {
+        "kind": "optimum",
+        "optimum": {"maximise": "pull_off_force", "over": ["lambda_over_R"]},
+        "parameters": PUNCH | {"k": [0.0, 0.3, 0.7], "lambda_over_R": WAVES},
+    }
+
+
+def _random(count: int, seed: int) -> dict[str, Any]:
+    rng = np.random.default_rng(seed)
+    return {
+        "k": rng.choice([0.0, 0.3, 0.5, 0.8], count),
+        "nu": 0.3,
+        "modulus": 10 ** rng.uniform(1.5, 3.5, count),
+        "c0_over_R": 10 ** rng.uniform(-3.0, 0.0, count),
+        "A": rng.uniform(0.002, 0.1, count),
+        "a_max_over_R": rng.uniform(0.3, 1.5, count),
+    }
+
+
+def _scenes(parameters: dict[str, Any]) -> dict[str, Any]:
+    return {name: values.tolist() if isinstance(values, np.ndarray) else values for name, values in parameters.items()}
+
+
+@pytest.mark.parametrize("count", [12, pytest.param(200, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("word", ["maximise", "minimise"])
+@pytest.mark.parametrize("goal", ["pull_off_force", "dissipated_energy"])
+def test_one_input_against_brute_force(goal: str, word: str, count: int) -> None:
+    """On a grid a hundred times finer none is better, but for peaks narrower than the spacing, which are flagged."""
+    parameters = _random(count, 3)
+    asked = {
+        "kind": "optimum",
+        "layout": "points",
+        "optimum": {word: goal, "over": ["lambda_over_R"]},
+        "parameters": _scenes(parameters) | {"lambda_over_R": {"start": 0.02, "stop": 1.0, "spacing": "log"}},
+    }
+    found = gr.run(asked)
+    sign = 1.0 if word == "maximise" else -1.0
+    best = np.full(count, -np.inf)
+    for some in np.array_split(np.geomspace(0.02, 1.0, 199 * 100 + 1), 20):
+        values = solve(parameters | {"lambda_over_R": some[:, None]}, [goal], check_contact=False)[goal]
+        best = np.maximum(best, np.nanmax(sign * values, axis=0))
+    ours = sign * found[f"best_{goal}"].values
+    better = best > ours + 1e-9 * np.abs(best)
+    assert not np.any(better & ~found.gr.flagged("resolution_too_coarse").values)
+    assert better.mean() <= 0.01
+    # what is reported is the value of the place that is reported
+    there = solve(parameters | {"lambda_over_R": found["best_lambda_over_R"].values}, [goal])[goal]
+    np.testing.assert_array_equal(found[f"best_{goal}"], there)
+
+
+@pytest.mark.parametrize("count", [3, pytest.param(20, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(("goal", "word"), [("pull_off_force", "maximise"), ("dissipated_energy", "maximise")])
+def test_two_inputs_against_brute_force(goal: str, word: str, count: int) -> None:
+    """On a grid ten times finer along each."""
+    parameters = {name: own for name, own in _random(count, 4).items() if name != "A"}
+    over = {"lambda_over_R": {"start": 0.05, "stop": 1.0, "spacing": "log"}, "A": {"start": 0.002, "stop": 0.1}}
+    asked = {
+        "kind": "optimum",
+        "layout": "points",
+        "optimum": {word: goal, "over": [*over], "resolution": 40},
+        "parameters": _scenes(parameters) | over,
+    }
+    found = gr.run(asked)
+    waves, heights = np.geomspace(0.05, 1.0, 391), np.linspace(0.002, 0.1, 391)
+    for scene in range(count):
+        one = {name: values if isinstance(values, float) else values[scene] for name, values in parameters.items()}
+        grid = solve(one | {"lambda_over_R": waves[:, None], "A": heights}, [goal], check_contact=False)[goal]
+        if np.nanmax(grid) > found[f"best_{goal}"].values[scene] * (1.0 + 1e-9):
+            assert found.gr.flagged("resolution_too_coarse").values[scene]
+
+
+def test_the_place_of_a_smooth_peak_has_all_digits(study: dict[str, Any]) -> None:
+    """The sensitivity is 0 there; the value for k = 0.3 is that of the manual."""
+    found = gr.run(study)
+    assert found["best_lambda_over_R"].sel(k=0.3).item() == pytest.approx(0.2552076039, abs=5e-11)
+    slopes = found["best_pull_off_force_sensitivity"].sel(parameter="lambda_over_R")
+    np.testing.assert_allclose(slopes, 0.0, atol=1e-13)
+    assert found["on_bound"].values.tolist() == [0, 0, 0]
+    assert found["status"].dtype == np.int16
+
+
+def test_by_the_envelope_theorem_the_best_force_has_the_slopes_of_the_force(study: dict[str, Any]) -> None:
+    step = 1e-3
+    parameters = study["parameters"] | {"A": [0.02 * np.exp(i * step) for i in (-2, -1, 0, 1, 2)]}
+    found = gr.run(study | {"parameters": parameters})
+    logs = np.log(found["best_pull_off_force"].values)
+    exact = logs @ np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / (12.0 * step)
+    own = found["best_pull_off_force_sensitivity"].sel(parameter="A").isel(A=2)
+    np.testing.assert_allclose(own, exact, rtol=1e-7)
+
+
+def test_an_optimum_at_a_bound_is_an_answer(
+    study: dict[str, Any], gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path
+) -> None:
+    parameters = study["parameters"] | {"lambda_over_R": {"start": 0.15, "stop": 0.22}, "k": [0.0, 0.7]}
+    file, path = write_study(study_from(study | {"parameters": parameters}).text), tmp_path / "out.nc"
+    call = gradhesion("run", file, "-o", path)
+    assert call.exit_code == 0, call.output
+    with xarray.open_dataset(path) as found:
+        assert found["best_lambda_over_R"].values.tolist()[0] == 0.22
+        assert found["on_bound"].values[0] == 2
+        meanings = found["on_bound"].attrs["flag_meanings"].split()
+        assert meanings == ["lambda_over_R_at_its_lower_bound", "lambda_over_R_at_its_upper_bound"]
+        upper = int((found["on_bound"].values == 2).sum())
+    assert f"{upper} of 2 optima" in " ".join(gradhesion("info", path).stdout.split())
+    picture = tmp_path / "picture.svg"
+    assert gradhesion("plot", path, "-o", picture).exit_code == 0
+    assert gradhesion("explore", path, "-o", tmp_path / "page.html").exit_code == 0
+    told = gradhesion("verify", path)
+    assert told.exit_code == 2
+    assert "holds a optimum" in told.stderr or "holds an optimum" in told.stderr
+
+
+def test_blocks_and_shards_have_the_same(
+    study: dict[str, Any], gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path
+) -> None:
+    asked = study_from(study | {"parameters": study["parameters"] | {"nu": [0.1, 0.3, 0.4]}})
+    whole, file = compute(asked), write_study(asked.text)
+    assert gradhesion("run", file, "-o", tmp_path / "a.nc", "--chunk", "400", "--quiet").exit_code == 0
+    for shard in ("1/2", "2/2"):
+        call = gradhesion("run", file, "-o", tmp_path / "b.nc", "--chunk", "400", "--shard", shard)
+        assert call.exit_code == 0, call.output
+    assert gradhesion("merge", tmp_path / "b.nc", "--quiet").exit_code == 0
+    for name in ("a.nc", "b.nc"):
+        with xarray.open_dataset(tmp_path / name) as dataset:
+            for variable in whole.data_vars:
+                np.testing.assert_allclose(dataset[variable], whole[variable], rtol=1e-13, atol=1e-13)
+
+
+def test_what_is_required(study: dict[str, Any]) -> None:
+    free = gr.run(study | {"optimum": study["optimum"] | {"require": {"maximum": {"pull_off_radius": 10.0}}}})
+    energy = float(
+        solve(PUNCH | {"lambda_over_R": free["best_lambda_over_R"].values[1]}, ["dissipated_energy"])[
+            "dissipated_energy"
+        ]
+    )
+    least = 1.5 * energy
+    bound = gr.run(study | {"optimum": study["optimum"] | {"require": {"minimum": {"dissipated_energy": least}}}})
+    waves = np.geomspace(0.05, 1.0, 200_001)
+    fine = solve(PUNCH | {"lambda_over_R": waves}, ["pull_off_force", "dissipated_energy"], check_contact=False)
+    best = fine["pull_off_force"][fine["dissipated_energy"] >= least].max()
+    one = bound.sel(k=0.3)
+    assert one["best_dissipated_energy"].item() >= least
+    assert best <= one["best_pull_off_force"].item() <= best * (1.0 + 1e-3)
+    assert one["best_dissipated_energy"].item() == pytest.approx(least, rel=1e-9)  # the requirement binds
+
+
+def test_contact_of_one_disc_may_be_required(study: dict[str, Any]) -> None:
+    parameters = study["parameters"] | {"A": 0.1, "k": [0.0, 0.3]}
+    free = gr.run(study | {"parameters": parameters})
+    disc = gr.run(study | {"parameters": parameters, "optimum": study["optimum"] | {"require": {"one_disc": True}}})
+    assert not disc.gr.flagged("loading_contact_not_one_disc").any()
+    assert bool((disc["best_pull_off_force"] <= free["best_pull_off_force"]).all())
+    waves = np.geomspace(0.05, 1.0, 20_001)
+    for k in (0.0, 0.3):
+        fine = solve(PUNCH | {"k": k, "A": 0.1, "lambda_over_R": waves}, ["pull_off_force", "delta_max"])
+        allowed = fine["pull_off_force"][(fine["status"] & 1) == 0]
+        assert disc["best_pull_off_force"].sel(k=k).item() >= allowed.max() * (1.0 - 1e-12)
+
+
+def test_where_nothing_meets_what_is_required(
+    study: dict[str, Any], gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path
+) -> None:
+    asked = study | {"optimum": study["optimum"] | {"require": {"minimum": {"dissipated_energy": 5.0}}}}
+    path = tmp_path / "out.nc"
+    call = gradhesion("run", write_study(study_from(asked).text), "-o", path)
+    assert call.exit_code == 0
+    assert "nothing meets what is required in 3 of 3 scenes" in call.stderr
+    with xarray.open_dataset(path) as found:
+        assert bool(found.gr.flagged("nothing_feasible").all())
+        assert bool(found["best_lambda_over_R"].isnull().all())
+        assert bool(found["best_pull_off_force"].isnull().all())
+
+
+def test_in_units_with_a_radius_that_is_searched() -> None:
+    """The force in newtons of a smooth ball grows with R: the upper bound, 1.5 pi R dgamma."""
+    found = gr.run(
+        {
+            "kind": "optimum",
+            "optimum": {"maximise": "pull_off_force_si", "over": ["R"], "resolution": 10},
+            "parameters": {"k": 0.0, "nu": [0.2, 0.3], "A": 0.0},
+            "physical": {
+                "R": {"start": "0.5 um", "stop": "2 um"},
+                "E_star": "1 GPa",
+                "work_of_adhesion": "50 mJ/m^2",
+            },
+        }
+    )
+    np.testing.assert_array_equal(found["best_R"], 2e-6)
+    np.testing.assert_allclose(found["best_pull_off_force_si"], 1.5 * np.pi * 2e-6 * 0.05, rtol=1e-14)
+    assert found["best_R"].attrs["units"] == "m"
+    assert "modulus" not in found.coords
+
+
+def test_a_front_of_two_outputs(
+    study: dict[str, Any], gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path
+) -> None:
+    goals = ["pull_off_force", "dissipated_energy"]
+    asked = study | {"optimum": {"maximise": goals, "over": ["lambda_over_R"], "resolution": 60}}
+    path = tmp_path / "front.nc"
+    call = gradhesion("run", write_study(study_from(asked).text), "-o", path)
+    assert call.exit_code == 0, call.output
+    with xarray.open_dataset(path) as found:
+        assert found["best_pull_off_force"].dims == ("k", "pareto_point")
+        whole = compute(study_from(asked))
+        for name in whole.data_vars:
+            np.testing.assert_array_equal(found[name], whole[name])
+        for k in found["k"].values:
+            force, energy, wave = (
+                found[f"best_{name}"].sel(k=k).values[~found["best_lambda_over_R"].sel(k=k).isnull()]
+                for name in (*goals, "lambda_over_R")
+            )
+            assert np.all(np.diff(force) < 0.0)
+            assert np.all(np.diff(energy) > 0.0)
+            exact = solve(PUNCH | {"k": k, "lambda_over_R": wave}, goals)
+            np.testing.assert_array_equal(force, exact["pull_off_force"])
+            np.testing.assert_array_equal(energy, exact["dissipated_energy"])
+            swept = solve(PUNCH | {"k": k, "lambda_over_R": np.geomspace(0.05, 1.0, 60)}, goals)
+            for one, other in zip(swept[goals[0]], swept[goals[1]], strict=True):
+                near = 1.0 + 1e-12
+                assert np.any((force * near >= one) & (energy * near >= other)), "no swept point excels the front"
+        # its ends are the refined optima of each output
+        alone = gr.run(study)["best_pull_off_force"]
+        np.testing.assert_allclose(found["best_pull_off_force"].max("pareto_point"), alone, rtol=1e-12)
+    assert "best compromises: " in gradhesion("info", path).stdout
+    picture = tmp_path / "front.svg"
+    assert gradhesion("plot", path, "-o", picture, "--at", "k=0.3").exit_code == 0
+    assert "have no page" in gradhesion("explore", path, "-o", tmp_path / "front.html").stderr
+    assert "fronts    computed scene by scene" in gradhesion("plan", write_study(study_from(asked).text)).stdout
+
+
+def test_a_peak_between_the_points_is_flagged(
+    gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path
+) -> None:
+    """Five points over many peaks: nine show a higher one."""
+    asked = {
+        "kind": "optimum",
+        "optimum": {"maximise": "dissipated_energy", "over": ["lambda_over_R"], "resolution": 5},
+        "parameters": PUNCH | {"k": [0.3, 0.5], "A": 0.1, "lambda_over_R": {"start": 0.02, "stop": 1.0}},
+    }
+    path = tmp_path / "out.nc"
+    call = gradhesion("run", write_study(study_from(asked).text), "-o", path)
+    assert "finds another optimum in 1 of 2 scenes" in call.stderr
+    with xarray.open_dataset(path) as found:
+        flagged = found.gr.flagged("resolution_too_coarse").values
+        assert flagged.tolist() == [False, True]
+        assert not found.gr.valid("best_dissipated_energy").values[1]
+    finer = gr.run(asked | {"optimum": asked["optimum"] | {"resolution": 200}})
+    assert not finer.gr.flagged("resolution_too_coarse").any()
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"optimum": {"maximise": "loading_jumps", "over": ["lambda_over_R"]}}, "is a count, which has no optimum but"),
+        ({"optimum": {"maximise": "pull_of_force", "over": ["lambda_over_R"]}}, 'did you mean "pull_off_force"'),
+        (
+            {"optimum": {"maximise": "pull_off_force", "over": ["A"]}},
+            r"has no bounds, parameters.A = 0.02; write A = {",
+        ),
+        (
+            {"optimum": {"maximise": "pull_off_force", "over": ["k", "lambda_over_R"]}},
+            r"has no bounds, parameters.k = ",
+        ),
+        ({"optimum": {"maximise": "pull_off_force", "over": ["chi", "lambda_over_R"]}}, "gives no chi that could be"),
+        (
+            {"optimum": {"maximise": "pull_off_force", "over": []}},
+            "optimum.over = .*nothing is searched; write for example over",
+        ),
+        ({"optimum": {"maximise": "pull_off_force"}}, "optimum.over: nothing is searched"),
+        ({"optimum": {"over": ["lambda_over_R"]}}, "nothing is sought; write for example maximise"),
+        ({"optimum": {"maximise": 3, "over": ["lambda_over_R"]}}, "must be the name of an output in quotes, or a list"),
+        (
+            {"optimum": {"maximise": ["pull_off_force"] * 2, "over": ["lambda_over_R"]}},
+            '"pull_off_force" is named twice',
+        ),
+        (
+            {"optimum": {"maximise": "pull_off_force", "over": ["lambda_over_R"], "resolution": 2}},
+            "the resolution is an integer from 3",
+        ),
+        (
+            {"optimum": {"maximise": "pull_off_force", "over": ["lambda_over_R"], "resolutoin": 20}},
+            'unknown key; did you mean "resolution"',
+        ),
+        (
+            {
+                "optimum": {
+                    "maximise": "pull_off_force",
+                    "over": ["lambda_over_R"],
+                    "require": {"minimum": {"energy": 1}},
+                }
+            },
+            'not an output; did you mean "dissipated_energy"',
+        ),
+        ({"outputs": ["pull_off_force"]}, "says what is sought, and an optimum has no other outputs; remove this key"),
+        ({"kind": "map", "outputs": ["pull_off_force"]}, "the study is of another kind; write kind = "),
+        ({"uncertainty": {"modulus": "5 %"}}, "only maps have uncertain inputs"),
+        ({"method": {"solver": ["exact", "envelope"]}}, "an optimum has one solver"),
+        ({"parameters": PUNCH | {"k": [0.3], "lambda_over_R": WAVES}}, "an axis of one value is left beside what is"),
+        (
+            {"parameters": PUNCH | {"lambda_over_R": WAVES | {"num": 9}}},
+            "what is searched has bounds alone; remove num",
+        ),
+        ({"parameters": PUNCH | {"lambda_over_R": {"start": 0.2, "stop": 0.2}}}, "the bounds are the same"),
+        ({"parameters": PUNCH | {"lambda_over_R": {"start": -0.2, "stop": 0.2}}}, "lambda_over_R.start = -0.2"),
+    ],
+)
+def test_what_is_refused(change: dict[str, Any], words: str, study: dict[str, Any]) -> None:
+    with pytest.raises(StudyError) as caught:
+        study_from(study | change)
+    assert any(re.search(words, one) for one in caught.value.mistakes), caught.value.mistakes
+
+
+def test_a_study_without_the_table(study: dict[str, Any]) -> None:
+    del study["optimum"]
+    with pytest.raises(StudyError, match="optimum: this table is required"):
+        study_from(study)
