@@ -3,7 +3,7 @@ sources := $(shell find api cli core twin -name '*.py')
 drawing := $(wildcard figures/*.py api/*.mplstyle)
 checked := $(sources) $(drawing) $(shell find tests benchmarks docs configs -type f -not -path '*/__pycache__/*' -not -name '*.png' 2>/dev/null) README.md CITATION.cff Makefile
 pictures := $(addprefix fig,1 2a 2b 3a 3b 3c 4a 4b 4c 5a 5b 5c 6 7a 7b 7c 8 9)
-pictures += $(addprefix extra_,amplitudes rim energy_map energy_amplitude energy_wavelength roughness)
+pictures += $(addprefix extra_,amplitudes rim energy_map energy_amplitude energy_wavelength roughness best_exponent best_wavelength error_bars front)
 
 help: ## show the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST)

@@ -18,7 +18,7 @@ PICTURES: Final[dict[str, Callable[..., None]]] = {
 }
 """What draws each picture into the axes that it is given: one, or as many as it has panels."""
 
-PANELS: Final = {"fig4a": 3, "fig9": 2, "extra_roughness": 2}
+PANELS: Final = {"fig4a": 3, "fig9": 2, "extra_roughness": 2, "extra_best_wavelength": 2}
 """The pictures of several panels, side by side."""
 
 STUDIES: Final = Path(__file__).resolve().parents[1] / "configs"
@@ -53,7 +53,7 @@ def missing_of(name: str, dataset: xarray.Dataset) -> list[str]:
 
     study = load_study(study_of(name))
     axes = sorted({*study.sizes} ^ {str(axis) for axis in dataset["status"].dims})
-    return [variable for variable in study.outputs if variable not in dataset] + axes
+    return [variable for variable in study.outputs or study.variables if variable not in dataset] + axes
 
 
 def study_of(name: str) -> Path:

@@ -16,6 +16,10 @@ LABELS = {"A": AMPLITUDE, "lambda_over_R": WAVELENGTH}
 FIXED = {"A": (r"\lambda/R", "lambda_over_R"), "lambda_over_R": ("A", "A")}
 """What does not vary, for each abscissa: its symbol and its name."""
 MAPPED = (0.0, 0.4)
+EXPONENT = "gradient exponent $k$"
+TICKS = (0.05, 0.1, 0.2, 0.4, 0.6)
+NINE_TENTHS = 1.6448536269514722
+"""Standard deviations on either side of nine tenths of a normal distribution."""
 LEVELS = (0.05, 0.1, 0.2, 0.3, 0.4, 0.5)
 
 
@@ -101,7 +105,75 @@ def roughness(force: Axes, energy: Axes, dataset: xarray.Dataset) -> None:
         axes.legend(loc="upper left")
 
 
+def best_exponent(axes: Axes, dataset: xarray.Dataset) -> None:
+    """Draw the best exponent over the depth of the gradient, a line for each Poisson's ratio."""
+    ratios = dataset["nu"].values
+    for value, colour, dash in zip(ratios, shades(ratios.size), DASHES, strict=False):
+        line = dataset["best_k"].sel(nu=value)
+        axes.plot(line["c0_over_R"], line, color=colour, ls=dash, label=rf"$\nu = {value:g}$")
+    axes.set(xscale="log", xlabel="depth of the gradient $c_0/R$", ylabel="best gradient exponent $k$")
+    axes.set_ylim(bottom=0.0)
+    axes.legend(loc="lower left")
+
+
+def best_wavelength(best: Axes, slopes: Axes, dataset: xarray.Dataset) -> None:
+    """Draw the best wavelength and its force over the exponent, and the sensitivities of that force."""
+    k = dataset["k"]
+    best.plot(k, dataset["best_lambda_over_R"], color=INK, label=WAVELENGTH)
+    best.set(xlabel=EXPONENT, ylabel="best " + WAVELENGTH, xlim=(0.0, float(k.max())))
+    sensitivity = dataset["best_pull_off_force_sensitivity"]
+    named = {
+        "A": "$A$",
+        "modulus": r"$E^{\ast}R/\Delta\gamma$",
+        "c0_over_R": "$c_0/R$",
+        "lambda_over_R": r"$\lambda/R$",
+    }
+    for (name, label), colour, dash in zip(named.items(), shades(len(named)), DASHES, strict=False):
+        slopes.plot(k, sensitivity.sel(parameter=name), color=colour, ls=dash, label=label)
+    slopes.set(xlabel=EXPONENT, ylabel=r"sensitivity $d\,\ln F/d\,\ln p$ of the best force", xlim=(0.0, float(k.max())))
+    slopes.set_ylim(top=0.9)
+    slopes.legend(loc="upper left", ncols=2)
+
+
+def error_bars(axes: Axes, dataset: xarray.Dataset) -> None:
+    """Draw the force over the wavelength with the band of the samples, and the linear estimate of the same band."""
+    wavelength = dataset["lambda_over_R"]
+    handles = []
+    for value, colour in zip(dataset["k"].values, shades(3)[::2], strict=True):
+        one = dataset.sel(k=value)
+        force, deviation = one["pull_off_force"], one["pull_off_force_std"]
+        low, high = one["pull_off_force_p05"], one["pull_off_force_p95"]
+        axes.fill_between(wavelength, low, high, color=colour, alpha=0.2, lw=0)
+        axes.plot(wavelength, force, color=colour)
+        for side in (-1.0, 1.0):
+            axes.plot(wavelength, force + side * NINE_TENTHS * deviation, color=colour, lw=0.8, ls=DASHES[4])
+        handles.append(key(f"$k = {value:g}$", color=colour))
+    handles.append(key("linear", color=INK, lw=0.8, ls=DASHES[4]))
+    axes.set(xscale="log", xlabel=WAVELENGTH, ylabel=FORCE, xlim=(float(wavelength.min()), float(wavelength.max())))
+    axes.set_xticks(TICKS, [f"{tick:g}" for tick in TICKS])
+    axes.minorticks_off()
+    axes.set_ylim(bottom=0.0)
+    axes.legend(handles=handles, loc="lower left", ncols=3)
+
+
+def front(axes: Axes, dataset: xarray.Dataset) -> None:
+    """Draw the best compromises of force and energy, a line for each exponent."""
+    exponents = dataset["k"].values
+    for value, colour, dash in zip(exponents, shades(exponents.size), DASHES, strict=False):
+        one = dataset.sel(k=value)
+        axes.plot(
+            one["best_pull_off_force"], one["best_dissipated_energy"], color=colour, ls=dash, label=f"$k = {value:g}$"
+        )
+    axes.set(xlabel=FORCE, ylabel=ENERGY)
+    axes.set_ylim(bottom=0.0)
+    axes.legend(loc="upper right")
+
+
 PICTURES = {
+    "extra_best_exponent": best_exponent,
+    "extra_best_wavelength": best_wavelength,
+    "extra_error_bars": error_bars,
+    "extra_front": front,
     "extra_amplitudes": amplitudes,
     "extra_rim": rims,
     "extra_energy_map": contours,

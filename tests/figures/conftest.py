@@ -23,6 +23,10 @@ SMALL = {
     "fig4b": ("lambda_over_R={ start = 0.1, stop = 0.8, num = 29 }",),
     "fig4c": ("lambda_over_R={ start = 0.1, stop = 0.8, num = 141 }",),
     "fig9": ("k={ start = 0.0, stop = 0.98, num = 15 }",),
+    "extra_best_exponent": ("nu=[0.0, 0.3]", "c0_over_R=[0.003, 0.01, 0.1]"),
+    "extra_best_wavelength": ("k=[0.0, 0.3, 0.8]",),
+    "extra_error_bars": ("lambda_over_R={ start = 0.05, stop = 0.6, num = 41 }",),
+    "extra_front": ("k=[0.0, 0.5]", "A={ start = 0.005, stop = 0.02 }"),
     "extra_rim": ("a_max_over_R={ start = 0.02, stop = 0.8, num = 40 }",),
     "extra_energy_map": (
         'lambda_over_R={ start = 0.0001, stop = 0.01, num = 5, spacing = "log" }',
