@@ -25,7 +25,16 @@ if TYPE_CHECKING:
     from gradhesion.core.cache import CACHE_FOLDER, compiled_before, place
     from gradhesion.core.closed.applicability import validity
     from gradhesion.core.curves import draw_curves
-    from gradhesion.core.kinds import APART, KERNELS, KINDS, NEEDS, kind_of_curves, kind_of_map, kind_of_turning
+    from gradhesion.core.kinds import (
+        APART,
+        KERNELS,
+        KINDS,
+        NEEDS,
+        kind_of_curves,
+        kind_of_map,
+        kind_of_sensitivities,
+        kind_of_turning,
+    )
     from gradhesion.core.problem.control import CONTROLS, Loading
     from gradhesion.core.problem.names import (
         CURVES,
@@ -73,6 +82,7 @@ __all__ = [
     "draw_curves",
     "kind_of_curves",
     "kind_of_map",
+    "kind_of_sensitivities",
     "kind_of_turning",
     "place",
     "solve",
@@ -84,7 +94,16 @@ _HOMES: Final = {
     "_jit": ("watch_compilation",),
     "cache": ("CACHE_FOLDER", "compiled_before", "place"),
     "curves": ("draw_curves",),
-    "kinds": ("APART", "KERNELS", "KINDS", "NEEDS", "kind_of_curves", "kind_of_map", "kind_of_turning"),
+    "kinds": (
+        "APART",
+        "KERNELS",
+        "KINDS",
+        "NEEDS",
+        "kind_of_curves",
+        "kind_of_map",
+        "kind_of_sensitivities",
+        "kind_of_turning",
+    ),
     "problem.control": ("CONTROLS", "Loading"),
     "problem.names": (
         "CURVES",

@@ -12,6 +12,7 @@
     general_energy
     general_reports
     general_turning
+    general_sensitivities
     general_envelope
     general_curves
 
@@ -40,13 +41,16 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "general_energy": ("energy", "general_force"),
     "general_reports": ("general_energy",),
     "general_turning": ("general_energy",),
+    "general_sensitivities": ("general_energy",),
     "general_envelope": ("tables",),
     "general_curves": ("general_energy", "curves"),
 }
 """The kinds that are compiled before a kind, directly: those of whose kernels it needs the same, or others of the same
 name. Processes that compile kinds side by side, each after those that it needs and none beside one of `APART`, compile
 nothing twice, and no two write to one index of the cache."""
-APART: Final = tuple({"asymptotic", general} for general in ("general_energy", "general_reports", "general_turning"))
+APART: Final = tuple({"asymptotic", general} for general in ("general_energy", "general_reports", "general_turning")) + (
+    {"sensitivities", "general_sensitivities"},
+)
 """Kinds that do not need each other, and yet compile kernels of the same name: not to be compiled side by side."""
 KINDS: Final = tuple(NEEDS)
 """All kinds, each after those that it needs."""
@@ -64,6 +68,7 @@ KERNELS: Final[dict[str, int]] = {
     "general_energy": 114,
     "general_reports": 10,
     "general_turning": 24,
+    "general_sensitivities": 50,
     "general_envelope": 0,
     "general_curves": 7,
 }
@@ -109,6 +114,22 @@ def kind_of_turning(profile: Profile | None = None, loading: Loading | None = No
     """
     profile, loading = profile or Profile(), loading or Loading()
     return "turning" if loading == Loading() and equivalent_wave(profile) is not None else "general_turning"
+
+
+def kind_of_sensitivities(profile: Profile | None = None, loading: Loading | None = None) -> str:
+    """Return the kind of work that `solve` does besides where sensitivities are asked for.
+
+    Parameters
+    ----------
+    profile, loading
+        As those of `solve`.
+
+    Examples
+    --------
+    >>> kind_of_sensitivities(), kind_of_sensitivities(loading=Loading(control="load"))
+    ('sensitivities', 'general_sensitivities')
+    """
+    return kind_of_turning(profile, loading).replace("turning", "sensitivities")
 
 
 def kind_of_curves(profile: Profile | None = None, loading: Loading | None = None) -> str:

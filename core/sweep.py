@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.arrays.cosine import solve_cosine, turning_cosine
+from gradhesion.core.arrays.cosine import SLOPES, solve_cosine, turning_cosine
 from gradhesion.core.arrays.general import solve_general
 from gradhesion.core.arrays.general_report import report_general
 from gradhesion.core.arrays.general_turning import turning_general
@@ -14,7 +14,7 @@ from gradhesion.core.arrays.processors import processors
 from gradhesion.core.arrays.turned import Results, turned_results
 from gradhesion.core.cache import note_compiled
 from gradhesion.core.closed.general_envelope import solve_envelope
-from gradhesion.core.kinds import kind_of_map, kind_of_turning
+from gradhesion.core.kinds import kind_of_map, kind_of_sensitivities, kind_of_turning
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import OUTPUTS, PARAMETERS, PULL_OFF, REPORTS, RESULTS, SENSITIVITIES, SOLVERS, TURNS
 from gradhesion.core.problem.profile import Profile
@@ -40,8 +40,6 @@ def _checked(
         raise ValueError(f"{[*reports, *slopes, *turns]} are known of the exact solver only, not of {solver!r}")
     if ("machine_stiffness" in parameters) != (loading.control == "machine"):
         raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
-    if slopes and (loading != Loading() or equivalent_wave(profile) is None):
-        raise ValueError(f"{slopes} are known of the paraboloid with one cosine wave under displacement control only")
     if loading.control == "load" and "energy_residual" in reports:
         raise ValueError("energy_residual: a dead load closes no loop; ask for it under another control")
     other = solver == "asymptotic" and profile != Profile()
@@ -73,21 +71,6 @@ def wanted_for(outputs: Sequence[str], *, turned: bool) -> Sequence[str]:
     return all_wanted(outputs, turned=turned)
 
 
-def _sensed(
-    parameters: Mapping[str, ArrayLike], asked: Sequence[str], found: Results, workers: int, turn: str | None
-) -> Results:
-    """Return the sensitivities that are asked for, from what is solved."""
-    from gradhesion.core.sensitivities.sensitivity import sensitivities  # noqa: PLC0415 (kernels of their own)
-
-    def force_of(scenes: Mapping[str, ArrayLike]) -> NDArray[np.float64]:
-        """Return the force of other scenes that turn as these do."""
-        return solve(scenes, ["pull_off_force"], check_contact=False, threads=workers)["pull_off_force"]
-
-    slopes: Results = {**sensitivities(parameters, asked, found, workers, turn, force_of)}
-    note_compiled("sensitivities")
-    return slopes
-
-
 def solve(
     parameters: Mapping[str, ArrayLike],
     outputs: Sequence[str] = ("pull_off_force", "dissipated_energy"),
@@ -116,9 +99,8 @@ def solve(
         the value (of rounding, and of the sum over waves); energy_residual, the energy less the loop integral of the
         load, whose own rounding is that of the load (NaN beyond 2,000 waves); roughness_parameter chi = r/s;
         saturation_radius in R, beyond which there is no fold; adhesion_gain and energy_gain over the smooth punch of
-        the same material and rim. Of a paraboloid with one cosine wave under displacement control also
-        pull_off_force_sensitivity and dissipated_energy_sensitivity, d ln(value)/d ln p of every parameter, for k and
-        nu d ln(value)/dp.
+        the same material and rim; and pull_off_force_sensitivity and dissipated_energy_sensitivity, d ln(value)/d ln p
+        of every parameter, for k and nu d ln(value)/dp.
     solver
         One of `SOLVERS`.
     check_contact
@@ -137,9 +119,9 @@ def solve(
     Returns
     -------
     An array of the broadcast shape for each output (float64; int32 for jumps, 2^31 - 1 for more) and `status` (int8,
-    bits of status.FLAGS). Sensitivities have a last axis more: the parameters in the order of `PARAMETERS`, and the one
-    of `TURNS` that is given. A scene outside the ranges has NaN (-1 jumps) and the bit no_value; delta_max of an
-    unbounded punch is inf.
+    bits of status.FLAGS). Sensitivities have a last axis more: the parameters in the order of `PARAMETERS`,
+    machine_stiffness and the one of `TURNS` if they are given. A scene outside the ranges has NaN (-1 jumps) and the
+    bit no_value; delta_max of an unbounded punch is inf.
 
     Raises
     ------
@@ -170,18 +152,25 @@ def solve(
     if alike is not None and profile != Profile():
         parameters = _as_one_wave(parameters, *alike)
 
+    senses = tuple(name in asked for name in SENSITIVITIES)
+    slopes = (senses[0], senses[1]) if any(senses) else None
+    reduced: Results = {}
+
     def solved(scenes: Mapping[str, ArrayLike], wanted: Sequence[str], *, turned: bool = False) -> Results:
         """Solve scenes up to their rims."""
         wanted = [name for name in wanted if name != "turning_radius"]
-        if alike is not None:
-            return solve_cosine(scenes, wanted, solver, workers, check_contact=check_contact, turned=turned)
-        if solver == "envelope":
+        if solver == "envelope" and alike is None:
             return solve_envelope(scenes, PARAMETERS, wanted, profile)
-        checks = {"check_contact": check_contact, "turned": turned}
+        checks: Any = {"check_contact": check_contact, "turned": turned, "slopes": slopes}
+        if alike is not None:
+            found = solve_cosine(scenes, wanted, solver, workers, **checks)
+            reduced.update({name: found.pop(name) for name in (SLOPES,) if slopes})
+            return found
         results = [name for name in wanted if name in RESULTS]
         reports = [name for name in wanted if name in REPORTS]
         results += [NEEDED[name] for name in reports if name in NEEDED]
         found = solve_general(scenes, results, profile, loading, workers, **checks)
+        reduced.update({name: found.pop(name) for name in (SLOPES,) if slopes})
         return found | report_general(scenes, reports, found, profile, loading, workers) if reports else found
 
     def again(scenes: Mapping[str, ArrayLike], wanted: Sequence[str]) -> Results:
@@ -204,6 +193,15 @@ def solve(
         found = turned_results(parameters, turn, outputs, radii, flags, solved, again)
         note_compiled(kind_of_turning(profile, loading))
     note_compiled(kind_of_map(outputs, solver, profile, loading))
-    if set(asked) & {*SENSITIVITIES}:
-        found |= _sensed(parameters, asked, found, workers, turn)
+    if slopes:
+        from gradhesion.core.sensitivities.sensitivity import sensitivities  # noqa: PLC0415 (SciPy)
+
+        def force_of(scenes: Mapping[str, ArrayLike]) -> NDArray[np.float64]:
+            """Return the force of other scenes that turn as these do."""
+            own = None if alike is not None else profile  # the scenes are of the wave already
+            found = solve(scenes, PULL_OFF, check_contact=False, threads=threads, profile=own, loading=loading)
+            return found["pull_off_force"]
+
+        found |= sensitivities(parameters, asked, found, reduced[SLOPES], turn, force_of)
+        note_compiled(kind_of_sensitivities(profile, loading))
     return {name: found[name] for name in (*asked, "status")}

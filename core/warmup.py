@@ -78,7 +78,7 @@ def compile_kind(kind: str) -> None:
         case "curves":
             _compile_curves()
         case "sensitivities":
-            solve(SCENE, SENSITIVITIES, threads=1)
+            solve(scene, SENSITIVITIES, threads=1, **driven)
         case _:
             raise ValueError(f"kind {kind!r}: it is one of {', '.join(KINDS)}")
     note_compiled(kind)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.arrays.grouping import Grouped, Task, grouped
-from gradhesion.core.arrays.tables import tables_for
+from gradhesion.core.arrays.tables import neighbours_for, tables_for
 from gradhesion.core.curve.branches import ROWS
 from gradhesion.core.problem.material import fill_stiffness
 from gradhesion.core.problem.names import PARAMETERS, PULL_OFF, REPORTS, RESULTS
@@ -20,8 +20,11 @@ from gradhesion.core.problem.results import typed
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene.cosine_report import NEEDED, report_curves
 from gradhesion.core.scene.solvers import LOOPS, PULL_OFF_LOOP
+from gradhesion.core.sensitivities.cosine_slopes import COUNT
 from gradhesion.core.turning.cosine import turn_curves
 
+SLOPES: Final = "slopes"
+"""The name of the sensitivities to the numbers of a scene, from which those to its parameters are put together."""
 BRANCHES: Final = 192
 """Branches of a curve that a task has room for."""
 
@@ -62,8 +65,12 @@ def solve_cosine(
     *,
     check_contact: bool = True,
     turned: bool = False,
+    slopes: tuple[bool, bool] | None = None,
 ) -> dict[str, NDArray[Any]]:
-    """Solve all scenes of the broadcast parameters, as `solve` of core/sweep.py; `turned` as in arrays/general.py."""
+    """Solve all scenes of the broadcast parameters, as `solve` of core/sweep.py.
+
+    `turned` and `slopes` are as those of `solve_general` (arrays/general.py).
+    """
     reports = [name for name in outputs if name in REPORTS]
     rows = list(dict.fromkeys([*outputs, *(NEEDED[name] for name in reports if name in NEEDED)]))
     curves = grouped(parameters)
@@ -76,12 +83,15 @@ def solve_cosine(
     slots_of_reports = np.array([rows.index(name) if name in reports else -1 for name in REPORTS])
     out = np.empty((len(rows), *curves.size))
     status = np.zeros(curves.size, dtype=np.int8)
-    solve_curves = PULL_OFF_LOOP if solver == "exact" and set(outputs) <= set(PULL_OFF) else LOOPS[solver]
+    only_force = solver == "exact" and slopes is None and set(outputs) <= set(PULL_OFF)
+    solve_curves = PULL_OFF_LOOP if only_force else LOOPS[solver]
+    sensed = np.full((3, COUNT, *curves.size), math.nan) if slopes else None
 
     def work(tables: NDArray[Any], task: Task, stiffness: NDArray[np.float64]) -> None:
         scratch = np.empty((ROWS, BRANCHES))
         curves_of = (tables, task.which, task.index, stiffness, curves.lambda_over_R, curves.A, rims)
-        solve_curves(*curves_of, slots, out, status, scratch)
+        sense = () if slopes is None else (*neighbours_for(task), sensed, *slopes, turned)
+        solve_curves(*curves_of, slots, out, status, scratch, sense)
         if reports:
             report_curves(*curves_of, slots, slots_of_reports, out, status, scratch)
 
@@ -90,6 +100,8 @@ def solve_cosine(
         out[:, np.broadcast_to(without_rim, status.shape)] = math.nan
         status[np.broadcast_to(without_rim, status.shape)] = NO_VALUE
     found = {name: typed(name, out[rows.index(name)]).reshape(curves.shape) for name in outputs}
+    if sensed is not None:
+        found[SLOPES] = sensed.reshape((3, COUNT, *curves.shape))
     return found | {"status": status.reshape(curves.shape)}
 
 

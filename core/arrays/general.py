@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gradhesion.core.arrays.cosine import SLOPES
 from gradhesion.core.arrays.prepared import prepared, run_by_exponent
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.problem.control import Loading
@@ -14,6 +15,8 @@ from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.results import typed
 from gradhesion.core.problem.shape import front_of, in_own_wavelength
 from gradhesion.core.scene.general import solve_pull_offs, solve_scenes
+from gradhesion.core.sensitivities.cosine_slopes import COUNT
+from gradhesion.core.sensitivities.neighbours import exponents_beside
 
 
 def solve_general(
@@ -25,11 +28,15 @@ def solve_general(
     *,
     check_contact: bool = True,
     turned: bool = False,
+    slopes: tuple[bool, bool] | None = None,
 ) -> dict[str, NDArray[Any]]:
     """Solve all scenes of broadcast parameters for one profile and control, as `solve` of core/sweep.py.
 
     Scenes that differ along the last axes in a_max alone are solved on one trace.
-    `turned` is whether a_max is where the cycles turn, not the rim of a punch.
+    `turned` is whether a_max is where the cycles turn, not the rim of a punch. `slopes` is whether the sensitivities of
+    force and of energy are asked for, whose values and whose place are then among `outputs`: the result has `SLOPES`
+    more, of shape (3, COUNT, *scenes), those of the force, of the energy, and of the depth where a cycle turns to what
+    sensitivities/cosine_slopes.py names (NaN where there is no positive value).
     """
     scenes = prepared(parameters, loading)
     rows = list(dict.fromkeys(outputs))
@@ -40,17 +47,29 @@ def solve_general(
     n, series = in_own_wavelength(profile)
     wavelength, amplitude = scenes.wavelength / n, n * scenes.amplitude if series.size else 0.0 * scenes.amplitude
 
-    solve = solve_pull_offs if set(rows) <= set(PULL_OFF) else solve_scenes
+    solve = solve_pull_offs if set(rows) <= set(PULL_OFF) and slopes is None else solve_scenes
+    sensed = np.full((3, COUNT, *status.shape), np.nan) if slopes else None
+
+    def neighbours(exponent: float) -> tuple[Any, ...]:
+        """Return what `of_scene` of sensitivities/general_slopes.py takes of neighbouring exponents."""
+        exponents, weights, middle = exponents_beside(exponent)
+        tables, bins = zip(*(tables_of(other, series) for other in exponents), strict=True)
+        fronts = np.array([front_of(other, profile.exponent) for other in exponents])
+        of_curve = (exponent, profile.exponent)
+        return np.array([*tables], dtype=tables[0].dtype), np.array(bins), series, weights, middle, fronts, of_curve
 
     def work(exponent: float, index: NDArray[np.int64]) -> None:
         table, cosines = tables_of(exponent, series)
         front = front_of(exponent, profile.exponent)
         arrays = (scenes.stretch, wavelength, amplitude, scenes.compliance, scenes.rim)
-        solve(table, cosines, series, profile.exponent, front, index, *arrays, slots, out, status)
+        sense = () if slopes is None else (*neighbours(exponent), sensed, *slopes, turned)
+        solve(table, cosines, series, profile.exponent, front, index, *arrays, slots, out, status, sense)
 
     run_by_exponent(scenes.k, work, workers, scenes.rim.shape[1])
     result: dict[str, NDArray[Any]] = {}
     for name in outputs:
         result[name] = typed(name, out[rows.index(name)]).reshape(scenes.shape)
     result["status"] = status.reshape(scenes.shape)
+    if sensed is not None:
+        result[SLOPES] = sensed.reshape((3, COUNT, *scenes.shape))
     return result

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.arrays.grouping import Task
+from gradhesion.core.sensitivities.neighbours import exponents_beside
 from gradhesion.core.struve.cosine_bins import build_cosine_bins
 from gradhesion.core.struve.interpolated import interpolated_tables
 from gradhesion.core.struve.series import with_table
@@ -36,6 +37,24 @@ def tables_for(task: Task, *, forces: bool = False) -> NDArray[Any]:
     """
     exponents = np.where((task.exponents >= 0.0) & (task.exponents <= 1.0), task.exponents, 0.0)
     return interpolated_tables(exponents, forces=forces) if task.interpolated else _own(float(exponents[0]))
+
+
+def neighbours_for(task: Task) -> tuple[NDArray[Any], NDArray[np.float64], NDArray[np.float64]]:
+    """Return what differentiates by the exponents of a task (sensitivities/neighbours.py), a row for each of them.
+
+    Returns
+    -------
+    The tables of neighbours and their weights, of shape (exponents, 4), and the weights of the exponents themselves.
+    """
+    inside = np.where((task.exponents >= 0.0) & (task.exponents <= 1.0), task.exponents, 0.0)
+    beside = [exponents_beside(float(k)) for k in inside]
+    exponents = np.array([others for others, _, _ in beside])
+    if task.interpolated:
+        tables = interpolated_tables(exponents.ravel(), forces=False)
+    else:
+        tables = np.concatenate([_own(k) for k in exponents.ravel().tolist()])
+    weights, middle = np.array([weights for _, weights, _ in beside]), np.array([one for _, _, one in beside])
+    return tables.reshape(exponents.shape), weights, middle
 
 
 @lru_cache(maxsize=128)

@@ -18,7 +18,17 @@ from gradhesion.core.curve.general import Basis, Curve
 from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, fill_branches
 from gradhesion.core.curve.general_folds import MOST_FOLDS, find_folds, room
 from gradhesion.core.path.general_ties import first_close_pair, is_at_a_fold
-from gradhesion.core.path.pieces import State, climb, descend, leave, leave_rim, reach_rim
+from gradhesion.core.path.pieces import (
+    NOTED_DOWN,
+    NOTED_UP,
+    State,
+    climb,
+    descend,
+    leave,
+    leave_rim,
+    note,
+    reach_rim,
+)
 from gradhesion.core.waves.general import (
     DOWN,
     NEAREST,
@@ -224,6 +234,7 @@ def go_through(
     work: Any,
     losses: bool,
     test: bool,
+    notes: Any,
 ) -> tuple[State, bool]:
     """Follow loading from wave `begin` to `end`, or unloading from `end` to `begin`; the loss is NaN if it cannot be.
 
@@ -247,15 +258,17 @@ def go_through(
         if kind == UP:
             if test and one_disc:
                 one_disc = climb_is_one_disc(basis, curve, count, rows, -math.inf, state[3] + state[4], state[2], now)
-            state = climb(basis, curve, count, rows, state, losses, now)
+            state = climb(basis, curve, count, rows, state, losses, now, -1.0, notes)
         else:
-            state = descend(basis, curve, count, rows, state, losses, now)
+            state = descend(basis, curve, count, rows, state, losses, now, notes)
         far = last_of_climb(basis, curve, cut, places, now, kind, work)
         if far != now:
             first, final = (now + 1.0, far) if kind == UP else (far + 1.0, now)
             if test and one_disc:
                 one_disc = _waves_are_one_disc(basis, curve, cut, first, final, work)
             loss, jumps = sum_of_waves(kind, basis, curve, cut, left, first, final, work, losses)
+            if losses:
+                note(notes, NOTED_UP if kind == UP else NOTED_DOWN, 0.0, first, final, NO)
             count = branches_of_wave(basis, curve, far, cut, work, rows)
             if kind == UP:
                 best = highest_end(rows, count)
@@ -314,6 +327,7 @@ def stride(
     rim: float,
     rim_low: float,
     tasks: tuple[bool, bool, bool, bool],
+    notes: Any,
 ) -> Any:
     """Follow the cycle on a long curve up to one rim; `rim_low` is the rounding error of the rim.
 
@@ -330,6 +344,8 @@ def stride(
     tasks
         Whether what is lost is wanted, whether what the end of contact loses is a part of it, whether loading is tested
         for keeping the contact one disc, and whether the rim is a place that loading surely reaches.
+    notes
+        Room for notes of what loses energy (path/pieces.py).
 
     Returns
     -------
@@ -361,17 +377,17 @@ def stride(
     close = close or (x < math.inf and not turned and is_at_a_fold(basis, curve, x, whole))
     work = room_for_waves(series)
     one_disc = not test or climb_is_one_disc(basis, curve, branches, near, -math.inf, 0.0, 0.0, 0.0)
-    loading = climb(basis, curve, branches, near, nothing, losses, 0.0)
-    loading, open_too = go_through(basis, curve, cut, begin, end, UP, loading, work, losses, test and one_disc)
+    loading = climb(basis, curve, branches, near, nothing, losses, 0.0, -1.0, notes)
+    loading, open_too = go_through(basis, curve, cut, begin, end, UP, loading, work, losses, test and one_disc, notes)
     one_disc = one_disc and open_too
     if test and one_disc:
         one_disc = climb_is_one_disc(basis, curve, outer, far, x, loading[3] + loading[4], loading[2], whole)
-    loading = climb(basis, curve, outer, far, loading, losses, whole, x if turned else -1.0)
-    loading = reach_rim(basis, curve, x, loading, losses, whole)
+    loading = climb(basis, curve, outer, far, loading, losses, whole, x if turned else -1.0, notes)
+    loading = reach_rim(basis, curve, x, loading, losses, whole, notes)
     inside, unloading = leave_rim(basis, curve, outer, far, x, whole)
-    unloading = descend(basis, curve, inside, far, unloading, losses, whole)
-    unloading, _ = go_through(basis, curve, cut, begin, end, DOWN, unloading, work, losses, NO)
-    unloading = descend(basis, curve, branches, near, unloading, losses, 0.0)
-    unloading = leave(basis, curve, unloading, losses and last_loss)
+    unloading = descend(basis, curve, inside, far, unloading, losses, whole, notes)
+    unloading, _ = go_through(basis, curve, cut, begin, end, DOWN, unloading, work, losses, NO, notes)
+    unloading = descend(basis, curve, branches, near, unloading, losses, 0.0, notes)
+    unloading = leave(basis, curve, unloading, losses and last_loss, notes)
     done = not (math.isnan(loading[0] + loading[1]) or math.isnan(unloading[0] + unloading[1]))
     return done, loading, unloading, close or loading[5] or unloading[5], one_disc, whole, x

@@ -3,7 +3,8 @@
 A scene is reduced to its curve (curve/cosine.py) and its rim. Lengths are in R, energies in R^2 dgamma, M in
 dgamma/R^(1+k).
 
-Nothing is computed that only a result needs for which nobody asked.
+Nothing is computed that only a result needs for which nobody asked. Sensitivities are read off the trace that the
+energy is read off; without them `sense` is an empty tuple, whose length numba knows when it compiles.
 """
 
 import math
@@ -54,6 +55,14 @@ from gradhesion.core.problem.status import (
     PULL_OFF_AT_RIM,
 )
 from gradhesion.core.pull_off.cosine import lowest_load
+from gradhesion.core.sensitivities.cosine_slopes import (
+    at_fixed_stiffness,
+    beside,
+    put_energy,
+    put_forces,
+    put_smooth,
+)
+from gradhesion.core.sensitivities.path_slopes import fill_loading, slopes_for
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 
@@ -168,6 +177,37 @@ def _limits(
 
 
 @kernel()
+def _slopes_of(table: Any, curve: Curve, sense: Any, around: Any, count: int, trace: Any, final: float) -> Any:
+    """Return the slopes that go with a trace, those of loading filled in, if they are asked for."""
+    slopes = slopes_for(trace)
+    if sense[5]:
+        fill_loading(table, curve, around[0], count, trace, final, slopes)
+    return slopes
+
+
+@kernel()
+def _put_slopes(
+    table: Any,
+    curve: Curve,
+    sense: Any,
+    around: Any,
+    scale: float,
+    count: int,
+    trace: Any,
+    final: float,
+    slopes: Any,
+    x: float,
+    slots: Any,
+    out: Any,
+    i: int,
+) -> None:
+    """Store the sensitivities of the energy of a rim if they are asked for."""
+    if sense[5]:
+        energy = out[slots[ENERGY], i]
+        put_energy(table, curve, around, scale, count, trace, final, slopes, x, energy, sense[3], i)
+
+
+@kernel()
 def _solve_cycle(
     table: Any,
     curve: Curve,
@@ -179,9 +219,12 @@ def _solve_cycle(
     out: Any,
     status: Any,
     scratch: Any,
+    sense: Any,
+    around: Any,
 ) -> None:
     """Follow the cycle of a wavy punch for all its rims: those within a walk share one trace."""
     losses = wants_losses(slots)
+    final = arches[1]
     furthest = 0.0
     for i in range(rims.size):
         x = rims[i] / wavelength
@@ -192,16 +235,23 @@ def _solve_cycle(
     if furthest > 0.0:
         count, trace = walk(table, curve, arches, furthest, scratch, losses)
         limits = _limits(table, curve, count, trace, furthest, slots)
+        if len(sense) > 0:
+            slopes = _slopes_of(table, curve, sense, around, count, trace, final)
     for i in range(rims.size):
         x = rims[i] / wavelength
         if not is_unresolved(arches, x) and not is_long(table, arches, x):
             _cycle_at_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i)
+            if len(sense) > 0:
+                _put_slopes(table, curve, sense, around, scales[0], count, trace, final, slopes, x, slots, out, i)
     for i in range(rims.size):
         x = rims[i] / wavelength
         if not is_unresolved(arches, x) and is_long(table, arches, x):
             count, trace = stride(table, curve, arches, x, scratch, losses, 1.0)
             limits = _limits(table, curve, count, trace, x, slots)
             _cycle_at_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i)
+            if len(sense) > 0:
+                slopes = _slopes_of(table, curve, sense, around, count, trace, final)
+                _put_slopes(table, curve, sense, around, scales[0], count, trace, final, slopes, x, slots, out, i)
 
 
 @kernel()
@@ -251,11 +301,19 @@ def solve_curve(
     out: Any,
     status: Any,
     scratch: Any,
+    sense: Any,
 ) -> None:
-    """Solve one curve (k, s, lambda, A) for all its rims a_max."""
+    """Solve one curve (k, s, lambda, A) for all its rims a_max.
+
+    `sense` is (), or what sensitivities need: the tables of neighbouring exponents, their weights in d/dk, the weight
+    of k itself, where sensitivities go (3, COUNT, rims), whether those of force and of energy are asked for, and
+    whether the rims are places where cycles turn.
+    """
     k = table.k
     if is_endless_wave(wavelength, amplitude):  # A = 0 among them
         _solve_smooth(k, constants, stretch, rims, slots, out, status)
+        if len(sense) > 0:
+            put_smooth(table, constants, stretch, rims, slots, out, status, sense, scratch)
         return
     curve, length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
     if not (0.0 < curve[0] < LARGEST and curve[1] < LARGEST):  # powers of them would overflow
@@ -266,10 +324,17 @@ def solve_curve(
     arches = extent(table, curve) if folds else (0.0, 0.0)
     if folds and is_smooth(arches):
         _solve_smooth(k, constants, stretch, rims, slots, out, status)
+        if len(sense) > 0:
+            put_smooth(table, constants, stretch, rims, slots, out, status, sense, scratch)
         return
+    around = beside(table, sense, stretch, wavelength, amplitude) if len(sense) > 0 else ()
     if wants_force(slots):
         _solve_force(table, curve, force_unit(k, length, depth_scale), wavelength, rims, slots, out, status)
     if folds:
         scales = (TWO_PI * length * length, depth_scale)
-        _solve_cycle(table, curve, arches, scales, wavelength, rims, slots, out, status, scratch)
+        _solve_cycle(table, curve, arches, scales, wavelength, rims, slots, out, status, scratch, sense, around)
+    if len(sense) > 0:
+        if sense[4]:
+            put_forces(table, curve, around, depth_scale, wavelength, rims, slots, out, status, sense)
+        at_fixed_stiffness(around, sense[3])
     _mark_unresolved(wavelength, rims, out, status)

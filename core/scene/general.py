@@ -1,4 +1,8 @@
-"""From the numbers of general scenes to their results: one curve at a time, with all its rims."""
+"""From the numbers of general scenes to their results: one curve at a time, with all its rims.
+
+Sensitivities are read off the trace, or the notes of a long cycle, that the energy comes from; without them `sense` is
+an empty tuple, whose length numba knows when it compiles.
+"""
 
 import math
 from collections.abc import Callable
@@ -6,7 +10,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import NONE, kernel
 from gradhesion.core.contact.general_disc import disc_limits, is_one_disc
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
@@ -16,6 +20,7 @@ from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.path.general import depth_at_full_contact, walk
 from gradhesion.core.path.general_long import FEW, LONGEST_WALK, REGULAR, Middle, middle_of, stride
 from gradhesion.core.path.loading import highest_depth, loading_to
+from gradhesion.core.path.pieces import notes_for
 from gradhesion.core.path.ties import is_close_to_a_jump
 from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.results import (
@@ -44,6 +49,8 @@ from gradhesion.core.problem.status import (
 )
 from gradhesion.core.pull_off.general import deepest_wave
 from gradhesion.core.pull_off.rims import lowest_loads
+from gradhesion.core.sensitivities.general_slopes import NOTES, of_scene, put_energy, put_noted, put_rest, senses_energy
+from gradhesion.core.sensitivities.path_slopes import fill_loading, slopes_for
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.waves.general import highest_harmonic
@@ -122,6 +129,7 @@ def _walked(
     slots: Any,
     out: Any,
     status: Any,
+    own: Any,
 ) -> bool:
     """Solve the chosen rims of a curve on one trace; return whether it could be walked."""
     losses, turned = wants_losses(slots), slots[TURNED] > 0
@@ -133,6 +141,10 @@ def _walked(
     if count < 0:
         return False
     limits = disc_limits(basis, curve, count, trace, furthest) if slots[CONTACT] >= 0 else (math.inf, math.inf)
+    if len(own) > 0:
+        slopes = slopes_for(trace)
+        if senses_energy(own):
+            fill_loading(basis, curve, own[0], count, trace, 0.0, slopes)
     for i in range(rims.size):
         if not chosen[i]:
             continue
@@ -144,6 +156,9 @@ def _walked(
         close = is_close_to_a_jump(basis, curve, count, trace, tangency, x, level, turned)
         flags = (close, is_one_disc(basis, curve, limits, x))
         _put_cycle(basis, curve, length, unit, (x, 0.0), loading, unloading, flags, slots, out, status, i)
+        if len(own) > 0:
+            if senses_energy(own):
+                put_energy(basis, curve, own, count, trace, slopes, x, loading[0] + unloading[0], i)
     return True
 
 
@@ -160,12 +175,14 @@ def _strode(
     out: Any,
     status: Any,
     i: int,
+    own: Any,
 ) -> bool:
     """Solve one rim of a long curve; return whether its waves could be summed."""
     _, _, _, alpha, _ = curve
     tasks = (wants_losses(slots), alpha > 0.0, slots[CONTACT] >= 0, slots[TURNED] > 0)
     x, x_low = rim
-    done, loading, unloading, close, one_disc, waves, x = stride(basis, curve, first, middle, x, x_low, tasks)
+    notes = notes_for(NOTES if senses_energy(own) else NONE)
+    done, loading, unloading, close, one_disc, waves, x = stride(basis, curve, first, middle, x, x_low, tasks, notes)
     if not done:
         return False
     _, _, _, whole, left, _ = unloading
@@ -174,6 +191,9 @@ def _strode(
         _, _, _, depth, _ = state(basis, curve, left, whole)
     up, down = (loading[0], loading[1], loading[2]), (unloading[0], unloading[1], depth)
     _put_cycle(basis, curve, length, unit, (x, waves), up, down, (close, one_disc), slots, out, status, i)
+    if len(own) > 0:
+        if senses_energy(own):
+            put_noted(basis, curve, own, middle[2], notes, x, waves, loading[0] + unloading[0], i)
     return True
 
 
@@ -188,6 +208,7 @@ def _cycles(
     slots: Any,
     out: Any,
     status: Any,
+    own: Any,
 ) -> None:
     """Follow the cycles of a curve up to all its rims that are not refused: those within a walk share one trace."""
     _, _, series = basis
@@ -207,11 +228,11 @@ def _cycles(
             x_low = fma(-x, wavelength, rims[i]) / wavelength if x < math.inf else 0.0
             kind, until, _, _, _, _, _ = middle
             if kind == REGULAR and _strode(
-                basis, curve, length, unit, first, middle, (x, x_low), slots, out, status, i
+                basis, curve, length, unit, first, middle, (x, x_low), slots, out, status, i, own
             ):
                 continue
             alone[i] = True
-            if kind == FEW and _walked(basis, curve, length, unit, first, until, places, alone, slots, out, status):
+            if kind == FEW and _walked(basis, curve, length, unit, first, until, places, alone, slots, out, status, own):
                 alone[i] = False
                 continue
             alone[i] = False
@@ -219,17 +240,17 @@ def _cycles(
             _refuse(slots, out, status, i)
         elif waves > LONGEST_WALK:
             alone[i] = True
-            if not _walked(basis, curve, length, unit, first, last, places, alone, slots, out, status):
+            if not _walked(basis, curve, length, unit, first, last, places, alone, slots, out, status, own):
                 _refuse(slots, out, status, i)
             alone[i] = False
         else:
             together[i] = shared = True
-    if not shared or _walked(basis, curve, length, unit, first, last, places, together, slots, out, status):
+    if not shared or _walked(basis, curve, length, unit, first, last, places, together, slots, out, status, own):
         return
     for i in range(count):  # too many folds up to the largest of them
         if together[i]:
             alone[i] = True
-            if not _walked(basis, curve, length, unit, first, last, places, alone, slots, out, status):
+            if not _walked(basis, curve, length, unit, first, last, places, alone, slots, out, status, own):
                 _refuse(slots, out, status, i)
             alone[i] = False
 
@@ -287,11 +308,13 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
         slots: Any,
         out: Any,
         status: Any,
+        sense: Any,
     ) -> None:
         """Solve the curves `index` of one gradient exponent, each for all its rims (curve_of says what they are).
 
         The rims are an array of shape (curves, rims), or (1, rims) if they are the same for all curves; `out` has the
-        shape (results, curves, rims), `status` (curves, rims).
+        shape (results, curves, rims), `status` (curves, rims). `sense` is () or what sensitivities need
+        (sensitivities/general_slopes.py).
         """
         smooth = np.zeros((0, 3))
         work, deepest = room(), deepest_wave(table, series) if wants_force(slots) else 0.0
@@ -310,13 +333,16 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
                     _refuse(slots, results, flags, rim)
             if not valid:
                 continue
+            scene = of_scene(sense, i, stretch[i], wavelength[i], amplitude[i], compliance[i])
             if wants_force(slots):
                 scales = (force_unit(table.k, length, unit), wavelength[i])
                 _pull_offs(
                     basis, curve, scales, own, slots, results, flags, work, deepest if amplitude[i] > 0.0 else 0.0
                 )
             if cycles and wants_folds(slots):
-                _cycles(basis, curve, length, unit, wavelength[i], own, slots, results, flags)
+                _cycles(basis, curve, length, unit, wavelength[i], own, slots, results, flags, scene)
+            if len(sense) > 0:
+                put_rest(basis, curve, scene, unit, wavelength[i], own, slots, results, flags)
 
     return solve_scenes
 

@@ -15,7 +15,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import NO, YES, kernel
+from gradhesion.core._jit import NO, NONE, YES, kernel
 from gradhesion.core.curve.branches import ARRIVAL, END, LANDING, NEXT, START
 from gradhesion.core.curve.cosine_energy import NODES, WEIGHTS
 from gradhesion.core.curve.general import Basis, Curve, coordinate, curve_of, slope, state
@@ -24,6 +24,7 @@ from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.path.general import walk
 from gradhesion.core.path.general_long import FEW, LONGEST_WALK, NEAR_END, REGULAR, middle_of, regular_waves, stride
 from gradhesion.core.path.loading import highest_depth, loading_to
+from gradhesion.core.path.pieces import notes_for
 from gradhesion.core.path.unloading import descend, leave_rim, unloading_from
 from gradhesion.core.problem.status import NO_VALUE, TOLERANCE_NOT_MET
 from gradhesion.core.struve.circle import TWO_PI
@@ -166,7 +167,9 @@ def _other_sum(basis: Basis, curve: Curve, first: float, last: float, rim: float
     kind, until, _, _, _, _, _ = middle
     if kind == REGULAR:
         tasks = (YES, alpha > 0.0, NO, NO)
-        done, loading, unloading, _, _, _, _ = stride(basis, curve, first, middle, rim, rim_low, tasks)
+        done, loading, unloading, _, _, _, _ = stride(
+            basis, curve, first, middle, rim, rim_low, tasks, notes_for(NONE)
+        )
         return loading[0] + unloading[0] if done else math.nan
     if kind == FEW:
         count, trace, _ = walk(basis, curve, first, until, rim, YES)

@@ -15,6 +15,7 @@ from gradhesion.core.closed.smooth import smooth_constants
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene import cosine as scene
 from gradhesion.core.scene import short_wave as asymptotic_cycle
+from gradhesion.core.sensitivities.cosine_slopes import of_curve
 
 EXACT, ASYMPTOTIC, ENVELOPE, PULL_OFF = 0, 1, 2, 3
 """The last one is the exact solver where nothing but the pull-off is asked for: a third of the code to compile."""
@@ -43,8 +44,14 @@ def loop_of(solver: int) -> Callable[..., None]:
         out: Any,
         status: Any,
         scratch: Any,
+        sense: Any,
     ) -> None:
-        """Solve the curves `index`, `which` are the tables of theirs; `rims` has one row, or one a curve."""
+        """Solve the curves `index`, `which` are the tables of theirs; `rims` has one row, or one a curve.
+
+        `sense` is (), or for the exact solver what its sensitivities need (`solve_curve` of scene/cosine.py), those of
+        all exponents and curves: the tables of neighbours, their weights and the weight of the exponent itself have one
+        row for each table, and the sensitivities go to (3, COUNT, curves, rims).
+        """
         table = tables[0]
         constants, front = smooth_constants(table.k), 2.0 ** (1.0 + table.k) * math.pi
         for j in range(index.size):
@@ -61,8 +68,9 @@ def loop_of(solver: int) -> Callable[..., None]:
             for rim in range(flags.size):
                 flags[rim] = 0
             if solver == EXACT:
+                own = of_curve(sense, i, which[j])
                 scene.solve_curve(
-                    table, constants, stretch, wavelength[i], amplitude[i], row, slots, values, flags, scratch
+                    table, constants, stretch, wavelength[i], amplitude[i], row, slots, values, flags, scratch, own
                 )
             elif solver == PULL_OFF:
                 scene.solve_pull_off(table, constants, stretch, wavelength[i], amplitude[i], row, slots, values, flags)

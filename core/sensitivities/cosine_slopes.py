@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from gradhesion.core._jit import NO, constant, kernel
+from gradhesion.core._jit import constant, kernel
 from gradhesion.core.closed import smooth
 from gradhesion.core.curve.branches import (
     ARRIVAL,
@@ -33,18 +33,18 @@ from gradhesion.core.curve.branches import (
     UNLOADING_JUMPS,
 )
 from gradhesion.core.curve.cosine import Curve, curve_of, depth, force_unit, load, slope, wave
-from gradhesion.core.path.cosine import extent, is_endless_wave, is_long, is_smooth, stride, walk
+from gradhesion.core.problem.results import ENERGY as ENERGY_ROW
+from gradhesion.core.problem.results import RADIUS
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.pull_off.cosine import PHASELESS
 from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SLOPES
-from gradhesion.core.sensitivities.path_slopes import ROWS, add_loading, add_unloading, fill_loading
-from gradhesion.core.sensitivities.wave_slopes import ROOM
+from gradhesion.core.sensitivities.path_slopes import energy_slopes, fill_loading, slopes_for
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 
-BY_STIFFNESS, BY_WAVELENGTH, BY_AMPLITUDE, BY_RIM, BY_EXPONENT = map(constant, range(5))
-"""Rows of what is found; that of k is at fixed M."""
-COUNT = 5
+BY_STIFFNESS, BY_WAVELENGTH, BY_AMPLITUDE, BY_RIM, BY_EXPONENT, BY_MACHINE = map(constant, range(6))
+"""Rows of what is found; that of k is at fixed M, and only general scenes have a machine."""
+COUNT = 6
 FORCE, ENERGY, DEPTH = 0, 1, 2
 """What is differentiated: the last one is the depth at the rim, over R, not its logarithm."""
 
@@ -57,6 +57,7 @@ def _put(found: Any, k: float, curve: Curve, unit: float, half: float, by: Any, 
     if not value > 0.0:
         found[:, i] = math.nan
         return
+    found[BY_MACHINE, i] = 0.0
     bend, gain, rim = b * by[0] / value, g * by[1] / value, by[2] / value
     found[BY_STIFFNESS, i] = half + 0.5 * (bend + gain)
     found[BY_WAVELENGTH, i] = unit + (2.0 - c) * bend + (1.0 - c) * gain - rim
@@ -125,7 +126,7 @@ def _put_depth(
 
 
 @kernel()
-def _smooth_trace(table: Any, curve: Curve, constants: Any, trace: Any) -> int:
+def smooth_trace(table: Any, curve: Curve, constants: Any, trace: Any) -> int:
     """Put the one branch of a smooth punch of b = 1 into the trace; return the number of branches."""
     _, z_in, _, z_out, _, _ = constants
     trace[RUN, GAP] = math.inf
@@ -137,214 +138,133 @@ def _smooth_trace(table: Any, curve: Curve, constants: Any, trace: Any) -> int:
 
 
 @kernel()
-def _energy_slopes(
-    table: Any, curve: Curve, near: Any, count: int, trace: Any, x: float, final: float, slopes: Any, by: Any
-) -> None:
-    """Put the slopes of the reduced energy of a rim by b, g, ln x and k into `by`."""
-    total = slopes[ROWS + 1, SLOPES : 2 * SLOPES]
-    total[:] = 0.0
-    rim_depth = depth(table, curve, x) if x < math.inf else math.inf
-    by[2] = add_loading(table, curve, near, count, trace, x, slopes, total)
-    by[2] += add_unloading(table, curve, near, count, trace, x, rim_depth, final, slopes, total)
-    by[0], by[1], by[3] = total[BEND], total[GAIN], total[EXPONENT]
+def of_curve(sense: Any, i: int, which: int) -> Any:
+    """Return what the sensitivities of curve i, of exponent `which`, need; () where none are asked for."""
+    if len(sense) == 0:
+        return ()
+    tables, weights, middle, found, force, energy, turned = sense
+    return tables[which], weights[which], middle[which], found[:, :, i], force, energy, turned
 
 
 @kernel()
-def _slopes_for(trace: Any) -> Any:
-    """Return room for the slopes of a trace."""
-    slopes = np.empty((ROWS + 2, max(trace.shape[1], ROOM)))
-    slopes[:ROWS] = 0.0
-    return slopes
+def beside(
+    table: Any, sense: Any, stretch: float, wavelength: float, amplitude: float
+) -> tuple[Any, Any, tuple[float, float]]:
+    """Return what is the same curve at neighbouring exponents, its units over those of the curve, and ln of a contact.
 
-
-@kernel()
-def _energies(
-    table: Any,
-    curve: Curve,
-    near: Any,
-    middle: float,
-    scale: float,
-    wavelength: float,
-    rims: Any,
-    energies: Any,
-    found: Any,
-    status: Any,
-    smooth_constants: Any,
-    is_even: bool,
-    arches: Any,
-    scratch: Any,
-) -> None:
-    """Find the sensitivities of the energy for all rims of a curve."""
-    k = table.k
-    by = np.zeros(4)
-    furthest = 0.0
-    for i in range(rims.size):
-        x = rims[i] / wavelength
-        if not status[i] & NO_VALUE and (is_even or not is_long(table, arches, x)):
-            furthest = max(furthest, x)
-    if furthest > 0.0:
-        if is_even:
-            trace = scratch
-            count = _smooth_trace(table, curve, smooth_constants, trace)
-        else:
-            count, trace = walk(table, curve, arches, furthest, scratch, NO)
-        slopes = _slopes_for(trace)
-        fill_loading(table, curve, near, count, trace, arches[1], slopes)
-        for i in range(rims.size):
-            x = rims[i] / wavelength
-            if not status[i] & NO_VALUE and (is_even or not is_long(table, arches, x)):
-                _energy_slopes(table, curve, near, count, trace, x, arches[1], slopes, by)
-                value = energies[i] / scale
-                by[3] += middle * value
-                _put(found, k, curve, 2.0, 0.0, by, value, i)
-    for i in range(rims.size):
-        x = rims[i] / wavelength
-        if not status[i] & NO_VALUE and not is_even and is_long(table, arches, x):
-            count, trace = stride(table, curve, arches, x, scratch, NO, 1.0)
-            slopes = _slopes_for(trace)
-            fill_loading(table, curve, near, count, trace, arches[1], slopes)
-            _energy_slopes(table, curve, near, count, trace, x, arches[1], slopes, by)
-            value = energies[i] / scale
-            by[3] += middle * value
-            _put(found, k, curve, 2.0, 0.0, by, value, i)
-
-
-@kernel()
-def _sense_curve(
-    table: Any,
-    tables: Any,
-    weights: Any,
-    middle: float,
-    stiffness: float,
-    wavelength: float,
-    amplitude: float,
-    rims: Any,
-    values: Any,
-    radii: Any,
-    turned: bool,
-    found: Any,
-    status: Any,
-    scratch: Any,
-) -> None:
-    """Find the sensitivities of one curve for all its rims."""
-    k = table.k
-    stretch = math.sqrt(2.0 ** (1.0 + k) * math.pi / stiffness)
-    constants = smooth.smooth_constants(k)
-    even = is_endless_wave(wavelength, amplitude)
-    if even:
-        wavelength, amplitude = TWO_PI * smooth.smooth_length(k, stretch), 0.0
-    curve, length, _ = curve_of(k, stretch, wavelength, amplitude * wavelength)
-    arches = (0.0, 0.0)
-    if not even and values[ENERGY].size > 0:
-        arches = extent(table, curve)
-        if is_smooth(arches):
-            even = True
-            wavelength, amplitude = TWO_PI * smooth.smooth_length(k, stretch), 0.0
-            curve, length, _ = curve_of(k, stretch, wavelength, 0.0)
-    # k changes at fixed M L^k, L the size of a contact: at fixed M each length would bring its logarithm
-    scale_of_contact = stiffness ** (-1.0 / (3.0 + k))
-    curves, units, depth_units = np.empty((weights.size, 2)), np.empty(weights.size), np.empty(weights.size)
-    _, _, unit = curve_of(k, stretch, wavelength, 0.0)
-    base = force_unit(k, length, unit)
-    for j in range(weights.size):
-        other = tables[j].k
-        stretch = math.sqrt(2.0 ** (1.0 + other) * math.pi / stiffness * scale_of_contact ** (other - k))
-        around, _, depth_units[j] = curve_of(other, stretch, wavelength, amplitude * wavelength)
-        curves[j, 0], curves[j, 1], _ = around
-        units[j] = force_unit(other, length, depth_units[j]) / base
-    near = (tables, curves, weights)
-    if values[FORCE].size > 0:
-        by = np.zeros(4)
-        for i in range(rims.size):
-            if status[i] & NO_VALUE:
-                continue
-            at_rim = status[i] & PULL_OFF_AT_RIM != 0
-            x = (rims[i] if at_rim else radii[i]) / wavelength
-            force = _force_slopes(table, curve, near, units, middle, x, at_rim, by)
-            _put(found[FORCE], k, curve, 2.0 - 0.5 * (1.0 - k), 0.5, by, force, i)
-            if turned and at_rim:
-                _put_depth(table, curve, near, depth_units, middle, unit, x, found[DEPTH], i)
-    if values[ENERGY].size > 0:
-        scale = TWO_PI * length * length
-        _energies(
-            table,
-            curve,
-            near,
-            middle,
-            scale,
-            wavelength,
-            rims,
-            values[ENERGY],
-            found[ENERGY],
-            status,
-            constants,
-            even,
-            arches,
-            scratch,
-        )
-    found[:, BY_EXPONENT, :] += math.log(scale_of_contact) * found[:, BY_STIFFNESS, :]
-    if even:
-        found[:, BY_WAVELENGTH, :] = 0.0 * found[:, BY_WAVELENGTH, :]
-        found[:, BY_AMPLITUDE, :] = 0.0 * found[:, BY_AMPLITUDE, :]
-
-
-@kernel()
-def sense_curves(
-    table: Any,
-    tables: Any,
-    weights: Any,
-    middle: float,
-    index: Any,
-    stiffness: Any,
-    wavelength: Any,
-    amplitude: Any,
-    rims: Any,
-    force: bool,
-    energy: bool,
-    values: Any,
-    radii: Any,
-    turned: bool,
-    found: Any,
-    status: Any,
-    scratch: Any,
-) -> None:
-    """Find the sensitivities of the curves `index` of one exponent.
+    k changes at fixed M L^k, L the size of a contact: at fixed M each length would bring its logarithm.
 
     Parameters
     ----------
-    table, index, stiffness, wavelength, amplitude, rims, scratch
-        As those of the loops of scene/solvers.py.
-    tables, weights, middle
-        What `neighbours_of` gives.
-    force, energy
-        What is asked for.
-    values, radii, status
-        What is solved already: the energies, the places of the pull-off, and the flags; shape (curves, rims).
-    turned
-        Whether the rims are places where cycles turn at a depth: the slopes of the depth there are found too.
-    found
-        Where the sensitivities go; shape (3, COUNT, curves, rims).
+    table, stretch, wavelength, amplitude
+        Those of the curve.
+    sense
+        What `solve_curves` of scene/solvers.py is given.
+
+    Returns
+    -------
+    The tables, the curves and the weights in d/dk; the units of force and of depth; and ln L with the weight of k.
     """
-    nothing = np.empty(0)
-    for j in range(index.size):
-        i = index[j]
-        row = rims[i if rims.shape[0] > 1 else 0]
-        if np.all((status[i] & NO_VALUE) != 0):
+    tables, weights, middle = sense[0], sense[1], sense[2]
+    k = table.k
+    stiffness = 2.0 ** (1.0 + k) * math.pi / (stretch * stretch)
+    size = stiffness ** (-1.0 / (3.0 + k))
+    curves, units = np.empty((weights.size, 2)), np.empty((2, weights.size))
+    _, length, unit = curve_of(k, stretch, wavelength, 0.0)
+    base = force_unit(k, length, unit)
+    for j in range(weights.size):
+        other = tables[j].k
+        near_stretch = math.sqrt(2.0 ** (1.0 + other) * math.pi / stiffness * size ** (other - k))
+        around, _, units[1, j] = curve_of(other, near_stretch, wavelength, amplitude * wavelength)
+        curves[j, 0], curves[j, 1], _ = around
+        units[0, j] = force_unit(other, length, units[1, j]) / base
+    return (tables, curves, weights), units, (math.log(size), middle)
+
+
+@kernel()
+def put_forces(
+    table: Any,
+    curve: Curve,
+    beside: Any,
+    unit: float,
+    wavelength: float,
+    rims: Any,
+    slots: Any,
+    out: Any,
+    status: Any,
+    sense: Any,
+) -> None:
+    """Store the sensitivities of the pull-off forces of a curve, whose places and flags are there, for all rims.
+
+    Where cycles turn at a depth, those of the depth at the rim as well; `unit` is that of depth.
+    """
+    near, units, (_, middle) = beside
+    found, turned = sense[3], sense[6]
+    by = np.zeros(4)
+    for i in range(rims.size):
+        if status[i] & NO_VALUE:
             continue
-        solved = (values[i] if force else nothing, values[i] if energy else nothing)
-        _sense_curve(
-            table,
-            tables,
-            weights,
-            middle,
-            stiffness[i],
-            wavelength[i],
-            amplitude[i],
-            row,
-            solved,
-            radii[i],
-            turned,
-            found[:, :, i],
-            status[i],
-            scratch,
-        )
+        at_rim = status[i] & PULL_OFF_AT_RIM != 0
+        x = (rims[i] if at_rim else out[slots[RADIUS], i]) / wavelength
+        force = _force_slopes(table, curve, near, units[0], middle, x, at_rim, by)
+        _put(found[FORCE], table.k, curve, 2.0 - 0.5 * (1.0 - table.k), 0.5, by, force, i)
+        if turned and at_rim:
+            _put_depth(table, curve, near, units[1], middle, unit, x, found[DEPTH], i)
+
+
+@kernel()
+def put_energy(
+    table: Any,
+    curve: Curve,
+    beside: Any,
+    scale: float,
+    count: int,
+    trace: Any,
+    final: float,
+    slopes: Any,
+    x: float,
+    energy: float,
+    found: Any,
+    i: int,
+) -> None:
+    """Store the sensitivities of the energy of a rim, read off the trace that the energy was read off."""
+    near, _, (_, middle) = beside
+    total, by = np.empty(SLOPES), np.empty(4)
+    rim_depth = depth(table, curve, x) if x < math.inf else math.inf
+    by[2] = energy_slopes(table, curve, near, count, trace, x, rim_depth, final, slopes, total)
+    by[0], by[1] = total[BEND], total[GAIN]
+    by[3] = total[EXPONENT] + middle * energy / scale
+    _put(found[ENERGY], table.k, curve, 2.0, 0.0, by, energy / scale, i)
+
+
+@kernel()
+def put_smooth(
+    table: Any, constants: Any, stretch: float, rims: Any, slots: Any, out: Any, status: Any, sense: Any, trace: Any
+) -> None:
+    """Store the sensitivities of a smooth punch, whose values are there, for all rims."""
+    found, force, energy = sense[3], sense[4], sense[5]
+    wavelength = TWO_PI * smooth.smooth_length(table.k, stretch)
+    curve, length, unit = curve_of(table.k, stretch, wavelength, 0.0)
+    around = beside(table, sense, stretch, wavelength, 0.0)
+    if force:
+        put_forces(table, curve, around, unit, wavelength, rims, slots, out, status, sense)
+    if energy:
+        count = smooth_trace(table, curve, constants, trace)
+        slopes = slopes_for(trace)
+        fill_loading(table, curve, around[0], count, trace, 0.0, slopes)
+        scale = TWO_PI * length * length
+        for i in range(rims.size):
+            x = rims[i] / wavelength
+            put_energy(
+                table, curve, around, scale, count, trace, 0.0, slopes, x, out[slots[ENERGY_ROW], i], found, i
+            )
+    at_fixed_stiffness(around, found)
+    found[:, BY_WAVELENGTH, :] = 0.0 * found[:, BY_WAVELENGTH, :]
+    found[:, BY_AMPLITUDE, :] = 0.0 * found[:, BY_AMPLITUDE, :]
+
+
+@kernel()
+def at_fixed_stiffness(beside: Any, found: Any) -> None:
+    """Turn the sensitivities to k at fixed M L^k into those at fixed M."""
+    _, _, (size, _) = beside
+    found[:, BY_EXPONENT, :] += size * found[:, BY_STIFFNESS, :]

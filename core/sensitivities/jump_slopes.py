@@ -10,8 +10,8 @@ while a parameter p changes (docs/theory.md, section 17): with depth_j that of t
 The same holds for the gradient exponent, which enters everywhere: the energy of a jump between fixed ends is a smooth
 function of k, and is differentiated by the tables of four neighbouring exponents (sensitivities/neighbours.py).
 
-The four slopes are those by the bend b, the gain g and the exponent, each with the depth of the jump that follows, and
-by that depth alone.
+The slopes are those by the bend b, the gain g and the exponent, each with the depth of the jump that follows, and by
+that depth alone; of a general curve (sensitivities/general_jump_slopes.py) also that by the machine's share.
 """
 
 from typing import Any, Final
@@ -33,7 +33,7 @@ from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.power import amplitude_power
 
-BEND, GAIN, EXPONENT, DEPTH, SLOPES = 0, 1, 2, 3, 4
+BEND, GAIN, EXPONENT, DEPTH, SHARE, SLOPES = 0, 1, 2, 3, 4, 5
 _FURTHEST: Final = 64.0
 """In waves: over longer jumps the antiderivative serves, as in curve/cosine_energy.py."""
 _POWER_TERMS: Final = 12

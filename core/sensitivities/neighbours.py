@@ -18,6 +18,16 @@ _FORWARD: Final = ((1.0, 2.0, 3.0, 4.0), (4.0, -3.0, 4.0 / 3.0, -0.25), -25.0 / 
 """Places in steps, their weights, and the weight of the middle (Fornberg 1988)."""
 
 
+def exponents_beside(k: float) -> tuple[list[float], NDArray[np.float64], float]:
+    """Return four exponents next to k, 0 to 1, their weights in d/dk, and the weight of k itself."""
+    sign = 1.0
+    places, weights, middle = _CENTRED
+    if not 2.0 * _STEP <= k <= 1.0 - 2.0 * _STEP:
+        places, weights, middle = _FORWARD
+        sign = 1.0 if k < 0.5 else -1.0
+    return [k + sign * _STEP * place for place in places], sign / _STEP * np.array(weights), sign / _STEP * middle
+
+
 def neighbours_of(k: float, table_of: Callable[[float], Any]) -> tuple[NDArray[Any], NDArray[np.float64], float]:
     """Return the tables of four exponents next to k, their weights in d/dk, and the weight of k itself.
 
@@ -28,11 +38,6 @@ def neighbours_of(k: float, table_of: Callable[[float], Any]) -> tuple[NDArray[A
     table_of
         What gives the table of an exponent.
     """
-    sign = 1.0
-    places, weights, middle = _CENTRED
-    if not 2.0 * _STEP <= k <= 1.0 - 2.0 * _STEP:
-        places, weights, middle = _FORWARD
-        sign = 1.0 if k < 0.5 else -1.0
-    tables = [table_of(k + sign * _STEP * place) for place in places]
-    together = np.array(tables, dtype=tables[0].dtype)
-    return together, sign / _STEP * np.array(weights), sign / _STEP * middle
+    exponents, weights, middle = exponents_beside(k)
+    tables = [table_of(exponent) for exponent in exponents]
+    return np.array(tables, dtype=tables[0].dtype), weights, middle

@@ -3,10 +3,14 @@
 Slopes are kept with the branches, as a trace keeps losses: those of loading up to where it arrives on a branch, and
 those of unloading from the start of a branch to the end of contact. So all rims of a curve share them. One row more
 than the slopes tells whether those of unloading are there.
+
+The curve is one of one cosine, or a general one, as in path/passage.py; only a trace of the former may have a gap.
 """
 
 import math
 from typing import Any
+
+import numpy as np
 
 from gradhesion.core._jit import NO, YES, kernel
 from gradhesion.core.curve.branches import (
@@ -28,10 +32,13 @@ from gradhesion.core.curve.branches import (
     ends,
     find_depth,
 )
+from gradhesion.core.curve import general
 from gradhesion.core.curve.cosine import Curve, slope
 from gradhesion.core.path.unloading import descend, leave_rim, next_lower
+from gradhesion.core.sensitivities.general_jump_slopes import rim_slope_of
+from gradhesion.core.sensitivities.general_wave_slopes import add_jump, add_jump_from_zero
 from gradhesion.core.sensitivities.jump_slopes import DEPTH, SLOPES, add_slopes, add_slopes_to_zero, rim_slope
-from gradhesion.core.sensitivities.wave_slopes import add_slopes_of_waves
+from gradhesion.core.sensitivities.wave_slopes import ROOM, add_slopes_of_waves
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.waves.cosine import branch_of_wave
 
@@ -41,29 +48,77 @@ ROWS = 2 * SLOPES + 1
 
 
 @kernel()
-def _enter(table: Any, curve: Curve, near: Any, now: int, left: float, x: float, work: Any, total: Any) -> None:
-    """Add a jump of loading, from zero contact if it is on no branch yet."""
-    if now < 0:
-        add_slopes_to_zero(table, curve, near, x, NO, total)
-    else:
-        add_slopes(table, curve, near, left, x, work, total)
+def slopes_for(trace: Any) -> Any:
+    """Return room for the slopes of a trace."""
+    slopes = np.empty((ROWS + 2, max(trace.shape[1], ROOM)))
+    slopes[:ROWS] = 0.0
+    return slopes
 
 
 @kernel()
-def fill_loading(table: Any, curve: Curve, near: Any, count: int, trace: Any, final: float, slopes: Any) -> None:
+def _between(table: Any, curve: Any, near: Any, start: float, end: float, work: Any, total: Any) -> None:
+    """Add a jump that leaves the curve at `start` and ends at `end`."""
+    if len(curve) == 3:
+        add_slopes(table, curve, near, start, end, work, total)
+    else:
+        add_jump(table, curve, near, start, end, 0.0, total)
+
+
+@kernel()
+def _zero(table: Any, curve: Any, near: Any, x: float, inwards: bool, total: Any) -> None:
+    """Add the jump-out from x (inwards), or the jump-in to x."""
+    if len(curve) == 3:
+        add_slopes_to_zero(table, curve, near, x, inwards, total)
+    else:
+        add_jump_from_zero(table, curve, near, x, 0.0, inwards, total)
+
+
+@kernel()
+def _enter(table: Any, curve: Any, near: Any, now: int, left: float, x: float, work: Any, total: Any) -> None:
+    """Add a jump of loading, from zero contact if it is on no branch yet."""
+    if now < 0:
+        _zero(table, curve, near, x, NO, total)
+    else:
+        _between(table, curve, near, left, x, work, total)
+
+
+@kernel()
+def _gap(curve: Any, trace: Any) -> float:
+    """Return the branch before which a trace has a gap, inf without one."""
+    if len(curve) == 3:
+        gap: float = trace[RUN, GAP]
+        return gap
+    return math.inf
+
+
+@kernel()
+def _enter_through(
+    table: Any, curve: Any, near: Any, now: int, left: float, arrival: float, trace: Any, final: float, slopes: Any
+) -> None:
+    """Add loading to the first branch after a gap, through the waves of the gap if it goes that way."""
+    work, total = slopes[ROWS], slopes[ROWS + 1, :SLOPES]
+    if trace[RUN, RUN_LAST] >= trace[RUN, RUN_FIRST]:
+        if trace[RUN, RUN_LANDING] > 0.0:
+            _enter(table, curve, near, now, left, trace[RUN, RUN_LANDING], work, total)
+        first, last = trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST]
+        add_slopes_of_waves(table, curve, near, first, last, YES, final, work, total)
+    else:
+        _enter(table, curve, near, now, left, arrival, work, total)
+
+
+@kernel()
+def fill_loading(table: Any, curve: Any, near: Any, count: int, trace: Any, final: float, slopes: Any) -> None:
     """Put the slopes of loading to where it arrives on each branch into their rows."""
     work, total = slopes[ROWS], slopes[ROWS + 1, :SLOPES]
     total[:] = 0.0
-    now, gap = -1, trace[RUN, GAP]
+    now, gap = -1, _gap(curve, trace)
     for branch in range(count):
         if trace[ARRIVAL, branch] == math.inf:
             continue
         left = trace[END, now] if now >= 0 else 0.0
-        if now < gap and branch == gap and trace[RUN, RUN_LAST] >= trace[RUN, RUN_FIRST]:
-            if trace[RUN, RUN_LANDING] > 0.0:
-                _enter(table, curve, near, now, left, trace[RUN, RUN_LANDING], work, total)
-            first, last = trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST]
-            add_slopes_of_waves(table, curve, near, first, last, YES, final, work, total)
+        if now < gap and branch == gap:
+            if len(curve) == 3:
+                _enter_through(table, curve, near, now, left, trace[ARRIVAL, branch], trace, final, slopes)
         else:
             _enter(table, curve, near, now, left, trace[ARRIVAL, branch], work, total)
         slopes[LOADED : LOADED + SLOPES, branch] = total
@@ -72,7 +127,7 @@ def fill_loading(table: Any, curve: Curve, near: Any, count: int, trace: Any, fi
 
 @kernel()
 def add_loading(
-    table: Any, curve: Curve, near: Any, count: int, trace: Any, rim: float, slopes: Any, total: Any
+    table: Any, curve: Any, near: Any, count: int, trace: Any, rim: float, slopes: Any, total: Any
 ) -> float:
     """Add the slopes of loading up to a rim; return that by ln x of the rim."""
     now = count - 1
@@ -84,20 +139,22 @@ def add_loading(
     if left >= rim:
         return 0.0
     _enter(table, curve, near, now, left, rim, slopes[ROWS], total)
-    return rim_slope(table, curve, level, rim)
+    if len(curve) == 3:
+        return rim_slope(table, curve, level, rim)
+    return rim_slope_of(table, curve, level, rim)
 
 
 @kernel()
-def _leave(table: Any, curve: Curve, near: Any, trace: Any, now: int, slopes: Any) -> None:
+def _leave(table: Any, curve: Any, near: Any, trace: Any, now: int, slopes: Any) -> None:
     """Put the slopes of unloading from the start of a branch into its rows; those of all further in are there."""
     total, work = slopes[ROWS + 1, :SLOPES], slopes[ROWS]
     total[:] = 0.0
     if trace[START, now] > 0.0:
         lower = int(trace[NEXT, now])
         if lower < 0:
-            add_slopes_to_zero(table, curve, near, trace[START, now], YES, total)
+            _zero(table, curve, near, trace[START, now], YES, total)
         else:
-            add_slopes(table, curve, near, trace[START, now], trace[LANDING, now], work, total)
+            _between(table, curve, near, trace[START, now], trace[LANDING, now], work, total)
             total += slopes[UNLOADED : UNLOADED + SLOPES, lower]
     slopes[UNLOADED : UNLOADED + SLOPES, now] = total
     slopes[KNOWN, now] = 1.0
@@ -126,13 +183,24 @@ def _leave_through(table: Any, curve: Curve, near: Any, trace: Any, gap: int, fi
 
 
 @kernel()
-def fill_unloading(table: Any, curve: Curve, near: Any, count: int, trace: Any, final: float, slopes: Any) -> None:
+def _steepness(table: Any, curve: Any, x: float) -> float:
+    """Return the slope of what is prescribed by z."""
+    if len(curve) == 3:
+        steepness, _, _, _ = slope(table, curve, 0.5 * (1.0 - table.k), x)
+        return float(steepness)
+    _, _, rate = general.slope(table, curve, x)
+    return float(rate)
+
+
+@kernel()
+def fill_unloading(table: Any, curve: Any, near: Any, count: int, trace: Any, final: float, slopes: Any) -> None:
     """Put the slopes of unloading from the start of each branch that it has visited into their rows."""
-    gap = trace[RUN, GAP]
+    gap = _gap(curve, trace)
     for branch in range(count):
         if trace[UNLOADING_JUMPS, branch] >= 0.0 and slopes[KNOWN, branch] == 0.0:
             if branch == gap and trace[RUN, RUN_LOWEST] != trace[RUN, RUN_AFTER]:
-                _leave_through(table, curve, near, trace, branch, final, slopes)
+                if len(curve) == 3:
+                    _leave_through(table, curve, near, trace, branch, final, slopes)
             else:
                 _leave(table, curve, near, trace, branch, slopes)
 
@@ -140,7 +208,7 @@ def fill_unloading(table: Any, curve: Curve, near: Any, count: int, trace: Any, 
 @kernel()
 def add_unloading(
     table: Any,
-    curve: Curve,
+    curve: Any,
     near: Any,
     count: int,
     trace: Any,
@@ -160,12 +228,32 @@ def add_unloading(
         return 0.0
     before = total[DEPTH]
     if now < 0:
-        add_slopes_to_zero(table, curve, near, rim, YES, total)
+        _zero(table, curve, near, rim, YES, total)
     else:
-        add_slopes(table, curve, near, rim, landing, slopes[ROWS], total)
+        _between(table, curve, near, rim, landing, slopes[ROWS], total)
     by_depth = total[DEPTH] - before
     if now >= 0:
         total += slopes[UNLOADED : UNLOADED + SLOPES, now]
-    level = 0.5 * (1.0 - table.k)
-    steepness, _, _, _ = slope(table, curve, level, rim)
-    return float(by_depth * steepness * TWO_PI * rim)
+    return float(by_depth * _steepness(table, curve, rim) * TWO_PI * rim)
+
+
+@kernel()
+def energy_slopes(
+    table: Any,
+    curve: Any,
+    near: Any,
+    count: int,
+    trace: Any,
+    rim: float,
+    rim_depth: float,
+    final: float,
+    slopes: Any,
+    total: Any,
+) -> float:
+    """Put the slopes of the reduced energy of a rim into `total`; return that by ln x of the rim.
+
+    `slopes` holds what `fill_loading` has put there, and what was found for other rims.
+    """
+    total[:] = 0.0
+    by_rim = add_loading(table, curve, near, count, trace, rim, slopes, total)
+    return float(by_rim + add_unloading(table, curve, near, count, trace, rim, rim_depth, final, slopes, total))

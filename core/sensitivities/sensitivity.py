@@ -16,10 +16,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.problem.names import PARAMETERS, SENSITIVITIES
-from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
-from gradhesion.core.sensitivities.cosine import sense_cosine
-from gradhesion.core.sensitivities.cosine_slopes import BY_EXPONENT, BY_RIM
+from gradhesion.core.problem.names import PARAMETERS, SENSITIVITIES, TURNS
+from gradhesion.core.problem.status import PULL_OFF_AT_RIM
+from gradhesion.core.sensitivities.cosine_slopes import BY_EXPONENT, BY_MACHINE, BY_RIM
 from gradhesion.core.sensitivities.material_slopes import theta_slopes
 
 NEEDED: Final = {
@@ -27,6 +26,7 @@ NEEDED: Final = {
     "dissipated_energy_sensitivity": ("dissipated_energy",),
 }
 """The results that a sensitivity starts from; the first is the value itself."""
+MACHINE: Final = "machine_stiffness"
 _HELD: Final = 1e-10
 """How near the greatest depth is to the one to turn at, where no jump has passed that."""
 _STEP: Final = 2e-3
@@ -37,31 +37,34 @@ _FORWARD: Final = (-25.0 / 12.0, 4.0, -3.0, 4.0 / 3.0, -0.25)
 def by_parameters(
     parameters: Mapping[str, ArrayLike], reduced: NDArray[np.float64], values: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return the sensitivities to the seven parameters of a scene along a last axis.
+    """Return the sensitivities to the seven parameters of a scene along a last axis, and to that of a machine.
 
     Parameters
     ----------
     parameters
         Those of the scenes.
     reduced
-        The sensitivities to M, lambda, A, a_max, and that to k at fixed M; shape (5, *scenes).
+        The sensitivities to M, lambda, A, a_max, that to k at fixed M, and that to the machine; shape (6, *scenes).
     values
         Those whose sensitivities they are; shape `scenes`.
     """
     given = [np.asarray(parameters[name], dtype=float) for name in PARAMETERS]
     k, nu, _, c0_over_R, _, amplitude, rim = np.broadcast_arrays(*given)
-    stiffness, wavelength, height, radius, exponent = reduced
+    stiffness, wavelength, height, radius, exponent, machine = reduced
     by_k, by_nu = theta_slopes(k, nu)
-    found = np.empty((*values.shape, len(PARAMETERS)))
+    driven = MACHINE in parameters
+    found = np.empty((*values.shape, len(PARAMETERS) + driven))
     k, nu, c0_over_R, amplitude, rim = (np.broadcast_to(a, values.shape) for a in (k, nu, c0_over_R, amplitude, rim))
     with np.errstate(all="ignore"):  # what is out of range has no value
         found[..., 0] = exponent + stiffness * (by_k - np.log(c0_over_R))
         found[..., 1] = stiffness * by_nu
-        found[..., 2] = stiffness
+        found[..., 2] = stiffness + machine if driven else stiffness  # the machine's is over that of the half-space
         found[..., 3] = np.where(k == 0.0, 0.0, -k * stiffness)
         found[..., 4] = np.where(amplitude == 0.0, 0.0, wavelength)
         found[..., 5] = np.where(amplitude == 0.0, 0.0, height)
         found[..., 6] = np.where(np.isinf(rim), 0.0, radius)
+        if driven:
+            found[..., 7] = machine
         found[~(values > 0.0)] = np.nan
     return found
 
@@ -105,7 +108,7 @@ def _move_with_turn(
         by_place = np.where(held, force[BY_RIM], 0.0)
         shift = by_place / depth[BY_RIM]
         by_turn = np.where(held, shift * target, 0.0)
-        for row in (*range(int(BY_RIM)), int(BY_EXPONENT)):
+        for row in (*range(int(BY_RIM)), int(BY_EXPONENT), int(BY_MACHINE)):
             force[row] = np.where(held, force[row] - shift * depth[row], force[row])
     force[BY_RIM] = np.where(moves, 0.0, force[BY_RIM])
     return by_turn, moves & ~held
@@ -120,7 +123,7 @@ def _by_differences(
     given = {name: np.asarray(value, dtype=float) for name, value in parameters.items()}
     scenes = {name: np.broadcast_to(value, where.shape)[where] for name, value in given.items()}
     found = np.zeros((int(where.sum()), len(scenes)))
-    names = [*PARAMETERS, *(name for name in scenes if name not in PARAMETERS)]
+    names = [name for name in (*PARAMETERS, MACHINE, *TURNS) if name in scenes]
     for i, name in enumerate(names):
         centre = scenes[name]
         step = np.full(centre.shape, _STEP) if name in PARAMETERS[:2] else _STEP * centre
@@ -135,11 +138,11 @@ def sensitivities(
     parameters: Mapping[str, ArrayLike],
     outputs: Sequence[str],
     solved: Mapping[str, NDArray[Any]],
-    workers: int,
+    reduced: NDArray[np.float64],
     turn: str | None,
     force_of: Callable[[Mapping[str, ArrayLike]], NDArray[np.float64]],
 ) -> dict[str, NDArray[np.float64]]:
-    """Return the sensitivities that are asked for, of scenes of one cosine wave under displacement control.
+    """Return the sensitivities that are asked for.
 
     Parameters
     ----------
@@ -147,8 +150,8 @@ def sensitivities(
         As those of `solve`.
     solved
         What `wanted_for` names, and `status`.
-    workers
-        Threads.
+    reduced
+        The sensitivities to the numbers of a scene (`solve_general` of arrays/general.py).
     turn
         The one of `TURNS` that the cycles turn at, None for the rim.
     force_of
@@ -156,11 +159,12 @@ def sensitivities(
 
     Returns
     -------
-    Arrays of shape (*scenes, 7), or 8 with the turn: its parameter is the last one. NaN where the value is not
-    positive, and at k = 1 that to nu.
+    Arrays of shape (*scenes, 7), and one item more for the stiffness of a machine and for the turn, if there are such:
+    they are the last ones. NaN where the value is not positive, and at k = 1 that to nu.
     """
     asked = [name for name in SENSITIVITIES if name in outputs]
-    scenes: dict[str, ArrayLike] = {name: parameters[name] for name in PARAMETERS}
+    given = [name for name in (*PARAMETERS, MACHINE) if name in parameters]
+    scenes: dict[str, ArrayLike] = {name: parameters[name] for name in given}
     shape = solved["status"].shape
     moves = np.full(shape, False)
     if turn is not None:
@@ -168,18 +172,15 @@ def sensitivities(
         radii = solved["turning_radius"]
         moves = radii < limits
         scenes["a_max_over_R"] = np.where(radii > 0.0, radii, limits)
-        solved = {**solved, "status": np.where(radii > 0.0, solved["status"], solved["status"] | NO_VALUE)}
-    force, energy = ("pull_off_force_sensitivity" in asked, "dissipated_energy_sensitivity" in asked)
-    reduced = sense_cosine(scenes, solved, workers, force=force, energy=energy, turned=turn is not None)
     found = {}
     for name in asked:
         part, values = SENSITIVITIES.index(name), solved[NEEDED[name][0]]
         to_turn, unknown = np.zeros(shape), np.full(shape, False)
         if turn is not None and part == 0:
             target = np.broadcast_to(np.asarray(parameters[turn], dtype=float), shape)
-            met = moves & ((solved["status"] & PULL_OFF_AT_RIM) != 0)
+            met = moves & (radii > 0.0) & ((solved["status"] & PULL_OFF_AT_RIM) != 0)
             to_turn, unknown = _move_with_turn(turn, target, met, solved, reduced)
-        one = by_parameters(parameters, reduced[part], values)
+        one = by_parameters(scenes, reduced[part], values)
         if turn is not None:
             to_turn = np.where(values > 0.0, to_turn, np.nan)
             one = np.concatenate([one, to_turn[..., None]], axis=-1)

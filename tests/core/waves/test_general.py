@@ -116,7 +116,7 @@ def test_sums_are_walks(k: float, m: float, harmonics: Any, control: str, waves:
     middle = middle_of(basis, curve, first, last, 0.0)
     assert middle[0] == REGULAR
     done, up, down, _, one_disc, wholes, x = stride(
-        basis, curve, first, middle, rim, 0.0, (True, control != "load", True, False)
+        basis, curve, first, middle, rim, 0.0, (True, control != "load", True, False), np.empty((0, 5))
     )
     count, trace, _ = walk(basis, curve, first, last, rim, True)
     assert done
