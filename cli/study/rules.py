@@ -13,7 +13,7 @@ from gradhesion.cli.study.form import Range
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.mistakes import Checked, Mistake
 from gradhesion.cli.study.points import Points
-from gradhesion.cli.study.punch import mistakes_of_punch, profile_of
+from gradhesion.cli.study.punch import mistakes_of_punch
 from gradhesion.cli.study.roles import mistakes_of_roles
 from gradhesion.cli.study.search import Sought, mistakes_of_search
 from gradhesion.cli.study.states import mistakes_of_states
@@ -51,12 +51,10 @@ def mistakes_between_keys(checked: Checked, points: Points, sought: Sought) -> t
     mistakes += mistakes_of_search(checked, sought, sound)
     mistakes += mistakes_of_roles(checked, sound)
     mistakes += mistakes_of_punch(checked, sound)
-    without_slopes = without_sensitivities(checked)
-    mistakes += _mistakes_of_sensitivities(checked, without_slopes)
     mistakes += mistakes_of_turn(checked)
     mistakes += mistakes_of_states(checked, sound)
     mistakes += mistakes_of_range(checked)
-    mistakes += mistakes_of_uncertainty(checked, sound, without_slopes)
+    mistakes += mistakes_of_uncertainty(checked, sound)
     lengths = [np.size(values) for values in axes.values()]
     spectrum = checked.form.profile.spectrum
     realisations = 1 if spectrum is None else spectrum.realisations
@@ -129,33 +127,6 @@ def _mistakes_of_method(checked: Checked) -> Iterator[Mistake]:
         if name in EXACT_ONLY:
             sentence = f'the solver "{other}" has no such output; remove it, or write solver = "exact"'
             yield Mistake(("outputs", i), name, sentence)
-
-
-def without_sensitivities(checked: Checked) -> str:
-    """Say what the values of a study have no sensitivities with; empty if they have, or if nothing needs them."""
-    form = checked.form
-    needed = {*SENSITIVITIES} & {*form.outputs} or {"uncertainty", "optimum"} & checked.data.keys()
-    if (
-        not needed
-        or _kind_of(checked) == "curve"
-        or any(path[:1] in (("profile",), ("loading",)) for path in checked.wrong)
-    ):
-        return ""
-    from gradhesion.core.problem.shape import equivalent_wave  # noqa: PLC0415 (the compiler, for these outputs alone)
-
-    if form.loading.control != "displacement":
-        return f'control = "{form.loading.control}"'
-    if form.profile.spectrum or form.profile.file or equivalent_wave(profile_of(form.profile)) is None:
-        return "this profile"
-    return ""
-
-
-def _mistakes_of_sensitivities(checked: Checked, without: str) -> Iterator[Mistake]:
-    """Check that sensitivities are asked for of a punch that has them."""
-    for i, name in enumerate(checked.form.outputs):
-        if without and name in SENSITIVITIES:
-            sentence = f"not known with {without}, but of a paraboloid with one cosine wave under displacement control"
-            yield Mistake(("outputs", i), name, f"{sentence}; remove it")
 
 
 def _mistakes_of_size(checked: Checked, lengths: list[int], realisations: int, *, points: bool) -> Iterator[Mistake]:

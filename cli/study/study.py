@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.keys import INPUTS, TURNS
+from gradhesion.cli.keys import INPUTS, MACHINE, TURNS
 from gradhesion.cli.names import (
     BEST,
     OF_PHYSICAL,
@@ -37,7 +37,7 @@ from gradhesion.cli.study.points import Points, points_of
 from gradhesion.cli.study.profile_file import Measured, measured_in
 from gradhesion.cli.study.punch import profile_of, spectrum_of
 from gradhesion.cli.study.roles import left_out
-from gradhesion.cli.study.rules import mistakes_between_keys, without_sensitivities
+from gradhesion.cli.study.rules import mistakes_between_keys
 from gradhesion.cli.study.search import Search, search_of, sought_in
 from gradhesion.cli.study.source import Source, read_source
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
@@ -93,8 +93,6 @@ class Study:
     loading: Loading = field(default_factory=Loading)
     search: Search = field(default_factory=Search)
     """What is sought in the place of values; the inputs that are searched are no parameters of it."""
-    without: frozenset[str] = frozenset()
-    """The sensitivities that are not known of its punch and control."""
     uncertainty: Uncertainty = field(default_factory=Uncertainty)
     """How far its inputs may be off."""
     states: tuple[float, ...] = ()
@@ -150,7 +148,7 @@ class Study:
     @property
     def has_slopes(self) -> bool:
         """Whether the exact slopes of what is sought are known."""
-        return bool(self.search.slope) and self.method.solver == "exact" and self.search.slope not in self.without
+        return bool(self.search.slope) and self.method.solver == "exact"
 
     @property
     def given(self) -> tuple[str, ...]:
@@ -178,7 +176,8 @@ class Study:
     def labels(self) -> dict[str, tuple[str, ...]]:
         """What its sensitivities are to, by the dimension along which they stand; nothing if it has none."""
         asked = {labels_of(name) for name in self.variables} - {""}
-        keys = (*PARAMETERS, *((self.turn,) if self.turn else ()))
+        more = [MACHINE] if self.loading.control == "machine" else []
+        keys = (*PARAMETERS, *more, *([self.turn] if self.turn else []))
         given = [INPUTS[name] for name in self.parameters]
         units = tuple(
             key.name
@@ -412,7 +411,6 @@ def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = N
         loading=Loading(control=form.loading.control),
         states=form.states.radii,
         search=search_of(found, sought),
-        without=frozenset(SENSITIVITIES if without_sensitivities(found) else ()),
         uncertainty=uncertainty_of(found),
         text=text or toml_of(data),
         left_out=frozenset(absent.keys() - {"a_max", "a_max_over_R"}),

@@ -58,12 +58,8 @@ def uncertainty_of(checked: Checked) -> Uncertainty:
     )
 
 
-def mistakes_of_uncertainty(checked: Checked, sound: Mapping[str, Values], without: str) -> Iterator[Mistake]:
-    """
-    Check that what is uncertain is there, and has a deviation at every scene.
-
-    `without` says what the study has no sensitivities with; empty if it has.
-    """
+def mistakes_of_uncertainty(checked: Checked, sound: Mapping[str, Values]) -> Iterator[Mistake]:
+    """Check that what is uncertain is there, and has a deviation at every scene."""
     written = checked.data.get(TABLE)
     if not isinstance(written, Mapping):
         return
@@ -80,8 +76,8 @@ def mistakes_of_uncertainty(checked: Checked, sound: Mapping[str, Values], witho
             yield Mistake((TABLE, name), written[name], _sentence_of_absent(name, [*form.entries]))
         elif name in sound:
             yield from _mistakes_of_deviation(name, one, sound[name], written[name])
-    if without and {*form.outputs} & {*OF_LINEAR}:
-        sentence = f"standard deviations need sensitivities, which are not known with {without}; remove [uncertainty]"
+    if form.profile.spectrum and {*form.outputs} & {*OF_LINEAR}:
+        sentence = "standard deviations are those of one punch, and a spectrum draws many; remove [uncertainty]"
         yield Mistake((TABLE,), None, sentence)
     yield from _mistakes_of_outputs(checked, asked)
 

@@ -87,6 +87,8 @@ def physical_of(
     from gradhesion.core.sensitivities.physical import physical_sensitivities  # noqa: PLC0415 (300 ms for SciPy)
 
     plain = {name: values for name, values in given.items() if name != RANGE and INPUTS[name].gives != RANGE}
+    if study.spectrum is not None:  # the last dimension of the scenes
+        plain = {name: np.asarray(values)[..., None] for name, values in plain.items()}
     labels = study.labels
     return {
         name + OF_PHYSICAL: physical_sensitivities(
@@ -137,12 +139,18 @@ def solved_by(
 ) -> dict[str, NDArray[Any]]:
     """Solve scenes by each solver, the first dimension if the study has several, and of each punch, the last one."""
     found = [
-        _over(-1, [solve(scenes, study.outputs, solver=solver, profile=one, **settings) for one in profiles])
+        _of_each(solve(scenes, study.outputs, solver=solver, profile=one, **settings) for one in profiles)
         if study.spectrum is not None
         else solve(scenes, study.outputs, solver=solver, profile=profiles[0], **settings)
         for solver in solvers
     ]
     return found[0] if isinstance(study.method.solver, str) else _over(0, found)
+
+
+def _of_each(found: Iterable[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
+    """Put results of several punches beside each other along a new axis, the last one of the scenes."""
+    each = [*found]
+    return _over(each[0]["status"].ndim, each)
 
 
 def _over(axis: int, found: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:

@@ -24,6 +24,7 @@ from gradhesion.core import (
     compiled_before,
     kind_of_curves,
     kind_of_map,
+    kind_of_sensitivities,
     kind_of_turning,
     place,
 )
@@ -42,7 +43,7 @@ def kinds_of(study: Study) -> tuple[str, ...]:
     solvers = study.method.solver
     solvers = (solvers,) if isinstance(solvers, str) else solvers
     outputs = [name for name in study.solved if name not in VALIDITY]
-    slopes = ("sensitivities",) if {*outputs} & {*SENSITIVITIES} else ()
+    slopes = (kind_of_sensitivities(study.profile, study.loading),) if {*outputs} & {*SENSITIVITIES} else ()
     kinds = (kind_of_map(outputs, solver, study.profile, study.loading) for solver in solvers)
     return (*dict.fromkeys(kinds), *turning, *slopes)
 

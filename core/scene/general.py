@@ -232,7 +232,9 @@ def _cycles(
             ):
                 continue
             alone[i] = True
-            if kind == FEW and _walked(basis, curve, length, unit, first, until, places, alone, slots, out, status, own):
+            if kind == FEW and _walked(
+                basis, curve, length, unit, first, until, places, alone, slots, out, status, own
+            ):
                 alone[i] = False
                 continue
             alone[i] = False

@@ -167,9 +167,7 @@ def _other_sum(basis: Basis, curve: Curve, first: float, last: float, rim: float
     kind, until, _, _, _, _, _ = middle
     if kind == REGULAR:
         tasks = (YES, alpha > 0.0, NO, NO)
-        done, loading, unloading, _, _, _, _ = stride(
-            basis, curve, first, middle, rim, rim_low, tasks, notes_for(NONE)
-        )
+        done, loading, unloading, _, _, _, _ = stride(basis, curve, first, middle, rim, rim_low, tasks, notes_for(NONE))
         return loading[0] + unloading[0] if done else math.nan
     if kind == FEW:
         count, trace, _ = walk(basis, curve, first, until, rim, YES)

@@ -167,18 +167,18 @@ def beside(
     """
     tables, weights, middle = sense[0], sense[1], sense[2]
     k = table.k
-    stiffness = 2.0 ** (1.0 + k) * math.pi / (stretch * stretch)
-    size = stiffness ** (-1.0 / (3.0 + k))
     curves, units = np.empty((weights.size, 2)), np.empty((2, weights.size))
-    _, length, unit = curve_of(k, stretch, wavelength, 0.0)
-    base = force_unit(k, length, unit)
+    (b, g, _), length, unit = curve_of(k, stretch, wavelength, amplitude * wavelength)
+    # s^2 is 2^(1+k) pi/M: with M L^k it changes by (2 L)^(k' - k), and l^c by l^((k - k')/2)
+    size = math.log(2.0 ** (1.0 + k) * math.pi / (stretch * stretch)) / -(3.0 + k)
+    rate = 0.5 * (math.log(2.0 / length) + size)
     for j in range(weights.size):
         other = tables[j].k
-        near_stretch = math.sqrt(2.0 ** (1.0 + other) * math.pi / stiffness * size ** (other - k))
-        around, _, units[1, j] = curve_of(other, near_stretch, wavelength, amplitude * wavelength)
-        curves[j, 0], curves[j, 1], _ = around
-        units[0, j] = force_unit(other, length, units[1, j]) / base
-    return (tables, curves, weights), units, (math.log(size), middle)
+        ratio = math.exp(rate * (other - k))
+        share = (1.0 + k) / ((1.0 + other) * ratio)
+        curves[j, 0], curves[j, 1] = b * share, g / ratio
+        units[0, j], units[1, j] = share, unit * ratio
+    return (tables, curves, weights), units, (size, middle)
 
 
 @kernel()
@@ -255,9 +255,7 @@ def put_smooth(
         scale = TWO_PI * length * length
         for i in range(rims.size):
             x = rims[i] / wavelength
-            put_energy(
-                table, curve, around, scale, count, trace, 0.0, slopes, x, out[slots[ENERGY_ROW], i], found, i
-            )
+            put_energy(table, curve, around, scale, count, trace, 0.0, slopes, x, out[slots[ENERGY_ROW], i], found, i)
     at_fixed_stiffness(around, found)
     found[:, BY_WAVELENGTH, :] = 0.0 * found[:, BY_WAVELENGTH, :]
     found[:, BY_AMPLITUDE, :] = 0.0 * found[:, BY_AMPLITUDE, :]

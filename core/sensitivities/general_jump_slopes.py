@@ -178,9 +178,7 @@ def add_from_zero(basis: Basis, curve: Curve, parts: Parts, x: float, level: flo
             _slopes_from_zero(basis, curve, parts, place, level, weight, total)
         high = low
     for i in range(NODES.size):
-        _slopes_from_zero(
-            basis, curve, parts, high * _INNER_NODES[i], level, scale * high * _INNER_WEIGHTS[i], total
-        )
+        _slopes_from_zero(basis, curve, parts, high * _INNER_NODES[i], level, scale * high * _INNER_WEIGHTS[i], total)
 
 
 @kernel()

@@ -206,7 +206,9 @@ def put_energy(
 
 
 @kernel()
-def put_noted(basis: Basis, curve: Curve, own: Any, cut: float, notes: Any, x: float, whole: float, energy: float, i: int) -> None:
+def put_noted(
+    basis: Basis, curve: Curve, own: Any, cut: float, notes: Any, x: float, whole: float, energy: float, i: int
+) -> None:
     """Store the sensitivities of the reduced energy of a long cycle from the notes of its jumps (path/pieces.py)."""
     near, _, _, _, _, _ = own
     total, by_rim = np.zeros(SLOPES), 0.0

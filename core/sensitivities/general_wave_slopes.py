@@ -24,7 +24,7 @@ from gradhesion.core.sensitivities.general_jump_slopes import (
     drop_slopes,
     parts_of,
 )
-from gradhesion.core.sensitivities.jump_slopes import EXPONENT, SLOPES
+from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SHARE, SLOPES
 from gradhesion.core.waves.cosine_sum import limit_terms
 from gradhesion.core.waves.general import (
     DOWN,
@@ -131,7 +131,7 @@ def _integrals_of_run(
     panels[0, 0] = _angle_of(first + _EDGE - 0.5, low, span)
     panels[0, 1] = _angle_of(last - _EDGE + 0.5, low, span)
     top, steps, pattern = 0, 0, 0
-    sums, part, found = np.zeros(SLOPES), np.empty(SLOPES), np.empty(SLOPES)
+    sums, part, rests, found = np.zeros(SLOPES), np.empty(SLOPES), np.empty(SLOPES), np.empty(SLOPES)
     values, waves, patterns = np.empty((SLOPES, _POINTS)), np.empty(_POINTS), np.empty(_POINTS, np.int64)
     while top >= 0:
         begin, end = panels[top]
@@ -157,12 +157,14 @@ def _integrals_of_run(
         if count > 0:
             runs[count, 0], runs[count, 1] = start, last
             return False, 0, runs, count + 1, steps
+        for j in range(SLOPES):
+            part[j], rests[j] = _integrate(values[j])
+            part[j] *= half
+            scales[j] = max(scales[j], abs(part[j]))
+        common = max(scales[BEND], scales[GAIN], scales[SHARE], scales[EXPONENT])  # one may be 0 but for rounding
         settled = True
         for j in range(SLOPES):
-            integral, rest = _integrate(values[j])
-            part[j] = half * integral
-            scales[j] = max(scales[j], abs(part[j]))
-            settled = settled and half * rest <= _TOLERANCE * scales[j]
+            settled = settled and half * rests[j] <= _TOLERANCE * max(common, scales[j])
         if settled:
             sums += part
         elif waves[_POINTS - 1] - waves[0] < _NARROW or top + 2 >= _TOP:

@@ -27,10 +27,13 @@ def _cotangent_rest(x: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _psi_difference(middle: NDArray[np.float64], beta: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return [psi(middle + beta/2) - psi(middle - beta/2)]/beta, by its series where beta is small."""
-    series = polygamma(1, middle) + beta * beta / 24.0 * polygamma(3, middle)
     with np.errstate(all="ignore"):
         direct = (psi(middle + 0.5 * beta) - psi(middle - 0.5 * beta)) / beta
-    difference: NDArray[np.float64] = np.where(beta < 2e-3, series, direct)
+    small = beta < 2e-3
+    if not small.any():  # the series takes longer than all else
+        return np.asarray(direct)
+    series = polygamma(1, middle) + beta * beta / 24.0 * polygamma(3, middle)
+    difference: NDArray[np.float64] = np.where(small, series, direct)
     return difference
 
 

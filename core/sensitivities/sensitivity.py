@@ -35,7 +35,10 @@ _FORWARD: Final = (-25.0 / 12.0, 4.0, -3.0, 4.0 / 3.0, -0.25)
 
 
 def by_parameters(
-    parameters: Mapping[str, ArrayLike], reduced: NDArray[np.float64], values: NDArray[np.float64]
+    parameters: Mapping[str, ArrayLike],
+    slopes: tuple[NDArray[np.float64], NDArray[np.float64]],
+    reduced: NDArray[np.float64],
+    values: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """Return the sensitivities to the seven parameters of a scene along a last axis, and to that of a machine.
 
@@ -43,18 +46,18 @@ def by_parameters(
     ----------
     parameters
         Those of the scenes.
+    slopes
+        What `theta_slopes` gives of their k and nu.
     reduced
         The sensitivities to M, lambda, A, a_max, that to k at fixed M, and that to the machine; shape (6, *scenes).
     values
         Those whose sensitivities they are; shape `scenes`.
     """
-    given = [np.asarray(parameters[name], dtype=float) for name in PARAMETERS]
-    k, nu, _, c0_over_R, _, amplitude, rim = np.broadcast_arrays(*given)
+    k, nu, _, c0_over_R, _, amplitude, rim = (np.asarray(parameters[name], dtype=float) for name in PARAMETERS)
     stiffness, wavelength, height, radius, exponent, machine = reduced
-    by_k, by_nu = theta_slopes(k, nu)
+    by_k, by_nu = slopes
     driven = MACHINE in parameters
     found = np.empty((*values.shape, len(PARAMETERS) + driven))
-    k, nu, c0_over_R, amplitude, rim = (np.broadcast_to(a, values.shape) for a in (k, nu, c0_over_R, amplitude, rim))
     with np.errstate(all="ignore"):  # what is out of range has no value
         found[..., 0] = exponent + stiffness * (by_k - np.log(c0_over_R))
         found[..., 1] = stiffness * by_nu
@@ -172,7 +175,7 @@ def sensitivities(
         radii = solved["turning_radius"]
         moves = radii < limits
         scenes["a_max_over_R"] = np.where(radii > 0.0, radii, limits)
-    found = {}
+    found, slopes = {}, theta_slopes(parameters["k"], parameters["nu"])
     for name in asked:
         part, values = SENSITIVITIES.index(name), solved[NEEDED[name][0]]
         to_turn, unknown = np.zeros(shape), np.full(shape, False)
@@ -180,7 +183,7 @@ def sensitivities(
             target = np.broadcast_to(np.asarray(parameters[turn], dtype=float), shape)
             met = moves & (radii > 0.0) & ((solved["status"] & PULL_OFF_AT_RIM) != 0)
             to_turn, unknown = _move_with_turn(turn, target, met, solved, reduced)
-        one = by_parameters(scenes, reduced[part], values)
+        one = by_parameters(scenes, slopes, reduced[part], values)
         if turn is not None:
             to_turn = np.where(values > 0.0, to_turn, np.nan)
             one = np.concatenate([one, to_turn[..., None]], axis=-1)

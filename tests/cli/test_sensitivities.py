@@ -99,6 +99,45 @@ def test_quantities_with_units() -> None:
             assert own == pytest.approx(exact, abs=1e-8)
 
 
+def test_a_machine_is_a_parameter_more(data: dict[str, Any]) -> None:
+    parameters = data["parameters"] | {"A": 0.023, "indentation_max_over_R": [0.01, 0.05]}
+    machine = {"loading": {"control": "machine", "machine_stiffness": 2.0}}
+    dataset = compute(study_from(data | machine | {"parameters": parameters}))
+    assert dataset["parameter"].values.tolist() == [*gr.PARAMETERS, "machine_stiffness", "indentation_max_over_R"]
+    assert np.all(np.isfinite(dataset[ENERGY].sel(parameter="machine_stiffness")))
+
+
+def test_a_machine_with_a_unit() -> None:
+    """Of the energy in SI units, by differences of fourth order; the stiffness of a machine is its own quantity."""
+    machine: dict[str, Any] = QUANTITIES | {"control": "machine", "spring_constant": 1000.0}
+    found = gr.solve(**machine, outputs=[ENERGY])[f"{ENERGY}_physical"]
+    step = 1e-4
+    for name in ("spring_constant", "E_star", "R"):
+        around = [
+            gr.solve(**{**machine, name: machine[name] * np.exp(i * step)}, outputs=["dissipated_energy"])
+            for i in (-2, -1, 1, 2)
+        ]
+        exact = np.dot([1, -8, 8, -1], [float(np.log(one["dissipated_energy_si"])) for one in around]) / (12 * step)
+        assert float(found.sel(physical_parameter=name)) == pytest.approx(exact, abs=1e-8)
+
+
+def test_realisations_come_before_the_parameter(data: dict[str, Any]) -> None:
+    spectrum = {"spectrum": {"hurst": 0.8, "first": 1, "last": 3, "realisations": 2, "seed": 1}}
+    dataset = compute(study_from(data | {"profile": spectrum}))
+    assert dataset[ENERGY].dims == ("k", "lambda_over_R", "A", "a_max_over_R", "realisation", "parameter")
+    assert np.all(np.isfinite(dataset[ENERGY].isel(A=1).sel(parameter="A")))
+
+
+def test_realisations_with_units() -> None:
+    sizes = {name: value for name, value in QUANTITIES.items() if name != "indentation_max"} | {"a_max": 1e-6}
+    profile = {"spectrum": {"hurst": 0.8, "first": 1, "last": 3, "realisations": 2, "seed": 1}}
+    found = gr.solve(**(sizes | {"k": [0.0, 0.2]}), profile=profile, outputs=SENSITIVITIES)
+    physical = found[f"{ENERGY}_physical"]
+    assert physical.dims == ("k", "realisation", "physical_parameter")
+    by_work = 1.0 - found[ENERGY].sel(parameter="modulus", drop=True)
+    np.testing.assert_allclose(physical.sel(physical_parameter="work_of_adhesion"), by_work, rtol=1e-9)
+
+
 def test_arrays_over_dimensions_of_any_names() -> None:
     scene = {"nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "A": 0.05, "a_max_over_R": 0.6}
     lengths = xarray.DataArray([0.1, 0.2, 0.4], dims="sample")
@@ -176,8 +215,6 @@ def test_they_are_as_doubtful_as_their_values() -> None:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"loading": {"control": "load"}}, 'not known with control = "load"'),
-        ({"profile": {"exponent": 3.0}}, "not known with this profile"),
         ({"method": {"solver": "envelope"}}, 'the solver "envelope" has no such output'),
         ({"kind": "curve"}, 'an output of studies of kind "map"'),
     ],
