@@ -49,7 +49,7 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
 name. Processes that compile kinds side by side, each after those that it needs and none beside one of `APART`, compile
 nothing twice, and no two write to one index of the cache."""
 APART: Final = (
-    *tuple({"asymptotic", general} for general in ("general_energy", "general_reports", "general_turning")),
+    *({"asymptotic", general} for general in ("general_energy", "general_reports", "general_turning")),
     {"sensitivities", "general_sensitivities"},
 )
 """Kinds that do not need each other, and yet compile kernels of the same name: not to be compiled side by side."""

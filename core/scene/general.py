@@ -49,8 +49,15 @@ from gradhesion.core.problem.status import (
 )
 from gradhesion.core.pull_off.general import deepest_wave
 from gradhesion.core.pull_off.rims import lowest_loads
-from gradhesion.core.sensitivities.general_slopes import NOTES, of_scene, put_energy, put_noted, put_rest, senses_energy
-from gradhesion.core.sensitivities.path_slopes import fill_loading, slopes_for
+from gradhesion.core.sensitivities.general_slopes import (
+    NOTES,
+    of_scene,
+    put_energy,
+    put_noted,
+    put_rest,
+    senses_energy,
+    slopes_of,
+)
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.waves.general import highest_harmonic
@@ -142,9 +149,7 @@ def _walked(
         return False
     limits = disc_limits(basis, curve, count, trace, furthest) if slots[CONTACT] >= 0 else (math.inf, math.inf)
     if len(own) > 0:
-        slopes = slopes_for(trace)
-        if senses_energy(own):
-            fill_loading(basis, curve, own[0], count, trace, 0.0, slopes)
+        slopes = slopes_of(basis, curve, own, count, trace)
     for i in range(rims.size):
         if not chosen[i]:
             continue
@@ -157,8 +162,7 @@ def _walked(
         flags = (close, is_one_disc(basis, curve, limits, x))
         _put_cycle(basis, curve, length, unit, (x, 0.0), loading, unloading, flags, slots, out, status, i)
         if len(own) > 0:
-            if senses_energy(own):
-                put_energy(basis, curve, own, count, trace, slopes, x, loading[0] + unloading[0], i)
+            put_energy(basis, curve, own, count, trace, slopes, x, loading[0] + unloading[0], i)
     return True
 
 
@@ -192,8 +196,7 @@ def _strode(
     up, down = (loading[0], loading[1], loading[2]), (unloading[0], unloading[1], depth)
     _put_cycle(basis, curve, length, unit, (x, waves), up, down, (close, one_disc), slots, out, status, i)
     if len(own) > 0:
-        if senses_energy(own):
-            put_noted(basis, curve, own, middle[2], notes, x, waves, loading[0] + unloading[0], i)
+        put_noted(basis, curve, own, middle[2], notes, x, waves, loading[0] + unloading[0], i)
     return True
 
 

@@ -32,7 +32,7 @@ from gradhesion.core.curve.branches import (
     UNKNOWN,
     UNLOADING_JUMPS,
 )
-from gradhesion.core.curve.cosine import Curve, curve_of, depth, force_unit, load, slope, wave
+from gradhesion.core.curve.cosine import Curve, curve_of, depth, load, slope, wave
 from gradhesion.core.problem.results import ENERGY as ENERGY_ROW
 from gradhesion.core.problem.results import RADIUS
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM

@@ -183,7 +183,7 @@ def add_from_zero(basis: Basis, curve: Curve, parts: Parts, x: float, level: flo
 
 @kernel()
 def drop_nearby(near: Near, start: float, waves: float, low: float, high: float, whole: float) -> float:
-    """Return the slope by k of `drop` from the place waves + start, but for what the exponent itself adds to the sum."""
+    """Return the slope by k of `drop` from the place waves + start, but for what k itself adds to the sum."""
     weights = near[4]
     total = 0.0
     for j in range(weights.size):

@@ -35,11 +35,11 @@ from gradhesion.core.sensitivities.cosine_slopes import (
     ENERGY,
     FORCE,
 )
-from gradhesion.core.sensitivities.general_jump_slopes import NOTHING, curve_beside, parts_of, rise_to, rim_slope_of
+from gradhesion.core.sensitivities.general_jump_slopes import NOTHING, curve_beside, parts_of, rim_slope_of, rise_to
 from gradhesion.core.sensitivities.general_wave_slopes import add_jump, add_jump_from_zero, add_waves
 from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SHARE, SLOPES
 from gradhesion.core.sensitivities.jump_slopes import DEPTH as BY_LEVEL
-from gradhesion.core.sensitivities.path_slopes import energy_slopes
+from gradhesion.core.sensitivities.path_slopes import energy_slopes, fill_loading, slopes_for
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.waves.general import DOWN, UP, room_for_waves
 
@@ -152,8 +152,8 @@ def put_rest(
 ) -> None:
     """Store the sensitivities of the pull-off forces of a curve, whose places and flags are there, for all rims.
 
-    Where cycles turn at a depth, those of the depth at the rim as well; `unit` is that of depth. Last, all sensitivities to k
-    are then turned into those at fixed M.
+    Where cycles turn at a depth, those of the depth at the rim as well; `unit` is that of depth. Last, all sensitivities
+    to k are turned into those at fixed M.
     """
     near, exponents, units, (size, middle), found, (force_too, _, turned) = own
     B, m, g, _, _ = curve
@@ -195,10 +195,21 @@ def _put_total(own: Any, total: Any, by_rim: float, energy: float, i: int) -> No
 
 
 @kernel()
+def slopes_of(basis: Basis, curve: Curve, own: Any, count: int, trace: Any) -> Any:
+    """Return the slopes that go with a trace, those of loading filled in, if they are asked for."""
+    slopes = slopes_for(trace)
+    if senses_energy(own):
+        fill_loading(basis, curve, own[0], count, trace, 0.0, slopes)
+    return slopes
+
+
+@kernel()
 def put_energy(
     basis: Basis, curve: Curve, own: Any, count: int, trace: Any, slopes: Any, x: float, energy: float, i: int
 ) -> None:
     """Store the sensitivities of the reduced energy of a rim, read off the trace that the energy was read off."""
+    if not senses_energy(own):
+        return
     total = np.empty(SLOPES)
     level = coordinate(basis, curve, x) if x < math.inf else math.inf
     by_rim = energy_slopes(basis, curve, own[0], count, trace, x, level, 0.0, slopes, total)
@@ -210,6 +221,8 @@ def put_noted(
     basis: Basis, curve: Curve, own: Any, cut: float, notes: Any, x: float, whole: float, energy: float, i: int
 ) -> None:
     """Store the sensitivities of the reduced energy of a long cycle from the notes of its jumps (path/pieces.py)."""
+    if not senses_energy(own):
+        return
     near, _, _, _, _, _ = own
     total, by_rim = np.zeros(SLOPES), 0.0
     nowhere = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -221,7 +234,7 @@ def put_noted(
     for n in range(1, count + 1):
         kind, waves, start, end = int(notes[n, 0]), notes[n, 1], notes[n, 2], notes[n, 3]
         before = total[BY_LEVEL]
-        if kind == NOTED_UP or kind == NOTED_DOWN:
+        if kind in (NOTED_UP, NOTED_DOWN):
             task = UP if kind == NOTED_UP else DOWN
             add_waves(task, basis, curve, near, cut, (nowhere, NOTHING), start, end, work, total)
         elif kind == NOTED_JUMP:
@@ -233,8 +246,7 @@ def put_noted(
             add_jump_from_zero(basis, curve, near, start, waves, kind == NOTED_OUT, total)
             if notes[n, 4] > 0.0:
                 by_rim += rim_slope_of(basis, curve, 0.0, start, waves)
-        if kind == NOTED_JUMP or kind == NOTED_OUT:
-            if waves == whole and start == x:  # unloading leaves the rim
-                _, _, rate = slope(basis, curve, x, whole)
-                by_rim += (total[BY_LEVEL] - before) * rate * TWO_PI * (whole + x)
+        if kind in (NOTED_JUMP, NOTED_OUT) and waves == whole and start == x:  # unloading leaves the rim
+            _, _, rate = slope(basis, curve, x, whole)
+            by_rim += (total[BY_LEVEL] - before) * rate * TWO_PI * (whole + x)
     _put_total(own, total, by_rim, energy, i)

@@ -27,7 +27,6 @@ from gradhesion.core.sensitivities.general_jump_slopes import (
 from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SHARE, SLOPES
 from gradhesion.core.waves.cosine_sum import limit_terms
 from gradhesion.core.waves.general import (
-    DOWN,
     PASSING,
     UP,
     branches_of_wave,

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from gradhesion.core._jit import NO, YES, kernel
+from gradhesion.core.curve import general
 from gradhesion.core.curve.branches import (
     ARRIVAL,
     END,
@@ -32,7 +33,6 @@ from gradhesion.core.curve.branches import (
     ends,
     find_depth,
 )
-from gradhesion.core.curve import general
 from gradhesion.core.curve.cosine import Curve, slope
 from gradhesion.core.path.unloading import descend, leave_rim, next_lower
 from gradhesion.core.sensitivities.general_jump_slopes import rim_slope_of

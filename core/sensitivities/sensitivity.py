@@ -53,7 +53,7 @@ def by_parameters(
     values
         Those whose sensitivities they are; shape `scenes`.
     """
-    k, nu, _, c0_over_R, _, amplitude, rim = (np.asarray(parameters[name], dtype=float) for name in PARAMETERS)
+    k, _, _, c0_over_R, _, amplitude, rim = (np.asarray(parameters[name], dtype=float) for name in PARAMETERS)
     stiffness, wavelength, height, radius, exponent, machine = reduced
     by_k, by_nu = slopes
     driven = MACHINE in parameters
@@ -128,6 +128,8 @@ def _by_differences(
     found = np.zeros((int(where.sum()), len(scenes)))
     names = [name for name in (*PARAMETERS, MACHINE, *TURNS) if name in scenes]
     for i, name in enumerate(names):
+        if name == "a_max_over_R":  # beyond where the cycle turns
+            continue
         centre = scenes[name]
         step = np.full(centre.shape, _STEP) if name in PARAMETERS[:2] else _STEP * centre
         inside = step if name not in PARAMETERS[:2] else np.where(centre < 0.25, step, -step)

@@ -39,16 +39,21 @@ def random_scenes() -> Callable[..., dict[str, NDArray[np.float64]]]:
 
 @pytest.fixture
 def differences() -> Callable[..., tuple[dict[str, NDArray[np.float64]], NDArray[np.bool_]]]:
-    """Give d ln(value)/d ln p by fourth-order differences of the solver, and where jumps and trough stay the same."""
+    """Give d ln(value)/d ln p by fourth-order differences of the solver, and where jumps and trough stay the same.
 
-    def differences(scenes: Mapping[str, Any], name: str) -> tuple[dict[str, NDArray[np.float64]], NDArray[np.bool_]]:
+    Settings are those of `solve`: another profile or control.
+    """
+
+    def differences(
+        scenes: Mapping[str, Any], name: str, **settings: Any
+    ) -> tuple[dict[str, NDArray[np.float64]], NDArray[np.bool_]]:
         outputs = [*VALUES, *_COUNTS, _PLACE]
-        middle = solve(scenes, outputs, check_contact=False)
+        middle = solve(scenes, outputs, check_contact=False, **settings)
         found = {value: np.zeros(middle["status"].shape) for value in VALUES}
         same = np.full(middle["status"].shape, True)
         for place, weight in _WEIGHTS.items():
             other = scenes[name] + place * _STEP if name in PARAMETERS[:2] else scenes[name] * np.exp(place * _STEP)
-            solved = solve({**scenes, name: other}, outputs, check_contact=False)
+            solved = solve({**scenes, name: other}, outputs, check_contact=False, **settings)
             for value in VALUES:
                 found[value] += weight / _STEP * solved[value] / middle[value]
             for count in _COUNTS:
