@@ -17,6 +17,7 @@ from gradhesion.core.problem.shape import front_of, in_own_wavelength
 from gradhesion.core.scene.general import solve_pull_offs, solve_scenes
 from gradhesion.core.sensitivities.cosine_slopes import COUNT
 from gradhesion.core.sensitivities.neighbours import exponents_beside
+from gradhesion.core.struve.series_by_k import change_of
 
 
 def solve_general(
@@ -50,19 +51,19 @@ def solve_general(
     solve = solve_pull_offs if set(rows) <= set(PULL_OFF) and slopes is None else solve_scenes
     sensed = np.full((3, COUNT, *status.shape), np.nan) if slopes else None
 
-    def neighbours(exponent: float) -> tuple[Any, ...]:
+    def change(exponent: float) -> tuple[Any, ...]:
         """Return what `of_scene` of sensitivities/general_slopes.py takes of neighbouring exponents."""
         exponents, weights, middle = exponents_beside(exponent)
-        tables, bins = zip(*(tables_of(other, series) for other in exponents), strict=True)
-        fronts = np.array([front_of(other, profile.exponent) for other in exponents])
-        of_curve = (exponent, profile.exponent)
-        return np.array([*tables], dtype=tables[0].dtype), np.array(bins), series, weights, middle, fronts, of_curve
+        changes = change_of(tables_of(exponent, series), middle, [tables_of(k, series) for k in exponents], weights)
+        fronts = np.log([front_of(k, profile.exponent) for k in (exponent, *exponents)])
+        front_by_k = middle * fronts[0] + float(weights @ fronts[1:])
+        return *changes, front_by_k, (exponent, profile.exponent)
 
     def work(exponent: float, index: NDArray[np.int64]) -> None:
         table, cosines = tables_of(exponent, series)
         front = front_of(exponent, profile.exponent)
         arrays = (scenes.stretch, wavelength, amplitude, scenes.compliance, scenes.rim)
-        sense = () if slopes is None else (*neighbours(exponent), sensed, *slopes, turned)
+        sense = () if slopes is None else (*change(exponent), sensed, *slopes, turned)
         solve(table, cosines, series, profile.exponent, front, index, *arrays, slots, out, status, sense)
 
     run_by_exponent(scenes.k, work, workers, scenes.rim.shape[1])

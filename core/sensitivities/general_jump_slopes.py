@@ -7,8 +7,9 @@ that as of one cosine (sensitivities/jump_slopes.py) the ends may be held:
 
     de/dp = int -2 z rho (du/dp) dz
 
-Here the slopes are those by ln B, ln g and ln(beta/alpha), the machine's share, each with the coordinate of the jump
-that follows, and by that coordinate Y_j alone. Only the ratio of alpha and beta counts: alpha may be held.
+Here the slopes are those by ln B, ln g, ln(beta/alpha), the machine's share, and k at fixed B, g and share, each with
+the coordinate of the jump that follows, and by that coordinate Y_j alone. Only the ratio of alpha and beta counts:
+alpha may be held.
 """
 
 import math
@@ -27,90 +28,114 @@ from gradhesion.core.curve.general_energy import (
     _SMOOTH,
     Left,
     _longest_panel,
-    drop,
     place_left,
 )
 from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, EXPONENT, GAIN, SHARE
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.struve.series import sums
+from gradhesion.core.struve.series_by_k import sums_by_k
 
-Parts: TypeAlias = tuple[float, float, float]
-"""B, g and the machine's share times the slopes of the coordinate by them, at fixed alpha."""
-Near: TypeAlias = tuple[Any, Any, Any, Any, Any]
-"""Of neighbouring exponents: the tables, the bins of each, the series, the curves, and the weights in d/dk."""
+Parts: TypeAlias = tuple[float, float, float, float]
+"""B, g and the machine's share times the slopes of the coordinate by them, at fixed alpha, and that by k."""
+Change: TypeAlias = tuple[Any, Any]
+"""The derivatives of the tables by k (struve/series_by_k.py): one record, and the flat array."""
+Jump: TypeAlias = tuple[Left, Parts, float]
+"""The place that a jump leaves, by how much its parts exceed those of the jump's coordinate, and that one's by k."""
 _AREA: Final = TWO_PI * TWO_PI
-NOTHING: Final = (0.0, 0.0, 0.0)
-
-
-@kernel()
-def curve_beside(near: Near, j: int) -> Curve:
-    """Return the curve of a neighbouring exponent; its basis is (near[0][j], near[1][j], near[2])."""
-    curves = near[3]
-    return curves[j, 0], curves[j, 1], curves[j, 2], curves[j, 3], curves[j, 4]
+NOTHING: Final = (0.0, 0.0, 0.0, 0.0)
 
 
 @kernel(contract=True)
-def parts_of(basis: Basis, curve: Curve, x: float, whole: float) -> Parts:
-    """Return the parts of the coordinate at whole + x > 0."""
+def _terms(
+    basis: Basis, curve: Curve, change: Change, x: float, whole: float
+) -> tuple[float, float, float, float, float, float, float, float]:
+    """Return z^c, beta z^(1+k), ln z, the waves of depth and load, B z^m, and how depth and load change with k.
+
+    The load is over z^(1+k), and so is its change.
+    """
     table, cosines, series = basis
-    B, m, g, alpha, beta = curve
+    B, m, g, _, beta = curve
     z = TWO_PI * (whole + x)
     power = amplitude_power(table, z)
+    stretch, logarithm = z * power, math.log(z)
+    w0, w1, w0_k, w1_k = sums_by_k(table, cosines, series, change[0][0], change[1], x, whole)
     bend = B * z * z if m == 2.0 else B * z**m
-    t = beta / (power * power)
-    w0, w1, _, _ = sums(table, cosines, series, x, whole)
-    pressed, waves = t * bend * (m / (1.0 + table.k + m)), t * g * z * w1
-    return alpha * bend + pressed, alpha * g * z * w0 + waves, pressed + waves - t * z * power
+    pull = 0.5 * logarithm * stretch  # stretch falls by this
+    by_depth = g * z * w0_k + pull
+    share = m / (1.0 + table.k + m)
+    load = bend * share + g * z * w1 - stretch
+    by_load = logarithm * load + g * z * w1_k + pull - bend * share / (1.0 + table.k + m)
+    return stretch, beta / (power * power), logarithm, g * z * w0, g * z * w1, bend, by_depth, by_load
+
+
+@kernel(contract=True)
+def parts_of(basis: Basis, curve: Curve, change: Change, x: float, whole: float) -> Parts:
+    """Return the parts of the coordinate at whole + x > 0."""
+    _, m, _, alpha, _ = curve
+    stretch, front, _, wave0, wave1, bend, by_depth, by_load = _terms(basis, curve, change, x, whole)
+    pressed, waved = front * bend * (m / (1.0 + basis[0].k + m)), front * wave1
+    return (
+        alpha * bend + pressed,
+        alpha * wave0 + waved,
+        pressed + waved - front * stretch,
+        alpha * by_depth + front * by_load,
+    )
 
 
 @kernel(contract=True)
 def _slopes_of_rise(
-    basis: Basis, curve: Curve, left: Left, more: Parts, x: float, whole: float
-) -> tuple[float, float, float, float, float]:
-    """Return u and its slopes by ln B, ln g, the share and Y_j; `more` is what the parts of Y_j are less than there.
+    basis: Basis, curve: Curve, change: Change, left: Left, more: Parts, held: float, x: float, whole: float
+) -> tuple[float, float, float, float, float, float]:
+    """Return u and its slopes by ln B, ln g, the share, k and Y_j.
 
+    `more` is by how much the parts of the place that is left exceed those of Y_j, `held` the slope of Y_j by k.
     Differences to the place that is left come first, as in curve/general_energy.py.
     """
-    table, cosines, series = basis
-    _, m, g, alpha, beta = curve
+    _, m, _, alpha, beta = curve
     whole1, x1, wave0, wave1, above, bend1, stretch1 = left
-    by_bend, by_gain, by_share = more
-    k = table.k
+    by_bend, by_gain, by_share, _ = more
+    k = basis[0].k
     place1 = whole1 + x1
-    z = TWO_PI * (whole + x)
-    stretch = z * amplitude_power(table, z)
+    stretch, front, logarithm, here0, here1, _, by_depth, by_load = _terms(basis, curve, change, x, whole)
     lag = ((whole - whole1) + (x - x1)) / place1
     ratio = math.log1p(lag)
-    w0, w1, _, _ = sums(table, cosines, series, x, whole)
     bent = lag * (2.0 + lag) if m == 2.0 else math.expm1(m * ratio)
     stretched = math.expm1(0.5 * (1.0 - k) * ratio)
-    bend, wave = alpha * bend1 * bent, alpha * (g * z * w0 - wave0)
+    bend, wave = alpha * bend1 * bent, alpha * (here0 - wave0)
     rise = above + (bend + wave - alpha * stretch1 * stretched)
-    front = 0.0
     if beta > 0.0:
         place1 = TWO_PI * place1
-        front, front1 = beta * (z / stretch) * (z / stretch), beta * (place1 / stretch1) * (place1 / stretch1)
+        front1 = beta * (place1 / stretch1) * (place1 / stretch1)
         grown = (lag - stretched) * (2.0 + lag + stretched) / ((1.0 + stretched) * (1.0 + stretched))
         pressed = front1 * (m / (1.0 + k + m)) * bend1 * (grown + bent + grown * bent)
-        waved = front * g * z * w1 - beta * wave1
+        waved = front * here1 - beta * wave1
         load = pressed + waved - front1 * stretch1 * (grown + stretched + grown * stretched)
         bend, wave, rise = bend + pressed, wave + waved, rise + load
         by_share += load
     stiffness = alpha + front
-    norm = 1.0 / (stiffness * stretch)
+    norm, share = 1.0 / (stiffness * stretch), front / stiffness
     u = rise * norm
-    return u, (bend + by_bend) * norm, (wave + by_gain) * norm, by_share * norm - u * front / stiffness, -norm
+    by_k = (alpha * by_depth + front * by_load - held) * norm - u * logarithm * (share - 0.5)
+    return u, (bend + by_bend) * norm, (wave + by_gain) * norm, by_share * norm - u * share, by_k, -norm
 
 
 @kernel(contract=True)
 def drop_slopes(
-    basis: Basis, curve: Curve, left: Left, more: Parts, low: float, high: float, whole: float, sign: float, total: Any
+    basis: Basis,
+    curve: Curve,
+    change: Change,
+    jump: Jump,
+    low: float,
+    high: float,
+    whole: float,
+    sign: float,
+    total: Any,
 ) -> None:
     """Add `sign` times the slopes of what `drop` of curve/general_energy.py returns, times 4 pi^2."""
+    left, more, held = jump
     _, _, series = basis
     longest = _longest_panel(series)
-    bends, gains, shares, levels = 0.0, 0.0, 0.0, 0.0
+    bends, gains, shares, exponents, levels = 0.0, 0.0, 0.0, 0.0, 0.0
     while low < high:
         width = min(longest, 2.0 * (whole + low))
         panels = max(1, math.ceil((high - low) / width - 1e-9))
@@ -119,45 +144,46 @@ def drop_slopes(
         for i in range(SHORT_NODES.size if short else NODES.size):
             x = low + width * (SHORT_NODES[i] if short else NODES[i])
             weight = width * (SHORT_WEIGHTS[i] if short else WEIGHTS[i])
-            u, bend, gain, share, level = _slopes_of_rise(basis, curve, left, more, x, whole)
+            u, bend, gain, share, by_k, level = _slopes_of_rise(basis, curve, change, left, more, held, x, whole)
             part = -2.0 * weight * (whole + x) * (1.0 + u)
             bends += part * bend
             gains += part * gain
             shares += part * share
+            exponents += part * by_k
             levels += part * level
         low = low + width if panels > 1 else high
     total[BEND] += sign * _AREA * bends
     total[GAIN] += sign * _AREA * gains
     total[SHARE] += sign * _AREA * shares
+    total[EXPONENT] += sign * _AREA * exponents
     total[DEPTH] += sign * _AREA * levels
 
 
 @kernel(contract=True)
 def _slopes_from_zero(
-    basis: Basis, curve: Curve, parts: Parts, x: float, level: float, weight: float, total: Any
+    basis: Basis, curve: Curve, change: Change, parts: Parts, x: float, level: float, weight: float, total: Any
 ) -> None:
     """Add the slopes at one radius of a jump from or to zero contact."""
-    table, cosines, series = basis
-    B, m, g, alpha, beta = curve
-    z = TWO_PI * x
-    power = amplitude_power(table, z)
-    stretch, t = z * power, beta / (power * power)
-    w0, w1, _, _ = sums(table, cosines, series, x, 0.0)
-    bend = B * z * z if m == 2.0 else B * z**m
-    pressed, waved = t * bend * (m / (1.0 + table.k + m)), t * g * z * w1
-    load = pressed + waved - t * stretch
-    bend, wave = alpha * bend + pressed, alpha * g * z * w0 + waved
-    norm = 1.0 / ((alpha + t) * stretch)
-    u = (bend + wave + (load - pressed - waved) - alpha * stretch - level) * norm
+    _, m, _, alpha, _ = curve
+    stretch, front, logarithm, wave0, wave1, bend, by_depth, by_load = _terms(basis, curve, change, x, 0.0)
+    pressed, waved = front * bend * (m / (1.0 + basis[0].k + m)), front * wave1
+    load = pressed + waved - front * stretch
+    stiffness = alpha + front
+    norm, share = 1.0 / (stiffness * stretch), front / stiffness
+    u = (alpha * (bend + wave0 - stretch) + load - level) * norm
     part = -2.0 * weight * x * (1.0 + u)
-    total[BEND] += part * (bend - parts[0]) * norm
-    total[GAIN] += part * (wave - parts[1]) * norm
-    total[SHARE] += part * ((load - parts[2]) * norm - u * t / (alpha + t))
+    total[BEND] += part * (alpha * bend + pressed - parts[0]) * norm
+    total[GAIN] += part * (alpha * wave0 + waved - parts[1]) * norm
+    total[SHARE] += part * ((load - parts[2]) * norm - u * share)
+    by_k = (alpha * by_depth + front * by_load - parts[3]) * norm - u * logarithm * (share - 0.5)
+    total[EXPONENT] += part * by_k
     total[DEPTH] -= part * norm
 
 
 @kernel()
-def add_from_zero(basis: Basis, curve: Curve, parts: Parts, x: float, level: float, sign: float, total: Any) -> None:
+def add_from_zero(
+    basis: Basis, curve: Curve, change: Change, parts: Parts, x: float, level: float, sign: float, total: Any
+) -> None:
     """Add `sign` times the slopes of a jump at Y = level from zero contact to x; those of the level are `parts`.
 
     The panels are those of `energy_from_zero` in curve/general_energy.py.
@@ -175,39 +201,34 @@ def add_from_zero(basis: Basis, curve: Curve, parts: Parts, x: float, level: flo
         low = max(high - longest, high / growth)
         for i in range(NODES.size):
             place, weight = low + (high - low) * NODES[i], scale * (high - low) * WEIGHTS[i]
-            _slopes_from_zero(basis, curve, parts, place, level, weight, total)
+            _slopes_from_zero(basis, curve, change, parts, place, level, weight, total)
         high = low
     for i in range(NODES.size):
-        _slopes_from_zero(basis, curve, parts, high * _INNER_NODES[i], level, scale * high * _INNER_WEIGHTS[i], total)
+        place, weight = high * _INNER_NODES[i], scale * high * _INNER_WEIGHTS[i]
+        _slopes_from_zero(basis, curve, change, parts, place, level, weight, total)
 
 
 @kernel()
-def drop_nearby(near: Near, start: float, waves: float, low: float, high: float, whole: float) -> float:
-    """Return the slope by k of `drop` from the place waves + start, but for what k itself adds to the sum."""
-    weights = near[4]
-    total = 0.0
-    for j in range(weights.size):
-        basis, curve = (near[0][j], near[1][j], near[2]), curve_beside(near, j)
-        left = place_left(basis, curve, start, waves, 0.0)
-        total += weights[j] * drop(basis, curve, left, low, high, whole)
-    return _AREA * total
+def jump_from(basis: Basis, curve: Curve, change: Change, start: float, whole: float) -> Jump:
+    """Return the jump that leaves the curve at whole + start."""
+    _, _, _, held = parts_of(basis, curve, change, start, whole)
+    return place_left(basis, curve, start, whole, 0.0), NOTHING, held
 
 
 @kernel()
 def add_drop(
-    basis: Basis, curve: Curve, near: Near, start: float, waves: float, end: float, sign: float, total: Any
+    basis: Basis, curve: Curve, change: Change, start: float, waves: float, end: float, sign: float, total: Any
 ) -> None:
     """Add `sign` times the slopes of a jump between waves + start, which it leaves, and waves + end."""
-    left = place_left(basis, curve, start, waves, 0.0)
-    low, high = min(start, end), max(start, end)
-    drop_slopes(basis, curve, left, NOTHING, low, high, waves, sign, total)
-    total[EXPONENT] += sign * drop_nearby(near, start, waves, low, high, waves)
+    jump = jump_from(basis, curve, change, start, waves)
+    drop_slopes(basis, curve, change, jump, min(start, end), max(start, end), waves, sign, total)
 
 
 @kernel()
-def rise_to(basis: Basis, curve: Curve, left: Left, x: float, whole: float) -> float:
-    """Return u = rho - 1 at whole + x of a jump from the place `left`."""
-    u, _, _, _, _ = _slopes_of_rise(basis, curve, left, NOTHING, x, whole)
+def rise_to(basis: Basis, curve: Curve, change: Change, start: float, waves: float, end: float) -> float:
+    """Return u = rho - 1 at waves + end of a jump that leaves the curve at waves + start."""
+    left, more, held = jump_from(basis, curve, change, start, waves)
+    u, _, _, _, _, _ = _slopes_of_rise(basis, curve, change, left, more, held, end, waves)
     return u
 
 

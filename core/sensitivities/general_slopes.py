@@ -18,9 +18,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.curve.cosine import force_unit
-from gradhesion.core.curve.general import Basis, Curve, coordinate, curve_of, slope, state
-from gradhesion.core.curve.general_energy import place_left
+from gradhesion.core.curve.general import Basis, Curve, coordinate, slope, state
 from gradhesion.core.path.pieces import NOTED_DOWN, NOTED_JUMP, NOTED_OUT, NOTED_UP
 from gradhesion.core.problem.results import RADIUS
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
@@ -35,7 +33,7 @@ from gradhesion.core.sensitivities.cosine_slopes import (
     ENERGY,
     FORCE,
 )
-from gradhesion.core.sensitivities.general_jump_slopes import NOTHING, curve_beside, parts_of, rim_slope_of, rise_to
+from gradhesion.core.sensitivities.general_jump_slopes import NOTHING, parts_of, rim_slope_of, rise_to
 from gradhesion.core.sensitivities.general_wave_slopes import add_jump, add_jump_from_zero, add_waves
 from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SHARE, SLOPES
 from gradhesion.core.sensitivities.jump_slopes import DEPTH as BY_LEVEL
@@ -43,6 +41,7 @@ from gradhesion.core.sensitivities.path_slopes import energy_slopes, fill_loadin
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.waves.general import DOWN, UP, room_for_waves
 
+LN2: Final = math.log(2.0)
 NOTES: Final = 4096
 """Notes of a cycle that there is room for."""
 
@@ -54,39 +53,28 @@ def of_scene(sense: Any, i: int, stretch: float, wavelength: float, amplitude: f
     Parameters
     ----------
     sense
-        (), or the tables, bins and series of neighbouring exponents, their weights in d/dk, the weight of k itself, the
-        factor of the punch at each (front of `curve_of`), k and the exponent of the punch, where sensitivities go
-        (3, COUNT, curves, rims), whether those of force and of energy are asked for, and whether the rims are places
-        where cycles turn.
+        (), or the change of the tables (struve/series_by_k.py); ln of the factor of the punch (front of `curve_of`),
+        its slope by k, k and the exponent of the punch; where sensitivities go (3, COUNT, curves, rims); and whether
+        those of force and of energy are asked for, and whether the rims are places where cycles turn.
     i, stretch, wavelength, amplitude, compliance
         The scene, as `curve_of` takes it.
 
     Returns
     -------
-    The neighbours; k and m; the units of force and depth at them over those of k; ln of the size of a contact (k
-    changes at fixed M L^k) and the weight of k; where the sensitivities go; and the three flags.
+    The change of the tables; k and m; the slopes by k of ln B, ln g, ln of the share, and ln of the units of force and
+    depth, at fixed M L^k, L the size of a contact (at fixed M each length would bring its logarithm); ln L; where the
+    sensitivities go; and the three flags.
     """
     if len(sense) == 0:
         return ()
-    tables, bins, series, weights, middle, fronts, (k, m), found, force, energy, turned = sense
-    rows = series if amplitude > 0.0 else np.zeros((0, 3))
+    change, waves, front_by_k, (k, m), found, force, energy, turned = sense
     stiffness = 2.0 ** (1.0 + k) * math.pi / (stretch * stretch)
-    size = stiffness ** (-1.0 / (2.0 * m - 1.0 + k))
-    curves, units = np.empty((weights.size, 5)), np.empty((2, weights.size))
-    length = wavelength / TWO_PI
-    base = force_unit(k, length, stretch * length ** (0.5 * (1.0 - k)))
-    for j in range(weights.size):
-        other = tables[j].k
-        near_stiffness = stiffness * size ** (k - other)
-        near_stretch = math.sqrt(2.0 ** (1.0 + other) * math.pi / near_stiffness)
-        softer = compliance
-        if 0.0 < compliance < math.inf:
-            softer *= 2.0 ** (k - other) * (1.0 + k) / (1.0 + other) * near_stiffness / stiffness
-        curve, _, units[1, j] = curve_of(other, m, fronts[j], near_stretch, wavelength, amplitude, softer)
-        curves[j, 0], curves[j, 1], curves[j, 2], curves[j, 3], curves[j, 4] = curve
-        units[0, j] = force_unit(other, length, units[1, j]) / base
-    near = (tables, bins, rows, curves, weights)
-    return near, (k, m), units, (math.log(size), middle), found[:, :, i], (force, energy, turned)
+    size = -math.log(stiffness) / (2.0 * m - 1.0 + k)
+    length = math.log(wavelength / TWO_PI)
+    unit = 0.5 * (LN2 + size - length)  # of s l^c
+    share = length - size - LN2 - 1.0 / (1.0 + k) if 0.0 < compliance < math.inf else 0.0
+    changes = (front_by_k - unit, -unit, share, -1.0 / (1.0 + k) - unit, unit)
+    return (change, waves), (k, m), changes, size, found[:, :, i], (force, energy, turned), amplitude > 0.0
 
 
 @kernel()
@@ -99,9 +87,10 @@ def senses_energy(own: Any) -> bool:
 
 
 @kernel()
-def _put(found: Any, exponents: tuple[float, float], unit: float, half: float, by: Any, value: float, i: int) -> None:
+def _put(own: Any, row: int, unit: float, half: float, unit_by_k: float, by: Any, value: float, i: int) -> None:
     """Store the sensitivities of a value from its slopes by ln B, ln g, the share, ln x and k."""
-    k, m = exponents
+    _, (k, m), changes, _, every, _, _ = own
+    found = every[row]
     c = 0.5 * (1.0 - k)
     if not value > 0.0:
         found[:, i] = math.nan
@@ -111,31 +100,26 @@ def _put(found: Any, exponents: tuple[float, float], unit: float, half: float, b
     found[BY_WAVELENGTH, i] = unit + (m - c) * bend + (1.0 - c) * gain + (1.0 + k) * share - rim
     found[BY_AMPLITUDE, i] = gain
     found[BY_RIM, i] = rim
-    found[BY_EXPONENT, i] = by[4] / value
+    found[BY_EXPONENT, i] = by[4] / value + changes[0] * bend + changes[1] * gain + changes[2] * share + unit_by_k
     found[BY_MACHINE, i] = -share
 
 
 @kernel()
 def _put_depth(basis: Basis, curve: Curve, own: Any, unit: float, x: float, i: int) -> None:
     """Store the slopes of the depth at a rim, in R: where cycles turn at a depth, they say how the place moves."""
-    near, (k, m), units, (_, middle), found, _ = own
+    change, (k, m), changes, _, found, _, _ = own
     B, _, g, _, _ = curve
     c = 0.5 * (1.0 - k)
     held = (B, m, g, 1.0, 0.0)
     z, _, _, depth, _ = state(basis, curve, x)
-    bend, gain, _ = parts_of(basis, held, x, 0.0)
+    bend, gain, _, by_k = parts_of(basis, held, change, x, 0.0)
     steepness, _, _ = slope(basis, held, x)
     found[DEPTH, BY_STIFFNESS, i] = 0.5 * unit * (bend + gain - depth)
     found[DEPTH, BY_WAVELENGTH, i] = unit * (c * depth + (m - c) * bend + (1.0 - c) * gain - z * steepness)
     found[DEPTH, BY_AMPLITUDE, i] = unit * gain
     found[DEPTH, BY_RIM, i] = unit * z * steepness
     found[DEPTH, BY_MACHINE, i] = 0.0
-    total = middle * unit * depth
-    for j in range(units.shape[1]):
-        other, around = (near[0][j], near[1][j], near[2]), curve_beside(near, j)
-        _, _, _, at_other, _ = state(other, around, x)
-        total += near[4][j] * units[1, j] * at_other
-    found[DEPTH, BY_EXPONENT, i] = total
+    found[DEPTH, BY_EXPONENT, i] = unit * (by_k + changes[0] * bend + changes[1] * gain + changes[4] * depth)
 
 
 @kernel()
@@ -152,10 +136,10 @@ def put_rest(
 ) -> None:
     """Store the sensitivities of the pull-off forces of a curve, whose places and flags are there, for all rims.
 
-    Where cycles turn at a depth, those of the depth at the rim as well; `unit` is that of depth. Last, all sensitivities
-    to k are turned into those at fixed M.
+    Where cycles turn at a depth, those of the depth at the rim as well; `unit` is that of depth. Last, all
+    sensitivities to k are turned into those at fixed M.
     """
-    near, exponents, units, (size, middle), found, (force_too, _, turned) = own
+    change, (k, _), changes, size, found, (force_too, _, turned), wavy = own
     B, m, g, _, _ = curve
     pulled = (B, m, g, 0.0, 1.0)
     by = np.zeros(5)
@@ -165,21 +149,17 @@ def put_rest(
         at_rim = status[i] & PULL_OFF_AT_RIM != 0
         x = (rims[i] if at_rim else out[slots[RADIUS], i]) / wavelength
         force = -coordinate(basis, pulled, x)
-        bend, gain, _ = parts_of(basis, pulled, x, 0.0)
+        bend, gain, _, by_k = parts_of(basis, pulled, change, x, 0.0)
         by[0], by[1], by[2], by[3] = -bend, -gain, 0.0, 0.0
         if at_rim:
             _, _, rate = slope(basis, pulled, x)
             by[3] = -TWO_PI * x * rate
-        by[4] = middle * force
-        for j in range(units.shape[1]):
-            other, around = (near[0][j], near[1][j], near[2]), curve_beside(near, j)
-            _, _, _, _, load = state(other, around, x)
-            by[4] -= near[4][j] * units[0, j] * load
-        _put(found[FORCE], exponents, 2.0 - 0.5 * (1.0 - exponents[0]), 0.5, by, force, i)
+        by[4] = -by_k
+        _put(own, FORCE, 2.0 - 0.5 * (1.0 - k), 0.5, changes[3], by, force, i)
         if turned and at_rim:
             _put_depth(basis, curve, own, unit, x, i)
     found[:, BY_EXPONENT, :] += size * found[:, BY_STIFFNESS, :]
-    if near[2].shape[0] == 0:  # no wave
+    if not wavy or basis[2].shape[0] == 0:
         found[:, BY_WAVELENGTH, :] = 0.0 * found[:, BY_WAVELENGTH, :]
         found[:, BY_AMPLITUDE, :] = 0.0 * found[:, BY_AMPLITUDE, :]
 
@@ -187,11 +167,10 @@ def put_rest(
 @kernel()
 def _put_total(own: Any, total: Any, by_rim: float, energy: float, i: int) -> None:
     """Store the sensitivities of a reduced energy."""
-    _, exponents, _, (_, middle), found, _ = own
     by = np.empty(5)
     by[0], by[1], by[2], by[3] = total[BEND], total[GAIN], total[SHARE], by_rim
-    by[4] = total[EXPONENT] + middle * energy
-    _put(found[ENERGY], exponents, 2.0, 0.0, by, energy, i)
+    by[4] = total[EXPONENT]
+    _put(own, ENERGY, 2.0, 0.0, 0.0, by, energy, i)
 
 
 @kernel()
@@ -223,7 +202,7 @@ def put_noted(
     """Store the sensitivities of the reduced energy of a long cycle from the notes of its jumps (path/pieces.py)."""
     if not senses_energy(own):
         return
-    near, _, _, _, _, _ = own
+    change = own[0]
     total, by_rim = np.zeros(SLOPES), 0.0
     nowhere = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     work = room_for_waves(basis[2])
@@ -236,14 +215,14 @@ def put_noted(
         before = total[BY_LEVEL]
         if kind in (NOTED_UP, NOTED_DOWN):
             task = UP if kind == NOTED_UP else DOWN
-            add_waves(task, basis, curve, near, cut, (nowhere, NOTHING), start, end, work, total)
+            add_waves(task, basis, curve, change, cut, (nowhere, NOTHING, 0.0), start, end, work, total)
         elif kind == NOTED_JUMP:
-            add_jump(basis, curve, near, start, end, waves, total)
+            add_jump(basis, curve, change, start, end, waves, total)
             if notes[n, 4] > 0.0:  # the rim cuts it
-                u = rise_to(basis, curve, place_left(basis, curve, start, waves, 0.0), end, waves)
+                u = rise_to(basis, curve, change, start, waves, end)
                 by_rim -= (TWO_PI * (waves + end)) ** 2 * u * (2.0 + u)
         else:
-            add_jump_from_zero(basis, curve, near, start, waves, kind == NOTED_OUT, total)
+            add_jump_from_zero(basis, curve, change, start, waves, kind == NOTED_OUT, total)
             if notes[n, 4] > 0.0:
                 by_rim += rim_slope_of(basis, curve, 0.0, start, waves)
         if kind in (NOTED_JUMP, NOTED_OUT) and waves == whole and start == x:  # unloading leaves the rim

@@ -13,15 +13,15 @@ from gradhesion.core._jit import NO, kernel
 from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curve.general import Basis, Curve, coordinate
 from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL
-from gradhesion.core.curve.general_energy import Left, find_landing, place_left
+from gradhesion.core.curve.general_energy import find_landing, place_left
 from gradhesion.core.sensitivities.general_jump_slopes import (
     NOTHING,
-    Near,
-    Parts,
+    Change,
+    Jump,
     add_drop,
     add_from_zero,
-    curve_beside,
     drop_slopes,
+    jump_from,
     parts_of,
 )
 from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SHARE, SLOPES
@@ -35,7 +35,7 @@ from gradhesion.core.waves.general import (
     room_for_waves,
     step_of_wave,
 )
-from gradhesion.core.waves.general_jump import _INNER, LONG, jump_between, jump_from_zero
+from gradhesion.core.waves.general_jump import _INNER, LONG
 from gradhesion.core.waves.general_sum import (
     _DIRECT,
     _EDGE,
@@ -59,23 +59,19 @@ def slopes_of_step(
     kind: int,
     basis: Basis,
     curve: Curve,
-    near: Near,
+    change: Change,
     cut: float,
-    jump: tuple[Left, Parts],
+    jump: Jump,
     wave: float,
     work: Any,
     found: Any,
 ) -> int:
-    """Put the slopes of what `step_of_wave` of waves/general.py adds into `found`; return the pattern of the jumps.
-
-    Those by k are left out of a jump that passes the wave.
-    """
+    """Put the slopes of what `step_of_wave` of waves/general.py adds into `found`; return the pattern of the jumps."""
     found[:] = 0.0
-    left, more = jump
     if kind == PASSING:
-        drop_slopes(basis, curve, left, more, 0.0, 1.0, wave, 1.0, found)
+        drop_slopes(basis, curve, change, jump, 0.0, 1.0, wave, 1.0, found)
         return 0
-    _, _, pattern = step_of_wave(kind, basis, curve, cut, left, wave, work, NO)
+    _, _, pattern = step_of_wave(kind, basis, curve, cut, jump[0], wave, work, NO)
     if pattern < 0:
         return pattern
     _, _, rows = work
@@ -89,7 +85,7 @@ def slopes_of_step(
             if rows[1, END_LEVEL, i] > level:
                 start = place_left(basis, curve, place, before, 0.0)
                 x = find_landing(basis, curve, start, rows[1, START, i], rows[1, END, i], before)
-                add_drop(basis, curve, near, place, before, x, 1.0, found)
+                add_drop(basis, curve, change, place, before, x, 1.0, found)
                 level, place = rows[1, END_LEVEL, i], rows[1, END, i]
         return pattern
     first = lowest_start(rows[1], outer)
@@ -98,7 +94,7 @@ def slopes_of_step(
         if rows[0, START_LEVEL, i] < level:
             start = place_left(basis, curve, place, before, 0.0)
             x = find_landing(basis, curve, start, rows[0, START, i], rows[0, END, i], before)
-            add_drop(basis, curve, near, place, before, x, -1.0, found)
+            add_drop(basis, curve, change, place, before, x, -1.0, found)
             level, place = rows[0, START_LEVEL, i], rows[0, START, i]
     return pattern
 
@@ -108,9 +104,9 @@ def _integrals_of_run(
     kind: int,
     basis: Basis,
     curve: Curve,
-    near: Near,
+    change: Change,
     cut: float,
-    jump: tuple[Left, Parts],
+    jump: Jump,
     run: Any,
     scales: Any,
     work: Any,
@@ -123,7 +119,7 @@ def _integrals_of_run(
     Whether it is done, the pattern, the runs to take instead, their number, and the steps that it took.
     """
     first, last = run
-    left, _ = jump
+    left, _, _ = jump
     low = math.log(first - 0.5)
     span = math.log(last + 0.5) - low
     runs, panels = np.empty((2 * _POINTS, 2)), np.empty((_TOP, 2))
@@ -139,7 +135,7 @@ def _integrals_of_run(
         for i in range(_POINTS):
             angle = begin + half * (1.0 + _PLACES[i])
             waves[i] = _wave_at(angle, low, span)
-            patterns[i] = slopes_of_step(kind, basis, curve, near, cut, jump, waves[i], work, found)
+            patterns[i] = slopes_of_step(kind, basis, curve, change, cut, jump, waves[i], work, found)
             values[:, i] = found * (waves[i] * 0.5 * span * math.sin(angle))
         steps += _POINTS
         pattern = patterns[0]
@@ -185,9 +181,9 @@ def _add_ends(
     kind: int,
     basis: Basis,
     curve: Curve,
-    near: Near,
+    change: Change,
     cut: float,
-    jump: tuple[Left, Parts],
+    jump: Jump,
     run: Any,
     pattern: int,
     work: Any,
@@ -199,7 +195,7 @@ def _add_ends(
     for side in range(2):
         for i in range(_EDGE + 3):
             wave = begin + i if side == 0 else end - i
-            there = slopes_of_step(kind, basis, curve, near, cut, jump, wave, work, found)
+            there = slopes_of_step(kind, basis, curve, change, cut, jump, wave, work, found)
             even = even and there == pattern
             if i < _EDGE:
                 total += found
@@ -215,9 +211,9 @@ def add_waves(
     kind: int,
     basis: Basis,
     curve: Curve,
-    near: Near,
+    change: Change,
     cut: float,
-    jump: tuple[Left, Parts],
+    jump: Jump,
     first: float,
     last: float,
     work: Any,
@@ -234,7 +230,7 @@ def add_waves(
         if end - begin < _DIRECT:
             wave = begin
             while wave <= end:
-                if slopes_of_step(kind, basis, curve, near, cut, jump, wave, work, found) < 0:
+                if slopes_of_step(kind, basis, curve, change, cut, jump, wave, work, found) < 0:
                     total[:] = math.nan
                     return
                 total += found
@@ -243,7 +239,7 @@ def add_waves(
             continue
         part[:] = 0.0
         done, pattern, runs, count, taken = _integrals_of_run(
-            kind, basis, curve, near, cut, jump, (begin, end), scales, work, part
+            kind, basis, curve, change, cut, jump, (begin, end), scales, work, part
         )
         steps += taken
         if steps > _MOST_STEPS or (done and pattern < 0) or top + max(count, 3) >= _ROOM:
@@ -256,7 +252,7 @@ def add_waves(
         if not done:
             continue
         steps += 2 * _EDGE + 6
-        if _add_ends(kind, basis, curve, near, cut, jump, (begin, end), pattern, work, part):
+        if _add_ends(kind, basis, curve, change, cut, jump, (begin, end), pattern, work, part):
             total += part
         else:  # a pattern of some waves at an end: these one by one
             stack[top + 1, 0], stack[top + 1, 1] = begin, begin + _EDGE + 3.0
@@ -269,48 +265,44 @@ def add_waves(
 def _add_passage(
     basis: Basis,
     curve: Curve,
-    near: Near,
-    jump: tuple[Left, Parts],
+    change: Change,
+    jump: Jump,
     low: float,
     high: float,
     whole: float,
     sign: float,
     total: Any,
 ) -> None:
-    """Add `sign` times the slopes, but that by k, of a long jump between whole + low >= _INNER and whole + high."""
+    """Add `sign` times the slopes of a long jump between whole + low >= _INNER and whole + high."""
     _, _, series = basis
-    left, more = jump
     begin, end = np.ceil(whole + low), np.floor(whole + high) - 1.0
     inner, outer = begin - 1.0, end + 1.0
-    drop_slopes(basis, curve, left, more, (whole - inner) + low, 1.0, inner, sign, total)
-    drop_slopes(basis, curve, left, more, 0.0, (whole - outer) + high, outer, sign, total)
+    drop_slopes(basis, curve, change, jump, (whole - inner) + low, 1.0, inner, sign, total)
+    drop_slopes(basis, curve, change, jump, 0.0, (whole - outer) + high, outer, sign, total)
     middle = np.zeros(SLOPES)
-    add_waves(PASSING, basis, curve, near, 0.0, jump, begin, end, room_for_waves(series), middle)
+    add_waves(PASSING, basis, curve, change, 0.0, jump, begin, end, room_for_waves(series), middle)
     total += sign * middle
 
 
 @kernel()
-def add_jump(basis: Basis, curve: Curve, near: Near, start: float, end: float, whole: float, total: Any) -> None:
+def add_jump(basis: Basis, curve: Curve, change: Change, start: float, end: float, whole: float, total: Any) -> None:
     """Add the slopes of a jump that leaves the curve at whole + start and ends at whole + end > 0."""
     _, _, series = basis
     sign = 1.0 if end > start else -1.0
     if abs(end - start) <= LONG or series.shape[0] == 0:
-        add_drop(basis, curve, near, start, whole, end, sign, total)
+        add_drop(basis, curve, change, start, whole, end, sign, total)
         return
-    jump = (place_left(basis, curve, start, whole, 0.0), NOTHING)
+    jump = jump_from(basis, curve, change, start, whole)
     low, high = min(start, end), max(start, end)
     if whole + low < _INNER:
-        drop_slopes(basis, curve, jump[0], NOTHING, whole + low, _INNER, 0.0, sign, total)
+        drop_slopes(basis, curve, change, jump, whole + low, _INNER, 0.0, sign, total)
         low = _INNER - whole
-    _add_passage(basis, curve, near, jump, low, high, whole, sign, total)
-    for j in range(near[4].size):
-        other, around = (near[0][j], near[1][j], near[2]), curve_beside(near, j)
-        total[EXPONENT] += near[4][j] * jump_between(other, around, start, end, whole)
+    _add_passage(basis, curve, change, jump, low, high, whole, sign, total)
 
 
 @kernel()
 def add_jump_from_zero(
-    basis: Basis, curve: Curve, near: Near, x: float, whole: float, inwards: bool, total: Any
+    basis: Basis, curve: Curve, change: Change, x: float, whole: float, inwards: bool, total: Any
 ) -> None:
     """Add the slopes of the jump-out from whole + x (inwards), 0 under a dead load, or of the jump-in that ends there.
 
@@ -321,16 +313,12 @@ def add_jump_from_zero(
     if inwards and alpha == 0.0:
         return
     here = coordinate(basis, curve, x, whole)
-    parts = parts_of(basis, curve, x, whole)
+    parts = parts_of(basis, curve, change, x, whole)
     level, moved, sign = (here, parts, -1.0) if inwards else (0.0, NOTHING, 1.0)
     if whole + x <= LONG or series.shape[0] == 0:
-        add_from_zero(basis, curve, moved, whole + x, level, sign, total)
-    else:
-        more = (parts[0] - moved[0], parts[1] - moved[1], parts[2] - moved[2])
-        add_from_zero(basis, curve, moved, _INNER, level, sign, total)
-        jump = (place_left(basis, curve, x, whole, here - level), more)
-        _add_passage(basis, curve, near, jump, _INNER - whole, x, whole, sign, total)
-    for j in range(near[4].size):
-        other, around = (near[0][j], near[1][j], near[2]), curve_beside(near, j)
-        level = coordinate(other, around, x, whole) if inwards else 0.0
-        total[EXPONENT] += sign * near[4][j] * jump_from_zero(other, around, x, level, whole)
+        add_from_zero(basis, curve, change, moved, whole + x, level, sign, total)
+        return
+    more = (parts[0] - moved[0], parts[1] - moved[1], parts[2] - moved[2], 0.0)
+    add_from_zero(basis, curve, change, moved, _INNER, level, sign, total)
+    jump = (place_left(basis, curve, x, whole, here - level), more, moved[3])
+    _add_passage(basis, curve, change, jump, _INNER - whole, x, whole, sign, total)

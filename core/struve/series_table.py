@@ -202,6 +202,15 @@ def tabulated_sums(table: Any, waves: Any, x: float, whole: float) -> tuple[floa
     return power * w0 + inverse * s0, power * w1 + inverse * s1, swing * v + inverse * s2, swing * v1 + s3
 
 
+@kernel(contract=True)
+def slow_sums(waves: Any, z: float) -> tuple[float, float]:
+    """Return the parts of w0 and w1 that have no phase, from the table of a series."""
+    inverse = 1.0 / z
+    w = SWITCH * inverse
+    s0, s1, _, _ = _horner_slow(waves[_SLOW:_NEAR], w * w)
+    return inverse * s0, inverse * s1
+
+
 def join_table(
     bins: NDArray[np.float64], near: NDArray[np.float64], far: NDArray[np.float64], slow: NDArray[np.float64]
 ) -> NDArray[np.float64]:
