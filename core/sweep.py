@@ -154,7 +154,6 @@ def solve(
 
     senses = tuple(name in asked for name in SENSITIVITIES)
     slopes = (senses[0], senses[1]) if any(senses) else None
-    reduced: Results = {}
 
     def solved(scenes: Mapping[str, ArrayLike], wanted: Sequence[str], *, turned: bool = False) -> Results:
         """Solve scenes up to their rims."""
@@ -163,14 +162,11 @@ def solve(
             return solve_envelope(scenes, PARAMETERS, wanted, profile)
         checks: Any = {"check_contact": check_contact, "turned": turned, "slopes": slopes}
         if alike is not None:
-            found = solve_cosine(scenes, wanted, solver, workers, **checks)
-            reduced.update({name: found.pop(name) for name in (SLOPES,) if slopes})
-            return found
+            return solve_cosine(scenes, wanted, solver, workers, **checks)
         results = [name for name in wanted if name in RESULTS]
         reports = [name for name in wanted if name in REPORTS]
         results += [NEEDED[name] for name in reports if name in NEEDED]
         found = solve_general(scenes, results, profile, loading, workers, **checks)
-        reduced.update({name: found.pop(name) for name in (SLOPES,) if slopes})
         return found | report_general(scenes, reports, found, profile, loading, workers) if reports else found
 
     def again(scenes: Mapping[str, ArrayLike], wanted: Sequence[str]) -> Results:
@@ -192,8 +188,9 @@ def solve(
             radii, flags = turning_general(parameters, turn, profile, loading, workers, **arguments)
         found = turned_results(parameters, turn, outputs, radii, flags, solved, again)
         note_compiled(kind_of_turning(profile, loading))
-    note_compiled(kind_of_map(outputs, solver, profile, loading))
-    if slopes:
+    if not slopes:
+        note_compiled(kind_of_map(outputs, solver, profile, loading))
+    else:
         from gradhesion.core.sensitivities.sensitivity import sensitivities  # noqa: PLC0415 (SciPy)
 
         def force_of(scenes: Mapping[str, ArrayLike]) -> NDArray[np.float64]:
@@ -202,6 +199,6 @@ def solve(
             found = solve(scenes, PULL_OFF, check_contact=False, threads=threads, profile=own, loading=loading)
             return found["pull_off_force"]
 
-        found |= sensitivities(parameters, asked, found, reduced[SLOPES], turn, force_of)
+        found |= sensitivities(parameters, asked, found, found[SLOPES], turn, force_of)
         note_compiled(kind_of_sensitivities(profile, loading))
     return {name: found[name] for name in (*asked, "status")}

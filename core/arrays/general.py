@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.arrays.cosine import SLOPES
 from gradhesion.core.arrays.prepared import prepared, run_by_exponent
-from gradhesion.core.arrays.tables import tables_of
+from gradhesion.core.arrays.tables import changes_of, tables_of
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import PULL_OFF, RESULTS
 from gradhesion.core.problem.profile import Profile
@@ -17,7 +17,6 @@ from gradhesion.core.problem.shape import front_of, in_own_wavelength
 from gradhesion.core.scene.general import solve_pull_offs, solve_scenes
 from gradhesion.core.sensitivities.cosine_slopes import COUNT
 from gradhesion.core.sensitivities.neighbours import exponents_beside
-from gradhesion.core.struve.series_by_k import change_of
 
 
 def solve_general(
@@ -54,10 +53,9 @@ def solve_general(
     def change(exponent: float) -> tuple[Any, ...]:
         """Return what `of_scene` of sensitivities/general_slopes.py takes of neighbouring exponents."""
         exponents, weights, middle = exponents_beside(exponent)
-        changes = change_of(tables_of(exponent, series), middle, [tables_of(k, series) for k in exponents], weights)
         fronts = np.log([front_of(k, profile.exponent) for k in (exponent, *exponents)])
         front_by_k = middle * fronts[0] + float(weights @ fronts[1:])
-        return *changes, front_by_k, (exponent, profile.exponent)
+        return *changes_of(exponent, series), front_by_k, (exponent, profile.exponent)
 
     def work(exponent: float, index: NDArray[np.int64]) -> None:
         table, cosines = tables_of(exponent, series)

@@ -11,6 +11,7 @@ from gradhesion.core.sensitivities.neighbours import exponents_beside
 from gradhesion.core.struve.cosine_bins import build_cosine_bins
 from gradhesion.core.struve.interpolated import interpolated_tables
 from gradhesion.core.struve.series import with_table
+from gradhesion.core.struve.series_by_k import change_of
 from gradhesion.core.struve.series_table import has_table
 from gradhesion.core.struve.table import build_table
 
@@ -74,3 +75,15 @@ def tables_of(k: float, rows: NDArray[np.float64] | None = None) -> tuple[Any, N
     if rows is None or not has_table(rows):
         return table, bins.ravel()
     return table, _waves(k, rows.tobytes())
+
+
+@lru_cache(maxsize=16)
+def _changes(k: float, rows: bytes) -> tuple[NDArray[Any], NDArray[np.float64]]:
+    series = np.frombuffer(rows).reshape(-1, 3).copy()
+    exponents, weights, middle = exponents_beside(k)
+    return change_of(tables_of(k, series), middle, [tables_of(other, series) for other in exponents], weights)
+
+
+def changes_of(k: float, rows: NDArray[np.float64]) -> tuple[NDArray[Any], NDArray[np.float64]]:
+    """Return the derivatives of the tables of an exponent by the exponent (struve/series_by_k.py)."""
+    return _changes(k, rows.tobytes())
