@@ -44,6 +44,13 @@ NOT_OF_A_LOAD = tuple(name for name in REPORTS if name != "energy_residual")
         ("general_energy", [lambda s: solve(s, OUTPUTS, **OTHERS), lambda s: solve(s, OUTPUTS, **BY_LOAD)]),
         ("general_reports", [lambda s: solve(s, REPORTS, **OTHERS), lambda s: solve(s, NOT_OF_A_LOAD, **BY_LOAD)]),
         ("general_turning", [lambda s: solve(s | DEEP, OUTPUTS, **OTHERS), lambda s: solve(s | DEEP, **BY_LOAD)]),
+        (
+            "general_sensitivities",
+            [
+                lambda s: solve(s, SENSITIVITIES, **OTHERS),
+                lambda s: solve(s | SPRING, SENSITIVITIES[1:], loading=Loading(control="machine")),
+            ],
+        ),
         ("general_envelope", [lambda s: solve(s, solver="envelope", **OTHERS)]),
         (
             "general_curves",
