@@ -24,6 +24,7 @@ from gradhesion.cli.commands.warmup import warmup
 from gradhesion.cli.errors import GradhesionError, OutputError
 from gradhesion.cli.terminal import interrupts, messages
 from gradhesion.cli.terminal.output import complain, open_streams
+from gradhesion.cli.terminal.room import refuse_without_room
 
 INTERRUPTED = 130
 UNHEARD = 141
@@ -58,6 +59,15 @@ class Commands(click.Group):
             return super().invoke(context)
         except GradhesionError as error:
             raise messages.Failure(error) from error
+
+    def resolve_command(
+        self, context: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command, and make sure that there is room for it."""
+        name, command, rest = super().resolve_command(context, args)
+        if name is not None and not {"-h", "--help"} & {*rest}:
+            refuse_without_room(name)
+        return name, command, rest
 
     def list_commands(self, _context: click.Context) -> list[str]:
         """List the commands in the order of the work."""
@@ -117,7 +127,8 @@ def _code_of(error: BaseException) -> int:
     if isinstance(error, MemoryError):
         error = messages.Failure(OutputError("there is not enough memory; split the study, or give it more memory"))
     elif isinstance(error, OSError):  # what the system refuses is no error of the program
-        refused = f"{error.filename or 'standard output'}: {error.strerror or error}"
+        where = error.filename or (error.errno and "standard output")
+        refused = f"{where}: {error.strerror or error}" if where else str(error)
         error = messages.Failure(OutputError(f"{refused}; fix this and run the command again"))
     if isinstance(error, messages.Failure):
         error.show()
