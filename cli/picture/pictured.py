@@ -36,7 +36,8 @@ def styled(looks: Looks = PLAIN) -> AbstractContextManager[None]:
 def save(figure: Figure, file: Path, form: str, looks: Looks = PLAIN) -> None:
     """Save a picture as "png", "svg" or "pdf"; the same picture gives the same file."""
     undated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
-    with styled(looks):
+    with styled(looks), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing from")  # of a title: no font has every letter
         figure.savefig(file, format=form, metadata=undated.get(form))
 
 
@@ -51,6 +52,7 @@ def lay_out(figure: Figure) -> None:
     """
     with warnings.catch_warnings():
         warnings.filterwarnings("error", "constrained_layout not applied")
+        warnings.filterwarnings("ignore", "Glyph .* missing from")
         try:
             figure.draw_without_rendering()
         except UserWarning:

@@ -1,6 +1,10 @@
 """The short form of the adversary, and the files that it found."""
 
 import random
+import re
+import shutil
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -11,6 +15,8 @@ import pytest
 from click.testing import Result
 
 from tests.adversary.commands import fault_of
+from tests.adversary.names import faults_of_names
+from tests.adversary.scenes import trials_of_scenes
 from tests.adversary.trials import of_datasets, of_parts
 
 pytestmark = pytest.mark.slow
@@ -26,6 +32,45 @@ def test_datasets_changed_at_random_end_in_a_sentence(seed: int, tmp_path: Path)
 @pytest.mark.parametrize("seed", [1, 2])
 def test_folders_of_parts_changed_at_random_end_in_a_sentence(seed: int, tmp_path: Path) -> None:
     assert not of_parts(tmp_path, 15, random.Random(seed))
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_hostile_names_end_in_a_sentence(seed: int, tmp_path: Path) -> None:
+    assert not faults_of_names(tmp_path, 10, random.Random(seed))
+
+
+def test_scenes_keep_what_is_promised() -> None:
+    words, worst = trials_of_scenes(80, 3)
+    assert worst <= 1.0, words
+    assert words.startswith("80 scenes")
+
+
+@pytest.mark.skipif(shutil.which("strace") is None, reason="strace is not there")
+def test_kills_at_system_calls_lose_nothing(root: Path) -> None:
+    code = "from tests.adversary.kills import trials_of_kills; print(trials_of_kills(23))"
+    done = subprocess.run([sys.executable, "-c", code], cwd=root, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    killed, calls = re.match(r"(\d+) runs killed at (\d+) system calls", done.stdout).groups()
+    assert int(killed) >= 8
+    assert int(calls) > 100
+
+
+@pytest.mark.skipif(
+    subprocess.run(
+        ["unshare", "-m", "mount", "-t", "tmpfs", "none", "/mnt"], check=False, capture_output=True
+    ).returncode
+    != 0
+    if shutil.which("unshare")
+    else True,
+    reason="no disk can be mounted here",
+)
+def test_disks_that_are_full_read_only_or_gone_lose_nothing(root: Path) -> None:
+    command = [sys.executable, "-m", "tests.adversary.disks", "7", "4"]
+    done = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    full, read_only, gone = map(int, re.findall(r"\((\d+) ended with exit code 4\)", done.stdout))
+    assert min(full, gone) > 0
+    assert read_only >= 0
 
 
 ATTRIBUTES = ["title", "source", "history", "profile", "control", "study", "study_sha256", "numpy_version"]

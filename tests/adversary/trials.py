@@ -1,21 +1,26 @@
-"""Datasets and folders of parts changed at random, and every command that reads them tried on each.
+"""Kills, disks, crafted datasets and folders of parts, hostile names, and scenes: what came of each, on a line.
 
-python -m tests.adversary.trials --datasets 10000 --parts 1000 --seed 7
+python -m tests.adversary.trials --datasets 10000 --parts 1000 --names 300 --scenes 10000 --seed 7
 """
 
 import argparse
 import os
 import random
 import shutil
+import subprocess
 import sys
 import tempfile
 import time
 from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
 
 from tests.adversary import datasets, parts
 from tests.adversary.commands import fault_of
+from tests.adversary.kills import trials_of_kills
+from tests.adversary.names import faults_of_names
+from tests.adversary.scenes import trials_of_scenes
 
 PUNCH: Final = "[parameters]\nk = [0.0, 0.31]\nnu = 0.3\nmodulus = 430.0\nc0_over_R = 0.013\n"
 MAP: Final = f"""\
@@ -117,25 +122,56 @@ def of_parts(folder: Path, count: int, draw: random.Random) -> Faults:
         del os.environ["GRADHESION_CHUNK"]
 
 
+def of_names(folder: Path, count: int, draw: random.Random) -> Faults:
+    """Try the commands on files with hostile names."""
+    return Faults(faults_of_names(folder, count, draw))
+
+
+def rows_of(asked: argparse.Namespace) -> Iterator[tuple[str, int]]:
+    """Try all that is asked for: what came of it, in words, and the number of faults."""
+    draw = random.Random(asked.seed)
+    if asked.kills:
+        words = trials_of_kills()
+        yield words or "no kills at system calls: strace is not there", not words
+    if asked.disks:
+        done = subprocess.run(
+            [sys.executable, "-m", "tests.adversary.disks"], capture_output=True, text=True, check=False
+        )
+        yield done.stdout.strip() or done.stderr.strip().splitlines()[-1], done.returncode
+    for what, number, trial in (
+        ("datasets changed at random", asked.datasets, of_datasets),
+        ("folders of parts changed at random", asked.parts, of_parts),
+        ("hostile names", asked.names, of_names),
+    ):
+        if not number:
+            continue
+        start = time.monotonic()
+        with tempfile.TemporaryDirectory() as folder:
+            faults = trial(Path(folder), number, draw)
+        seconds = time.monotonic() - start
+        tried = f"{number:,} {what} (seed {asked.seed}), every command tried on each"
+        yield f"{tried}: {faults.total():,} commands end as none may; {seconds:.0f} s", faults.total()
+        for (name, example), times in faults.most_common():
+            yield f"  {times:,} times {name}: {example}", 0
+    if asked.scenes:
+        words, worst = trials_of_scenes(asked.scenes, asked.seed)
+        yield words, int(not worst <= 1.0)
+
+
 def main() -> None:
-    """Try the commands, and print what was wrong."""
+    """Try all, and print what came of it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--datasets", type=int, default=10_000)
     parser.add_argument("--parts", type=int, default=1_000)
+    parser.add_argument("--names", type=int, default=300)
+    parser.add_argument("--scenes", type=int, default=10_000)
+    parser.add_argument("--no-kills", dest="kills", action="store_false")
+    parser.add_argument("--no-disks", dest="disks", action="store_false")
     parser.add_argument("--seed", type=int, default=random.randrange(10**6))
-    asked = parser.parse_args()
-    draw = random.Random(asked.seed)
-    start = time.monotonic()
-    with tempfile.TemporaryDirectory() as folder:
-        faults = of_datasets(Path(folder), asked.datasets, draw)
-    with tempfile.TemporaryDirectory() as folder:
-        faults += of_parts(Path(folder), asked.parts, draw)
-    print(
-        f"{asked.datasets:,} datasets and {asked.parts:,} folders of parts changed at random (seed {asked.seed}), "
-        f"{time.monotonic() - start:.0f} s: {faults.total():,} commands that end as none may"
-    )
-    for (name, what), number in faults.most_common():
-        print(f"{number:,} times {name}: {what}")
+    faults = 0
+    for words, number in rows_of(parser.parse_args()):
+        print(words, flush=True)
+        faults += number
     sys.exit(bool(faults))
 
 

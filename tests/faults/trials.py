@@ -116,6 +116,7 @@ class Trials:
         self.seconds = time.monotonic() - start
         self.interrupted = 0
         self.kept = 0
+        self.tracer: Any = None
 
     def _in_full(self) -> int:
         return ended(run(self.study, self.output, "--overwrite"))

@@ -86,11 +86,13 @@ def compare(
     return made
 
 
-def compare_general(seed: int, count: int, most_waves: float) -> Comparison:
-    """Solve scenes of any profile and control both ways."""
+def compare_general(seed: int, count: int, most_waves: float, most: float = math.inf) -> Comparison:
+    """Solve scenes of any profile and control both ways, up to `most` of them."""
     made = Comparison()
     rng = np.random.default_rng(seed)
     for i in range(count):
+        if made.scenes >= most:
+            break
         scene, shape = general_scene(rng)
         values = solve(scene, OUTPUTS, **known_to_the_core(shape))
         try:
