@@ -77,7 +77,7 @@ def settled(temporary: Path, target: Path, *, overwrite: bool) -> Path:
     """
     try:
         if overwrite:
-            temporary.replace(target)
+            rename(temporary, target)
         else:
             _rename_anew(temporary, target)
     except (FileExistsError, IsADirectoryError):
@@ -107,20 +107,52 @@ def refuse_beside(path: Path, place: Path, target: Path) -> None:
 
 
 def _rename_anew(source: Path, target: Path) -> None:
-    """Rename a file to a name that nothing has; FileExistsError if something has it."""
+    """Rename a file to a name that nothing has; FileExistsError if something has it.
+
+    A server of files that answers late may be asked twice, and refuses then what it has done itself.
+    """
     try:
         target.hardlink_to(source)
     except FileExistsError:
-        raise
+        if not _is_same(source, target):
+            raise
+        source.unlink()
     except OSError:  # a file system without links: the name is taken by an empty file first
         os.close(os.open(target, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
         try:
-            source.replace(target)
+            rename(source, target)
         except BaseException:
             target.unlink()
             raise
     else:
         source.unlink()
+
+
+def rename(source: Path, target: Path) -> None:
+    """
+    Rename a file, in the place of what has that name.
+
+    Raises
+    ------
+    OSError
+        It cannot be; not where a server of files, asked twice, no longer finds what it has renamed.
+    """
+    before = source.stat()
+    try:
+        source.replace(target)
+    except FileNotFoundError:
+        with suppress(OSError):
+            if os.path.samestat(before, target.stat()):
+                return
+        raise
+
+
+def _is_same(one: Path, other: Path) -> bool:
+    """Check whether two names are of one file."""
+    try:
+        return one.samefile(other)
+    except OSError:
+        return False
 
 
 def refuse_unnamed(path: Path, target: Path) -> None:
@@ -156,7 +188,7 @@ def write_whole(path: Path, *pieces: bytes | memoryview, sync: bool = True) -> N
                     rest = rest[file.write(rest) :]
             if sync:
                 os.fsync(file.fileno())
-        temporary.replace(path)
+        rename(temporary, path)
     except BaseException:
         with suppress(OSError):
             temporary.unlink(missing_ok=True)

@@ -39,8 +39,8 @@ _LOCKS: Final = rf"lock{_SHARD}"
 _RECORDS: Final = rf"study\.json|finished\.json|{_STATES}"
 _WORKING: Final = rf"merged\.nc|({_RECORDS}|{_PARTS})\.[0-9a-f]{{16}}\.tmp"
 """What a run has in the making: of no use to another."""
-_BARE: Final = rf"lock({_SHARD})?|study\.json\.[0-9a-f]{{16}}\.tmp"
-"""What there may be before there is a mark."""
+_BARE: Final = rf"lock({_SHARD})?|study\.json\.[0-9a-f]{{16}}\.tmp|\.nfs[0-9a-f]+"
+"""What there may be before there is a mark; NFS keeps a lock that is removed under another name until it is closed."""
 
 
 @dataclass(frozen=True)

@@ -153,3 +153,42 @@ def test_a_failure_to_rename_takes_no_name(tmp_path: Path, monkeypatch: pytest.M
     with pytest.raises(OutputError, match="Input/output error"), replacement(tmp_path / "out.nc", overwrite=False):
         pass
     assert os.listdir(tmp_path) == []
+
+
+def twice(really: Callable[..., Any]) -> Callable[..., Any]:
+    """Ask for a change of a name twice, as a client of NFS does whose server answers late; the second answer counts."""
+
+    def change(self: Path, *arguments: Any, **options: Any) -> Any:
+        really(self, *arguments, **options)
+        return really(self, *arguments, **options)
+
+    return change
+
+
+@pytest.mark.parametrize("overwrite", [True, False])
+@pytest.mark.parametrize("links", [True, False])
+def test_a_server_that_is_asked_twice_loses_nothing(
+    links: bool, overwrite: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Path, "hardlink_to", twice(Path.hardlink_to) if links else without_links)
+    monkeypatch.setattr(Path, "replace", twice(Path.replace))
+    target = tmp_path / "out.nc"
+    if overwrite:
+        target.write_text("old")
+    with replacement(target, overwrite=overwrite) as temporary:
+        temporary.write_text("new")
+    assert target.read_text() == "new"
+    disk.write_whole(target, b"whole")
+    assert target.read_bytes() == b"whole"
+    assert os.listdir(tmp_path) == ["out.nc"]
+
+
+def test_a_name_that_somebody_else_takes_is_not_ours(tmp_path: Path) -> None:
+    """The second answer is believed only of the very file."""
+    source, target = tmp_path / "part", tmp_path / "out.nc"
+    source.write_text("new")
+    target.write_text("precious")
+    source.unlink()
+    with pytest.raises(FileNotFoundError):
+        disk.rename(source, target)
+    assert target.read_text() == "precious"
