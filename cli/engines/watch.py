@@ -6,6 +6,7 @@ from typing import Any, Final
 from gradhesion.cli.engines.scheduler import asked, patience
 from gradhesion.cli.errors import ClusterError, OutputError
 from gradhesion.cli.terminal import messages
+from gradhesion.cli.terminal.amounts import counted
 
 PERIOD: Final = 1.0
 """Seconds between two looks."""
@@ -17,6 +18,8 @@ DESERTED: Final = 86_400.0
 """Seconds without any worker after which a run ends: the jobs of workers may wait in a queue for hours."""
 DESERTED_HERE: Final = 60.0
 """The same of a cluster of this machine, which replaces a worker that has died in seconds."""
+FRUITLESS: Final = 12
+"""Workers that may come and go without a finished block, beside four for each that is there at once."""
 
 
 class Watch:
@@ -30,6 +33,7 @@ class Watch:
         self._workers: dict[str, int] = {}
         self._looked = -PERIOD
         self._seen = time.monotonic()
+        self._most = 0
         self.moved()
 
     @property
@@ -50,6 +54,7 @@ class Watch:
     def moved(self) -> None:
         """Note that a block has come back."""
         self._moved, self._next = time.monotonic(), LONELY
+        self._come = {*self._workers}
 
     def refuse(self, worker: str, reason: str) -> None:
         """
@@ -75,7 +80,7 @@ class Watch:
         ClusterError
             All that are there are refused.
         OutputError
-            The scheduler is lost, or has had no worker for so long that none will come.
+            The scheduler is lost, has had no worker for so long that none will come, or has none that lives.
         """
         if time.monotonic() - self._looked < PERIOD:
             return
@@ -87,6 +92,15 @@ class Watch:
             self._seen = self._looked
         elif self._looked - self._seen > self._deserted:
             raise without_workers(self._deserted)
+        self._come |= self._workers.keys()
+        self._most = max(self._most, many)
+        gone = len(self._come) - many
+        if gone > FRUITLESS + 4 * self._most:
+            raise OutputError(
+                f"--engine dask: {gone:,} workers have come and gone since a block was last finished; give them the "
+                "memory and the time that `gradhesion plan` shows; finished parts are kept, and the same command "
+                "resumes"
+            )
         if many and not self.fit:
             worker = min(self._workers)
             raise ClusterError(
@@ -97,8 +111,8 @@ class Watch:
         if seconds > (max(self._next, STILL) if many else self._next):
             self._next = 2 * seconds
             why = (
-                f"with {many:,} workers there; a block takes as long as `gradhesion plan` shows, and workers whose "
-                "lifetime is shorter finish none"
+                f"with {counted(many, 'worker')} there; workers whose lifetime or memory limit is below what "
+                "`gradhesion plan` shows finish none"
             )
             alone = f"waiting for workers; without any for {in_words(self._deserted)} the run ends"
             sentence = f"no block has been finished for {seconds:.0f} s, {why if many else alone}"

@@ -1,6 +1,7 @@
 """Where compiled kernels are kept, whatever can be written; what is removed there, and what stays."""
 
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -183,3 +184,34 @@ def test_kinds_without_a_folder(monkeypatch: pytest.MonkeyPatch) -> None:
     assert not cache.compiled_before("force")
     cache.note_compiled("force")
     assert cache.compiled_before("force")
+
+
+@pytest.mark.skipif(
+    shutil.which("unshare") is None
+    or subprocess.run(
+        ["unshare", "-m", "mount", "-t", "tmpfs", "none", "/mnt"], check=False, capture_output=True
+    ).returncode,
+    reason="no read-only file system can be mounted here",
+)
+def test_a_cache_that_is_read_only_beside_an_installation_that_is_not(tmp_path: Path) -> None:
+    """Kernels go among the temporary files, as a sentence says, and nothing into the installation."""
+    home, temporary = tmp_path / "home", tmp_path / "temporary"
+    home.mkdir()
+    temporary.mkdir()
+    environment = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
+    environment |= {"XDG_CACHE_HOME": str(home), "TMPDIR": str(temporary)}
+    code = (
+        "from gradhesion.core import place\nfrom gradhesion.core.problem.material import theta\n"
+        "print(float(theta(0.0, 0.3).round(12)), place().why, sep='\\n')"
+    )
+    script = f'mount -t tmpfs -o ro none {home} && exec {sys.executable} -c "{code}"'
+    before = {*cache.CORE.rglob("*.nb?")}
+    done = subprocess.run(
+        ["unshare", "-m", "bash", "-c", script], env=environment, capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    value, why = done.stdout.splitlines()
+    assert float(value) == 1.0
+    assert why.startswith(f"{home / 'gradhesion'} cannot be written; compiled kernels are kept in {temporary}")
+    assert list(temporary.rglob("*.nbi"))
+    assert {*cache.CORE.rglob("*.nb?")} == before

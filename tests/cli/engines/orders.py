@@ -35,6 +35,15 @@ def solve(parameters, *arguments, **options):
         os.kill(os.getpid(), signal.SIGKILL)
     if order.get("broken") == block:
         raise MemoryError("no room")
+    if order.get("hungry") == block:
+        import numpy, resource
+        pages = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+        before = resource.getrlimit(resource.RLIMIT_AS)
+        resource.setrlimit(resource.RLIMIT_AS, (pages + 2**26, before[1]))
+        try:
+            numpy.ones(2**27)
+        finally:
+            resource.setrlimit(resource.RLIMIT_AS, before)
     time.sleep(order.get("sleep", 0.0))
     return really(parameters, *arguments, **options)
 

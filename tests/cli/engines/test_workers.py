@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -15,7 +16,7 @@ from click.testing import Result
 from distributed import LocalCluster, get_worker
 
 from gradhesion.cli.work.folder import folder_of
-from tests.cli.engines.orders import Call, Orders, values_of
+from tests.cli.engines.orders import ByHand, Call, Orders, values_of
 
 pytestmark = pytest.mark.slow
 
@@ -122,6 +123,40 @@ def test_a_block_that_raises(dask_run: Call, gradhesion: Call, study_file: Path,
     assert result.exit_code == 3
     assert f"{output}: {sentence}\n" in result.stderr
     assert "reused 5 blocks, computed 1" in gradhesion("run", study_file, "-o", output, "--overwrite").stderr
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits the memory of a process as Linux does")
+def test_a_worker_without_memory_loses_its_block_alone(
+    dask_run: Call, whole: dict[str, bytes], output: Path, orders: Orders
+) -> None:
+    """An array of 1 GiB where 64 MiB are left."""
+    orders.give(hungry=[0.31, 0.11])
+    result = dask_run("-o", output)
+    assert result.exit_code == 3
+    assert "block 4 of 6 (4 scenes, index k 1, lambda_over_R 0) raised" in result.stderr
+    assert "Unable to allocate 1.00 GiB" in result.stderr
+    orders.give()
+    assert "reused 5 blocks, computed 1" in dask_run("-o", output, "--overwrite").stderr
+    assert values_of(output) == whole
+
+
+def test_workers_that_die_one_after_the_other_end_the_run(
+    gradhesion: Call, study_file: Path, output: Path, tmp_path: Path, orders: Orders, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Dask ends a worker whose memory limit is below what the program itself takes, and starts it anew, without end."""
+    monkeypatch.setattr("gradhesion.cli.engines.watch.FRUITLESS", -3)
+    monkeypatch.setattr("gradhesion.cli.engines.watch.PERIOD", 0.2)
+    cluster = ByHand(tmp_path, orders)
+    try:
+        cluster.start("worker", "--nthreads=1", "--memory-limit=160MB")
+        result = gradhesion("run", study_file, "-o", output, "--engine=dask", "--scheduler", cluster.file)
+    finally:
+        cluster.end()
+    assert result.exit_code == 4, result.stderr
+    assert result.stderr.splitlines()[-1].endswith(
+        "workers have come and gone since a block was last finished; give them the memory and the time that `gradhesion "
+        "plan` shows; finished parts are kept, and the same command resumes"
+    )
 
 
 def test_workers_that_come_late_and_leave_early(
