@@ -1,6 +1,6 @@
 """Do stated errors cover the true ones, and how tight are they? `python -m benchmarks.stated_errors [SCENES] [SEED]`.
 
-True errors come from the reference solver, and on long curves of one cosine from walking every wave.
+True errors come from the reference solver, and on long curves from walking every wave, the sums being switched off.
 """
 
 import math
@@ -14,7 +14,8 @@ from gradhesion.core import Harmonic, Loading, Profile, solve
 from gradhesion.core.arrays.tables import table_of
 from gradhesion.twin import stated
 from gradhesion.twin.general import Shape
-from tests.core.test_stated_errors import walked
+from tests.core.walked import walked_cosine, walked_general
+from tests.twin.draw_general import general_scene, known_to_the_core
 
 NAMES = ("pull_off_force", "dissipated_energy")
 Draw = Callable[[np.random.Generator], dict[str, float]]
@@ -47,9 +48,26 @@ def smooth(rng: np.random.Generator) -> dict[str, float]:
 
 def ratios(draw: Draw, count: int, seed: int, shape: Shape, how: dict[str, Any], extra: dict[str, float]) -> np.ndarray:
     """Return true over stated errors of force and energy, one row a scene, from the reference solver."""
+    return of_scenes(lambda rng: (draw(rng) | extra, shape, how), count, seed)
+
+
+def anything(count: int, seed: int) -> np.ndarray:
+    """Return the same for random profiles and controls."""
+
+    def draw(rng: np.random.Generator) -> tuple[dict[str, float], Shape, dict[str, Any]]:
+        scene, shape = general_scene(rng)
+        return scene, shape, known_to_the_core(shape)
+
+    return of_scenes(draw, count, seed)
+
+
+def of_scenes(
+    draw: Callable[[np.random.Generator], tuple[dict[str, float], Shape, dict[str, Any]]], count: int, seed: int
+) -> np.ndarray:
+    """Return true over stated errors of force and energy, one row a scene that the reference solver follows."""
     rng, rows = np.random.default_rng(seed), []
     while len(rows) < count:
-        scene = draw(rng) | extra
+        scene, shape, how = draw(rng)
         found = solve(scene, [*NAMES, *(f"{name}_error" for name in NAMES), "unloading_jumps"], threads=1, **how)
         if (
             found["status"] & 64
@@ -73,16 +91,33 @@ def long(count: int, seed: int) -> np.ndarray:
     draw = wavy(-4.5, -1.0)
     while len(rows) < count:
         scene = draw(rng)
-        truth = walked(scene, table_of, 4000.0)
+        truth = walked_cosine(scene, table_of, 4000.0)
         if truth is not None:
             found = solve(scene, ["dissipated_energy", "dissipated_energy_error"], threads=1)
             rows.append(abs(float(found["dissipated_energy"]) - truth) / float(found["dissipated_energy_error"]))
     return np.array(rows)[:, None]
 
 
+def long_general(count: int, seed: int, profile: Profile, control: str) -> np.ndarray:
+    """Return the same for 10^3 to 10^5 waves of another profile or control."""
+    rng, rows = np.random.default_rng(seed), []
+    loading, names = Loading(control=control), ("dissipated_energy", "dissipated_energy_error")
+    draw = wavy(-6.0, -2.5)
+    while len(rows) < count:
+        scene = draw(rng)
+        if control == "machine":
+            scene["machine_stiffness"] = 10.0 ** rng.uniform(-3, 2)
+        truth = walked_general(scene, profile, loading, (1e3, 1e5))
+        if truth is not None:
+            found = solve(scene, names, profile=profile, loading=loading, threads=1)
+            energy, error = (float(found[name]) for name in names)
+            rows.append(abs(energy - truth[0]) / error)
+    return np.array(rows)[:, None]
+
+
 def classes(count: int, seed: int) -> Iterator[tuple[str, np.ndarray]]:
-    """Measure class by class; those of the reference solver have a tenth of the scenes."""
-    few, plain = max(20, count // 10), Shape()
+    """Measure class by class; those of the reference solver have a tenth of the scenes, the longest a hundredth."""
+    few, fewest, plain = max(20, count // 10), max(10, count // 100), Shape()
     yield "one cosine, 160 to 4,000 arches, energy", long(count, seed)
     yield "smooth, pull-off at the edge", ratios(smooth, few, seed, plain, {}, {})
     yield "one cosine, up to 60 waves", ratios(wavy(-1.5, 0), few, seed, plain, {}, {})
@@ -91,9 +126,21 @@ def classes(count: int, seed: int) -> Iterator[tuple[str, np.ndarray]]:
     yield "series", ratios(wavy(-1, 0), few, seed, Shape(2.0, waves), {"profile": series}, {})
     cone = Profile(exponent=1.5)
     yield "exponent 1.5", ratios(wavy(-1, 0), few, seed, Shape(1.5, ((1, 1.0, 0.0),)), {"profile": cone}, {})
-    for control, extra in (("load", {}), ("machine", {"machine_stiffness": 3.0})):
+    for name, spring in (("load", None), ("machine, S = 3 E* R", 3.0), ("machine, S = 0.001 E* R", 1e-3)):
+        control, extra = ("load", {}) if spring is None else ("machine", {"machine_stiffness": spring})
         how = {"loading": Loading(control=control)}
-        yield control, ratios(wavy(-1, 0), few, seed, Shape(2.0, ((1, 1.0, 0.0),), control), how, extra)
+        yield name, ratios(wavy(-1, 0), few, seed, Shape(2.0, ((1, 1.0, 0.0),), control), how, extra)
+    yield "any profile and control", anything(few, seed)
+    rough = tuple(Harmonic(n=n, cos=math.cos(n * n) * n**-1.6, sin=math.sin(n * n) * n**-1.6) for n in range(1, 9))
+    for name, profile, control in (
+        ("series", series, "displacement"),
+        ("eight harmonics", Profile(harmonics=rough), "displacement"),
+        ("exponent 1.5", cone, "displacement"),
+        ("exponent 4, series", Profile(exponent=4.0, harmonics=series.harmonics), "machine"),
+        ("load", Profile(), "load"),
+        ("machine", Profile(), "machine"),
+    ):
+        yield f"{name}, 1,000 to 100,000 waves, energy", long_general(fewest, seed, profile, control)
 
 
 def main() -> None:

@@ -34,6 +34,8 @@ _KEPT: Final = re.compile(r".*\.(nbi|nbc)(\.tmp\..*)?|compiled-.*|lock")
 """The files of such a folder: numba's index and code, finished or not, and the marks of what is compiled."""
 _UNUSED: Final = 30 * 86400.0
 """Seconds after which the folder of another version is removed."""
+_DAY: Final = 86400.0
+"""Seconds since the last use of the folder in use beyond which the clock is not believed: it may have been set."""
 
 
 @dataclass(frozen=True)
@@ -158,10 +160,10 @@ def remove_unused(folder: Path, now: float | None = None) -> None:
     folder
         The folder in use.
     now
-        Seconds since 1970; the present if not given.
+        Seconds since 1970; if not given the present, at most a day after the last use of `folder`.
     """
-    now = time.time() if now is None else now
     with suppress(OSError):
+        now = min(time.time(), folder.lstat().st_mtime + _DAY) if now is None else now
         for other in folder.parent.iterdir():
             with suppress(OSError):  # another process may remove it too
                 found = other.lstat()

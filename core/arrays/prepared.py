@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Final
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.arrays.grouping import grouped
+from gradhesion.core.arrays.tasks import run_one_by_one, tasks_of
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import PARAMETERS
@@ -74,19 +74,8 @@ def run_by_exponent(
     k: NDArray[np.float64], work: Callable[[float, NDArray[np.int64]], None], workers: int, rims: int = 1
 ) -> None:
     """Do the work on curves by their numbers, in tasks of one gradient exponent each."""
-    size = max(1, _TASK // max(1, rims))
 
-    def one(task: tuple[float, NDArray[np.int64]]) -> None:
-        exponent, index = task
+    def one(exponent: float, index: NDArray[np.int64]) -> None:
         work(exponent if 0.0 <= exponent <= 1.0 else 0.0, index)  # beyond, the stretch has no value
 
-    order = np.argsort(k, kind="stable")
-    first = np.flatnonzero(np.concatenate([[True], k[order][1:] != k[order][:-1]])) if k.size else np.array([], int)
-    groups = np.split(order, first[1:]) if k.size else []
-    tasks = [(float(k[g[0]]), g[i : i + size]) for g in groups for i in range(0, g.size, size)]
-    if min(workers, len(tasks)) > 1:
-        with ThreadPoolExecutor(min(workers, len(tasks))) as pool:
-            list(pool.map(one, tasks))
-    else:
-        for task in tasks:
-            one(task)
+    run_one_by_one(tasks_of(k, max(1, _TASK // max(1, rims))), one, workers)

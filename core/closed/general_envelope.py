@@ -46,8 +46,10 @@ def chis(k: _Array, stretch: _Array, wavelength: _Array, amplitude: _Array, prof
     """Return chi_+ and chi_-, by which loading and unloading are off the mean of the waves, over s."""
     rows = tuple((float(n), float(even), float(odd)) for n, even, odd in rows_of(profile))
     up, down = np.full(k.shape, np.nan), np.full(k.shape, np.nan)
-    for exponent in np.unique(k[(k >= 0.0) & (k <= 1.0)]).tolist():
-        up[k == exponent], down[k == exponent] = swings(exponent, rows)
+    known = (k >= 0.0) & (k <= 1.0)
+    exponents, index = np.unique(k[known], return_inverse=True)
+    both = np.array([swings(exponent, rows) for exponent in exponents.tolist()]).reshape(-1, 2)
+    up[known], down[known] = both[index, 0], both[index, 1]
     one = waviness_strength(k, wavelength, amplitude) / stretch
     return one * up, one * down
 

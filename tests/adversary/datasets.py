@@ -62,7 +62,7 @@ class Content:
                 fill = {"fill_value": one.attributes["_FillValue"]} if _is_fill(one) else {}
                 try:
                     made = file.createVariable(name, str if one.dtype == "str" else one.dtype, one.dimensions, **fill)
-                except (RuntimeError, ValueError, TypeError, KeyError):
+                except (RuntimeError, ValueError, TypeError, KeyError, OverflowError):
                     continue
                 _attributes(made, {key: value for key, value in one.attributes.items() if key != "_FillValue"})
                 try:

@@ -145,6 +145,17 @@ def test_not_if_anything_of_them_was_used(tmp_path: Path, what: str) -> None:
     assert other.exists()
 
 
+@pytest.mark.parametrize(("years", "kept"), [(0.0, [False, True]), (70.0, [False, True]), (-70.0, [True, True])])
+def test_a_clock_that_is_set_removes_nothing_that_is_used(
+    tmp_path: Path, years: float, kept: list[bool], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    here = used(tmp_path / "kernels-00000000000000ff", 0)
+    others = [used(tmp_path / f"kernels-000000000000000{i}", days) for i, days in ((1, 31), (2, 28))]
+    monkeypatch.setattr(cache.time, "time", lambda: NOW + years * 365 * DAY)
+    cache.remove_unused(here)
+    assert [other.exists() for other in others] == kept
+
+
 def test_what_is_not_ours_stays(tmp_path: Path) -> None:
     names = ["kernels-old", "kernels-000000000000000", "numba", "kernels-000000000000000A"]
     others = [used(tmp_path / name, 90) for name in names]

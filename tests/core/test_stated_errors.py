@@ -7,32 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import solve
-from gradhesion.core.curve.branches import ROWS
-from gradhesion.core.curve.cosine import curve_of, depth
-from gradhesion.core.path.cosine import extent, is_long, is_unresolved, walk
-from gradhesion.core.path.loading import loading_to
-from gradhesion.core.path.unloading import unloading_from
-from gradhesion.core.problem.material import stiffness
+from gradhesion.core import Harmonic, Loading, Profile, solve
+from tests.core.walked import walked_cosine, walked_general
 
 LOOSE = 50.0
 """Median of stated over true errors: 30 on the 10,000 scenes of docs/accuracy.md, more or less on some hundred."""
-
-
-def walked(scene: dict[str, float], table_of: Callable[[float], Any], most: float) -> float | None:
-    """The energy of a long curve with every wave walked, which costs half a microsecond each; None if it is not one."""
-    material = float(stiffness(scene["k"], scene["nu"], scene["modulus"], scene["c0_over_R"]))
-    stretch = math.sqrt(2.0 ** (1.0 + scene["k"]) * math.pi / material)
-    table, wavelength = table_of(scene["k"]), scene["lambda_over_R"]
-    curve, length, _ = curve_of(scene["k"], stretch, wavelength, scene["A"] * wavelength)
-    arches, x = extent(table, curve), scene["a_max_over_R"] / wavelength
-    if is_unresolved(arches, x) or not is_long(table, arches, x) or min(arches[1], 2.0 * x) - arches[0] > most:
-        return None
-    count, trace = walk(table, curve, arches, min(x, 1e300), np.empty((ROWS, 64)), True)
-    rim_depth = depth(table, curve, x) if x < math.inf else math.inf
-    loss, _ = loading_to(table, curve, count, trace, x, True)
-    back, _, _ = unloading_from(table, curve, count, trace, x, rim_depth, True)
-    return 2.0 * math.pi * length**2 * (loss + back)
 
 
 def test_sums_over_waves(table_of: Callable[[float], Any]) -> None:
@@ -49,7 +28,7 @@ def test_sums_over_waves(table_of: Callable[[float], Any]) -> None:
             "A": 10.0 ** rng.uniform(-4.0, -0.5),
             "a_max_over_R": float(rng.choice([math.inf, 10.0 ** rng.uniform(-1.0, 0.5)])),
         }
-        truth = walked(scene, table_of, 4000.0)
+        truth = walked_cosine(scene, table_of, 4000.0)
         if truth is None:
             continue
         found = solve(scene, ["dissipated_energy", "dissipated_energy_error"], threads=1)
@@ -57,6 +36,47 @@ def test_sums_over_waves(table_of: Callable[[float], Any]) -> None:
     assert len(ratios) > 100
     assert max(ratios) <= 1.0
     assert np.median(ratios) > 1.0 / LOOSE
+
+
+PAIR = (Harmonic(n=1, cos=0.6, sin=-0.3), Harmonic(n=2, cos=-0.2, sin=0.25))
+GENERAL = {
+    "series": (Profile(harmonics=PAIR), Loading()),
+    "power": (Profile(exponent=1.5), Loading()),
+    "load": (Profile(), Loading(control="load")),
+    "machine": (Profile(exponent=3.0, harmonics=PAIR), Loading(control="machine")),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", GENERAL)
+def test_sums_of_other_profiles_and_controls(name: str) -> None:
+    """Beyond 1,000 waves, against walking every one."""
+    profile, loading = GENERAL[name]
+    rng, wanted = np.random.default_rng(11), ("dissipated_energy", "dissipated_energy_error")
+    done = 0
+    while done < 12:
+        k = float(rng.choice([0.0, 1.0, 0.1, 0.4, 0.63, 0.8]))
+        scene = {
+            "k": k,
+            "nu": 0.5 if k == 1.0 else float(rng.uniform(-0.9, 0.5)),
+            "modulus": 10.0 ** rng.uniform(-1.0, 5.0),
+            "c0_over_R": 10.0 ** rng.uniform(-3.0, 1.0),
+            "lambda_over_R": 10.0 ** rng.uniform(-5.0, -2.0),
+            "A": 10.0 ** rng.uniform(-4.0, -0.7),
+            "a_max_over_R": float(rng.choice([math.inf, 10.0 ** rng.uniform(-1.0, 0.5)])),
+        }
+        if loading.control == "machine":
+            scene["machine_stiffness"] = 10.0 ** rng.uniform(-3.0, 2.0)
+        truth = walked_general(scene, profile, loading, (1000.0, 6000.0))
+        if truth is None:
+            continue
+        done += 1
+        jumps = ("loading_jumps", "unloading_jumps")
+        found = solve(scene, (*wanted, *jumps), profile=profile, loading=loading, threads=1)
+        energy, stated = (float(found[one]) for one in wanted)
+        assert abs(energy - truth[0]) <= stated, scene
+        assert 0.0 < stated < 1e-12 * energy
+        assert tuple(int(found[one]) for one in jumps) == truth[1:]
 
 
 def test_a_sum_that_was_stated_too_well() -> None:

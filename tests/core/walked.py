@@ -1,0 +1,113 @@
+"""Energies of long curves with every wave walked: the sums of the solvers are switched off.
+
+What the walks have in common with the sums is the curve (the rounding of its constants) and what one jump loses.
+"""
+
+import math
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from gradhesion.core._jit import NO, YES
+from gradhesion.core.arrays.prepared import prepared
+from gradhesion.core.arrays.tables import tables_of
+from gradhesion.core.curve.branches import ROWS
+from gradhesion.core.curve.cosine import curve_of as cosine_of
+from gradhesion.core.curve.cosine import depth
+from gradhesion.core.curve.general import curve_of
+from gradhesion.core.curve.general_branches import fill_branches
+from gradhesion.core.curve.general_folds import MOST_FOLDS, find_folds, room
+from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
+from gradhesion.core.path.cosine import extent, is_long, is_unresolved, walk
+from gradhesion.core.path.general_long import LONGEST_WALK, REGULAR, folds_before, middle_of
+from gradhesion.core.path.loading import loading_to
+from gradhesion.core.path.pieces import climb, descend, leave, leave_rim, reach_rim
+from gradhesion.core.path.unloading import unloading_from
+from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.material import stiffness
+from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.shape import front_of, in_own_wavelength
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.waves.general import branches_of_wave, room_for_waves
+
+Walked = tuple[float, float, float]
+"""Energy in R^2 dgamma, and the jumps of loading and of unloading."""
+NOTHING = (0.0, 0.0, 0.0, 0.0, 0.0, NO)
+"""The state before contact."""
+
+
+def walked_cosine(scene: dict[str, float], table_of: Callable[[float], Any], most: float) -> float | None:
+    """Give the energy of a long curve of one cosine, at half a microsecond a wave.
+
+    None where it is not summed, or has more arches.
+    """
+    material = float(stiffness(scene["k"], scene["nu"], scene["modulus"], scene["c0_over_R"]))
+    stretch = math.sqrt(2.0 ** (1.0 + scene["k"]) * math.pi / material)
+    table, wavelength = table_of(scene["k"]), scene["lambda_over_R"]
+    curve, length, _ = cosine_of(scene["k"], stretch, wavelength, scene["A"] * wavelength)
+    arches, x = extent(table, curve), scene["a_max_over_R"] / wavelength
+    if is_unresolved(arches, x) or not is_long(table, arches, x) or min(arches[1], 2.0 * x) - arches[0] > most:
+        return None
+    count, trace = walk(table, curve, arches, min(x, 1e300), np.empty((ROWS, 64)), True)
+    rim_depth = depth(table, curve, x) if x < math.inf else math.inf
+    loss, _ = loading_to(table, curve, count, trace, x, True)
+    back, _, _ = unloading_from(table, curve, count, trace, x, rim_depth, True)
+    return 2.0 * math.pi * length**2 * (loss + back)
+
+
+def walked_general(
+    scene: dict[str, float], profile: Profile, loading: Loading, waves: tuple[float, float]
+) -> Walked | None:
+    """Walk a long curve of any profile and control, at 10 to 60 microseconds a wave.
+
+    None where it is not summed, or has fewer or more waves. Near its beginning and its end it is walked by the solver
+    itself; each wave between by its own branches, with phases from the part of a wave alone, and the jumps that the
+    running maximum of the coordinate makes, and its running minimum on the way back.
+    """
+    scenes = prepared(scene, loading)
+    n, series = in_own_wavelength(profile)
+    k, wavelength = float(scenes.k[0]), float(scenes.wavelength[0]) / n
+    numbers = (float(scenes.stretch[0]), wavelength, n * float(scenes.amplitude[0]), float(scenes.compliance[0]))
+    curve, length, _ = curve_of(k, profile.exponent, front_of(k, profile.exponent), *numbers)
+    basis, edge = (*tables_of(k, series), series), float(scenes.rim[0, 0])
+    rim = edge / wavelength
+    first, last = first_fold_bound(basis, curve) / TWO_PI, min(rim, last_fold_bound(basis, curve) / TWO_PI)
+    if not max(LONGEST_WALK, waves[0]) < last - first <= waves[1]:
+        return None
+    middle = middle_of(basis, curve, first, last, 0.0)
+    kind, until, cut, _, begin, end, _ = middle
+    if kind != REGULAR:
+        return None
+    search, zeros, whole = room(), np.empty(MOST_FOLDS), end + 1.0
+    x = rim if rim == math.inf else float(Fraction(edge) / Fraction(wavelength) - Fraction(whole))
+    count, rises, _ = folds_before(basis, curve, first, middle, search, zeros)
+    near = np.empty((4, count // 2 + 2))
+    inner = fill_branches(basis, curve, zeros, count, rises, begin + cut, near, 0.0)
+    count, rises, _ = find_folds(basis, curve, cut, min(x, until - whole), search, zeros, whole)
+    far = np.empty((4, count // 2 + 2))
+    outer = fill_branches(basis, curve, zeros, count, rises, x, far, whole)
+    work, numbers_of = room_for_waves(series), np.arange(begin, end + 1.0)
+    rows = work[2][0]
+
+    losses: list[float] = []
+
+    def alone(state: Any) -> Any:
+        """Keep what is lost apart: thousands of losses are added up at once, and rounded once."""
+        losses.append(state[0])
+        return 0.0, *state[1:]
+
+    up = alone(climb(basis, curve, inner, near, NOTHING, YES, 0.0))
+    for wave in numbers_of.tolist():
+        up = alone(climb(basis, curve, branches_of_wave(basis, curve, wave, cut, work, rows), rows, up, YES, wave))
+    up = alone(climb(basis, curve, outer, far, up, YES, whole))
+    up = alone(reach_rim(basis, curve, x, up, YES, whole))
+    inside, down = leave_rim(basis, curve, outer, far, x, whole)
+    down = alone(descend(basis, curve, inside, far, down, YES, whole))
+    for wave in numbers_of[::-1].tolist():
+        count = branches_of_wave(basis, curve, wave, cut, work, rows)
+        down = alone(descend(basis, curve, count, rows, down, YES, wave))
+    down = alone(descend(basis, curve, inner, near, down, YES, 0.0))
+    down = alone(leave(basis, curve, down, loading.control != "load"))
+    return 2.0 * math.pi * length**2 * math.fsum(losses), up[1], down[1]
