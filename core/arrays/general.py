@@ -13,7 +13,7 @@ from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import PULL_OFF, RESULTS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.results import typed
-from gradhesion.core.problem.shape import front_of, in_own_wavelength
+from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
 from gradhesion.core.scene.general import solve_pull_offs, solve_scenes
 from gradhesion.core.sensitivities.cosine_slopes import COUNT
 from gradhesion.core.sensitivities.neighbours import exponents_beside
@@ -53,16 +53,16 @@ def solve_general(
     def change(exponent: float) -> tuple[Any, ...]:
         """Return what `of_scene` of sensitivities/general_slopes.py takes of neighbouring exponents."""
         exponents, weights, middle = exponents_beside(exponent)
-        fronts = np.log([front_of(k, profile.exponent) for k in (exponent, *exponents)])
+        fronts = np.log([depth_factor_of(k, profile.exponent) for k in (exponent, *exponents)])
         front_by_k = middle * fronts[0] + float(weights @ fronts[1:])
         return *changes_of(exponent, series), front_by_k, (exponent, profile.exponent)
 
     def work(exponent: float, index: NDArray[np.int64]) -> None:
-        table, cosines = tables_of(exponent, series)
-        front = front_of(exponent, profile.exponent)
+        table, cosine_bins = tables_of(exponent, series)
+        depth_factor = depth_factor_of(exponent, profile.exponent)
         arrays = (scenes.stretch, wavelength, amplitude, scenes.compliance, scenes.rim)
         sense = () if slopes is None else (*change(exponent), sensed, *slopes, turned)
-        solve(table, cosines, series, profile.exponent, front, index, *arrays, slots, out, status, sense)
+        solve(table, cosine_bins, series, profile.exponent, depth_factor, index, *arrays, slots, out, status, sense)
 
     run_by_exponent(scenes.k, work, workers, scenes.rim.shape[1])
     result: dict[str, NDArray[Any]] = {}

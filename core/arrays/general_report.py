@@ -12,7 +12,7 @@ from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.closed.general_envelope import chis
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.shape import front_of, in_own_wavelength
+from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene.general_report import ROWS, report_scenes
 
@@ -44,10 +44,10 @@ def report_general(
     )
 
     def work(exponent: float, index: NDArray[np.int64]) -> None:
-        table, cosines = tables_of(exponent, series)
-        front = front_of(exponent, profile.exponent)
+        table, cosine_bins = tables_of(exponent, series)
+        depth_factor = depth_factor_of(exponent, profile.exponent)
         arrays = (stretch, wavelength / n, n * amplitude, compliance, rim, radius, energy)
-        report_scenes(table, cosines, series, profile.exponent, front, index, *arrays, wanted, out, status)
+        report_scenes(table, cosine_bins, series, profile.exponent, depth_factor, index, *arrays, wanted, out, status)
 
     if wanted.any():
         run_by_exponent(k, work, workers)

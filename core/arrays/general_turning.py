@@ -10,7 +10,7 @@ from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import PARAMETERS
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.shape import front_of, in_own_wavelength
+from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
 from gradhesion.core.turning.general import turn_scenes
 
 
@@ -46,11 +46,11 @@ def turning_general(
     flags = np.zeros(radii.shape, dtype=np.int8)
 
     def work(exponent: float, index: NDArray[np.int64]) -> None:
-        table, cosines = tables_of(exponent, series)
-        front = front_of(exponent, profile.exponent)
+        table, cosine_bins = tables_of(exponent, series)
+        depth_factor = depth_factor_of(exponent, profile.exponent)
         arrays = (scenes.stretch, wavelength, amplitude, scenes.compliance, rims, targets)
         modes = (turn == "load_max", check_contact)
-        turn_scenes(table, cosines, series, profile.exponent, front, index, *arrays, *modes, radii, flags)
+        turn_scenes(table, cosine_bins, series, profile.exponent, depth_factor, index, *arrays, *modes, radii, flags)
 
     run_by_exponent(scenes.k, work, workers, rims.shape[1])
     return radii.reshape(scenes.shape), flags.reshape(scenes.shape)

@@ -100,9 +100,9 @@ def solve_envelope(
             np.where(valid, each, np.nan) for each in (k, stretch, wavelength, amplitude, rim)
         )
         c = 0.5 * (1.0 - k)
-        front = 1.0 / (1.0 + k) if m == 2.0 else 0.5 * beta(0.5 * m, 0.5 * (1.0 + k))
+        depth_factor = 1.0 / (1.0 + k) if m == 2.0 else 0.5 * beta(0.5 * m, 0.5 * (1.0 + k))
         up, down = chis(k, stretch, wavelength, amplitude, profile)
-        length = (stretch / front) ** (1.0 / (m - c))
+        length = (stretch / depth_factor) ** (1.0 / (m - c))
         reach, mean = rim / length, wavelength * amplitude * sum(harmonic.cos for harmonic in profile.harmonics)
         unit = stretch * length**c
         pull = np.minimum(reach, (0.5 * (3.0 + k) / m * (1.0 + down)) ** (1.0 / (m - c)))
@@ -112,7 +112,7 @@ def solve_envelope(
         area = 2.0 * math.pi * length**2
         deepest = np.where(np.isinf(rim), np.inf, np.maximum(0.0, mean + unit * _depth(k, m, 1.0 - up, reach)))
         values = (
-            _FORCE / (front * (1.0 + k)) * length ** (2.0 - m) * load,
+            _FORCE / (depth_factor * (1.0 + k)) * length ** (2.0 - m) * load,
             np.where(pull < reach, pull * length, rim),
             area * (loaded + unloaded),
             np.where(valid, (z_in > 0.0) * 1.0, np.nan),

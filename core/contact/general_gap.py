@@ -57,20 +57,20 @@ def growth_of_a_panel(m: float) -> float:
 @kernel(contract=True)
 def edge_at(basis: Basis, curve: Curve, x: float) -> Edge:
     """Return the edge of a contact of radius x > 0."""
-    table, cosines, series = basis
+    table, cosine_bins, series = basis
     B, m, g, _, _ = curve
     z = TWO_PI * x
-    w0, _, _, _ = sums(table, cosines, series, x, 0.0)
+    w0, _, _, _ = sums(table, cosine_bins, series, x, 0.0)
     return x, B * z**m, g * z * w0, z * amplitude_power(table, z)
 
 
 @kernel(contract=True)
 def _excess(basis: Basis, curve: Curve, edge: Edge, x: float) -> float:
     """Return by how much depth_H at the radius x exceeds the depth of the contact."""
-    table, cosines, series = basis
+    table, cosine_bins, series = basis
     _, m, g, _, _ = curve
     x1, bend1, wave1, stretch1 = edge
-    w0, _, _, _ = sums(table, cosines, series, x, 0.0)
+    w0, _, _, _ = sums(table, cosine_bins, series, x, 0.0)
     # each term's difference first, as in curve/general_energy.py
     return bend1 * math.expm1(m * math.log1p((x - x1) / x1)) + (g * (TWO_PI * x) * w0 - wave1) + stretch1
 

@@ -29,13 +29,13 @@ Basis: TypeAlias = tuple[Any, Any, Any]
 @kernel(contract=True)
 def state(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[float, float, float, float, float]:
     """Return z, z^c, z^(1+k), depth and load at whole + x > 0."""
-    table, cosines, series = basis
+    table, cosine_bins, series = basis
     B, m, g, _, _ = curve
     z = TWO_PI * (whole + x)
     power = amplitude_power(table, z)
     stretch, front = z * power, 1.0 / (power * power)
     bend = B * z * z if m == 2.0 else B * z**m
-    w0, w1, _, _ = sums(table, cosines, series, x, whole)
+    w0, w1, _, _ = sums(table, cosine_bins, series, x, whole)
     depth = bend + g * z * w0 - stretch
     load = front * (bend * (m / (1.0 + table.k + m)) + g * z * w1 - stretch)
     return z, stretch, front, depth, load
@@ -60,7 +60,7 @@ def level_at(k: float, alpha: float, t: float) -> float:
 @kernel(contract=True)
 def slope(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[float, float, float]:
     """Return D, dD/dz, and dY/dz at whole + x > 0."""
-    table, cosines, series = basis
+    table, cosine_bins, series = basis
     B, m, g, alpha, beta = curve
     k = table.k
     z = TWO_PI * (whole + x)
@@ -69,7 +69,7 @@ def slope(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[flo
     q = level_at(k, alpha, t)
     change = 0.0 if alpha == 0.0 else alpha * t * ((1.0 + k) / (alpha + t)) ** 2 / z
     bend = 2.0 * B * z if m == 2.0 else m * B * z ** (m - 1.0)
-    _, _, v, v1 = sums(table, cosines, series, x, whole)
+    _, _, v, v1 = sums(table, cosine_bins, series, x, whole)
     value = bend + g * v - q * power
     return value, (m - 1.0) * bend / z + g * v1 + (0.5 * (1.0 + k) * q / z - change) * power, (alpha + t) * value
 
@@ -77,7 +77,7 @@ def slope(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[flo
 @kernel(contract=True)
 def rise(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[float, float, float]:
     """Return Y and its first two derivatives with respect to z at whole + x > 0."""
-    table, cosines, series = basis
+    table, cosine_bins, series = basis
     B, m, g, alpha, beta = curve
     k = table.k
     z = TWO_PI * (whole + x)
@@ -88,7 +88,7 @@ def rise(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[floa
     change = 0.0 if alpha == 0.0 else alpha * t * ((1.0 + k) / (alpha + t)) ** 2 / z
     bend = B * z * z if m == 2.0 else B * z**m
     push = m * bend / z
-    w0, w1, v, v1 = sums(table, cosines, series, x, whole)
+    w0, w1, v, v1 = sums(table, cosine_bins, series, x, whole)
     value = push + g * v - q * power
     rate = (m - 1.0) * push / z + g * v1 + (0.5 * (1.0 + k) * q / z - change) * power
     load = front * (bend * (m / (1.0 + k + m)) + g * z * w1 - stretch)
@@ -116,7 +116,7 @@ def size(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> float:
 def curve_of(
     k: float,
     exponent: float,
-    front: float,
+    depth_factor: float,
     stretch: float,
     wavelength: float,
     amplitude: float,
@@ -128,7 +128,7 @@ def curve_of(
     ----------
     k, exponent
         The gradient's, and the punch's.
-    front
+    depth_factor
         G(m/2) G(n)/(2 G(n + m/2)).
     stretch
         s.
@@ -142,4 +142,4 @@ def curve_of(
     unit = stretch * length**c
     share = compliance * length ** (1.0 + k)
     alpha, beta = (0.0, 1.0) if share == math.inf else (1.0 / (1.0 + share), share / (1.0 + share))
-    return (front * length**exponent / unit, exponent, amplitude * wavelength / unit, alpha, beta), length, unit
+    return (depth_factor * length**exponent / unit, exponent, amplitude * wavelength / unit, alpha, beta), length, unit

@@ -49,10 +49,10 @@ def _longest_panel(series: Any) -> float:
 @kernel()
 def place_left(basis: Basis, curve: Curve, x: float, whole: float, above: float = 0.0) -> Left:
     """Return a place that a jump leaves, or one at which the coordinate is above that of the jump."""
-    table, cosines, series = basis
+    table, cosine_bins, series = basis
     B, m, g, _, _ = curve
     z = TWO_PI * (whole + x)
-    w0, w1, _, _ = sums(table, cosines, series, x, whole)
+    w0, w1, _, _ = sums(table, cosine_bins, series, x, whole)
     power = amplitude_power(table, z)
     return whole, x, g * z * w0, g * z * w1 / (power * power), above, B * z**m, z * power
 
@@ -60,7 +60,7 @@ def place_left(basis: Basis, curve: Curve, x: float, whole: float, above: float 
 @kernel(contract=True)
 def _rise(basis: Basis, curve: Curve, left: Left, x: float, whole: float) -> float:
     """Return [Y(z) - Y_j]/((alpha + beta z^(1+k)) z^c); each term's difference first, however large the terms are."""
-    table, cosines, series = basis
+    table, cosine_bins, series = basis
     _, m, g, alpha, beta = curve
     whole1, x1, wave0, wave1, above, bend1, stretch1 = left
     k = table.k
@@ -69,7 +69,7 @@ def _rise(basis: Basis, curve: Curve, left: Left, x: float, whole: float) -> flo
     stretch = z * amplitude_power(table, z)
     lag = ((whole - whole1) + (x - x1)) / place1  # of z behind the place, over it
     ratio = math.log1p(lag)
-    w0, w1, _, _ = sums(table, cosines, series, x, whole)
+    w0, w1, _, _ = sums(table, cosine_bins, series, x, whole)
     bent = lag * (2.0 + lag) if m == 2.0 else math.expm1(m * ratio)
     stretched = math.expm1(0.5 * (1.0 - k) * ratio)
     rise = above + alpha * (bend1 * bent + g * z * w0 - wave0 - stretch1 * stretched)
@@ -152,12 +152,12 @@ def jump_energy(basis: Basis, curve: Curve, start: float, end: float, whole: flo
 @kernel(contract=True)
 def _from_zero(basis: Basis, curve: Curve, x: float, level: float) -> float:
     """Return x (1 - rho^2) at a radius of a jump from or to zero contact."""
-    table, cosines, series = basis
+    table, cosine_bins, series = basis
     B, m, g, alpha, beta = curve
     z = TWO_PI * x
     power = amplitude_power(table, z)
     stretch, t = z * power, beta / (power * power)
-    w0, w1, _, _ = sums(table, cosines, series, x, 0.0)
+    w0, w1, _, _ = sums(table, cosine_bins, series, x, 0.0)
     bend = B * z * z if m == 2.0 else B * z**m
     depth, height = bend + g * z * w0 - stretch, bend * (m / (1.0 + table.k + m)) + g * z * w1 - stretch
     u = (alpha * depth + t * height - level) / ((alpha + t) * stretch)

@@ -28,7 +28,7 @@ from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import PARAMETERS
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.shape import front_of, rows_of
+from gradhesion.core.problem.shape import depth_factor_of, rows_of
 from gradhesion.core.struve.circle import TWO_PI
 
 MOST_FOLDS: Final = 20_000
@@ -104,13 +104,13 @@ def subject_of(scene: Mapping[str, float], profile: Profile, loading: Loading) -
     lengths = 0.0 < stretch < math.inf and 0.0 < wavelength < math.inf and 0.0 <= amplitude < math.inf
     if not (lengths and rim > 0.0 and compliance >= 0.0):
         return None
-    table, cosines = tables_of(k)
+    table, cosine_bins = tables_of(k)
     series = rows_of(profile)
     if not (amplitude > 0.0 and series.size):
         amplitude, series = 0.0, np.zeros((0, 3))
-    basis: Any = (table, cosines, series)
-    front = front_of(k, profile.exponent)
-    curve, length, unit = curve_of(k, profile.exponent, front, stretch, wavelength, amplitude, compliance)
+    basis: Any = (table, cosine_bins, series)
+    depth_factor = depth_factor_of(k, profile.exponent)
+    curve, length, unit = curve_of(k, profile.exponent, depth_factor, stretch, wavelength, amplitude, compliance)
     if not (0.0 < curve[0] < math.inf and curve[2] < math.inf):
         return None
     form = _form(basis, curve, wavelength, unit, force_unit(k, length, unit))

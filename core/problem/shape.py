@@ -25,7 +25,7 @@ def in_own_wavelength(profile: Profile) -> tuple[float, NDArray[np.float64]]:
     return n, np.array([[1.0, even, odd]])
 
 
-def front_of(k: float, exponent: float) -> float:
+def depth_factor_of(k: float, exponent: float) -> float:
     """Return G(m/2) G((1+k)/2)/(2 G((1+k+m)/2)), by which r^m/m presses a^m deep."""
     return 1.0 / (1.0 + k) if exponent == 2.0 else float(0.5 * beta(0.5 * exponent, 0.5 * (1.0 + k)))
 

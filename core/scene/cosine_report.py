@@ -254,10 +254,10 @@ def report_curves(
     """Report on the curves `index`, `which` are their tables; `results` are the slots of what is solved already."""
     for j in range(index.size):
         i, table = index[j], tables[which[j]]
-        constants, front = smooth.smooth_constants(table.k), 2.0 ** (1.0 + table.k) * math.pi
+        constants, stretch_factor = smooth.smooth_constants(table.k), 2.0 ** (1.0 + table.k) * math.pi
         row = rims[i if rims.shape[0] > 1 else 0]
         values, flags = out[:, i], status[i]
-        stretch = math.sqrt(front / stiffness[i])
+        stretch = math.sqrt(stretch_factor / stiffness[i])
         if np.any((flags & NO_VALUE) == 0):  # what solve gives no value may be out of every range
             solved = (results, slots, values, flags, scratch)
             _report_curve(table, constants, stretch, wavelength[i], amplitude[i], row, *solved)

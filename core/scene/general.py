@@ -300,10 +300,10 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
     @kernel()
     def solve_scenes(
         table: Any,
-        cosines: Any,
+        cosine_bins: Any,
         series: Any,
         exponent: float,
-        front: float,
+        depth_factor: float,
         index: Any,
         stretch: Any,
         wavelength: Any,
@@ -328,9 +328,9 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
             own, results, flags = rims[i if rims.shape[0] > 1 else 0], out[:, i], status[i]
             valid = 0.0 < stretch[i] < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf
             valid = valid and compliance[i] >= 0.0
-            basis = (table, cosines, series if amplitude[i] > 0.0 else smooth)
+            basis = (table, cosine_bins, series if amplitude[i] > 0.0 else smooth)
             curve, length, unit = curve_of(
-                table.k, exponent, front, stretch[i], wavelength[i], amplitude[i], compliance[i]
+                table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
             )
             valid = valid and 0.0 < curve[0] < math.inf and 0.0 <= curve[2] < math.inf
             for rim in range(own.size):

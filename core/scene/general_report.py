@@ -67,7 +67,7 @@ def _crests(table: Any, series: Any, gain: float) -> float:
 @kernel()
 def _force_terms(basis: Basis, curve: Curve, x: float) -> float:
     """Return the size of the terms of the load at x."""
-    table, cosines, series = basis
+    table, cosine_bins, series = basis
     B, m, g, _, _ = curve
     z = TWO_PI * x
     power = amplitude_power(table, z)
@@ -75,7 +75,7 @@ def _force_terms(basis: Basis, curve: Curve, x: float) -> float:
     for i in range(series.shape[0]):
         n = series[i, 0]
         h = n * math.hypot(series[i, 1], series[i, 2])
-        _, s0, s1, _, t0, t1 = integrals(table, cosines, n * x, 0.0)
+        _, s0, s1, _, t0, t1 = integrals(table, cosine_bins, n * x, 0.0)
         waves += h * min(abs(s0) + abs(s1) + abs(t0) + abs(t1), 4.0)
         waves += h * min(1.0, table.amplitude * (n * z) ** (-0.5 * (1.0 + table.k)))
     return (B * z**m * (m / (1.0 + table.k + m)) + z * power + g * z * waves) / (power * power)
@@ -247,10 +247,10 @@ def _energy_reports(
 @kernel()
 def report_scenes(
     table: Any,
-    cosines: Any,
+    cosine_bins: Any,
     series: Any,
     exponent: float,
-    front: float,
+    depth_factor: float,
     index: Any,
     stretch: Any,
     wavelength: Any,
@@ -269,8 +269,10 @@ def report_scenes(
         i = index[j]
         if status[i] & NO_VALUE:
             continue
-        basis = (table, cosines, series if amplitude[i] > 0.0 else smooth)
-        curve, length, unit = curve_of(table.k, exponent, front, stretch[i], wavelength[i], amplitude[i], compliance[i])
+        basis = (table, cosine_bins, series if amplitude[i] > 0.0 else smooth)
+        curve, length, unit = curve_of(
+            table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
+        )
         if wanted[0]:
             scale = 8.0 / (3.0 * (1.0 + table.k)) * length * length / unit
             out[0, i] = _FORCE_ROUNDING * scale * _force_terms(basis, curve, radius[i] / wavelength[i])

@@ -53,15 +53,15 @@ def loop_of(solver: int) -> Callable[..., None]:
         row for each table, and the sensitivities go to (3, COUNT, curves, rims).
         """
         table = tables[0]
-        constants, front = smooth_constants(table.k), 2.0 ** (1.0 + table.k) * math.pi
+        constants, stretch_factor = smooth_constants(table.k), 2.0 ** (1.0 + table.k) * math.pi
         for j in range(index.size):
             i = index[j]
             if which[j] != (which[j - 1] if j > 0 else 0):
                 table = tables[which[j]]
-                constants, front = smooth_constants(table.k), 2.0 ** (1.0 + table.k) * math.pi
+                constants, stretch_factor = smooth_constants(table.k), 2.0 ** (1.0 + table.k) * math.pi
             row = rims[i if rims.shape[0] > 1 else 0]
             values, flags = out[:, i], status[i]
-            stretch = math.sqrt(front / stiffness[i])  # s = sqrt(2^(1+k) pi dgamma/M)
+            stretch = math.sqrt(stretch_factor / stiffness[i])  # s = sqrt(2^(1+k) pi dgamma/M)
             if not (0.0 < stretch < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf):
                 _refuse(values, flags)
                 continue

@@ -53,12 +53,12 @@ def _terms(
 
     The load is over z^(1+k), and so is its change.
     """
-    table, cosines, series = basis
+    table, cosine_bins, series = basis
     B, m, g, _, beta = curve
     z = TWO_PI * (whole + x)
     power = amplitude_power(table, z)
     stretch, logarithm = z * power, math.log(z)
-    w0, w1, w0_k, w1_k = sums_by_k(table, cosines, series, change[0][0], change[1], x, whole)
+    w0, w1, w0_k, w1_k = sums_by_k(table, cosine_bins, series, change[0][0], change[1], x, whole)
     bend = B * z * z if m == 2.0 else B * z**m
     pull = 0.5 * logarithm * stretch  # stretch falls by this
     by_depth = g * z * w0_k + pull

@@ -42,7 +42,7 @@ horner8 = make_horner(8, TAIL_TERMS)
 
 @kernel(contract=True)
 def integrals(
-    table: Any, cosines: Any, x: float, x_low: float, whole: float = 0.0
+    table: Any, cosine_bins: Any, x: float, x_low: float, whole: float = 0.0
 ) -> tuple[float, float, float, float, float, float]:
     """Return z, S0, S1, S0', T0, T1 at z = 2 pi (whole + x + x_low) and the phase of x + x_low.
 
@@ -54,7 +54,7 @@ def integrals(
         i = int(2.0 * z)
         t = fma(4.0 * TWO_PI, x, -(2.0 * i + 1.0)) + 4.0 * (TWO_PI_LOW * x + TWO_PI * x_low)
         s0_over_z, s1_over_z, s0_slope, _ = horner4(table.bins[i], t)
-        t0, t1 = horner2(cosines[_COSINE_BIN * i : _COSINE_BIN * (i + 1)], t)
+        t0, t1 = horner2(cosine_bins[_COSINE_BIN * i : _COSINE_BIN * (i + 1)], t)
         return z, z * s0_over_z, z * s1_over_z, s0_slope, t0, t1
     inverse = 1.0 / z
     w = SWITCH * inverse

@@ -21,7 +21,7 @@ from gradhesion.core.struve.series_table import COSINES, NEAR, slow_sums, tabula
 
 @kernel(contract=True)
 def _integrals_by_k(
-    table: Any, cosines: Any, change: Any, cosine_change: Any, x: float, x_low: float, whole: float
+    table: Any, cosine_bins: Any, change: Any, cosine_change: Any, x: float, x_low: float, whole: float
 ) -> tuple[float, float, float, float, float, float, float, float]:
     """Return S0, S1, T0, T1 and their derivatives by k, at places as in `integrals` of struve/series.py."""
     k1 = table.k + 1.0
@@ -31,7 +31,7 @@ def _integrals_by_k(
         t = fma(4.0 * TWO_PI, x, -(2.0 * i + 1.0)) + 4.0 * (TWO_PI_LOW * x + TWO_PI * x_low)
         s0, s1, _, _ = horner4(table.bins[i], t)
         s0_k, s1_k, _, _ = horner4(change.bins[i], t)
-        t0, t1 = horner2(cosines[_COSINE_BIN * i : _COSINE_BIN * (i + 1)], t)
+        t0, t1 = horner2(cosine_bins[_COSINE_BIN * i : _COSINE_BIN * (i + 1)], t)
         t0_k, t1_k = horner2(cosine_change[_COSINE_BIN * i : _COSINE_BIN * (i + 1)], t)
         return z * s0, z * s1, t0, t1, z * s0_k, z * s1_k, t0_k, t1_k
     inverse = 1.0 / z

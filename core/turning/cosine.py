@@ -253,9 +253,9 @@ def turn_curves(
     for j in range(index.size):
         i, table = index[j], tables[which[j]]
         k = table.k
-        front = 2.0 ** (1.0 + k) * math.pi
+        stretch_factor = 2.0 ** (1.0 + k) * math.pi
         row = i if rims.shape[0] > 1 else 0
-        stretch = math.sqrt(front / stiffness[i])
+        stretch = math.sqrt(stretch_factor / stiffness[i])
         if not (0.0 < stretch < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf):
             radii[i, :], flags[i, :] = math.nan, NO_VALUE
             continue

@@ -220,10 +220,10 @@ def _turn_curve(
 @kernel()
 def turn_scenes(
     table: Any,
-    cosines: Any,
+    cosine_bins: Any,
     series: Any,
     exponent: float,
-    front: float,
+    depth_factor: float,
     index: Any,
     stretch: Any,
     wavelength: Any,
@@ -240,7 +240,7 @@ def turn_scenes(
 
     Parameters
     ----------
-    table, cosines, series, exponent, front, index, stretch, wavelength, amplitude, compliance, rims
+    table, cosine_bins, series, exponent, depth_factor, index, stretch, wavelength, amplitude, compliance, rims
         As those of `solve_scenes` in scene/general.py.
     targets
         What the cycles turn at, of the shape of the rims: depths in R, or loads in 1.5 pi R dgamma.
@@ -255,8 +255,10 @@ def turn_scenes(
         row = i if rims.shape[0] > 1 else 0
         valid = 0.0 < stretch[i] < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf
         valid = valid and compliance[i] >= 0.0
-        basis = (table, cosines, series if amplitude[i] > 0.0 else smooth)
-        curve, length, unit = curve_of(table.k, exponent, front, stretch[i], wavelength[i], amplitude[i], compliance[i])
+        basis = (table, cosine_bins, series if amplitude[i] > 0.0 else smooth)
+        curve, length, unit = curve_of(
+            table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
+        )
         if not (valid and 0.0 < curve[0] < math.inf and 0.0 <= curve[2] < math.inf):
             radii[i, :], flags[i, :] = math.nan, NO_VALUE
             continue

@@ -13,7 +13,18 @@ def python(root: Path, *arguments: str) -> str:
 
 @pytest.mark.parametrize(
     "name",
-    ["", ".dense_grid", ".error", ".functions", ".optima", ".scale", ".scenes", ".sensitivities", ".start_up", ".study"],
+    [
+        "",
+        ".dense_grid",
+        ".error",
+        ".functions",
+        ".optima",
+        ".scale",
+        ".scenes",
+        ".sensitivities",
+        ".start_up",
+        ".study",
+    ],
 )
 def test_every_script_has_help(root: Path, name: str) -> None:
     assert "usage" in python(root, "-m", f"benchmarks{name}", "--help")

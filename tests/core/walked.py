@@ -28,7 +28,7 @@ from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.shape import front_of, in_own_wavelength
+from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.waves.general import branches_of_wave, room_for_waves
 
@@ -70,7 +70,7 @@ def walked_general(
     n, series = in_own_wavelength(profile)
     k, wavelength = float(scenes.k[0]), float(scenes.wavelength[0]) / n
     numbers = (float(scenes.stretch[0]), wavelength, n * float(scenes.amplitude[0]), float(scenes.compliance[0]))
-    curve, length, _ = curve_of(k, profile.exponent, front_of(k, profile.exponent), *numbers)
+    curve, length, _ = curve_of(k, profile.exponent, depth_factor_of(k, profile.exponent), *numbers)
     basis, edge = (*tables_of(k, series), series), float(scenes.rim[0, 0])
     rim = edge / wavelength
     first, last = first_fold_bound(basis, curve) / TWO_PI, min(rim, last_fold_bound(basis, curve) / TWO_PI)

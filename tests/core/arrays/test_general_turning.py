@@ -18,7 +18,7 @@ from gradhesion.core.path.general import walk
 from gradhesion.core.path.general_long import REGULAR, middle_of
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import RESULTS
-from gradhesion.core.problem.shape import front_of, rows_of
+from gradhesion.core.problem.shape import depth_factor_of, rows_of
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.turning.corners import corners_of, first_reached
@@ -59,7 +59,7 @@ def _numbers(scene: dict[str, Any], profile: Profile, loading: Loading) -> tuple
     spring = (np.array(scene["machine_stiffness"]),) if loading.control == "machine" else ()
     compliance = float(compliance_of(loading, np.array(k), np.array(scene["modulus"]), np.array(M), *spring))
     stretch = math.sqrt(2 ** (1 + k) * math.pi / float(M))
-    front = front_of(k, profile.exponent)
+    front = depth_factor_of(k, profile.exponent)
     numbers = (stretch, scene["lambda_over_R"], scene["A"], compliance)
     curve, length, unit = curve_of(k, profile.exponent, front, *numbers)
     return (*tables_of(k), rows_of(profile)), curve, unit, force_unit(k, length, unit)

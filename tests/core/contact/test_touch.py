@@ -9,7 +9,7 @@ from scipy.special import beta
 
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.contact.touch import front_at, profile_at, touches_at_centre
-from gradhesion.core.problem.shape import front_of
+from gradhesion.core.problem.shape import depth_factor_of
 
 
 def _basis(k: float, rows: list[tuple[float, float, float]]) -> Any:
@@ -25,7 +25,7 @@ def _power(k: float, m: float, factor: float) -> tuple[float, ...]:
 @pytest.mark.parametrize("m", [1.0, 2.0, 3.7, 900.0])
 def test_the_front(k: float, m: float) -> None:
     # logarithms of the gamma function up to 2,600 leave 1e-12
-    assert front_at(k, m) == pytest.approx(front_of(k, m), rel=1e-12)
+    assert front_at(k, m) == pytest.approx(depth_factor_of(k, m), rel=1e-12)
 
 
 @pytest.mark.parametrize("m", [1.0, 1.5, 2.0, 4.0])

@@ -9,7 +9,7 @@ import pytest
 from gradhesion.core import Harmonic, Profile
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.general import coordinate, curve_of, slope, state
-from gradhesion.core.problem.shape import front_of, rows_of
+from gradhesion.core.problem.shape import depth_factor_of, rows_of
 from gradhesion.core.struve.circle import TWO_PI
 
 pytestmark = pytest.mark.slow
@@ -44,7 +44,7 @@ def _integral(k: float, m: float, harmonics: tuple[Harmonic, ...], a: float, j: 
 @pytest.mark.parametrize("m", [1.0, 1.5, 2.0, 3.0, 4.0, 6.5])
 def test_against_quadrature(m: float, k: float, harmonics: tuple[Harmonic, ...]) -> None:
     basis = (*tables_of(k), rows_of(Profile(exponent=m, harmonics=harmonics)))
-    curve, length, unit = curve_of(k, m, front_of(k, m), STRETCH, WAVELENGTH, AMPLITUDE, 0.0)
+    curve, length, unit = curve_of(k, m, depth_factor_of(k, m), STRETCH, WAVELENGTH, AMPLITUDE, 0.0)
     for x in (0.11, 0.93):
         a = x * WAVELENGTH
         _, stretch, front, depth, load = state(basis, curve, x)
@@ -65,7 +65,7 @@ def test_against_quadrature(m: float, k: float, harmonics: tuple[Harmonic, ...])
 @pytest.mark.parametrize("k", [0.0, 0.4, 1.0])
 def test_slopes_are_derivatives(k: float, compliance: float) -> None:
     basis = (*tables_of(k), rows_of(Profile(harmonics=MIXED)))
-    curve, _, _ = curve_of(k, 2.6, front_of(k, 2.6), STRETCH, WAVELENGTH, AMPLITUDE, compliance)
+    curve, _, _ = curve_of(k, 2.6, depth_factor_of(k, 2.6), STRETCH, WAVELENGTH, AMPLITUDE, compliance)
     for x in (0.05, 0.4, 3.3, 11.7):
         h = 1e-3
         value, rate, whole = slope(basis, curve, x)
@@ -84,8 +84,8 @@ def test_slopes_are_derivatives(k: float, compliance: float) -> None:
 
 def test_an_unbroken_exponent_meets_the_gamma_functions() -> None:
     for k in (0.0, 0.37, 1.0):
-        assert front_of(k, 2.0) == pytest.approx(front_of(k, 2.0 + 1e-13), rel=1e-12)
+        assert depth_factor_of(k, 2.0) == pytest.approx(depth_factor_of(k, 2.0 + 1e-13), rel=1e-12)
         with mpmath.workdps(30):
             m = mpmath.mpf(3.7)
             value = mpmath.gamma(m / 2) * mpmath.gamma((1 + mpmath.mpf(k)) / 2) / 2 / mpmath.gamma((1 + k + m) / 2)
-        assert front_of(k, 3.7) == pytest.approx(float(value), rel=8 * EPS)
+        assert depth_factor_of(k, 3.7) == pytest.approx(float(value), rel=8 * EPS)

@@ -11,7 +11,7 @@ from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve import window
 from gradhesion.core.curve.general import curve_of, slope
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
-from gradhesion.core.problem.shape import front_of, rows_of
+from gradhesion.core.problem.shape import depth_factor_of, rows_of
 from gradhesion.core.pull_off import general as pull_off
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.cosine_bins import integral_at_zero
@@ -74,7 +74,7 @@ def test_all_folds_stand_between_the_bounds(k: float, profile: Profile, complian
     m = profile.exponent
     within = 0
     for wave in (0.02, 0.3):
-        curve, _, _ = curve_of(k, m, front_of(k, m), 0.1, wave, 0.04, compliance)
+        curve, _, _ = curve_of(k, m, depth_factor_of(k, m), 0.1, wave, 0.04, compliance)
         first, last = first_fold_bound(basis, curve), last_fold_bound(basis, curve)
         end = min(4.0 * last, 3000.0)
         for z in (*np.geomspace(1e-6, 0.1, 50), *np.arange(0.1, end, 0.05)):

@@ -17,7 +17,7 @@ from gradhesion.core.curve.general_folds import find_folds, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.equations import general
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.problem.shape import front_of, rows_of
+from gradhesion.core.problem.shape import depth_factor_of, rows_of
 from gradhesion.core.struve.circle import TWO_PI
 
 pytestmark = pytest.mark.slow
@@ -90,7 +90,7 @@ def test_jumps_lose_the_loop_integral(index: int, machine: float) -> None:
 
 def _count(k: float, m: float, profile: Profile, gain: float, compliance: float) -> tuple[int, float]:
     basis = (*tables_of(k), rows_of(profile))
-    curve, _, _ = curve_of(k, m, front_of(k, m), 0.08, 0.2, gain, compliance)
+    curve, _, _ = curve_of(k, m, depth_factor_of(k, m), 0.08, 0.2, gain, compliance)
     zeros = np.empty(folds.MOST_FOLDS)
     first, last = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
     count, _, tangency = find_folds(basis, curve, first, last, room(), zeros)
@@ -105,8 +105,8 @@ def test_a_pair_about_to_be_born(k: float, m: float, compliance: float) -> None:
     basis = (*tables_of(k), rows_of(profile))
 
     def critical(x: float) -> float:
-        smooth, _, _ = slope(basis, curve_of(k, m, front_of(k, m), 0.08, 0.2, 0.0, compliance)[0], x)
-        whole, _, _ = slope(basis, curve_of(k, m, front_of(k, m), 0.08, 0.2, 1.0, compliance)[0], x)
+        smooth, _, _ = slope(basis, curve_of(k, m, depth_factor_of(k, m), 0.08, 0.2, 0.0, compliance)[0], x)
+        whole, _, _ = slope(basis, curve_of(k, m, depth_factor_of(k, m), 0.08, 0.2, 1.0, compliance)[0], x)
         return -smooth / (whole - smooth)
 
     grid = np.linspace(0.3, 6.0, 3001)
@@ -137,7 +137,7 @@ def test_bounds_of_the_window() -> None:
         for m in (1.6, 2.0, 5.0):
             for compliance in (0.0, 3.0, math.inf):
                 basis = (*tables_of(k), rows_of(profile))
-                curve, _, _ = curve_of(k, m, front_of(k, m), 0.08, 0.2, 0.02, compliance)
+                curve, _, _ = curve_of(k, m, depth_factor_of(k, m), 0.08, 0.2, 0.02, compliance)
                 first, last = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
                 if first > 1e-20:
                     assert all(slope(basis, curve, first * t)[0] < 0.0 for t in np.geomspace(1e-6, 1.0, 200))
@@ -159,7 +159,7 @@ def test_cost_is_linear_in_the_number_of_harmonics(monkeypatch: pytest.MonkeyPat
     for harmonics in (1, 2, 4, 8):
         series = (*(Harmonic(n=n, cos=1e-3) for n in range(2, harmonics + 1)), Harmonic(n=16, cos=0.1))
         basis = (*tables_of(0.3), rows_of(Profile(harmonics=series)))
-        curve, _, _ = curve_of(0.3, 2.0, front_of(0.3, 2.0), 0.08, 0.2, 0.05, 0.0)
+        curve, _, _ = curve_of(0.3, 2.0, depth_factor_of(0.3, 2.0), 0.08, 0.2, 0.05, 0.0)
         calls.clear()
         find_folds.py_func(basis, curve, 0.01, 2.0, room(), np.empty(1000))
         radii.append(len(calls))
@@ -171,7 +171,7 @@ def test_a_jump_is_the_sum_of_its_parts() -> None:
     """The energy is additive along the radius, whether it is taken from zero contact or from the curve."""
     basis = (*tables_of(0.4), rows_of(Profile(harmonics=(Harmonic(n=3, cos=0.5, sin=0.4),))))
     for compliance in (0.0, 0.6, 50.0):
-        curve, _, _ = curve_of(0.4, 2.7, front_of(0.4, 2.7), 0.08, 0.2, 0.03, compliance)
+        curve, _, _ = curve_of(0.4, 2.7, depth_factor_of(0.4, 2.7), 0.08, 0.2, 0.03, compliance)
         start = 1.1
         level_there = coordinate(basis, curve, start)
         whole = energy.energy_from_zero(basis, curve, 2.3, level_there)

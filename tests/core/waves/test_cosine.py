@@ -65,8 +65,8 @@ def test_the_loss_is_that_of_any_profile(k: float, chi: float, waves: float, tab
         pytest.skip("no folds")
     curve = _curve(k, chi, waves)
     rows = np.array([[1.0, 1.0, 0.0]])
-    table, cosines = tables_of(k)
-    basis, other = (table, cosines, rows), (0.5 * curve[0], 2.0, curve[1], 1.0, 0.0)
+    table, cosine_bins = tables_of(k)
+    basis, other = (table, cosine_bins, rows), (0.5 * curve[0], 2.0, curve[1], 1.0, 0.0)
     room, cut = room_for_waves(rows), cut_of(table, rows)
     nowhere = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     for part in (0.3, 0.9):

@@ -22,7 +22,7 @@ from gradhesion.core.path.loading import highest_depth, loading_to
 from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import RESULTS
-from gradhesion.core.problem.shape import front_of, rows_of
+from gradhesion.core.problem.shape import depth_factor_of, rows_of
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, NO_VALUE
 from gradhesion.core.pull_off.general import deepest_wave, lowest_load
 from gradhesion.core.struve.circle import TWO_PI
@@ -61,11 +61,11 @@ def _curve(
     M = stiffness(k, scene["nu"], scene["modulus"], scene["c0_over_R"])
     spring = [np.array(machine)] if control == "machine" else []
     compliance = float(compliance_of(loading, np.array(k), np.array(scene["modulus"]), M, *spring))
-    table, cosines = tables_of(k)
+    table, cosine_bins = tables_of(k)
     stretch = math.sqrt(2 ** (1 + k) * math.pi / float(M))
     numbers = (stretch, scene["lambda_over_R"], _amplitude(chi, scene), compliance)
-    curve, _, _ = curve_of(k, m, front_of(k, m), *numbers)
-    return (table, cosines, rows_of(profile)), curve, waves
+    curve, _, _ = curve_of(k, m, depth_factor_of(k, m), *numbers)
+    return (table, cosine_bins, rows_of(profile)), curve, waves
 
 
 @pytest.mark.parametrize("wavelength", [1e-2, 1e-4, 1e-6])
