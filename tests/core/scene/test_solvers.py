@@ -30,7 +30,7 @@ def run(loop: Any, rims: np.ndarray, curves: int = 3) -> tuple[np.ndarray, np.nd
     index, slots = np.array([0, curves - 1]), np.arange(len(OUTPUTS) + 1)
     tables, which = np.array([table_of(0.2)]), np.zeros(2, dtype=np.int64)
     scratch = np.empty((ROWS, 192))
-    loop(tables, which, index, stiffness, wavelength, amplitude, rims, slots, out, status, scratch)
+    loop(tables, which, index, stiffness, wavelength, amplitude, rims, slots, out, status, scratch, ())
     return out, status
 
 
