@@ -277,7 +277,7 @@ FLAGS: Final = {
     "tolerance_not_met": "the accuracy asked for is not reached",
     "no_value": "a parameter is outside its range, or the scene cannot be resolved",
     "linear_deviation_off": "a linear standard deviation is off: a kink is near",
-    "resolution_too_coarse": "a sweep at twice the resolution finds another optimum",
+    "resolution_too_coarse": "a sweep finer than the resolution finds another optimum",
     "nothing_feasible": "no point of the sweep meets what is required",
 }
 """Every flag of `status`, in words."""

@@ -19,9 +19,10 @@ def cautions(study: Study, flagged: Mapping[str, int]) -> Iterator[str]:
     """Say of each flag in what share of the cells it is set, and what to do."""
     coarse, nothing = flagged.get("resolution_too_coarse", 0), flagged.get("nothing_feasible", 0)
     if coarse:
+        share = f"{coarse:,} of {counted(study.scenes, 'scene')}"
         yield (
-            f"a sweep at twice the resolution finds another optimum in {coarse:,} of {counted(study.scenes, 'scene')}, "
-            f"and there may be more between; raise resolution = {study.search.resolution} under [optimum]"
+            f"a sweep finer than the resolution finds another optimum in {share}, and there may be more between; raise "
+            f"resolution = {study.search.resolution} under [optimum]"
         )
     if nothing:
         yield (

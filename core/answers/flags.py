@@ -8,7 +8,8 @@ LINEAR_DEVIATION_OFF: Final = 128
 """A linear standard deviation is off, for a kink lies within the spread of the inputs or the value bends: by more than
 a tenth of that of the samples, or without any by 2 % at 32 samples of its own. Told with [uncertainty] only."""
 RESOLUTION_TOO_COARSE: Final = 256
-"""A sweep at twice the resolution finds another optimum: there may be more between its points. Told of optima only."""
+"""A sweep finer than the stated resolution finds another optimum: there may be more between its points. Told of optima
+only."""
 NOTHING_FEASIBLE: Final = 512
 """No point of the sweep meets what is required. Told of optima only."""
 

@@ -24,10 +24,14 @@ CLOSE: Final = 1e-9
 """By what share of its size a merit is better than another."""
 _WIDTH: Final = 1e-12
 """To which a peak is bracketed, over its range."""
+_ROUGH: Final = 2.0**-24
+"""The same where a zero of the slope is to follow."""
 _NEAR: Final = 2.0**-20
 """Where the slopes beside a peak are looked at for its zero."""
 _MOST_BASINS: Final = 12
 """That are refined in a cell: those whose neighbours promise the most."""
+_BETWEEN: Final = 7
+"""Points that are looked at between two of a sweep, where there may be a peak that is higher than the best."""
 _STEEP: Final = 1e-9
 """A slope over the size of the merit, below which a place is stationary."""
 SCENES: Final = 2**18
@@ -66,7 +70,8 @@ class Optima:
     """From 0 to 1; shape (inputs, cells). NaN where nothing is feasible."""
     merits: _Array
     too_coarse: NDArray[np.bool_]
-    """Whether the sweep at the stated resolution, half of that which was made, does not show the basin."""
+    """Whether the sweep at the stated resolution, half of that which was made, does not show the basin; nor is it shown
+    where a peak was found between the points of the finer one."""
 
 
 def axis_of(resolution: int) -> _Array:
@@ -119,23 +124,69 @@ def optima_of(merit: Merit, merits: _Array, margins: _Array) -> Optima:
     """Return the optima from a sweep that is made."""
     inputs, cells = merits.ndim - 1, merits.shape[-1]
     heights = np.where((margins >= 0.0) & ~np.isnan(merits), merits, -np.inf)
-    basins = _basins(heights)
+    basins, promised = _basins(heights)
     if inputs == 1:
         places, found = _refine_one(merit, heights, basins)
     else:
-        places, found = _refine_many(merit, heights, basins, constrained=bool((margins < 0.0).any()))
+        places, found = _refine_many(merit, heights, basins, promised, constrained=bool((margins < 0.0).any()))
     best = np.full(cells, -np.inf)
     where = np.full((inputs, cells), np.nan)
     for number in np.argsort(found, kind="stable"):  # the best of a cell last
         cell = basins[-1][number]
         if np.isfinite(found[number]):
             best[cell], where[:, cell] = found[number], places[:, number]
+    too_coarse = _is_new(heights, where)
+    if inputs == 1:
+        for cell, place, height in zip(*_between(merit, heights, best), strict=True):
+            if height > best[cell] + CLOSE * abs(best[cell]):
+                best[cell], where[0, cell], too_coarse[cell] = height, place, True
     best = np.where(np.isfinite(best), best, np.nan)
-    return Optima(places=where, merits=best, too_coarse=_is_new(heights, where))
+    return Optima(places=where, merits=best, too_coarse=too_coarse)
 
 
-def _basins(heights: _Array) -> tuple[NDArray[np.int64], ...]:
-    """Find the highest points of basins that may hold the optimum of their cell: indices, the cells last."""
+def _between(merit: Merit, heights: _Array, best: _Array) -> tuple[NDArray[np.int64], _Array, _Array]:
+    """Look for peaks between two points of a sweep, where a line through the points beside them leads above the best.
+
+    Returns
+    -------
+    Cells, places and merits of the peaks that are higher, refined.
+    """
+    with np.errstate(invalid="ignore"):  # beside what is not feasible
+        rise = np.diff(heights, axis=0, prepend=heights[:1], append=heights[-1:])
+        upwards = np.nan_to_num(np.maximum(rise[:-1], 0.0), posinf=0.0)
+        downwards = np.nan_to_num(np.maximum(-rise[1:], 0.0), posinf=0.0)
+        promised = np.maximum((heights + upwards)[:-1], (heights + downwards)[1:])
+    index, cells = np.nonzero((promised >= best) & np.isfinite(heights[:-1]) & np.isfinite(heights[1:]))
+    spacing = 1.0 / (heights.shape[0] - 1)
+    inner = np.linspace(0.0, 1.0, _BETWEEN + 2)
+    places = spacing * (index + inner[:, None])
+    merits, margins = merit.values(places[None], cells)
+    merits = np.where((margins >= 0.0) & ~np.isnan(merits), merits, -np.inf)
+    highest = np.clip(np.argmax(merits, axis=0), 1, _BETWEEN)
+    every = np.arange(index.size)
+    higher = merits[highest, every] > best[cells] * (1.0 + np.sign(best[cells]) * CLOSE)
+    if not higher.any():
+        return cells[:0], places[0, :0], merits[0, :0]
+    bracket = tuple((places[highest + side, every])[higher] for side in (-1, 0, 1))
+
+    def depth(at: Any, cell: Any) -> Any:
+        """Return what is to be least."""
+        values, allowed = merit.values(at[None], cell.astype(np.int64))
+        return np.where((allowed >= 0.0) & ~np.isnan(values), -values, np.inf)
+
+    with np.errstate(all="ignore"):
+        tolerances = {"xatol": _WIDTH, "xrtol": 0.0, "fatol": 0.0, "frtol": 0.0}
+        found = find_minimum(depth, bracket, args=(cells[higher].astype(float),), tolerances=tolerances)
+    refined = np.where(np.isfinite(found.f_x), found.x, bracket[1])
+    refined, _ = _stationary(merit, refined, cells[higher])
+    return cells[higher], refined, -depth(refined, cells[higher].astype(float))
+
+
+def _basins(heights: _Array) -> tuple[tuple[NDArray[np.int64], ...], _Array]:
+    """Find the highest points of basins that may hold the optimum of their cell: indices, the cells last.
+
+    And what each of them promises: its height, and as much more as it is above its neighbours.
+    """
     inputs = heights.ndim - 1
     neighbours = maximum_filter(heights, size=(*(3 for _ in range(inputs)), 1), mode="nearest")
     peaks = (heights == neighbours) & np.isfinite(heights)
@@ -160,7 +211,7 @@ def _basins(heights: _Array) -> tuple[NDArray[np.int64], ...]:
         kept = (flat >= least) & np.isfinite(flat)
         kept[highest, np.arange(flat.shape[1])] |= np.isfinite(best)
         peaks = kept.reshape(heights.shape)
-    return tuple(np.nonzero(peaks))
+    return tuple(np.nonzero(peaks)), promised[peaks]
 
 
 def _is_new(heights: _Array, places: _Array) -> NDArray[np.bool_]:
@@ -185,6 +236,12 @@ def _folded(places: _Array) -> _Array:
     return np.abs(1.0 - np.abs(1.0 - places))
 
 
+def _into(places: _Array, lowest: _Array, highest: _Array) -> _Array:
+    """Mirror places into what is feasible, and into the range."""
+    inner = np.where(places < lowest, 2.0 * lowest - places, np.where(places > highest, 2.0 * highest - places, places))
+    return _folded(inner)
+
+
 def _refine_one(merit: Merit, heights: _Array, basins: tuple[NDArray[np.int64], ...]) -> tuple[_Array, _Array]:
     """Refine the basins of one searched input, all at once."""
     index, cells = basins
@@ -206,8 +263,7 @@ def _refine_one(merit: Merit, heights: _Array, basins: tuple[NDArray[np.int64], 
 
     def inside(places: Any, cell: Any, low: Any, high: Any) -> Any:
         """Return what is to be least, mirrored where the range ends or what is feasible does."""
-        own = np.where(places < low, 2.0 * low - places, np.where(places > high, 2.0 * high - places, places))
-        merits, _ = merit.values(_folded(own)[None], cell.astype(np.int64))
+        merits, _ = merit.values(_into(places, low, high)[None], cell.astype(np.int64))
         return -np.where(np.isnan(merits), -np.inf, merits)
 
     numbers = cells.astype(float)
@@ -222,17 +278,29 @@ def _refine_one(merit: Merit, heights: _Array, basins: tuple[NDArray[np.int64], 
             np.where(higher, np.maximum(centre, image), right),
         )
         centre = np.where(higher, beside, centre)
-    with np.errstate(all="ignore"):  # beside what is not feasible, merits are infinite
-        found = find_minimum(
-            inside,
-            (left, centre, right),
-            args=(numbers, lowest, highest),
-            tolerances={"xatol": _WIDTH, "xrtol": 0.0, "fatol": 0.0, "frtol": 0.0},
-        )
-    height = inside(centre, numbers, lowest, highest)
-    best = np.where(np.isfinite(found.f_x) & (found.f_x <= height), found.x, centre)
-    best = np.where(best < lowest, 2.0 * lowest - best, np.where(best > highest, 2.0 * highest - best, best))
-    places = _stationary(merit, _folded(best), cells)
+    has_slopes = merit.slopes(centre[None, :1], cells[:1]) is not None
+
+    def peaks(bracket: tuple[Any, Any, Any], some: Any, width: float) -> tuple[Any, Any]:
+        """Return the peaks within brackets, and brackets of them that are as narrow."""
+        with np.errstate(all="ignore"):  # beside what is not feasible, merits are infinite
+            found = find_minimum(
+                inside,
+                bracket,
+                args=(numbers[some], lowest[some], highest[some]),
+                tolerances={"xatol": width, "xrtol": 0.0, "fatol": 0.0, "frtol": 0.0},
+            )
+        middle = bracket[1]
+        height = inside(middle, numbers[some], lowest[some], highest[some])
+        best = np.where(np.isfinite(found.f_x) & (found.f_x <= height), found.x, middle)
+        return best, found.bracket
+
+    every = np.arange(index.size)
+    best, around = peaks((left, centre, right), every, _ROUGH if has_slopes else _WIDTH)
+    places, settled = _stationary(merit, _into(best, lowest, highest), cells)
+    rest = np.flatnonzero(~settled)
+    if has_slopes and rest.size:  # kinks whose slopes are of one sign, steps, and edges
+        best[rest], _ = peaks(tuple(one[rest] for one in around), rest, _WIDTH)
+        places[rest] = _into(best[rest], lowest[rest], highest[rest])
     ends = np.round(places)
     to_ends, _ = merit.values(ends[None], cells)
     merits, _ = merit.values(places[None], cells)
@@ -255,10 +323,16 @@ def _edges(merit: Merit, inside: _Array, outside: _Array, cells: NDArray[np.int6
     return np.where(side_of_one > 0.0, one, other)
 
 
-def _stationary(merit: Merit, places: _Array, cells: NDArray[np.int64]) -> _Array:
-    """Move places of one input to the zero of the slope beside them, where it is known and the merit no lower."""
+def _stationary(merit: Merit, places: _Array, cells: NDArray[np.int64]) -> tuple[_Array, NDArray[np.bool_]]:
+    """Move places of one input to the zero of the slope beside them, where it is known and the merit no lower.
+
+    Returns
+    -------
+    The places, and whether each has been moved: the slope changes its sign there, by a zero or by a jump.
+    """
+    moved, settled = places.copy(), np.zeros(places.shape, bool)
     if merit.slopes(places[None, :1], cells[:1]) is None:
-        return places
+        return moved, settled
 
     def slope(at: Any, cell: Any) -> Any:
         slopes = merit.slopes(at[None], cell.astype(np.int64))
@@ -269,28 +343,40 @@ def _stationary(merit: Merit, places: _Array, cells: NDArray[np.int64]) -> _Arra
     low, high = np.maximum(places - _NEAR, 0.0), np.minimum(places + _NEAR, 1.0)
     turns = (slope(low, numbers) > 0.0) & (slope(high, numbers) < 0.0)
     if not turns.any():
-        return places
+        return moved, settled
     tolerances = {"xatol": _WIDTH * 2.0**-10, "xrtol": 0.0, "fatol": 0.0}
     found = find_root(slope, (low[turns], high[turns]), args=(numbers[turns],), tolerances=tolerances)
-    moved = places.copy()
     moved[turns] = found.x
     before, _ = merit.values(places[None], cells)
     after, margins = merit.values(moved[None], cells)
-    as_high = (after >= before - 2.0**-48 * np.abs(before)) & (margins >= 0.0)
-    return np.where(as_high, moved, places)
+    settled = turns & (after >= before - 2.0**-48 * np.abs(before)) & (margins >= 0.0)
+    return np.where(settled, moved, places), settled
 
 
 def _refine_many(
-    merit: Merit, heights: _Array, basins: tuple[NDArray[np.int64], ...], *, constrained: bool
+    merit: Merit,
+    heights: _Array,
+    basins: tuple[NDArray[np.int64], ...],
+    promised: _Array,
+    *,
+    constrained: bool,
 ) -> tuple[_Array, _Array]:
-    """Refine the basins of several searched inputs, one after the other; of a cell the highest first."""
+    """Refine the basins of several searched inputs, one after the other; of a cell the highest first.
+
+    Those that promise no more than another has turned out to hold are left as they are.
+    """
     *indices, cells = basins
     spacing = 1.0 / (heights.shape[0] - 1)
     starts = spacing * np.array(indices, dtype=float)
     places, found = starts.copy(), heights[basins].copy()
+    best = np.full(heights.shape[-1], -np.inf)
     for number in np.argsort(-found, kind="stable"):
-        cell = np.array(cells[number])
-        places[:, number], found[number] = _refined(merit, starts[:, number], cell, spacing, constrained=constrained)
+        cell = cells[number]
+        if promised[number] < best[cell]:
+            continue
+        start = starts[:, number]
+        places[:, number], found[number] = _refined(merit, start, np.array(cell), spacing, constrained=constrained)
+        best[cell] = max(best[cell], found[number])
     return places, found
 
 

@@ -258,7 +258,7 @@ def test_a_front_of_two_outputs(
 def test_a_peak_between_the_points_is_flagged(
     gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path
 ) -> None:
-    """Five points over many peaks: nine show a higher one."""
+    """Five points over many peaks: more show a higher one."""
     asked = {
         "kind": "optimum",
         "optimum": {"maximise": "dissipated_energy", "over": ["lambda_over_R"], "resolution": 5},
@@ -266,11 +266,11 @@ def test_a_peak_between_the_points_is_flagged(
     }
     path = tmp_path / "out.nc"
     call = gradhesion("run", write_study(study_from(asked).text), "-o", path)
-    assert "finds another optimum in 1 of 2 scenes" in call.stderr
+    assert "finds another optimum in 2 of 2 scenes" in call.stderr
     with xarray.open_dataset(path) as found:
         flagged = found.gr.flagged("resolution_too_coarse").values
-        assert flagged.tolist() == [False, True]
-        assert not found.gr.valid("best_dissipated_energy").values[1]
+        assert flagged.all()
+        assert not found.gr.valid("best_dissipated_energy").values.any()
     finer = gr.run(asked | {"optimum": asked["optimum"] | {"resolution": 200}})
     assert not finer.gr.flagged("resolution_too_coarse").any()
 
