@@ -53,9 +53,9 @@ def of_scene(sense: Any, i: int, stretch: float, wavelength: float, amplitude: f
     Parameters
     ----------
     sense
-        (), or the change of the tables (struve/series_by_k.py); ln of the factor of the punch (depth_factor of `curve_of`),
-        its slope by k, k and the exponent of the punch; where sensitivities go (3, COUNT, curves, rims); and whether
-        those of force and of energy are asked for, and whether the rims are places where cycles turn.
+        (), or the change of the tables (struve/series_by_k.py); ln of the factor of the punch (`depth_factor` of
+        `curve_of`), its slope by k, k and the exponent of the punch; where sensitivities go (3, COUNT, curves, rims);
+        and whether those of force and of energy are asked for, and whether the rims are places where cycles turn.
     i, stretch, wavelength, amplitude, compliance
         The scene, as `curve_of` takes it.
 

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tests.core.slow_truth import Truth
+
 REFERENCE = Path(__file__).parents[1] / "reference"
 
 
@@ -94,3 +96,9 @@ def scene() -> dict[str, float]:
         "A": 0.0137,
         "a_max_over_R": 0.47,
     }
+
+
+@pytest.fixture(scope="session")
+def truth() -> type[Truth]:
+    """Give the slow truth about the contact of any profile."""
+    return Truth

@@ -2,10 +2,8 @@
 
 import math
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
-import pytest
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
@@ -114,9 +112,3 @@ class Truth:
             if radii.size:
                 least = min(least, float(self.openings(place, radii).min()))
         return least
-
-
-@pytest.fixture(scope="session")
-def truth() -> type[Any]:
-    """Give the slow truth."""
-    return Truth
