@@ -69,11 +69,12 @@ def _of_fits() -> Iterator[str]:
     own = FitForm.model_json_schema()["$defs"]
     yield '## Studies of `kind = "fit"`'
     yield (
-        "[Fit a loop](../fit.md) describes them. Besides `title`, `kind` and `profile` they have the tables below and "
-        "no `outputs`, `layout`, `loading`, `states` or `method`. In `[parameters]` and `[physical]` a number is "
-        "fixed; a table `{ start, stop }` is a range that is searched, above 0 but for `k` and `nu`, for a parameter "
-        'that is fitted. `indentation_max` may be `"data"`, the default: the cycle turns where the data do. Reduced '
-        "variables, `machine_stiffness` and lists are as above, or have no place: a fit has no axes."
+        "[Fit a loop](../fit.md) describes them. Besides `title`, `kind` and `profile` they have the tables "
+        "below and no `outputs`, `layout`, `loading`, `states` or `method`. In `[parameters]` and "
+        "`[physical]` a number is fixed; a table `{ start, stop }` is a range that is searched, above 0 but "
+        'for `k` and `nu`, and gives a parameter that is fitted. `indentation_max` may be `"data"`, the '
+        "default: the cycle turns where the data do. Reduced variables are as above, but for "
+        "`machine_stiffness`; lists have no place: a fit has no axes."
     )
     yield "### [data]"
     yield f"Required: {SETTINGS['data'].about}."

@@ -131,7 +131,7 @@ def fit_loop(
         The cycle turns where the data do, unless indentation_max (m) or preload (N) is given too.
     noise
         Standard deviations of depth (m) and load (N) of a point, both > 0. That of the chords by which the path is
-        drawn, 1e-4 of the spans, is added.
+        drawn, 3e-5 of the spans, is added.
     offsets
         Whether the zeros of depth and load are fitted too; they are taken to be right to a tenth of the spans.
     profile

@@ -16,7 +16,7 @@ from gradhesion.core.problem.profile import Profile
 _Array = NDArray[np.float64]
 _All: Final = slice(None)
 
-CHORD: Final = 1e-4
+CHORD: Final = 3e-5
 """Standard deviation of the chords by which a path is drawn, in parts of the spans: it adds to the noise."""
 LOST: Final = 1e3
 """Distance, in standard deviations, of points of a scene that has no path."""

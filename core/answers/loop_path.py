@@ -141,12 +141,29 @@ class LoopModel:
         places = np.column_stack([R * (depth + compliance * unit * load), unit * load])
         if not np.isfinite(places).all():
             return None
+        places, radius, jump, unloading = self._halved(vector, places, R * radius, jump, unloading)
         far = np.array([[self.first - shift[0], 0.0]])
         return LoopPath(
             np.concatenate([far, places, far]) + shift,
-            R * np.concatenate([[0.0], radius, [0.0]]),
+            np.concatenate([[0.0], radius, [0.0]]),
             np.concatenate([[False], jump, [False]]),
             int(np.count_nonzero(~unloading)),
+        )
+
+    def _halved(
+        self, vector: _Array, places: _Array, radius: _Array, jump: Any, unloading: Any
+    ) -> tuple[_Array, _Array, Any, Any]:
+        """Halve the chords of branches by the points of the exact curve between: they are then off by a quarter."""
+        curved = (radius[1:] > 0.0) & (radius[:-1] > 0.0) & (radius[1:] != radius[:-1]) & ~jump[1:]
+        after = np.flatnonzero(curved) + 1
+        middle = 0.5 * (radius[after] + radius[after - 1])
+        depth, load, _, compliance = self._states(vector[None], middle)
+        between = np.column_stack([depth[0] + compliance[0] * load[0], load[0]])
+        return (
+            np.insert(places, after, between, axis=0),
+            np.insert(radius, after, middle),
+            np.insert(jump, after, False),
+            np.insert(unloading, after, unloading[after]),
         )
 
     def status(self, vector: _Array) -> int:

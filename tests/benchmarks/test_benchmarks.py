@@ -18,6 +18,7 @@ def python(root: Path, *arguments: str) -> str:
         ".dense_grid",
         ".error",
         ".functions",
+        ".loop_fits",
         ".optima",
         ".scale",
         ".scenes",

@@ -266,6 +266,20 @@ def test_a_column_of_branches_and_one_of_cycles_are_read(folder: Path) -> None:
         gr.load("fit.toml", set={"data.branch": "branch"})
 
 
+def test_cycles_are_found_in_the_order_of_the_points(folder: Path) -> None:
+    lines = (folder / "force_curve.csv").read_text().splitlines()
+    (folder / "force_curve.csv").write_text("\n".join([*lines, *lines[2:], *lines[2:]]) + "\n")
+    study = gr.load("fit.toml")
+    assert study.loop.cycles == 3
+    assert study.loop.depth.size == 1800
+    found = gr.run(study, set={"fit.intervals": "linear"})
+    assert found["measured_cycle"].values.max() == 3
+    one = found.sel(parameter="E_star")
+    assert abs(float(one["value"]) - 1e7) < 6.0 * float(one["standard_deviation"]), (
+        "thrice the same noise: 3^(1/2) of it"
+    )
+
+
 def test_noise_is_estimated_where_it_is_not_given(gradhesion: Call, folder: Path) -> None:
     text = (folder / "fit.toml").read_text()
     (folder / "fit.toml").write_text("\n".join(line for line in text.splitlines() if not line.startswith("noise")))

@@ -8,6 +8,7 @@ import pytest
 
 from gradhesion.core import draw_curves
 from gradhesion.core.answers.loop_fit import CannotTellApartError, fit_loop
+from tests.core.answers.loops import OTHER, TIMED, fitted
 
 R, NU = 5e-6, 0.3
 
@@ -97,6 +98,36 @@ def test_the_intervals_of_smooth_loops_cover_the_truth() -> None:
         for name, value in {"E_star": 1e7, "work_of_adhesion": 0.03}.items():
             covered[name] += found.low[name] <= value <= found.high[name]
     assert min(covered.values()) >= 33
+
+
+def test_intervals_of_wavy_loops_cover_the_truth_and_no_fit_is_in_another_minimum() -> None:
+    """Loops of `python -m benchmarks.loop_fits`, with fewer points: of 72 intervals 4 miss on average.
+
+    Those of one loop miss together, since its numbers go together; four loops of twelve with three misses each have a
+    chance below 1e-3.
+    """
+    found = [fitted(number, seed=2026, points=500) for number in range(TIMED, TIMED + 12)]
+    assert max(max(map(abs, one["off"].values())) for one in found) < OTHER
+    assert sum(not held for one in found for held in one["profile"].values()) <= 11
+    assert np.mean([one["misfit"] for one in found]) == pytest.approx(1.0, abs=5 * math.sqrt(2 / 500 / 12))
+
+
+def test_a_wavelength_of_a_graded_solid_and_its_exponent_are_found() -> None:
+    """k is fitted too, with c0 given; points are those of drawn curves."""
+    scene = {"k": 0.3, "nu": NU, "modulus": 2e6 * R / 0.03, "c0_over_R": 0.1, "lambda_over_R": 0.12, "A": 0.02}
+    path = draw_curves(scene | {"a_max_over_R": np.inf, "indentation_max_over_R": 0.06}, ["path"])[0]
+    depth, load = R * path["path_indentation"], 1.5 * math.pi * R * 0.03 * path["path_load"]
+    rng = np.random.default_rng(4)
+    noise = (1e-3 * float(np.ptp(depth)), -0.01 * float(load.min()))
+    rows = (row + size * rng.standard_normal(row.size) for row, size in zip((depth, load), noise, strict=True))
+    free = {
+        "k": (0.0, 0.6), "E_star": (2e5, 2e7), "work_of_adhesion": (5e-3, 0.2), "wavelength": (0.2e-6, 2e-6), "A": (0.005, 0.08)
+    }  # fmt: skip
+    found = fit_loop(*rows, path["path_unloading"] > 0, {"nu": NU, "R": R, "c0": 0.1 * R}, free, noise=noise)
+    true = {"k": 0.3, "E_star": 2e6, "work_of_adhesion": 0.03, "wavelength": 0.12 * R, "A": 0.02}
+    for name, value in true.items():
+        assert abs(found.values[name] - value) < 4.5 * found.standard_deviations[name], name
+    assert found.standard_deviations["k"] < 0.05
 
 
 @pytest.mark.parametrize("pair", [("E_star", "c0"), ("E_star", "nu"), ("c0", "nu")])
