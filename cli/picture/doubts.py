@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from gradhesion.cli import names
 from gradhesion.cli.dataset import doubtful
 from gradhesion.cli.dataset.doubtful import doubts_of
+from gradhesion.cli.dataset.model_range import LIMITS
 from gradhesion.core.answers.flags import FLAGS
 
 INK: Final = "0.25"
@@ -65,10 +66,18 @@ def doubts_in(status: NDArray[Any], variable: str, *, turned: bool = False) -> l
 END: Final = Doubt(bit=0, words="extreme at an end of its axis: it may lie beyond", hatch="....", mark="^", size=4.5)
 """How the place of an extreme is shown that is no extreme of a wider axis, perhaps."""
 
+BEYOND: Final = {
+    name: Doubt(bit=0, words=limit.words, hatch=hatch, mark=mark, size=6.0)
+    for (name, limit), (hatch, mark) in zip(
+        LIMITS.items(), (("oo", "P"), ("OO", "X"), ("++", "*"), ("..", "h")), strict=True
+    )
+}
+"""How scenes are shown that leave the range of the model, by the validity number that says so."""
+
 GAP: Final = "no finite value"
 """What a legend says of scenes without a value."""
 
-ORDER: Final = (*(doubt.words for doubt in DOUBTS), END.words, GAP)
+ORDER: Final = (*(doubt.words for doubt in (*DOUBTS, *BEYOND.values(), END)), GAP)
 """The order of the entries of a legend."""
 
 

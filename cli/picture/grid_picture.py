@@ -13,6 +13,7 @@ from matplotlib.contour import QuadContourSet
 from matplotlib.figure import SubFigure
 from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.model_range import is_beyond
 from gradhesion.cli.dataset.reader import is_turned
 from gradhesion.cli.dataset.reductions import Taken
 from gradhesion.cli.dataset.selection import Selection
@@ -20,7 +21,7 @@ from gradhesion.cli.dataset.sensitivities import parameters_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SOLVER, SYMBOLS
 from gradhesion.cli.picture import panels
-from gradhesion.cli.picture.doubts import END, Doubt, doubts_in, entries
+from gradhesion.cli.picture.doubts import BEYOND, END, Doubt, doubts_in, entries
 from gradhesion.cli.picture.labels import Unit, effective, equation, label, unit_for
 from gradhesion.cli.picture.layout import PANELS, Plan, items_of
 from gradhesion.cli.picture.looks import PLAIN, Looks
@@ -72,6 +73,7 @@ def draw_grid(
         raise DatasetError(f"{name}: no value in any scene drawn; `gradhesion info` reports why")
     doubts = doubts_in(status.values, name, turned=is_turned(dataset))
     marks = [(doubt, (status & doubt.bit) != 0) for doubt in doubts]
+    marks += _beyond(dataset.isel(items), cut, name)
     if taken.at_end is not None and bool(taken.at_end.any()):
         marks.append((END, taken.at_end.squeeze([axis for axis in taken.at_end.dims if axis not in kept])))
     kind = _axis_of_place(selection) or name
@@ -111,6 +113,22 @@ def draw_grid(
     more = 0.0 if plan.is_map or not plan.second else 0.3
     shown = entries([doubt for doubt, _ in marks], in_map=plan.is_map, gaps=finite.size < cut.size - taken.flat)
     return Part(width=width, height=height * rows + 0.6 + more, entries=shown, contours=contours, caption=caption)
+
+
+def _beyond(dataset: xarray.Dataset, cut: xarray.DataArray, name: str) -> list[tuple[Doubt, xarray.DataArray]]:
+    """Mark the scenes of what is drawn that leave the range of the model, by each number that says so.
+
+    A validity number itself shows its own limit alone; what is taken over an axis is marked if any scene on it is.
+    """
+    marks = []
+    for number, doubt in BEYOND.items():
+        if number not in dataset or (name in BEYOND and number != name):
+            continue
+        beyond = is_beyond(dataset[number].load())
+        beyond = beyond.any([axis for axis in beyond.dims if axis not in cut.dims])
+        if bool((beyond & cut.notnull()).any()):
+            marks.append((doubt, (beyond & cut.notnull()).transpose(*cut.dims)))
+    return marks
 
 
 def _draw_panel(

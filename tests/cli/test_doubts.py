@@ -17,7 +17,7 @@ from matplotlib.path import Path
 from gradhesion.cli import names
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.picture.curve_picture import drawn_curves
-from gradhesion.cli.picture.doubts import CROSS, DOUBTS, GAP, GREY, Doubt, doubts_in
+from gradhesion.cli.picture.doubts import BEYOND, CROSS, DOUBTS, GAP, GREY, Doubt, doubts_in
 from gradhesion.cli.picture.picture import drawn
 from gradhesion.cli.picture.pictured import save
 from gradhesion.cli.study.study import study_from
@@ -105,6 +105,22 @@ def test_a_map_hatches_doubtful_scenes_and_shows_their_values(
     save(hatched, tmp_path / "x.svg", "svg")
     assert _legend(drawn(dataset, ["pull_off_force"])) == [], "the force does not depend on loading"
     assert _legend(drawn(dataset, ["status"])) == []
+
+
+def test_a_map_hatches_what_leaves_the_range_of_the_model(make: Callable[..., xarray.Dataset], tmp_path: File) -> None:
+    grid = {"lambda_over_R": np.geomspace(0.05, 1.0, 12).tolist(), "A": np.geomspace(1e-3, 0.2, 10).tolist(), "k": 0.3}
+    dataset = make(outputs=("pull_off_force", "wave_slope", "johnson_alpha"), **grid)
+    force = drawn(dataset, ["pull_off_force"])
+    steep, several = (BEYOND[name] for name in ("wave_slope", "johnson_alpha"))
+    assert _legend(force) == [steep.words, several.words]
+    x, y = dataset["lambda_over_R"].values, dataset["A"].values
+    beyond = (dataset["wave_slope"] > 0.5).transpose("A", "lambda_over_R").values
+    paths = _hatched(force.axes[0], steep)
+    inside = np.array([[any(path.contains_point((u, v)) for path in paths) for u in x] for v in y])
+    np.testing.assert_array_equal(inside[1:-1, 1:-1], beyond[1:-1, 1:-1])
+    assert _legend(drawn(dataset, ["johnson_alpha"])) == [several.words], "a number shows its own limit alone"
+    assert _legend(drawn(dataset.isel(A=slice(0, 2)), ["pull_off_force"])) == []
+    save(force, tmp_path / "x.svg", "svg")
 
 
 def test_a_map_may_have_every_doubt_and_failures_at_once(make: Callable[..., xarray.Dataset], tmp_path: File) -> None:
