@@ -50,23 +50,23 @@ name. Processes that compile kinds side by side, each after those that it needs 
 nothing twice, and no two write to one index of the cache."""
 APART: Final = (
     *({"asymptotic", general} for general in ("general_energy", "general_reports", "general_turning")),
-    {"sensitivities", "general_sensitivities"},
+    *({"sensitivities", other} for other in ("asymptotic", "envelope", "general_energy", "general_sensitivities")),
 )
 """Kinds that do not need each other, and yet compile kernels of the same name: not to be compiled side by side."""
 KINDS: Final = tuple(NEEDS)
 """All kinds, each after those that it needs."""
 KERNELS: Final[dict[str, int]] = {
-    "tables": 39,
-    "force": 36,
-    "energy": 91,
+    "tables": 46,
+    "force": 38,
+    "energy": 92,
     "reports": 16,
     "turning": 29,
     "asymptotic": 32,
     "envelope": 1,
     "curves": 22,
     "sensitivities": 52,
-    "general_force": 63,
-    "general_energy": 114,
+    "general_force": 64,
+    "general_energy": 117,
     "general_reports": 10,
     "general_turning": 24,
     "general_sensitivities": 48,
