@@ -11,7 +11,7 @@ from gradhesion.cli.dataset.dataset import attributes, variables
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import PHYSICAL_PARAMETER, REALISATION, SI, SOLVER, UNITS, labels_of
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.work.blocks import physical_of, solved_by
+from gradhesion.cli.work.given import physical_of, solved_by
 from gradhesion.core import PARAMETERS
 from gradhesion.core.variables.reduced import parameters_from, scales_in_si, sources_of
 

@@ -13,7 +13,7 @@ from gradhesion.cli.study.points import COMMENT
 from gradhesion.cli.study.roles import ABSENT
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
-from gradhesion.cli.work.blocks import scenes_from
+from gradhesion.cli.work.given import scenes_from
 
 RMS: Final = {
     "A": "rms height over wavelength of the random waviness",

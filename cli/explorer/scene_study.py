@@ -12,7 +12,7 @@ from gradhesion.cli.explorer.data import Entry
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import SI
 from gradhesion.cli.picture.labels import given
-from gradhesion.cli.study.study import toml_of
+from gradhesion.cli.study.written import toml_of
 
 OF_AXES: Final = ("parameters", "physical")
 """The tables whose keys are those of the scene."""

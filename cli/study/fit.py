@@ -19,6 +19,7 @@ from gradhesion.cli.study.loop_file import LoopFile, LoopFileError, dropped_sent
 from gradhesion.cli.study.mistakes import Checked, Mistake, checked
 from gradhesion.cli.study.punch import profile_of
 from gradhesion.cli.study.source import Source
+from gradhesion.cli.study.written import toml_of
 from gradhesion.core.answers.loop_points import OFFSETS
 from gradhesion.core.problem.profile import Profile
 
@@ -149,8 +150,6 @@ def _loop_of(source: Source, found: Checked) -> tuple[LoopFile | None, list[Mist
 
 def _stored(source: Source, data: Mapping[str, Any], sha256: str) -> str:
     """Give the text of a study with the fingerprint of its file."""
-    from gradhesion.cli.study.study import toml_of  # noqa: PLC0415 (which imports this)
-
     if source.text and data["data"].get("sha256"):
         return source.text
     data = {**data, "data": {**data["data"], "sha256": sha256}}

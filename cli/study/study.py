@@ -1,7 +1,6 @@
 """A study: what is asked for, as it is read from TOML or made in Python."""
 
 import hashlib
-import json
 import math
 import re
 from collections.abc import Iterable, Mapping
@@ -42,6 +41,7 @@ from gradhesion.cli.study.search import Search, search_of, sought_in
 from gradhesion.cli.study.source import Source, read_source
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
 from gradhesion.cli.study.uncertainty import Uncertainty, uncertainty_of
+from gradhesion.cli.study.written import toml_of
 from gradhesion.cli.terminal import wording
 from gradhesion.cli.terminal.wording import nearest
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
@@ -448,22 +448,3 @@ def _plain(value: Any) -> Any:
     if isinstance(value, np.ndarray | np.generic):
         return value.tolist()
     return [_plain(item) for item in value] if isinstance(value, list | tuple) else value
-
-
-def toml_of(data: Mapping[str, Any]) -> str:
-    """Write a valid study as TOML."""
-
-    def written(value: Any) -> str:
-        if isinstance(value, str):
-            return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-        if isinstance(value, list):
-            return "[" + ", ".join(map(written, value)) + "]"
-        if isinstance(value, Mapping):
-            return "{ " + ", ".join(f"{key} = {written(item)}" for key, item in value.items()) + " }"
-        return str(value).lower() if isinstance(value, bool) else str(value)
-
-    tables = {key: value for key, value in data.items() if isinstance(value, Mapping)}
-    lines = [f"{key} = {written(value)}" for key, value in data.items() if key not in tables]
-    for key, table in tables.items():
-        lines += ["", f"[{key}]", *(f"{name} = {written(value)}" for name, value in table.items())]
-    return "\n".join(lines) + "\n"

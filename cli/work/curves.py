@@ -12,7 +12,8 @@ from gradhesion import core
 from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, RAGGED, SI, STATE_CURVES, UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
-from gradhesion.cli.work.blocks import awaited, scales_of, scenes_of
+from gradhesion.cli.work.blocks import awaited
+from gradhesion.cli.work.given import scales_of, scenes_of
 from gradhesion.core.arrays.processors import processors
 from gradhesion.core.problem.status import NO_VALUE
 

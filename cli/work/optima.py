@@ -11,7 +11,7 @@ from gradhesion.cli.names import BEST, ON_BOUND, PARAMETER, SI
 from gradhesion.cli.study.search import Search
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.cli.study.tiling import Block, shape_of
-from gradhesion.cli.work.blocks import solve_given
+from gradhesion.cli.work.given import solve_given
 from gradhesion.core.answers.flags import NOTHING_FEASIBLE, RESOLUTION_TOO_COARSE
 from gradhesion.core.answers.optimum import Optima, axis_of, front, optima_of, sweep
 from gradhesion.core.answers.slopes_to_keys import slopes_to_keys

@@ -11,7 +11,7 @@ from gradhesion.cli.names import PARAMETER, SI, SPREADABLE
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, shape_of
 from gradhesion.cli.study.uncertainty import Uncertainty
-from gradhesion.cli.work.blocks import solve_given
+from gradhesion.cli.work.given import solve_given
 from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF
 from gradhesion.core.answers.slopes_to_keys import slopes_to_keys
 from gradhesion.core.answers.uncertainty import (

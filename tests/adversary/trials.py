@@ -4,6 +4,7 @@ python -m tests.adversary.trials --datasets 10000 --parts 1000 --names 300 --sce
 """
 
 import argparse
+import multiprocessing
 import os
 import random
 import shutil
@@ -12,7 +13,8 @@ import sys
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Final
 
@@ -54,10 +56,11 @@ wavelength = ["100 nm", "200 nm"]
 a_max = "1 um"
 """
 STATES: Final = CURVES.replace('"equilibrium", "path", "jumps"', '"pressure", "surface"')
-DRAWN: Final = 0.3
+DRAWN: Final = 0.05
 """The share of datasets that are drawn and explored, too: it takes longest."""
 
 Faults = Counter[tuple[str, str]]
+Trial = Callable[[Path, int, random.Random], Faults]
 
 
 def of_datasets(folder: Path, count: int, draw: random.Random) -> Faults:
@@ -127,6 +130,21 @@ def of_names(folder: Path, count: int, draw: random.Random) -> Faults:
     return Faults(faults_of_names(folder, count, draw))
 
 
+def _alone(trial: Trial, count: int, seed: int) -> Faults:
+    """Do trials in a folder of their own."""
+    with tempfile.TemporaryDirectory() as folder:
+        return trial(Path(folder), count, random.Random(seed))
+
+
+def _side_by_side(trial: Trial, count: int, draw: random.Random) -> Faults:
+    """Do trials in as many processes as there are cores."""
+    cores = min(os.cpu_count() or 1, count)
+    counts = [count // cores + (i < count % cores) for i in range(cores)]
+    with ProcessPoolExecutor(cores, mp_context=multiprocessing.get_context("spawn")) as pool:
+        found = pool.map(_alone, [trial] * cores, counts, [draw.randrange(2**32) for _ in counts])
+        return sum(found, Faults())
+
+
 def rows_of(asked: argparse.Namespace) -> Iterator[tuple[str, int]]:
     """Try all that is asked for: what came of it, in words, and the number of faults."""
     draw = random.Random(asked.seed)
@@ -146,8 +164,7 @@ def rows_of(asked: argparse.Namespace) -> Iterator[tuple[str, int]]:
         if not number:
             continue
         start = time.monotonic()
-        with tempfile.TemporaryDirectory() as folder:
-            faults = trial(Path(folder), number, draw)
+        faults = _side_by_side(trial, number, draw)
         seconds = time.monotonic() - start
         tried = f"{number:,} {what} (seed {asked.seed}), every command tried on each"
         yield f"{tried}: {faults.total():,} commands end as none may; {seconds:.0f} s", faults.total()

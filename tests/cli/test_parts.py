@@ -70,7 +70,7 @@ def begun(
 
     def begin(number: int, *options: str) -> int:
         with monkeypatch.context() as patch:
-            patch.setattr("gradhesion.cli.work.blocks.solve", Power(number).solve)
+            patch.setattr("gradhesion.cli.work.given.solve", Power(number).solve)
             assert gradhesion("run", study_file, "-o", output, *options).exit_code == 1, "click's, without main()"
         return len(list(output.parent.glob("out.nc.parts/*.part")))
 
@@ -260,10 +260,10 @@ def test_a_folder_that_is_removed_under_way_is_told(
         for path in folder_of(output).path.glob("*"):
             path.unlink()
         folder_of(output).path.rmdir()
-        monkeypatch.setattr("gradhesion.cli.work.blocks.solve", real_solve)
+        monkeypatch.setattr("gradhesion.cli.work.given.solve", real_solve)
         return real_solve(*arguments, **options)
 
-    monkeypatch.setattr("gradhesion.cli.work.blocks.solve", removing)
+    monkeypatch.setattr("gradhesion.cli.work.given.solve", removing)
     result = gradhesion("run", study_file, "-o", output, "--quiet")
     assert result.exit_code == 4
     assert result.stderr.startswith(f"{output}: cannot be written (No such file or directory)")
@@ -300,7 +300,7 @@ def test_a_block_that_raises_once_is_tried_again(
             raise error
         return real_solve(*arguments, **options)
 
-    monkeypatch.setattr("gradhesion.cli.work.blocks.solve", once)
+    monkeypatch.setattr("gradhesion.cli.work.given.solve", once)
     assert gradhesion("run", study_file, "-o", output).exit_code == 0
     assert values_of(output) == values_of(whole)
 
@@ -310,7 +310,7 @@ def test_a_block_that_always_raises_has_no_value_and_its_neighbours_stay(
 ) -> None:
     power = Power(4, MemoryError)
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.work.blocks.solve", power.solve)
+        patch.setattr("gradhesion.cli.work.given.solve", power.solve)
         result = gradhesion("run", study_file, "-o", output, "--quiet")
     assert result.exit_code == 3
     assert power.calls == 4 + 2 * 2
@@ -329,7 +329,7 @@ def test_a_block_that_always_raises_has_no_value_and_its_neighbours_stay(
 def test_if_no_block_can_be_solved_nothing_is_written(
     gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gradhesion.cli.work.blocks.solve", Power(0, MemoryError).solve)
+    monkeypatch.setattr("gradhesion.cli.work.given.solve", Power(0, MemoryError).solve)
     result = gradhesion("run", study_file, "-o", output)
     assert result.exit_code == 3
     assert "raised MemoryError; nothing is written" in result.stderr
@@ -352,7 +352,7 @@ def test_a_run_killed_after_the_last_rename_is_complete(
         patch.setattr("gradhesion.cli.work.folder._give_up", lambda _, lock: os.close(lock))
         assert gradhesion("run", study_file, "-o", output).exit_code == 0
     assert json.loads(folder_of(output).finished.read_bytes())["failed"] == 0
-    monkeypatch.setattr("gradhesion.cli.work.blocks.solve", Power(0).solve)
+    monkeypatch.setattr("gradhesion.cli.work.given.solve", Power(0).solve)
     result = gradhesion("run", study_file, "-o", output)
     assert result.exit_code == 0
     assert result.stderr.endswith("were complete already\n")
@@ -370,7 +370,7 @@ def test_a_file_that_appears_at_the_output_during_a_run_stays_and_the_dataset_is
 
     monkeypatch.setenv("GRADHESION_CHUNK", cells)
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.work.blocks.solve", beside)
+        patch.setattr("gradhesion.cli.work.given.solve", beside)
         result = gradhesion("run", study_file, "-o", output, "--quiet")
     assert result.exit_code == 4
     assert result.stderr == (

@@ -182,7 +182,7 @@ def test_an_existing_output_stays_without_overwrite(
     path = tmp_path / "out.nc"
     path.write_text("precious")
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.work.blocks.solve", lambda *_, **__: pytest.fail("nothing is computed"))
+        patch.setattr("gradhesion.cli.work.given.solve", lambda *_, **__: pytest.fail("nothing is computed"))
         result = gradhesion("run", study_file, "-o", path)
     assert result.exit_code == 4
     assert result.stderr == f"{path}: exists already; add --overwrite to replace it, or name another output with -o\n"
@@ -204,7 +204,7 @@ def test_a_link_is_followed(gradhesion: Call, study_file: Path, tmp_path: Path) 
 def test_an_output_that_cannot_be_is_refused_before_computing(
     output: str, gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gradhesion.cli.work.blocks.solve", lambda *_, **__: pytest.fail("nothing is computed"))
+    monkeypatch.setattr("gradhesion.cli.work.given.solve", lambda *_, **__: pytest.fail("nothing is computed"))
     (tmp_path / "folder").mkdir()
     (tmp_path / "file").touch()
     result = gradhesion("run", study_file, "-o", tmp_path / output, "--overwrite")
@@ -222,7 +222,7 @@ def test_failed_scenes_are_written_and_told(
         values["pull_off_force"].flat[3] = np.nan
         return values
 
-    monkeypatch.setattr("gradhesion.cli.work.blocks.solve", failing)
+    monkeypatch.setattr("gradhesion.cli.work.given.solve", failing)
     result = gradhesion("run", study_file, "-o", tmp_path / "out.nc", "--quiet")
     assert result.exit_code == 3
     assert f"1 of 24 scenes failed; `gradhesion info {tmp_path}/out.nc` reports why" in result.stderr

@@ -49,7 +49,7 @@ def test_under_way_stopped_and_complete(
         return real_solve(*arguments, **options)
 
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.work.blocks.solve", spying)
+        patch.setattr("gradhesion.cli.work.given.solve", spying)
         patch.setattr("gradhesion.cli.work.state.PERIOD", 0.0)
         assert gradhesion("run", study_file, "-o", output).exit_code == 1
     running, words = seen

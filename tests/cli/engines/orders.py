@@ -20,12 +20,12 @@ Call = Callable[..., Result]
 PRELOAD = """
 import json, os, signal, time
 from pathlib import Path
-import gradhesion.cli.work.blocks as blocks
+import gradhesion.cli.work.given as given
 
 orders = Path({folder!r})
 if (orders / "dead").exists():
     os._exit(1)
-really = getattr(blocks.solve, "really", blocks.solve)  # it may be imported again
+really = getattr(given.solve, "really", given.solve)  # it may be imported again
 
 def solve(parameters, *arguments, **options):
     order = json.loads((orders / "order.json").read_text())
@@ -47,7 +47,7 @@ def solve(parameters, *arguments, **options):
     time.sleep(order.get("sleep", 0.0))
     return really(parameters, *arguments, **options)
 
-blocks.solve, solve.really = solve, really
+given.solve, solve.really = solve, really
 if "OTHER_NUMPY" in os.environ:
     import numba, numpy  # numba looks at the version when it is imported
     numpy.__version__ = "1.0"

@@ -162,16 +162,16 @@ def test_workers_that_die_one_after_the_other_end_the_run(
 def test_workers_that_come_late_and_leave_early(
     gradhesion: Call, study_file: Path, whole: dict[str, bytes], output: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gradhesion.cli.work import blocks
+    from gradhesion.cli.work import given
 
-    really, seen = blocks.solve, set()
+    really, seen = given.solve, set()
 
     def solve(*arguments: Any, **options: Any) -> dict[str, Any]:
         seen.add(get_worker().address)
         time.sleep(0.3)
         return really(*arguments, **options)
 
-    monkeypatch.setattr(blocks, "solve", solve)
+    monkeypatch.setattr(given, "solve", solve)
     monkeypatch.setattr("gradhesion.cli.engines.watch.LONELY", 0.2)
     monkeypatch.setattr("gradhesion.cli.engines.watch.PERIOD", 0.1)
     with (
