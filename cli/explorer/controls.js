@@ -73,7 +73,7 @@ function buildLegend(study, act) {
   const list = document.getElementById("flags");
   let marked = study.flags.reduce((bits, flag) => (flag.doubtful ? bits | flag.bit : bits), 0);
   study.flags.forEach((flag, i) => {
-    if (!(study.found & flag.bit) || i === study.flags.length - 1) return;
+    if (!(study.found & flag.bit) || flag.failed) return;
     const box = element("input", { type: "checkbox", id: `flag-${i}`, checked: Boolean(marked & flag.bit) });
     box.addEventListener("change", () => {
       marked ^= flag.bit;

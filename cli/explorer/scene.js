@@ -3,7 +3,7 @@
 // Bokeh's arrays as those of the language, since a part of one of Bokeh's is the whole.
 function plainArray(values) {
   if (!ArrayBuffer.isView(values)) return values;
-  const Plain = { float32: Float32Array, float64: Float64Array, uint8: Uint8Array }[values.dtype];
+  const Plain = { float32: Float32Array, float64: Float64Array, uint16: Uint16Array }[values.dtype];
   return new Plain(values.buffer, values.byteOffset, values.length);
 }
 
@@ -59,8 +59,11 @@ const MARKS = [
   (x, y, p) => x % p < p / 5,
   (x, y, p) => (x + y) % p < p / 5 || (x - y + 4096 * p) % p < p / 5,
   (x, y, p) => (x + y) % p < p / 5 || (x - y + 4096 * p) % p < p / 5,
+  (x, y, p) => x % p < p / 5 || y % p < p / 5,
+  (x, y, p) => y % p < p / 2.5,
+  (x, y, p) => x % p < p / 2.5,
 ];
 
 // And in a section: its open marker, and the letter that is like it.
-const POINTS = ["circle", "square", "diamond", "triangle", "inverted_triangle", "hex", "x"];
-const LETTERS = "○□◇△▽⬡×";
+const POINTS = ["circle", "square", "diamond", "triangle", "inverted_triangle", "hex", "x", "star", "plus", "square_pin"];
+const LETTERS = "○□◇△▽⬡×☆＋▣×";

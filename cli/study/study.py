@@ -372,7 +372,7 @@ def _source(data: Mapping[str, Any], name: str, folder: str | Path) -> Source:
 def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = None) -> Study:
     """Check a study as a whole and expand it."""
     if is_fit(source.data):
-        raise StudyError(f"{source.name}: a fit has no scenes; `gradhesion run` and gradhesion.run fit it")
+        raise StudyError(f"{source.place(('kind',))}: a fit has no scenes; `gradhesion run` and gradhesion.run fit it")
     points = points_of(source.data, source.folder, columns)
     measured = measured_in(source.data, source.folder)
     sought = sought_in(source.data)

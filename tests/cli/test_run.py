@@ -110,11 +110,22 @@ def test_chunks_are_near_one_megabyte(gradhesion: Call, study_file: Path, tmp_pa
 @pytest.mark.parametrize("layout", ["grid", "points"])
 def test_values_do_not_depend_on_blocks_or_threads(layout: str, data: dict[str, Any]) -> None:
     if layout == "points":
-        scenes = np.random.default_rng(7).uniform(0.05, 0.45, (4, 150))
+        scenes = np.random.default_rng(7).uniform(0.05, 0.45, (4, 100))
         lists = dict(zip(("k", "lambda_over_R", "A", "a_max_over_R"), scenes.tolist(), strict=True))
         data |= {"layout": "points", "parameters": data["parameters"] | lists}
     whole = compute(study_from(data), threads=1)
     xarray.testing.assert_identical(compute(study_from(data).chunked(2), threads=2), whole)
+
+
+def test_many_exponents_depend_on_blocks_by_rounding_alone(data: dict[str, Any]) -> None:
+    """A block of 128 exponents or more has interpolated tables, a smaller one those of its own."""
+    scenes = np.random.default_rng(7).uniform(0.05, 0.45, (4, 150))
+    lists = dict(zip(("k", "lambda_over_R", "A", "a_max_over_R"), scenes.tolist(), strict=True))
+    study = study_from(data | {"layout": "points", "parameters": data["parameters"] | lists})
+    whole = compute(study, threads=1)
+    xarray.testing.assert_identical(compute(study, threads=2), whole)
+    # terms of a value and of the tables that it is made of: some hundred eps
+    xarray.testing.assert_allclose(compute(study.chunked(2), threads=2), whole, rtol=512 * 2.0**-52, atol=0.0)
 
 
 def test_an_axis_of_one_value_stays_and_a_number_is_scalar(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:

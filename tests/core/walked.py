@@ -23,7 +23,7 @@ from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.path.cosine import extent, is_long, is_unresolved, walk
 from gradhesion.core.path.general_long import LONGEST_WALK, REGULAR, folds_before, middle_of
 from gradhesion.core.path.loading import loading_to
-from gradhesion.core.path.pieces import climb, descend, leave, leave_rim, reach_rim
+from gradhesion.core.path.pieces import climb, descend, leave, leave_rim, notes_for, reach_rim
 from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
@@ -92,22 +92,24 @@ def walked_general(
     rows = work[2][0]
 
     losses: list[float] = []
+    unnoted = notes_for(0)
 
     def alone(state: Any) -> Any:
         """Keep what is lost apart: thousands of losses are added up at once, and rounded once."""
         losses.append(state[0])
         return 0.0, *state[1:]
 
-    up = alone(climb(basis, curve, inner, near, NOTHING, YES, 0.0))
+    up = alone(climb(basis, curve, inner, near, NOTHING, YES, 0.0, -1.0, unnoted))
     for wave in numbers_of.tolist():
-        up = alone(climb(basis, curve, branches_of_wave(basis, curve, wave, cut, work, rows), rows, up, YES, wave))
-    up = alone(climb(basis, curve, outer, far, up, YES, whole))
-    up = alone(reach_rim(basis, curve, x, up, YES, whole))
+        count = branches_of_wave(basis, curve, wave, cut, work, rows)
+        up = alone(climb(basis, curve, count, rows, up, YES, wave, -1.0, unnoted))
+    up = alone(climb(basis, curve, outer, far, up, YES, whole, -1.0, unnoted))
+    up = alone(reach_rim(basis, curve, x, up, YES, whole, unnoted))
     inside, down = leave_rim(basis, curve, outer, far, x, whole)
-    down = alone(descend(basis, curve, inside, far, down, YES, whole))
+    down = alone(descend(basis, curve, inside, far, down, YES, whole, unnoted))
     for wave in numbers_of[::-1].tolist():
         count = branches_of_wave(basis, curve, wave, cut, work, rows)
-        down = alone(descend(basis, curve, count, rows, down, YES, wave))
-    down = alone(descend(basis, curve, inner, near, down, YES, 0.0))
-    down = alone(leave(basis, curve, down, loading.control != "load"))
+        down = alone(descend(basis, curve, count, rows, down, YES, wave, unnoted))
+    down = alone(descend(basis, curve, inner, near, down, YES, 0.0, unnoted))
+    down = alone(leave(basis, curve, down, loading.control != "load", unnoted))
     return 2.0 * math.pi * length**2 * math.fsum(losses), up[1], down[1]
