@@ -7,7 +7,7 @@ from typing import Final
 CORE: Final = Path(__file__).parent
 
 
-WITHOUT_KERNELS: Final = ("answers", "equations")
+WITHOUT_KERNELS: Final = ("answers", "arrays", "equations", "variables")
 """The rooms in which nothing is compiled."""
 
 

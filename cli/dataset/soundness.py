@@ -1,6 +1,7 @@
 """Whether a dataset has the form of ours, before anything of it is used: a file may have been changed, or damaged."""
 
 from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -75,12 +76,8 @@ def check_form(dataset: "xarray.Dataset", path: Path | str) -> None:
     DatasetError
         One is not as we write it; the message says which.
     """
-    for fault in (
-        *_of_attributes(dataset),
-        *_of_variables(dataset),
-        *_of_axes(dataset),
-        *_of_curves(dataset),
-        *_of_fit(dataset),
+    for fault in chain(  # one after the other: each relies on what those before it check
+        _of_attributes(dataset), _of_variables(dataset), _of_axes(dataset), _of_curves(dataset), _of_fit(dataset)
     ):
         raise _damaged(path, fault)
 

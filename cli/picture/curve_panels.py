@@ -112,14 +112,22 @@ def coloured(tracks: Sequence[Track], colours: Colormap) -> tuple[Track, ...]:
     )
 
 
+def _seen(along: Values, up: Values) -> bool:
+    """Report whether a line has a point: matplotlib fails to mark one that has none."""
+    return bool((np.isfinite(along) & np.isfinite(up)).any())
+
+
 def draw_marks(
     axes: Axes, track: Track, scene: Mapping[str, Values], x: str, y: str, colour: Colour, item: int
 ) -> None:
     """Put the markers of a scene along a line, evenly in the panel, those of the next scene beside them."""
+    along, up = scene[getattr(track, x)], scene[getattr(track, y)]
+    if not _seen(along, up):
+        return
     start = MARKED * (0.15 + item / len(MARKERS))
     axes.plot(
-        scene[getattr(track, x)],
-        scene[getattr(track, y)],
+        along,
+        up,
         ls="",
         marker=MARKERS[item % len(MARKERS)],
         ms=3.2,
@@ -188,6 +196,8 @@ def draw_doubt(
     """Put the open markers of a doubt along the loading part of a path, evenly in the panel."""
     along, up = scene[getattr(track, x)], scene[getattr(track, y)]
     loading = scene["path_unloading"] == 0.0 if "path_unloading" in scene else np.ones(along.size, bool)
+    if not _seen(along[loading], up[loading]):
+        return
     axes.plot(
         along[loading],
         up[loading],

@@ -40,7 +40,7 @@ from gradhesion.cli.picture.doubts import CROSS, DOUBTS, Doubt, doubts_in, entri
 from gradhesion.cli.picture.labels import Unit, effective, equation, given
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.measured import draw_points, legend_entry, planes_of, read_points
-from gradhesion.cli.picture.pictured import heading, in_lines, lay_out, styled
+from gradhesion.cli.picture.pictured import finite, heading, in_lines, lay_out, styled
 from gradhesion.cli.picture.state_picture import draw_states
 from gradhesion.cli.terminal.wording import did_you_mean
 
@@ -276,7 +276,7 @@ def _trimmed(scene: xarray.Dataset) -> dict[str, Values]:
     for curve, own in variables_of_curves(scene).items():
         if curve in (*RAGGED, *STATE_CURVES):
             continue
-        rows = {name: np.asarray(scene[name].values, dtype=float) for name in own}
+        rows = {name: finite(scene[name].values) for name in own}
         points = np.flatnonzero(np.any([~np.isnan(row) for row in rows.values()], axis=0))
         curves |= {name: row[: int(points[-1]) + 1 if points.size else 0] for name, row in rows.items()}
     return curves

@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import Final
 
 import matplotlib.style
+import numpy as np
 import xarray
 from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
+from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.picture.looks import PLAIN, Looks
@@ -61,6 +63,12 @@ def lay_out(figure: Figure) -> None:
                 f"a picture of {width:.3g} by {height:.3g} inches has no room for its panels beside what is written; "
                 "choose larger sides with --width and --height, or leave words out with --no-title and --no-caption"
             ) from None
+
+
+def finite(values: ArrayLike) -> NDArray[np.float64]:
+    """Take values as numbers, NaN where they have no place on an axis: they leave a gap."""
+    numbers = np.asarray(values, dtype=float)
+    return np.where(np.isfinite(numbers), numbers, np.nan)
 
 
 def heading(dataset: xarray.Dataset) -> str:

@@ -14,7 +14,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import CURVES, SI, STATE
 from gradhesion.cli.picture.labels import Unit, effective, equation, number, unit_for
 from gradhesion.cli.picture.looks import PLAIN, Looks
-from gradhesion.cli.picture.pictured import heading, in_lines, lay_out, styled
+from gradhesion.cli.picture.pictured import finite, heading, in_lines, lay_out, styled
 
 Values = NDArray[np.float64]
 
@@ -57,7 +57,7 @@ def draw_states(dataset: xarray.Dataset, chosen: Sequence[str], looks: Looks = P
     if not panels:
         needed = CURVES["surface"]
         raise DatasetError(f'surface: needs {", ".join(needed)} for a picture; write outputs = ["surface"]')
-    if all(bool(np.isnan(scene[y].values).all()) for _, _, y in panels):
+    if not any((np.isfinite(_rows(scene, x)) & np.isfinite(_rows(scene, y))).any() for _, x, y in panels):
         raise DatasetError("no value in any state drawn; `gradhesion info` reports why")
     with styled(looks):
         width = looks.width or 4.0 * len(panels)
@@ -82,7 +82,7 @@ def draw_states(dataset: xarray.Dataset, chosen: Sequence[str], looks: Looks = P
 
 def _rows(scene: xarray.Dataset, name: str) -> Values:
     """Take a variable of every state, in SI if it is there."""
-    return np.atleast_2d(scene[name + SI if name + SI in scene else name].values)
+    return np.atleast_2d(finite(scene[name + SI if name + SI in scene else name].values))
 
 
 def _unit(scene: xarray.Dataset, name: str) -> Unit:
@@ -105,7 +105,8 @@ def _draw(
     limits = []
     for i, (label, dash) in enumerate(zip(labels, cycle(DASHES), strict=False)):
         colour = looks.colours(0.75 * i / max(1, len(labels) - 1))
-        if not np.isfinite(up[i]).any():
+        drawn = np.isfinite(along[i]) & np.isfinite(up[i])
+        if not drawn.any():
             axes.plot([], [], color=colour, ls=dash, label=f"{label} (absent)")
             continue
         axes.plot(along[i], up[i], color=colour, ls=dash, lw=1.2, label=label)
@@ -113,14 +114,14 @@ def _draw(
             axes.plot(
                 along[i], np.where(gaps[i] > 0.0, up[i] - gaps[i], np.nan), color=colour, lw=0.6, ls=(0, (1, 1.5))
             )
-        inner = up[i][along[i] <= SHOWN * np.nanmax(along[i])]
-        limits += [np.nanmin(inner), np.nanmax(inner)]
+        inner = up[i][drawn & (along[i] <= SHOWN * np.max(along[i][drawn]))]
+        limits += [] if inner.size == 0 else [inner.min(), inner.max()]
     axes.axhline(0.0, color="0.85", lw=0.6, zorder=0)
     axes.set_xlim(left=0.0)
-    if curve == "pressure":
+    if curve == "pressure" and limits:
         room = 0.08 * (max(limits) - min(limits)) or 1.0
         axes.set_ylim(min(limits) - room, max(limits) + room)
-    else:
+    elif curve != "pressure":
         axes.invert_yaxis()  # into the half-space is downwards
 
 

@@ -19,8 +19,6 @@ from scipy.stats import qmc
 
 QUANTILES: Final = {"p05": 0.05, "p50": 0.5, "p95": 0.95}
 """The quantiles of the samples, by their names."""
-STATISTICS: Final = ("mean", *QUANTILES)
-"""All that is known of samples."""
 TENTH: Final = 0.1
 """Two standard deviations differ where they do by more of the larger one."""
 FEW: Final = 32

@@ -5,7 +5,6 @@ The work is cut into tasks of a fixed size, so that results do not depend on the
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Final
 
 import numpy as np
@@ -13,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.arrays.grouping import Grouped, Task, grouped
 from gradhesion.core.arrays.tables import neighbours_for, tables_for
+from gradhesion.core.arrays.tasks import run_one_by_one
 from gradhesion.core.curve.branches import ROWS
 from gradhesion.core.problem.material import fill_stiffness
 from gradhesion.core.problem.names import PARAMETERS, PULL_OFF, REPORTS, RESULTS
@@ -47,14 +47,7 @@ def run_tasks(
         fill_stiffness(tables, task.which, task.index, curves.k, curves.nu, curves.modulus, curves.c0_over_R, stiffness)
         work(tables, task, stiffness)
 
-    tasks = curves.tasks()
-    workers = min(workers, len(tasks))
-    if workers > 1:
-        with ThreadPoolExecutor(workers) as pool:
-            list(pool.map(one, tasks))
-    else:
-        for task in tasks:
-            one(task)
+    run_one_by_one(curves.tasks(), one, workers)
 
 
 def solve_cosine(

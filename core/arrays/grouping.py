@@ -8,6 +8,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gradhesion.core.arrays.tasks import groups_of
 from gradhesion.core.problem.names import PARAMETERS
 
 _TASK: Final = 2048
@@ -77,9 +78,8 @@ class Grouped:
         k, size = self.k, max(1, _TASK // max(1, self.rims[0].shape[1]))
         if k.size == 0:
             return []
-        order = np.arange(k.size) if np.all(k[1:] >= k[:-1]) else np.argsort(k, kind="stable")
+        order, first = groups_of(k)
         ordered = k[order]
-        first = np.flatnonzero(np.concatenate([[True], ordered[1:] != ordered[:-1]]))
         counts = np.diff(first, append=k.size)
         few = counts < _FEW
         if few.sum() < 2 * _TOGETHER:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.arrays.grouping import grouped
-from gradhesion.core.arrays.tasks import run_one_by_one, tasks_of
+from gradhesion.core.arrays.tasks import Task, run_one_by_one, tasks_of
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import PARAMETERS
@@ -75,7 +75,8 @@ def run_by_exponent(
 ) -> None:
     """Do the work on curves by their numbers, in tasks of one gradient exponent each."""
 
-    def one(exponent: float, index: NDArray[np.int64]) -> None:
+    def one(task: Task) -> None:
+        exponent, index = task
         work(exponent if 0.0 <= exponent <= 1.0 else 0.0, index)  # beyond, the stretch has no value
 
     run_one_by_one(tasks_of(k, max(1, _TASK // max(1, rims))), one, workers)

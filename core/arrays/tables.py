@@ -26,11 +26,6 @@ def table_of(k: float) -> Any:
     return _own(k)[0]
 
 
-def interpolated_table(k: float) -> Any:
-    """Return the table of an exponent at a tenth of the time, with larger errors."""
-    return interpolated_tables(np.array([k]), forces=False)[0]
-
-
 def tables_for(task: Task, *, forces: bool = False) -> NDArray[Any]:
     """Return the tables of a task, shape (exponents,): that of exponent 0 for what is no exponent.
 

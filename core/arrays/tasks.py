@@ -4,13 +4,23 @@ import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Protocol, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+_T = TypeVar("_T")
+_Made_co = TypeVar("_Made_co", covariant=True)
 Task: TypeAlias = tuple[float, NDArray[np.int64]]
 """A gradient exponent, and the indices of curves that have it."""
+
+
+class Several(Protocol[_Made_co]):
+    """So many of something, made when they are asked for."""
+
+    def __len__(self) -> int: ...
+
+    def __iter__(self) -> Iterator[_Made_co]: ...
 
 
 @dataclass(frozen=True)
@@ -45,6 +55,21 @@ class Tasks:
                 yield exponent, self.order[first : min(first + self.size, end)]
 
 
+def groups_of(k: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return curves in the order of their exponents, and where in it each exponent begins.
+
+    Examples
+    --------
+    >>> order, begins = groups_of(np.array([0.3, 0.0, 0.3]))
+    >>> order.tolist(), begins.tolist()
+    ([1, 0, 2], [0, 1])
+    """
+    order = np.arange(k.size) if np.all(k[1:] >= k[:-1]) else np.argsort(k, kind="stable")
+    ordered = k[order]
+    changes = np.concatenate([[True], ordered[1:] != ordered[:-1]]) if k.size else np.array([], dtype=bool)
+    return order, np.flatnonzero(changes)
+
+
 def tasks_of(k: NDArray[np.float64], size: int) -> Tasks:
     """Cut curves into tasks of one exponent each, of at most `size` curves.
 
@@ -54,13 +79,11 @@ def tasks_of(k: NDArray[np.float64], size: int) -> Tasks:
     >>> len(tasks), [(exponent, index.tolist()) for exponent, index in tasks]
     (3, [(0.0, [1]), (0.3, [0, 2]), (0.3, [3])])
     """
-    order = np.arange(k.size) if np.all(k[1:] >= k[:-1]) else np.argsort(k, kind="stable")
-    ordered = k[order]
-    begins = np.flatnonzero(np.concatenate([[True], ordered[1:] != ordered[:-1]])) if k.size else np.array([], int)
+    order, begins = groups_of(k)
     return Tasks(k, order, np.append(begins, k.size), size)
 
 
-def run_one_by_one(tasks: Tasks, work: Callable[[float, NDArray[np.int64]], None], workers: int) -> None:
+def run_one_by_one(tasks: Several[_T], work: Callable[[_T], None], workers: int) -> None:
     """Do the work on every task, by some threads that take the next one each; what one of them raises ends all.
 
     A pool with a future a task would hold all of them: 2 kB each, for what may be one scene.
@@ -68,7 +91,7 @@ def run_one_by_one(tasks: Tasks, work: Callable[[float, NDArray[np.int64]], None
     workers = min(workers, len(tasks))
     if workers < 2:
         for task in tasks:
-            work(*task)
+            work(task)
         return
     left, turn, ended = iter(tasks), threading.Lock(), threading.Event()
 
@@ -79,7 +102,7 @@ def run_one_by_one(tasks: Tasks, work: Callable[[float, NDArray[np.int64]], None
             if task is None:
                 return
             try:
-                work(*task)
+                work(task)
             except BaseException:
                 ended.set()
                 raise

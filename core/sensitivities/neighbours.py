@@ -5,8 +5,7 @@ What is differentiated is a smooth function of k (sensitivities/jump_slopes.py),
 <= k <= 1.
 """
 
-from collections.abc import Callable
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,18 +25,3 @@ def exponents_beside(k: float) -> tuple[list[float], NDArray[np.float64], float]
         places, weights, middle = _FORWARD
         sign = 1.0 if k < 0.5 else -1.0
     return [k + sign * _STEP * place for place in places], sign / _STEP * np.array(weights), sign / _STEP * middle
-
-
-def neighbours_of(k: float, table_of: Callable[[float], Any]) -> tuple[NDArray[Any], NDArray[np.float64], float]:
-    """Return the tables of four exponents next to k, their weights in d/dk, and the weight of k itself.
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    table_of
-        What gives the table of an exponent.
-    """
-    exponents, weights, middle = exponents_beside(k)
-    tables = [table_of(exponent) for exponent in exponents]
-    return np.array(tables, dtype=tables[0].dtype), weights, middle

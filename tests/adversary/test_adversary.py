@@ -14,10 +14,11 @@ import numpy as np
 import pytest
 from click.testing import Result
 
+from tests.adversary import datasets
 from tests.adversary.commands import fault_of
 from tests.adversary.names import faults_of_names
 from tests.adversary.scenes import trials_of_scenes
-from tests.adversary.trials import of_datasets, of_parts
+from tests.adversary.trials import CURVES, STATES, of_datasets, of_parts
 
 pytestmark = pytest.mark.slow
 
@@ -119,6 +120,39 @@ def test_odd_coordinates(name: str, value: float, dataset_file: Path) -> None:
         else:
             file[name][...] = value
     tried(dataset_file)
+
+
+@pytest.mark.parametrize(("name", "dtype"), [("a_max_over_R", "S1"), ("status", "str"), ("dissipated_energy", "i1")])
+def test_a_variable_of_another_type(name: str, dtype: str, dataset_file: Path) -> None:
+    content = datasets.Content.of(dataset_file)
+    content.variables[name].dtype = dtype
+    content.variables[name].attributes.pop("_FillValue", None)
+    content.variables[name].values = np.zeros_like(content.variables[name].values).astype(dtype)
+    content.write(dataset_file)
+    tried(dataset_file)
+
+
+@pytest.mark.parametrize("value", [-np.inf, 1.0])
+@pytest.mark.parametrize(
+    ("study", "names"),
+    [
+        (CURVES, ["indentation"]),
+        (CURVES, ["path_load", "contact_radius"]),
+        (STATES, ["pressure"]),
+        (STATES, ["pressure_radius", "surface_displacement"]),
+    ],
+)
+def test_curves_of_one_value(
+    study: str, names: list[str], value: float, gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path
+) -> None:
+    """What is everywhere the same, or nowhere finite, has no limits to draw it between."""
+    path = tmp_path / "out.nc"
+    assert gradhesion("run", write_study(study), "-o", path, "--quiet").exit_code == 0
+    with netCDF4.Dataset(path, "a") as file:
+        for name in names:
+            file[name][:] = value
+        file["status"][...] = 0
+    tried(path)
 
 
 @pytest.mark.parametrize("command", ["info", "plot", "explore", "verify"])

@@ -67,16 +67,16 @@ def test_the_quota_of_a_container_of_version_1(tmp_path: Path) -> None:
 
 def test_a_solve_has_as_many_threads(monkeypatch: pytest.MonkeyPatch) -> None:
     from gradhesion.core import solve
-    from gradhesion.core.arrays import cosine as cosine_sweep
+    from gradhesion.core.arrays import tasks
 
     asked: list[int] = []
 
-    class Pool(cosine_sweep.ThreadPoolExecutor):
+    class Pool(tasks.ThreadPoolExecutor):
         def __init__(self, workers: int) -> None:
             asked.append(workers)
             super().__init__(workers)
 
-    monkeypatch.setattr(cosine_sweep, "ThreadPoolExecutor", Pool)
+    monkeypatch.setattr(tasks, "ThreadPoolExecutor", Pool)
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1, 2})
     scene = {"k": np.linspace(0.0, 0.5, 7), "nu": 0.3, "modulus": 430.0, "c0_over_R": 0.013}
     solve(scene | {"lambda_over_R": 0.11, "A": 0.023, "a_max_over_R": math.inf}, ["pull_off_force"])

@@ -6,7 +6,7 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from gradhesion.core.arrays.tasks import run_one_by_one, tasks_of
+from gradhesion.core.arrays.tasks import Task, run_one_by_one, tasks_of
 
 
 @pytest.mark.parametrize("size", [1, 3, 100])
@@ -15,7 +15,8 @@ def test_each_curve_is_in_one_task_of_its_exponent(size: int, workers: int) -> N
     k = np.random.default_rng(3).choice([0.0, 0.1, 0.7, np.nextafter(0.7, 1.0), np.nan], 57)
     tasks, seen, lock = tasks_of(k, size), list[tuple[float, list[int]]](), threading.Lock()
 
-    def work(exponent: float, index: np.ndarray) -> None:
+    def work(task: Task) -> None:
+        exponent, index = task
         with lock:
             seen.append((exponent, index.tolist()))
 
@@ -36,7 +37,8 @@ def test_none() -> None:
 def test_what_one_raises_ends_all() -> None:
     done = []
 
-    def work(exponent: float, _index: np.ndarray) -> None:
+    def work(task: Task) -> None:
+        exponent, _ = task
         done.append(exponent)
         if exponent > 10.0:
             raise MemoryError(f"no room at {exponent}")

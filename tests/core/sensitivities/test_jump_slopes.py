@@ -17,7 +17,7 @@ from gradhesion.core.sensitivities.jump_slopes import (
     add_slopes,
     add_slopes_to_zero,
 )
-from gradhesion.core.sensitivities.neighbours import neighbours_of
+from gradhesion.core.sensitivities.neighbours import exponents_beside
 
 WORK = np.empty(48)
 CURVE = (0.02, 0.9, 0.0)
@@ -26,7 +26,8 @@ JUMPS = [(0.02, 0.9), (0.3, 1.7), (6.2, 7.1), (7.1, 5.9), (9.3, 12.9), (31.3, 30
 
 def near_of(k: float, table_of: Callable[[float], Any], curve: Any) -> Any:
     """Neighbours on the same curve: what the slope by k is then is that of the functions alone."""
-    tables, weights, middle = neighbours_of(k, table_of)
+    exponents, weights, middle = exponents_beside(k)
+    tables = np.array([table_of(exponent) for exponent in exponents])
     return (tables, np.array([curve[:2]] * weights.size), weights), middle
 
 
