@@ -46,7 +46,7 @@ def drawn(rng: np.random.Generator, decade: int, count: int) -> tuple[dict[str, 
 
 
 def compared(scenes: dict[str, Values], ratio: Values) -> dict[str, Values]:
-    """Compare the energies of scenes: how far they are from the second solver and from the limit, over what is stated."""
+    """Compare energies with the second solver and the limit, over what is stated."""
     one = solve(scenes, NAMES)
     other = solve_general(scenes, NAMES[:1], *ANY, check_contact=False)
     stated = one[NAMES[1]] + report_general(scenes, NAMES[1:], other, *ANY)[NAMES[1]]
