@@ -80,18 +80,21 @@ class Watch:
         ClusterError
             All that are there are refused.
         OutputError
-            The scheduler is lost, has had no worker for so long that none will come, or has none that lives.
+            The scheduler is lost, has had no worker for so long that none will come, has none that lives, or none
+            that Dask lets begin a block.
         """
         if time.monotonic() - self._looked < PERIOD:
             return
         client = self._client
-        self._workers = asked(client, lambda: client.sync(client.scheduler.ncores, callback_timeout=patience()))
+        there = asked(client, lambda: client.sync(client.scheduler.identity, callback_timeout=patience()))["workers"]
+        self._workers = {worker: one["nthreads"] for worker, one in there.items()}
         self._looked = time.monotonic()
         many = len(self._workers)
-        if many:
+        paused = many > 0 and all(one["status"] == "paused" for one in there.values())
+        if many and not paused:
             self._seen = self._looked
         elif self._looked - self._seen > self._deserted:
-            raise without_workers(self._deserted)
+            raise paused_workers(many, self._deserted) if many else without_workers(self._deserted)
         self._come |= self._workers.keys()
         self._most = max(self._most, many)
         gone = len(self._come) - many
@@ -108,14 +111,18 @@ class Watch:
                 "in the environment and on the file system of this command"
             )
         seconds = self._looked - self._moved
-        if seconds > (max(self._next, STILL) if many else self._next):
+        if seconds > (max(self._next, STILL) if many and not paused else self._next):
             self._next = 2 * seconds
             why = (
                 f"with {counted(many, 'worker')} there; workers whose lifetime or memory limit is below what "
                 "`gradhesion plan` shows finish none"
             )
             alone = f"waiting for workers; without any for {in_words(self._deserted)} the run ends"
-            sentence = f"no block has been finished for {seconds:.0f} s, {why if many else alone}"
+            if paused:
+                alone = (
+                    f"as Dask has paused all workers for want of memory; after {in_words(self._deserted)} the run ends"
+                )
+            sentence = f"no block has been finished for {seconds:.0f} s, {why if many and not paused else alone}"
             self._say("waiting", sentence, seconds=seconds, workers=many)
 
     def _say(self, event: str, sentence: str, **fields: Any) -> None:
@@ -129,6 +136,14 @@ def without_workers(seconds: float) -> OutputError:
     return OutputError(
         f"--engine dask: no worker has been there for {in_words(seconds)}; finished parts are kept, and the same "
         "command resumes once there are workers"
+    )
+
+
+def paused_workers(many: int, seconds: float) -> OutputError:
+    """Make the error of a run whose workers have no memory to begin another block."""
+    return OutputError(
+        f"--engine dask: Dask has paused all workers ({many:,}) for want of memory for {in_words(seconds)}; give them the "
+        "memory that `gradhesion plan` shows; finished parts are kept, and the same command resumes"
     )
 
 

@@ -159,6 +159,31 @@ def test_workers_that_die_one_after_the_other_end_the_run(
     )
 
 
+def test_workers_that_are_paused_end_the_run(
+    gradhesion: Call, study_file: Path, output: Path, tmp_path: Path, orders: Orders, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Dask gives nothing to a worker that has 80 % of its memory in use, and would wait without end."""
+    monkeypatch.setattr("gradhesion.cli.engines.cluster.DESERTED", 2.0)
+    monkeypatch.setattr("gradhesion.cli.engines.watch.LONELY", 0.2)
+    monkeypatch.setattr("gradhesion.cli.engines.watch.PERIOD", 0.2)
+    shares = {"PAUSE": "0.01", "TERMINATE": "False", "SPILL": "False", "TARGET": "False"}
+    cluster = ByHand(tmp_path, orders)
+    try:
+        cluster.start(
+            "worker", "--nthreads=1", "--memory-limit=1GB",
+            **{f"DASK_DISTRIBUTED__WORKER__MEMORY__{name}": share for name, share in shares.items()},
+        )  # fmt: skip
+        result = gradhesion("run", study_file, "-o", output, "--engine=dask", "--scheduler", cluster.file)
+    finally:
+        cluster.end()
+    assert result.exit_code == 4, result.stderr
+    assert "as Dask has paused all workers for want of memory; after 2 s the run ends" in result.stderr
+    assert result.stderr.splitlines()[-1].endswith(
+        "Dask has paused all workers (1) for want of memory for 2 s; give them the memory that `gradhesion plan` shows; "
+        "finished parts are kept, and the same command resumes"
+    )
+
+
 def test_workers_that_come_late_and_leave_early(
     gradhesion: Call, study_file: Path, whole: dict[str, bytes], output: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
