@@ -142,8 +142,8 @@ def without_workers(seconds: float) -> OutputError:
 def paused_workers(many: int, seconds: float) -> OutputError:
     """Make the error of a run whose workers have no memory to begin another block."""
     return OutputError(
-        f"--engine dask: Dask has paused all workers ({many:,}) for want of memory for {in_words(seconds)}; give them the "
-        "memory that `gradhesion plan` shows; finished parts are kept, and the same command resumes"
+        f"--engine dask: Dask has paused all workers ({many:,}) for want of memory for {in_words(seconds)}; give them "
+        "the memory that `gradhesion plan` shows; finished parts are kept, and the same command resumes"
     )
 
 
