@@ -10,7 +10,7 @@ import xarray
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.study.fit import FitStudy
+from gradhesion.cli.study.fit_study import FitStudy
 from gradhesion.cli.study.study import Study, any_from, load_any
 from gradhesion.wording import in_python
 

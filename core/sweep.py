@@ -1,4 +1,7 @@
-"""Arrays of scenes: what is asked for is checked, solved by whom it concerns, and named."""
+"""Arrays of scenes: what is asked for is checked, solved by whom it concerns, and named.
+
+What solves other profiles and controls is imported when it is asked for: it takes half as long as a small map.
+"""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -7,13 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.arrays.cosine import SLOPES, solve_cosine, turning_cosine
-from gradhesion.core.arrays.general import solve_general
-from gradhesion.core.arrays.general_report import report_general
-from gradhesion.core.arrays.general_turning import turning_general
 from gradhesion.core.arrays.processors import processors
 from gradhesion.core.arrays.turned import Results, turned_results
 from gradhesion.core.cache import note_compiled
-from gradhesion.core.closed.general_envelope import solve_envelope
 from gradhesion.core.kinds import kind_of_map, kind_of_sensitivities, kind_of_turning
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import OUTPUTS, PARAMETERS, PULL_OFF, REPORTS, RESULTS, SENSITIVITIES, SOLVERS, TURNS
@@ -159,15 +158,23 @@ def solve(
         """Solve scenes up to their rims."""
         wanted = [name for name in wanted if name != "turning_radius"]
         if solver == "envelope" and alike is None:
+            from gradhesion.core.closed.general_envelope import solve_envelope  # noqa: PLC0415 (SciPy)
+
             return solve_envelope(scenes, PARAMETERS, wanted, profile)
         checks: Any = {"check_contact": check_contact, "turned": turned, "slopes": slopes}
         if alike is not None:
             return solve_cosine(scenes, wanted, solver, workers, **checks)
+        from gradhesion.core.arrays.general import solve_general  # noqa: PLC0415 (kernels of their own)
+
         results = [name for name in wanted if name in RESULTS]
         reports = [name for name in wanted if name in REPORTS]
         results += [NEEDED[name] for name in reports if name in NEEDED]
         found = solve_general(scenes, results, profile, loading, workers, **checks)
-        return found | report_general(scenes, reports, found, profile, loading, workers) if reports else found
+        if not reports:
+            return found
+        from gradhesion.core.arrays.general_report import report_general  # noqa: PLC0415 (kernels of their own)
+
+        return found | report_general(scenes, reports, found, profile, loading, workers)
 
     def again(scenes: Mapping[str, ArrayLike], wanted: Sequence[str]) -> Results:
         """Solve other scenes that turn as these do."""
@@ -185,6 +192,8 @@ def solve(
         if alike is not None:
             radii, flags = turning_cosine(parameters, turn, workers, **arguments)
         else:
+            from gradhesion.core.arrays.general_turning import turning_general  # noqa: PLC0415 (kernels of their own)
+
             radii, flags = turning_general(parameters, turn, profile, loading, workers, **arguments)
         found = turned_results(parameters, turn, outputs, radii, flags, solved, again)
         note_compiled(kind_of_turning(profile, loading))

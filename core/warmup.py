@@ -4,7 +4,6 @@ import math
 from typing import Any, Final
 
 from gradhesion.core.cache import note_compiled
-from gradhesion.core.curves import CURVES, GENERAL_CURVES, draw_curves
 from gradhesion.core.kinds import KINDS
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
@@ -29,12 +28,16 @@ MANY: Final = Profile(exponent=2.5, harmonics=tuple(Harmonic(n=n, cos=1.0 / n) f
 
 def _compile_curves() -> None:
     """Draw a wavy punch with a rim, one without, and a smooth one."""
+    from gradhesion.core.curves import CURVES, draw_curves  # noqa: PLC0415 (kernels of their own)
+
     for change in ({}, {"a_max_over_R": math.inf}, {"A": 0.0}):
         draw_curves(SCENE | change, list(CURVES))
 
 
 def _compile_general_curves() -> None:
     """Do the same for another profile, by a machine."""
+    from gradhesion.core.curves import GENERAL_CURVES, draw_curves  # noqa: PLC0415 (kernels of their own)
+
     for change in ({}, {"a_max_over_R": math.inf}, {"A": 0.0}):
         draw_curves(SCENE | SPRING | change, list(GENERAL_CURVES), MANY, Loading(control="machine"))
 

@@ -12,7 +12,7 @@ from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.terminal.output import show, show_block
 
 if TYPE_CHECKING:
-    from gradhesion.cli.study.fit import FitStudy
+    from gradhesion.cli.study.fit_study import FitStudy
     from gradhesion.cli.study.study import Study
     from gradhesion.cli.work.estimate import Estimate
 
@@ -43,7 +43,7 @@ def plan(
     Prints scenes and blocks, what an earlier run has left and why the rest cannot be reused, disk space, memory and
     time. The time is estimated by solving scenes of STUDY for a second or two. Nothing is written.
     """
-    from gradhesion.cli.study.fit import FitStudy
+    from gradhesion.cli.study.fit_study import FitStudy
     from gradhesion.cli.study.study import load_any
 
     asked = load_any(study, overrides)

@@ -21,7 +21,7 @@ from gradhesion.cli.terminal.progress import progress, rate
 if TYPE_CHECKING:
     from gradhesion.cli.dataset.writer import Written
     from gradhesion.cli.engines import Engine
-    from gradhesion.cli.study.fit import FitStudy
+    from gradhesion.cli.study.fit_study import FitStudy
     from gradhesion.cli.study.study import Study
 
 
@@ -84,7 +84,7 @@ def run(
     STUDY is a TOML file. Interrupted runs resume where they stopped: give the same command again.
     """
     from gradhesion.cli.dataset.writer import write
-    from gradhesion.cli.study.fit import FitStudy
+    from gradhesion.cli.study.fit_study import FitStudy
     from gradhesion.cli.study.study import load_any
     from gradhesion.cli.work.compiling import prepare
     from gradhesion.cli.work.kernels import kinds_of

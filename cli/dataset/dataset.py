@@ -13,7 +13,7 @@ from gradhesion.cli.dataset.cautions import cautions, flagged_in
 from gradhesion.cli.dataset.contents import CONTENTS
 from gradhesion.cli.dataset.coordinates import coordinates
 from gradhesion.cli.dataset.variable import Variable
-from gradhesion.cli.study.fit import FitStudy
+from gradhesion.cli.study.fit_study import FitStudy
 from gradhesion.cli.study.shape_words import profile_table, shape_in_words
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import messages

@@ -9,7 +9,7 @@ from gradhesion.cli import names
 from gradhesion.cli.dataset.dataset import origin
 from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.study.fit import FitStudy, unit_of_parameter
+from gradhesion.cli.study.fit_study import FitStudy, unit_of_parameter
 from gradhesion.cli.study.shape_words import shape_in_words
 from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.fitting import fitted, kinds_of_fit, loading_of

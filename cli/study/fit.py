@@ -1,78 +1,24 @@
-"""A study of kind "fit": parameters from a measured loop. It has no scenes."""
+"""A study of a fit, read and checked as a whole."""
 
-import hashlib
 import json
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 
 from gradhesion.cli import keys
-from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.study import places
 from gradhesion.cli.study.fit_form import REQUIRED, FitForm, Search
 from gradhesion.cli.study.fit_rules import form_of, mistakes_of_fit, sound_keys
-from gradhesion.cli.study.loop_file import LoopFile, LoopFileError, dropped_sentence, read_loop, table_of
+from gradhesion.cli.study.fit_study import FitStudy
+from gradhesion.cli.study.loop_file import LoopFile, LoopFileError, read_loop, table_of
 from gradhesion.cli.study.mistakes import Checked, Mistake, checked
 from gradhesion.cli.study.punch import profile_of
 from gradhesion.cli.study.source import Source
 from gradhesion.cli.study.written import toml_of
-from gradhesion.core.answers.loop_points import OFFSETS
-from gradhesion.core.problem.profile import Profile
 
 KEY: Final[keys.Path] = ("data", "file")
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class FitStudy:
-    """A valid study of a fit."""
-
-    name: str
-    title: str
-    text: str
-    """The study as TOML: reading it again gives the same study."""
-    file: str
-    """The file of the loop, as the study names it."""
-    loop: LoopFile
-    fixed: Mapping[str, float]
-    """What is given as a number, in SI units."""
-    free: Mapping[str, tuple[float, float]]
-    """What is searched, with the ends of its range."""
-    offsets: bool
-    noise: tuple[float, float]
-    """Standard deviations of depth and load, in SI units."""
-    noise_is_given: bool
-    intervals: str
-    starts: int
-    profile: Profile = field(default_factory=Profile)
-    folder: Path = Path()
-    """Where the file is."""
-    kind: str = "fit"
-
-    @property
-    def parameters(self) -> tuple[str, ...]:
-        """What is fitted, in the order of the dataset."""
-        return (*self.free, *(OFFSETS if self.offsets else ()))
-
-    @property
-    def sha256(self) -> str:
-        """The fingerprint of its text."""
-        return hashlib.sha256(self.text.encode()).hexdigest()
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What there is to say of the data before they are fitted."""
-        sentences = [dropped_sentence(self.loop, self.file)]
-        if not self.noise_is_given:
-            depth, load = self.noise
-            sentences.append(
-                f"{self.file}: noise estimated from differences of neighbours: {depth * 1e9:.3g} nm, "
-                f"{load * 1e9:.3g} nN; give it under [fit] where it is known"
-            )
-        return tuple(sentence for sentence in sentences if sentence)
 
 
 def fit_from(source: Source) -> tuple[FitStudy | None, list[Mistake]]:
@@ -165,13 +111,3 @@ def _stored(source: Source, data: Mapping[str, Any], sha256: str) -> str:
         except ValueError:
             pass
     return toml_of(data)
-
-
-def unit_of_parameter(name: str) -> str:
-    """
-    Give the unit in SI of what is fitted.
-
-    >>> [unit_of_parameter(name) for name in ("E_star", "A", "load_offset", "spring_constant")]
-    ['Pa', '1', 'N', 'N m-1']
-    """
-    return {OFFSETS[0]: "m", OFFSETS[1]: "N"}.get(name) or INPUTS[name].unit

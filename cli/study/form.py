@@ -37,7 +37,7 @@ MOST_STATES: Final = 100
 class Table(BaseModel):
     """A table of a study: no unknown keys, no silent conversions."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, defer_build=True)
 
 
 def _of(name: str, kind: Any, **limits: Any) -> Any:

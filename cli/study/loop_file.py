@@ -3,17 +3,19 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.study.columns import Columns, ColumnsError, read_columns
-from gradhesion.cli.study.fit_form import ColumnTable, DataTable
 from gradhesion.cli.study.quantities import si_value
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 from gradhesion.core.answers import loop_points
+
+if TYPE_CHECKING:
+    from gradhesion.cli.study.fit_form import ColumnTable, DataTable
 
 BRANCHES: Final = {"loading": 0.0, "unloading": 1.0}
 """What a column of branches says, with the number for it."""
@@ -54,7 +56,7 @@ class LoopFile:
         return np.unique(self.cycle).size
 
 
-def read_loop(path: Path, table: DataTable) -> LoopFile:
+def read_loop(path: Path, table: "DataTable") -> LoopFile:
     """
     Read a measured loop.
 
@@ -107,7 +109,7 @@ def read_loop(path: Path, table: DataTable) -> LoopFile:
     )
 
 
-def _scaled(found: Columns, key: str, asked: ColumnTable, dimension: str) -> NDArray[np.float64]:
+def _scaled(found: Columns, key: str, asked: "ColumnTable", dimension: str) -> NDArray[np.float64]:
     """Give a column in SI units."""
     own, unit = _DIMENSIONS[dimension]
     written = asked.unit or found.units.get(asked.column, "")

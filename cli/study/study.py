@@ -29,7 +29,7 @@ from gradhesion.cli.names import (
 )
 from gradhesion.cli.study import places
 from gradhesion.cli.study.axes import Values
-from gradhesion.cli.study.fit import FitStudy, fit_from
+from gradhesion.cli.study.fit_study import FitStudy
 from gradhesion.cli.study.kinds import KINDS, PARETO, Kind
 from gradhesion.cli.study.mistakes import Mistake, checked
 from gradhesion.cli.study.points import Points, points_of
@@ -353,6 +353,8 @@ def is_fit(data: Mapping[str, Any]) -> bool:
 
 def _fit(source: Source) -> FitStudy:
     """Check a fit as a whole and read its data."""
+    from gradhesion.cli.study.fit import fit_from  # noqa: PLC0415 (its form, which no study of scenes needs)
+
     fit, mistakes = fit_from(source)
     _refuse(source, mistakes)
     assert fit is not None  # noqa: S101 (it has no mistakes)

@@ -1,7 +1,7 @@
 """The fit of a loop: its points given to the core, and what cannot be fitted as a mistake of the study."""
 
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.study.fit import FitStudy
+from gradhesion.cli.study.fit_study import FitStudy
 from gradhesion.core import kind_of_curves, kind_of_map, kind_of_turning
 from gradhesion.core.answers.loop_fit import FittedLoop, fit_loop
 from gradhesion.core.problem.control import Loading

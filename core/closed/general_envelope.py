@@ -17,7 +17,6 @@ from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import beta
 
 from gradhesion.core.closed.crest import swings
 from gradhesion.core.equations.envelopes import waviness_strength
@@ -88,6 +87,8 @@ def solve_envelope(
     parameters: Mapping[str, ArrayLike], names: Sequence[str], outputs: Sequence[str], profile: Profile
 ) -> dict[str, NDArray[Any]]:
     """Solve all scenes of the parameters `names` by the envelopes of a profile, as `solve` of core/sweep.py."""
+    from scipy.special import beta  # noqa: PLC0415 (200 ms that no other solver needs)
+
     m = profile.exponent
     arrays = np.broadcast_arrays(*(np.asarray(parameters[key], dtype=float) for key in names))
     shape = arrays[0].shape

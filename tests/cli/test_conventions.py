@@ -10,7 +10,7 @@ import pytest
 
 from gradhesion.cli.dataset.fit import write_fit
 from gradhesion.cli.dataset.writer import write
-from gradhesion.cli.study.fit import FitStudy
+from gradhesion.cli.study.fit_study import FitStudy
 from gradhesion.cli.study.study import load_any, study_from
 from gradhesion.cli.work.fitting import fitted
 

@@ -13,7 +13,7 @@ import pytest
 from click.testing import Result
 
 from gradhesion.cli.commands.init import studies
-from gradhesion.cli.study.fit import FitStudy
+from gradhesion.cli.study.fit_study import FitStudy
 from gradhesion.cli.study.study import load_any
 
 Call = Callable[..., Result]
