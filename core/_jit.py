@@ -10,6 +10,7 @@ import numpy as np
 from numba.core import event
 
 from gradhesion.core import cache
+from gradhesion.core._borrowed import BorrowingCompiler
 
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
@@ -48,6 +49,7 @@ def kernel(*, contract: bool = False, inline: bool = False, entry: bool = False)
     def decorate(function: Kernel) -> Kernel:
         options = {
             "nogil": True,
+            "pipeline_class": BorrowingCompiler,
             "error_model": "numpy",
             "fastmath": {"contract"} if contract else False,
             "inline": "always" if inline else "never",
