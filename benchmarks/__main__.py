@@ -4,7 +4,20 @@ import argparse
 from collections.abc import Iterator
 from datetime import UTC, datetime
 
-from benchmarks import contact, draw, engines, error, functions, scale, scenes, start_up, study
+from benchmarks import (
+    classes,
+    contact,
+    draw,
+    engines,
+    error,
+    functions,
+    loop_fits,
+    scale,
+    scenes,
+    sensitivities,
+    start_up,
+    study,
+)
 from benchmarks.clock import ROOT, machine
 
 REPORT = ROOT / "docs" / "benchmarks.md"
@@ -74,6 +87,36 @@ shared; where the rim ends it, and the last jump, are each rim's own.
 {by_rims}"""
     scenes.picture(waves, rims, scenes.numbers())
     yield "![Cost against the number of waves, of scenes and of rims](figures/cost.png)\n"
+    yield f"""### Other controls
+
+One cosine, the same mixtures. Aim: 3 times at most.
+
+{classes.controls_table()}"""
+    yield f"""### Other punches
+
+k = 0.3, 3 to 10 waves within the punch. Aims: 5, 6, 10 and 25 times.
+
+{classes.punches_table(100 if quick else 1000)}"""
+    yield f"""### An exponent for every scene
+
+Tables of many exponents are interpolated in k. Aims: 3 times for the force, twice for both.
+
+{classes.exponents_table(2000 if quick else 20_000)}"""
+    yield f"""### Many radii or depths on one curve
+
+Turning points are `indentation_max_over_R`. Aim: 1.5 times.
+
+{classes.shared_table()}"""
+    yield f"""### Sensitivities
+
+To all parameters, k among them, beside the values; processor time. Aim: twice at most with the values.
+
+{sensitivities.costs_table(100 if quick else 1000)}"""
+    yield f"""### Fits of measured loops
+
+Six unknowns, {loop_fits.POINTS:,} points, one thread. Aim: 2 s.
+
+{loop_fits.times_table(2 if quick else 12)}"""
     yield f"""### Is the contact one disc?
 
 The rigorous test of `docs/theory.md`, section 12, on the same mixtures. Free tests (r/s up to 1/2 above all) and the

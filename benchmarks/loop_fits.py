@@ -15,7 +15,11 @@ from typing import Any
 import numpy as np
 from scipy.stats import binom
 
+from benchmarks.clock import table
 from tests.core.answers.loops import OTHER, TIMED, fitted
+
+POINTS = 2000
+"""Points of a loop."""
 
 
 def lines(found: list[dict[str, Any]]) -> Iterator[str]:
@@ -43,12 +47,23 @@ def lines(found: list[dict[str, Any]]) -> Iterator[str]:
         yield f"seconds a loop, {way} intervals: median {half:.2f}, 95 % below {most:.2f}, longest {longest:.2f}"
 
 
+def times_table(loops: int, seed: int = 5) -> str:
+    """Return how long fits of drawn loops take, one after the other."""
+    fitted(0, seed, POINTS)  # compiles
+    seconds = np.array([fitted(number, seed, POINTS)["seconds"] for number in range(loops)]).T
+    rows = [
+        [f"{way} intervals", *np.quantile(times, [0.5, 1.0]).tolist()]
+        for way, times in zip(("linear", "profile"), seconds, strict=True)
+    ]
+    return table([f"{loops} loops", "median, s", "longest, s"], rows)
+
+
 def main() -> None:
     """Fit loops and report."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("loops", nargs="?", type=int, default=1000)
     parser.add_argument("seed", nargs="?", type=int, default=2026)
-    parser.add_argument("--points", type=int, default=2000)
+    parser.add_argument("--points", type=int, default=POINTS)
     parser.add_argument("--workers", type=int, default=os.cpu_count())
     chosen = parser.parse_args()
     fitted(0, chosen.seed, chosen.points)  # compiles

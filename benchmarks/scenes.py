@@ -18,10 +18,12 @@ from matplotlib import pyplot as plt
 BOTH = ("pull_off_force", "dissipated_energy")
 
 
-def microseconds(parameters: Parameters, outputs: Any = BOTH, solver: str = "exact", repeat: int = 3) -> float:
+def microseconds(
+    parameters: Parameters, outputs: Any = BOTH, solver: str = "exact", repeat: int = 3, **how: Any
+) -> float:
     """Return the time of a scene on one thread."""
     scenes = math.prod(np.broadcast_shapes(*(np.shape(value) for value in parameters.values())))
-    return 1e6 * seconds_of(lambda: solve(parameters, outputs, solver=solver, threads=1), repeat=repeat) / scenes
+    return 1e6 * seconds_of(lambda: solve(parameters, outputs, solver=solver, threads=1, **how), repeat=repeat) / scenes
 
 
 def mixture_table(number: int = 1_000_000) -> str:
