@@ -69,7 +69,7 @@ class Content:
                     if one.values is not None:
                         with np.errstate(all="ignore"):
                             made[...] = one.values
-                except (RuntimeError, ValueError, TypeError, IndexError, OverflowError, AttributeError):
+                except (RuntimeError, ValueError, TypeError, IndexError, OverflowError, AttributeError, MemoryError):
                     pass
 
 
