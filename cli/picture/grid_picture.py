@@ -25,10 +25,14 @@ from gradhesion.cli.picture.doubts import BEYOND, END, Doubt, doubts_in, entries
 from gradhesion.cli.picture.labels import Unit, effective, equation, label, unit_for
 from gradhesion.cli.picture.layout import PANELS, Plan, items_of
 from gradhesion.cli.picture.looks import PLAIN, Looks
+from gradhesion.cli.picture.pictured import LETTER, letters_of
 from gradhesion.cli.picture.scales import scale
 
 APART: Final = 0.17
 """The least distance of numbers at a colour bar, in inches."""
+
+LINE: Final = 0.55
+"""The width of a line in a legend with the space around it, in inches."""
 
 
 def shape_of(sizes: Mapping[str, int], plan: Plan) -> tuple[int, int]:
@@ -45,7 +49,9 @@ class Part:
     height: float
     """The size that suits it, in inches."""
     entries: Sequence[Artist]
-    """What a legend shows of it."""
+    """The marks of doubtful scenes that a legend explains."""
+    lines: Sequence[Artist] = ()
+    """The lines that a legend names, if there are several."""
     contours: Sequence[tuple[QuadContourSet, Unit]] = ()
     """Contours that want numbers."""
     caption: Sequence[str] = ()
@@ -112,7 +118,15 @@ def draw_grid(
     caption = _caption(dataset, plan, items, selection, taken)
     more = 0.0 if plan.is_map or not plan.second else 0.3
     shown = entries([doubt for doubt, _ in marks], in_map=plan.is_map, gaps=finite.size < cut.size - taken.flat)
-    return Part(width=width, height=height * rows + 0.6 + more, entries=shown, contours=contours, caption=caption)
+    named_lines = [] if plan.is_map or not plan.second else grid[0, 0].get_legend_handles_labels()[0]
+    return Part(
+        width=width,
+        height=height * rows + 0.6 + more,
+        entries=shown,
+        lines=named_lines,
+        contours=contours,
+        caption=caption,
+    )
 
 
 def _beyond(dataset: xarray.Dataset, cut: xarray.DataArray, name: str) -> list[tuple[Doubt, xarray.DataArray]]:
@@ -194,10 +208,19 @@ def _dress(
             return
         some = levels.ticks(int(height / APART))
         bar.ax.set_yticks(some, [unit.number(level) for level in some])
-    elif plan.second:
-        handles, labels = grid[0, 0].get_legend_handles_labels()
-        columns = min(len(labels), 3 if grid.shape[1] == 1 else 5)
-        part.legend(handles, labels, loc="outside lower center", ncols=columns)
+
+
+def add_legends(
+    body: SubFigure, parts: Sequence[SubFigure], lines: Sequence[Sequence[Artist]], width: float, beside: int
+) -> None:
+    """Put one legend below all variables, `beside` of them in a width, if their lines mean the same, else one each."""
+    meant = {tuple(str(line.get_label()) for line in own) for own in lines}
+    shared = len(lines) > 1 and len(meant) == 1
+    for part, own in [(body, lines[0])] if shared else zip(parts, lines, strict=False):
+        if own:
+            longest = max(letters_of(str(line.get_label())) for line in own)
+            room = (width if shared else width / beside) / (LINE + LETTER * longest)
+            part.legend(handles=own, loc="outside lower center", ncols=int(min(len(own), max(1.0, room))))
 
 
 def _axis_of_place(selection: Selection) -> str | None:

@@ -10,10 +10,11 @@ from gradhesion.cli.dataset.selection import Selection
 from gradhesion.cli.dataset.sensitivities import parts_of, spread, with_influence
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import BEST, ON_BOUND, PARETO_POINT, SCENE, SI
+from gradhesion.cli.picture.alignment import Aligned
 from gradhesion.cli.picture.contour_numbers import number_contours
 from gradhesion.cli.picture.doubts import ORDER
 from gradhesion.cli.picture.front_picture import draw_fronts
-from gradhesion.cli.picture.grid_picture import draw_grid, shape_of
+from gradhesion.cli.picture.grid_picture import add_legends, draw_grid, shape_of
 from gradhesion.cli.picture.layout import placed, plan_of
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.pictured import CAPTION, heading, in_lines, lay_out, styled
@@ -96,13 +97,16 @@ def drawn(
     if looks.levels is not None and not (plan and plan.is_map):
         raise DatasetError("--levels: contour levels are for a map, and this picture has none; leave them out")
     with styled(looks):
-        figure = Figure(layout="constrained")
+        layout = Aligned()
+        figure = Figure(layout=layout)
+        body = figure.add_subfigure(figure.add_gridspec()[0])  # with the legend of lines; that of flags is outside
         shape = shape_of(sizes, plan) if plan else (1, 1)
         strips = shape[1] > 1 and shape[0] == 1  # strips of panels stand below each other
         narrow_page = looks.width is not None and looks.width < NARROW * len(chosen)
         below = len(chosen) if strips or narrow_page else 1 if len(chosen) <= MOST_BESIDE else -(-len(chosen) // ROW)
         beside = -(-len(chosen) // below)
-        figures = figure.subfigures(below, beside, squeeze=False).ravel()
+        layout.parts = body.subfigures(below, beside, squeeze=False).tolist()
+        figures = [part for row in layout.parts for part in row]
         made = []
         for part, name in zip(figures, chosen, strict=False):
             if plan:
@@ -111,6 +115,7 @@ def drawn(
                 made.append(draw_scenes(part, narrow, name, x, looks))
         entries = {str(entry.get_label()): entry for one in made for entry in one.entries}
         width = looks.width or max(one.width for one in made) * beside
+        add_legends(body, figures, [one.lines for one in made], width, beside)
         words = [heading(dataset)] if looks.title else []
         captions = [in_lines(one.caption, width / beside) for one in made] if looks.caption else []
         if captions and len({*captions}) == 1:  # said once

@@ -93,6 +93,16 @@ def _drawable(text: str) -> str:
     return text
 
 
+def letters_of(text: str) -> int:
+    r"""
+    Count the letters of a text as it is drawn, about: a command of TeX is one of them.
+
+    >>> letters_of(r"$\lambda/R$ = 0.1")
+    10
+    """
+    return len(re.sub(r"\\[a-zA-Z]+|[${}^_]", "x", text).replace("x" * 2, "x"))
+
+
 def in_lines(parts: Sequence[str], width: float) -> str:
     r"""
     Put the parts of a caption into lines of a width in inches.
@@ -103,7 +113,7 @@ def in_lines(parts: Sequence[str], width: float) -> str:
     lines: list[list[str]] = []
     room = 0.0
     for part in parts:
-        letters = len(re.sub(r"\\[a-zA-Z]+|[${}^_]", "x", part).replace("x" * 2, "x")) + 2
+        letters = letters_of(part) + 2
         if not lines or letters * LETTER > room:
             lines.append([])
             room = width

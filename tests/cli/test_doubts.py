@@ -131,7 +131,7 @@ def test_a_map_may_have_every_doubt_and_failures_at_once(make: Callable[..., xar
     figure = drawn(dataset, [])
     assert _legend(figure) == [*(doubt.words for doubt in (LOADING, UNLOADING, TOLERANCE)), GAP], "once for all panels"
     save(figure, tmp_path / "x.png", "png")
-    for axes in figure.subfigs[1].axes[:2]:
+    for axes in figure.subfigs[0].subfigs[1].axes[:2]:
         assert axes.patch.get_facecolor()[:3] == to_rgb(GREY)
         failed = dataset["lambda_over_R"].values[3], dataset["k"].values[1]
         for doubt in (None, LOADING, UNLOADING, TOLERANCE):
@@ -149,7 +149,7 @@ def test_lines_have_open_markers_where_they_are_doubtful(make: Callable[..., xar
     figure = drawn(dataset, [])
     save(figure, tmp_path / "x.png", "png")
     assert _legend(figure) == [LOADING.words, TOLERANCE.words, GAP]
-    force, energy = (part.axes[0] for part in figure.subfigs)
+    force, energy = (part.axes[0] for part in figure.subfigs[0].subfigs)
     x = dataset["lambda_over_R"].values
     for doubt, axes, marked in (
         (LOADING, energy, slice(4, 7)),

@@ -69,7 +69,7 @@ def test_a_width_is_that_of_the_figure(words: Any, inches: float, grid: xarray.D
 
 def test_variables_stand_below_each_other_in_a_column(grid: xarray.Dataset) -> None:
     for width, below in (("column", True), ("page", False)):
-        first, second = drawn(grid.isel(A=1), [], looks=looks_of(width=width)).subfigs
+        first, second = drawn(grid.isel(A=1), [], looks=looks_of(width=width)).subfigs[0].subfigs
         assert (first.bbox.y0 > second.bbox.y0) == below
 
 

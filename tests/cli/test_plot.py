@@ -233,14 +233,14 @@ def test_scales_follow_the_spacing() -> None:
 
 def told(figure: Figure) -> str:
     """All that stands above the panels."""
-    words = "\n".join([figure.get_suptitle(), *(part.get_suptitle() for part in figure.subfigs)])
+    words = "\n".join([figure.get_suptitle(), *(part.get_suptitle() for part in figure.subfigs[0].subfigs)])
     return words.replace("$", "").replace(",\n", ",  ")
 
 
 def test_lines_are_the_values_of_the_dataset(dataset_file: Callable[..., Path]) -> None:
     with opened(dataset_file("A=0.1", "lambda_over_R.num=12", "a_max_over_R=1.0")) as dataset:
         figure = drawn(dataset, [])
-        force, energy = (part.axes[0] for part in figure.subfigs)
+        force, energy = (part.axes[0] for part in figure.subfigs[0].subfigs)
         assert (force.get_xscale(), force.get_xlabel()) == ("linear", SYMBOLS["lambda_over_R"])
         assert force.get_ylabel() == SYMBOLS["pull_off_force"]
         assert energy.get_ylabel() == SYMBOLS["dissipated_energy"]
@@ -349,7 +349,7 @@ def test_units_have_prefixes_and_values_stay_in_si(gradhesion: Call, root: Path,
     assert gradhesion("run", root / "configs/physical.toml", "-o", path, "--quiet").exit_code == 0
     with opened(path) as dataset:
         figure = drawn(dataset, [], selection_of(dataset, ["k=0", "work_of_adhesion=50 mJ/m^2", "A=0"]))
-        force, energy = (part.axes[0] for part in figure.subfigs)
+        force, energy = (part.axes[0] for part in figure.subfigs[0].subfigs)
         assert force.get_xlabel() == "$R$ (µm)"
         assert [tick.get_text() for tick in force.get_xticklabels()] == ["0.5", "1", "2", "5"]
         assert force.get_ylabel() == "pull-off force $F$ (µN)"
@@ -361,9 +361,13 @@ def test_units_have_prefixes_and_values_stay_in_si(gradhesion: Call, root: Path,
         assert "E^{\\ast}R" not in told(figure), "what follows from other parameters is not told"
         assert energy.get_yscale() == "linear"
         wide = drawn(dataset, [], selection_of(dataset, ["k=0", "work_of_adhesion=0.02"]))
-        assert [part.axes[0].get_yscale() for part in wide.subfigs] == ["log", "log"], "they differ by 50 and more"
+        assert [part.axes[0].get_yscale() for part in wide.subfigs[0].subfigs] == ["log", "log"], (
+            "they differ by 50 and more"
+        )
         over = drawn(dataset, [], selection_of(dataset, ["k=0", "A=0", "work_of_adhesion=0.02"]), x="c0_over_R")
-        np.testing.assert_array_equal(over.subfigs[0].axes[0].get_lines()[0].get_xdata()[::-1], dataset["c0_over_R"])
+        np.testing.assert_array_equal(
+            over.subfigs[0].subfigs[0].axes[0].get_lines()[0].get_xdata()[::-1], dataset["c0_over_R"]
+        )
 
 
 def test_points_are_drawn_over_the_parameter_that_is_asked_for(dataset_file: Callable[..., Path]) -> None:
@@ -379,11 +383,26 @@ def test_points_are_drawn_over_the_parameter_that_is_asked_for(dataset_file: Cal
         assert "varying too: \\lambda/R" in told(figure)
 
 
+@pytest.mark.parametrize("shape", ["a map", "a few lines", "panels of lines"])
+def test_variables_beside_each_other_share_edges_and_a_legend(shape: str, dataset_file: Callable[..., Path]) -> None:
+    with opened(dataset_file(*SHAPES[shape])) as dataset:
+        figure = drawn(dataset, [])
+    figure.draw_without_rendering()
+    (body,) = figure.subfigs
+    edges = [sorted({round(box[side], 12) for box in boxes for side in (1, 3)}) for boxes in (
+        [axes.get_position().extents for axes in part.axes] for part in body.subfigs
+    )]  # fmt: skip
+    assert len(edges) == 2
+    assert edges[0] == pytest.approx(edges[1], abs=1e-9)
+    legends = [legend for part in (body, *body.subfigs) for legend in part.legends]
+    assert len(legends) == (shape != "a map")
+
+
 @pytest.mark.parametrize(("shape", "below"), [("a few lines", False), ("solvers beside lines", True)])
 def test_strips_of_panels_stand_below_each_other(shape: str, below: bool, dataset_file: Callable[..., Path]) -> None:
     with opened(dataset_file(*SHAPES[shape])) as dataset:
         figure = drawn(dataset, [])
-        first, second = figure.subfigs
+        first, second = figure.subfigs[0].subfigs
         assert (first.bbox.y0 > second.bbox.y0) == below
         assert (first.bbox.x0 == second.bbox.x0) == below
 
