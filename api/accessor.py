@@ -62,7 +62,7 @@ class Accessor:
         if variable is not None:
             known = [str(name) for name in self._dataset.data_vars if name != "status"]
             if variable not in known:
-                raise DatasetError(f"{variable}: no variable of this dataset; {did_you_mean(variable, known)}")
+                raise DatasetError(f"{variable}: not a variable of this dataset; {did_you_mean(variable, known)}")
             bits |= doubts_of(variable, turned=is_turned(self._dataset))
         return (self._dataset["status"].astype(np.int16) & bits) == 0
 
@@ -85,7 +85,7 @@ class Accessor:
             There is no such flag.
         """
         if flag not in FLAGS:
-            raise DatasetError(f"{flag}: no flag of status; {did_you_mean(flag, list(FLAGS))}")
+            raise DatasetError(f"{flag}: not a flag of status; {did_you_mean(flag, list(FLAGS))}")
         return (self._dataset["status"].astype(np.int16) & FLAGS[flag]) != 0
 
     def plot(self, variables: Any = None, **choices: Any) -> Any:

@@ -177,7 +177,7 @@ def given_in(
 def _take(given: Given, name: str, value: Any) -> None:
     """Take one parameter."""
     if name not in INPUTS and (name in SETTINGS or name in ARGUMENTS or name in _TABLES):
-        given.refuse(name, "a key of a study and no parameter; give it as a keyword, or call gr.run with the study")
+        given.refuse(name, "a key of a study, not a parameter; give it as a keyword, or call gr.run with the study")
     elif name not in INPUTS and (near := nearest(name, [*INPUTS, *ARGUMENTS])) in ARGUMENTS:
         given.refuse(name, f'unknown argument; did you mean "{near}"?')
     elif name not in INPUTS and near is None:

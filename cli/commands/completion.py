@@ -20,6 +20,6 @@ def completion(context: click.Context, shell: str) -> None:
     """
     kind = get_completion_class(shell)
     if kind is None:  # it is one of click's own
-        raise click.UsageError(f"{shell}: no shell that is known; choose from {', '.join(SHELLS)}")
+        raise click.UsageError(f"{shell}: not a known shell; choose from {', '.join(SHELLS)}")
     made = kind(context.find_root().command, {}, "gradhesion", "_GRADHESION_COMPLETE")
     show_block(ShellComplete.source(made))  # that of bash looks for a bash first

@@ -41,7 +41,7 @@ def merge(
         _merge_shards(files[0], start, overwrite=overwrite, quiet=quiet)
     elif output is None or len(files) == 1:
         raise click.UsageError(
-            "several datasets make one that -o names; one FILE alone stands for the parts of its shards"
+            "several datasets need an output, named with -o; a single FILE without -o joins the parts of its shards"
         )
     elif len({*files}) < len(files):
         raise click.UsageError("the same dataset is named twice; name each once")

@@ -16,7 +16,7 @@ from gradhesion.cli.commands.written import say_written
 @click.option("--exponent", default="2.0", show_default=True, help='The power of the punch, or "fit" to find it.')
 @click.option("--up-to", metavar="LENGTH", help='Distance from the centre to fit up to, as "2 um" [all of it].')
 @click.option("--overwrite", is_flag=True, help="Replace an existing picture.")
-@click.option("--quiet", is_flag=True, help="Say nothing unless something is wrong.")
+@click.option("--quiet", is_flag=True, help="Print errors only.")
 def profile(
     file: Path, output: Path | None, terms: int, exponent: str, up_to: str | None, overwrite: bool, quiet: bool
 ) -> None:

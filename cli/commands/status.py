@@ -58,7 +58,7 @@ def status_of(file: Path) -> dict[str, Any]:
     running = not folder.foreign() and folder.busy()
     if not running and (study is None or folder.has_made(file)):
         if not is_file(file):
-            raise DatasetError(f"{file}: neither a dataset nor parts of one are there; name the output of a run")
+            raise DatasetError(f"{file}: there is neither a dataset nor parts of one; name the output of a run")
         found = file.stat()
         return {"output": str(file), "state": "complete", "bytes": found.st_size, "written": found.st_mtime}
     states = [(path, read_record(path, State)) for path in folder.states()]
@@ -108,4 +108,4 @@ def _date(seconds: float) -> str:
     try:
         return time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(seconds))
     except (OverflowError, ValueError, OSError):
-        return "at no date that is one"
+        return "at an unknown date"

@@ -26,7 +26,7 @@ def cautions(study: Study, flagged: Mapping[str, int]) -> Iterator[str]:
         )
     if nothing:
         yield (
-            f"nothing meets what is required in {nothing:,} of {counted(study.scenes, 'scene')}, which have no "
+            f"no point meets the requirements in {nothing:,} of {counted(study.scenes, 'scene')}, which have no "
             "optimum; require less, or widen the bounds"
         )
     off = flagged.get("linear_deviation_off", 0)
@@ -35,7 +35,7 @@ def cautions(study: Study, flagged: Mapping[str, int]) -> Iterator[str]:
         if study.uncertainty.samples:
             yield (
                 f"the linear and the sampled standard deviation differ by more than a tenth in {share}: a kink lies "
-                "within the spread of the inputs, or the value bends; trust the samples there"
+                "within the spread of the inputs, or the value bends; use the samples there"
             )
         else:
             yield (

@@ -197,7 +197,7 @@ def check_axis(dataset: xarray.Dataset, option: str, axis: str) -> None:
         raise DatasetError(f"{option}: not an axis; {axis} is {written} in the whole dataset")
     if axis in dataset.coords:
         raise DatasetError(f"{option}: not an axis; {axis} follows from {' and '.join(map(str, dataset[axis].dims))}")
-    remedy = did_you_mean(axis, known) if known else "it has none, but a single scene"
+    remedy = did_you_mean(axis, known) if known else "it has a single scene and no axes"
     raise DatasetError(f"{option}: not an axis of this dataset; {remedy}")
 
 

@@ -91,9 +91,9 @@ def _of_attributes(dataset: "xarray.Dataset") -> Iterator[str]:
     texts = (*_TEXTS, *(name for name in dataset.attrs if str(name).endswith("_version")))
     for name in texts:
         if not isinstance(dataset.attrs.get(name, ""), str):
-            yield f"its attribute {name} is no text"
+            yield f"its attribute {name} is not text"
     if str(dataset.attrs.get("control", CONTROLS[0])) not in CONTROLS:
-        yield "its attribute control is none that there is"
+        yield "its attribute control is not a known control"
 
 
 def _of_variables(dataset: "xarray.Dataset") -> Iterator[str]:
@@ -104,9 +104,9 @@ def _of_variables(dataset: "xarray.Dataset") -> Iterator[str]:
             yield f"the type of {name} is {variable.dtype}"
         for attribute in ("units", "long_name"):
             if not isinstance(variable.attrs.get(attribute, ""), str):
-                yield f"the attribute {attribute} of {name} is no text"
+                yield f"the attribute {attribute} of {name} is not text"
     if dataset["status"].dtype.kind not in "iu":
-        yield "status has no whole numbers"
+        yield "status is not made of whole numbers"
     if dataset["status"].size == 0:
         yield "it has no scene"
 
@@ -166,7 +166,7 @@ def refuse_fit(dataset: "xarray.Dataset", what: str, path: Path | str = "the dat
         It is one.
     """
     if is_fit(dataset):
-        raise DatasetError(f"{path}: is that of a fit, and {what} is of scenes; `gradhesion plot` draws it")
+        raise DatasetError(f"{path}: holds a fit, and {what} needs scenes; `gradhesion plot` draws it")
 
 
 def _is_axis(values: NDArray[Any], *, infinite: bool) -> bool:

@@ -38,7 +38,7 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
     known = [str(name) for name in dataset.data_vars if name != "status" and _is_shown(dataset, str(name))]
     for name in variables:
         if name not in known:
-            raise DatasetError(f"--variable {name}: nothing that a page can show; {did_you_mean(name, known)}")
+            raise DatasetError(f"--variable {name}: a page cannot show it; {did_you_mean(name, known)}")
     if not known:
         raise DatasetError(
             "jumps are not drawn: `gradhesion info --jumps` lists them; "

@@ -117,7 +117,7 @@ def drawn_curves(
         other = next(curve for curve in chosen if curve not in of_states)
         raise DatasetError(
             f"--variable {of_states[0]} is drawn over the distance from the axis, and {other} is not: they have no "
-            "axis in common; ask for one after the other"
+            "axis in common; draw one after the other"
         )
     chosen = [curve for curve in chosen if curve not in of_states]
     scenes, caption = _scenes(dataset, looks)

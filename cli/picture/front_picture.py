@@ -94,7 +94,9 @@ def _sides(dataset: xarray.Dataset, asked: Sequence[str], x: str | None, y: str 
     known = [str(name) for name in dataset.data_vars if PARETO_POINT in dataset[name].dims]
     for name in (*asked, *(one for one in (x, y) if one is not None)):
         if name not in known:
-            raise DatasetError(f"--variable {name}: no variable of the best compromises; {did_you_mean(name, known)}")
+            raise DatasetError(
+                f"--variable {name}: not a variable of the best compromises; {did_you_mean(name, known)}"
+            )
     goals = [name for name in known if not name.endswith(SI) and name.removeprefix(BEST) not in INPUTS]
     goals = [name + SI if name + SI in known else name for name in goals[:2]]
     first, second = [*asked, *goals[len(asked) :]][:2]

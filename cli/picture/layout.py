@@ -90,7 +90,7 @@ def placed(dataset: xarray.Dataset, selection: Selection, x: str | None, y: str 
             continue
         asked = f"{option} {name}"
         if name in {*selection.fixed, *selection.over, *(one.axis for one in selection.between)}:
-            raise DatasetError(f"{asked}: {name} is fixed or reduced by --at or --over; leave one of the two out")
+            raise DatasetError(f"{asked}: {name} is fixed or reduced by --at or --over; remove one of the two")
         if name == SOLVER:
             raise DatasetError(f"{asked}: solvers are always lines or panels; choose a parameter")
         own = dataset[name].dims if name in dataset.coords else ()

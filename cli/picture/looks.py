@@ -96,10 +96,10 @@ def looks_of(
     (3.5433070866141736, (0.5, 1.0, 2.0), 8)
     """
     if kind not in (None, "lines", "map"):
-        raise DatasetError(f'kind = "{kind}": no kind of picture; {did_you_mean(str(kind), ["lines", "map"])}')
+        raise DatasetError(f'kind = "{kind}": not a kind of picture; {did_you_mean(str(kind), ["lines", "map"])}')
     name = VIRIDIS if colour_map is None else str(colour_map)
     if name not in colormaps:
-        raise DatasetError(f"--colour-map {name}: no colour map of matplotlib; {_near(name, [*colormaps], VIRIDIS)}")
+        raise DatasetError(f"--colour-map {name}: not a colour map of matplotlib; {_near(name, [*colormaps], VIRIDIS)}")
     return Looks(
         kind=kind,  # type: ignore[arg-type]
         width=_side("width", width),
@@ -129,7 +129,7 @@ def _side(name: str, value: float | str | None) -> float | None:
     if math.isnan(inches):
         near = nearest(text, list(words))
         meant = f'did you mean "{near}"?' if near else f'write for example 3.5, "9 cm"{" or column" if words else ""}'
-        raise DatasetError(f"--{name} {value}: no size; {meant}")
+        raise DatasetError(f"--{name} {value}: not a size; {meant}")
     if not LEAST <= inches <= MOST:
         raise DatasetError(
             f"--{name} {value}: a picture of {inches:.3g} inches; choose one of {LEAST:g} to {MOST:g} inches"
@@ -149,7 +149,7 @@ def _levels(value: Any) -> int | tuple[float, ...] | None:
     except (TypeError, ValueError):
         numbers = []
     if not numbers or not all(map(math.isfinite, numbers)):
-        raise DatasetError(f"--levels {written}: no number of levels and no list of them; write 8 or 0.5,1,2")
+        raise DatasetError(f"--levels {written}: neither a number of levels nor a list of levels; write 8 or 0.5,1,2")
     if len(words) > 1 or "." in str(words[0]):
         return tuple(numbers)
     if not 1 <= numbers[0] <= FINEST:
@@ -170,7 +170,7 @@ def _style(value: str | Path | None) -> str | None:
     except OSError:
         known = list(matplotlib.style.available)
         raise DatasetError(
-            f"--style {name}: no style of matplotlib and no file of one; {_near(name, known, 'grayscale')}"
+            f"--style {name}: neither a style of matplotlib nor the file of a style; {_near(name, known, 'grayscale')}"
         ) from None
 
 

@@ -107,7 +107,7 @@ def _scaled(found: Columns, quantity: str, word: str, file: Path, *, si: bool) -
         return found.values[word]
     if not unit:
         raise DatasetError(
-            f"--data {file}: the column {word} has no unit, and the curves have; write it behind the name in brackets, "
+            f"--data {file}: the column {word} has no unit, and the curves have; write it after the name in brackets, "
             f"as {word} [{example}]"
         )
     try:

@@ -118,7 +118,7 @@ def _of_text(content: bytes, sha256: str, only: Collection[str] | None = None, w
     except StopIteration:
         raise ColumnsError("the file has comments only; name a table with a header and a row of numbers") from None
     except UnicodeDecodeError:
-        raise ColumnsError("the file is no text in UTF-8; name a table of numbers in CSV or NetCDF") from None
+        raise ColumnsError("the file is not text in UTF-8; name a table of numbers in CSV or NetCDF") from None
     names, units, delimiter = _header(header, number)
     read = [i for i, name in enumerate(names) if only is None or name in only]
     others = tuple(name for i, name in enumerate(names) if i not in read)
@@ -138,7 +138,7 @@ def _of_text(content: bytes, sha256: str, only: Collection[str] | None = None, w
             text, delimiter=delimiter, comments="#", ndmin=2, quotechar='"', usecols=wanted, converters=coded or None
         )
     except UnicodeDecodeError:
-        raise ColumnsError("the file is no text in UTF-8; save it as UTF-8") from None
+        raise ColumnsError("the file is not text in UTF-8; save it as UTF-8") from None
     except ValueError as error:
         if isinstance(error, ColumnsError):
             raise
@@ -228,7 +228,7 @@ def _sentence(
         cells = _cells(line, delimiter)
         if len(cells) != len(names):
             short = f"{len(cells):,} values under {len(names):,} names"
-            return f"line {number} has {short}; give each row one value a column, separated as the header is"
+            return f"line {number} has {short}; give each row one value per column, separated as the header is"
         for name, cell in ((names[i], cells[i]) for i in read):
             if name in words and cell.lower() not in (*words[name], "nan"):
                 return f"line {number}: {name} = {shown(cell)}; {did_you_mean(cell, [*words[name]])}"
@@ -239,7 +239,7 @@ def _sentence(
             if not _is_number(cell):
                 comma = ", with a point and not a comma" if re.fullmatch(r"[-+]?\d+,\d+", cell) else ""
                 return f"line {number}: {name} = {shown(cell)} is not a number; write one{comma}"
-    return "the rows are no numbers; write one value a column, separated as the header is"
+    return "the rows are not numbers; write one value per column, separated as the header is"
 
 
 def _of_netcdf(content: bytes, sha256: str, only: Collection[str] | None) -> Columns:

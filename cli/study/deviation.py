@@ -68,7 +68,7 @@ def _number(value: object, name: str) -> float:
         return si_value(value, name)
     if isinstance(value, int | float) and not isinstance(value, bool):
         return float(value)
-    raise ValueError(f"this is no deviation; {_forms(name)}")
+    raise ValueError(f"not a deviation; {_forms(name)}")
 
 
 def _uniform(value: Mapping[Any, Any], name: str) -> Deviation:

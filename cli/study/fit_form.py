@@ -79,17 +79,17 @@ def given_of(value: object, name: str) -> Given:
     unknown = [str(word) for word in value if word not in ("start", "stop")]
     if unknown:
         raise ValueError(
-            f'a range that is searched has start and stop alone; remove "{unknown[0]}" (values between are all tried)'
+            f'a searched range has only start and stop; remove "{unknown[0]}" (values between are all tried)'
         )
     if missing := [word for word in ("start", "stop") if word not in value]:
-        raise ValueError(f"a range that is searched needs {' and '.join(missing)}; {_example(key)}")
+        raise ValueError(f"a searched range needs {' and '.join(missing)}; {_example(key)}")
     start, stop = _number(value["start"], key), _number(value["stop"], key)
     if not abs(start) < float("inf") or not abs(stop) < float("inf"):
-        raise ValueError("a range that is searched ends at finite values; write one")
+        raise ValueError("a searched range has finite ends; write a finite value")
     if not start < stop:
-        raise ValueError("the stop of a range that is searched is above its start; exchange the two, or give a number")
+        raise ValueError("the stop of a searched range is above its start; exchange the two, or give a number")
     if start <= 0.0 and name not in ("k", "nu", "indentation_max"):
-        raise ValueError("it is searched by its logarithm, and 0 has none; begin the range above 0")
+        raise ValueError("it is searched on a logarithmic scale; begin the range above 0")
     return Search(start, stop)
 
 
@@ -170,7 +170,7 @@ def noise_of(value: object) -> dict[str, float]:
 def _intervals(value: object) -> object:
     """Check where the intervals come from."""
     if value not in INTERVALS:
-        raise ValueError(f"intervals are of the linear problem or by profile; {did_you_mean(str(value), INTERVALS)}")
+        raise ValueError(f'intervals are "profile" or "linear"; {did_you_mean(str(value), INTERVALS)}')
     return value
 
 

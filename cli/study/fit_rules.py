@@ -28,7 +28,7 @@ _INSTEAD: Final = {
 def sound_keys(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[Mistake]]:
     """Leave out the keys of studies of other kinds, with what is wrong about them."""
     others = [name for name in data if name in keys_of("") and name not in AT_THE_TOP]
-    sentence = "a fit has no use for this; remove it"
+    sentence = "a fit does not use this key; remove it"
     mistakes = [Mistake((name,), data[name], _INSTEAD.get(name, sentence)) for name in others]
     return {name: value for name, value in data.items() if name not in others}, mistakes
 
@@ -71,12 +71,12 @@ def _mistakes_of_profile(checked: Checked) -> Iterator[Mistake]:
     written = checked.data.get("profile")
     for name in ("file", "spectrum", "sha256", "terms", "up_to"):
         if isinstance(written, Mapping) and name in written:
-            sentence = "a fit takes a series; write the table that `gradhesion profile FILE.csv` prints in its place"
+            sentence = "a fit needs harmonics; write the table that `gradhesion profile FILE.csv` prints instead"
             if name == "spectrum":
-                sentence = "random waves are many punches, and a loop is of one; give its harmonics"
+                sentence = "a spectrum draws many punches, and a loop belongs to one; give its harmonics"
             yield Mistake(("profile", name), written[name], sentence)
     if form_of(checked).profile.exponent == "fit":
-        yield Mistake(("profile", "exponent"), "fit", "there is no file that it could be fitted to; write a number")
+        yield Mistake(("profile", "exponent"), "fit", "there is no file to fit it to; write a number")
 
 
 def _mistakes_of_turn(checked: Checked) -> Iterator[Mistake]:
@@ -125,12 +125,12 @@ def _mistakes_of_search(checked: Checked, entries: Mapping[str, Any]) -> Iterato
     free = [name for name, entry in entries.items() if isinstance(entry, Search)]
     wrong = [path for path in checked.wrong if path[0] in ("parameters", "physical")]
     if not free and not wrong:
-        sentence = "nothing is searched; give a range to what is to be fitted, as "
+        sentence = "no parameter is fitted; give a range to one, as "
         yield Mistake(("physical",), None, sentence + 'E_star = { start = "0.1 GPa", stop = "10 GPa" }')
     stiff = [name for name in free if name in ONE_NUMBER]
     for name in stiff[1:]:
         sentence = (
-            f"a loop cannot tell {stiff[0]} and {name} apart: E_star, c0 and nu act on it through one number; "
+            f"a loop cannot determine both {stiff[0]} and {name}: it depends on E_star, c0 and nu through one number; "
             "give all but one of them as numbers"
         )
         yield Mistake((INPUTS[name].table, name), checked.data[INPUTS[name].table][name], sentence)

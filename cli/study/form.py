@@ -195,7 +195,7 @@ def _deviation(key: Key) -> Any:
     """Make the type of the deviation of an input."""
     schema = {"type": ["number", "string", "object"]}
     read = BeforeValidator(lambda value: None if value is None else deviation_of(value, key.name))
-    about = f"how far {key.name} may be off: {key.about}"
+    about = f"uncertainty of {key.name}: {key.about}"
     return Annotated[Deviation | None, read, WithJsonSchema(schema), Field(description=about)]
 
 

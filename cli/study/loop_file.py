@@ -117,7 +117,7 @@ def _scaled(found: Columns, key: str, asked: "ColumnTable", dimension: str) -> N
         raise LoopFileError(
             key,
             f'the column {shown(asked.column)} has no unit; write for example {key} = {{ column = "{asked.column}", '
-            f'unit = "{unit}" }}, or its unit in brackets behind its name in the header',
+            f'unit = "{unit}" }}, or its unit in brackets after its name in the header',
         )
     try:
         return found.values[asked.column] * si_value(f"1 {written}", own)

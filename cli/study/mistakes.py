@@ -135,7 +135,7 @@ def _unknown_key(path: Path) -> tuple[Path, str]:
     tables: dict[Path, tuple[str, ...]] = {(): keys_of(""), **{(name,): keys_of(name) for name in _TABLES}}
     table, key = path[:-1], str(path[-1])
     if table == ("uncertainty",):
-        return path, f"no input of a study; {did_you_mean(key, (*INPUTS, *keys_of('uncertainty')))}"
+        return path, f"not an input of a study; {did_you_mean(key, (*INPUTS, *keys_of('uncertainty')))}"
     files = FILE_KEYS if table == ("parameters", "points") else ()
     inner = "spectrum" if table == ("profile", "spectrum") else "harmonics" if table[:1] == ("profile",) else "range"
     inner = "require" if table == ("optimum", "require") else inner
@@ -145,7 +145,7 @@ def _unknown_key(path: Path) -> tuple[Path, str]:
             home = f"under [{dotted(other)}]" if other else "at the top, before the first [table]"
             return (*other, key), f"this key belongs {home}; move it there"
     if not table and key in OF_A_FIT:
-        return path, 'this table is of a fit; write kind = "fit" at the top, or remove it'
+        return path, 'this table belongs to a fit; write kind = "fit" at the top, or remove it'
     near = nearest(key, known)
     return (*table, near or ""), f"unknown key; {did_you_mean(key, known)}"
 

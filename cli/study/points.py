@@ -153,9 +153,9 @@ def _mistakes(data: Mapping[str, Any], found: Columns) -> Iterator[str]:
     ours = {*OUTPUTS, *(name + SI for name in OUTPUTS), "status"}
     for name in found.values:
         if name in ours:
-            yield f"its column {shown(name)} is an output and no parameter; leave it out"
+            yield f"its column {shown(name)} is an output, not a parameter; leave it out"
         elif name not in INPUTS:
-            yield f"its column {shown(name)} is no parameter; {did_you_mean(name, tuple(INPUTS))}"
+            yield f"its column {shown(name)} is not a parameter; {did_you_mean(name, tuple(INPUTS))}"
         elif isinstance(table := data.get(INPUTS[name].table), Mapping) and name in table:
             yield f"{name} stands under [{INPUTS[name].table}] and is a column of the file; keep one of the two"
     if data.get("layout", "points") == "grid":
@@ -168,7 +168,7 @@ def _mistakes_of_column(name: str, values: NDArray[np.float64], found: Columns) 
     """Check the unit of a column, and that its values are in range."""
     key, unit = INPUTS[name], found.units.get(name, "")
     if key.table == "physical" and not unit:
-        yield f"its column {name} has no unit; write it behind the name in brackets, as {name} [{key.unit}]"
+        yield f"its column {name} has no unit; write it after the name in brackets, as {name} [{key.unit}]"
         return
     if key.table != "physical" and unit:
         yield f"its column {name} has the unit {shown(unit)} and is a ratio; write the name alone"

@@ -187,11 +187,11 @@ def _in_metres(found: Columns, name: str) -> NDArray[np.float64]:
         )
     unit = found.units.get(name)
     if unit is None:
-        raise ColumnsError(f"the column {name} has no unit; write it behind the name in brackets, as {name} [nm]")
+        raise ColumnsError(f"the column {name} has no unit; write it after the name in brackets, as {name} [nm]")
     try:
         return found.values[name] * si_value(f"1 {unit}", "up_to")
     except ValueError:
-        raise ColumnsError(f"the unit of {name} [{unit}] is no length; write for example {name} [nm]") from None
+        raise ColumnsError(f"the unit of {name} [{unit}] is not a length; write for example {name} [nm]") from None
 
 
 def _changed(found: str, expected: str) -> str:

@@ -110,7 +110,7 @@ def _mistakes_without_a_file(checked: Checked) -> Iterator[Mistake]:
         if name in table and ("profile", name) not in checked.wrong:
             yield Mistake(("profile", name), table[name], f"this goes with a file; add file, or remove {name}")
     if table.get("exponent") == "fit":
-        sentence = "there is no file that it could be fitted to; add file, or write for example exponent = 2.0"
+        sentence = "there is no file to fit it to; add file, or write for example exponent = 2.0"
         yield Mistake(("profile", "exponent"), "fit", sentence)
 
 

@@ -71,7 +71,7 @@ def si_value(value: object, name: str) -> float:
     elif factor is None:
         problem = f'the unit "{written}" is not known'
     else:
-        problem = "" if factor else f'"{written}" is the unit of something else'
+        problem = "" if factor else f'"{written}" is not a unit of this quantity'
     if problem or not factor:
         raise ValueError(f"{problem}; {WORDS[key.unit]} is expected; {example(('physical', name))}")
     result = float(Decimal(number) * factor) + 0.0

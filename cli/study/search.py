@@ -1,6 +1,6 @@
 """What a study of kind "optimum" seeks: the goal, the inputs that are searched, and what is required."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
 
@@ -84,7 +84,7 @@ class Sought:
     """What the table [optimum] of a study names, before anything of it is checked."""
 
     over: tuple[str, ...] = ()
-    """The inputs to be searched that have bounds alone."""
+    """The inputs to be searched that have bounds alone, also those whose names are misspelt."""
     data: Mapping[str, Any] = field(default_factory=dict)
 
     def beside(self) -> dict[str, Any]:
@@ -104,8 +104,14 @@ def sought_in(data: Mapping[str, Any]) -> Sought:
     table = data.get(KIND)
     if data.get("kind") != KIND or not isinstance(table, Mapping) or not isinstance(table.get("over"), list):
         return Sought(data=data)
-    over = tuple(dict.fromkeys(name for name in table["over"] if isinstance(name, str) and _is_bounded(data, name)))
-    return Sought(over=over, data=data)
+    bounded = [name for name in INPUTS if _is_bounded(data, name)]
+    meant = (name if name in bounded else _slip(name, bounded) for name in table["over"] if isinstance(name, str))
+    return Sought(over=tuple(dict.fromkeys(name for name in meant if name)), data=data)
+
+
+def _slip(word: str, known: Sequence[str]) -> str | None:
+    """Find the known name that a misspelt one stands for: its own sentence is enough."""
+    return None if word in INPUTS else nearest(word, known)
 
 
 def _entry(data: Mapping[str, Any], name: str) -> Any:
@@ -118,6 +124,12 @@ def _is_bounded(data: Mapping[str, Any], name: str) -> bool:
     """Report whether an input has bounds and no number of values."""
     entry = _entry(data, name)
     return isinstance(entry, Mapping) and "num" not in entry
+
+
+def _is_misspelt(data: Mapping[str, Any], name: str) -> bool:
+    """Report whether a study gives an input by a key that is nearly its name."""
+    table = data.get(INPUTS[name].table) if name in INPUTS else None
+    return isinstance(table, Mapping) and any(_slip(str(key), (*INPUTS,)) == name for key in table)
 
 
 def search_of(checked: Checked, sought: Sought) -> Search:
@@ -159,7 +171,7 @@ def mistakes_of_search(checked: Checked, sought: Sought, sound: Mapping[str, Val
     if (KIND,) in checked.wrong or checked.form.optimum is None:
         return
     if "outputs" in sought.data:
-        sentence = "[optimum] says what is sought, and an optimum has no other outputs; remove this key"
+        sentence = "[optimum] names the outputs; remove this key"
         yield Mistake(("outputs",), sought.data["outputs"], sentence)
     yield from _mistakes_of_goals(checked)
     yield from _mistakes_of_over(checked, sought, sound)
@@ -181,10 +193,10 @@ def _mistakes_of_goals(checked: Checked) -> Iterator[Mistake]:
         return
     goals = [(key, name) for key in ("maximise", "minimise") for name in table.goals(key)]
     if not goals:
-        sentence = f"nothing is sought; {example((KIND, 'maximise'))}"
+        sentence = f"there is no goal; {example((KIND, 'maximise'))}"
         yield Mistake((KIND, "maximise"), None, sentence)
     if len(goals) > 2:
-        yield Mistake((KIND, goals[2][0]), written[goals[2][0]], "at most two outputs are sought; remove the others")
+        yield Mistake((KIND, goals[2][0]), written[goals[2][0]], "at most two goals are possible; remove the others")
     known = [*SPREADABLE, *(name + SI for name in SPREADABLE if name in UNITS and "physical" in checked.data)]
     names = [name for _, name in goals]
     for i, (key, name) in enumerate(goals):
@@ -195,7 +207,7 @@ def _mistakes_of_goals(checked: Checked) -> Iterator[Mistake]:
             sentence = f"{shown(name)} is a count, which has no optimum but steps; choose another output"
             yield Mistake(path, written[key], sentence)
         elif name not in known:
-            yield Mistake(path, written[key], f"{shown(name)} is no output to seek; {did_you_mean(name, known)}")
+            yield Mistake(path, written[key], f"{shown(name)} cannot be a goal; {did_you_mean(name, known)}")
 
 
 def _mistakes_of_over(checked: Checked, sought: Sought, sound: Mapping[str, Values]) -> Iterator[Mistake]:
@@ -205,23 +217,25 @@ def _mistakes_of_over(checked: Checked, sought: Sought, sound: Mapping[str, Valu
     if path in checked.wrong:
         return
     if not table.over:
-        yield Mistake(path, written.get("over"), f"nothing is searched; {example(path)}")
+        yield Mistake(path, written.get("over"), f"no input is searched; {example(path)}")
     for i, name in enumerate(table.over):
         own: Path = (KIND, "over", i)
         entry = _entry(sought.data, name)
         if name in table.over[:i]:
             yield Mistake(own, name, "this input is named twice; remove one of the two")
+        elif entry is None and _is_misspelt(sought.data, name):
+            continue  # the sentence about the unknown key is enough
         elif entry is None:
             known = [one for one in INPUTS if _entry(sought.data, one) is not None]
             near = nearest(name, known)
             remedy = did_you_mean(name, known) if near else f"add {name} = {{ start = .., stop = .. }}"
-            yield Mistake(own, name, f"the study gives no {name} that could be searched; {remedy}")
+            yield Mistake(own, name, f"the study gives no {name} to search; {remedy}")
         elif not isinstance(entry, Mapping):
             home = f"{INPUTS[name].table}.{name}"
             sentence = f"it has no bounds, {home} = {shown(entry)}; write {name} = {{ start = .., stop = .. }}"
             yield Mistake(own, name, sentence + ", or remove it here")
         elif "num" in entry:
-            sentence = f"what is searched has bounds alone; remove num from {INPUTS[name].table}.{name}"
+            sentence = f"a searched input has bounds only; remove num from {INPUTS[name].table}.{name}"
             yield Mistake(own, name, sentence + ", or remove it here")
         elif name in sound and np.ptp(np.asarray(sound[name])) == 0.0:
             yield Mistake((INPUTS[name].table, name), entry, "the bounds are the same; write another stop, or a number")
@@ -234,7 +248,7 @@ def _mistakes_of_over(checked: Checked, sought: Sought, sound: Mapping[str, Valu
     if checked.form.layout == "grid":
         for name, values in sound.items():
             if name not in sought.over and isinstance(values, np.ndarray) and values.size == 1:
-                sentence = f"an axis of one value is left beside what is searched; write {name} = {values[0]!s}"
+                sentence = f"an axis of one value cannot stand beside searched inputs; write {name} = {values[0]!s}"
                 yield Mistake((INPUTS[name].table, name), values.tolist(), sentence)
 
 
@@ -252,7 +266,7 @@ def _mistakes_of_requirements(checked: Checked) -> Iterator[Mistake]:
                 sentence = f"the maximum is below the minimum, {table.minimum[name]:g}; exchange the two"
                 yield Mistake((KIND, "require", word, name), value, sentence)
     if table.one_disc and checked.form.method.solver != "exact":
-        sentence = 'only the exact solver tells whether the contact is one disc; write solver = "exact"'
+        sentence = 'only the exact solver checks whether the contact is one disc; write solver = "exact"'
         yield Mistake((KIND, "require", "one_disc"), written["one_disc"], sentence)
     if table.one_disc and not checked.form.method.check_contact:
         sentence = "the contact is not checked; remove check_contact = false under [method]"

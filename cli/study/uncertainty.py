@@ -11,7 +11,7 @@ from gradhesion.cli.names import OF_LINEAR, SPREAD, SPREADABLE
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.deviation import Deviation
 from gradhesion.cli.study.mistakes import Checked, Mistake
-from gradhesion.cli.terminal.wording import did_you_mean, nearest
+from gradhesion.cli.terminal.wording import nearest
 
 TABLE: Final = "uncertainty"
 
@@ -85,8 +85,8 @@ def mistakes_of_uncertainty(checked: Checked, sound: Mapping[str, Values]) -> It
 def _sentence_of_absent(name: str, known: list[str]) -> str:
     """Say that an input is uncertain that the study does not give."""
     near = nearest(name, known)
-    remedy = did_you_mean(name, known) if near else f"name one that it gives, {', '.join(known)}"
-    return f"the study gives no {name} that could be off; {remedy}, or remove this key"
+    remedy = f'use "{near}"' if near else f"name one that it gives, {', '.join(known)}"
+    return f"the study gives no {name} to be uncertain; {remedy}, or remove this key"
 
 
 def _mistakes_of_deviation(name: str, one: Deviation, values: Values, written: Any) -> Iterator[Mistake]:
@@ -95,7 +95,7 @@ def _mistakes_of_deviation(name: str, one: Deviation, values: Values, written: A
     if one.relative and np.any(own == 0.0):
         yield Mistake(path, written, f"{name} is 0 in some scene, and a percentage of 0 is 0; give a number instead")
     if np.any(np.isinf(own)):
-        sentence = f"{name} is inf in some scene, and has no deviation there; use finite values, or remove this key"
+        sentence = f"{name} is inf in some scene, which has no deviation; use finite values, or remove this key"
         yield Mistake(path, written, sentence)
     if one.uniform and np.any((own < one.low) | (own > one.high)):
         outside = own[(own < one.low) | (own > one.high)][0]
@@ -119,5 +119,5 @@ def _mistakes_of_outputs(checked: Checked, asked: Uncertainty) -> Iterator[Mista
         yield Mistake(place, list(form.outputs), f"none of these has a spread; add for example {names}")
     elif not asked.samples and not asked.linear(own, exact=form.method.solver == "exact"):
         why = "are not those of the exact solver" if form.method.solver != "exact" else "have no sensitivities"
-        sentence = f"the outputs {why}, so that their spread takes samples; write samples = 1024 under [uncertainty]"
+        sentence = f"the outputs {why}, and their spread needs samples; write samples = 1024 under [uncertainty]"
         yield Mistake(path, 0, sentence)

@@ -38,7 +38,7 @@ def tabled(dataset: xarray.Dataset, file: Path, chosen: Sequence[str]) -> Iterat
     first = dataset[names[0]]
     if first.size > MOST:
         remedy = "read it with xarray or NCO instead"
-        raise DatasetError(f"{file}: {first.size:,} lines, where a table has {MOST:,} at most; {remedy}")
+        raise DatasetError(f"{file}: {first.size:,} lines, and a table has at most {MOST:,}; {remedy}")
     beside = [name for name in (SOLVER, *INPUTS, REALISATION) if name in dataset.coords]
     columns = [*beside, *names, "status"]
     yield ",".join(columns)

@@ -133,7 +133,7 @@ def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
         if name == "status":
             continue
         yield ""
-        yield f"{name}: {dataset[name].attrs.get('long_name', 'of no name')}{_unit(dataset[name], ', in ')}"
+        yield f"{name}: {dataset[name].attrs.get('long_name', 'without a name')}{_unit(dataset[name], ', in ')}"
         if name == names.ON_BOUND:
             yield from bounds_told(dataset[name])
             continue

@@ -50,5 +50,5 @@ def fitted(study: FitStudy) -> FittedLoop:
 def doubts_of(found: FittedLoop) -> list[str]:
     """Say why a fit is not to be trusted; nothing if it is."""
     sentences = [] if found.converged else ["the fit did not converge; give more starts, or narrower ranges"]
-    end = "ends at an end of its range; widen the range, or give it as a number"
+    end = "is at an end of its range; widen the range, or give it as a number"
     return [*sentences, *(f"{name} {end}" for name in found.on_bound)]

@@ -61,10 +61,10 @@ def test_variables_in_si_and_of_curves_are_doubted_as_what_they_are_of() -> None
 
 def test_what_is_not_there_is_refused(every_status: xarray.Dataset) -> None:
     with pytest.raises(
-        gr.DatasetError, match='pull_of_force: no variable of this dataset; did you mean "pull_off_force"'
+        gr.DatasetError, match='pull_of_force: not a variable of this dataset; did you mean "pull_off_force"'
     ):
         every_status.gr.valid("pull_of_force")
-    with pytest.raises(gr.DatasetError, match='pull_off_at_rims: no flag of status; did you mean "pull_off_at_rim"'):
+    with pytest.raises(gr.DatasetError, match='pull_off_at_rims: not a flag of status; did you mean "pull_off_at_rim"'):
         every_status.gr.flagged("pull_off_at_rims")
 
 

@@ -74,7 +74,7 @@ def test_units_are_strings_or_numbers_in_si_or_attributes() -> None:
     assert attributes["pull_off_force_si"][0].item() == pytest.approx(force, rel=1e-12)
     assert attributes["wavelength"].attrs["units"] == "m"
     refused = mistakes_of(AFM | {"wavelength": wavelength.assign_attrs(units="N")})
-    assert 'wavelength: its attribute units = "N": "N" is the unit of something else; a length is expected' in refused
+    assert 'wavelength: its attribute units = "N": "N" is not a unit of this quantity; a length is expected' in refused
     refused = mistakes_of(AFM | {"A": wavelength})
     assert 'A: its attribute units = "nm", where a number without a unit is expected' in refused
 
@@ -87,7 +87,7 @@ def test_units_are_strings_or_numbers_in_si_or_attributes() -> None:
         ({"zzz": np.arange(3)}, 'gr.solve: zzz: unknown parameter; choose from "k"'),
         ({"profil": None}, 'gr.solve: profil: unknown argument; did you mean "profile"?'),
         ({"outputs_": ["x"]}, 'gr.solve: outputs_: unknown argument; did you mean "outputs"?'),
-        ({"layout": "points"}, "gr.solve: layout: a key of a study and no parameter"),
+        ({"layout": "points"}, "gr.solve: layout: a key of a study, not a parameter"),
         ({"A": -0.1}, "gr.solve: A = -0.1: out of range; choose a value with A >= 0, and finite"),
         ({"A": [0.1, 0.2, -0.1, 0.3]}, "gr.solve: A[2] = -0.1: out of range; choose a value with A >= 0"),
         ({"A": [0.1, math.nan]}, "gr.solve: A[1] = nan: out of range"),

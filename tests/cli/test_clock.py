@@ -100,7 +100,5 @@ def test_a_dataset_of_any_date(
     monkeypatch.setattr(Path, "stat", dated)
     told = gradhesion("status", output)
     assert told.exit_code == 0
-    assert re.search(
-        r"complete, [\d.]+ kB, written (-?\d+-\d\d-\d\d \d\d:\d\d:\d\d|at no date that is one)\n", told.stdout
-    )
+    assert re.search(r"complete, [\d.]+ kB, written (-?\d+-\d\d-\d\d \d\d:\d\d:\d\d|at an unknown date)\n", told.stdout)
     assert not folder_of(output).path.exists()

@@ -60,8 +60,8 @@ MISTAKES = {
     "A,k\n1,2\nabc,3\n": 'line 3: A = "abc" is not a number; write one',
     "A;k\n1,5;3\n": 'line 2: A = "1,5" is not a number; write one, with a point and not a comma',
     "A\n1\n2 mm\n": "line 3 has 2 values under 1 names",
-    b"A,k\n1,2\n\xff\xfe,3\n": "no text in UTF-8",
-    b"\xff\xfeA": "no text in UTF-8",
+    b"A,k\n1,2\n\xff\xfe,3\n": "not text in UTF-8",
+    b"\xff\xfeA": "not text in UTF-8",
     b"\x89HDF\r\n\x1a\nbroken": "cannot be read as NetCDF",
     ",".join(f"c{i}" for i in range(2000)) + "\n1\n": "2,000 columns",
 }

@@ -132,7 +132,7 @@ def test_a_fit_at_a_bound_is_written_and_flagged(gradhesion: Call, folder: Path)
     bound = '--set=physical.E_star={ start = "1 MPa", stop = "9.9 MPa" }'
     result = gradhesion("run", "fit.toml", bound, '--set=fit.intervals="linear"')
     assert result.exit_code == 3
-    assert "E_star ends at an end of its range; widen the range, or give it as a number" in result.stderr
+    assert "E_star is at an end of its range; widen the range, or give it as a number" in result.stderr
     with opened(folder / "outputs/fit.nc") as dataset:
         assert dataset["on_bound"].values[0] == 1
     assert "at an end of its range" in gradhesion("info", "outputs/fit.nc").stdout
@@ -151,8 +151,8 @@ WRONG: dict[str, tuple[str, str]] = {
     "no force": ('data.load={ column = "force", unit = "nm" }', 'the unit "nm" is no force'),
     "no length": ('data.indentation={ column = "depth", unit = "nN" }', 'the unit "nN" is no length'),
     "no unit": ('data.load="force"', 'the column "force" has no unit'),
-    "E_star and c0": ('physical.c0={ start = "1 nm", stop = "1 um" }', "cannot tell E_star and c0 apart"),
-    "E_star and nu": ("parameters.nu={ start = 0.1, stop = 0.4 }", "cannot tell nu and E_star apart"),
+    "E_star and c0": ('physical.c0={ start = "1 nm", stop = "1 um" }', "cannot determine both E_star and c0"),
+    "E_star and nu": ("parameters.nu={ start = 0.1, stop = 0.4 }", "cannot determine both nu and E_star"),
     "an output": ('outputs=["pull_off_force"]', "a fit gives the parameters that have a range; remove this key"),
     "a solver": ('method.solver="exact"', "fitted by the exact solver; remove this table"),
     "an axis": ('physical.E_star=["1 MPa"]', "a fit has no axes"),
@@ -172,7 +172,7 @@ WRONG: dict[str, tuple[str, str]] = {
     "a spring": ('physical.spring_constant="1 N/m"', "on which a machine has no effect"),
     "two turns": ('physical.preload="1 uN"', "indentation_max gives it already"),
     "a ratio": ("parameters.modulus=500.0", "a ratio, where [physical] gives quantities with units"),
-    "random": ("profile.spectrum={ hurst = 0.5, last = 3 }", "random waves are many punches"),
+    "random": ("profile.spectrum={ hurst = 0.5, last = 3 }", "a spectrum draws many punches"),
     "kind": ('kind="fti"', 'not a kind; did you mean "fit"?'),
 }
 
@@ -192,7 +192,7 @@ def test_nothing_searched_is_refused(gradhesion: Call) -> None:
     fixed = ('physical.E_star="10 MPa"', 'physical.work_of_adhesion="30 mJ/m^2"', 'physical.wavelength="0.5 um"')
     result = gradhesion("validate", "fit.toml", *(f"--set={one}" for one in fixed), "--set=parameters.A=0.012")
     assert result.exit_code == 2
-    assert "nothing is searched; give a range to what is to be fitted" in result.stderr
+    assert "no parameter is fitted; give a range to one, as E_star" in result.stderr
 
 
 @pytest.mark.usefixtures("folder")
@@ -210,7 +210,7 @@ def test_what_is_missing_is_said(gradhesion: Call, folder: Path) -> None:
         assert f"{name}: " in told, name
     (folder / "map.toml").write_text((folder / "fit.toml").read_text().replace('kind  = "fit"', 'kind = "map"'))
     told = gradhesion("validate", "map.toml").stderr
-    assert 'this table is of a fit; write kind = "fit" at the top, or remove it' in told
+    assert 'this table belongs to a fit; write kind = "fit" at the top, or remove it' in told
 
 
 FILES: dict[str, tuple[str, str]] = {

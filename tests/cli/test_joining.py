@@ -157,7 +157,7 @@ def test_a_coordinate_in_the_last_place_apart_takes_its_own_values(
 
 def test_the_output_is_named_and_stays(gradhesion: Call, written: Callable[..., Path], tmp_path: Path) -> None:
     one, other = written("one"), written("other", parameters={"A": 0.5})
-    assert "-o names" in gradhesion("merge", one, other).stderr
+    assert "named with -o" in gradhesion("merge", one, other).stderr
     assert "named twice" in gradhesion("merge", one, one, "-o", tmp_path / "x.nc").stderr
     before = one.read_bytes()
     result = gradhesion("merge", one, other, "-o", one)

@@ -219,22 +219,22 @@ def test_one_plane_of_curves_is_drawn(data: dict[str, Any]) -> None:
 
 
 WRONG = [
-    (["--width", "colum"], '--width colum: no size; did you mean "column"?'),
-    (["--width", "wide"], '--width wide: no size; write for example 3.5, "9 cm" or column'),
+    (["--width", "colum"], '--width colum: not a size; did you mean "column"?'),
+    (["--width", "wide"], '--width wide: not a size; write for example 3.5, "9 cm" or column'),
     (["--height", "0.1"], "--height 0.1: a picture of 0.1 inches; choose one of 1 to 100 inches"),
     (["--width", "-3"], "--width -3: a picture of -3 inches; choose one of 1 to 100 inches"),
-    (["--width", "9 m"], "--width 9 m: no size"),
-    (["--width", "1.2.3"], "--width 1.2.3: no size"),
+    (["--width", "9 m"], "--width 9 m: not a size"),
+    (["--width", "1.2.3"], "--width 1.2.3: not a size"),
     (["--height", "column"], "--height column: no size"),
     (["--width", "nan"], "--width nan: no size"),
-    (["--colour-map", "virids"], '--colour-map virids: no colour map of matplotlib; did you mean "viridis"?'),
-    (["--color-map", "?"], '--colour-map ?: no colour map of matplotlib; choose one of its own, as "viridis"'),
-    (["--levels", "many"], "--levels many: no number of levels and no list of them; write 8 or 0.5,1,2"),
+    (["--colour-map", "virids"], '--colour-map virids: not a colour map of matplotlib; did you mean "viridis"?'),
+    (["--color-map", "?"], '--colour-map ?: not a colour map of matplotlib; choose one of its own, as "viridis"'),
+    (["--levels", "many"], "--levels many: neither a number of levels nor a list of levels; write 8 or 0.5,1,2"),
     (["--levels", "0"], "--levels 0: choose 1 to 100 levels; a single level is written with its point, as 0.0"),
     (["--levels", "1e9,2e9"], "--levels 1e+09,2e+09: none is among the values, which are"),
     (["--levels", "8", "--lines"], "--levels: contour levels are for a map, and this picture has none"),
     (["--map", "--at", "k=0"], "--map: a map needs two axes that vary, and here lambda_over_R alone does; use --lines"),
-    (["--style", "seaborm-v0_8"], '--style seaborm-v0_8: no style of matplotlib and no file of one; did you mean "seaborn-v0_8"?'),
+    (["--style", "seaborm-v0_8"], '--style seaborm-v0_8: neither a style of matplotlib nor the file of a style; did you mean "seaborn-v0_8"?'),
     (["--at", "k=0", "--at", "lambda_over_R=0.5"], "nothing varies, so there is nothing to draw it over; fix or reduce fewer axes"),
 ]  # fmt: skip
 

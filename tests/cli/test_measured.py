@@ -93,7 +93,7 @@ def test_a_table_in_netcdf(probe: xarray.Dataset, tmp_path: Path) -> None:
 
 WRONG = {
     "": "the file has 0 bytes",
-    "depth,force [nN]\n1,2\n": "the column depth has no unit, and the curves have; write it behind the name in brackets, as depth [nm]",
+    "depth,force [nN]\n1,2\n": "the column depth has no unit, and the curves have; write it after the name in brackets, as depth [nm]",
     "depth [nm],force [nm]\n1,2\n": "the unit of force [nm] is no force; write for example force [nN]",
     "depth [N],force [nN]\n1,2\n": "the unit of depth [N] is no length",
     "depth [nm],forse [nN]\n1,2\n": 'the file has depth alone; rename "forse" to "force"',

@@ -198,7 +198,7 @@ def test_where_nothing_meets_what_is_required(
     path = tmp_path / "out.nc"
     call = gradhesion("run", write_study(study_from(asked).text), "-o", path)
     assert call.exit_code == 0
-    assert "nothing meets what is required in 3 of 3 scenes" in call.stderr
+    assert "no point meets the requirements in 3 of 3 scenes" in call.stderr
     with xarray.open_dataset(path) as found:
         assert bool(found.gr.flagged("nothing_feasible").all())
         assert bool(found["best_lambda_over_R"].isnull().all())
@@ -295,13 +295,13 @@ def test_a_peak_between_the_points_is_flagged(
             {"optimum": {"maximise": "pull_off_force", "over": ["k", "lambda_over_R"]}},
             r"has no bounds, parameters.k = ",
         ),
-        ({"optimum": {"maximise": "pull_off_force", "over": ["chi", "lambda_over_R"]}}, "gives no chi that could be"),
+        ({"optimum": {"maximise": "pull_off_force", "over": ["chi", "lambda_over_R"]}}, "gives no chi to search"),
         (
             {"optimum": {"maximise": "pull_off_force", "over": []}},
-            "optimum.over = .*nothing is searched; write for example over",
+            "optimum.over = .*no input is searched; write for example over",
         ),
-        ({"optimum": {"maximise": "pull_off_force"}}, "optimum.over: nothing is searched"),
-        ({"optimum": {"over": ["lambda_over_R"]}}, "nothing is sought; write for example maximise"),
+        ({"optimum": {"maximise": "pull_off_force"}}, "optimum.over: no input is searched"),
+        ({"optimum": {"over": ["lambda_over_R"]}}, "there is no goal; write for example maximise"),
         ({"optimum": {"maximise": 3, "over": ["lambda_over_R"]}}, "must be the name of an output in quotes, or a list"),
         (
             {"optimum": {"maximise": ["pull_off_force"] * 2, "over": ["lambda_over_R"]}},
@@ -325,14 +325,14 @@ def test_a_peak_between_the_points_is_flagged(
             },
             'not an output; did you mean "dissipated_energy"',
         ),
-        ({"outputs": ["pull_off_force"]}, "says what is sought, and an optimum has no other outputs; remove this key"),
+        ({"outputs": ["pull_off_force"]}, "names the outputs; remove this key"),
         ({"kind": "map", "outputs": ["pull_off_force"]}, "the study is of another kind; write kind = "),
         ({"uncertainty": {"modulus": "5 %"}}, "only maps have uncertain inputs"),
         ({"method": {"solver": ["exact", "envelope"]}}, "an optimum has one solver"),
-        ({"parameters": PUNCH | {"k": [0.3], "lambda_over_R": WAVES}}, "an axis of one value is left beside what is"),
+        ({"parameters": PUNCH | {"k": [0.3], "lambda_over_R": WAVES}}, "an axis of one value cannot stand beside"),
         (
             {"parameters": PUNCH | {"lambda_over_R": WAVES | {"num": 9}}},
-            "what is searched has bounds alone; remove num",
+            "a searched input has bounds only; remove num",
         ),
         ({"parameters": PUNCH | {"lambda_over_R": {"start": 0.2, "stop": 0.2}}}, "the bounds are the same"),
         ({"parameters": PUNCH | {"lambda_over_R": {"start": -0.2, "stop": 0.2}}}, "lambda_over_R.start = -0.2"),
@@ -348,3 +348,16 @@ def test_a_study_without_the_table(study: dict[str, Any]) -> None:
     del study["optimum"]
     with pytest.raises(StudyError, match="optimum: this table is required"):
         study_from(study)
+
+
+@pytest.mark.parametrize(
+    ("over", "key"),
+    [("lamda_over_R", "lambda_over_R"), ("lambda_over_R", "lamda_over_R"), ("lambda_over_R", "Lambda_over_R")],
+)
+def test_a_misspelt_input_is_one_sentence(over: str, key: str, study: dict[str, Any]) -> None:
+    study["optimum"]["over"] = [over]
+    study["parameters"][key] = study["parameters"].pop("lambda_over_R")
+    with pytest.raises(StudyError) as caught:
+        study_from(study)
+    (sentence,) = caught.value.mistakes
+    assert 'did you mean "lambda_over_R"?' in sentence

@@ -257,7 +257,7 @@ MISTAKES = {
     "wavelength both ways": ("parameters.lambda_over_R=0.1", "give wavelength under [physical], or remove [physical]"),
     "wavelength twice": ("parameters.lambda_over_L=0.1", "wavelength gives the wavelength already"),
     "amplitude twice": ("physical.amplitude='1 nm'", "A gives the amplitude already"),
-    "unit": ("physical.R='1 kg'", 'physical.R = "1 kg": "kg" is the unit of something else; a length is expected; write for example R = "1 mm"'),
+    "unit": ("physical.R='1 kg'", 'physical.R = "1 kg": "kg" is not a unit of this quantity; a length is expected; write for example R = "1 mm"'),
     "unit in a list": ("physical.R=['1 m', '1']", 'physical.R[1] = "1": a number without a unit; a length is expected'),
     "unit in a range": ("physical.R={start='1 m', stop=2, num=3}", "physical.R.stop = 2: a number without a unit; a length is expected; write for example R"),
     "range": ("physical.R={start='1 m', stop='2 m', num=0}", "physical.R.num = 0: num is the number of values"),
@@ -340,7 +340,7 @@ def test_a_machine_has_its_spring_constant_in_newtons_per_metre() -> None:
         (
             {"control": "machine"},
             {"spring_constant": "3 N"},
-            '"N" is the unit of something else; a force per length is expected',
+            '"N" is not a unit of this quantity; a force per length is expected',
         ),
         (
             {"control": "machine"},

@@ -122,9 +122,9 @@ def test_units_are_those_of_the_header(study: Path, tmp_path: Path) -> None:
     np.testing.assert_allclose(dataset["R"], [5e-6, 2.5e-6], rtol=4e-16)
     assert dataset["pull_off_force_si"][0].item() == pytest.approx(1.5 * np.pi * 5e-6 * 0.05, rel=1e-14)
     for header, words in {
-        "R,A": "has no unit; write it behind",
+        "R,A": "has no unit; write it after",
         "R [um],A [m]": "a ratio",
-        "R [N],A": "of something else",
+        "R [N],A": "not a unit of this quantity",
     }.items():
         (tmp_path / "samples.csv").write_text(f"{header}\n5,0.0\n")
         assert any(words in line for line in mistakes(study)), header
@@ -139,8 +139,8 @@ def test_a_table_in_netcdf(study: Path, tmp_path: Path) -> None:
 
 WRONG = {
     (): "the file has 0 bytes",
-    ("lambda_over_R", "lambda_ovr_R"): 'its column "lambda_ovr_R" is no parameter; did you mean "lambda_over_R"?',
-    ("A,", "pull_off_force,"): 'its column "pull_off_force" is an output and no parameter',
+    ("lambda_over_R", "lambda_ovr_R"): 'its column "lambda_ovr_R" is not a parameter; did you mean "lambda_over_R"?',
+    ("A,", "pull_off_force,"): 'its column "pull_off_force" is an output, not a parameter',
     ("0.023", "nan"): "line 3: A is missing (NaN); give it, or remove the row",
     ("0.041", "-0.041"): "line 4: A = -0.041 is out of range; choose a value with A >= 0, and finite",
     ("517.3", "inf"): "line 3: modulus = inf is out of range",

@@ -59,9 +59,9 @@ WRONG = {
     "not a unit": ("1 m**m", 'the unit "m**m" is not known'),
     "half a unit": ("1 m*", 'the unit "m*" is not known'),
     "code": ("1 __import__('os')", "is not known"),
-    "temperature": ("1 degC", '"degC" is the unit of something else'),
-    "percent": ("1 %", '"%" is the unit of something else'),
-    "power": ("1 m^99999999", '"m^99999999" is the unit of something else'),
+    "temperature": ("1 degC", '"degC" is not a unit of this quantity'),
+    "percent": ("1 %", '"%" is not a unit of this quantity'),
+    "power": ("1 m^99999999", '"m^99999999" is not a unit of this quantity'),
     "very long": ("1" * 70 + " m", "not a number with its unit"),
 }
 

@@ -89,7 +89,7 @@ def test_a_large_table_is_refused(
     monkeypatch.setattr(table, "MOST", 23)
     result = gradhesion("info", written(), "--format", "csv")
     assert result.exit_code == 2
-    assert "24 lines, where a table has 23 at most; read it with xarray or NCO instead" in result.stderr
+    assert "24 lines, and a table has at most 23; read it with xarray or NCO instead" in result.stderr
 
 
 def test_variables_belong_to_a_table(gradhesion: Call, written: Callable[..., Path]) -> None:

@@ -178,13 +178,13 @@ def test_a_deviation_is_doubtful_where_the_line_is_off(data: dict[str, Any]) -> 
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"uncertainty": {"chi": "5 %"}}, "uncertainty.chi .* the study gives no chi that could be off"),
-        ({"uncertainty": {"c0": "1 nm"}}, "the study gives no c0 that could be off; did you mean"),
-        ({"uncertainty": {"colour": 1.0}}, "uncertainty.colour .* no input of a study; choose from"),
-        ({"uncertainty": {"modulos": "1 %"}}, 'no input of a study; did you mean "modulus"'),
+        ({"uncertainty": {"chi": "5 %"}}, "uncertainty.chi .* the study gives no chi to be uncertain"),
+        ({"uncertainty": {"c0": "1 nm"}}, 'the study gives no c0 to be uncertain; use "c0_over_R", or remove'),
+        ({"uncertainty": {"colour": 1.0}}, "uncertainty.colour .* not an input of a study; choose from"),
+        ({"uncertainty": {"modulos": "1 %"}}, 'not an input of a study; did you mean "modulus"'),
         ({"uncertainty": {}}, "uncertainty: nothing is uncertain"),
         ({"uncertainty": {"modulus": "0 %"}}, "a percentage is above 0 and at most 100"),
-        ({"uncertainty": {"modulus": "5"}}, "this is no deviation; write for example modulus = "),
+        ({"uncertainty": {"modulus": "5"}}, "not a deviation; write for example modulus = "),
         ({"uncertainty": {"modulus": -3.0}}, "a standard deviation is above 0, and finite"),
         ({"uncertainty": {"nu": {"low": 0.2}}}, "has both low and high"),
         ({"uncertainty": {"nu": {"low": 0.3, "hihg": 0.4}}}, 'has no key "hihg"; did you mean "high"'),

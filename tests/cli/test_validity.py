@@ -86,7 +86,7 @@ def test_units_are_given_once(study: dict[str, Any]) -> None:
             "parameters.adhesion_range_over_R = 0.0001: a ratio",
         ),
         ({"outputs": ["wave_slope"]}, 'physical.adhesion_range = "0.3 nm": no output needs this key'),
-        ({"physical": physical | {"adhesion_range": "0.3 N"}}, '"N" is the unit of something else'),
+        ({"physical": physical | {"adhesion_range": "0.3 N"}}, '"N" is not a unit of this quantity'),
         ({"physical": physical | {"adhesion_range": "0 nm"}}, "out of range"),
     ):
         with pytest.raises(StudyError) as caught:
