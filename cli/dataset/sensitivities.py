@@ -7,7 +7,7 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import labels_of
+from gradhesion.cli.names import BEST, OF_PHYSICAL, SENSITIVITIES, labels_of
 
 PLAIN: Final = ("k", "nu")
 """What has no logarithm: the strongest is looked for among the others."""
@@ -19,6 +19,21 @@ def parts_of(dataset: xarray.Dataset, name: str) -> dict[str, str]:
     if not dimension or name not in dataset.data_vars or dimension not in dataset[name].dims:
         return {}
     return {f"{name}_{label}": str(label) for label in dataset[dimension].values}
+
+
+def part_of(name: str) -> tuple[str, str] | None:
+    """
+    Name the sensitivity that a variable is a part of, and what this part is to; None for another variable.
+
+    >>> part_of("best_pull_off_force_sensitivity_A"), part_of("dissipated_energy_sensitivity_physical_R")
+    (('best_pull_off_force_sensitivity', 'A'), ('dissipated_energy_sensitivity_physical', 'R'))
+    """
+    for output in SENSITIVITIES:
+        head, found, label = name.partition(f"{output}_")
+        if found and head in ("", BEST):
+            physical = OF_PHYSICAL if f"_{label}".startswith(f"{OF_PHYSICAL}_") else ""
+            return f"{head}{output}{physical}", f"_{label}"[len(physical) + 1 :]
+    return None
 
 
 def spread(dataset: xarray.Dataset) -> xarray.Dataset:

@@ -41,6 +41,8 @@ function buildSliders(study, at, act) {
   });
 }
 
+const SLOPES = "d ln F/d ln p of each parameter p; of k and ν d ln F/dp";
+
 // The table of all parameters and values of one scene.
 function buildTable(study) {
   const body = document.querySelector("#values tbody");
@@ -56,14 +58,43 @@ function buildTable(study) {
   study.axes.forEach((axis, i) => add(axis, (at) => axis.values[at[i]]));
   study.parameters.forEach((parameter) => add(parameter, (at) => study.parameterAt(parameter, at)));
   const single = study.variables.filter((variable) => variable.length === 1 && !variable.curve);
-  if (single.length) group("Values");
-  single.forEach((variable) => add(variable, (_, number) => variable.values[number]));
+  const values = single.filter((variable) => !variable.sensitivity);
+  if (values.length) group("Values");
+  values.forEach((variable) => add(variable, (_, number) => variable.values[number]));
+  const slopes = single.filter((variable) => variable.sensitivity);
+  if (slopes.length) cells.push(addSensitivities(body, slopes));
   const status = element("td", { id: "value-status", colSpan: 2 });
   body.append(element("tr", {}, element("th", { scope: "row", title: "status" }, "status"), status));
   return (at) => {
     const number = study.numberOf(at);
     cells.forEach((show) => show(at, number));
     status.replaceChildren(...study.statusAt(number).map((words) => element("div", {}, words)));
+  };
+}
+
+// Sensitivities: a line for each parameter, a column for each value, the strongest of a column marked.
+function addSensitivities(body, slopes) {
+  const columns = [...new Set(slopes.map((one) => one.sensitivity.of))];
+  const show = [];
+  const table = element("table", { className: "slopes" });
+  body.append(element("tr", {}, element("td", { colSpan: 3, className: "whole" }, table)));
+  for (const [first, second] of [columns.slice(0, 2), columns.slice(2, 4)].filter((pair) => pair.length)) {
+    const pair = [first, second].filter(Boolean).map((of) => slopes.filter((one) => one.sensitivity.of === of));
+    const heads = pair.map((own) => element("td", {}, own[0].symbol.split("/")[0]));
+    table.append(element("tr", { className: "heads" }, element("th", { scope: "rowgroup", title: SLOPES }, "Sensitivities to"), ...heads));
+    pair[0].forEach((one, i) => {
+      const made = pair.map((own) => element("td", { id: `value-${own[i].name}`, title: own[i].title }));
+      table.append(element("tr", {}, element("th", { scope: "row", title: one.title }, one.sensitivity.to), ...made));
+      show.push(...made.map((cell, j) => [cell, pair[j][i], pair[j]]));
+    });
+  }
+  return (_, number) => {
+    for (const [cell, own, all] of show) {
+      const sizes = all.filter((one) => !one.sensitivity.plain).map((one) => Math.abs(one.values[number]) || 0);
+      const size = own.sensitivity.plain ? 0 : Math.abs(own.values[number]) || 0;
+      cell.textContent = short(own.values[number], 4);
+      cell.classList.toggle("strongest", size > 0 && size === Math.max(...sizes));
+    }
   };
 }
 

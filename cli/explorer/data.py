@@ -12,6 +12,7 @@ from gradhesion.cli import names
 from gradhesion.cli.dataset.curve_variables import curve_of
 from gradhesion.cli.dataset.doubtful import DOUBTS, doubts_of
 from gradhesion.cli.dataset.reader import is_turned
+from gradhesion.cli.dataset.sensitivities import PLAIN, part_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.plain import in_order, symbol, title, words
 from gradhesion.cli.names import INTEGERS, SCENE, SOLVER
@@ -196,7 +197,9 @@ def _variable(dataset: xarray.Dataset, name: str, units: Mapping[str, Unit]) -> 
     finite = flat[np.isfinite(flat)]
     positive = finite[finite > 0]
     curve, turned = curve_of(name) or "", is_turned(dataset)
+    part = part_of(name)
     return named | {
+        "sensitivity": part and {"of": part[0], "to": symbol(part[1]), "plain": part[1] in PLAIN},
         "values": flat,
         "length": values.shape[-1] if curve else 1,
         "curve": curve,

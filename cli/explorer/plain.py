@@ -3,10 +3,14 @@
 import re
 from typing import Final
 
+from gradhesion.cli.dataset.sensitivities import part_of
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import SYMBOLS
 
 _TEX: Final = (
+    (r"\ln$ ", "ln "),
+    (r"/d$ ", "/d"),
+    (r"\ln", "ln"),
     (r"\frac{3}{2}\pi R\Delta\gamma", "1.5 πRΔγ"),
     (r"\Delta\gamma", "Δγ"),
     (r"\lambda", "λ"),
@@ -64,7 +68,11 @@ def title(name: str, long_name: str) -> str:
     ('λ/R – wavelength of the waviness', "ν – Poisson's ratio")
     >>> title("pull_off_force", "pull-off force F/(1.5 pi R dgamma)"), title("loading_jumps", "number of jumps")
     ('F/(1.5 πRΔγ) – pull-off force', 'number of jumps')
+    >>> title("pull_off_force_sensitivity_A", "sensitivity of the pull-off force F to each parameter p")
+    'd ln F/d ln A – sensitivity of the pull-off force'
     """
+    if part_of(name):
+        return f"{symbol(name)} – {re.sub(' [FH]( to each .*)?$', '', words(long_name))}"
     written = words(long_name)
     whole = SYMBOLS.get(name, "")
     letter = plain("".join(re.findall(r"\$[^$]*\$", whole))).strip()

@@ -610,3 +610,45 @@ def test_lines_of_curves_are_hidden_one_by_one(tmp_path: Path, open_page: Callab
     assert tracks[unloading][1] not in page.page.evaluate(looks), "loading alone is left"
     dashes = page.page.evaluate("explorer.study.tracks.map((track) => track.dash.length)")
     assert dashes[unloading] > 0 == dashes[labels.index("loading")], "loading shows in the gaps of unloading"
+
+
+SENSITIVE = """
+title = "Sensitivities"
+outputs = ["pull_off_force", "dissipated_energy", "pull_off_force_sensitivity", "dissipated_energy_sensitivity"]
+[parameters]
+k = [0.0, 0.3, 0.6]
+nu = 0.27
+modulus = 430.0
+c0_over_R = 0.013
+lambda_over_R = { start = 0.11, stop = 0.87, num = 7 }
+A = 0.023
+a_max_over_R = 1.7
+"""
+
+
+@pytest.fixture(scope="module")
+def sensitive(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return _made(tmp_path_factory.mktemp("sensitive"), SENSITIVE)
+
+
+@pytest.mark.parametrize("width", [390, 1280, 1920])
+def test_sensitivities_are_those_under_the_pointer_and_the_strongest_is_marked(
+    width: int, sensitive: Path, open_page: Callable[..., Opened]
+) -> None:
+    page = open_page(sensitive, viewport={"width": width, "height": 900})
+    with xarray.open_dataset(sensitive.with_suffix(".nc")) as dataset:
+        for place in (0, 4):
+            page.page.mouse.move(*page.point_of("explorer.parts.maps[0]", dataset["lambda_over_R"].values[place], 0.3))
+            page.settle()
+            scene = dataset.isel(k=1, lambda_over_R=place)
+            for output in ("pull_off_force_sensitivity", "dissipated_energy_sensitivity"):
+                values = {str(name): scene[output].sel(parameter=name).item() for name in scene["parameter"].values}
+                sizes = {name: abs(value) for name, value in values.items() if name not in ("k", "nu")}
+                cells = {name: page.page.locator(f"#value-{output}_{name}") for name in values}
+                for name, cell in cells.items():
+                    assert number(cell.inner_text()) == pytest.approx(values[name], rel=5.1e-4, abs=1e-12), name
+                marked = [name for name, cell in cells.items() if cell.get_attribute("class") == "strongest"]
+                assert marked == [max(sizes, key=sizes.__getitem__)]
+    box = page.page.locator("#values").bounding_box()
+    assert box
+    assert box["x"] + box["width"] <= width
