@@ -61,10 +61,10 @@ def check_size(file: "netCDF4.Dataset", path: Path) -> None:
         if len({*variable.dimensions}) < len(variable.dimensions):
             raise _damaged(path, f"{name} has a dimension twice")
         for attribute in {"scale_factor", "add_offset"} & {*variable.ncattrs()}:
-            if not isinstance(variable.getncattr(attribute), float | np.number) or not np.isfinite(
+            if not isinstance(variable.getncattr(attribute), float | np.floating) or not np.isfinite(
                 variable.getncattr(attribute)
             ):
-                raise _damaged(path, f"the attribute {attribute} of {name} is not a number")
+                raise _damaged(path, f"the attribute {attribute} of {name} is no floating-point number")
 
 
 def check_form(dataset: "xarray.Dataset", path: Path | str) -> None:

@@ -132,6 +132,16 @@ def test_a_variable_of_another_type(name: str, dtype: str, dataset_file: Path) -
     tried(dataset_file)
 
 
+@pytest.mark.parametrize("value", [2**62, np.inf, "x"])
+def test_odd_scales(value: Any, gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path) -> None:
+    """What decodes whole numbers by a whole number has no NaN for those that are missing."""
+    path = tmp_path / "out.nc"
+    assert gradhesion("run", write_study(CURVES), "-o", path, "--quiet").exit_code == 0
+    with netCDF4.Dataset(path, "a") as file:
+        file["path_branch"].scale_factor = value
+    tried(path)
+
+
 @pytest.mark.parametrize("value", [-np.inf, 1.0])
 @pytest.mark.parametrize(
     ("study", "names"),
