@@ -13,7 +13,8 @@ from gradhesion.cli.study.study import Method, Study
 from gradhesion.cli.study.tiling import Block, shape_of
 from gradhesion.cli.work.given import solve_given
 from gradhesion.core.answers.flags import NOTHING_FEASIBLE, RESOLUTION_TOO_COARSE
-from gradhesion.core.answers.optimum import Optima, axis_of, front, optima_of, sweep
+from gradhesion.core.answers.optimum import Optima, axis_of, optima_of, sweep
+from gradhesion.core.answers.optimum_front import front
 from gradhesion.core.answers.slopes_to_keys import slopes_to_keys
 from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.sensitivities.physical import POWERS
@@ -64,7 +65,7 @@ class _Cells:
     def values(
         self, places: NDArray[np.float64], cells: NDArray[np.int64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return merits and margins, as `gradhesion.core.answers.optimum.Merit` says."""
+        """Return merits and margins, as `gradhesion.core.answers.optimum_merit.Merit` says."""
         search = self.study.search
         found = self.solve(self.at(places, cells), search.solved)
         shape = np.broadcast_shapes(places.shape[1:], np.shape(cells))

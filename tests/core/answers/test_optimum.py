@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gradhesion.core.answers.optimum import axis_of, front, optima, sweep
+from gradhesion.core.answers.optimum import axis_of, optima, sweep
 
 Array = NDArray[np.float64]
 PEAKS = np.array([0.0, 0.137, 0.5, 0.73141592, 1.0])
@@ -125,18 +125,3 @@ def test_a_sweep_has_every_place() -> None:
     axis = axis_of(3)
     np.testing.assert_array_equal(merits, 100.0 * axis[:, None, None] + 10.0 * axis[:, None] + np.arange(3))
     assert merits.shape == margins.shape == (5, 5, 3)
-
-
-def test_no_point_of_a_front_is_excelled_and_every_other_is() -> None:
-    first, second = np.random.default_rng(4).normal(size=(2, 300)).round(1)
-    second[7] = np.nan
-    chosen = front([first, second])
-    for i in range(300):
-        excelled = np.any((first >= first[i]) & (second >= second[i]) & ((first > first[i]) | (second > second[i])))
-        if i in chosen:
-            assert not excelled
-        elif i != 7:
-            alike = np.any((first[chosen] == first[i]) & (second[chosen] == second[i]))
-            assert excelled or alike
-    assert np.all(np.diff(first[chosen]) < 0.0)
-    assert np.all(np.diff(second[chosen]) > 0.0)

@@ -1,0 +1,171 @@
+"""Optima of several searched inputs: basins are refined one after the other.
+
+By SciPy's L-BFGS-B with exact slopes, by Nelder and Mead's simplex where that ends on a kink or at the edge of what is
+feasible (found by SLSQP), and by the zero of the slopes.
+"""
+
+from collections.abc import Callable
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import minimize, root
+from scipy.optimize.elementwise import find_root
+
+from gradhesion.core.answers.optimum_merit import WIDTH, Array, Merit
+
+_STEEP: Final = 1e-9
+"""A slope over the size of the merit, below which a place is stationary."""
+
+
+def refine_many(
+    merit: Merit,
+    heights: Array,
+    basins: tuple[NDArray[np.int64], ...],
+    promised: Array,
+    *,
+    constrained: bool,
+) -> tuple[Array, Array]:
+    """Refine the basins of several searched inputs, one after the other; of a cell the highest first.
+
+    Those that promise no more than another has turned out to hold are left as they are.
+    """
+    *indices, cells = basins
+    spacing = 1.0 / (heights.shape[0] - 1)
+    starts = spacing * np.array(indices, dtype=float)
+    places, found = starts.copy(), heights[basins].copy()
+    best = np.full(heights.shape[-1], -np.inf)
+    for number in np.argsort(-found, kind="stable"):
+        cell = cells[number]
+        if promised[number] < best[cell]:
+            continue
+        start = starts[:, number]
+        places[:, number], found[number] = _refined(merit, start, np.array(cell), spacing, constrained=constrained)
+        best[cell] = max(best[cell], found[number])
+    return places, found
+
+
+def _refined(
+    merit: Merit, start: Array, cell: NDArray[np.int64], spacing: float, *, constrained: bool
+) -> tuple[Array, float]:
+    """Refine one basin of several searched inputs within two spacings of its highest point."""
+    bounds = list(zip(np.maximum(start - 2.0 * spacing, 0.0), np.minimum(start + 2.0 * spacing, 1.0), strict=True))
+    low, high = np.array(bounds).T
+
+    def height(place: Array) -> float:
+        """Return what is to be least: infinite where something is not met."""
+        merits, margins = merit.values(np.clip(place, low, high), cell)
+        return -float(merits) if float(margins) >= 0.0 and not np.isnan(merits) else np.inf
+
+    def downwards(place: Array) -> Array:
+        slopes = merit.slopes(np.clip(place, low, high), cell)
+        assert slopes is not None  # noqa: S101 (they are known)
+        return -np.asarray(slopes, dtype=float)
+
+    has_slopes = merit.slopes(start, cell) is not None
+    options: dict[str, Any]
+    best, value = start, height(start)
+
+    def better(place: Array, than: float) -> bool:
+        return height(place) < than
+
+    if not constrained:
+        options = {"ftol": 0.0, "gtol": 1e-13 * abs(value), "maxiter": 200, "maxls": 40}
+        one = minimize(
+            height, best, method="L-BFGS-B", jac=downwards if has_slopes else None, bounds=bounds, options=options
+        )
+        if better(one.x, value):
+            best, value = one.x, height(one.x)
+        if has_slopes and _is_stationary(downwards(best), best, low, high, abs(value)):
+            return _to_zero_slopes(downwards, height, best, value)
+    if constrained:
+        best = _along_the_edge(merit, cell, height, downwards if has_slopes else None, best, bounds)
+        value = height(best)
+    for size in (0.25, 0.02):  # a simplex may collapse on a ridge: another one starts there
+        simplex = np.clip(np.vstack([best, best + size * spacing * np.eye(best.size)]), low, high)
+        simplex[1:] = np.where(simplex[1:] == best, np.clip(best - size * spacing, low, high), simplex[1:]) * np.eye(
+            best.size
+        ) + best * (1.0 - np.eye(best.size))
+        options = {"xatol": WIDTH, "fatol": 1e-15 * abs(value), "maxiter": 400, "initial_simplex": simplex}
+        one = minimize(height, best, method="Nelder-Mead", bounds=bounds, options=options)
+        if not better(one.x, value):
+            break
+        gain, best, value = value - height(one.x), one.x, height(one.x)
+        if gain <= 1e-13 * abs(value):
+            break
+    return best, -value
+
+
+def _along_the_edge(
+    merit: Merit,
+    cell: NDArray[np.int64],
+    height: Callable[[Array], float],
+    downwards: Callable[[Array], Array] | None,
+    best: Array,
+    bounds: list[tuple[float, float]],
+) -> Array:
+    """Move a feasible place to a better one where what is required is met, smooth as far as that goes."""
+
+    def plain(place: Array) -> float:
+        merits, _ = merit.values(place, cell)
+        return -float(np.nan_to_num(merits, nan=-np.inf))
+
+    def margin(place: Array) -> float:
+        _, margins = merit.values(place, cell)
+        return float(np.maximum(margins, -1e30))
+
+    options: dict[str, Any] = {"ftol": 1e-15, "maxiter": 100}
+    with np.errstate(all="ignore"):
+        one = minimize(
+            plain,
+            best,
+            method="SLSQP",
+            jac=downwards,
+            bounds=bounds,
+            constraints=[{"type": "ineq", "fun": margin}],
+            options=options,
+        )
+    there = np.clip(one.x, *np.array(bounds).T)
+    if not np.isfinite(there).all():
+        return best
+    if not np.isfinite(height(there)):  # by a rounding beyond the edge, or on the wrong side
+
+        def side(share: Any) -> Any:
+            inner = best[:, None] + np.atleast_1d(share) * (there - best)[:, None]
+            merits, margins = merit.values(inner, np.broadcast_to(cell, inner.shape[1:]))
+            return np.where((margins >= 0.0) & ~np.isnan(merits), 1.0, -1.0).reshape(np.shape(share))
+
+        tolerances = {"xatol": 2.0**-52, "xrtol": 0.0, "fatol": 0.0}
+        found = find_root(side, (0.0, 1.0), tolerances=tolerances)
+        shares = [float(end) for end, own in zip(found.bracket, found.f_bracket, strict=True) if own > 0.0]
+        there = best + max(shares, default=0.0) * (there - best)
+    return there if height(there) < height(best) else best
+
+
+def _is_stationary(slopes: Array, place: Array, low: Array, high: Array, size: float) -> bool:
+    """Report whether no slope leads on, but against an end of the range."""
+    at_end = ((place <= low) & (slopes > 0.0)) | ((place >= high) & (slopes < 0.0))
+    inner_edge = at_end & (place > 0.0) & (place < 1.0)
+    return bool(np.all((np.abs(slopes) <= 1e3 * _STEEP * size) | at_end) and not inner_edge.any())
+
+
+def _to_zero_slopes(
+    downwards: Callable[[Array], Array], height: Callable[[Array], float], best: Array, value: float
+) -> tuple[Array, float]:
+    """Move a smooth peak to the zero of its slopes; an input at the end of its range stays there."""
+    free = (best > 0.0) & (best < 1.0)
+    if not free.any():
+        return best, -value
+
+    def slopes(inner: Array) -> Array:
+        place = best.copy()
+        place[free] = inner
+        return downwards(place)[free]
+
+    found = root(slopes, best[free], method="hybr", options={"xtol": 1e-14})
+    moved = best.copy()
+    moved[free] = np.clip(found.x, 0.0, 1.0)
+    near = np.all(np.abs(moved - best) < 1e-4)
+    if near and height(moved) <= value + 2.0**-48 * abs(value):
+        return moved, -min(value, height(moved))
+    return best, -value

@@ -1,0 +1,35 @@
+"""What is to be as large as possible, of many cells at once, and when one merit is better than another."""
+
+from typing import Final, Protocol, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array: TypeAlias = NDArray[np.float64]
+
+CLOSE: Final = 1e-9
+"""By what share of its size a merit is better than another."""
+WIDTH: Final = 1e-12
+"""To which a peak is bracketed, over its range."""
+
+
+class Merit(Protocol):
+    """What is to be as large as possible, of cells that differ in what is not searched."""
+
+    def values(self, places: Array, cells: NDArray[np.int64]) -> tuple[Array, Array]:
+        """Return merits, and margins that are not negative where all is met that is required.
+
+        Parameters
+        ----------
+        places
+            Of shape (inputs, *shape), each from 0 to 1.
+        cells
+            The numbers of the cells; broadcast to `shape`.
+
+        Returns
+        -------
+        Two arrays of shape `shape`; merits are NaN where there is no value.
+        """
+
+    def slopes(self, places: Array, cells: NDArray[np.int64]) -> Array | None:
+        """Return the slopes of merits to the searched inputs, as `places`; None if they are not known."""

@@ -1,0 +1,181 @@
+"""Optima of one searched input: every basin of every cell is refined at once.
+
+Values alone are compared (SciPy's `elementwise.find_minimum`, Chandrupatla's method and golden sections), so that a
+peak that is a kink is found as well as a smooth one; then the zero of the exact slope, where there is one, gives the
+place to all digits.
+"""
+
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize.elementwise import find_minimum, find_root
+
+from gradhesion.core.answers.optimum_merit import CLOSE, WIDTH, Array, Merit
+
+_ROUGH: Final = 2.0**-24
+"""The width of a bracket where a zero of the slope is to follow."""
+_NEAR: Final = 2.0**-20
+"""Where the slopes beside a peak are looked at for its zero."""
+_BETWEEN: Final = 7
+"""Points that are looked at between two of a sweep, where there may be a peak that is higher than the best."""
+
+
+def refine_one(merit: Merit, heights: Array, basins: tuple[NDArray[np.int64], ...]) -> tuple[Array, Array]:
+    """Refine the basins of one searched input, all at once."""
+    index, cells = basins
+    if not index.size:
+        return np.empty((1, 0)), np.empty(0)
+    last = heights.shape[0] - 1
+    axis = np.linspace(0.0, 1.0, last + 1)
+    centre, lowest, highest = axis[index], np.full(index.size, -1.0), np.full(index.size, 2.0)
+    sides = []
+    for side in (-1, 1):
+        neighbour = np.clip(index + side, 0, last)
+        beside = centre + side / last
+        blocked = (neighbour != index) & ~np.isfinite(heights[neighbour, cells])
+        if blocked.any():
+            edge = _edges(merit, centre[blocked], beside[blocked], cells[blocked])
+            (lowest if side < 0 else highest)[blocked] = edge
+            beside[blocked] = edge
+        sides.append(beside)
+
+    def inside(places: Any, cell: Any, low: Any, high: Any) -> Any:
+        """Return what is to be least, mirrored where the range ends or what is feasible does."""
+        merits, _ = merit.values(_into(places, low, high)[None], cell.astype(np.int64))
+        return -np.where(np.isnan(merits), -np.inf, merits)
+
+    numbers = cells.astype(float)
+    left, right = sides
+    for edge, beside in ((lowest, sides[0]), (highest, sides[1])):
+        height = inside(centre, numbers, lowest, highest)
+        higher = (edge == beside) & (inside(beside, numbers, lowest, highest) < height)
+        # the peak is between the edge and the centre, whose mirror image is beyond the edge
+        image = 2.0 * beside - centre
+        left, right = (
+            np.where(higher, np.minimum(centre, image), left),
+            np.where(higher, np.maximum(centre, image), right),
+        )
+        centre = np.where(higher, beside, centre)
+    has_slopes = merit.slopes(centre[None, :1], cells[:1]) is not None
+
+    def peaks(bracket: tuple[Any, Any, Any], some: Any, width: float) -> tuple[Any, Any]:
+        """Return the peaks within brackets, and brackets of them that are as narrow."""
+        with np.errstate(all="ignore"):  # beside what is not feasible, merits are infinite
+            found = find_minimum(
+                inside,
+                bracket,
+                args=(numbers[some], lowest[some], highest[some]),
+                tolerances={"xatol": width, "xrtol": 0.0, "fatol": 0.0, "frtol": 0.0},
+            )
+        middle = bracket[1]
+        height = inside(middle, numbers[some], lowest[some], highest[some])
+        best = np.where(np.isfinite(found.f_x) & (found.f_x <= height), found.x, middle)
+        return best, found.bracket
+
+    every = np.arange(index.size)
+    best, around = peaks((left, centre, right), every, _ROUGH if has_slopes else WIDTH)
+    places, settled = to_stationary(merit, _into(best, lowest, highest), cells)
+    rest = np.flatnonzero(~settled)
+    if has_slopes and rest.size:  # kinks whose slopes are of one sign, steps, and edges
+        best[rest], _ = peaks(tuple(one[rest] for one in around), rest, WIDTH)
+        places[rest] = _into(best[rest], lowest[rest], highest[rest])
+    ends = np.round(places)
+    to_ends, _ = merit.values(ends[None], cells)
+    merits, _ = merit.values(places[None], cells)
+    at_end = (np.abs(places - ends) < _NEAR) & (to_ends >= merits - 2.0**-48 * np.abs(merits))
+    places = np.where(at_end, ends, places)
+    merits, margins = merit.values(places[None], cells)
+    return places[None], np.where((margins >= 0.0) & ~np.isnan(merits), merits, -np.inf)
+
+
+def peaks_between(merit: Merit, heights: Array, best: Array) -> tuple[NDArray[np.int64], Array, Array]:
+    """Look for peaks between two points of a sweep, where a line through the points beside them leads above the best.
+
+    Returns
+    -------
+    Cells, places and merits of the peaks that are higher, refined.
+    """
+    with np.errstate(invalid="ignore"):  # beside what is not feasible
+        rise = np.diff(heights, axis=0, prepend=heights[:1], append=heights[-1:])
+        upwards = np.nan_to_num(np.maximum(rise[:-1], 0.0), posinf=0.0)
+        downwards = np.nan_to_num(np.maximum(-rise[1:], 0.0), posinf=0.0)
+        promised = np.maximum((heights + upwards)[:-1], (heights + downwards)[1:])
+    index, cells = np.nonzero((promised >= best) & np.isfinite(heights[:-1]) & np.isfinite(heights[1:]))
+    spacing = 1.0 / (heights.shape[0] - 1)
+    inner = np.linspace(0.0, 1.0, _BETWEEN + 2)
+    places = spacing * (index + inner[:, None])
+    merits, margins = merit.values(places[None], cells)
+    merits = np.where((margins >= 0.0) & ~np.isnan(merits), merits, -np.inf)
+    highest = np.clip(np.argmax(merits, axis=0), 1, _BETWEEN)
+    every = np.arange(index.size)
+    higher = merits[highest, every] > best[cells] * (1.0 + np.sign(best[cells]) * CLOSE)
+    if not higher.any():
+        return cells[:0], places[0, :0], merits[0, :0]
+    bracket = tuple((places[highest + side, every])[higher] for side in (-1, 0, 1))
+
+    def depth(at: Any, cell: Any) -> Any:
+        """Return what is to be least."""
+        values, allowed = merit.values(at[None], cell.astype(np.int64))
+        return np.where((allowed >= 0.0) & ~np.isnan(values), -values, np.inf)
+
+    with np.errstate(all="ignore"):
+        tolerances = {"xatol": WIDTH, "xrtol": 0.0, "fatol": 0.0, "frtol": 0.0}
+        found = find_minimum(depth, bracket, args=(cells[higher].astype(float),), tolerances=tolerances)
+    refined = np.where(np.isfinite(found.f_x), found.x, bracket[1])
+    refined, _ = to_stationary(merit, refined, cells[higher])
+    return cells[higher], refined, -depth(refined, cells[higher].astype(float))
+
+
+def _edges(merit: Merit, inside: Array, outside: Array, cells: NDArray[np.int64]) -> Array:
+    """Return where what is required ceases to be met between two places, on the side on which it is."""
+
+    def side(places: Any, cell: Any) -> Any:
+        merits, margins = merit.values(places[None], cell.astype(np.int64))
+        return np.where((margins >= 0.0) & ~np.isnan(merits), 1.0, -1.0)
+
+    tolerances = {"xatol": WIDTH**1.2, "xrtol": 0.0, "fatol": 0.0}
+    found = find_root(side, (inside, outside), args=(cells.astype(float),), tolerances=tolerances)
+    (one, other), (side_of_one, _) = found.bracket, found.f_bracket
+    return np.where(side_of_one > 0.0, one, other)
+
+
+def to_stationary(merit: Merit, places: Array, cells: NDArray[np.int64]) -> tuple[Array, NDArray[np.bool_]]:
+    """Move places of one input to the zero of the slope beside them, where it is known and the merit no lower.
+
+    Returns
+    -------
+    The places, and whether each has been moved: the slope changes its sign there, by a zero or by a jump.
+    """
+    moved, settled = places.copy(), np.zeros(places.shape, bool)
+    if merit.slopes(places[None, :1], cells[:1]) is None:
+        return moved, settled
+
+    def slope(at: Any, cell: Any) -> Any:
+        slopes = merit.slopes(at[None], cell.astype(np.int64))
+        assert slopes is not None  # noqa: S101 (they are known)
+        return slopes[0]
+
+    numbers = cells.astype(float)
+    low, high = np.maximum(places - _NEAR, 0.0), np.minimum(places + _NEAR, 1.0)
+    turns = (slope(low, numbers) > 0.0) & (slope(high, numbers) < 0.0)
+    if not turns.any():
+        return moved, settled
+    tolerances = {"xatol": WIDTH * 2.0**-10, "xrtol": 0.0, "fatol": 0.0}
+    found = find_root(slope, (low[turns], high[turns]), args=(numbers[turns],), tolerances=tolerances)
+    moved[turns] = found.x
+    before, _ = merit.values(places[None], cells)
+    after, margins = merit.values(moved[None], cells)
+    settled = turns & (after >= before - 2.0**-48 * np.abs(before)) & (margins >= 0.0)
+    return np.where(settled, moved, places), settled
+
+
+def _folded(places: Array) -> Array:
+    """Mirror places beyond 0 and 1 into the range, so that a peak at an end has lower points on both sides."""
+    return np.abs(1.0 - np.abs(1.0 - places))
+
+
+def _into(places: Array, lowest: Array, highest: Array) -> Array:
+    """Mirror places into what is feasible, and into the range."""
+    inner = np.where(places < lowest, 2.0 * lowest - places, np.where(places > highest, 2.0 * highest - places, places))
+    return _folded(inner)
