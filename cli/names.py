@@ -58,7 +58,7 @@ SENSITIVITIES: Final = tuple(name for name in OUTPUTS if name.endswith("_sensiti
 """Those that have an item for each parameter."""
 
 PARAMETER: Final = "parameter"
-"""The dimension of what a sensitivity is to, after those of the scenes."""
+"""The dimension of parameter of the sensitivity, after those of the scenes."""
 
 PHYSICAL_PARAMETER: Final = "physical_parameter"
 """The same of the quantities with units."""
@@ -154,7 +154,7 @@ CURVES: Final = {
         "path_load": "load P/(1.5 pi R dgamma) on the path of a loading cycle",
         "path_branch": "stable branch that the path is on, from inside outwards (0: out of contact)",
         "path_jump": "whether the point is reached by a jump",
-        "path_unloading": "whether the path loads or unloads",
+        "path_unloading": "whether the path is loading or unloading",
     },
     "asymptotic": {
         "asymptotic_contact_radius": "contact radius a/R of the asymptotic curve",
@@ -265,7 +265,7 @@ MEANINGS: Final = {
 }
 """What 0 and 1 mean where an integer is a flag."""
 
-STATUS: Final = "what there is to report of a scene (0: nothing)"
+STATUS: Final = "flags of a scene (0: nothing to report)"
 """The `long_name` of `status`."""
 
 FLAGS: Final = {
@@ -368,15 +368,15 @@ PARAMETER_UNITS: Final = "parameter_units"
 """The units of what is fitted, along `parameter`."""
 
 FIT: Final = {
-    "value": "value of what is fitted, in its unit",
+    "value": "fitted value, in its unit",
     "standard_deviation": "standard deviation of the value, in its unit",
     "low": "lower end of the 95 % interval, in its unit",
     "high": "upper end of the 95 % interval, in its unit",
     "on_bound": "whether the value is at an end of its searched range",
     "correlation": "correlation of the values",
     "chi_square": "sum of the squares of the residuals",
-    "degrees_of_freedom": "number of points less that of what is fitted",
-    "converged": "whether the least misfit was found to within its tolerance",
+    "degrees_of_freedom": "number of points minus number of fitted values",
+    "converged": "whether the minimum of the misfit was found within its tolerance",
 }
 """The variables of a fit, but for its points."""
 
@@ -384,14 +384,14 @@ FIT_POINTS: Final = {
     "measured_point": {
         "measured_indentation": "measured indentation depth",
         "measured_load": "measured load, negative if it pulls",
-        "measured_unloading": "whether the point is of loading or of unloading",
+        "measured_unloading": "whether the point belongs to loading or unloading",
         "measured_cycle": "number of the cycle",
         "residual": "signed distance of the point to the fitted path, in standard deviations of the noise",
     },
     "fitted_point": {
         "fitted_indentation": "indentation depth on the fitted path, with its offset",
         "fitted_load": "load on the fitted path, with its offset",
-        "fitted_unloading": "whether the path loads or unloads",
+        "fitted_unloading": "whether the path is loading or unloading",
     },
 }
 """The variables of the points of a fit, by their dimension."""

@@ -69,27 +69,27 @@ def _sections() -> Iterator[str]:
     yield table(("variable", "long_name", "in SI", "exact solver only"), _outputs())
     yield "## Spreads of uncertain inputs"
     yield (
-        "With `[uncertainty]` a map has a standard deviation beside each output: linear, by sensitivities, of "
-        f"{_listed(names.OF_LINEAR)}; of the samples of the others. With samples it also has their statistics. `X` "
-        f"stands for any of {_listed(names.SPREADABLE)}; copies in SI end in `{names.SI}`."
+        "With `[uncertainty]` a map has a standard deviation for each output: a linear one, from sensitivities, for "
+        f"{_listed(names.OF_LINEAR)}; that of the samples for the others. With samples it also has their statistics. "
+        f"`X` stands for any of {_listed(names.SPREADABLE)}; copies in SI end in `{names.SI}`."
     )
     spreads = ([code(f"X_{how}"), words.format("output")] for how, words in names.SPREAD.items())
     yield table(("variable", "what"), spreads)
     yield "## Variables of optima"
     yield (
-        "A study of an optimum has one value per cell of the axes that are left. `X` stands for an output that is "
-        "sought or limited, or for an input that is searched; copies of outputs in SI end in `_si`. With two goals, "
+        "The dataset has one value per cell of the axes that are not searched. `X` stands for a goal, for an output "
+        "with a limit, or for a searched input; copies of outputs in SI end in `_si`. With two goals, "
         f"variables have a last dimension `{names.PARETO_POINT}` along which shorter fronts are padded."
     )
     yield table(
         ("variable", "what"),
         [
-            [code(f"{names.BEST}X"), "the output at the optimum, or where the optimum is"],
+            [code(f"{names.BEST}X"), "the output at the optimum, or the place of the optimum"],
             [
                 code(f"{names.BEST}X_sensitivity"),
-                "of a force or an energy that is sought: its sensitivities there; those of the best value as well",
+                "of a force or an energy as the goal: its sensitivities at the optimum",
             ],
-            [code(names.ON_BOUND), "the bounds at which the optimum is, as flags; 0: none"],
+            [code(names.ON_BOUND), "the bounds at which the optimum lies, as flags; 0: none"],
         ],
     )
     yield "## Variables of curves"
@@ -100,17 +100,17 @@ def _sections() -> Iterator[str]:
     yield table(("curve", "dimension", "variable", "long_name", "0 and 1 mean"), _curves())
     yield "## Variables of a fit"
     yield (
-        f"A fit has the dimension `{names.PARAMETER}` of what is fitted, with its units in `{names.PARAMETER_UNITS}`; "
-        f"`{names.OTHER_PARAMETER}` is the same again, for correlations. Fixed parameters are coordinates without a "
-        "dimension, in SI units. Offsets are added to the path, so that it is drawn through the data. `status` has the "
-        "flags of the fitted cycle."
+        f"A fit has the dimension `{names.PARAMETER}`, the fitted values, with their units in "
+        f"`{names.PARAMETER_UNITS}`; `{names.OTHER_PARAMETER}` is the same list, for correlations. Fixed parameters "
+        "are coordinates without a dimension, in SI units. Offsets are added to the path, so that it passes through the "
+        "data. `status` has the flags of the fitted cycle."
     )
     yield table(("variable", "dimensions", "long_name"), _of_fits())
     yield "## Status"
     yield (
         f"Every dataset has `status`, {names.STATUS}. Each bit is a flag. A scene with {_named(FAILED)} has failed. "
         f"Its values are doubtful with {_named(DOUBTFUL)}. The approximate solvers set `no_value` only. The flags "
-        "after it are there with uncertain inputs and in datasets of optima, whose `status` is int16."
+        "after it occur with uncertain inputs and optima; `status` is int16 there."
     )
     yield table(("flag", "bit", "in words", "of a scene"), _flags())
     yield "## Global attributes"

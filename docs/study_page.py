@@ -70,16 +70,16 @@ def _of_fits() -> Iterator[str]:
     yield '## Studies of `kind = "fit"`'
     yield (
         "[Fit a loop](../fit.md) describes them. Besides `title`, `kind` and `profile` they have the tables "
-        "below and no `outputs`, `layout`, `loading`, `states` or `method`. In `[parameters]` and "
-        "`[physical]` a number is fixed; a table `{ start, stop }` is a range that is searched, above 0 but "
-        'for `k` and `nu`, and gives a parameter that is fitted. `indentation_max` may be `"data"`, the '
-        "default: the cycle turns where the data do. Reduced variables are as above, but for "
-        "`machine_stiffness`; lists have no place: a fit has no axes."
+        "below, and no `outputs`, `layout`, `loading`, `states` or `method`. In `[parameters]` and "
+        "`[physical]` a number is fixed; a parameter with a range `{ start, stop }` is fitted within it. Ranges "
+        'are above 0, except for `k` and `nu`. `indentation_max` may be `"data"`, the default: the cycle turns '
+        "where the data turn. Reduced variables are as above, except `machine_stiffness`. Lists are not allowed, "
+        "because a fit has no axes."
     )
     yield "### [data]"
     yield f"Required: {SETTINGS['data'].about}."
     yield table(HEADS, _rows(own["DataTable"]))
-    yield "The table of a column, instead of its name alone:"
+    yield "A column as a table, instead of its name only:"
     yield table(HEADS, _rows(own["ColumnTable"]))
     yield "### [fit]"
     yield f"Optional: {SETTINGS['fit'].about}."
@@ -100,7 +100,7 @@ def _of_parameters(own: Mapping[str, Any] | None, files: Mapping[str, Any]) -> I
     yield f"Required: {SETTINGS['parameters'].about}."
     rows = [_row(name, own) for name in own["properties"] if name not in REDUCED]
     yield table(HEADS, rows)
-    yield "The table of `points`, instead of the name of its file ([scenes from a file](../measured.md)):"
+    yield "`points` as a table, instead of the name of the file ([scenes from a file](../measured.md)):"
     yield table(HEADS, _rows(files))
     yield "Reduced variables, each instead of another parameter:"
     yield table(
@@ -139,8 +139,9 @@ def _of_optimum(own: Mapping[str, Any] | None, requirements: Mapping[str, Any]) 
     assert own
     yield "## [optimum]"
     yield (
-        f'Required for `kind = "optimum"`: {SETTINGS["optimum"].about} ([optima](../optima.md)). Such a study has no '
-        "`outputs`. One goal or two: any output with one value a scene but counts, in SI units with the suffix `_si`."
+        'Required for `kind = "optimum"`: goal, searched inputs and requirements ([optima](../optima.md)). Such a study '
+        "has no `outputs`. It has one goal or two: any output with one value per scene except counts, in SI units "
+        "with the suffix `_si`."
     )
     yield table(HEADS, _rows(own))
     yield "The table `require`:"

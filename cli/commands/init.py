@@ -39,7 +39,7 @@ def _names(_context: click.Context, _parameter: click.Parameter, incomplete: str
 def init(name: str, output: Path | None, overwrite: bool, listed: bool) -> None:
     """Write a commented study to start from.
 
-    NAME is map (the default), curve, physical, or a figure such as fig4a; --list shows all.
+    NAME is map (the default), curve, optimum, fit, points, physical, or a figure such as fig4a; --list shows all.
     """
     known = studies()
     if listed:

@@ -13,8 +13,8 @@ from gradhesion.cli.commands.written import say_written
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), help="Picture: .png, .svg or .pdf [FILE.png].")
 @click.option("--terms", type=int, default=16, show_default=True, help="Harmonics to fit.")
-@click.option("--exponent", default="2.0", show_default=True, help='The power of the punch, or "fit" to find it.')
-@click.option("--up-to", metavar="LENGTH", help='Distance from the centre to fit up to, as "2 um" [all of it].')
+@click.option("--exponent", default="2.0", show_default=True, help='Power of the punch, or "fit" to fit it.')
+@click.option("--up-to", metavar="LENGTH", help='Distance from the centre up to which to fit, as "2 um" [all].')
 @click.option("--overwrite", is_flag=True, help="Replace an existing picture.")
 @click.option("--quiet", is_flag=True, help="Print errors only.")
 def profile(
@@ -22,8 +22,8 @@ def profile(
 ) -> None:
     """Fit the profile of a punch to measured heights.
 
-    FILE is a table (CSV or NetCDF) with the columns r and height, their units in the header, as r [um]. A power and a
-    Fourier series are fitted; the tables of a study that has them are printed, and a picture shows the fit.
+    FILE is a table (CSV or NetCDF) with the columns r and height, their units in the header, as r [um]. Fits a power
+    and a Fourier series, prints them as tables of a study, and draws the fit.
     """
     path = output or file.with_suffix(".png")
     form = path.suffix[1:].lower()

@@ -21,8 +21,8 @@ def verify(file: Path, sample: int, seed: int | None, digits: bool) -> None:
 
     The study stored in FILE must be unchanged and match its coordinates. A random sample of the scenes is then solved
     from the integral definitions, in 51-digit arithmetic and without the kernels that made the dataset. The deviations
-    are printed, largest first. A scene usually takes less than 0.1 s, and at most 15 s: scenes of more than 1,000 waves
-    (of the shortest of a series, each counted once more for every 16 harmonics) are replaced by others.
+    are printed, largest first. A scene usually takes less than 0.1 s, and at most 15 s: scenes of more than 1,000
+    waves, or fewer for a series of many harmonics, are replaced by others.
 
     The exit code is 3 if a value deviates by more than its stated error.
     """

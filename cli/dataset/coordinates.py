@@ -43,7 +43,7 @@ def coordinates(study: Study) -> dict[str, Variable]:
         described[names.STATE] = _states(study)
     for name, own_labels in study.labels.items():
         values = np.array(own_labels, dtype=object)
-        told = {"long_name": "what a sensitivity is to"}
+        told = {"long_name": "parameter of the sensitivity"}
         described[name] = Variable(dimensions=(name,), dtype="str", attributes=told, values=values)
     for name, key in INPUTS.items():
         attributes = {"units": key.unit, "long_name": key.about}

@@ -124,7 +124,7 @@ def _of_status() -> dict[str, Any]:
     """Describe the status of the fitted cycle."""
     return {
         "units": "1",
-        "long_name": "what there is to report of the fitted cycle (0: nothing)",
+        "long_name": "flags of the fitted cycle (0: nothing to report)",
         "flag_masks": np.array(list(FLAGS.values()), dtype=np.int8),
         "flag_meanings": " ".join(FLAGS),
     }

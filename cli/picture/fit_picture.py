@@ -1,5 +1,6 @@
 """The picture of a fit: the measured points with the fitted path, and what is left of them."""
 
+import math
 from collections.abc import Sequence
 from typing import Any, Final
 
@@ -8,8 +9,8 @@ import xarray
 from matplotlib.figure import Figure
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import PARAMETER, PARAMETER_UNITS
-from gradhesion.cli.picture.labels import Unit, unit_for
+from gradhesion.cli.names import PARAMETER, SYMBOLS
+from gradhesion.cli.picture.labels import Unit, number, unit_for
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.pictured import CAPTION, heading, in_lines, styled
 
@@ -18,6 +19,12 @@ COLOURS: Final = ("C0", "C3")
 WIDTH: Final = 4.8
 """Of the picture, in inches."""
 _LABELS: Final = {"indentation": "depth", "load": "load"}
+PATHS: Final = {"indentation": "path_indentation_si", "load": "path_load_si"}
+"""The curves that have the units of depth and load."""
+OFFSET: Final = "_offset"
+"""The end of the name of a zero that is fitted."""
+LONGEST: Final = 8
+"""Decimals of a value that has no power of ten."""
 
 
 def drawn_fit(dataset: xarray.Dataset, looks: Looks = PLAIN, choices: Sequence[str] = ()) -> Figure:
@@ -75,8 +82,7 @@ def drawn_fit(dataset: xarray.Dataset, looks: Looks = PLAIN, choices: Sequence[s
 def _unit(dataset: xarray.Dataset, quantity: str) -> Unit:
     """Choose the unit of an axis."""
     values = dataset[f"measured_{quantity}"].values
-    name = "path_indentation_si" if quantity == "indentation" else "path_load_si"
-    return unit_for(name, [float(np.max(np.abs(values)))])
+    return unit_for(PATHS[quantity], [float(np.max(np.abs(values)))])
 
 
 def _axis(quantity: str, unit: Unit) -> str:
@@ -84,11 +90,31 @@ def _axis(quantity: str, unit: Unit) -> str:
 
 
 def _found(dataset: xarray.Dataset) -> list[str]:
-    """Write the values with their standard deviations."""
-    found = []
-    for i, name in enumerate(map(str, dataset[PARAMETER].values)):
-        unit = str(dataset[PARAMETER_UNITS].values[i])
-        value, deviation = (float(dataset[column].values[i]) for column in ("value", "standard_deviation"))
-        written = name.replace("_", r"\_")
-        found.append(rf"$\mathrm{{{written}}}$ = {value:.4g} $\pm$ {deviation:.2g}{'' if unit == '1' else ' ' + unit}")
-    return found
+    """Write the values with their standard deviations, in units that suit them."""
+    return [
+        in_words(str(name), *(float(dataset[column].values[i]) for column in ("value", "standard_deviation")))
+        for i, name in enumerate(dataset[PARAMETER].values)
+    ]
+
+
+def in_words(name: str, value: float, deviation: float) -> str:
+    r"""
+    Write a fitted value to the digits of its standard deviation.
+
+    >>> in_words("wavelength", 4.99918e-7, 9.3e-11), in_words("A", 0.0120055, 2.04e-5)
+    ('$\\lambda$ = 499.918 ± 0.093 nm', '$A$ = 0.012006 ± 0.000020')
+    >>> in_words("load_offset", 8.894e-9, 1.2e-9), in_words("work_of_adhesion", 0.03, 0.0)
+    ('offset of the load = 8.9 ± 1.2 nN', '$\\Delta\\gamma$ = 30 ± 0 mJ/m$^2$')
+    """
+    quantity = name.removesuffix(OFFSET)
+    if quantity != name:
+        words, unit = f"offset of the {_LABELS[quantity]}", unit_for(PATHS[quantity], value)
+    else:
+        words, unit = SYMBOLS[name], unit_for(name, value)
+    value, deviation = value / 10.0**unit.power, deviation / 10.0**unit.power
+    decimals = 1 - math.floor(math.log10(deviation)) if 1e-9 * abs(value) < deviation < math.inf else None
+    if decimals is None or decimals > LONGEST:
+        written = f"{number(value)} ± {number(deviation)}"
+    else:
+        written = f"{value:.{max(0, decimals)}f} ± {deviation:.{max(0, decimals)}f}"
+    return f"{words} = {written} {unit.symbol}".strip().replace("-", "\N{MINUS SIGN}")
