@@ -102,8 +102,8 @@ def _sections() -> Iterator[str]:
     yield (
         f"A fit has the dimension `{names.PARAMETER}`, the fitted values, with their units in "
         f"`{names.PARAMETER_UNITS}`; `{names.OTHER_PARAMETER}` is the same list, for correlations. Fixed parameters "
-        "are coordinates without a dimension, in SI units. Offsets are added to the path, so that it passes through the "
-        "data. `status` has the flags of the fitted cycle."
+        "are coordinates without a dimension, in SI units. Offsets are added to the path, so that it passes "
+        "through the data. `status` has the flags of the fitted cycle."
     )
     yield table(("variable", "dimensions", "long_name"), _of_fits())
     yield "## Status"

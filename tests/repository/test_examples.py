@@ -1,6 +1,7 @@
 """Each study that shows a feature runs, and gives what is known of it by other means."""
 
 import math
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,15 +12,21 @@ import xarray
 import gradhesion as gr
 
 CONFIGS = Path(__file__).parents[2] / "configs"
-FEATURES: dict[str, tuple[str, str]] = {
+FEATURES: dict[str, tuple[str, ...]] = {
     "another profile": ("cone", "series"),
     "another control": ("dead_load", "spring"),
-    "points": ("points", "materials"),
+    "points": ("points", "materials", "specimens"),
     "units": ("physical", "jkr"),
     "reduced variables": ("reduced", "reduced_rim"),
     "several solvers": ("solvers", "short_waves"),
+    "sensitivities": ("sensitivities", "sensitive_probe"),
+    "uncertain inputs": ("uncertain_probe", "extra_error_bars"),
+    "optima": ("optimum", "extra_best_wavelength", "extra_best_exponent", "extra_front"),
+    "fits": ("fit", "fit_spring"),
 }
-EXAMPLES = sorted({name for names in FEATURES.values() for name in names} - {"points", "physical", "jkr"})
+WITHOUT_FORCE = {*FEATURES["optima"], *FEATURES["fits"]}
+ELSEWHERE = {"points", "physical", "jkr", "extra_error_bars"}  # in test_repository and tests/figures
+EXAMPLES = sorted({name for names in FEATURES.values() for name in names} - WITHOUT_FORCE - ELSEWHERE)
 
 Run = Callable[..., xarray.Dataset]
 
@@ -37,15 +44,21 @@ def run() -> Run:
 def test_two_studies_show_each_feature() -> None:
     for feature, names in FEATURES.items():
         for name in names:
-            study = gr.load(CONFIGS / f"{name}.toml")
+            study = tomllib.loads((CONFIGS / f"{name}.toml").read_text())
+            parameters = study["parameters"]
             shown = {
-                "another profile": "[profile]" in study.text,
-                "another control": study.loading.control != "displacement",
-                "points": study.layout == "points",
-                "units": "[physical]" in study.text,
-                "reduced variables": "chi" in study.text and "lambda_over_L" in study.text,
-                "several solvers": isinstance(study.method.solver, tuple),
+                "another profile": "profile" in study,
+                "another control": study.get("loading", {}).get("control", "displacement") != "displacement",
+                "points": study.get("layout") == "points" or "points" in parameters,
+                "units": "physical" in study,
+                "reduced variables": {"chi", "lambda_over_L"} <= parameters.keys(),
+                "several solvers": isinstance(study.get("method", {}).get("solver"), list),
+                "sensitivities": "pull_off_force_sensitivity" in study.get("outputs", ()),
+                "uncertain inputs": "uncertainty" in study,
+                "optima": study.get("kind") == "optimum",
+                "fits": study.get("kind") == "fit",
             }
+            assert len(names) > 1
             assert shown[feature], (feature, name)
 
 
@@ -142,3 +155,44 @@ def test_no_wavelength_is_better_than_the_best() -> None:
     slopes = best["best_pull_off_force_sensitivity"].sel(parameter="lambda_over_R")
     np.testing.assert_allclose(slopes, 0.0, atol=1e-13)
     assert not best["on_bound"].any()
+
+
+def test_the_force_of_a_smooth_punch_depends_on_the_exponent_alone(run: Run) -> None:
+    """It is (3 + k)/3 in units of 1.5 pi R dgamma."""
+    smooth = run("sensitivities", A=0.0, lambda_over_R=0.2, k=[0.2, 0.5])
+    slopes = smooth["pull_off_force_sensitivity"]
+    np.testing.assert_allclose(slopes.sel(parameter="k"), 1.0 / (3.0 + smooth["k"]), rtol=0.0, atol=1e-9)  # as promised
+    np.testing.assert_allclose(slopes.drop_sel(parameter="k"), 0.0, atol=1e-12)
+
+
+def test_the_force_of_a_smooth_probe_in_newtons_grows_as_radius_and_work_of_adhesion(run: Run) -> None:
+    slopes = run("sensitive_probe", A=0.0, k=0.0)["pull_off_force_sensitivity_physical"]
+    for name in map(str, slopes["physical_parameter"].values):
+        known = 1.0 if name in ("R", "work_of_adhesion") else 0.0
+        np.testing.assert_allclose(slopes.sel(physical_parameter=name), known, atol=1e-12, err_msg=name)
+
+
+def test_the_deviation_of_the_force_of_a_smooth_probe_is_that_of_its_factors(run: Run) -> None:
+    """F = 1.5 pi R dgamma: relative deviations of 20 nm/R and 3 % add up in squares; modulus and nu do not matter."""
+    probe = run("uncertain_probe")
+    expected = np.hypot(0.03, 2e-8 / probe["R"]) * probe["pull_off_force_si"]
+    np.testing.assert_allclose(probe["pull_off_force_std_si"], expected, rtol=1e-12)
+
+
+def test_points_of_a_file_are_its_rows(run: Run) -> None:
+    found = run("specimens")
+    rows = np.genfromtxt(CONFIGS / "specimens.csv", delimiter=",", names=True, comments="#", skip_header=1)
+    assert found.sizes == {"scene": rows.size}
+    for i in (0, rows.size - 1):
+        row = {str(name): float(rows[name][i]) for name in rows.dtype.names}
+        alone = gr.solve(row, "pull_off_force", k=0.3, nu=0.3, c0_over_R=0.01, a_max_over_R=0.5)
+        assert alone["pull_off_force"].item() == pytest.approx(found["pull_off_force"][i].item(), rel=1e-13)
+
+
+def test_a_retraction_through_a_spring_gives_what_it_was_made_with() -> None:
+    found = gr.run(CONFIGS / "fit_spring.toml")
+    made = {"E_star": 2e6, "work_of_adhesion": 0.045, "indentation_offset": 3e-9, "load_offset": -8e-9}
+    assert list(found["parameter"].values) == list(made)
+    away = (found["value"] - list(made.values())) / found["standard_deviation"]
+    assert float(abs(away).max()) < 3.5
+    assert 0.7 < float(found["chi_square"] / found["degrees_of_freedom"]) < 1.4

@@ -123,14 +123,19 @@ PICTURED = ("fig", "extra_")  # tests/figures
 OF_FEATURES = (
     "cone",
     "dead_load",
+    "fit_spring",
     "materials",
     "optimum",
     "reduced",
     "reduced_rim",
+    "sensitive_probe",
+    "sensitivities",
     "series",
     "short_waves",
     "solvers",
+    "specimens",
     "spring",
+    "uncertain_probe",
 )  # test_examples
 CONFIGS = sorted(
     path
