@@ -221,7 +221,7 @@ def disc_limits(table: Any, curve: Curve, count: int, trace: Any, furthest: floa
     table, curve
         The tables of the exponent, and the curve.
     count, trace
-        What `walk` or `stride` of path/cosine.py have returned.
+        What `walk` (path/cosine.py) or `stride` (path/cosine_long.py) has returned.
     furthest
         The rim in x = a/lambda, the largest one if there are several.
     """

@@ -8,8 +8,8 @@ is a comparison of two numbers of known size; one that they win or lose by less 
 The curve is any of path/passage.py. Decisions of loading are noted with the branches up to which they are taken, those
 of unloading with the branches from which on, so that all rims of a curve read them.
 
-On a long curve (path/cosine.py) the branches that are summed are not looked at: each is visited, and their neighbours
-stand apart by a wave.
+On a long curve (path/cosine_long.py) the branches that are summed are not looked at: each is visited, and their
+neighbours stand apart by a wave.
 """
 
 import math

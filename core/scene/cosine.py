@@ -23,9 +23,9 @@ from gradhesion.core.path.cosine import (
     is_long,
     is_smooth,
     is_unresolved,
-    stride,
     walk,
 )
+from gradhesion.core.path.cosine_long import begin_long, ends_folds, is_told, stride
 from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
 from gradhesion.core.path.ties import first_close_pair, is_close_to_a_jump
 from gradhesion.core.path.unloading import unloading_from
@@ -208,6 +208,76 @@ def _put_slopes(
 
 
 @kernel()
+def _read_rim(
+    table: Any,
+    curve: Curve,
+    scales: Any,
+    count: int,
+    trace: Any,
+    limits: tuple[float, float, float],
+    x: float,
+    slots: Any,
+    out: Any,
+    status: Any,
+    i: int,
+    sense: Any,
+    around: Any,
+    final: float,
+    slopes: Any,
+) -> None:
+    """Read a rim off a trace: its cycle, and its sensitivities if they are asked for."""
+    _cycle_at_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i)
+    if len(sense) > 0:
+        _put_slopes(table, curve, sense, around, scales[0], count, trace, final, slopes, x, slots, out, i)
+
+
+@kernel()
+def _solve_long(
+    table: Any,
+    curve: Curve,
+    arches: tuple[float, float],
+    scales: Any,
+    wavelength: float,
+    rims: Any,
+    slots: Any,
+    out: Any,
+    status: Any,
+    scratch: Any,
+    sense: Any,
+    around: Any,
+) -> None:
+    """Follow the cycle of a wavy punch for its rims that no walk reaches: they share its beginning and its sums.
+
+    Those beyond the folds, or among the last of them, share all of the trace.
+    """
+    losses, final = wants_losses(slots), arches[1]
+    trace, long = begin_long(table, curve, arches, scratch, losses, 1.0)
+    furthest, told = 0.0, is_told(table, curve, final)
+    for i in range(rims.size):
+        x = rims[i] / wavelength
+        if is_unresolved(arches, x) or not is_long(table, arches, x):
+            continue
+        if told and ends_folds(table, arches, x):
+            furthest = max(furthest, x)
+            continue
+        count = stride(table, curve, arches, x, trace, long, losses, 1.0)
+        limits = _limits(table, curve, count, trace, x, slots)
+        slopes = _slopes_of(table, curve, sense, around, count, trace, final) if len(sense) > 0 else ()
+        _read_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i, sense, around, final, slopes)
+    if furthest == 0.0:
+        return
+    count = stride(table, curve, arches, furthest, trace, long, losses, 1.0)
+    limits = _limits(table, curve, count, trace, furthest, slots)
+    slopes = _slopes_of(table, curve, sense, around, count, trace, final) if len(sense) > 0 else ()
+    for i in range(rims.size):
+        x = rims[i] / wavelength
+        if not is_unresolved(arches, x) and is_long(table, arches, x) and ends_folds(table, arches, x):
+            _read_rim(
+                table, curve, scales, count, trace, limits, x, slots, out, status, i, sense, around, final, slopes
+            )
+
+
+@kernel()
 def _solve_cycle(
     table: Any,
     curve: Curve,
@@ -225,33 +295,27 @@ def _solve_cycle(
     """Follow the cycle of a wavy punch for all its rims: those within a walk share one trace."""
     losses = wants_losses(slots)
     final = arches[1]
-    furthest = 0.0
+    furthest, long = 0.0, False
     for i in range(rims.size):
         x = rims[i] / wavelength
         if is_unresolved(arches, x):
             status[i] |= NO_VALUE
-        elif not is_long(table, arches, x):
+        elif is_long(table, arches, x):
+            long = True
+        else:
             furthest = max(furthest, x)
     if furthest > 0.0:
         count, trace = walk(table, curve, arches, furthest, scratch, losses)
         limits = _limits(table, curve, count, trace, furthest, slots)
-        if len(sense) > 0:
-            slopes = _slopes_of(table, curve, sense, around, count, trace, final)
-    for i in range(rims.size):
-        x = rims[i] / wavelength
-        if not is_unresolved(arches, x) and not is_long(table, arches, x):
-            _cycle_at_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i)
-            if len(sense) > 0:
-                _put_slopes(table, curve, sense, around, scales[0], count, trace, final, slopes, x, slots, out, i)
-    for i in range(rims.size):
-        x = rims[i] / wavelength
-        if not is_unresolved(arches, x) and is_long(table, arches, x):
-            count, trace = stride(table, curve, arches, x, scratch, losses, 1.0)
-            limits = _limits(table, curve, count, trace, x, slots)
-            _cycle_at_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i)
-            if len(sense) > 0:
-                slopes = _slopes_of(table, curve, sense, around, count, trace, final)
-                _put_slopes(table, curve, sense, around, scales[0], count, trace, final, slopes, x, slots, out, i)
+        slopes = _slopes_of(table, curve, sense, around, count, trace, final) if len(sense) > 0 else ()
+        for i in range(rims.size):
+            x = rims[i] / wavelength
+            if not is_unresolved(arches, x) and not is_long(table, arches, x):
+                _read_rim(
+                    table, curve, scales, count, trace, limits, x, slots, out, status, i, sense, around, final, slopes
+                )
+    if long:
+        _solve_long(table, curve, arches, scales, wavelength, rims, slots, out, status, scratch, sense, around)
 
 
 @kernel()

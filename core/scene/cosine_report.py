@@ -23,7 +23,8 @@ from gradhesion.core.closed import smooth
 from gradhesion.core.curve.branches import ARRIVAL, END, START
 from gradhesion.core.curve.cosine import Curve, curve_of, depth, force_unit, wave
 from gradhesion.core.curve.cosine_folds import fold_of_arch, survey_arch
-from gradhesion.core.path.cosine import MOST_ARCHES, extent, is_endless_wave, is_long, is_smooth, is_told, stride, walk
+from gradhesion.core.path.cosine import MOST_ARCHES, extent, is_endless_wave, is_long, is_smooth, walk
+from gradhesion.core.path.cosine_long import begin_long, is_told, stride
 from gradhesion.core.path.cosine_loop import loop_energy
 from gradhesion.core.path.loading import loading_to
 from gradhesion.core.path.unloading import unloading_from
@@ -139,7 +140,8 @@ def _report_energy(
     long = is_long(table, arches, x)
     residual = math.nan
     if long:
-        count, trace = stride(table, curve, arches, x, scratch, YES, 2.0)
+        trace, beginning = begin_long(table, curve, arches, scratch, YES, 2.0)
+        count = stride(table, curve, arches, x, trace, beginning, YES, 2.0)
         loaded, unloaded = _energies_at(table, curve, count, trace, x)
         last = min(arches[1], 2.0 * x)
         least = min(_SUMMED_FAR, _SUMMED * (1.0 + max(0.0, (last - arches[0]) / _FAR - 1.0)))

@@ -26,7 +26,9 @@ from gradhesion.core.waves.cosine_sum import (
     _REMOTE,
     _WIDE,
     branch_points,
+    inner_limits,
     limit_terms,
+    outer_limits,
 )
 
 _SAMPLES: Final = 64
@@ -71,13 +73,12 @@ def _add_outer_part(
     """Add the integral in y."""
     found = work[_SAMPLES + 6 * SLOPES : _SAMPLES + 7 * SLOPES]
     outer = min(max(outer, end), _REMOTE * end)
-    low = math.sqrt(1.0 - (end / outer) ** 0.25)
-    high = math.sqrt(1.0 - (begin / outer) ** 0.25)
+    low, width = outer_limits(begin, end, outer)
     for i in range(NODES.size):
-        y = low + (high - low) * NODES[i]
+        y = low + width * NODES[i]
         rest = 1.0 - y * y
         slopes_of_wave(table, curve, near, outer * rest**4, outwards, work, found)
-        total += (WEIGHTS[i] * 8.0 * outer * y * rest**3 * (high - low)) * found
+        total += (WEIGHTS[i] * 8.0 * outer * y * rest**3 * width) * found
 
 
 @kernel()
@@ -87,11 +88,11 @@ def _add_inner_part(
     """Add the integral in v."""
     found = work[_SAMPLES + 6 * SLOPES : _SAMPLES + 7 * SLOPES]
     inner = min(inner, begin)
-    low, high = math.sqrt(begin - inner), math.sqrt(end - inner)
+    low, width = inner_limits(begin, end, inner)
     for i in range(SHORT_NODES.size):
-        v = low + (high - low) * SHORT_NODES[i]
+        v = low + width * SHORT_NODES[i]
         slopes_of_wave(table, curve, near, inner + v * v, outwards, work, found)
-        total += (SHORT_WEIGHTS[i] * 2.0 * v * (high - low)) * found
+        total += (SHORT_WEIGHTS[i] * 2.0 * v * width) * found
 
 
 @kernel()

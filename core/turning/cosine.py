@@ -23,9 +23,9 @@ from gradhesion.core.path.cosine import (
     is_long,
     is_smooth,
     is_unresolved,
-    stride,
     walk,
 )
+from gradhesion.core.path.cosine_long import begin_long, stride
 from gradhesion.core.path.ties import rim_is_close
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
@@ -214,7 +214,8 @@ def _turn_curve(
                 radii[i] = min(rims[i], x * wavelength)
     for i in range(rims.size):
         if reaches[i] > 0.0 and is_long(table, arches, reaches[i]):
-            count, trace = stride(table, curve, arches, reaches[i], scratch, NO, 1.0)
+            trace, beginning = begin_long(table, curve, arches, scratch, NO, 1.0)
+            count = stride(table, curve, arches, reaches[i], trace, beginning, NO, 1.0)
             peaks = peaks_of(table, curve, count, trace, inner, 1) if by_load else reaches
             scene = (rims[i] / wavelength, targets[i] / unit, wavelength)
             x, flags[i] = _turn_rim(table, curve, count, trace, peaks, True, reaches[i], scene, modes)

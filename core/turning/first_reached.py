@@ -22,18 +22,17 @@ from gradhesion.core.curve.branches import (
     RUN_LANDING,
     RUN_LAST,
     START,
-    WORK,
     ends,
     find_depth,
 )
 from gradhesion.core.curve.cosine import Curve, depth, load, slope
 from gradhesion.core.curve.cosine_folds import fold_of_arch, survey_arch
-from gradhesion.core.path.cosine import first_wave_above, wave_of
+from gradhesion.core.path.cosine_long import first_wave_above, wave_of
 from gradhesion.core.path.ties import tolerance
 from gradhesion.core.struve.arches import inner_edge
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.waves.cosine import branch_of_wave, jump_of_wave
+from gradhesion.core.waves.cosine import branch_of_wave, landing_of_wave
 
 Turn: TypeAlias = tuple[float, bool]
 """Where a cycle turns (inf if not here), and whether a step of that is close."""
@@ -214,8 +213,7 @@ def _turn_on_wave(table: Any, curve: Curve, trace: Any, wave: float, reach: floa
     """Return where loading first reaches a load on a regular wave."""
     arrival = trace[RUN, RUN_LANDING] if wave == trace[RUN, RUN_FIRST] else 0.0
     if arrival == 0.0:
-        landing, _ = jump_of_wave(table, curve, wave - 1.0, YES, trace[WORK])
-        arrival = wave - 1.0 + landing
+        arrival = wave - 1.0 + landing_of_wave(table, curve, wave - 1.0, YES)
     return _turn_on(table, curve, arrival, branch_of_wave(table, curve, wave), reach, target)
 
 
@@ -242,7 +240,7 @@ def turn_on_waves(table: Any, curve: Curve, trace: Any, reach: float, target: fl
 def turn_long_at_load(
     table: Any, curve: Curve, count: int, trace: Any, peaks: Any, reach: float, target: float
 ) -> Turn:
-    """Return where loading first reaches a load on a long curve (stride of path/cosine.py)."""
+    """Return where loading first reaches a load on a long curve (stride of path/cosine_long.py)."""
     gap = int(trace[RUN, GAP])
     x, close = turn_at_load(table, curve, 0, gap, trace, peaks, reach, target)
     if x == math.inf:
@@ -256,7 +254,7 @@ def turn_long_at_load(
 
 @kernel()
 def turn_long_at_depth(table: Any, curve: Curve, count: int, trace: Any, reach: float, target: float) -> Turn:
-    """Return where loading first reaches a depth on a long curve (stride of path/cosine.py)."""
+    """Return where loading first reaches a depth on a long curve (stride of path/cosine_long.py)."""
     gap = int(trace[RUN, GAP])
     x, close = turn_at_depth(table, curve, 0, gap, trace, reach, target)
     if x < math.inf:

@@ -166,17 +166,31 @@ def _landing(table: Any, curve: Curve, whole: float, left: Left, start: float, c
 
 
 @kernel()
+def _ends_of_jump(table: Any, curve: Curve, whole: float, outwards: bool) -> tuple[float, float, Left]:
+    """Return where the jump from the wave `whole` + 2 to the next one starts and lands, and what is left there."""
+    centre = table.phase / TWO_PI + 2.0
+    start = _fold(table, curve, whole, centre, not outwards)
+    _, _, _, z, height, stretch = _slope(table, curve, whole, start)
+    left = (z, height, stretch)
+    landing = _landing(table, curve, whole, left, start, centre + (1.0 if outwards else -1.0), not outwards)
+    return start, landing, left
+
+
+@kernel()
+def landing_of_wave(table: Any, curve: Curve, wave: float, outwards: bool) -> float:
+    """Return where the jump from a wave to the next one lands, in waves from the wave."""
+    _, landing, _ = _ends_of_jump(table, curve, wave - 2.0, outwards)
+    return landing - 2.0
+
+
+@kernel()
 def jump_of_wave(table: Any, curve: Curve, wave: float, outwards: bool, work: Any) -> tuple[float, float]:
     """Return where the jump from a wave to the next one lands, in waves from the wave, and what it loses.
 
     Outwards it leaves the end of the wave's branch, inwards its start. `wave` is any real number from NEAREST on.
     """
     whole = wave - 2.0
-    centre = table.phase / TWO_PI + 2.0
-    start = _fold(table, curve, whole, centre, not outwards)
-    _, _, _, z, height, stretch = _slope(table, curve, whole, start)
-    left = (z, height, stretch)
-    landing = _landing(table, curve, whole, left, start, centre + (1.0 if outwards else -1.0), not outwards)
+    start, landing, left = _ends_of_jump(table, curve, whole, outwards)
     low, high = min(start, landing), max(start, landing)
     panels = int((high - low) / LONG) + 1
     width = (high - low) / panels

@@ -77,31 +77,48 @@ def branch_points(table: Any, curve: Curve, final: float, outwards: bool) -> tup
 
 
 @kernel()
+def outer_limits(begin: float, end: float, outer: float) -> tuple[float, float]:
+    """Return y at the end, where it is least, and how much larger it is at the begin.
+
+    It is not a difference of the two, which would lose the length of a short run far out over its place.
+    """
+    near, far = (begin / outer) ** 0.25, (end / outer) ** 0.25
+    low, high = math.sqrt(1.0 - far), math.sqrt(1.0 - near)
+    return low, (end - begin) / (outer * (near + far) * (near * near + far * far) * (low + high))
+
+
+@kernel()
+def inner_limits(begin: float, end: float, inner: float) -> tuple[float, float]:
+    """Return v at the begin, and how much larger it is at the end."""
+    low = math.sqrt(begin - inner)
+    return low, (end - begin) / (low + math.sqrt(end - inner))
+
+
+@kernel()
 def _outer_part(table: Any, curve: Curve, begin: float, end: float, outer: float, outwards: bool, work: Any) -> float:
     """Return the integral in y."""
     outer = min(max(outer, end), _REMOTE * end)  # so that 1 - y^2 keeps its digits
-    low = math.sqrt(1.0 - (end / outer) ** 0.25)
-    high = math.sqrt(1.0 - (begin / outer) ** 0.25)
+    low, width = outer_limits(begin, end, outer)
     total = 0.0
     for i in range(NODES.size):
-        y = low + (high - low) * NODES[i]
+        y = low + width * NODES[i]
         rest = 1.0 - y * y
         _, loss = jump_of_wave(table, curve, outer * rest**4, outwards, work)
         total += WEIGHTS[i] * loss * 8.0 * outer * y * rest**3
-    return total * (high - low)
+    return total * width
 
 
 @kernel()
 def _inner_part(table: Any, curve: Curve, begin: float, end: float, inner: float, outwards: bool, work: Any) -> float:
     """Return the integral in v."""
     inner = min(inner, begin)
-    low, high = math.sqrt(begin - inner), math.sqrt(end - inner)
+    low, width = inner_limits(begin, end, inner)
     total = 0.0
     for i in range(SHORT_NODES.size):
-        v = low + (high - low) * SHORT_NODES[i]
+        v = low + width * SHORT_NODES[i]
         _, loss = jump_of_wave(table, curve, inner + v * v, outwards, work)
         total += SHORT_WEIGHTS[i] * loss * 2.0 * v
-    return total * (high - low)
+    return total * width
 
 
 @kernel()

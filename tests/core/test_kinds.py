@@ -68,7 +68,7 @@ def test_a_force_compiles_what_a_force_needs(tmp_path: Path) -> None:
     cycle = {
         "scene.cosine.solve_curve",
         "path.cosine.walk",
-        "path.cosine.stride",
+        "path.cosine_long.stride",
         "curve.cosine_energy.jump_energy",
         "contact.cosine_disc.disc_limits",
     }

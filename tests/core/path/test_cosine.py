@@ -107,61 +107,6 @@ def test_running_extrema(scene: dict[str, float]) -> None:
     assert int(values["unloading_jumps"]) == expected["unloading_jumps"]
 
 
-def _curve(k: float, chi: float, waves: float) -> tuple[float, float, float]:
-    """Give the curve of a given C g whose folds end at a given wave."""
-    amplitude = 2 ** (0.5 * (k - 1)) * math.gamma(0.5 * (k + 1))
-    return chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / amplitude, 0.0
-
-
-@pytest.mark.parametrize("k", [0.0, 1e-12, 0.37, 0.8, 1 - 1e-12, 1.0])
-@pytest.mark.parametrize("chi", [0.001, 0.01, 0.05, 0.4, 1.0, 1.7, 6.0])
-@pytest.mark.parametrize("waves", [120.0, 1000.0])
-def test_striding_is_walking(k: float, chi: float, waves: float, table_of: Callable[[float], Any]) -> None:
-    """Long curves, whole and cut by rims: the same loss as walking every wave, the same numbers of jumps."""
-    table = table_of(k)
-    curve = _curve(k, chi, waves)
-    arches = cycle.extent(table, curve)
-    for rim in (85.0, 100.3, 0.71 * waves, 0.99 * waves, 1.5 * waves, math.inf):
-        if not cycle.is_long(table, arches, rim):
-            continue
-        rim_depth = depth(table, curve, rim) if rim < math.inf else math.inf
-        results = []
-        for follow, reach in ((cycle.walk, ()), (cycle.stride, (1.0,))):
-            count, trace = follow(table, curve, arches, rim, np.zeros((ROWS, 192)), True, *reach)
-            loaded, loading_jumps = loading_to(table, curve, count, trace, rim, True)
-            unloaded, unloading_jumps, last = unloading_from(table, curve, count, trace, rim, rim_depth, True)
-            results.append((loaded + unloaded, loading_jumps, unloading_jumps, last))
-        (energy, *walked), (other, *strode) = results
-        assert walked[:2] == strode[:2]
-        assert math.isclose(walked[2], strode[2], rel_tol=1e-12)
-        # what a sum of some fifty waves in place of all of them promises
-        assert math.isclose(energy, other, rel_tol=1e-12)
-
-
-@pytest.mark.parametrize(("k", "nu"), EXPONENTS)
-@pytest.mark.parametrize("wavelength", [1e-3, 1e-4])
-def test_short_waves(k: float, nu: float, wavelength: float, table_of: Callable[[float], Any]) -> None:
-    """Energy of thousands of waves to 1e-12: against walking every one."""
-    m = float(stiffness(k, nu, 70.0, 0.4))
-    s = math.sqrt(2 ** (1 + k) * math.pi / m)
-    amplitude = 0.5 * s / (math.pi ** ((1 - k) / 2) * math.gamma((1 + k) / 2) * wavelength ** ((1 + k) / 2))
-    rim = 3.3 * m ** (-1 / (3 + k))
-    scene = {"k": k, "nu": nu, "modulus": 70.0, "c0_over_R": 0.4, "lambda_over_R": wavelength, "A": amplitude}
-    values = solve(scene | {"a_max_over_R": rim}, OUTPUTS)
-    length = wavelength / (2 * math.pi)
-    scale = s * length ** (0.5 * (1 - k))
-    curve = (2 * length * length / ((1 + k) * scale), amplitude * wavelength / scale, 0.0)
-    table = table_of(k)
-    arches = cycle.extent(table, curve)
-    x = rim / wavelength
-    count, trace = cycle.walk(table, curve, arches, x, np.zeros((ROWS, 192)), True)
-    loaded, loading_jumps = loading_to(table, curve, count, trace, x, True)
-    unloaded, unloading_jumps, _ = unloading_from(table, curve, count, trace, x, depth(table, curve, x), True)
-    walked = 2 * math.pi * length * length * (loaded + unloaded)
-    assert math.isclose(float(values["dissipated_energy"]), walked, rel_tol=1e-12)
-    assert [int(values["loading_jumps"]), int(values["unloading_jumps"])] == [loading_jumps, unloading_jumps]
-
-
 class TestRim:
     """The rim at every place of the curve."""
 

@@ -63,6 +63,19 @@ def test_a_sum_is_what_every_wave_loses(k: float, chi: float, outwards: bool, ta
     assert runs >= 3
 
 
+@pytest.mark.parametrize("waves", [1e3, 1e5, 1e7])
+def test_a_short_sum_far_out(waves: float, table_of: Callable[[float], Any]) -> None:
+    """The length of a run must not be a difference of its places, which are 10^5 times as large."""
+    table = table_of(0.5)
+    amplitude = 2 ** (0.5 * (0.5 - 1)) * math.gamma(0.75)
+    curve = (0.3 / (2 * math.pi * 1e3 * waves) ** 0.75, 0.3 / amplitude, 0.0)
+    final = last_arch(table, curve, 0.25)
+    for length in (60, 300):
+        losses = [jump_of_wave(table, curve, waves + i, False, WORK)[1] for i in range(length)]
+        total = sum_of_waves(table, curve, waves, waves + length - 1.0, False, final, WORK)
+        assert math.isclose(total, math.fsum(losses), rel_tol=256 * 2.0**-52)
+
+
 @pytest.mark.parametrize("k", [0.0, 0.3, 0.7, 1.0])
 @pytest.mark.parametrize("chi", [0.03, 0.3])
 def test_the_saturated_energy_tends_to_its_limit(k: float, chi: float) -> None:

@@ -1,0 +1,359 @@
+"""A cycle on a curve of one cosine with many waves: its first and last waves are walked, those between are summed.
+
+The branches near the beginning and near the rim stand in one trace (curve/branches.py). The run of waves between them
+is regular, and what passes it enters as what loading has lost where it arrives beyond it, and as what unloading still
+has to lose.
+
+The beginning serves all rims, and so do the samples of the sums (waves/cosine_running.py): a rim adds the branch on
+which it stands and the one before. Only where the folds end are the last waves walked. What a rim gets does not depend
+on the other rims of its curve.
+"""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+
+from gradhesion.core._jit import NO, NONE, YES, kernel
+from gradhesion.core.curve.branches import (
+    ARRIVAL,
+    END,
+    END_DEPTH,
+    GAP,
+    LAST_DEPTH,
+    LOADING_JUMPS,
+    LOADING_LOSS,
+    RUN,
+    RUN_AFTER,
+    RUN_BEFORE,
+    RUN_FIRST,
+    RUN_LANDING,
+    RUN_LAST,
+    RUN_LOWEST,
+    START,
+    START_DEPTH,
+    TANGENCY,
+    UNKNOWN,
+    UNLOADING_JUMPS,
+    UNLOADING_LOSS,
+    WORK,
+    append_branches,
+    ends,
+    find_depth,
+    room_for,
+)
+from gradhesion.core.curve.cosine import Curve
+from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
+from gradhesion.core.path.cosine import MOST_ARCHES
+from gradhesion.core.path.loading import arrive, climb, load_up
+from gradhesion.core.path.ties import note_loading
+from gradhesion.core.path.unloading import descend, leave, next_lower
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.waves.cosine import branch_of_wave, fold_of_wave, landing_of_wave
+from gradhesion.core.waves.cosine_running import COUNT, begin_sums, room_for_sums, sum_up_to
+from gradhesion.core.waves.cosine_sum import sum_of_waves
+
+BEGINNING: Final = 16.0
+"""Waves walked at the beginning; z > 150 there."""
+NEAR_RIM: Final = 10.0
+"""Waves walked before the folds end."""
+_BEFORE_RIM: Final = 2.5
+"""Waves walked before a rim that is further in: its own and the one before it at least."""
+_MOST_NEAR_RIM: Final = 2.0e13
+"""Arches up to which a phase is told near a rim: to a hundredth, of waves that are 10^-13 of all."""
+_ORDERED: Final = 20.0
+"""Times the square of what rounding leaves of a phase, below which neighbours need not be in order (is_told)."""
+_HALVINGS: Final = 200
+NEAR, BEFORE, LAST_UP, FIRST_CLOSE, ENTRY, ENTRY_PLACE, ENTRY_LOSS, ENTRY_JUMPS = 0, 1, 2, 3, 4, 5, 6, 7
+LOWEST, LOWEST_LOSS, LOWEST_JUMPS, LOWEST_LAST = 8, 9, 10, 11
+"""What all rims of a curve share: the number of branches of the beginning, the wave of the last one, the last one that
+loading arrives on, and where a pair of folds is close there; the wave of the gap that loading enters (NaN: not found
+yet), where, and what it has lost and jumped by then; the wave that starts lowest (NaN, too), what unloading loses from
+its start on, its jumps, and the depth at which contact ends."""
+_SHARED: Final = 12
+
+
+@kernel()
+def is_told(table: Any, curve: Curve, arch: float) -> bool:
+    """Return whether a float tells places on an arch well enough to walk there.
+
+    A fold that is off by e has a depth that is off by e^2/2 of the wave; neighbours differ by 2 pi b z^n/(g C) of it.
+    """
+    b, g, _ = curve
+    z = math.pi * arch
+    e = 2.0**-52 * z
+    rise = TWO_PI * b / (amplitude_power(table, z) * g * table.amplitude)
+    return arch < MOST_ARCHES or (arch < _MOST_NEAR_RIM and _ORDERED * e * e < rise)
+
+
+@kernel()
+def wave_of(table: Any, start: float) -> float:
+    """Return the number of the wave whose branch starts at x: half a wave to none before its centre."""
+    return np.floor(start - table.phase / TWO_PI + 0.75)
+
+
+@kernel()
+def first_wave_above(table: Any, curve: Curve, low: float, high: float, level: float) -> float:
+    """Return the first wave after `low`, which ends below a depth, that ends above it; `high` does.
+
+    It is where the upper envelope b z^2/2 - (1 - C g) z^c + g passes the depth, or next to it.
+    """
+    b, g, _ = curve
+    stretch = 1.0 - g * table.amplitude
+    z = math.sqrt(2.0 * (max(level - g, 0.0) + max(stretch, 0.0)) / b) + TWO_PI * low
+    for _ in range(8):
+        pull = stretch * z * amplitude_power(table, z)
+        z -= (0.5 * b * z * z - pull + g - level) / (b * z - 0.5 * (1.0 - table.k) * pull / z)
+        z = max(z, TWO_PI * low)
+    middle = np.floor(z / TWO_PI - table.phase / TWO_PI)
+    step = 1.0
+    for _ in range(_HALVINGS):
+        if high - low <= 1.0:
+            break
+        middle = max(low + 1.0, min(high - 1.0, middle))
+        _, end_depth = fold_of_wave(table, curve, middle, NO)
+        if end_depth > level:
+            high, middle = middle, middle - step
+        else:
+            low, middle = middle, middle + step
+        step *= 2.0
+        if not low < middle < high:
+            middle = np.floor(0.5 * (low + high))
+    return high
+
+
+@kernel()
+def _lowest_wave(table: Any, curve: Curve, low: float, high: float) -> float:
+    """Return the wave between two others whose branch starts lowest; the starts fall up to it and rise from it on.
+
+    It is where the lower envelope b z^2/2 - (1 + C g) z^c is lowest, or next to it.
+    """
+    b, g, _ = curve
+    k = table.k
+    z = (0.5 * (1.0 - k) * (1.0 + g * table.amplitude) / b) ** (2.0 / (3.0 + k))
+    middle = np.floor(z / TWO_PI - table.phase / TWO_PI)
+    step = 1.0
+    for _ in range(_HALVINGS):  # the lowest is one of low .. high
+        if high <= low:
+            break
+        middle = max(low, min(high - 1.0, middle))
+        _, here = fold_of_wave(table, curve, middle, YES)
+        _, beyond = fold_of_wave(table, curve, middle + 1.0, YES)
+        if beyond < here:
+            low, middle = middle + 1.0, middle + step
+        else:
+            high, middle = middle, middle - step
+        step *= 2.0
+        if not low <= middle < high:
+            middle = np.floor(0.5 * (low + high))
+    return low
+
+
+@kernel()
+def begin_long(
+    table: Any, curve: Curve, arches: tuple[float, float], trace: Any, losses: bool, reach: float
+) -> tuple[Any, tuple[Any, Any]]:
+    """Walk the first waves of a long curve; return the trace, and what all rims share: numbers (above) and sums."""
+    first, final = arches
+    trace = room_for(trace, 4.0 * reach * (BEGINNING + NEAR_RIM))
+    shared = np.full(_SHARED, math.nan)
+    trace[TANGENCY, 0] = math.inf
+    near, before = 0, 0.5 * first
+    if first < MOST_ARCHES:
+        beginning = (0.5 * first + reach * BEGINNING) + table.phase / TWO_PI
+        near = append_branches(table, curve, int(first), final, beginning, trace, NONE)
+        before = wave_of(table, trace[START, near - 1]) if near > 0 else before
+    shared[NEAR], shared[BEFORE], shared[FIRST_CLOSE] = near, before, trace[TANGENCY, 0]
+    shared[LAST_UP] = load_up(table, curve, near, trace, math.inf, losses)
+    return trace, (shared, room_for_sums())
+
+
+@kernel()
+def ends_folds(table: Any, arches: tuple[float, float], rim: float) -> bool:
+    """Return whether a rim stands among the last waves that fold, or beyond them."""
+    return 2.0 * rim - table.phase / math.pi + 3.0 >= arches[1] - 2.0 * (NEAR_RIM - _BEFORE_RIM)
+
+
+@kernel()
+def _sum(
+    table: Any,
+    curve: Curve,
+    sums: Any,
+    first: float,
+    last: float,
+    outwards: bool,
+    final: float,
+    running: bool,
+    work: Any,
+) -> float:
+    """Return what the waves `first` to `last` of the gap lose, for one rim or from what serves all of them."""
+    if not running:
+        return sum_of_waves(table, curve, first, last, outwards, final, work)
+    if sums[0, COUNT] < 0.0:
+        begin_sums(table, curve, sums, first, outwards, final)
+    return sum_up_to(table, curve, sums, last, outwards, final, work)
+
+
+@kernel()
+def _enter(table: Any, curve: Curve, after: float, long: Any, trace: Any, losses: bool) -> None:
+    """Find where loading enters the gap by one long jump, at its first wave that ends above the depth; `after` does."""
+    shared, _ = long
+    now = int(shared[LAST_UP])
+    left, level = (trace[END, now], trace[END_DEPTH, now]) if now >= 0 else (0.0, 0.0)
+    loss, jumps = (trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]) if now >= 0 else (0.0, 0.0)
+    if math.isnan(shared[ENTRY]):
+        wave = first_wave_above(table, curve, shared[BEFORE], after, level)
+        x = find_depth(table, curve, level, branch_of_wave(table, curve, wave))
+        if losses and now >= 0:
+            loss += jump_energy(table, curve, left, x, trace[WORK])
+        elif losses:
+            loss = energy_from_zero(table, curve, x, 0.0)
+        shared[ENTRY], shared[ENTRY_PLACE], shared[ENTRY_LOSS], shared[ENTRY_JUMPS] = wave, x, loss, jumps + 1.0
+
+
+@kernel()
+def _load_through(
+    table: Any,
+    curve: Curve,
+    count: int,
+    after: float,
+    final: float,
+    long: Any,
+    trace: Any,
+    rim: float,
+    running: bool,
+    losses: bool,
+) -> None:
+    """Follow loading from the beginning through the gap to the branches near the rim; `after` is the first of them."""
+    shared, sums = long
+    near, now = int(shared[NEAR]), int(shared[LAST_UP])
+    trace[ARRIVAL, near:count] = math.inf
+    trace[RUN, GAP], trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST] = near, 0.0, -1.0
+    level = trace[END_DEPTH, now] if now >= 0 else 0.0
+    if trace[END_DEPTH, near] > level:
+        if 0 <= now == near - 1:
+            wave, x = shared[BEFORE], 0.0
+            loss, jumps = trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]
+        else:
+            _enter(table, curve, after, long, trace, losses)
+            wave, x = shared[ENTRY], shared[ENTRY_PLACE]
+            loss, jumps = shared[ENTRY_LOSS], shared[ENTRY_JUMPS]
+        if wave < after:
+            trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST], trace[RUN, RUN_LANDING] = wave, after - 1.0, x
+            if losses:
+                loss += _sum(table, curve, sums[0], wave, after - 1.0, YES, final, running, trace[WORK])
+            x = after - 1.0 + landing_of_wave(table, curve, after - 1.0, YES)
+            jumps += after - wave
+        arrive(trace, near, x, loss, jumps)
+        now = near
+    climb(table, curve, now, count, trace, rim, losses)
+
+
+@kernel()
+def _leave_lowest(table: Any, curve: Curve, long: Any, final: float, trace: Any, losses: bool) -> None:
+    """Find the wave of the gap that starts lowest, and what unloading loses from there on, if that is not known yet."""
+    shared, _ = long
+    if not math.isnan(shared[LOWEST]):
+        return
+    near, before = int(shared[NEAR]), shared[BEFORE]
+    lowest = _lowest_wave(table, curve, before, max(before, np.floor(0.5 * final - NEAR_RIM)))
+    loss, jumps, last = 0.0, 1.0, 0.0
+    if lowest == before and near > 0:
+        descend(table, curve, trace, near - 1, losses)
+        loss, jumps, last = (
+            trace[UNLOADING_LOSS, near - 1],
+            trace[UNLOADING_JUMPS, near - 1],
+            trace[LAST_DEPTH, near - 1],
+        )
+    else:
+        start, level, _, _ = branch_of_wave(table, curve, lowest)
+        lower = next_lower(trace, near - 1, level)
+        if lower >= 0:
+            descend(table, curve, trace, lower, losses)
+            landing = find_depth(table, curve, level, ends(trace, lower))
+            loss = jump_energy(table, curve, start, landing, trace[WORK]) if losses else 0.0
+            loss, jumps, last = (
+                loss + trace[UNLOADING_LOSS, lower],
+                1.0 + trace[UNLOADING_JUMPS, lower],
+                trace[LAST_DEPTH, lower],
+            )
+        else:
+            loss, last = -energy_from_zero(table, curve, start, level) if losses else 0.0, level
+    shared[LOWEST], shared[LOWEST_LOSS], shared[LOWEST_JUMPS], shared[LOWEST_LAST] = lowest, loss, jumps, last
+
+
+@kernel()
+def _unload_through(
+    table: Any, curve: Curve, after: float, final: float, long: Any, trace: Any, running: bool, losses: bool
+) -> None:
+    """Give the first branch after the gap what unloading loses from there, if it goes on into the gap."""
+    shared, sums = long
+    _leave_lowest(table, curve, long, final, trace, losses)
+    lowest = min(shared[LOWEST], after)  # starts fall outwards up to the lowest one
+    trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER], trace[RUN, RUN_LOWEST] = shared[BEFORE], after, lowest
+    if lowest == after:  # nothing in the gap is lower
+        return
+    loss = shared[LOWEST_LOSS]
+    if losses:
+        loss += _sum(table, curve, sums[1], lowest + 1.0, after, NO, final, running, trace[WORK])
+    leave(trace, int(shared[NEAR]), loss, shared[LOWEST_JUMPS] + after - lowest, shared[LOWEST_LAST])
+
+
+@kernel()
+def _nominal_branch(table: Any, curve: Curve, rim: float, final: float, trace: Any, near: int) -> float:
+    """Put the branch of a rim whose phase no float tells into the trace, by the envelopes; return its wave.
+
+    Beyond the end of the folds at wave `final` it is the last one, which has no end.
+    """
+    b, g, _ = curve
+    place = min(rim, final)
+    z = TWO_PI * place
+    pull, chi = z * amplitude_power(table, z), g * table.amplitude
+    trace[START, near], trace[START_DEPTH, near] = place, 0.5 * b * z * z - (1.0 + chi) * pull + g
+    trace[END, near], trace[END_DEPTH, near] = math.inf, 0.5 * b * z * z - (1.0 - chi) * pull + g
+    if rim > final:
+        trace[END_DEPTH, near] = math.inf
+    trace[UNLOADING_JUMPS, near] = UNKNOWN
+    return np.floor(place - table.phase / TWO_PI)
+
+
+@kernel()
+def stride(
+    table: Any,
+    curve: Curve,
+    arches: tuple[float, float],
+    rim: float,
+    trace: Any,
+    long: Any,
+    losses: bool,
+    reach: float,
+) -> int:
+    """Put what `begin_long` leaves out into the trace, for one rim; return the number of branches.
+
+    A rim for which `ends_folds` holds serves all those before it for which it holds too, unless the phase there is not
+    told. A `reach` of up to 2 walks that many times as many waves at either end, and sums those between for the rim
+    alone, which tells how good the sums are (scene/cosine_report.py).
+    """
+    _, final = arches
+    shared, _ = long
+    near = int(shared[NEAR])
+    trace[TANGENCY, 0] = shared[FIRST_CLOSE]
+    running = reach == 1.0 and not ends_folds(table, arches, rim)
+    last, waves = 2.0 * rim - table.phase / math.pi + 3.0, _BEFORE_RIM + NEAR_RIM * (reach - 1.0)
+    if ends_folds(table, arches, rim):
+        last, waves = final, reach * NEAR_RIM
+    count, after = near, 0.0
+    if is_told(table, curve, last):
+        count = append_branches(table, curve, 2 * int(0.5 * last - waves) - 1, final, rim, trace, near)
+        after = wave_of(table, trace[START, near]) if count > near else 0.0
+    nominal = count == near
+    if nominal:
+        after = _nominal_branch(table, curve, rim, 0.5 * final, trace, near)
+        count = near + 1
+    _load_through(table, curve, count, after, final, long, trace, rim, running, losses)
+    if nominal and trace[ARRIVAL, near] < math.inf and rim <= 0.5 * final:
+        trace[ARRIVAL, near] = trace[START, near]
+    _unload_through(table, curve, after, final, long, trace, running, losses)
+    note_loading(table, curve, count, trace, rim)
+    return count

@@ -1,0 +1,113 @@
+"""Long curves: sums in the place of walks, for one rim and for many."""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gradhesion.core import OUTPUTS, solve
+from gradhesion.core.curve.branches import ROWS
+from gradhesion.core.curve.cosine import depth
+from gradhesion.core.path import cosine as cycle
+from gradhesion.core.path import cosine_long as long_cycle
+from gradhesion.core.path.loading import loading_to
+from gradhesion.core.path.unloading import unloading_from
+from gradhesion.core.problem.material import stiffness
+from gradhesion.core.waves.cosine_running import COUNT, SAMPLES
+
+EXPONENTS = [(0.0, 0.3), (0.31, 0.27), (0.7, 0.1), (0.97, 0.5), (1.0, 0.5)]
+
+
+def _curve(k: float, chi: float, waves: float) -> tuple[float, float, float]:
+    """Give the curve of a given C g whose folds end at a given wave."""
+    amplitude = 2 ** (0.5 * (k - 1)) * math.gamma(0.5 * (k + 1))
+    return chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / amplitude, 0.0
+
+
+def _read(table: Any, curve: Any, count: int, trace: Any, rim: float) -> tuple[float, float, float, float]:
+    """Give the energy of a cycle up to a rim, its numbers of jumps, and the depth at which contact ends."""
+    rim_depth = depth(table, curve, rim) if rim < math.inf else math.inf
+    loaded, loading_jumps = loading_to(table, curve, count, trace, rim, True)
+    unloaded, unloading_jumps, last = unloading_from(table, curve, count, trace, rim, rim_depth, True)
+    return loaded + unloaded, loading_jumps, unloading_jumps, last
+
+
+@pytest.mark.parametrize("k", [0.0, 1e-12, 0.37, 0.8, 1 - 1e-12, 1.0])
+@pytest.mark.parametrize("chi", [0.001, 0.01, 0.05, 0.4, 1.0, 1.7, 6.0])
+@pytest.mark.parametrize("waves", [120.0, 1000.0])
+def test_striding_is_walking(k: float, chi: float, waves: float, table_of: Callable[[float], Any]) -> None:
+    """Long curves, whole and cut by rims: the same loss as walking every wave, the same numbers of jumps."""
+    table = table_of(k)
+    curve = _curve(k, chi, waves)
+    arches = cycle.extent(table, curve)
+    end = 0.5 * arches[1]
+    trace, long = long_cycle.begin_long(table, curve, arches, np.zeros((ROWS, 192)), True, 1.0)
+    for rim in (85.0, 100.3, 0.71 * waves, end - 14.2, end - 9.7, end - 3.1, end - 1.4, 1.5 * waves, math.inf):
+        if not cycle.is_long(table, arches, rim):
+            continue
+        count, all_of_it = cycle.walk(table, curve, arches, rim, np.zeros((ROWS, 192)), True)
+        energy, *walked = _read(table, curve, count, all_of_it, rim)
+        count = long_cycle.stride(table, curve, arches, rim, trace, long, True, 1.0)
+        other, *strode = _read(table, curve, count, trace, rim)
+        assert walked[:2] == strode[:2]
+        assert math.isclose(walked[2], strode[2], rel_tol=1e-12)
+        # what sums promise
+        assert math.isclose(energy, other, rel_tol=1e-12)
+
+
+@pytest.mark.parametrize("chi", [0.02, 0.4])
+@pytest.mark.parametrize("waves", [400.0, 1e6])
+def test_rims_share_the_samples_of_their_sums(chi: float, waves: float, table_of: Callable[[float], Any]) -> None:
+    """Four hundred rims find the jumps of no more waves than the panels of the sums have places."""
+    table, curve = table_of(0.3), _curve(0.3, chi, waves)
+    arches = cycle.extent(table, curve)
+    trace, long = long_cycle.begin_long(table, curve, arches, np.zeros((ROWS, 192)), True, 1.0)
+    rims = np.linspace(0.25 * waves, 0.9 * waves, 400)
+    for rim in rims:
+        assert cycle.is_long(table, arches, rim)
+        assert not long_cycle.ends_folds(table, arches, rim)
+        long_cycle.stride(table, curve, arches, rim, trace, long, True, 1.0)
+    _, sums = long
+    samples = sums[:, 0, SAMPLES]
+    assert np.all(samples > 0.0)
+    assert np.all(samples <= 12 + 16 * sums[:, 0, COUNT])
+
+
+@pytest.mark.parametrize(("k", "nu"), EXPONENTS)
+@pytest.mark.parametrize(("wavelength", "A"), [(1e-3, 0.02), (2e-4, 0.2)])
+def test_a_rim_is_the_same_among_others_and_alone(k: float, nu: float, wavelength: float, A: float) -> None:
+    """To the last bit, in any order: the values of a study do not depend on its blocks."""
+    scene = {"k": k, "nu": nu, "modulus": 70.0, "c0_over_R": 0.4, "lambda_over_R": wavelength, "A": A}
+    rng = np.random.default_rng(9)
+    rims = np.concatenate([rng.uniform(0.005, 2.0, 60), 10.0 ** rng.uniform(-1, 2.0, 20), [np.inf, 1e9]])
+    together = solve(scene | {"a_max_over_R": rims}, OUTPUTS)
+    for i in range(0, rims.size, 3):
+        alone = solve(scene | {"a_max_over_R": rims[i]}, OUTPUTS)
+        for name in (*OUTPUTS, "status"):
+            np.testing.assert_array_equal(alone[name], together[name][i])
+
+
+@pytest.mark.parametrize(("k", "nu"), EXPONENTS)
+@pytest.mark.parametrize("wavelength", [1e-3, 1e-4])
+def test_short_waves(k: float, nu: float, wavelength: float, table_of: Callable[[float], Any]) -> None:
+    """Energy of thousands of waves to 1e-12: against walking every one."""
+    m = float(stiffness(k, nu, 70.0, 0.4))
+    s = math.sqrt(2 ** (1 + k) * math.pi / m)
+    amplitude = 0.5 * s / (math.pi ** ((1 - k) / 2) * math.gamma((1 + k) / 2) * wavelength ** ((1 + k) / 2))
+    scene = {"k": k, "nu": nu, "modulus": 70.0, "c0_over_R": 0.4, "lambda_over_R": wavelength, "A": amplitude}
+    rims = np.array([0.4, 1.1, 3.3]) * m ** (-1 / (3 + k))
+    values = solve(scene | {"a_max_over_R": rims}, OUTPUTS)
+    length = wavelength / (2 * math.pi)
+    scale = s * length ** (0.5 * (1 - k))
+    curve = (2 * length * length / ((1 + k) * scale), amplitude * wavelength / scale, 0.0)
+    table = table_of(k)
+    arches = cycle.extent(table, curve)
+    x = rims / wavelength
+    count, trace = cycle.walk(table, curve, arches, x[-1], np.zeros((ROWS, 192)), True)
+    for i in range(rims.size):
+        loss, loading_jumps, unloading_jumps, _ = _read(table, curve, count, trace, x[i])
+        walked = 2 * math.pi * length * length * loss
+        assert math.isclose(float(values["dissipated_energy"][i]), walked, rel_tol=1e-12)
+        assert [values[name][i] for name in ("loading_jumps", "unloading_jumps")] == [loading_jumps, unloading_jumps]
