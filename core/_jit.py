@@ -3,16 +3,17 @@
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any, Final, TypeVar
+from functools import update_wrapper
+from typing import Any, Final, TypeVar, cast
 
 import numba
 import numpy as np
 from numba.core import event
 
-from gradhesion.core import cache
+from gradhesion.core import cache, linking
 from gradhesion.core._borrowed import BorrowingCompiler
 
-Kernel = TypeVar("Kernel", bound=Callable[..., Any])
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def constant(value: int) -> Any:
@@ -29,7 +30,35 @@ _PACKAGE: Final = "gradhesion.core."
 _setting: Final = threading.Lock()
 
 
-def kernel(*, contract: bool = False, inline: bool = False, entry: bool = False) -> Callable[[Kernel], Kernel]:
+class Kernel:
+    """A kernel: for Python the entry, for other kernels its inner code.
+
+    Both are compiled from the same function when they are first needed, and have its name, its types and its bits. The
+    entry is kept in the cache with all the kernels that it calls; what is inner is linked into entries (linking.py).
+    """
+
+    def __init__(self, function: Callable[..., Any], entry: Any, inner: Any) -> None:
+        update_wrapper(self, function)
+        self._entry, self._inner = entry, inner
+        self._numba_type_ = inner._numba_type_
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Call the entry."""
+        return self._entry(*arguments)
+
+    def __getattr__(self, name: str) -> Any:
+        """Give what the entry has."""
+        if name == "_entry":  # not made yet, as in a copy
+            raise AttributeError(name)
+        return getattr(self._entry, name)
+
+    @property
+    def signatures(self) -> list[Any]:
+        """The types for which it has been compiled."""
+        return list(dict.fromkeys([*self._entry.signatures, *self._inner.signatures]))
+
+
+def kernel(*, contract: bool = False, inline: bool = False, entry: bool = False) -> Callable[[Function], Function]:
     """Compile a function to machine code that releases the GIL and follows IEEE arithmetic.
 
     A kernel whose name begins with an underscore is called by kernels alone, and is compiled without what lets Python
@@ -46,7 +75,7 @@ def kernel(*, contract: bool = False, inline: bool = False, entry: bool = False)
         Let Python call it, whatever its name.
     """
 
-    def decorate(function: Kernel) -> Kernel:
+    def decorate(function: Function) -> Function:
         options = {
             "nogil": True,
             "pipeline_class": BorrowingCompiler,
@@ -56,23 +85,35 @@ def kernel(*, contract: bool = False, inline: bool = False, entry: bool = False)
             "no_cfunc_wrapper": True,  # none is handed over as a function
             "no_cpython_wrapper": function.__name__.startswith("_") and not entry,
         }
-        folder = cache.place().folder
-        if folder is not None:
-            with _setting:
-                previous = numba.config.CACHE_DIR
-                try:
-                    numba.config.CACHE_DIR = str(folder)
-                    kept: Kernel = numba.njit(cache=True, **options)(function)
-                except (OSError, RuntimeError):  # the folder has gone, or is full
-                    pass
-                else:
-                    return kept
-                finally:
-                    numba.config.CACHE_DIR = previous
-        compiled: Kernel = numba.njit(**options)(function)
-        return compiled
+        if not linking.LAZY or inline:
+            return _kept(function, options)
+        inner = numba.njit(**options | {"no_cpython_wrapper": True})(function)
+        if options["no_cpython_wrapper"]:
+            return inner
+        whole = _kept(function, options)
+        linking.note_entry(whole)
+        return cast("Function", Kernel(function, whole, inner))
 
     return decorate
+
+
+def _kept(function: Function, options: dict[str, Any]) -> Function:
+    """Have a function compiled when it is called, and the code kept where that is possible."""
+    folder = cache.place().folder
+    if folder is not None:
+        with _setting:
+            previous = numba.config.CACHE_DIR
+            try:
+                numba.config.CACHE_DIR = str(folder)
+                kept: Function = numba.njit(cache=True, **options)(function)
+            except (OSError, RuntimeError):  # the folder has gone, or is full
+                pass
+            else:
+                return kept
+            finally:
+                numba.config.CACHE_DIR = previous
+    compiled: Function = numba.njit(**options)(function)
+    return compiled
 
 
 class _Compilation(event.Listener):  # type: ignore[misc] # numba has no types
@@ -80,7 +121,7 @@ class _Compilation(event.Listener):  # type: ignore[misc] # numba has no types
 
     def __init__(self) -> None:
         self.begun = False
-        self.listeners: list[Callable[[str], None]] = []
+        self.listeners: list[tuple[Callable[[str], None], bool]] = []
 
     def on_start(self, _event: Any) -> None:
         """Clear away other versions, once in a process that compiles."""
@@ -93,10 +134,12 @@ class _Compilation(event.Listener):  # type: ignore[misc] # numba has no types
 
     def on_end(self, finished: Any) -> None:
         """Pass on the name of a kernel."""
-        function = finished.data["dispatcher"].py_func
+        dispatcher = finished.data["dispatcher"]
+        function = dispatcher.py_func
         if function.__module__.startswith(_PACKAGE):
-            for listener in (*self.listeners,):
-                listener(f"{function.__module__.removeprefix(_PACKAGE)}.{function.__name__}")
+            for listener, kept in (*self.listeners,):
+                if not kept or linking.is_kept(dispatcher):
+                    listener(f"{function.__module__.removeprefix(_PACKAGE)}.{function.__name__}")
 
 
 _compilation: Final = _Compilation()
@@ -104,7 +147,7 @@ event.register("numba:compile", _compilation)
 
 
 @contextmanager
-def watch_compilation(listener: Callable[[str], None]) -> Iterator[None]:
+def watch_compilation(listener: Callable[[str], None], *, kept: bool = False) -> Iterator[None]:
     """Call `listener` with the name of each kernel that is compiled within the block, by any thread.
 
     Parameters
@@ -112,6 +155,8 @@ def watch_compilation(listener: Callable[[str], None]) -> Iterator[None]:
     listener
         It gets the name, as "scene.solve_curve", when the kernel is done. What it raises ends the compilation.
         `KERNELS` (kinds.py) has the number to expect.
+    kept
+        Only of those whose code is kept by itself, not as a part of that of others (linking.py).
 
     Examples
     --------
@@ -125,8 +170,8 @@ def watch_compilation(listener: Callable[[str], None]) -> Iterator[None]:
     >>> names
     []
     """
-    _compilation.listeners.append(listener)
+    _compilation.listeners.append((listener, kept))
     try:
         yield
     finally:
-        _compilation.listeners.remove(listener)
+        _compilation.listeners.remove((listener, kept))

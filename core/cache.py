@@ -26,9 +26,10 @@ import numba
 import platformdirs
 from llvmlite import binding
 
+from gradhesion.core.linking import LAZY
 from gradhesion.core.sources import COMPILED, CORE
 
-_NAME: Final = f"kernels-{hashlib.sha256(f'{CORE}{COMPILED}'.encode()).hexdigest()[:16]}"
+_NAME: Final = f"kernels-{hashlib.sha256(f'{CORE}{COMPILED}{LAZY}'.encode()).hexdigest()[:16]}"
 _OURS: Final = re.compile(r"kernels-[0-9a-f]{16}")
 _KEPT: Final = re.compile(r".*\.(nbi|nbc)(\.tmp\..*)?|compiled-.*|lock")
 """The files of such a folder: numba's index and code, finished or not, and the marks of what is compiled."""

@@ -73,7 +73,7 @@ KERNELS: Final[dict[str, int]] = {
     "general_envelope": 0,
     "general_curves": 7,
 }
-"""About how many kernels a kind compiles when those that it needs are there."""
+"""About how many kernels a kind compiles after those that it needs, in one process."""
 
 
 def kind_of_map(

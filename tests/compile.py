@@ -1,6 +1,6 @@
 """Compile the kernels that tests need, each once: processes that run tests side by side would compile them twice.
 
-`python -m tests.compile` does so in two processes, and checks that none is compiled by both.
+`python -m tests.compile` does so in two processes, and checks that none is compiled and kept by both.
 """
 
 from itertools import combinations
@@ -12,7 +12,7 @@ from gradhesion.core import APART, KINDS, NEEDS
 def main() -> None:
     """Compile all kinds of work."""
     done: dict[str, set[str]] = {}
-    warm(KINDS, 2, lambda kind, names: done.update({kind: {*names}}))
+    warm(KINDS, 2, lambda kind, names: done.update({kind: {*names}}), kept=True)
     side_by_side = {}
     for one, other in combinations(done, 2):
         if one not in _before(other) and other not in _before(one) and {one, other} not in APART:

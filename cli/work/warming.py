@@ -9,12 +9,19 @@ from gradhesion.cli.work.kernels import compile_kinds, missing_of
 from gradhesion.core import APART, NEEDS, compile_kind, watch_compilation
 
 
-def warm(kinds: Sequence[str], workers: int, done: Callable[[str, list[str]], None] = lambda *_: None) -> None:
+def warm(
+    kinds: Sequence[str],
+    workers: int,
+    done: Callable[[str, list[str]], None] = lambda *_: None,
+    *,
+    kept: bool = False,
+) -> None:
     """
     Compile the kernels of some kinds of work by several processes.
 
     A kind is begun when those that it needs are done, and not beside one of `APART`, so that no two processes compile
-    the same kernel. `done` gets each kind with the names of the kernels that were compiled for it.
+    the same kernel to be kept. `done` gets each kind with the names of the kernels that were compiled for it, or with
+    `kept` of those alone whose code is kept by itself.
     """
     left = missing_of(kinds)
     if workers == 1 or len(left) < 2:
@@ -30,7 +37,7 @@ def warm(kinds: Sequence[str], workers: int, done: Callable[[str, list[str]], No
             for kind in [kind for kind in left if not begun & {*NEEDS[kind]}]:
                 if any(kind in pair and pair & {*running.values()} for pair in APART):
                     continue
-                running[pool.submit(_compile, kind)] = kind
+                running[pool.submit(_compile, kind, kept=kept)] = kind
                 left.remove(kind)
             finished, _ = wait(running, timeout=0.2, return_when=FIRST_COMPLETED)
             interrupts.check()
@@ -40,9 +47,9 @@ def warm(kinds: Sequence[str], workers: int, done: Callable[[str, list[str]], No
         pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _compile(kind: str) -> list[str]:
+def _compile(kind: str, *, kept: bool) -> list[str]:
     """Compile the kernels of a kind in a process of its own, and name them."""
     names: list[str] = []
-    with watch_compilation(names.append):
+    with watch_compilation(names.append, kept=kept):
         compile_kind(kind)
     return names

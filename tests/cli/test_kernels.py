@@ -108,7 +108,7 @@ def test_processes_side_by_side_compile_no_kernel_twice(tmp_path: Path) -> None:
         "from gradhesion.cli.work.warming import warm\n"
         "if __name__ == '__main__':\n"
         "    found = {}\n"
-        "    warm(['force', 'general_envelope'], 2, lambda kind, names: found.update({kind: names}))\n"
+        "    warm(['force', 'general_envelope'], 2, lambda kind, names: found.update({kind: names}), kept=True)\n"
         "    print(list(found), sum(map(len, found.values())))\n"
     )
     script = tmp_path / "warm.py"
@@ -118,4 +118,4 @@ def test_processes_side_by_side_compile_no_kernel_twice(tmp_path: Path) -> None:
     kinds, _, count = done.stdout.strip().rpartition(" ")
     assert kinds.startswith("['tables', ")
     assert sorted(eval(kinds)) == ["force", "general_envelope", "tables"]  # noqa: S307 (of our own)
-    assert int(count) == len(list(tmp_path.rglob("*.nbc"))) > 20
+    assert int(count) == len(list(tmp_path.rglob("*.nbc"))) > 3

@@ -48,22 +48,21 @@ def test_every_kind_comes_after_those_that_it_needs() -> None:
     assert kinds | {"general_" + kind for kind in kinds} <= set(KINDS)
 
 
-def compiled_by(folder: Path, code: str) -> list[str]:
-    """Names of the kernels that a process compiles."""
-    code = (
-        "from gradhesion.core import compile_kind, solve, watch_compilation\n"
-        "from gradhesion.core.warmup import SCENE\n"
-        f"names = []\nwith watch_compilation(names.append):\n    {code}\nprint(*names)"
+def compiled_by(folder: Path, *codes: str) -> list[list[str]]:
+    """Names of the kernels that a process compiles, by each line of code."""
+    script = (
+        "from gradhesion.core import compile_kind, solve, watch_compilation\nfrom gradhesion.core.warmup import SCENE\n"
     )
+    for code in codes:
+        script += f"names = []\nwith watch_compilation(names.append):\n    {code}\nprint(*names)\n"
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder)}
-    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
-    return done.stdout.split()
+    done = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True)
+    return [line.split() for line in done.stdout.splitlines()]
 
 
 @pytest.mark.slow
 def test_a_force_compiles_what_a_force_needs(tmp_path: Path) -> None:
-    tables = compiled_by(tmp_path, "compile_kind('tables')")
-    force = compiled_by(tmp_path, "compile_kind('force')")
+    tables, force = compiled_by(tmp_path, "compile_kind('tables')", "compile_kind('force')")
     assert "scene.cosine.solve_pull_off" in force
     cycle = {
         "scene.cosine.solve_curve",
@@ -75,4 +74,4 @@ def test_a_force_compiles_what_a_force_needs(tmp_path: Path) -> None:
     assert not cycle & {*tables, *force}
     assert (len(tables), len(force)) == (KERNELS["tables"], KERNELS["force"])
     assert len({*force}) == len(force), "no kernel for two types"
-    assert compiled_by(tmp_path, "solve(SCENE, ['pull_off_radius'])") == [], "all of it is kept"
+    assert compiled_by(tmp_path, "solve(SCENE, ['pull_off_radius'])") == [[]], "all of it is kept"

@@ -1,0 +1,147 @@
+"""Kernels that are linked as intermediate code, beside those that numba links itself."""
+
+import json
+import math
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numba
+import pytest
+
+from gradhesion.core import _jit, cache, linking
+
+pytestmark = pytest.mark.skipif(not linking.LAZY, reason="numba of another version: kernels are linked as it does")
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A place of its own for what a test compiles."""
+    place = tmp_path / "kernels"
+    monkeypatch.setattr(cache, "place", lambda: cache.Place(place))
+    return place
+
+
+def three_levels() -> tuple[Any, Any, Any]:
+    """An entry, a kernel that it calls, and one below it."""
+
+    @_jit.kernel(contract=True)
+    def root(x: float) -> float:
+        return math.sqrt(x * x + 1.0)
+
+    @_jit.kernel()
+    def middle(x: float) -> float:
+        return root(x) + math.sin(root(3.0 * x))
+
+    @_jit.kernel()
+    def outermost(x: float) -> float:
+        return middle(x) - root(2.0 * x)
+
+    return outermost, middle, root
+
+
+def expected(x: float) -> float:
+    return math.sqrt(x * x + 1) + math.sin(math.sqrt(9 * x * x + 1)) - math.sqrt(4 * x * x + 1)
+
+
+def is_open(dispatcher: Any) -> bool:
+    (compiled,) = dispatcher.overloads.values()
+    return bool(compiled.library._is_open)
+
+
+def test_what_is_below_an_entry_has_no_machine_code_of_its_own(folder: Path) -> None:
+    outermost, middle, root = three_levels()
+    assert math.isclose(outermost(0.7), expected(0.7), rel_tol=1e-15)
+    assert [is_open(middle._inner), is_open(root._inner), is_open(outermost._entry)] == [True, True, False]
+    (kept,) = folder.rglob("*.nbc")
+    assert "outermost" in kept.name
+    assert middle._entry.signatures == []
+
+
+def test_python_calls_what_is_inner_by_an_entry_of_its_own(folder: Path) -> None:
+    outermost, middle, _ = three_levels()
+    outermost(0.7)
+    assert math.isclose(middle(0.7), math.sqrt(1.49) + math.sin(math.sqrt(9 * 0.49 + 1)), rel_tol=1e-15)
+    assert len(list(folder.rglob("*.nbc"))) == 2
+    assert middle.signatures == [(numba.float64,)], "one for both"
+
+
+@pytest.mark.usefixtures("folder")
+@pytest.mark.parametrize("first", [True, False])
+def test_kernels_of_others_can_call_ours(first: bool) -> None:
+    outermost, middle, _ = three_levels()
+    if first:
+        outermost(0.7)
+
+    @numba.njit  # type: ignore[untyped-decorator]
+    def theirs(x: float) -> float:
+        return middle(x) + outermost(x)
+
+    assert theirs(0.7) == middle(0.7) + outermost(0.7)
+    assert outermost(0.7) == three_levels()[0](0.7)
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_mistake_in_a_kernel_is_an_error_and_nothing_else() -> None:
+    @_jit.kernel()
+    def wrong(x: float) -> float:
+        return x.nothing  # type: ignore[attr-defined, no-any-return]
+
+    @_jit.kernel()
+    def calls(x: float) -> float:
+        return wrong(x)
+
+    with pytest.raises(numba.TypingError):
+        calls(1.0)
+    assert linking._compiling == []
+    assert math.isclose(three_levels()[0](0.7), expected(0.7), rel_tol=1e-15)
+
+
+SWEEP = """
+import hashlib, json, sys
+import numba
+if sys.argv[1] == "another version":
+    numba.version_info = numba.version_info._replace(short=(0, 59))
+import numpy as np
+from gradhesion.core import linking, solve
+from numba.core.registry import cpu_target
+rng = np.random.default_rng(5)
+scenes = dict(
+    k=rng.choice([0.0, 0.3, 0.8], 2000), nu=0.3, modulus=10 ** rng.uniform(1, 4, 2000), c0_over_R=0.01,
+    lambda_over_R=10 ** rng.uniform(-1.3, 0, 2000), A=10 ** rng.uniform(-3.5, -1, 2000), a_max_over_R=1.0,
+)
+found = solve(scenes, [sys.argv[2]], threads=1)
+values = hashlib.sha256(b"".join(array.tobytes() for array in found.values())).hexdigest()
+own = cpu_target.target_context.codegen()._library_class.__module__ == "gradhesion.core.linking"
+print(json.dumps([linking.LAZY, own, values, float(np.nanmax(found[sys.argv[2]]))]))
+"""
+
+
+def swept(folder: Path, how: str, output: str) -> list[Any]:
+    """Solve scenes in a process of its own, whose kernels are linked lazily or not."""
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(folder), "GRADHESION_LINKING": how}
+    command = [sys.executable, "-c", SWEEP, how, output]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    found: list[Any] = json.loads(done.stdout)
+    return found
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("output", ["pull_off_force", "dissipated_energy"])
+def test_both_ways_give_the_same_bits(output: str, tmp_path: Path) -> None:
+    lazy = swept(tmp_path, "", output)
+    count = len(list(tmp_path.rglob("*.nbc")))
+    ordinary = swept(tmp_path, "ordinary", output)
+    assert lazy[:2] == [True, True]
+    assert ordinary[:2] == [False, False]
+    assert lazy[2:] == ordinary[2:]
+    assert lazy[3] > 0.0
+    both = len(list(tmp_path.rglob("*.nbc")))
+    assert both - count > 10 * count, "numba keeps every kernel, in a folder of its own"
+
+
+@pytest.mark.slow
+def test_with_another_numba_kernels_are_linked_as_it_does(tmp_path: Path) -> None:
+    assert swept(tmp_path, "another version", "pull_off_force")[:2] == [False, False]
