@@ -23,6 +23,7 @@ import numpy as np
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve.cosine import Curve, wave
+from gradhesion.core.curve.cosine_jump import energy_between
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS
 from gradhesion.core.struve.moments import moments
@@ -43,6 +44,8 @@ SHORT_NODES, SHORT_WEIGHTS = _rule(12)
 NODES, WEIGHTS = _rule(16)
 _FURTHEST: Final = 64.0
 """In waves: over longer jumps the antiderivative loses less to cancellation than the sum of panels costs."""
+_ENOUGH: Final = 0.01
+"""Of the terms that it is the sum of: a smaller energy is integrated panel by panel, which loses no digits."""
 _POWER_TERMS: Final = 12
 """Terms of (1 + eta)^c - 1 for |eta| <= 0.1, the half of a panel over its z."""
 _SMALL_LAG: Final = 0.1
@@ -136,8 +139,8 @@ def energy_from_zero(table: Any, curve: Curve, x: float, depth: float) -> float:
 
 
 @kernel(contract=True)
-def jump_energy(table: Any, curve: Curve, start: float, end: float, work: Any) -> float:
-    """Return e for a jump that leaves the curve at x = start and ends at x = end; `work` has room for 16 floats."""
+def energy_by_panels(table: Any, curve: Curve, start: float, end: float, work: Any) -> float:
+    """Return what `jump_energy` does, by quadrature: slower, but good to the last digits of the smallest loss."""
     b, g, lag = curve
     z1, power, s0, _, _, _, _ = wave(table, lag, start)
     left = (z1, z1 * s0, z1 * power)
@@ -166,3 +169,15 @@ def jump_energy(table: Any, curve: Curve, start: float, end: float, work: Any) -
             total += _panel_below(table, curve, start, left, begin, width, NODES, WEIGHTS)
         begin += width
     return total * (TWO_PI if end > start else -TWO_PI)
+
+
+@kernel()
+def jump_energy(table: Any, curve: Curve, start: float, end: float, work: Any) -> float:
+    """Return e for a jump that leaves the curve at x = start and ends at x = end; `work` has room for 16 floats."""
+    if start == end:
+        return 0.0
+    if end > 0.0:
+        energy, size = energy_between(table, curve, start, end, work)
+        if abs(energy) >= _ENOUGH * size:
+            return energy
+    return energy_by_panels(table, curve, start, end, work)

@@ -6,7 +6,7 @@ does not depend on the rim until it gets there, and unloading does not depend on
 """
 
 import math
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from gradhesion.core.curve.general_folds import MOST_FOLDS, room
 from gradhesion.core.path.general_ties import first_close_pair
 from gradhesion.core.path.loading import load_up
 from gradhesion.core.path.ties import note_loading
+
+_WORK: Final = 8
+"""Floats that a jump of one cosine has room for."""
 
 
 @kernel()
@@ -37,7 +40,7 @@ def walk(
     last = min(last, furthest)
     if first < last:
         count, rises, tangency = folds_between(basis, curve, first, last, room(), zeros)
-    trace = np.empty((ROWS, max(0, count) // 2 + 2))
+    trace = np.empty((ROWS, max(_WORK, count // 2 + 2)))
     if count < 0:
         return -1, trace, tangency
     branches = fill_branches(basis, curve, zeros, count, rises, furthest, trace, 0.0)

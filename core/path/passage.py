@@ -10,12 +10,14 @@ from typing import Any
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve import short_wave as asymptotic
+from gradhesion.core.curve.arches import is_one_cosine
 from gradhesion.core.curve.branches import ends, find_depth
 from gradhesion.core.curve.cosine import depth_size
 from gradhesion.core.curve.cosine import slope as cosine_slope
 from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
 from gradhesion.core.curve.general import size, slope, state
 from gradhesion.core.curve.general_branches import find_level
+from gradhesion.core.curve.one_cosine_energy import jump_of_one_cosine, jump_of_one_cosine_from_zero
 from gradhesion.core.curve.short_wave_energy import loss_of_jump
 from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
 
@@ -38,7 +40,21 @@ def loss_between(table: Any, curve: Any, start: float, end: float, work: Any) ->
         return jump_energy(table, curve, start, end, work)
     if len(curve) == 1:
         return loss_of_jump(curve[0], asymptotic.depth(curve[0], start), start, end)
+    if is_one_cosine(table[2], curve[1]) and end > 0.0:
+        served, energy = jump_of_one_cosine(table, curve, start, end, work)
+        if served:
+            return energy
     return jump_between(table, curve, start, end, 0.0)
+
+
+@kernel()
+def _from_zero(table: Any, curve: Any, x: float, level: float) -> float:
+    """Return what the jump from zero contact to x loses at a coordinate of a general curve."""
+    if is_one_cosine(table[2], curve[1]):
+        served, energy = jump_of_one_cosine_from_zero(table, curve, x, level)
+        if served:
+            return energy
+    return jump_from_zero(table, curve, x, level, 0.0)
 
 
 @kernel()
@@ -48,7 +64,7 @@ def loss_from_zero(table: Any, curve: Any, x: float) -> float:
         return energy_from_zero(table, curve, x, 0.0)
     if len(curve) == 1:
         return loss_of_jump(curve[0], 0.0, 0.0, x)
-    return jump_from_zero(table, curve, x, 0.0, 0.0)
+    return _from_zero(table, curve, x, 0.0)
 
 
 @kernel()
@@ -60,7 +76,7 @@ def loss_to_zero(table: Any, curve: Any, x: float, level: float) -> float:
         return loss_of_jump(curve[0], level, x, 0.0)
     if curve[3] == 0.0:
         return 0.0
-    return -jump_from_zero(table, curve, x, level, 0.0)
+    return -_from_zero(table, curve, x, level)
 
 
 @kernel()

@@ -32,6 +32,8 @@ MOMENT_TERMS: Final = 14
 MOMENT_TAIL_TERMS: Final = 24
 ARCHES: Final = 256
 """Arches of the fold function that are tabulated, two a wave; those further out are found when asked for."""
+STRETCH_TERMS: Final = 15
+"""An odd number; where |eta| <= 0.1 they leave 1e-17."""
 FRACTIONAL_NODES: Final = 16
 """Nodes of the fractional integral over one wave: its polynomial leaves 1e-10 of a cosine."""
 THETA_TERMS: Final = 16
@@ -51,6 +53,9 @@ TABLE: Final = np.dtype(
         ("moment_series", "f8", (MOMENT_SERIES_TERMS, 2)),  # E2/z^(5+k), W/z^(5+k) in z^2
         ("moment_bins", "f8", (MOMENT_BINS, MOMENT_TERMS, 2)),  # the same in t
         ("moment_tail", "f8", (MOMENT_TAIL_TERMS, 5)),  # see moments.py
+        ("jump_tail", "f8", (TAIL_TERMS, 8)),  # Re P0, z Im P0, Re P1, z Im P1, and four of jump_tail.py
+        ("slow_tail", "f8", (TAIL_TERMS, 2)),  # z G0, |P0|^2
+        ("inverse_stretch", "f8", (STRETCH_TERMS,)),  # of (1 + eta)^(-(1-k)/2) in eta
         ("moment_constant", "f8"),
         ("moment_logarithm", "f8"),
         ("arches", "f8", (ARCHES + 1, 6)),  # x, X, Q at the inner edge, then at the summit; see arches.py

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.struve import arches, bins, fractional, large, moments, theta
+from gradhesion.core.struve import arches, bins, fractional, jump_tail, large, moments, theta
 from gradhesion.core.struve.layout import TABLE
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.power import build_power
@@ -47,6 +47,7 @@ def _fill(
     large.build_tail(k, table.tail, nodes, fit)
     build_power(k, table.power_mantissa, table.power_exponent)
     moments.build_moments(table, moment_economisation)
+    jump_tail.build_jump_tail(table, nodes, fit)
     arches.build_arches(table)
     fractional.build_fractional(k, table.fractional)
     theta.build_theta(k, table.theta, theta_nodes, theta_fit)

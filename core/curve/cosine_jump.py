@@ -1,0 +1,180 @@
+"""The energy of a jump from its two ends: an antiderivative of z (1 - rho^2) in place of a quadrature.
+
+At the depth d of the curve at z1, q(z) = b z^2/2 - d is known from differences to z1 alone, q1 = z1^c - g z1 S0(z1), so
+that nothing of the size of d^2 is subtracted. Two forms serve; both leave a smooth integral to a few Gauss nodes.
+
+With the moments E2 and W (struve/moments.py) from one end to the other,
+
+    e = int z [1 - (q/z^c)^2] dz - g [ b E2 + g W - 2 d z^(k+2) S1/(k+1) ]_{z1}^{z2}
+
+and where both ends lie beyond z = 40, with h = z G0 and the oscillating parts w0, w1, once + twice of the pair alone
+(struve/jump_tail.py),
+
+    e = int z [1 - ((q + g h)/z^c)^2] - g^2 C^2/2 z |P0|^2 dz
+        - g [ z^(1+k) {2 q w1 + 2 b (z w0 - (k+2) w1) - g (once + twice)} ]_{z1}^{z2}
+
+The size of the bracket's terms is returned with the energy: one that is much smaller has lost digits.
+"""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.curve.cosine import Curve, wave
+from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
+from gradhesion.core.struve.layout import STRETCH_TERMS, SWITCH, TAIL_TERMS
+from gradhesion.core.struve.moments import moments
+from gradhesion.core.struve.pair import horner8
+from gradhesion.core.struve.power import amplitude_power
+
+
+def _rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return Gauss's rule on [-1, 1], with weights that add up to 1."""
+    places, weights = np.polynomial.legendre.leggauss(nodes)
+    return places, 0.5 * weights
+
+
+NODES, WEIGHTS = _rule(8)
+_REACH: Final = 0.1
+"""Half a jump over its middle, for which 8 nodes, and the series of z^(-c) in the table, leave 1e-16."""
+_NEAR: Final = 0.15
+"""The same where powers are not expanded; over longer jumps the smooth integral is taken in closed form."""
+
+
+@kernel(contract=True)
+def _oscillating(table: Any, curve: Curve, x: float, z: float, power: float) -> tuple[float, float, float]:
+    """Return z w0, w1, and the braces of the second form but for their term with q, at z >= 40."""
+    b, g, lag = curve
+    inverse = 1.0 / z
+    w = SWITCH * inverse
+    p0, q0, p1, q1, even1, odd1, even2, odd2 = horner8(table.jump_tail, 2.0 * (w * w) - 1.0)
+    sine, cosine = sine_cosine_of_turns(x - lag)
+    s = power * (sine * table.cos_phase - cosine * table.sin_phase)
+    c = power * (cosine * table.cos_phase + sine * table.sin_phase)
+    wave0 = z * (p0 * s + q0 * inverse * c)
+    wave1 = q1 * inverse * s - p1 * c
+    squares = (c * even1 - s * inverse * odd1) + z * (2.0 * s * c * even2 + (c * c - s * s) * inverse * odd2)
+    return wave0, wave1, 2.0 * b * (wave0 - (table.k + 2.0) * wave1) - g * squares
+
+
+@kernel(contract=True)
+def _height(table: Any, z: float) -> float:
+    """Return h at z >= 40."""
+    w = SWITCH / z
+    t = 2.0 * (w * w) - 1.0
+    total = table.slow_tail[TAIL_TERMS - 1, 0]
+    for j in range(TAIL_TERMS - 2, -1, -1):
+        total = total * t + table.slow_tail[j, 0]
+    return total
+
+
+@kernel(contract=True)
+def _slow(table: Any, curve: Curve, z1: float, stretch: float, wave1: float, dz: float, rule: Any, work: Any) -> float:
+    """Integrate the smooth part of the second form from z1, where z^c and z S0 are given, to z1 + dz.
+
+    It is rho_s - 1 that is computed: in 1 - rho_s it would lose 1/chi. The loop is written so that all nodes are worked
+    on at once; powers are (1 + eta)^(-c), for a half panel eta = -ratio at z1.
+    """
+    b, g, _ = curve
+    nodes, weights = rule
+    middle = z1 + 0.5 * dz
+    ratio = 0.5 * dz / middle
+    strength = 0.5 * (g * table.amplitude) * (g * table.amplitude)
+    tail, series = table.slow_tail, table.inverse_stretch
+    left = 0.0
+    for j in range(STRETCH_TERMS - 1, 0, -1):
+        left = ratio * (left - series[j] if j % 2 == 1 else left + series[j])
+    front = 1.0 / (1.0 + left)
+    other = front / stretch
+    for i in range(nodes.size):
+        eta = ratio * nodes[i]
+        z = middle + middle * eta
+        w = SWITCH / z
+        t = 2.0 * (w * w) - 1.0
+        height, square = tail[TAIL_TERMS - 1, 0], tail[TAIL_TERMS - 1, 1]
+        for j in range(TAIL_TERMS - 2, -1, -1):
+            height = height * t + tail[j, 0]
+            square = square * t + tail[j, 1]
+        eta2 = eta * eta
+        odd, even = series[STRETCH_TERMS - 2], series[STRETCH_TERMS - 1]
+        for j in range(STRETCH_TERMS - 4, 0, -2):
+            odd = odd * eta2 + series[j]
+            even = even * eta2 + series[j + 1]
+        power = eta * (odd + eta * even)
+        beyond = 0.5 * dz * (1.0 + nodes[i])
+        rise = 0.5 * b * (z + z1) * beyond + g * (height - wave1)
+        excess = (1.0 + power) * (other * rise) + front * (power - left)
+        work[i] = weights[i] * z * (-excess * (2.0 + excess) - strength * square)
+    total = 0.0
+    for i in range(nodes.size):
+        total += work[i]
+    return total * dz
+
+
+@kernel(contract=True)
+def _beyond(table: Any, curve: Curve, start: float, end: float, work: Any) -> tuple[float, float]:
+    """Return e, and the size of its terms, where both ends lie at z >= 40 and not too far from each other."""
+    b, g, _ = curve
+    z1, z2, dz = TWO_PI * start, TWO_PI * end, TWO_PI * (end - start)
+    power1, power2 = amplitude_power(table, z1), amplitude_power(table, z2)
+    wave0, wave1, braces1 = _oscillating(table, curve, start, z1, power1)
+    _, wave2, braces2 = _oscillating(table, curve, end, z2, power2)
+    wave0 += _height(table, z1)
+    stretch = z1 * power1
+    q1 = stretch - g * wave0
+    q2 = q1 + 0.5 * b * (z1 + z2) * dz
+    first = (2.0 * q1 * wave1 + braces1) / (power1 * power1)
+    last = (2.0 * q2 * wave2 + braces2) / (power2 * power2)
+    smooth = _slow(table, curve, z1, stretch, wave0, dz, (NODES, WEIGHTS), work)
+    return smooth - g * (last - first), g * (abs(last) + abs(first))
+
+
+@kernel(contract=True)
+def _anywhere(table: Any, curve: Curve, start: float, end: float) -> tuple[float, float]:
+    """Return e, and the size of its terms, by the first form."""
+    b, g, _ = curve
+    k = table.k
+    gain = 1.0 / (1.0 + k)
+    z1, power1, s01, s11, _, _, _ = wave(table, 0.0, start)
+    z2, power2, _, s12, _, _, _ = wave(table, 0.0, end)
+    e1, w1 = moments(table, start, power1)
+    e2, w2 = moments(table, end, power2)
+    front1, front2 = 1.0 / (power1 * power1), 1.0 / (power2 * power2)
+    square1, square2 = z1 * z1, z2 * z2
+    q1 = z1 * power1 - g * z1 * s01
+    depth = 0.5 * b * square1 - q1
+    first = front1 * (square1 * square1 * (b * e1 + g * w1) - 2.0 * depth * gain * z1 * s11)
+    last = front2 * (square2 * square2 * (b * e2 + g * w2) - 2.0 * depth * gain * z2 * s12)
+    total, size = -g * (last - first), g * (abs(last) + abs(first))
+    dz = TWO_PI * (end - start)
+    if abs(dz) < _NEAR * (z1 + z2):
+        smooth = 0.0
+        for i in range(NODES.size):
+            shift = 0.5 * dz * (1.0 + NODES[i])
+            z = z1 + shift
+            rho = (0.5 * b * shift * (z + z1) + q1) / (z * amplitude_power(table, z))
+            smooth += WEIGHTS[i] * z * ((1.0 - rho) * (1.0 + rho))
+        return total + dz * smooth, size
+    a, c, d = 0.25 * b * b / (5.0 + k), b * depth / (3.0 + k), depth * depth * gain
+    inner, outer = front1 * ((a * square1 - c) * square1 + d), front2 * ((a * square2 - c) * square2 + d)
+    most = max(square1, square2)
+    size += most + max(front1, front2) * (a * most * most + d)
+    return total + 0.5 * (square2 - square1) - (outer - inner), size
+
+
+@kernel()
+def energy_between(table: Any, curve: Curve, start: float, end: float, work: Any) -> tuple[float, float]:
+    """Return e of a jump from x = start > 0 on the curve to x = end > 0, and the size of the terms it is made of.
+
+    The size is infinite where neither form serves. `work` has room for 8 floats.
+    """
+    _, _, lag = curve
+    if TWO_PI * min(start, end) >= SWITCH:
+        if abs(end - start) > _REACH * (start + end):
+            return 0.0, math.inf
+        return _beyond(table, curve, start, end, work)
+    if lag != 0.0:
+        return 0.0, math.inf
+    return _anywhere(table, curve, start, end)
