@@ -34,7 +34,7 @@ def merge(
     """Join the parts of shards, or datasets.
 
     With one FILE, join the parts left by `gradhesion run STUDY.toml --shard I/N -o FILE`. With several FILES and -o,
-    join maps whose studies differ along one axis; the result has the values of all.
+    join maps or optima whose studies differ along one axis; the result has the values of all.
     """
     start = time.monotonic()
     if len(files) == 1 and output is None:

@@ -2,7 +2,7 @@
 
 import hashlib
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
@@ -21,14 +21,20 @@ CLOSE: Final = 16 * 2.0**-52
 """Of a coordinate: logarithmic spacing may differ by some units in the last place from one numpy to the next."""
 
 
-def study_of(dataset: xarray.Dataset, path: Path, *, wanted: str = "`gradhesion verify` takes maps") -> Study:
+def study_of(
+    dataset: xarray.Dataset,
+    path: Path,
+    *,
+    kinds: Sequence[str] = ("map",),
+    wanted: str = "`gradhesion verify` takes maps",
+) -> Study:
     """
-    Read the study of a map out of its dataset; `wanted` says of another that it has to be one.
+    Read the study of some kinds out of its dataset; `wanted` says of another which are wanted.
 
     Raises
     ------
     DatasetError
-        The study was edited, is not that of the dataset, or is not one of a map.
+        The study was edited, is not that of the dataset, or is of another kind.
     """
     text = study_text(dataset, path)
     if hashlib.sha256(text.encode()).hexdigest() != dataset.attrs["study_sha256"]:
@@ -37,14 +43,16 @@ def study_of(dataset: xarray.Dataset, path: Path, *, wanted: str = "`gradhesion 
         data = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise _apart(path, f"its study is not valid TOML ({error})") from None
-    if data.get("kind", "map") != "map":
-        raise DatasetError(f"{path}: holds a {data['kind']}; {wanted}")
+    if (kind := data.get("kind", "map")) not in kinds:
+        raise DatasetError(f"{path}: holds {'an' if kind == 'optimum' else 'a'} {kind}; {wanted}")
     try:
         study = study_from(_with_fit(dataset, data), "its study", **_points_of(dataset, data, path))
     except StudyError as error:
         raise DatasetError(
             f"{path}: its study is not valid in this version ({error.mistakes[0]}); write it again"
         ) from None
+    if study.search.is_front:
+        raise DatasetError(f"{path}: holds best compromises, whose number differs from cell to cell; {wanted}")
     _check_variables(dataset, study, path)
     _check_coordinates(dataset, study, path)
     return study

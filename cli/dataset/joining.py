@@ -34,13 +34,16 @@ def joined(sources: Sources) -> tuple[Study, "Joined"]:
     """
     from gradhesion.cli.dataset import belonging  # noqa: PLC0415 (xarray, which shards do without)
 
-    wanted = "only maps on a grid can be joined"
-    studies = {file: belonging.study_of(dataset, file, wanted=wanted) for file, dataset in sources.items()}
+    wanted = "only maps and optima on a grid can be joined"
+    studies = {
+        file: belonging.study_of(dataset, file, kinds=("map", "optimum"), wanted=wanted)
+        for file, dataset in sources.items()
+    }
     (first, one), *others = studies.items()
     for file, other in others:
         if {one.layout, other.layout} != {"grid"}:
             raise DatasetError(f"{file}, {first}: {wanted}, not points")
-        for what in ("outputs", "method", "profile", "spectrum", "loading", "uncertainty"):
+        for what in ("kind", "search", "outputs", "method", "profile", "spectrum", "loading", "uncertainty"):
             if getattr(one, what) != getattr(other, what):
                 raise DatasetError(f"{file}: has another {what.rstrip('s')} than {first}; join datasets that share it")
         if one.parameters.keys() != other.parameters.keys():

@@ -88,7 +88,7 @@ def test_quantities_keep_their_unit(gradhesion: Call, data: dict[str, Any], tmp_
         ({"parameters": {"A": 0.5}, "outputs": ["pull_off_force"]}, "has another output than .*; join datasets that share it"),
         ({"parameters": {"A": 0.5}, "method": {"solver": "envelope"}, "outputs": ["pull_off_force", "dissipated_energy"]}, "has another output"),
         ({"parameters": {"A": 0.5}, "profile": {"exponent": 3.0}}, "has another profile than"),
-        ({"kind": "curve", "outputs": ["path"]}, "holds a curve; only maps on a grid can be joined"),
+        ({"kind": "curve", "outputs": ["path"]}, "holds a curve; only maps and optima on a grid can be joined"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_joined_is_told(
