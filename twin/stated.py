@@ -151,7 +151,8 @@ def _made(parameters: Mapping[str, float]) -> dict[str, Expected]:
 def _ratios(parameters: Mapping[str, float]) -> dict[str, arb]:
     """Make the parameters that follow from quantities in SI units."""
     radius = arb(parameters["R"])
-    ratios = {"modulus": parameters["E_star"] * radius / arb(parameters["work_of_adhesion"])}
+    stiffness = _reduced_modulus(parameters)
+    ratios = {"modulus": stiffness * radius / arb(parameters["work_of_adhesion"])}
     lengths = {"c0": "c0_over_R", "wavelength": "lambda_over_R", "a_max": "a_max_over_R"}
     lengths["indentation_max"] = "indentation_max_over_R"
     for length, name in lengths.items():
@@ -161,10 +162,17 @@ def _ratios(parameters: Mapping[str, float]) -> dict[str, arb]:
         unit = 3 * arb.pi() / 2 * radius * arb(parameters["work_of_adhesion"])
         ratios["load_max"] = parameters["preload"] / unit
     if "spring_constant" in parameters:
-        ratios["machine_stiffness"] = parameters["spring_constant"] / (arb(parameters["E_star"]) * radius)
+        ratios["machine_stiffness"] = parameters["spring_constant"] / (stiffness * radius)
     if "amplitude" in parameters:
         ratios["A"] = parameters["amplitude"] / radius / parameters["lambda_over_R"]
     return ratios
+
+
+def _reduced_modulus(parameters: Mapping[str, float]) -> arb:
+    """Give E* = E/(1 - nu^2), whichever of the two is given."""
+    if "E_star" in parameters:
+        return arb(parameters["E_star"])
+    return parameters["E"] / (1 - arb(parameters["nu"]) ** 2)
 
 
 def in_si(found: Mapping[str, Expected], parameters: Mapping[str, float]) -> dict[str, Expected]:

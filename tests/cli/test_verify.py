@@ -407,3 +407,19 @@ def test_another_profile_or_control_in_the_study_is_found(
     assert "sha256" in gradhesion("verify", path).stderr
     edit_study(path, new, new, seal=True)
     assert gradhesion("verify", path).exit_code == 3  # the values are those of another scene
+
+
+@pytest.mark.parametrize("machine", [False, True])
+def test_a_study_by_youngs_modulus_is_recomputed(machine: bool, gradhesion: Call, tmp_path: Path) -> None:
+    spring = ('spring_constant = "3 N/m"\n', '[loading]\ncontrol = "machine"\n') if machine else ("", "")
+    (tmp_path / "probe.toml").write_text(
+        'outputs = ["pull_off_force"]\n[parameters]\nk = 0.0\nnu = [-0.9, 0.3, 0.49]\nA = 0.0\n'
+        '[physical]\nR = "5 um"\nE = "2 MPa"\nwork_of_adhesion = "45 mJ/m^2"\na_max = "2 um"\n' + "".join(spring)
+    )
+    file = tmp_path / "probe.nc"
+    assert gradhesion("run", tmp_path / "probe.toml", "-o", file, "--quiet").exit_code == 0
+    result = gradhesion("verify", file)
+    assert result.exit_code == 0, result.stderr
+    with netCDF4.Dataset(file, "a") as dataset:
+        dataset["modulus"][:] = dataset["modulus"][:] * (1.0 + 1e-12)
+    assert gradhesion("verify", file).exit_code == 3
