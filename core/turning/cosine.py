@@ -175,7 +175,7 @@ def _turn_curve(
     flags: Any,
     scratch: Any,
 ) -> None:
-    """Turn a wavy punch, all its rims: those that need no long curve share one trace."""
+    """Turn a wavy punch, all its rims: they share one trace, or the beginning of a long one."""
     wavelength, unit = scales
     by_load, _ = modes
     b, g, _ = curve
@@ -212,9 +212,12 @@ def _turn_curve(
                 scene = (rims[i] / wavelength, targets[i] / unit, wavelength)
                 x, flags[i] = _turn_rim(table, curve, count, trace, peaks, False, reaches[i], scene, modes)
                 radii[i] = min(rims[i], x * wavelength)
+    begun = False
     for i in range(rims.size):
         if reaches[i] > 0.0 and is_long(table, arches, reaches[i]):
-            trace, beginning = begin_long(table, curve, arches, scratch, NO, 1.0)
+            if not begun:
+                trace, beginning = begin_long(table, curve, arches, scratch, NO, 1.0)
+                begun = True
             count = stride(table, curve, arches, reaches[i], trace, beginning, NO, 1.0)
             peaks = peaks_of(table, curve, count, trace, inner, 1) if by_load else reaches
             scene = (rims[i] / wavelength, targets[i] / unit, wavelength)
