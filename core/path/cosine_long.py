@@ -46,7 +46,7 @@ from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
 from gradhesion.core.path.cosine import MOST_ARCHES
 from gradhesion.core.path.loading import arrive, climb, load_up
-from gradhesion.core.path.ties import note_loading
+from gradhesion.core.path.ties import note_loading, note_loading_from
 from gradhesion.core.path.unloading import descend, leave, next_lower
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
@@ -166,6 +166,7 @@ def begin_long(
         before = wave_of(table, trace[START, near - 1]) if near > 0 else before
     shared[NEAR], shared[BEFORE], shared[FIRST_CLOSE] = near, before, trace[TANGENCY, 0]
     shared[LAST_UP] = load_up(table, curve, near, trace, math.inf, losses)
+    note_loading(table, curve, near, trace, math.inf)
     return trace, (shared, room_for_sums())
 
 
@@ -355,5 +356,27 @@ def stride(
     if nominal and trace[ARRIVAL, near] < math.inf and rim <= 0.5 * final:
         trace[ARRIVAL, near] = trace[START, near]
     _unload_through(table, curve, after, final, long, trace, running, losses)
-    note_loading(table, curve, count, trace, rim)
+    note_loading_from(table, curve, near, count, trace, rim)
     return count
+
+
+@kernel()
+def open_gap(table: Any, curve: Curve, place: float, trace: Any, long: Any) -> bool:
+    """Let the gap end at a wave beyond a place, with no branch beyond it; return whether loading goes through the gap.
+
+    That is enough for a cycle that surely turns before the place.
+    """
+    shared, _ = long
+    near, now = int(shared[NEAR]), int(shared[LAST_UP])
+    after = np.floor(place - table.phase / TWO_PI) + 1.0
+    _, top = fold_of_wave(table, curve, after, NO)
+    if not top > (trace[END_DEPTH, now] if now >= 0 else 0.0):
+        return False
+    trace[TANGENCY, 0] = shared[FIRST_CLOSE]
+    wave, x = shared[BEFORE], 0.0
+    if not 0 <= now == near - 1:
+        _enter(table, curve, after, long, trace, NO)
+        wave, x = shared[ENTRY], shared[ENTRY_PLACE]
+    trace[RUN, GAP], trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER] = near, shared[BEFORE], after
+    trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST], trace[RUN, RUN_LANDING] = wave, after, x
+    return True

@@ -15,7 +15,7 @@ neighbours stand apart by a wave.
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import NO, YES, kernel
+from gradhesion.core._jit import NO, NONE, YES, kernel
 from gradhesion.core.curve.branches import (
     CALLER,
     END,
@@ -60,16 +60,24 @@ def first_close_pair(count: int, trace: Any) -> float:
 
 
 @kernel()
-def note_loading(table: Any, curve: Any, count: int, trace: Any, furthest: float) -> None:
-    """Note the highest coordinate up to the end of each branch, and whether a decision of loading was close before."""
-    highest, close = 0.0, NO
-    for branch in range(count):
+def note_loading_from(table: Any, curve: Any, first: int, count: int, trace: Any, furthest: float) -> None:
+    """Do what `note_loading` does from a branch on; what is noted of those before it holds."""
+    highest, close = 0.0, 0.0
+    if first > 0:
+        highest, close = trace[HIGHEST, first - 1], trace[LOADING_IS_CLOSE, first - 1]
+    for branch in range(first, count):
         top, end = trace[END_DEPTH, branch], trace[END, branch]
         if end < furthest and abs(top - highest) <= tolerance(table, curve, end):
-            close = YES
+            close = 1.0
         highest = max(highest, top)
         trace[HIGHEST, branch], trace[LOADING_IS_CLOSE, branch] = highest, close
         trace[UNLOADING_IS_CLOSE, branch] = UNKNOWN
+
+
+@kernel()
+def note_loading(table: Any, curve: Any, count: int, trace: Any, furthest: float) -> None:
+    """Note the highest coordinate up to the end of each branch, and whether a decision of loading was close before."""
+    note_loading_from(table, curve, NONE, count, trace, furthest)
 
 
 @kernel()

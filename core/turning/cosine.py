@@ -25,7 +25,7 @@ from gradhesion.core.path.cosine import (
     is_unresolved,
     walk,
 )
-from gradhesion.core.path.cosine_long import begin_long, stride
+from gradhesion.core.path.cosine_long import NEAR, begin_long, ends_folds, open_gap, stride
 from gradhesion.core.path.ties import rim_is_close
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
@@ -175,7 +175,10 @@ def _turn_curve(
     flags: Any,
     scratch: Any,
 ) -> None:
-    """Turn a wavy punch, all its rims: they share one trace, or the beginning of a long one."""
+    """Turn a wavy punch, all its rims: they share one trace, or the beginning of a long one.
+
+    A cycle that turns among the waves of a gap, surely before the rim, needs no branch beyond the gap.
+    """
     wavelength, unit = scales
     by_load, _ = modes
     b, g, _ = curve
@@ -218,7 +221,10 @@ def _turn_curve(
             if not begun:
                 trace, beginning = begin_long(table, curve, arches, scratch, NO, 1.0)
                 begun = True
-            count = stride(table, curve, arches, reaches[i], trace, beginning, NO, 1.0)
+            count = int(beginning[0][NEAR])
+            inside = reaches[i] < rims[i] / wavelength and not ends_folds(table, arches, reaches[i])
+            if not inside or not open_gap(table, curve, reaches[i], trace, beginning):
+                count = stride(table, curve, arches, reaches[i], trace, beginning, NO, 1.0)
             peaks = peaks_of(table, curve, count, trace, inner, 1) if by_load else reaches
             scene = (rims[i] / wavelength, targets[i] / unit, wavelength)
             x, flags[i] = _turn_rim(table, curve, count, trace, peaks, True, reaches[i], scene, modes)

@@ -18,6 +18,8 @@ from gradhesion.core.curve.branches import (
     END_DEPTH,
     GAP,
     RUN,
+    RUN_AFTER,
+    RUN_BEFORE,
     RUN_FIRST,
     RUN_LANDING,
     RUN_LAST,
@@ -27,12 +29,12 @@ from gradhesion.core.curve.branches import (
 )
 from gradhesion.core.curve.cosine import Curve, depth, load, slope
 from gradhesion.core.curve.cosine_folds import fold_of_arch, survey_arch
-from gradhesion.core.path.cosine_long import first_wave_above, wave_of
+from gradhesion.core.path.cosine_long import first_wave_above
 from gradhesion.core.path.ties import tolerance
 from gradhesion.core.struve.arches import inner_edge
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.waves.cosine import branch_of_wave, landing_of_wave
+from gradhesion.core.waves.cosine import branch_of_wave, fold_of_wave, landing_of_wave
 
 Turn: TypeAlias = tuple[float, bool]
 """Where a cycle turns (inf if not here), and whether a step of that is close."""
@@ -218,21 +220,31 @@ def _turn_on_wave(table: Any, curve: Curve, trace: Any, wave: float, reach: floa
 
 
 @kernel()
+def _wave_at_load(table: Any, curve: Curve, target: float) -> float:
+    """Return about the wave that carries a load: on the envelope X [b X/(3+k) - 1 + chi] above it, X = z^((3+k)/2)."""
+    b, g, _ = curve
+    half = 0.5 * (3.0 + table.k)
+    pull = 1.0 - g * table.amplitude
+    abscissa = half / b * (pull + math.sqrt(pull * pull + 2.0 * b * target / half))
+    return np.floor(max(0.0, abscissa) ** (1.0 / half) / TWO_PI - table.phase / TWO_PI)
+
+
+@kernel()
 def turn_on_waves(table: Any, curve: Curve, trace: Any, reach: float, target: float) -> Turn:
     """Return where loading first reaches a load on the regular waves that it visits: their loads rise outwards."""
-    low, high = trace[RUN, RUN_FIRST] - 1.0, trace[RUN, RUN_LAST]
-    if high <= low:
-        return math.inf, False
-    found, close = _turn_on_wave(table, curve, trace, high, reach, target)
-    if found == math.inf:
-        return found, close
-    while high - low > 1.0:
-        middle = np.floor(0.5 * (low + high))
+    low, high = trace[RUN, RUN_FIRST] - 1.0, trace[RUN, RUN_LAST] + 1.0
+    found, close = math.inf, False
+    middle, step = _wave_at_load(table, curve, target), 1.0
+    while high - low > 1.0:  # the load is not reached on `low`, and surely is on `high` if there is such a wave
+        middle = max(low + 1.0, min(high - 1.0, middle))
         x, near = _turn_on_wave(table, curve, trace, middle, reach, target)
         if x < math.inf:
-            high, found, close = middle, x, near
+            high, found, close, middle = middle, x, near, middle - step
         else:
-            low, close = middle, close or near
+            low, close, middle = middle, close or near, middle + step
+        step *= 2.0
+        if not low < middle < high:
+            middle = np.floor(0.5 * (low + high))
     return found, close
 
 
@@ -240,7 +252,7 @@ def turn_on_waves(table: Any, curve: Curve, trace: Any, reach: float, target: fl
 def turn_long_at_load(
     table: Any, curve: Curve, count: int, trace: Any, peaks: Any, reach: float, target: float
 ) -> Turn:
-    """Return where loading first reaches a load on a long curve (stride of path/cosine_long.py)."""
+    """Return where loading first reaches a load on a long curve (stride or open_gap of path/cosine_long.py)."""
     gap = int(trace[RUN, GAP])
     x, close = turn_at_load(table, curve, 0, gap, trace, peaks, reach, target)
     if x == math.inf:
@@ -254,18 +266,18 @@ def turn_long_at_load(
 
 @kernel()
 def turn_long_at_depth(table: Any, curve: Curve, count: int, trace: Any, reach: float, target: float) -> Turn:
-    """Return where loading first reaches a depth on a long curve (stride of path/cosine_long.py)."""
+    """Return where loading first reaches a depth on a long curve (stride or open_gap of path/cosine_long.py)."""
     gap = int(trace[RUN, GAP])
     x, close = turn_at_depth(table, curve, 0, gap, trace, reach, target)
     if x < math.inf:
         return x, close
-    if trace[END_DEPTH, gap] > target:
-        before, after = wave_of(table, trace[START, gap - 1]) if gap > 0 else 0.0, wave_of(table, trace[START, gap])
+    if gap == count or trace[END_DEPTH, gap] > target:
+        before, after = trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER]
         wave = first_wave_above(table, curve, before, after, target)
-        if wave < after:
+        if wave < after or gap == count:
             start, _, end, bottom = branch_of_wave(table, curve, wave)
             if wave - 1.0 > before:
-                _, _, place, below = branch_of_wave(table, curve, wave - 1.0)
+                place, below = fold_of_wave(table, curve, wave - 1.0, NO)
                 close = close or abs(below - target) <= tolerance(table, curve, place)
             close = close or abs(bottom - target) <= tolerance(table, curve, end)
             return _find(table, curve, start, end, target, NO), close

@@ -1,14 +1,14 @@
 """Sums over waves up to any of them, from the same samples for all.
 
 Every rim of a long curve ends its sum at another wave. What a jump loses is a smooth function e of the wave's index
-(waves/cosine.py), so that the run of waves is cut into panels, four times as far from the branch point `inner` of
-waves/cosine_sum.py at their end as at their begin, and two more, at a half and at 0.85 of the way, before the outer
-one. In each panel e is a polynomial through 16 places, in v or y of that module, and its integral one, so that
+(waves/cosine.py), so that the run of waves is cut into panels, four to eight times as far from the branch point
+`inner` of waves/cosine_sum.py at their end as at their begin, and two more, at a half and at 0.85 of the way, before
+the outer one. In each panel e is a polynomial through 16 places, in v or y of that module, and so is its integral, and
 
     sum_{w=p}^{q} e_w = S + [ int e dw - (e'/24 - 7 e'''/5760 + 31 e^(5)/967680) ]_{begin of the panel}^{q+1/2}
 
-costs no further sample; S is the sum up to the panel. The first twelve waves, next to the branch point, are summed one
-by one. A panel is filled when a sum first ends in it. Its places depend on the curve alone, so that a rim has the same
+costs no further sample; S is the sum up to the panel. First waves within twelve of the branch point are summed one by
+one. A panel is filled when a sum first ends in it. Its places depend on the curve alone, so that a rim has the same
 value, to the last bit, whatever rims share its curve.
 
 Against the sum wave by wave, of 10^2 to 2 10^4 of them: 1e-13 of the loss, mostly 1e-15 (test_cosine_running.py).
@@ -26,11 +26,15 @@ from gradhesion.core.waves.cosine import jump_of_wave
 from gradhesion.core.waves.cosine_sum import branch_points, sum_of_waves
 
 _SINGLE: Final = 12
-"""Waves that are summed one by one at the begin of a run."""
+"""Waves that are summed one by one at most at the begin of a run."""
+_CLEAR: Final = 12.5
+"""Waves from the inner branch point, and from `_INNERMOST`, to the first panel."""
+_INNERMOST: Final = 8.0
 _TERMS: Final = 16
 _PLACES, _FIT = chebyshev_fit(_TERMS, _TERMS)
-_GROWTH: Final = 4.0
-"""Distance of the end of a panel from the inner branch point over that of its begin."""
+_FIRST_GROWTH: Final = 4.0
+_GROWTH: Final = 8.0
+"""Distance of the end of a panel from the inner branch point over that of its begin: of the first one, and others."""
 _MIDDLE: Final = 0.5
 _LATE: Final = 0.85
 """Begins of the last two panels, in parts of the way from one branch point to the other."""
@@ -43,9 +47,9 @@ _MOST: Final = 2.0**52
 _LINKED: Final = 3
 """Panels in a row, of which the first one begins with a sum of its own and the others with that of the one before."""
 _PANELS: Final = 32
-FIRST, INNER, OUTER, COUNT, SAMPLES, KNOWN, _SUMS = 0, 1, 2, 3, 4, 5, 8
-"""Row 0 of the sums: the first wave, the branch points, the number of panels; the waves whose jump has been found, how
-many of the first waves are summed, and their sums."""
+FIRST, INNER, OUTER, COUNT, SAMPLES, SINGLE, KNOWN, _SUMS = 0, 1, 2, 3, 4, 5, 6, 8
+"""Row 0 of the sums: the first wave, the branch points, the number of panels; the waves whose jump has been found; how
+many of the first waves are to be summed one by one, how many are, and their sums."""
 BEGIN, END, BASE, LOW, HIGH, IN_Y, _LOSS, _INTEGRAL = 0, 1, 2, 3, 4, 5, 8, 24
 """Other rows: where a panel begins and ends, the sum up to its begin (NaN: not filled), the variable at both ends,
 which one it is, and the coefficients of the loss and of its integral."""
@@ -66,13 +70,14 @@ def begin_sums(table: Any, curve: Curve, sums: Any, first: float, outwards: bool
     head = sums[0]
     head[FIRST], head[SAMPLES], head[KNOWN] = first, 0.0, 0.0
     head[INNER], head[OUTER] = branch_points(table, curve, final, outwards)
-    begin = first + (_SINGLE - 0.5)
     inner, outer = max(0.0, head[INNER]), head[OUTER]
+    head[SINGLE] = max(0.0, min(float(_SINGLE), math.ceil(max(inner, _INNERMOST) + _CLEAR - first)))
+    begin = first + (head[SINGLE] - 0.5)
     middle = inner + _MIDDLE * (outer - inner)
     late = inner + _LATE * (outer - inner)
     count = 0
     while begin < outer and begin < _MOST:
-        end = math.floor(inner + _GROWTH * (begin - inner)) + 0.5
+        end = math.floor(inner + (_GROWTH if count > 0 else _FIRST_GROWTH) * (begin - inner)) + 0.5
         if end >= _OUTER_HALF * (middle - inner) + inner:
             end = math.floor(middle) + 0.5 if begin + _LEAST < middle else math.floor(late) + 0.5
             if begin + _LEAST >= late:
@@ -173,7 +178,7 @@ def sum_up_to(table: Any, curve: Curve, sums: Any, last: float, outwards: bool, 
     """
     head = sums[0]
     count = last - head[FIRST] + 1.0
-    if count <= _SINGLE:
+    if count <= head[SINGLE]:
         return _first_waves(table, curve, head, max(0, int(count)), outwards, work)
     if head[COUNT] < 1.0:
         return sum_of_waves(table, curve, head[FIRST], last, outwards, final, work)
@@ -189,7 +194,7 @@ def sum_up_to(table: Any, curve: Curve, sums: Any, last: float, outwards: bool, 
         if not math.isnan(panel[BASE]):
             continue
         if i == 1:
-            base = _first_waves(table, curve, head, _SINGLE, outwards, work)
+            base = _first_waves(table, curve, head, int(head[SINGLE]), outwards, work)
         elif (i - 1) % _LINKED == 0:
             base = sum_of_waves(table, curve, head[FIRST], panel[BEGIN] - 0.5, outwards, final, work)
         else:
