@@ -13,7 +13,7 @@ at 17 radii a wave; only where its least value there is near zero it is searched
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import NONE, constant, kernel
 from gradhesion.core.contact.cosine_gap import Edge, edge_at, opening, openings_between, trough_gap
 from gradhesion.core.curve.branches import (
     ARRIVAL,
@@ -24,6 +24,7 @@ from gradhesion.core.curve.branches import (
     RUN_FIRST,
     RUN_LANDING,
     RUN_LAST,
+    RUN_LEAST,
     START_DEPTH,
     VALUES,
     WORK,
@@ -47,6 +48,8 @@ _MOST_WINDOWS: Final = 64
 """Windows of a jump; over longer jumps the troughs of the profile further out are sampled."""
 _SAMPLES: Final = 12
 """Waves of a regular run at which the opening is taken."""
+NOWHERE: Final = constant(-1)
+"""The branch of no contact."""
 _SMOOTH: Final = 0.25
 """Least opening of the samples from which on nothing lower is looked for between them."""
 
@@ -210,6 +213,45 @@ def _least_of_run(table: Any, curve: Curve, first: float, last: float, heights: 
 
 
 @kernel()
+def limits_from(
+    table: Any, curve: Curve, first: int, last: int, now: int, count: int, trace: Any, furthest: float
+) -> tuple[float, float]:
+    """Return what `disc_limits` does, from jumps that land on the branches `first` to `last`, `count` for the rim.
+
+    Loading, one disc so far, leaves the branch `now` before.
+    """
+    heights, openings = trace[WORK], trace[VALUES]
+    gap = trace[RUN, GAP]  # the branches from here on stand beyond waves that were not walked
+    lowest = math.inf
+    for branch in range(first, last + 1):
+        rim = branch == count
+        if not rim:
+            lowest = min(lowest, trace[START_DEPTH, branch])
+            if trace[ARRIVAL, branch] == math.inf:
+                continue
+        left = trace[END, now] if now >= 0 else 0.0
+        landing = furthest if rim else trace[ARRIVAL, branch]
+        end = min(furthest, landing)
+        across = now < gap <= branch
+        if across and not rim and trace[RUN, RUN_LAST] >= trace[RUN, RUN_FIRST]:
+            least = trace[RUN, RUN_LEAST]
+            if math.isnan(least):
+                least = _least_of_run(table, curve, trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST], heights, openings)
+            if least < 0.0:
+                return left, left
+            end = trace[RUN, RUN_LANDING]
+        if now >= 0 and left < end:
+            if rim:
+                lowest = min(lowest, depth(table, curve, furthest))
+            z = TWO_PI * left
+            above = lowest + z * amplitude_power(table, z) >= trace[END_DEPTH, now]
+            if (across or not above) and least_opening(table, curve, left, end, heights, openings) < 0.0:
+                return left, landing
+        now, lowest = branch, math.inf
+    return math.inf, math.inf
+
+
+@kernel()
 def disc_limits(table: Any, curve: Curve, count: int, trace: Any, furthest: float) -> tuple[float, float]:
     """Return the radius up to which loading keeps the contact one disc, and that from which on it does not.
 
@@ -228,32 +270,25 @@ def disc_limits(table: Any, curve: Curve, count: int, trace: Any, furthest: floa
     _, g, _ = curve
     if g * table.amplitude <= ALWAYS_ONE:
         return math.inf, math.inf
-    heights, openings = trace[WORK], trace[VALUES]
-    gap = trace[RUN, GAP]  # the branches from here on stand beyond waves that were not walked
-    now, lowest = -1, math.inf
-    for branch in range(count + 1):
-        rim = branch == count
-        if not rim:
-            lowest = min(lowest, trace[START_DEPTH, branch])
-            if trace[ARRIVAL, branch] == math.inf:
-                continue
-        left = trace[END, now] if now >= 0 else 0.0
-        landing = furthest if rim else trace[ARRIVAL, branch]
-        end = min(furthest, landing)
-        across = now < gap <= branch
-        if across and not rim and trace[RUN, RUN_LAST] >= trace[RUN, RUN_FIRST]:
-            if _least_of_run(table, curve, trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST], heights, openings) < 0.0:
-                return left, left
-            end = trace[RUN, RUN_LANDING]
-        if now >= 0 and left < end:
-            if rim:
-                lowest = min(lowest, depth(table, curve, furthest))
-            z = TWO_PI * left
-            above = lowest + z * amplitude_power(table, z) >= trace[END_DEPTH, now]
-            if (across or not above) and least_opening(table, curve, left, end, heights, openings) < 0.0:
-                return left, landing
-        now, lowest = branch, math.inf
-    return math.inf, math.inf
+    return limits_from(table, curve, NONE, count, NOWHERE, count, trace, furthest)
+
+
+@kernel()
+def note_run(table: Any, curve: Curve, last: float, trace: Any) -> None:
+    """Note whether the contact is one disc on the waves of a gap, where that serves all rims.
+
+    It does if the first of them is none, and if all up to wave `last` surely are.
+    """
+    _, g, _ = curve
+    first = trace[RUN, RUN_FIRST]
+    if g * table.amplitude <= ALWAYS_ONE or last <= first:
+        return
+    least = _least_of_wave(table, curve, max(first, 1.0), trace[WORK], trace[VALUES])
+    if least >= 0.0:
+        least = _least_of_run(table, curve, first, last, trace[WORK], trace[VALUES])
+        if least <= _SMOOTH:
+            return
+    trace[RUN, RUN_LEAST] = least
 
 
 @kernel()

@@ -24,10 +24,11 @@ NEXT, LANDING = 7, 8
 UNLOADING_LOSS, UNLOADING_JUMPS, LAST_DEPTH, CALLER = 9, 10, 11, 12
 WORK, VALUES, RUN = 13, 14, 15
 GAP, RUN_FIRST, RUN_LAST, RUN_LANDING = 0, 1, 2, 3
-RUN_BEFORE, RUN_AFTER, RUN_LOWEST = 4, 5, 6
+RUN_BEFORE, RUN_AFTER, RUN_LOWEST, RUN_LEAST = 4, 5, 6, 7
 """What the row RUN holds: the first branch beyond waves that were not walked, the first and the last of these waves
 that loading leaves, and where it lands among them (0 if on the way from one wave to the next); the wave of the last
-branch before the gap, that of the first one after it, and the one of them or between that starts lowest."""
+branch before the gap, that of the first one after it, and the one of them or between that starts lowest; the least
+opening outside the ends of the waves of the gap (contact/cosine_gap.py), NaN if it is not known for all of them."""
 TANGENCY = 16
 HIGHEST, LOADING_IS_CLOSE, UNLOADING_IS_CLOSE = 17, 18, 19
 """The highest depth up to the end of a branch, 0 at least, whether a decision of loading was close up to there, and

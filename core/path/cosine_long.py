@@ -29,6 +29,7 @@ from gradhesion.core.curve.branches import (
     RUN_FIRST,
     RUN_LANDING,
     RUN_LAST,
+    RUN_LEAST,
     RUN_LOWEST,
     START,
     START_DEPTH,
@@ -67,11 +68,13 @@ _ORDERED: Final = 20.0
 _HALVINGS: Final = 200
 NEAR, BEFORE, LAST_UP, FIRST_CLOSE, ENTRY, ENTRY_PLACE, ENTRY_LOSS, ENTRY_JUMPS = 0, 1, 2, 3, 4, 5, 6, 7
 LOWEST, LOWEST_LOSS, LOWEST_JUMPS, LOWEST_LAST = 8, 9, 10, 11
+DISC_INNER, DISC_OUTER, RUN_SEEN = 12, 13, 14
 """What all rims of a curve share: the number of branches of the beginning, the wave of the last one, the last one that
 loading arrives on, and where a pair of folds is close there; the wave of the gap that loading enters (NaN: not found
 yet), where, and what it has lost and jumped by then; the wave that starts lowest (NaN, too), what unloading loses from
-its start on, its jumps, and the depth at which contact ends."""
-_SHARED: Final = 12
+its start on, its jumps, and the depth at which contact ends; the radii between which loading of the beginning ceases to
+keep the contact one disc (NaN, too); and whether the contact on the waves of the gap has been looked at (NaN: not)."""
+_SHARED: Final = 15
 
 
 @kernel()
@@ -158,7 +161,7 @@ def begin_long(
     first, final = arches
     trace = room_for(trace, 4.0 * reach * (BEGINNING + NEAR_RIM))
     shared = np.full(_SHARED, math.nan)
-    trace[TANGENCY, 0] = math.inf
+    trace[TANGENCY, 0], trace[RUN, RUN_LEAST] = math.inf, math.nan
     near, before = 0, 0.5 * first
     if first < MOST_ARCHES:
         beginning = (0.5 * first + reach * BEGINNING) + table.phase / TWO_PI

@@ -12,8 +12,7 @@ from typing import Any
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.closed import smooth
-from gradhesion.core.contact.cosine_disc import disc_limits, is_one_disc
-from gradhesion.core.curve.cosine import Curve, curve_of, depth, force_unit
+from gradhesion.core.curve.cosine import Curve, curve_of, force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.path.cosine import (
     LARGEST,
@@ -25,12 +24,7 @@ from gradhesion.core.path.cosine import (
     is_unresolved,
     walk,
 )
-from gradhesion.core.path.cosine_long import begin_long, ends_folds, is_told, stride
-from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
-from gradhesion.core.path.ties import first_close_pair, is_close_to_a_jump
-from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.results import (
-    CONTACT,
     DEEPEST,
     ENERGY,
     FORCE,
@@ -38,7 +32,6 @@ from gradhesion.core.problem.results import (
     LOADED,
     LOADING,
     RADIUS,
-    TURNED,
     UNLOADED,
     UNLOADING,
     put,
@@ -50,19 +43,18 @@ from gradhesion.core.problem.results import (
 from gradhesion.core.problem.status import (
     CLOSE_TO_A_JUMP,
     JUMP_IN_TO_RIM,
-    LOADING_NOT_ONE_DISC,
     NO_VALUE,
     PULL_OFF_AT_RIM,
 )
 from gradhesion.core.pull_off.cosine import lowest_load
+from gradhesion.core.scene.cosine_long import solve_long
+from gradhesion.core.scene.cosine_rim import limits_of, read_rim, slopes_of
 from gradhesion.core.sensitivities.cosine_slopes import (
     at_fixed_stiffness,
     beside,
-    put_energy,
     put_forces,
     put_smooth,
 )
-from gradhesion.core.sensitivities.path_slopes import fill_loading, slopes_for
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 
@@ -121,163 +113,6 @@ def _solve_force(
 
 
 @kernel()
-def _cycle_at_rim(
-    table: Any,
-    curve: Curve,
-    scales: Any,
-    count: int,
-    trace: Any,
-    limits: tuple[float, float, float],
-    x: float,
-    slots: Any,
-    out: Any,
-    status: Any,
-    i: int,
-) -> None:
-    """Read the cycle of one rim off a trace, and what there is to report."""
-    energy_scale, depth_scale = scales
-    losses = wants_losses(slots)
-    inner, outer, tangency = limits
-    rim_depth = depth(table, curve, x) if x < math.inf else math.inf
-    if wants_cycle(slots):
-        loading_loss, loading_jumps = loading_to(table, curve, count, trace, x, losses)
-        unloading_loss, unloading_jumps, last = unloading_from(table, curve, count, trace, x, rim_depth, losses)
-        energy = energy_scale * (loading_loss + unloading_loss)
-        if not abs(energy) < math.inf:  # an overflow
-            energy = math.nan
-            status[i] |= NO_VALUE
-        if is_close_to_a_jump(table, curve, count, trace, tangency, x, rim_depth, slots[TURNED] > 0):
-            status[i] |= CLOSE_TO_A_JUMP
-        put(out, slots, ENERGY, i, energy)
-        put(out, slots, LOADED, i, energy_scale * loading_loss)
-        put(out, slots, UNLOADED, i, energy_scale * unloading_loss)
-        put(out, slots, LOADING, i, loading_jumps)
-        put(out, slots, UNLOADING, i, unloading_jumps)
-        put(out, slots, LAST, i, depth_scale * last)
-    put(out, slots, DEEPEST, i, depth_scale * highest_depth(count, trace, x, rim_depth))
-    if jumps_in_to(count, trace, x):
-        status[i] |= JUMP_IN_TO_RIM
-    if not is_one_disc(table, curve, (inner, outer), x, trace):
-        status[i] |= LOADING_NOT_ONE_DISC
-
-
-@kernel()
-def _limits(
-    table: Any, curve: Curve, count: int, trace: Any, furthest: float, slots: Any
-) -> tuple[float, float, float]:
-    """Return the radii between which loading ceases to keep the contact one disc, if that is asked for.
-
-    And the first place at which a pair of folds is about to be born or to vanish; all of it serves all rims.
-    """
-    tangency = first_close_pair(count, trace)
-    if slots[CONTACT] < 0:
-        return math.inf, math.inf, tangency
-    inner, outer = disc_limits(table, curve, count, trace, furthest)
-    return inner, outer, tangency
-
-
-@kernel()
-def _slopes_of(table: Any, curve: Curve, sense: Any, around: Any, count: int, trace: Any, final: float) -> Any:
-    """Return the slopes that go with a trace, those of loading filled in, if they are asked for."""
-    slopes = slopes_for(trace)
-    if sense[5]:
-        fill_loading(table, curve, around[0], count, trace, final, slopes)
-    return slopes
-
-
-@kernel()
-def _put_slopes(
-    table: Any,
-    curve: Curve,
-    sense: Any,
-    around: Any,
-    scale: float,
-    count: int,
-    trace: Any,
-    final: float,
-    slopes: Any,
-    x: float,
-    slots: Any,
-    out: Any,
-    i: int,
-) -> None:
-    """Store the sensitivities of the energy of a rim if they are asked for."""
-    if sense[5]:
-        energy = out[slots[ENERGY], i]
-        put_energy(table, curve, around, scale, count, trace, final, slopes, x, energy, sense[3], i)
-
-
-@kernel()
-def _read_rim(
-    table: Any,
-    curve: Curve,
-    scales: Any,
-    count: int,
-    trace: Any,
-    limits: tuple[float, float, float],
-    x: float,
-    slots: Any,
-    out: Any,
-    status: Any,
-    i: int,
-    sense: Any,
-    around: Any,
-    final: float,
-    slopes: Any,
-) -> None:
-    """Read a rim off a trace: its cycle, and its sensitivities if they are asked for."""
-    _cycle_at_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i)
-    if len(sense) > 0:
-        _put_slopes(table, curve, sense, around, scales[0], count, trace, final, slopes, x, slots, out, i)
-
-
-@kernel()
-def _solve_long(
-    table: Any,
-    curve: Curve,
-    arches: tuple[float, float],
-    scales: Any,
-    wavelength: float,
-    rims: Any,
-    slots: Any,
-    out: Any,
-    status: Any,
-    scratch: Any,
-    sense: Any,
-    around: Any,
-) -> None:
-    """Follow the cycle of a wavy punch for its rims that no walk reaches: they share its beginning and its sums.
-
-    Those beyond the folds, or among the last of them, share all of the trace.
-    """
-    losses, final = wants_losses(slots), arches[1]
-    trace, long = begin_long(table, curve, arches, scratch, losses, 1.0)
-    furthest, told = 0.0, is_told(table, curve, final)
-    for i in range(rims.size):
-        x = rims[i] / wavelength
-        if is_unresolved(arches, x) or not is_long(table, arches, x):
-            continue
-        if told and ends_folds(table, arches, x):
-            furthest = max(furthest, x)
-            continue
-        count = stride(table, curve, arches, x, trace, long, losses, 1.0)
-        limits = _limits(table, curve, count, trace, x, slots)
-        slopes = _slopes_of(table, curve, sense, around, count, trace, final) if len(sense) > 0 else ()
-        _read_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i, sense, around, final, slopes)
-    if furthest == 0.0:
-        return
-    count = stride(table, curve, arches, furthest, trace, long, losses, 1.0)
-    limits = _limits(table, curve, count, trace, furthest, slots)
-    slopes = _slopes_of(table, curve, sense, around, count, trace, final) if len(sense) > 0 else ()
-    for i in range(rims.size):
-        x = rims[i] / wavelength
-        if not is_unresolved(arches, x) and is_long(table, arches, x) and ends_folds(table, arches, x):
-            _read_rim(
-                table, curve, scales, count, trace, limits, x, slots, out, status, i, sense, around, final, slopes
-            )
-
-
-@kernel()
 def _solve_cycle(
     table: Any,
     curve: Curve,
@@ -306,16 +141,16 @@ def _solve_cycle(
             furthest = max(furthest, x)
     if furthest > 0.0:
         count, trace = walk(table, curve, arches, furthest, scratch, losses)
-        limits = _limits(table, curve, count, trace, furthest, slots)
-        slopes = _slopes_of(table, curve, sense, around, count, trace, final) if len(sense) > 0 else ()
+        limits = limits_of(table, curve, count, trace, furthest, slots)
+        slopes = slopes_of(table, curve, sense, around, count, trace, final) if len(sense) > 0 else ()
         for i in range(rims.size):
             x = rims[i] / wavelength
             if not is_unresolved(arches, x) and not is_long(table, arches, x):
-                _read_rim(
+                read_rim(
                     table, curve, scales, count, trace, limits, x, slots, out, status, i, sense, around, final, slopes
                 )
     if long:
-        _solve_long(table, curve, arches, scales, wavelength, rims, slots, out, status, scratch, sense, around)
+        solve_long(table, curve, arches, scales, wavelength, rims, slots, out, status, scratch, sense, around)
 
 
 @kernel()

@@ -111,3 +111,19 @@ def test_short_waves(k: float, nu: float, wavelength: float, table_of: Callable[
         walked = 2 * math.pi * length * length * loss
         assert math.isclose(float(values["dissipated_energy"][i]), walked, rel_tol=1e-12)
         assert [values[name][i] for name in ("loading_jumps", "unloading_jumps")] == [loading_jumps, unloading_jumps]
+
+
+@pytest.mark.parametrize("k", [0.0, 0.3, 1.0])
+@pytest.mark.parametrize("chi", [0.55, 0.72, 0.78, 1.1])
+def test_the_contact_of_a_rim_is_the_same_among_others_and_alone(k: float, chi: float) -> None:
+    """Whether loading keeps the contact one disc is looked at once for all rims of a long curve."""
+    nu = 0.5 if k == 1.0 else 0.3
+    wavelength = 5e-4
+    m = float(stiffness(k, nu, 1e5, 0.01))
+    stretch = math.sqrt(2 ** (1 + k) * math.pi / m)
+    amplitude = chi * stretch / (math.pi ** ((1 - k) / 2) * math.gamma((1 + k) / 2) * wavelength ** ((1 + k) / 2))
+    scene = {"k": k, "nu": nu, "modulus": 1e5, "c0_over_R": 0.01, "lambda_over_R": wavelength, "A": amplitude}
+    rims = np.concatenate([np.linspace(0.06, 0.6, 40), [np.inf]])
+    together = solve(scene | {"a_max_over_R": rims}, ["dissipated_energy"])["status"]
+    for i in (0, 7, 20, 33, 40):
+        assert solve(scene | {"a_max_over_R": rims[i]}, ["dissipated_energy"])["status"] == together[i]

@@ -1,0 +1,139 @@
+"""One rim of a punch with one cosine wave, read off the trace of its curve: its cycle, and what there is to report."""
+
+import math
+from typing import Any
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.contact.cosine_disc import disc_limits, is_one_disc
+from gradhesion.core.curve.cosine import Curve, depth
+from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
+from gradhesion.core.path.ties import first_close_pair, is_close_to_a_jump
+from gradhesion.core.path.unloading import unloading_from
+from gradhesion.core.problem.results import (
+    CONTACT,
+    DEEPEST,
+    ENERGY,
+    LAST,
+    LOADED,
+    LOADING,
+    TURNED,
+    UNLOADED,
+    UNLOADING,
+    put,
+    wants_cycle,
+    wants_losses,
+)
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE
+from gradhesion.core.sensitivities.cosine_slopes import put_energy
+from gradhesion.core.sensitivities.path_slopes import fill_loading, slopes_for
+
+
+@kernel()
+def _cycle_at_rim(
+    table: Any,
+    curve: Curve,
+    scales: Any,
+    count: int,
+    trace: Any,
+    limits: tuple[float, float, float],
+    x: float,
+    slots: Any,
+    out: Any,
+    status: Any,
+    i: int,
+) -> None:
+    """Read the cycle of one rim off a trace, and what there is to report."""
+    energy_scale, depth_scale = scales
+    losses = wants_losses(slots)
+    inner, outer, tangency = limits
+    rim_depth = depth(table, curve, x) if x < math.inf else math.inf
+    if wants_cycle(slots):
+        loading_loss, loading_jumps = loading_to(table, curve, count, trace, x, losses)
+        unloading_loss, unloading_jumps, last = unloading_from(table, curve, count, trace, x, rim_depth, losses)
+        energy = energy_scale * (loading_loss + unloading_loss)
+        if not abs(energy) < math.inf:  # an overflow
+            energy = math.nan
+            status[i] |= NO_VALUE
+        if is_close_to_a_jump(table, curve, count, trace, tangency, x, rim_depth, slots[TURNED] > 0):
+            status[i] |= CLOSE_TO_A_JUMP
+        put(out, slots, ENERGY, i, energy)
+        put(out, slots, LOADED, i, energy_scale * loading_loss)
+        put(out, slots, UNLOADED, i, energy_scale * unloading_loss)
+        put(out, slots, LOADING, i, loading_jumps)
+        put(out, slots, UNLOADING, i, unloading_jumps)
+        put(out, slots, LAST, i, depth_scale * last)
+    put(out, slots, DEEPEST, i, depth_scale * highest_depth(count, trace, x, rim_depth))
+    if jumps_in_to(count, trace, x):
+        status[i] |= JUMP_IN_TO_RIM
+    if not is_one_disc(table, curve, (inner, outer), x, trace):
+        status[i] |= LOADING_NOT_ONE_DISC
+
+
+@kernel()
+def limits_of(
+    table: Any, curve: Curve, count: int, trace: Any, furthest: float, slots: Any
+) -> tuple[float, float, float]:
+    """Return the radii between which loading ceases to keep the contact one disc, if that is asked for.
+
+    And the first place at which a pair of folds is about to be born or to vanish; all of it serves all rims.
+    """
+    tangency = first_close_pair(count, trace)
+    if slots[CONTACT] < 0:
+        return math.inf, math.inf, tangency
+    inner, outer = disc_limits(table, curve, count, trace, furthest)
+    return inner, outer, tangency
+
+
+@kernel()
+def slopes_of(table: Any, curve: Curve, sense: Any, around: Any, count: int, trace: Any, final: float) -> Any:
+    """Return the slopes that go with a trace, those of loading filled in, if they are asked for."""
+    slopes = slopes_for(trace)
+    if sense[5]:
+        fill_loading(table, curve, around[0], count, trace, final, slopes)
+    return slopes
+
+
+@kernel()
+def _put_slopes(
+    table: Any,
+    curve: Curve,
+    sense: Any,
+    around: Any,
+    scale: float,
+    count: int,
+    trace: Any,
+    final: float,
+    slopes: Any,
+    x: float,
+    slots: Any,
+    out: Any,
+    i: int,
+) -> None:
+    """Store the sensitivities of the energy of a rim if they are asked for."""
+    if sense[5]:
+        energy = out[slots[ENERGY], i]
+        put_energy(table, curve, around, scale, count, trace, final, slopes, x, energy, sense[3], i)
+
+
+@kernel()
+def read_rim(
+    table: Any,
+    curve: Curve,
+    scales: Any,
+    count: int,
+    trace: Any,
+    limits: tuple[float, float, float],
+    x: float,
+    slots: Any,
+    out: Any,
+    status: Any,
+    i: int,
+    sense: Any,
+    around: Any,
+    final: float,
+    slopes: Any,
+) -> None:
+    """Read a rim off a trace: its cycle, and its sensitivities if they are asked for."""
+    _cycle_at_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i)
+    if len(sense) > 0:
+        _put_slopes(table, curve, sense, around, scales[0], count, trace, final, slopes, x, slots, out, i)
