@@ -78,7 +78,7 @@ def test_inner_kernels_are_found() -> None:
     code = "def draw():\n    return scene._solve_smooth(0) + _solve_force(1)\n"
     found = inner_kernels_named(outside_of_kernels(ast.parse(code)), vars(scene) | {"scene": scene})
     assert found == {"scene._solve_smooth", "_solve_force"}
-    assert "_limits" in inner_kernels_named(ast.parse("solve = scene._solve_cycle.py_func"), {"scene": scene})
+    assert "_solve_force" in inner_kernels_named(ast.parse("solve = scene.solve_curve.py_func"), {"scene": scene})
 
 
 @pytest.mark.parametrize(
