@@ -78,8 +78,8 @@ def run(
     Raises
     ------
     StudyError
-        The study cannot be read or is wrong; the error lists all of them. Of a fit: what is searched cannot be told
-        apart.
+        The study cannot be read or is wrong; the error lists all of them. Of a fit: the data do not
+        determine its parameters.
 
     Examples
     --------

@@ -103,8 +103,8 @@ def solve(
     solver
         One of `SOLVERS`.
     check_contact
-        Tell in `status` where loading does not keep the contact one disc (a tenth of the time of a cycle). It needs the
-        loading path: it is told where any output but the two of the pull-off is asked for, by the exact solver only.
+        Report in `status` that loading does not keep the contact one disc (a tenth of the time of a cycle). The test
+        needs the loading path: it is made by the exact solver only, if an output but the two of the pull-off is given.
     threads
         Number of threads; all processors if not given. Results do not depend on it.
     profile

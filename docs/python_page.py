@@ -25,6 +25,9 @@ NAMES: Final = {
 SECTIONS: Final = re.compile(r"^([A-Z][a-z]+)\n-{3,}\n", re.MULTILINE)
 """The heads of the sections of a docstring."""
 
+MEMBERS: Final = {"Study": ("variables", "given", "sizes", "axes", "shape", "scenes", "sha256")}
+"""The members of a class that scripts use, where it has others for the program itself."""
+
 ANSWERS: Final = (
     ("profile_fit", "fit_profile"),
     ("profile_fit", "FittedProfile"),
@@ -108,6 +111,8 @@ def _of(module: str, name: str, thing: Any) -> Iterator[str]:
     for member, value in vars(thing).items():
         function = value.fget if isinstance(value, property) else getattr(value, "__func__", value)
         if member.startswith("_") or not (inspect.isfunction(function) and function.__doc__):
+            continue
+        if member not in MEMBERS.get(thing.__name__, (member,)):
             continue
         yield f"#### {called}.{member}"
         if not isinstance(value, property):

@@ -124,7 +124,7 @@ class Study:
 
     @property
     def spreads(self) -> tuple[str, ...]:
-        """The variables that tell how uncertain its outputs are, those in SI units last."""
+        """The variables with the spread of its outputs, those in SI units last."""
         own = self.uncertainty.spreads(self.outputs, exact=self.method.solver == "exact")
         return (*own, *(name + SI for name in own if name in UNITS and "R" in self.parameters))
 
@@ -152,7 +152,7 @@ class Study:
 
     @property
     def given(self) -> tuple[str, ...]:
-        """The names of all that it gives: its parameters, and the inputs that are searched."""
+        """The names of its parameters, and of the inputs that are searched."""
         return (*self.parameters, *(one.name for one in self.search.inputs))
 
     @property
@@ -254,7 +254,7 @@ class Study:
 
     @property
     def sha256(self) -> str:
-        """The fingerprint of its text."""
+        """The SHA-256 of its text."""
         return hashlib.sha256(self.text.encode()).hexdigest()
 
     def shape_of(self, name: str, scenes: tuple[int, ...]) -> tuple[int, ...]:

@@ -5,13 +5,13 @@ from typing import Final
 from gradhesion.core.problem.status import FLAGS as OF_SCENES
 
 LINEAR_DEVIATION_OFF: Final = 128
-"""A linear standard deviation is off, for a kink lies within the spread of the inputs or the value bends: by more than
-a tenth of that of the samples, or without any by 2 % at 32 samples of its own. Told with [uncertainty] only."""
+"""The linear standard deviation is wrong, because a kink lies within the spread of the inputs or the value bends: by
+more than a tenth of that of the samples or, without samples, by 2 % at 32 test samples. With [uncertainty] only."""
 RESOLUTION_TOO_COARSE: Final = 256
-"""A sweep finer than the stated resolution finds another optimum: there may be more between its points. Told of optima
+"""A sweep finer than the stated resolution finds another optimum, and there may be more between its points. Optima
 only."""
 NOTHING_FEASIBLE: Final = 512
-"""No point of the sweep meets what is required. Told of optima only."""
+"""No point of the sweep meets the requirements. Optima only."""
 
 ANSWER_FLAGS: Final = {
     "linear_deviation_off": LINEAR_DEVIATION_OFF,

@@ -46,7 +46,7 @@ LEVEL: Final = 0.95
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FittedLoop:
-    """What a loop says.
+    """The result of a fit to a loop.
 
     Attributes
     ----------

@@ -49,7 +49,7 @@ class FittedProfile:
     exponent, radius, wavelength
         m, R and lambda.
     cosines, sines
-        c_1, c_2, ... and s_1, s_2, ...: amplitudes, as lengths.
+        lambda A kappa_n and lambda A sigma_n for n = 1, 2, ...: amplitudes, as lengths.
     centre, height
         r0 and h0.
     up_to

@@ -130,7 +130,7 @@ def draw_curves(
 
     Examples
     --------
-    The smooth punch jumps in at depth zero and lets go at the fold of its depth:
+    The smooth punch jumps in at depth zero and out at the fold of its depth:
 
     >>> scene = dict(k=0.0, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.1, A=0.0, a_max_over_R=np.inf)
     >>> variables, status = draw_curves(scene, ["path"])

@@ -113,7 +113,7 @@ def named_states(
 
     Examples
     --------
-    The smooth punch lets go below its pull-off:
+    The smooth punch jumps out below its pull-off:
 
     >>> scene = dict(k=0.0, nu=0.3, modulus=500.0, c0_over_R=1.0, lambda_over_R=0.1, A=0.0, a_max_over_R=0.3)
     >>> states, status = named_states(scene)

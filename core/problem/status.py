@@ -3,21 +3,20 @@
 from typing import Final
 
 LOADING_NOT_ONE_DISC: Final = 1
-"""On loading the surfaces would overlap outside the contact, which is no single disc then (contact/cosine_disc.py,
-contact/general_disc.py); or a punch of several waves touches elsewhere before its centre does. Told where the loading
-path
-is followed, that is, where anything but the pull-off is asked for."""
+"""On loading the surfaces would overlap outside the contact, so that it is not one disc (contact/cosine_disc.py,
+contact/general_disc.py); or a punch of several waves touches elsewhere before its centre does. Reported if the loading
+path is followed, that is, if an output other than those of the pull-off is requested."""
 UNLOADING_NOT_ONE_DISC: Final = 2
-"""The same of unloading. Never so, whatever the profile and the control (docs/theory.md, sections 12 and 15)."""
+"""The same on unloading. It never occurs, for any profile and control (docs/theory.md, sections 12 and 15)."""
 PULL_OFF_AT_RIM: Final = 4
-"""The pull-off force is met at the rim (told where it is asked for)."""
+"""The pull-off force occurs at the rim (reported if it is requested)."""
 JUMP_IN_TO_RIM: Final = 8
-"""Full contact at the first touch: the jump at the depth 0 meets no stable contact within the rim. Told where the
+"""Full contact at the first touch: the jump at the depth 0 meets no stable contact within the rim. Reported if the
 loading path is followed."""
 CLOSE_TO_A_JUMP: Final = 16
 """An error of 1e-12 in an input could change the number of jumps, or move the pull-off to another trough."""
 TOLERANCE_NOT_MET: Final = 32
-"""The energy is not as good as promised: its estimated error, where that is asked for, is above 1e-9 of its terms."""
+"""The energy is not as accurate as promised: its estimated error, if requested, is above 1e-9 of its terms."""
 NO_VALUE: Final = 64
 """A parameter is not a number or outside its range, or the scene cannot be resolved: the values are NaN."""
 
