@@ -28,7 +28,7 @@ def sections(*, quick: bool) -> Iterator[str]:
     yield f"""# Benchmarks
 
 Written by `make bench` on {datetime.now(UTC):%Y-%m-%d}, all numbers from one run: {machine()}
-Times are the least of several samples, on one thread unless said.
+Times are minima of several samples, on one thread unless stated.
 """
     points = error.measure(8 if quick else 24, error.SIZES[:6] if quick else error.SIZES)
     error.picture(*points)
@@ -36,8 +36,8 @@ Times are the least of several samples, on one thread unless said.
 
 The solvers and a dense grid (`benchmarks/dense_grid.py`: two SciPy Struve functions on a grid of radii, running maximum
 and minimum of the depth, trapezoids) on the same random scenes, whose values are known to 30 digits (`tests/twin`).
-Each solver takes copies of the scenes in one array, shuffled, each solved for itself. Errors are relative: those that a
-half and nine tenths of the scenes keep; the time of the grid at a given error is read between two sizes. The
+Each solver takes copies of the scenes in one array, shuffled, each solved for itself. Errors are relative: median
+and 90th percentile over the scenes; the time of the grid at a given error is read between two sizes. The
 asymptotic and envelope solvers are approximations for short waves; the scenes have waves of all lengths, so that their
 errors are large here.
 
@@ -56,7 +56,7 @@ z = 40, 18 ns above, 0.3 ms for a table.
 {functions.time_table()}
 Largest (mean) error of the points of `tests/reference/struve.npz`, in units of eps = 2^-52: of the function below
 z = 1.5, of it or its local amplitude, the larger, beyond. Zeros of the functions are among the points. SciPy is given
-z = 2 pi x rounded, from which most of its error beyond z = 1000 comes; its NaNs are counted apart.
+z = 2 pi x rounded, from which most of its error beyond z = 1000 comes; its NaNs are counted separately.
 
 {functions.error_table()}"""
     yield f"""## Scenes

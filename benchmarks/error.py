@@ -111,12 +111,12 @@ def tables(forces: list[Point], both: list[Point], grids: list[Point]) -> str:
         [name, 1e6 * force_seconds, 1e6 * seconds, *(f"{error:.1e}" for output in OUTPUTS for error in kept[output])]
         for (name, force_seconds, _), (_, seconds, kept) in zip([*forces, *grids], [*both, *grids], strict=True)
     ]
-    header = ["", "force, us", "both, us", "force: half keep", "9 in 10", "energy: half keep", "9 in 10"]
+    header = ["", "force, us", "both, us", "force: median error", "90 %", "energy: median error", "90 %"]
     ratios = []
     for output, (_, seconds, _) in zip(OUTPUTS, (forces[0], both[0]), strict=True):
         times = [time_at(grids, output, TARGETS[output], kept_by) for kept_by in (0, 1)]
         ratios.append([output, f"{TARGETS[output]:g}", *times, *(time / seconds for time in times)])
-    ratio_header = ["output", "error", "grid, s: for half", "for 9 in 10", "grid/exact: for half", "for 9 in 10"]
+    ratio_header = ["output", "error", "grid, s: median", "90 %", "grid/exact: median", "90 %"]
     return table(header, lines) + "\n" + table(ratio_header, ratios)
 
 
