@@ -265,6 +265,9 @@ MEANINGS: Final = {
 }
 """What 0 and 1 mean where an integer is a flag."""
 
+IDLE: Final = "without effect"
+"""What the comment of a coordinate begins with that is there for completeness."""
+
 STATUS: Final = "flags of a scene (0: nothing to report)"
 """The `long_name` of `status`."""
 

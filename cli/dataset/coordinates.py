@@ -48,7 +48,7 @@ def coordinates(study: Study) -> dict[str, Variable]:
     for name, key in INPUTS.items():
         attributes = {"units": key.unit, "long_name": key.about}
         if name in study.left_out:
-            attributes["comment"] = f"without effect where {ABSENT[name][1]}; the study leaves it out"
+            attributes["comment"] = f"{names.IDLE} where {ABSENT[name][1]}; the study leaves it out"
         if study.spectrum is not None:
             attributes["long_name"] = RMS.get(name, key.about)
         if name in study.points.columns:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import SYMBOLS, unit_of
+from gradhesion.cli.names import IDLE, SYMBOLS, unit_of
 
 UNIT_SYMBOLS: Final = {"m": "m", "Pa": "Pa", "J m-2": "J/m$^2$", "N": "N", "J": "J", "N m-1": "N/m"}
 """Units as a picture writes them."""
@@ -29,10 +29,6 @@ class Unit:
     def number(self, value: float) -> str:
         """Write a value in this unit."""
         return number(value / 10.0**self.power)
-
-
-IDLE: Final = "without effect"
-"""What the comment of a coordinate begins with that is there for completeness."""
 
 
 def unit_for(name: str, values: Any) -> Unit:

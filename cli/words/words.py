@@ -74,19 +74,21 @@ def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
     yield "points: one scene for each item of" if points else "axes"
     for name in varying:
         values = dataset[name].values
+        unit = _unit(dataset[name])
         if values.size <= FEW:
-            written = ", ".join(f"{value:g}" for value in values)
+            written = ", ".join(f"{value:g}" for value in values) + unit
         else:
-            written = f"{values.size:,} values from {np.nanmin(values):g} to {np.nanmax(values):g}"
+            written = f"{values.size:,} values from {np.nanmin(values):g} to {np.nanmax(values):g}{unit}"
             written += "" if points else f", {_spacing(values)}"
-        yield f"  {name:<17} {written}{_unit(dataset[name])}"
+        yield f"  {name:<17} {written}"
     if not varying:
         yield "  none: a single scene"
     fixed = [name for name in known if dataset[name].ndim == 0]
     if fixed:
         yield ""
         yield "fixed"
-        yield from (f"  {name:<17} {dataset[name].item():g}{_unit(dataset[name])}" for name in fixed)
+        for name in fixed:
+            yield f"  {name:<17} {dataset[name].item():g}{_unit(dataset[name])}{_remark(dataset[name])}"
     following = [name for name in known if name not in (*varying, *fixed)]
     if following:
         yield ""
@@ -100,6 +102,12 @@ def _unit(variable: xarray.DataArray, before: str = " ") -> str:
     """Give the unit of a variable, nothing if it has none."""
     unit = str(variable.attrs.get("units", "1"))
     return "" if unit == "1" else before + unit
+
+
+def _remark(variable: xarray.DataArray) -> str:
+    """Say of a parameter that is there for completeness that it has no effect."""
+    comment = str(variable.attrs.get("comment", "")).partition(";")[0]
+    return f"  ({comment})" if comment.startswith(names.IDLE) else ""
 
 
 def _number(value: float | str) -> str:

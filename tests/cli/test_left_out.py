@@ -1,11 +1,14 @@
 """What a study may leave out: a radius, and what has no effect; and Young's modulus in the place of the reduced one."""
 
 import math
+from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import xarray
+from click.testing import Result
 
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.errors import StudyError
@@ -79,3 +82,16 @@ def test_one_modulus_is_enough() -> None:
     quantities = {"R": "1 um", "E_star": "1 GPa", "E": "1 GPa", "work_of_adhesion": "50 mJ/m^2"}
     with pytest.raises(StudyError, match="E_star gives the modulus already"):
         study_from({"outputs": OUTPUTS, "parameters": {"k": 0.0, "nu": 0.3, "A": 0.0}, "physical": quantities})
+
+
+def test_info_says_which_parameters_have_no_effect(gradhesion: Callable[..., Result], tmp_path: Path) -> None:
+    study, file = tmp_path / "ball.toml", tmp_path / "ball.nc"
+    study.write_text(
+        'outputs = ["pull_off_force"]\n[parameters]\nk = 0.0\nnu = 0.3\nA = 0.0\n[physical]\nR = "5 um"\n'
+        'E = { start = "1 MPa", stop = "2 MPa", num = 9 }\nwork_of_adhesion = "45 mJ/m^2"\n'
+    )
+    assert gradhesion("run", study, "-o", file, "--quiet").exit_code == 0
+    lines = [" ".join(line.split()) for line in gradhesion("info", file).stdout.splitlines()]
+    assert "c0_over_R 1 (without effect where k = 0)" in lines
+    assert "lambda_over_R 1 (without effect where A = 0)" in lines
+    assert "E 9 values from 1e+06 to 2e+06 Pa, evenly spaced" in lines
