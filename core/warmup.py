@@ -3,12 +3,15 @@
 import math
 from typing import Any, Final
 
+import numpy as np
+
 from gradhesion.core.cache import note_compiled
 from gradhesion.core.kinds import KINDS
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import OUTPUTS, REPORTS, SENSITIVITIES
 from gradhesion.core.problem.profile import Harmonic, Profile
+from gradhesion.core.struve.interpolated import interpolated_tables
 from gradhesion.core.struve.table import build_table
 from gradhesion.core.sweep import solve
 
@@ -65,6 +68,7 @@ def compile_kind(kind: str) -> None:
         case "tables":
             stiffness(0.3, 0.3, 500.0, 0.01)
             build_table(0.3)
+            interpolated_tables(np.array([0.3]), forces=False)
         case "force":
             solve(scene, ["pull_off_force"], threads=1, **driven)
         case "energy":

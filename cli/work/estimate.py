@@ -22,6 +22,8 @@ START: Final = 3.0
 """Seconds until the workers of a cluster on this machine are at work: 4 of processor time on two cores, and waiting."""
 OF_CLUSTER: Final = 0.006
 """Seconds of this process for a block of a cluster, beside writing it: 2 ms to hand it out, and to read its part."""
+FILE: Final = 0.01
+"""Seconds of a file: its definition, and its way to the disk."""
 COPIES: Final = 8
 """Times the values of a block, as measured: two blocks are in memory, and one of them at work."""
 
@@ -86,9 +88,10 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
     if probed:
         workers = threads or processors()
         writing = probed.compressing * study.scenes
-        seconds = max(probed.solving * scenes_left / workers + writing / workers, writing)
+        solving = probed.solving * scenes_left + probed.tables * len(left) / count
+        seconds = FILE + max((solving + writing) / workers, writing)
         uncertain = probed.uncertainty * scenes_left / workers
-        of_one = probed.solving * scenes_left / len(left)
+        of_one = solving / len(left)
         if parts:
             by_dask = START + seconds + OF_CLUSTER * len(left)
     each = of_block // size_of(study.tiling[0]) if is_map else 0

@@ -1,4 +1,8 @@
-"""How fast the scenes of a study are: a few pieces of it, spread evenly, solved and timed."""
+"""How fast the scenes of a study are: a few pieces of it, spread evenly, solved and timed.
+
+Each piece is solved twice. The second time is that of its scenes; what the first one takes longer is that of the tables
+of its gradient exponents, which a run makes once for each.
+"""
 
 import math
 import time
@@ -11,14 +15,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.study.tiling import Block, shape_of, size_of, tile
+from gradhesion.cli.study.tiling import Block, Tiling, shape_of, size_of
 from gradhesion.cli.work.blocks import solve_block
 
+clock = time.perf_counter
 SECONDS: Final = 2.0
 """For all pieces together."""
 PIECES: Final = 32
-"""At most: each stands for an equal share of the blocks."""
-SECONDS_OF_PIECE: Final = 0.05
+"""At most: each stands for an equal share of the scenes."""
+SECONDS_OF_PIECE: Final = 0.03
 CELLS: Final = 8192
 """Scenes of a piece at most."""
 FIRST_CELLS: Final = 128
@@ -31,8 +36,11 @@ class Probe:
 
     scenes: int
     solving: float
+    """A scene, with tables that are there."""
     uncertainty: float
     """Two standard errors of `solving`."""
+    tables: float
+    """Of all gradient exponents together."""
     compressing: float
     ratio: float
 
@@ -41,36 +49,57 @@ def probe(study: Study, numbers: Sequence[int]) -> Probe | None:
     """Time pieces of some of the blocks of a map; None if there is none."""
     if not numbers:
         return None
-    spread = [numbers[int(i * len(numbers))] for i in _spread(min(PIECES, 4 * len(numbers)))]
-    place = _spread(PIECES)
     cells = min(FIRST_CELLS, study.cells)
-    start = time.monotonic()
-    solve_block(study, _piece(study.tiling[spread[0]], 1, 0.0), 1)  # compiles, if need be
+    first = _piece(study.tiling[numbers[0]], cells, 0.0)
+    solve_block(study, first, 1)  # loads kernels, or compiles them, and makes what all exponents share
+    start = clock()
+    solve_block(study, first, 1)
+    cells = _next_cells(study, clock() - start, size_of(first))
+    seen = {*_exponents(study, first).tolist()}
     rates: list[float] = []
-    scenes = compressed = plain = 0
-    compressing = 0.0
+    scenes = compressed = plain = new = 0
+    compressing = making = 0.0
     begun = time.monotonic()
-    for number in spread:
-        piece = _piece(study.tiling[number], cells, next(place))
-        solve_block(study, tuple(slice(part.start, part.start + 1) for part in piece), 1)  # its table is kept then
-        start = time.perf_counter()
+    for part in _spread(PIECES):
+        number, place = divmod(part * len(numbers), 1.0)
+        piece = _piece(study.tiling[numbers[int(number)]], cells, place)
+        start = clock()
+        solve_block(study, piece, 1)
+        again = clock()
         values = solve_block(study, piece, 1)
-        rates.append((time.perf_counter() - start) / size_of(piece))
+        seconds = clock() - again
+        rates.append(seconds / size_of(piece))
+        if unseen := {*_exponents(study, piece).tolist()} - seen:
+            seen |= unseen
+            new += len(unseen)
+            making += again - start - seconds
         scenes += size_of(piece)
-        start = time.perf_counter()
+        start = clock()
         compressed += sum(_compressed(array) for array in values.values())
-        compressing += time.perf_counter() - start
+        compressing += clock() - start
         plain += sum(array.nbytes for array in values.values())
-        cells = max(1, min(CELLS, study.cells, int(SECONDS_OF_PIECE / max(rates))))
-        if time.monotonic() - begun > SECONDS:
+        cells = min(cells, _next_cells(study, seconds, size_of(piece)))
+        if time.monotonic() - begun > SECONDS or scenes >= study.scenes:
             break
     return Probe(
         scenes=scenes,
         solving=float(np.mean(rates)),
         uncertainty=2 * float(np.std(rates, ddof=1)) / math.sqrt(len(rates)) if len(rates) > 1 else math.inf,
+        tables=max(0.0, making) / new * _exponents(study).size if new else 0.0,
         compressing=compressing / scenes,
         ratio=compressed / plain,
     )
+
+
+def _next_cells(study: Study, seconds: float, scenes: int) -> int:
+    """Choose how many scenes the next piece may have."""
+    return max(1, min(CELLS, study.cells, int(SECONDS_OF_PIECE * scenes / max(seconds, 1e-9))))
+
+
+def _exponents(study: Study, block: Block | None = None) -> NDArray[np.float64]:
+    """List the gradient exponents of a block, or of all of a study; none where they are searched."""
+    given = study.parameters if block is None else study.parameters_of(study.apart(block)[1])
+    return np.unique(np.asarray(given.get("k", []), dtype=float))
 
 
 def _spread(count: int) -> Iterator[float]:
@@ -85,15 +114,20 @@ def _spread(count: int) -> Iterator[float]:
 
 
 def _piece(block: Block, cells: int, place: float) -> Block:
-    """Cut a piece out of a block, as blocks are cut themselves: what scenes share, they share in a piece."""
-    shape = shape_of(block)
-    piece = []
-    for part, size in zip(block, tile(shape, cells), strict=True):
-        free = part.stop - part.start - size + 1
-        place *= free
-        piece.append(slice(part.start + int(place), part.start + int(place) + size))
-        place -= int(place)
-    return tuple(piece)
+    """
+    Take one of the pieces that a block is cut into, as blocks are cut themselves: what scenes share, they share there.
+
+    `place` is in [0, 1): all scenes are in a piece, and in one alone.
+
+    >>> [_piece((slice(2, 4), slice(0, 6)), 3, place) for place in (0.0, 0.3, 0.99)]  # doctest: +NORMALIZE_WHITESPACE
+    [(slice(2, 3, None), slice(0, 3, None)), (slice(2, 3, None), slice(3, 6, None)),
+     (slice(3, 4, None), slice(3, 6, None))]
+    """
+    pieces = Tiling(shape_of(block), cells, 1)
+    piece = pieces[int(place * len(pieces))]
+    return tuple(
+        slice(all_.start + part.start, all_.start + part.stop) for all_, part in zip(block, piece, strict=True)
+    )
 
 
 def _compressed(array: NDArray[np.generic]) -> int:

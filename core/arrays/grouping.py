@@ -91,11 +91,12 @@ class Grouped:
                 index = group[i : i + size]
                 tasks.append(Task(ordered[begin : begin + 1], np.zeros(index.size, dtype=np.int64), index))
         exponents, left = ordered[first[few]], order[np.repeat(few, counts)]
-        ends = np.cumsum(counts[few])
+        counts = counts[few]
+        ends = np.cumsum(counts)
         together = max(1, min(_TOGETHER, size))
         for i in range(0, exponents.size, together):
-            begin, end = ends[i] - counts[few][i], ends[min(i + together, exponents.size) - 1]
-            which = np.repeat(np.arange(min(together, exponents.size - i)), counts[few][i : i + together])
+            begin, end = ends[i] - counts[i], ends[min(i + together, exponents.size) - 1]
+            which = np.repeat(np.arange(min(together, exponents.size - i)), counts[i : i + together])
             tasks.append(Task(exponents[i : i + together], which, left[begin:end], interpolated=True))
         return tasks
 

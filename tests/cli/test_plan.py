@@ -113,13 +113,44 @@ def test_the_time_is_that_of_the_scenes(data: dict[str, Any], monkeypatch: pytes
         return {"status": np.zeros(size_of(block), np.int8)}
 
     monkeypatch.setattr(probe, "solve_block", solve_block)
-    monkeypatch.setattr(probe.time, "perf_counter", lambda: clock)
+    monkeypatch.setattr(probe, "clock", lambda: clock)
     monkeypatch.setattr(probe.time, "monotonic", lambda: clock)
     count = len(study.tiling)
     found = probe.probe(study, range(count))
     assert found is not None
     exact = sum(map(cost_of, study.tiling)) / study.scenes
     assert abs(found.solving - exact) < found.uncertainty < 0.5 * exact
+
+
+def test_tables_of_exponents_are_in_the_estimate(data: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a clock that knows what a table costs, and that it is made once, the estimate has all of them."""
+    data["parameters"] |= {"k": {"start": 0.0, "stop": 0.9, "num": 400}, "A": {"start": 0.0, "stop": 0.5, "num": 6000}}
+    study = study_from(data)
+    clock = 0.0
+    made: set[float] = set()
+
+    def solve_block(_study: object, block: tuple[slice, ...], _threads: int) -> dict[str, Any]:
+        nonlocal clock
+        exponents = {*study.parameters_of(block)["k"].ravel().tolist()}
+        clock += 1e-6 * size_of(block) + 3e-4 * len(exponents - made)
+        made.update(exponents)
+        return {"status": np.zeros(size_of(block), np.int8)}
+
+    monkeypatch.setattr(probe, "solve_block", solve_block)
+    monkeypatch.setattr(probe, "clock", lambda: clock)
+    found = probe.probe(study, range(len(study.tiling)))
+    assert found is not None
+    assert 8 < len(made) < 40, "most of them are not made for it"
+    assert abs(found.tables - 400 * 3e-4) < 1e-9
+    assert abs(found.solving - 1e-6) < 1e-9
+
+
+def test_every_scene_is_as_likely_in_a_piece() -> None:
+    block, counts = (slice(5, 10), slice(0, 12)), np.zeros((10, 12), int)
+    for place in np.arange(0.0, 1.0, 1 / 240):
+        counts[probe._piece(block, 4, float(place))] += 1
+    assert np.all(counts[:5] == 0)
+    assert np.all(counts[5:] == 240 // 15)
 
 
 def test_values_compress_as_in_the_file(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 import math
 from typing import Any
 
+import numpy as np
 import pytest
 
 from gradhesion.core import (
@@ -32,7 +33,13 @@ NOT_OF_A_LOAD = tuple(name for name in REPORTS if name != "energy_residual")
 @pytest.mark.parametrize(
     ("kind", "works"),
     [
-        ("force", [lambda s: solve(s, ["pull_off_force", "pull_off_radius"])]),
+        (
+            "force",
+            [
+                lambda s: solve(s, ["pull_off_force", "pull_off_radius"]),
+                lambda s: solve(s | {"k": np.linspace(0.1, 0.9, 300)}, ["pull_off_force"]),
+            ],
+        ),
         ("energy", [solve, lambda s: solve(s | {"a_max_over_R": [0.3, 0.5, math.inf]}, OUTPUTS)]),
         ("reports", [lambda s: solve(s, REPORTS), lambda s: solve(s, ["roughness_parameter"])]),
         ("turning", [lambda s: solve(s | {"load_max": [0.1, 3.0]}, OUTPUTS), lambda s: solve(s | DEEP, OUTPUTS)]),
