@@ -140,7 +140,11 @@ memory too; 10^8 scenes in 180 s. `of it solving` is the time of `gradhesion.cor
 over that of the whole.
 
 {scale.scale_table(10**5 if quick else 10**8)}"""
-    yield f"## Start-up\n\nMedians, the first run apart. Aims: 0.15 s, 0.25 s, 0.6 s, 0.4 s, 12 s.\n\n{start_up.start_up_table()}"
+    yield f"""## Start-up
+
+Medians, the first run apart. Aims: 0.15 s, 0.25 s, 0.6 s, 0.4 s, 12 s.
+
+{start_up.start_up_table()}"""
     yield f"""## What a plan foretells
 
 The time that `gradhesion plan` estimates, and that a run then takes, of one processor. Aim: within 20 %.

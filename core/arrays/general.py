@@ -52,9 +52,8 @@ def solve_general(
 
     def change(exponent: float) -> tuple[Any, ...]:
         """Return what `of_scene` of sensitivities/general_slopes.py takes of neighbouring exponents."""
-        exponents, weights, middle = exponents_beside(exponent)
-        fronts = np.log([depth_factor_of(k, profile.exponent) for k in (exponent, *exponents)])
-        front_by_k = middle * fronts[0] + float(weights @ fronts[1:])
+        exponents, weights = exponents_beside(exponent)
+        front_by_k = float(weights @ np.log([depth_factor_of(k, profile.exponent) for k in exponents]))
         return *changes_of(exponent, series), front_by_k, (exponent, profile.exponent)
 
     def work(exponent: float, index: NDArray[np.int64]) -> None:

@@ -35,22 +35,21 @@ def tables_for(task: Task, *, forces: bool = False) -> NDArray[Any]:
     return interpolated_tables(exponents, forces=forces) if task.interpolated else _own(float(exponents[0]))
 
 
-def neighbours_for(task: Task) -> tuple[NDArray[Any], NDArray[np.float64], NDArray[np.float64]]:
+def neighbours_for(task: Task) -> tuple[NDArray[Any], NDArray[np.float64]]:
     """Return what differentiates by the exponents of a task (sensitivities/neighbours.py), a row for each of them.
 
     Returns
     -------
-    The tables of neighbours and their weights, of shape (exponents, 4), and the weights of the exponents themselves.
+    The tables of neighbours and their weights, of shape (exponents, 4).
     """
     inside = np.where((task.exponents >= 0.0) & (task.exponents <= 1.0), task.exponents, 0.0)
     beside = [exponents_beside(float(k)) for k in inside]
-    exponents = np.array([others for others, _, _ in beside])
+    exponents = np.array([others for others, _ in beside])
     if task.interpolated:
         tables = interpolated_tables(exponents.ravel(), forces=False)
     else:
         tables = np.concatenate([_own(k) for k in exponents.ravel().tolist()])
-    weights, middle = np.array([weights for _, weights, _ in beside]), np.array([one for _, _, one in beside])
-    return tables.reshape(exponents.shape), weights, middle
+    return tables.reshape(exponents.shape), np.array([weights for _, weights in beside])
 
 
 @lru_cache(maxsize=128)
@@ -75,8 +74,8 @@ def tables_of(k: float, rows: NDArray[np.float64] | None = None) -> tuple[Any, N
 @lru_cache(maxsize=16)
 def _changes(k: float, rows: bytes) -> tuple[NDArray[Any], NDArray[np.float64]]:
     series = np.frombuffer(rows).reshape(-1, 3).copy()
-    exponents, weights, middle = exponents_beside(k)
-    return change_of(tables_of(k, series), middle, [tables_of(other, series) for other in exponents], weights)
+    exponents, weights = exponents_beside(k)
+    return change_of(tables_of(k, series), [tables_of(other, series) for other in exponents], weights)
 
 
 def changes_of(k: float, rows: NDArray[np.float64]) -> tuple[NDArray[Any], NDArray[np.float64]]:

@@ -233,7 +233,7 @@ def solve_curve(
         scales = (TWO_PI * length * length, depth_scale)
         _solve_cycle(table, curve, arches, scales, wavelength, rims, slots, out, status, scratch, sense, around)
     if len(sense) > 0:
-        if sense[4]:
+        if sense[3]:
             put_forces(table, curve, around, depth_scale, wavelength, rims, slots, out, status, sense)
-        at_fixed_stiffness(around, sense[3])
+        at_fixed_stiffness(around, sense[2])
     _mark_unresolved(wavelength, rims, out, status)

@@ -88,7 +88,7 @@ def limits_of(
 def slopes_of(table: Any, curve: Curve, sense: Any, around: Any, count: int, trace: Any, final: float) -> Any:
     """Return the slopes that go with a trace, those of loading filled in, if they are asked for."""
     slopes = slopes_for(trace)
-    if sense[5]:
+    if sense[4]:
         fill_loading(table, curve, around[0], count, trace, final, slopes)
     return slopes
 
@@ -110,9 +110,9 @@ def _put_slopes(
     i: int,
 ) -> None:
     """Store the sensitivities of the energy of a rim if they are asked for."""
-    if sense[5]:
+    if sense[4]:
         energy = out[slots[ENERGY], i]
-        put_energy(table, curve, around, scale, count, trace, final, slopes, x, energy, sense[3], i)
+        put_energy(table, curve, around, scale, count, trace, final, slopes, x, energy, sense[2], i)
 
 
 @kernel()

@@ -49,7 +49,7 @@ def loop_of(solver: int) -> Callable[..., None]:
         """Solve the curves `index`, `which` are the tables of theirs; `rims` has one row, or one a curve.
 
         `sense` is (), or for the exact solver what its sensitivities need (`solve_curve` of scene/cosine.py), those of
-        all exponents and curves: the tables of neighbours, their weights and the weight of the exponent itself have one
+        all exponents and curves: the tables of neighbours and their weights have one
         row for each table, and the sensitivities go to (3, COUNT, curves, rims).
         """
         table = tables[0]

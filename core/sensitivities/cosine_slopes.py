@@ -78,9 +78,7 @@ def _lowest_load_at(table: Any, curve: Curve, x: float) -> float:
 
 
 @kernel()
-def _force_slopes(
-    table: Any, curve: Curve, near: Any, units: Any, middle: float, x: float, at_rim: bool, by: Any
-) -> float:
+def _force_slopes(table: Any, curve: Curve, near: Any, units: Any, x: float, at_rim: bool, by: Any) -> float:
     """Put the slopes of the reduced force by b, g, ln x and k into `by`; return the force."""
     tables, curves, weights = near
     b, g, _ = curve
@@ -96,7 +94,7 @@ def _force_slopes(
         if z > PHASELESS:
             abscissa = z / power
             by[2] = -abscissa * (b * abscissa - 0.5 * (3.0 + k) * (1.0 + g * table.amplitude))
-    by[3] = middle * force
+    by[3] = 0.0
     for j in range(weights.size):
         other = (curves[j, 0], curves[j, 1], 0.0)
         by[3] -= weights[j] * units[j] * _lowest_load_at(tables[j], other, x)
@@ -104,9 +102,7 @@ def _force_slopes(
 
 
 @kernel()
-def _put_depth(
-    table: Any, curve: Curve, near: Any, units: Any, middle: float, unit: float, x: float, found: Any, i: int
-) -> None:
+def _put_depth(table: Any, curve: Curve, near: Any, units: Any, unit: float, x: float, found: Any, i: int) -> None:
     """Store the slopes of the depth at a rim: where the cycle turns at a depth, they say how the place moves."""
     tables, curves, weights = near
     b, g, _ = curve
@@ -119,7 +115,7 @@ def _put_depth(
     found[BY_WAVELENGTH, i] = unit * (c * value + (2.0 - c) * bend + (1.0 - c) * gain - z * d)
     found[BY_AMPLITUDE, i] = unit * gain
     found[BY_RIM, i] = unit * z * d
-    total = middle * unit * value
+    total = 0.0
     for j in range(weights.size):
         total += weights[j] * units[j] * depth(tables[j], (curves[j, 0], curves[j, 1], 0.0), x)
     found[BY_EXPONENT, i] = total
@@ -142,14 +138,12 @@ def of_curve(sense: Any, i: int, which: int) -> Any:
     """Return what the sensitivities of curve i, of exponent `which`, need; () where none are asked for."""
     if len(sense) == 0:
         return ()
-    tables, weights, middle, found, force, energy, turned = sense
-    return tables[which], weights[which], middle[which], found[:, :, i], force, energy, turned
+    tables, weights, found, force, energy, turned = sense
+    return tables[which], weights[which], found[:, :, i], force, energy, turned
 
 
 @kernel()
-def beside(
-    table: Any, sense: Any, stretch: float, wavelength: float, amplitude: float
-) -> tuple[Any, Any, tuple[float, float]]:
+def beside(table: Any, sense: Any, stretch: float, wavelength: float, amplitude: float) -> tuple[Any, Any, float]:
     """Return what is the same curve at neighbouring exponents, its units over those of the curve, and ln of a contact.
 
     k changes at fixed M L^k, L the size of a contact: at fixed M each length would bring its logarithm.
@@ -163,9 +157,9 @@ def beside(
 
     Returns
     -------
-    The tables, the curves and the weights in d/dk; the units of force and of depth; and ln L with the weight of k.
+    The tables, the curves and the weights in d/dk; the units of force and of depth; and ln L.
     """
-    tables, weights, middle = sense[0], sense[1], sense[2]
+    tables, weights = sense[0], sense[1]
     k = table.k
     curves, units = np.empty((weights.size, 2)), np.empty((2, weights.size))
     (b, g, _), length, unit = curve_of(k, stretch, wavelength, amplitude * wavelength)
@@ -178,7 +172,7 @@ def beside(
         share = (1.0 + k) / ((1.0 + other) * ratio)
         curves[j, 0], curves[j, 1] = b * share, g / ratio
         units[0, j], units[1, j] = share, unit * ratio
-    return (tables, curves, weights), units, (size, middle)
+    return (tables, curves, weights), units, size
 
 
 @kernel()
@@ -198,18 +192,18 @@ def put_forces(
 
     Where cycles turn at a depth, those of the depth at the rim as well; `unit` is that of depth.
     """
-    near, units, (_, middle) = beside
-    found, turned = sense[3], sense[6]
+    near, units, _ = beside
+    found, turned = sense[2], sense[5]
     by = np.zeros(4)
     for i in range(rims.size):
         if status[i] & NO_VALUE:
             continue
         at_rim = status[i] & PULL_OFF_AT_RIM != 0
         x = (rims[i] if at_rim else out[slots[RADIUS], i]) / wavelength
-        force = _force_slopes(table, curve, near, units[0], middle, x, at_rim, by)
+        force = _force_slopes(table, curve, near, units[0], x, at_rim, by)
         _put(found[FORCE], table.k, curve, 2.0 - 0.5 * (1.0 - table.k), 0.5, by, force, i)
         if turned and at_rim:
-            _put_depth(table, curve, near, units[1], middle, unit, x, found[DEPTH], i)
+            _put_depth(table, curve, near, units[1], unit, x, found[DEPTH], i)
 
 
 @kernel()
@@ -228,12 +222,12 @@ def put_energy(
     i: int,
 ) -> None:
     """Store the sensitivities of the energy of a rim, read off the trace that the energy was read off."""
-    near, _, (_, middle) = beside
+    near, _, _ = beside
     total, by = np.empty(SLOPES), np.empty(4)
     rim_depth = depth(table, curve, x) if x < math.inf else math.inf
     by[2] = energy_slopes(table, curve, near, count, trace, x, rim_depth, final, slopes, total)
     by[0], by[1] = total[BEND], total[GAIN]
-    by[3] = total[EXPONENT] + middle * energy / scale
+    by[3] = total[EXPONENT]
     _put(found[ENERGY], table.k, curve, 2.0, 0.0, by, energy / scale, i)
 
 
@@ -242,7 +236,7 @@ def put_smooth(
     table: Any, constants: Any, stretch: float, rims: Any, slots: Any, out: Any, status: Any, sense: Any, trace: Any
 ) -> None:
     """Store the sensitivities of a smooth punch, whose values are there, for all rims."""
-    found, force, energy = sense[3], sense[4], sense[5]
+    found, force, energy = sense[2], sense[3], sense[4]
     wavelength = TWO_PI * smooth.smooth_length(table.k, stretch)
     curve, length, unit = curve_of(table.k, stretch, wavelength, 0.0)
     around = beside(table, sense, stretch, wavelength, 0.0)
@@ -264,5 +258,5 @@ def put_smooth(
 @kernel()
 def at_fixed_stiffness(beside: Any, found: Any) -> None:
     """Turn the sensitivities to k at fixed M L^k into those at fixed M."""
-    _, _, (size, _) = beside
+    _, _, size = beside
     found[:, BY_EXPONENT, :] += size * found[:, BY_STIFFNESS, :]

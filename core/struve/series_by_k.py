@@ -103,7 +103,6 @@ def sums_by_k(
 
 def change_of(
     own: tuple[Any, NDArray[np.float64]],
-    middle: float,
     others: list[tuple[Any, NDArray[np.float64]]],
     weights: NDArray[np.float64],
 ) -> tuple[NDArray[Any], NDArray[np.float64]]:
@@ -111,17 +110,15 @@ def change_of(
 
     Parameters
     ----------
-    own, middle
-        The table and the flat array of the exponent, and its weight in d/dk.
+    own
+        The table and the flat array of the exponent.
     others, weights
-        Those of neighbouring exponents, and their weights.
+        Those of neighbouring exponents, and their weights in d/dk.
     """
     change = np.array([own[0]], dtype=own[0].dtype)
     for name in ("bins", "tail", "cos_phase", "sin_phase"):
-        change[name][0] = middle * own[0][name] + sum(
-            weight * table[name] for weight, (table, _) in zip(weights, others, strict=True)
-        )
-    flat = middle * own[1] + sum(weight * waves for weight, (_, waves) in zip(weights, others, strict=True))
+        change[name][0] = sum(weight * table[name] for weight, (table, _) in zip(weights, others, strict=True))
+    flat = np.asarray(sum(weight * waves for weight, (_, waves) in zip(weights, others, strict=True)))
     if flat.size > COSINES:
         flat[COSINES] = own[1][COSINES]
-    return change, np.asarray(flat)
+    return change, flat
