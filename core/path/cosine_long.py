@@ -60,7 +60,7 @@ BEGINNING: Final = 16.0
 NEAR_RIM: Final = 10.0
 """Waves walked before the folds end."""
 _BEFORE_RIM: Final = 2.5
-"""Waves walked before a rim that is further in: its own and the one before it at least."""
+"""Waves before a rim that its own branch and the one before stand on."""
 _MOST_NEAR_RIM: Final = 2.0e13
 """Arches up to which a phase is told near a rim: to a hundredth, of waves that are 10^-13 of all."""
 _ORDERED: Final = 20.0
@@ -323,6 +323,23 @@ def _nominal_branch(table: Any, curve: Curve, rim: float, final: float, trace: A
 
 
 @kernel()
+def _branches_at(table: Any, curve: Curve, rim: float, trace: Any, near: int) -> float:
+    """Put the last branch that starts within a rim, and the one before, into the trace; return the wave of that."""
+    wave = np.floor(rim - table.phase / TWO_PI + 0.5)  # the wave whose centre is next: it has begun, or may have
+    start, start_depth, end, end_depth = branch_of_wave(table, curve, wave)
+    if start > rim:
+        wave -= 1.0
+        start, start_depth, end, end_depth = branch_of_wave(table, curve, wave)
+    for branch in range(near + 1, near - 1, -1):
+        trace[START, branch], trace[START_DEPTH, branch] = start, start_depth
+        trace[END, branch], trace[END_DEPTH, branch] = end, end_depth
+        trace[UNLOADING_JUMPS, branch] = UNKNOWN
+        if branch > near:
+            start, start_depth, end, end_depth = branch_of_wave(table, curve, wave - 1.0)
+    return wave - 1.0
+
+
+@kernel()
 def stride(
     table: Any,
     curve: Curve,
@@ -348,7 +365,10 @@ def stride(
     if ends_folds(table, arches, rim):
         last, waves = final, reach * NEAR_RIM
     count, after = near, 0.0
-    if is_told(table, curve, last):
+    if running and is_told(table, curve, last):
+        after = _branches_at(table, curve, rim, trace, near)
+        count = near + 2
+    elif is_told(table, curve, last):
         count = append_branches(table, curve, 2 * int(0.5 * last - waves) - 1, final, rim, trace, near)
         after = wave_of(table, trace[START, near]) if count > near else 0.0
     nominal = count == near
