@@ -66,6 +66,8 @@ _MOST_NEAR_RIM: Final = 2.0e13
 _ORDERED: Final = 20.0
 """Times the square of what rounding leaves of a phase, below which neighbours need not be in order (is_told)."""
 _HALVINGS: Final = 200
+_NEAR_WAVE: Final = 0.3
+"""Last step of Newton's method, in z, in search of a wave."""
 NEAR, BEFORE, LAST_UP, FIRST_CLOSE, ENTRY, ENTRY_PLACE, ENTRY_LOSS, ENTRY_JUMPS = 0, 1, 2, 3, 4, 5, 6, 7
 LOWEST, LOWEST_LOSS, LOWEST_JUMPS, LOWEST_LAST = 8, 9, 10, 11
 DISC_INNER, DISC_OUTER, RUN_SEEN = 12, 13, 14
@@ -97,33 +99,39 @@ def wave_of(table: Any, start: float) -> float:
 
 
 @kernel()
-def first_wave_above(table: Any, curve: Curve, low: float, high: float, level: float) -> float:
+def first_wave_above(
+    table: Any, curve: Curve, low: float, high: float, level: float
+) -> tuple[float, float, float, float, float]:
     """Return the first wave after `low`, which ends below a depth, that ends above it; `high` does.
 
-    It is where the upper envelope b z^2/2 - (1 - C g) z^c + g passes the depth, or next to it.
+    It is where the upper envelope b z^2/2 - (1 - C g) z^c + g passes the depth, or next to it. Then come place and
+    depth of its end, and of that of the wave before it; NaN for `high` and `low` themselves.
     """
     b, g, _ = curve
     stretch = 1.0 - g * table.amplitude
     z = math.sqrt(2.0 * (max(level - g, 0.0) + max(stretch, 0.0)) / b) + TWO_PI * low
     for _ in range(8):
         pull = stretch * z * amplitude_power(table, z)
-        z -= (0.5 * b * z * z - pull + g - level) / (b * z - 0.5 * (1.0 - table.k) * pull / z)
-        z = max(z, TWO_PI * low)
+        step = (0.5 * b * z * z - pull + g - level) / (b * z - 0.5 * (1.0 - table.k) * pull / z)
+        z = max(z - step, TWO_PI * low)
+        if abs(step) < _NEAR_WAVE:
+            break
     middle = np.floor(z / TWO_PI - table.phase / TWO_PI)
+    end, top, end_before, top_before = math.nan, math.nan, math.nan, math.nan
     step = 1.0
     for _ in range(_HALVINGS):
         if high - low <= 1.0:
             break
         middle = max(low + 1.0, min(high - 1.0, middle))
-        _, end_depth = fold_of_wave(table, curve, middle, NO)
+        place, end_depth = fold_of_wave(table, curve, middle, NO)
         if end_depth > level:
-            high, middle = middle, middle - step
+            high, end, top, middle = middle, place, end_depth, middle - step
         else:
-            low, middle = middle, middle + step
+            low, end_before, top_before, middle = middle, place, end_depth, middle + step
         step *= 2.0
         if not low < middle < high:
             middle = np.floor(0.5 * (low + high))
-    return high
+    return high, end, top, end_before, top_before
 
 
 @kernel()
@@ -207,7 +215,7 @@ def _enter(table: Any, curve: Curve, after: float, long: Any, trace: Any, losses
     left, level = (trace[END, now], trace[END_DEPTH, now]) if now >= 0 else (0.0, 0.0)
     loss, jumps = (trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]) if now >= 0 else (0.0, 0.0)
     if math.isnan(shared[ENTRY]):
-        wave = first_wave_above(table, curve, shared[BEFORE], after, level)
+        wave, _, _, _, _ = first_wave_above(table, curve, shared[BEFORE], after, level)
         x = find_depth(table, curve, level, branch_of_wave(table, curve, wave))
         if losses and now >= 0:
             loss += jump_energy(table, curve, left, x, trace[WORK])

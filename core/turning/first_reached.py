@@ -273,11 +273,12 @@ def turn_long_at_depth(table: Any, curve: Curve, count: int, trace: Any, reach: 
         return x, close
     if gap == count or trace[END_DEPTH, gap] > target:
         before, after = trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER]
-        wave = first_wave_above(table, curve, before, after, target)
+        wave, end, bottom, place, below = first_wave_above(table, curve, before, after, target)
         if wave < after or gap == count:
-            start, _, end, bottom = branch_of_wave(table, curve, wave)
-            if wave - 1.0 > before:
-                place, below = fold_of_wave(table, curve, wave - 1.0, NO)
+            start, _ = fold_of_wave(table, curve, wave, YES)
+            if math.isnan(end):
+                end, bottom = fold_of_wave(table, curve, wave, NO)
+            if not math.isnan(place):
                 close = close or abs(below - target) <= tolerance(table, curve, place)
             close = close or abs(bottom - target) <= tolerance(table, curve, end)
             return _find(table, curve, start, end, target, NO), close
