@@ -15,7 +15,7 @@ import numpy as np
 
 from gradhesion.core._jit import NO, kernel
 from gradhesion.core.curve.cosine import Curve as OneWave
-from gradhesion.core.curve.cosine import slope
+from gradhesion.core.curve.cosine import slope, slopes
 from gradhesion.core.curve.cosine_folds import CLOSE, fold_of_arch, survey_arch
 from gradhesion.core.curve.general import Basis, Curve, level_at
 from gradhesion.core.curve.general import slope as general_slope
@@ -27,6 +27,9 @@ from gradhesion.core.struve.power import amplitude_power
 _PIECES: Final = 64
 _NARROW: Final = 1e-6
 """Piece over its place below which its folds hardly can be told apart."""
+_STEPS: Final = 100
+_LAST_STEP: Final = 1e-4
+"""A cubically convergent step of this size, over the length on which the slope changes, leaves 1e-12 of that."""
 _MOST: Final = 64
 """Folds of an arch that there is room for."""
 
@@ -131,6 +134,64 @@ def _on_pieces(
 
 
 @kernel()
+def _continued(zeros: Any, count: int) -> float:
+    """Return about where the fold after the `count` first ones stands, from every other one of these; 0 if unknown.
+
+    Far out two folds a wave stand in nearly equal distances.
+    """
+    if count < 4:
+        return 0.0
+    last, step = zeros[count - 2], zeros[count - 2] - zeros[count - 4]
+    if count < 6:
+        return last + step
+    return last + 2.0 * step - (zeros[count - 4] - zeros[count - 6])
+
+
+@kernel(contract=True)
+def _slopes_of_machine(table: Any, curve: Curve, own: OneWave, x: float) -> tuple[float, float, float]:
+    """Return D and its first two derivatives with respect to z at x > 0: those at a fixed q, and what q adds."""
+    _, _, _, alpha, beta = curve
+    k = table.k
+    n = 0.5 * (1.0 + k)
+    z = TWO_PI * x
+    power = amplitude_power(table, z)
+    t = beta / (power * power)
+    share = t / (alpha + t)
+    rate = (1.0 + k) * (1.0 + k) * share * (1.0 - share)  # dq/d(ln z)
+    value, slope1, slope2, _, _ = slopes(table, own, 0.5 * (1.0 - k) + (1.0 + k) * share, x)
+    fall = rate * power / z
+    return value, slope1 - fall, slope2 + fall * (2.0 * n + 1.0 - (1.0 + k) * (1.0 - 2.0 * share)) / z
+
+
+@kernel()
+def _fold_of_machine(
+    table: Any, curve: Curve, own: OneWave, guess: float, low: float, high: float, rising: bool
+) -> tuple[float, float]:
+    """Do what `refine` of curve/general_folds.py does for one cosine by a machine (Halley, kept in the bracket)."""
+    x = guess if low < guess < high else 0.5 * (low + high)
+    rate = 0.0
+    for _ in range(_STEPS):
+        value, rate, bend = _slopes_of_machine(table, curve, own, x)
+        if value == 0.0:
+            break
+        if (value < 0.0) == rising:
+            low = x
+        else:
+            high = x
+        step = -value * rate / (rate * rate - 0.5 * value * bend)
+        small = abs(step) * (abs(bend) + abs(rate)) < _LAST_STEP * abs(rate) * min(1.0, TWO_PI * x)
+        new = x + step / TWO_PI
+        if small and low <= new <= high:
+            return new, rate + step * bend
+        if not low < new < high:
+            new = 0.5 * (low + high)
+            if new <= low or new >= high:
+                break
+        x = new
+    return x, rate
+
+
+@kernel()
 def _on_arch_of_machine(
     basis: Basis, curve: Curve, own: OneWave, i: int, first: float, zeros: Any, count: int
 ) -> tuple[int, float]:
@@ -169,12 +230,14 @@ def _on_arch_of_machine(
         return -1, math.inf
     rising = kind == 1 or (kind == 2 and concave)
     for j in range(abs(kind)):
-        survey = one if concave else other
-        guess, _ = fold_of_arch(table, own, 0.5 * (least + most), i, survey, rising, 0.0)
         begin, end = low, high
         if kind == 2:
             begin, end = (low, peak) if j == 0 else (peak, high)
-        x, rate = refine(basis, curve, guess, begin, end, rising, 0.0)
+        guess = _continued(zeros, count + j)
+        if not begin < guess < end:
+            survey = one if concave else other
+            guess, _ = fold_of_arch(table, own, 0.5 * (least + most), i, survey, rising, 0.0)
+        x, rate = _fold_of_machine(table, curve, own, guess, begin, end, rising)
         if rising and not rate > (1.0 + n) * steepest:
             return -1, math.inf
         zeros[count + j] = x
@@ -210,7 +273,8 @@ def folds_by_arches(
             rising = kind == 1 or (kind == 2 and i % 2 == 0)
             found = abs(kind)
             for j in range(found):
-                zeros[count + j], _ = fold_of_arch(table, own, level, i, survey, rising, 0.0)
+                guess = _continued(zeros, count + j)
+                zeros[count + j], _ = fold_of_arch(table, own, level, i, survey, rising, guess)
                 rising = not rising
         else:
             found, miss = _on_arch_of_machine(basis, curve, own, i, first, zeros, count)

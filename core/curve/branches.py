@@ -14,7 +14,7 @@ import numpy as np
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve.cosine import Curve, depth, slope
-from gradhesion.core.curve.cosine_folds import CLOSE, fold_of_arch, survey_arch
+from gradhesion.core.curve.cosine_folds import CLOSE, fold_of_arch, half_wave, survey_arch
 from gradhesion.core.struve.circle import TWO_PI
 
 START, START_DEPTH, END, END_DEPTH = 0, 1, 2, 3
@@ -37,6 +37,10 @@ ROWS = 20
 UNKNOWN: Final = -1.0
 """Unloading jumps of a branch that unloading has not visited yet."""
 _STEPS: Final = 100
+_LAST_STEP: Final = 1e-2
+"""Over the length on which the slope changes: a step of the fourth order leaves some 1e-8 of that."""
+_LAST_ENDLESS_STEP: Final = 1e-3
+"""The same of the third order, beyond the last fold."""
 
 
 @kernel()
@@ -60,7 +64,7 @@ def ends(trace: Any, branch: int) -> tuple[float, float, float, float]:
 
 @kernel()
 def find_depth(table: Any, curve: Curve, target: float, branch: tuple[float, float, float, float]) -> float:
-    """Return where a branch meets a depth between those of its two ends (Halley, kept in the bracket)."""
+    """Return where a branch meets a depth between those of its two ends (Householder, kept in the bracket)."""
     level = 0.5 * (1.0 - table.k)
     low, low_depth, high, high_depth = branch
     endless = high == math.inf
@@ -78,10 +82,10 @@ def find_depth(table: Any, curve: Curve, target: float, branch: tuple[float, flo
     share = (target - low_depth) / (high_depth - low_depth)
     if not 0.0 < share < 1.0:
         return low if share <= 0.0 else high
-    x = low + (high - low) * math.acos(1.0 - 2.0 * share) / math.pi
+    x = low + (high - low) * half_wave(share)
     x = x if low < x < high else 0.5 * (low + high)
     for _ in range(_STEPS):
-        d, d1, _, rest = slope(table, curve, level, x)
+        d, d1, d2, rest = slope(table, curve, level, x)
         rest -= target
         if rest == 0.0:
             return x
@@ -89,13 +93,17 @@ def find_depth(table: Any, curve: Curve, target: float, branch: tuple[float, flo
             low = x
         else:
             high = x
-        bend = 0.5 * rest * d1
-        if endless and abs(bend) > 0.5 * d * d:  # that of the last waves, which says nothing of a place far beyond them
-            bend = 0.0
-        step = -rest * d / (d * d - bend)
+        square, bend = d * d, rest * d1
+        if endless:
+            if abs(bend) > square:  # that of the last waves, which says nothing of a place far beyond them
+                bend = 0.0
+            step = -rest * d / (square - 0.5 * bend)
+        else:
+            step = -rest * (square - 0.5 * bend) / (d * (square - bend) + rest * rest * d2 / 6.0)
         x += step / TWO_PI
         # the loss is stationary at the place of landing: its error is the square of what is left here
-        if low <= x <= high and abs(step) * (abs(d1) + abs(d)) < 1e-3 * abs(d):
+        enough = _LAST_ENDLESS_STEP if endless else _LAST_STEP
+        if low <= x <= high and abs(step) * (abs(d1) + abs(d)) < enough * abs(d):
             return x
         if not low < x < high:
             x = 0.5 * (low + high)
@@ -135,7 +143,11 @@ def append_branches(table: Any, curve: Curve, first: int, final: float, furthest
         for _ in range(abs(kind)):
             if rising or inside:
                 row = START if rising else END
-                guess = 2.0 * trace[row, count - 1] - trace[row, count - 2] if count > 1 else 0.0
+                guess = 0.0
+                if count > 2:
+                    guess = 3.0 * (trace[row, count - 1] - trace[row, count - 2]) + trace[row, count - 3]
+                elif count > 1:
+                    guess = 2.0 * trace[row, count - 1] - trace[row, count - 2]
                 x, bottom = fold_of_arch(table, curve, level, i, survey, rising, guess)
                 if rising:
                     if x > furthest:

@@ -92,6 +92,28 @@ def slope(table: Any, curve: Curve, level: float, x: float) -> tuple[float, floa
     return b * z + g * v - pull, b + g * v1 + bend, g * v2 - (n + 1.0) * bend / z, z * (0.5 * b * z + g * s0 - power)
 
 
+@kernel(contract=True)
+def slopes(table: Any, curve: Curve, level: float, x: float) -> tuple[float, float, float, float, float]:
+    """Return D, its first three derivatives with respect to z, and the depth, at x > 0."""
+    b, g, lag = curve
+    k = table.k
+    n = 0.5 * (1.0 + k)
+    z = TWO_PI * x
+    power = amplitude_power(table, z)
+    s0, s1, d0, d1 = pair_below(table, x, z) if z < SWITCH else pair_above(table, x - lag, z, power)
+    pull = level * power
+    inverse = 1.0 / z
+    bend = n * pull * inverse
+    bow = (n + 1.0) * bend * inverse
+    return (
+        b * z + g * (s0 + z * d0) - pull,
+        b + g * (2.0 * d0 + z * (s1 - s0)) + bend,
+        g * ((1.0 - k) * s1 - (2.0 - k) * s0 - z * d0) - bow,
+        g * ((1.0 - k) * d1 - (3.0 - k) * d0 - z * (s1 - s0)) + (n + 2.0) * bow * inverse,
+        z * (0.5 * b * z + g * s0 - power),
+    )
+
+
 @kernel()
 def depth_size(table: Any, curve: Curve, x: float) -> float:
     """Return the size of the terms of the reduced depth at x."""

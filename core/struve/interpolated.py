@@ -43,7 +43,7 @@ _POWERS: Final = {
 _FOR_FORCES: Final = ("bins", "tail", "power_mantissa", "arches", "theta", "theta_front")
 """Fields that a pull-off force reads."""
 _WORD: Final = 8
-_BLOCK: Final = 512
+_BLOCK: Final = 256
 """Columns that are filled for all tables before the next: their coefficients stay in the nearest cache."""
 _STEP: Final = 32
 """Powers of 2^e are products of one for e/32 and one for the rest."""

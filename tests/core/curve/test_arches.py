@@ -73,6 +73,25 @@ def test_none_is_missed(k: float) -> None:
             assert changes.size <= count
 
 
+@pytest.mark.parametrize("k", [0.0, 0.4, 1.0])
+def test_folds_of_a_machine_are_zeros(k: float) -> None:
+    """By Halley's method on what `slope` of the general curve gives: its value there is rounding."""
+    rng = np.random.default_rng(int(100 * k) + 9)
+    zeros, seen = np.empty(1000), 0
+    for _ in range(60):
+        basis, curve, first, last = _draw(rng, k, None)
+        if not first < last:
+            continue
+        count, _, _ = folds_by_arches(basis, curve, first, last, room(), zeros)
+        for x in zeros[:count]:
+            value, rate, _ = slope(basis, curve, x, 0.0)
+            size = curve[2] * max(1.0, (TWO_PI * x) ** (0.5 * (1.0 - k))) + 2.0 * (TWO_PI * x) ** (-0.5 * (1.0 + k))
+            # the last step leaves 1e-12 of the length on which the slope changes, a wave at most
+            assert abs(value) <= 32 * 2.0**-52 * size + 1e-11 * abs(rate)
+            seen += 1
+    assert seen > 100
+
+
 def test_which_profiles_have_arches() -> None:
     assert is_one_cosine(COSINE, 2.0)
     assert not is_one_cosine(COSINE, 2.5)

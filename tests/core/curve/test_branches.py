@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core.curve import branches
+from gradhesion.core.curve import branches, cosine_folds
 from gradhesion.core.curve.branches import END, END_DEPTH, ROWS, START, START_DEPTH, append_branches, ends, find_depth
 from gradhesion.core.curve.cosine import depth, slope
 from gradhesion.core.curve.cosine_folds import first_arch, last_arch
@@ -94,6 +94,13 @@ def test_find_depth(k: float, curve: Any, table_of: Callable[[float], Any]) -> N
             # the error of z, squared, times d is what the loss feels, in units of z
             miss = max(0.0, abs(found - target) - 8 * EPS * (size + abs(target)))
             assert miss * miss <= 1e-15 * d * max(z, 1e-300) ** (1 - k) * max(1.0, z)
+
+
+def test_a_guess_of_a_half_wave() -> None:
+    """Of the place on a half wave of a cosine where a share of its height is reached."""
+    guess = cosine_folds.half_wave
+    for share in (1e-12, 1e-6, 0.1, 0.4999, 0.5, 0.77, 1 - 1e-9):
+        assert abs(guess(share) - math.acos(1.0 - 2.0 * share) / math.pi) <= 3e-5
 
 
 def test_room(table_of: Callable[[float], Any]) -> None:

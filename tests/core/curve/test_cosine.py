@@ -7,7 +7,7 @@ from typing import Any
 import mpmath
 import pytest
 
-from gradhesion.core.curve.cosine import depth, load, slope, wave
+from gradhesion.core.curve.cosine import depth, load, slope, slopes, wave
 from gradhesion.core.struve.circle import TWO_PI
 
 EPS = 2.0**-52
@@ -69,6 +69,22 @@ def test_slopes_are_derivatives(k: float, curve: Any, table_of: Callable[[float]
                 ) * min(1.0, float(z)) ** -order
                 assert abs(values[order] - truth) <= 12 * EPS * size
             assert values[3] == pytest.approx(depth(table_of(k), curve, x), rel=8 * EPS, abs=8 * EPS)
+
+
+@pytest.mark.parametrize("k", EXPONENTS)
+@pytest.mark.parametrize("curve", CURVES)
+def test_one_slope_more(k: float, curve: Any, table_of: Callable[[float], Any], slow_pair: Pair) -> None:
+    """The third of D from a numerical derivative of the depth at 50 digits; the others are those of `slope`."""
+    table, level = table_of(k), 0.5 * (1 - k)
+    for x in (0.17, 1.0, 5.77, 6.41, 83.3):
+        z = _turns(x)
+        values, others = slopes(table, curve, level, x), slope(table, curve, level, x)
+        size = curve[0] * float(z) + 6 * curve[1] * max(1.0, float(z) ** ((1 - k) / 2)) + 6 * min(1.0, float(z)) ** -4
+        for value, other in zip((*values[:3], values[4]), others, strict=True):
+            assert abs(value - other) <= 8 * EPS * size * max(1.0, float(z))
+        with mpmath.workdps(50):
+            truth = mpmath.diff(lambda y: _depth(k, curve, y, slow_pair), z, 4)
+        assert abs(values[3] - truth) <= 12 * EPS * size
 
 
 @pytest.mark.parametrize("k", [0.0, 0.37, 1.0])

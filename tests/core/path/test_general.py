@@ -153,6 +153,9 @@ def test_cost_is_linear_in_the_number_of_harmonics(monkeypatch: pytest.MonkeyPat
         calls.append(1)
         return counted(*arguments)
 
+    basis = (*tables_of(0.3), rows_of(Profile(harmonics=(Harmonic(n=16, cos=0.1),))))
+    curve, _, _ = curve_of(0.3, 2.0, depth_factor_of(0.3, 2.0), 0.08, 0.2, 0.05, 0.0)
+    folds.refine(basis, curve, 0.3, 0.2, 0.4, True, 0.0)  # compiled with what it calls, before that is replaced
     monkeypatch.setattr(folds, "slope", count)
     monkeypatch.setattr(folds, "folds_of_cell", folds.folds_of_cell.py_func)
     radii = []
