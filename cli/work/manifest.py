@@ -14,6 +14,7 @@ from gradhesion.cli.errors import DatasetError, OutputError
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.points import Points, points_of
 from gradhesion.cli.study.study import Study, study_from
+from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.work.folder import Folder
 from gradhesion.cli.work.parts import settings_of, versions
 from gradhesion.cli.work.records import Manifest, write_record
@@ -58,7 +59,7 @@ def adopt(study: Study, folder: Folder, output: Path) -> None:
         differences = differences_of(old, new)
         if differences:
             raise OutputError(
-                f"{output}: {parts:,} finished parts of another study are kept in {output}.parts: "
+                f"{output}: {counted(parts, 'finished part')} of another study or version in {output}.parts: "
                 f"{'; '.join(differences)}; add --fresh to discard them, or name another output with -o"
             )
     write_record(folder.study, new)

@@ -128,7 +128,7 @@ def test_a_changed_study_is_refused_with_the_difference(
     result = gradhesion("run", study_file, "-o", output, *changed)
     assert result.exit_code == 4
     sentence = (
-        f"{output}: {kept} finished parts of another study are kept in {output}.parts: "
+        f"{output}: {kept} finished parts of another study or version in {output}.parts: "
         'method.solver is "exact" there and "envelope" here; '
         "parameters.k is 2 values from 0.0 to 0.31 there and 2 values from 0.1 to 0.31 here; "
         "parameters.nu is 0.27 there and 0.3 here; add --fresh to discard them, or name another output with -o\n"
