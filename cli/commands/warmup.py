@@ -21,11 +21,12 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:
     this version.
     """
     from gradhesion.cli.work.kernels import missing_of, refuse_without_compiler
-    from gradhesion.cli.work.warming import warm
     from gradhesion.core import KINDS, place
     from gradhesion.core.arrays.processors import processors
 
     refuse_without_compiler()
+    from gradhesion.cli.work.warming import warm  # it imports kernels, which need the compiler
+
     kinds = KINDS if everything else ("energy", "envelope", "curves")
     missing, folder, count, start = missing_of(kinds), place().folder, 0, time.monotonic()
     if place().why:
