@@ -20,6 +20,7 @@ def python(root: Path, *arguments: str) -> str:
         ".functions",
         ".loop_fits",
         ".optima",
+        ".plan",
         ".scale",
         ".scenes",
         ".sensitivities",
