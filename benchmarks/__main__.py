@@ -135,19 +135,19 @@ or more.
     yield f"""### Studies of any size
 
 The same axes with more and more values, computed and written by `gradhesion.cli.dataset.writer.write` in a process of
-its own, what a study of 2,000 scenes takes (a file opened, closed and renamed) taken off. Aims: level within 20 %,
+its own, what a study of 2,000 scenes takes (a file opened, closed and renamed) subtracted. Aims: level within 20 %,
 memory too; 10^8 scenes in 180 s. `of it solving` is the time of `gradhesion.core.solve` alone on 10^6 of these scenes
 over that of the whole.
 
 {scale.scale_table(10**5 if quick else 10**8)}"""
     yield f"""## Start-up
 
-Medians, the first run apart. Aims: 0.15 s, 0.25 s, 0.6 s, 0.4 s, 12 s.
+Medians, except the first run. Aims: 0.15 s, 0.25 s, 0.6 s, 0.4 s, 12 s.
 
 {start_up.start_up_table()}"""
-    yield f"""## What a plan foretells
+    yield f"""## Estimates of a plan
 
-The time that `gradhesion plan` estimates, and that a run then takes, of one processor. Aim: within 20 %.
+Processor time that `gradhesion plan` estimates, and time that the run takes. Aim: within 20 %.
 
 {plan.plan_table(repeat=1 if quick else 5)}"""
 

@@ -1,4 +1,4 @@
-"""What `gradhesion plan` foretells, and what a run then takes: studies of each kind, with kernels that are compiled."""
+"""What `gradhesion plan` estimates, and what a run then takes: studies of each kind, with kernels that are compiled."""
 
 import argparse
 import statistics
