@@ -2,6 +2,8 @@
 
 const NARROW = 700; // pixels of a window, below which figures have less beside their frames
 
+const BARE = 16; // pixels to the right of frames on a page without colour bars
+
 const explorer = {
   looks: {},
 
@@ -38,7 +40,7 @@ const explorer = {
       const narrow = window.innerWidth <= NARROW;
       const size = narrow ? "11px" : "13px";
       for (const figure of this.figures()) {
-        figure.setv({ min_border_left: narrow ? 78 : LEFT, min_border_right: narrow ? 66 : RIGHT });
+        figure.setv({ min_border_left: narrow ? 78 : LEFT, min_border_right: !parts.maps ? BARE : narrow ? 66 : RIGHT });
         for (const part of [...figure.below, ...figure.left, ...figure.right]) {
           if ("axis_label_text_font_size" in part.properties) part.axis_label_text_font_size = size;
           part.major_label_text_font_size = size;
