@@ -22,6 +22,8 @@ _INNERMOST = 1e-30
 _PLACES = (1.0, 1e-1, 1e-2, 1e-4, 1e-8, 1e-16)
 """Where the search begins if the coordinate surely falls there, and so before."""
 _BISECTIONS = 200
+_CLOSE = 1.02
+"""Ratio of a bound to the best one of its kind that is near enough: a search a little longer costs less than powers."""
 _OUTERMOST = 1e250
 
 
@@ -73,7 +75,7 @@ def first_fold_bound(basis: Basis, curve: Curve) -> float:
             low, high = high, high * high if high > 2.0 else 2.0 * high
         for _ in range(_BISECTIONS):
             middle = math.sqrt(low) * math.sqrt(high)
-            if not 1.0001 * low < middle < high:
+            if not _CLOSE * low < middle < high:
                 break
             if _surely_falls(level, push, s, n, bounds, middle, far_out):
                 low = middle
@@ -107,7 +109,7 @@ def last_fold_bound(basis: Basis, curve: Curve) -> float:
             return math.inf
     for _ in range(_BISECTIONS):
         middle = math.sqrt(low) * math.sqrt(high)
-        if not low < middle < 0.9999 * high:
+        if not low < middle < high / _CLOSE:
             break
         if push * middle**s > level + far * middle + correction / middle:
             high = middle
