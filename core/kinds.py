@@ -57,8 +57,8 @@ KINDS: Final = tuple(NEEDS)
 """All kinds, each after those that it needs."""
 KERNELS: Final[dict[str, int]] = {
     "tables": 51,
-    "force": 38,
-    "energy": 121,
+    "force": 40,
+    "energy": 126,
     "reports": 16,
     "turning": 29,
     "asymptotic": 42,
@@ -66,7 +66,7 @@ KERNELS: Final[dict[str, int]] = {
     "curves": 31,
     "sensitivities": 54,
     "general_force": 65,
-    "general_energy": 120,
+    "general_energy": 124,
     "general_reports": 12,
     "general_turning": 24,
     "general_sensitivities": 47,
