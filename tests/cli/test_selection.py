@@ -144,7 +144,10 @@ def test_quantities_have_their_unit_or_are_in_si() -> None:
     dataset = xarray.Dataset({"status": ("R", np.zeros(3, np.int8))}, {"R": ("R", radii)})
     for wish in ("R=1 um", "R=1e-6", "R=900nm"):
         assert selection_of(dataset, [wish]).fixed == {"R": 1}
-    for wish, message in (("R=1 s", "unit of something else"), ("R=1 mm", "values of 5e-07 to 5e-06 m; choose one")):
+    for wish, message in (
+        ("R=1 s", "not a unit of this quantity"),
+        ("R=1 mm", "values of 5e-07 to 5e-06 m; choose one"),
+    ):
         with pytest.raises(DatasetError, match=message):
             selection_of(dataset, [wish])
 

@@ -28,7 +28,7 @@ def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_nothing_is_told_as_a_mistake(gradhesion: Call, tmp_path: Path) -> None:
     result = gradhesion("status", tmp_path / "out.nc")
     assert result.exit_code == 2
-    assert "neither a dataset nor parts of one are there" in result.stderr
+    assert "there is neither a dataset nor parts of one" in result.stderr
 
 
 def test_under_way_stopped_and_complete(
