@@ -66,12 +66,19 @@ def room_for_sums() -> Any:
 
 @kernel()
 def begin_sums(table: Any, curve: Curve, sums: Any, first: float, outwards: bool, final: float) -> None:
-    """Lay the panels of the sums that begin with the jump of wave `first`; `sums` are those of one direction."""
+    """Lay the panels of the sums that begin with the jump of wave `first`; `sums` are those of one direction.
+
+    There are none where the first wave stands at the inner branch point or within it (with k next to 1 and waves that
+    are much steeper than adhesion is strong): each sum is then one of its own.
+    """
     head = sums[0]
     head[FIRST], head[SAMPLES], head[KNOWN] = first, 0.0, 0.0
     head[INNER], head[OUTER] = branch_points(table, curve, final, outwards)
     inner, outer = max(0.0, head[INNER]), head[OUTER]
-    head[SINGLE] = max(0.0, min(float(_SINGLE), math.ceil(max(inner, _INNERMOST) + _CLEAR - first)))
+    head[COUNT], head[SINGLE] = 0.0, max(0.0, math.ceil(max(inner, _INNERMOST) + _CLEAR - first))
+    if head[SINGLE] > _SINGLE:
+        head[SINGLE] = 0.0
+        return
     begin = first + (head[SINGLE] - 0.5)
     middle = inner + _MIDDLE * (outer - inner)
     late = inner + _LATE * (outer - inner)
@@ -83,6 +90,8 @@ def begin_sums(table: Any, curve: Curve, sums: Any, first: float, outwards: bool
             if begin + _LEAST >= late:
                 end = outer
         count += 1
+        if count == _PANELS or not begin < end:
+            return
         panel = sums[count]
         panel[BEGIN], panel[END], panel[BASE] = begin, end, math.nan
         panel[IN_Y] = 1.0 if begin >= inner + _OUTER_HALF * (middle - inner) else 0.0
