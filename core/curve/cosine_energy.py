@@ -44,7 +44,7 @@ SHORT_NODES, SHORT_WEIGHTS = _rule(12)
 NODES, WEIGHTS = _rule(16)
 _FURTHEST: Final = 64.0
 """In waves: over longer jumps the antiderivative loses less to cancellation than the sum of panels costs."""
-_ENOUGH: Final = 0.01
+_ENOUGH: Final = 0.1
 """Of the terms that it is the sum of: a smaller energy is integrated panel by panel, which loses no digits."""
 _POWER_TERMS: Final = 12
 """Terms of (1 + eta)^c - 1 for |eta| <= 0.1, the half of a panel over its z."""

@@ -21,7 +21,7 @@ from gradhesion.core.curve.cosine_energy import energy_from_zero
 from gradhesion.core.curve.cosine_jump import energy_between
 from gradhesion.core.curve.general import Basis, Curve
 
-_ENOUGH: Final = 0.01
+_ENOUGH: Final = 0.1
 """Of the terms that it is the sum of: a smaller energy is left to quadrature, which loses no digits."""
 
 
