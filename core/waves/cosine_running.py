@@ -30,6 +30,8 @@ _SINGLE: Final = 12
 _CLEAR: Final = 12.5
 """Waves from the inner branch point, and from `_INNERMOST`, to the first panel."""
 _INNERMOST: Final = 8.0
+_NEAREST: Final = 6.0
+"""Waves from the inner branch point at which the first panel may begin at the nearest."""
 _TERMS: Final = 16
 _PLACES, _FIT = chebyshev_fit(_TERMS, _TERMS)
 _FIRST_GROWTH: Final = 4.0
@@ -68,17 +70,18 @@ def room_for_sums() -> Any:
 def begin_sums(table: Any, curve: Curve, sums: Any, first: float, outwards: bool, final: float) -> None:
     """Lay the panels of the sums that begin with the jump of wave `first`; `sums` are those of one direction.
 
-    There are none where the first wave stands at the inner branch point or within it (with k next to 1 and waves that
-    are much steeper than adhesion is strong): each sum is then one of its own.
+    There are none where the first wave stands well within the inner branch point (with k next to 1 and waves that are
+    much steeper than adhesion is strong): each sum is then one of its own.
     """
     head = sums[0]
     head[FIRST], head[SAMPLES], head[KNOWN] = first, 0.0, 0.0
     head[INNER], head[OUTER] = branch_points(table, curve, final, outwards)
     inner, outer = max(0.0, head[INNER]), head[OUTER]
-    head[COUNT], head[SINGLE] = 0.0, max(0.0, math.ceil(max(inner, _INNERMOST) + _CLEAR - first))
-    if head[SINGLE] > _SINGLE:
-        head[SINGLE] = 0.0
+    head[COUNT], head[SINGLE] = 0.0, 0.0
+    single = max(0.0, min(float(_SINGLE), math.ceil(max(inner, _INNERMOST) + _CLEAR - first)))
+    if first + single < inner + _NEAREST:
         return
+    head[SINGLE] = single
     begin = first + (head[SINGLE] - 0.5)
     middle = inner + _MIDDLE * (outer - inner)
     late = inner + _LATE * (outer - inner)
