@@ -1,9 +1,13 @@
 """Ctrl-C and its kin: heard at once, not lost where a library swallows it, and quiet while the work is tidied up."""
 
 import signal
+import sys
 import time
 from types import FrameType
-from typing import Final
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from sys import UnraisableHookArgs
 
 BURST: Final = 1.0
 """Seconds in which further signals are taken for the first one, so that they do not disturb the tidying up."""
@@ -19,6 +23,7 @@ def listen() -> None:
     hangup = getattr(signal, "SIGHUP", None)  # none on Windows
     if hangup is not None and signal.getsignal(hangup) is not signal.SIG_IGN:  # nohup stays in force
         signal.signal(hangup, _hear)
+    sys.unraisablehook = _show
 
 
 def heard() -> bool:
@@ -40,6 +45,12 @@ def keep(sentence: str) -> None:
 def last_words() -> str:
     """Report what an interrupt has left."""
     return f"interrupted; {_kept[0] if _kept else 'no output is left half-written'}"
+
+
+def _show(unraisable: "UnraisableHookArgs") -> None:
+    """Show what Python cannot raise, but for an interrupt that falls into the end of an object: `check` raises it."""
+    if not issubclass(unraisable.exc_type, KeyboardInterrupt):
+        sys.__unraisablehook__(unraisable)
 
 
 def _hear(_number: int, _frame: FrameType | None) -> None:

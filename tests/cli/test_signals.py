@@ -109,3 +109,27 @@ def test_a_reader_that_has_gone_ends_it_quietly(
 def test_a_mistake_that_nobody_reads_keeps_its_exit_code(unread: int, tmp_path: Path) -> None:
     command = [sys.executable, "-m", "gradhesion.cli", "info", tmp_path / "none.nc"]
     assert subprocess.run(command, stdout=unread, stderr=unread, timeout=60, check=False).returncode == 2
+
+
+def test_an_interrupt_at_the_end_of_an_object_prints_no_traceback() -> None:
+    """Python cannot raise it there: it is raised by the next look at what has been heard."""
+    code = """
+import os, signal
+from gradhesion.cli.terminal import interrupts
+interrupts.listen()
+
+class Ends:
+    def __del__(self):
+        os.kill(os.getpid(), signal.SIGINT)
+        for _ in range(1000):
+            pass
+
+one = Ends()
+del one
+try:
+    interrupts.check()
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "interrupted\n", "")
