@@ -20,16 +20,16 @@ BOTH = ("pull_off_force", "dissipated_energy")
 
 
 def integrals(scenes: dict[str, Any]) -> float:
-    """Return the share of scenes for which an integral of the gap is taken (the kernel run as plain Python)."""
+    """Return the share of scenes for which an integral of the gap is taken (the kernels run as plain Python)."""
     calls = [0]
-    compiled = contact.least_opening
+    compiled, limits = contact.least_opening, contact.limits_from
 
     def counted(*arguments: Any) -> float:
         calls[0] += 1
         return float(compiled(*arguments))
 
     needed, number = 0, scenes["k"].size
-    contact.least_opening = counted
+    contact.least_opening, contact.limits_from = counted, limits.py_func
     try:
         for i in range(number):
             one = {name: float(np.broadcast_to(values, number)[i]) for name, values in scenes.items()}
@@ -41,12 +41,12 @@ def integrals(scenes: dict[str, Any]) -> float:
             arches, rim = extent(table_of(k), curve), one["a_max_over_R"] / wavelength
             if curve[1] == 0.0 or is_long(table_of(k), arches, rim):
                 continue
-            count, trace = walk(table_of(k), curve, arches, rim, np.empty((ROWS, 400)), losses=False)
+            count, trace = walk(table_of(k), curve, arches, rim, np.empty((ROWS, 400)), False)  # noqa: FBT003
             before = calls[0]
             contact.disc_limits.py_func(np.array(table_of(k)).view(np.recarray)[()], curve, count, trace, rim)
             needed += calls[0] > before
     finally:
-        contact.least_opening = compiled
+        contact.least_opening, contact.limits_from = compiled, limits
     return needed / number
 
 
