@@ -17,7 +17,7 @@ from gradhesion.core.arrays.general_report import report_general
 from gradhesion.core.equations import saturation
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.status import FAILED
-from gradhesion.core.variables.similarity import amplitude_of_ratio
+from tests.core.waves.reaching import reaching
 
 NAMES = ("dissipated_energy", "dissipated_energy_error")
 ANY = (Profile(), Loading(), 2)
@@ -36,13 +36,10 @@ def drawn(rng: np.random.Generator, decade: int, count: int) -> tuple[dict[str, 
         "c0_over_R": 10.0 ** rng.uniform(-3.0, 0.5, count),
     }
     ratio = 10.0 ** rng.uniform(-1.5 if decade < 5 else -4.0, 0.5, count)
-    waves, half = 10.0 ** (decade + rng.uniform(0.0, 1.0, count)), 0.5 * (1.0 + k)
-    adhesion = np.sqrt(2.0 ** (1.0 + k) * math.pi / stiffness(*material.values()))
-    length = (ratio / (2.0 * math.pi * waves) ** half * half * adhesion) ** (1.0 / (1.0 + half))
-    wavelength = 2.0 * math.pi * length
-    amplitude = np.asarray(amplitude_of_ratio(*material.values(), wavelength, ratio))
-    rim = np.where(np.arange(count) % 2 == 0, math.inf, wavelength * waves * 10.0 ** rng.uniform(-1.0, 1.0, count))
-    return material | {"lambda_over_R": wavelength, "A": amplitude, "a_max_over_R": rim}, ratio
+    waves = 10.0 ** (decade + rng.uniform(0.0, 1.0, count))
+    scenes = reaching(material, ratio, waves)
+    rim = scenes["lambda_over_R"] * waves * 10.0 ** rng.uniform(-1.0, 1.0, count)
+    return scenes | {"a_max_over_R": np.where(np.arange(count) % 2 == 0, math.inf, rim)}, ratio
 
 
 def compared(scenes: dict[str, Values], ratio: Values) -> dict[str, Values]:

@@ -90,8 +90,8 @@ class Watch:
         self._workers = {worker: one["nthreads"] for worker, one in there.items()}
         self._looked = time.monotonic()
         many = len(self._workers)
-        paused = many > 0 and all(one["status"] == "paused" for one in there.values())
-        if many and not paused:
+        able = any(one["status"] != "paused" for one in there.values())
+        if able:
             self._seen = self._looked
         elif self._looked - self._seen > self._deserted:
             raise paused_workers(many, self._deserted) if many else without_workers(self._deserted)
@@ -111,18 +111,19 @@ class Watch:
                 "in the environment and on the file system of this command"
             )
         seconds = self._looked - self._moved
-        if seconds > (max(self._next, STILL) if many and not paused else self._next):
+        if seconds > (max(self._next, STILL) if able else self._next):
             self._next = 2 * seconds
-            why = (
-                f"with {counted(many, 'worker')} there; workers whose lifetime or memory limit is below what "
-                "`gradhesion plan` shows finish none"
-            )
-            alone = f"waiting for workers; without any for {in_words(self._deserted)} the run ends"
-            if paused:
-                alone = (
-                    f"as Dask has paused all workers for want of memory; after {in_words(self._deserted)} the run ends"
+            ends = f"{in_words(self._deserted)} the run ends"
+            if able:
+                why = (
+                    f"with {counted(many, 'worker')} there; workers whose lifetime or memory limit is below what "
+                    "`gradhesion plan` shows finish none"
                 )
-            sentence = f"no block has been finished for {seconds:.0f} s, {why if many and not paused else alone}"
+            elif many:
+                why = f"as Dask has paused all workers for want of memory; after {ends}"
+            else:
+                why = f"waiting for workers; without any for {ends}"
+            sentence = f"no block has been finished for {seconds:.0f} s, {why}"
             self._say("waiting", sentence, seconds=seconds, workers=many)
 
     def _say(self, event: str, sentence: str, **fields: Any) -> None:

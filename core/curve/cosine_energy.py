@@ -23,7 +23,7 @@ import numpy as np
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve.cosine import Curve, wave
-from gradhesion.core.curve.cosine_jump import energy_between
+from gradhesion.core.curve.cosine_jump import ENOUGH, energy_between, gauss_rule
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS
 from gradhesion.core.struve.moments import moments
@@ -35,8 +35,8 @@ _PANELS: Final = {12: 0.8, 16: 1.25}
 
 def _rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
     """Return Gauss's rule on [0, 1]."""
-    places, weights = np.polynomial.legendre.leggauss(nodes)
-    return 0.5 * (1.0 + places), 0.5 * weights
+    places, weights = gauss_rule(nodes)
+    return 0.5 * (1.0 + places), weights
 
 
 SHORT, LONG = _PANELS.values()
@@ -44,8 +44,6 @@ SHORT_NODES, SHORT_WEIGHTS = _rule(12)
 NODES, WEIGHTS = _rule(16)
 _FURTHEST: Final = 64.0
 """In waves: over longer jumps the antiderivative loses less to cancellation than the sum of panels costs."""
-_ENOUGH: Final = 0.1
-"""Of the terms that it is the sum of: a smaller energy is integrated panel by panel, which loses no digits."""
 _POWER_TERMS: Final = 12
 """Terms of (1 + eta)^c - 1 for |eta| <= 0.1, the half of a panel over its z."""
 _SMALL_LAG: Final = 0.1
@@ -178,6 +176,6 @@ def jump_energy(table: Any, curve: Curve, start: float, end: float, work: Any) -
         return 0.0
     if end > 0.0:
         energy, size = energy_between(table, curve, start, end, work)
-        if abs(energy) >= _ENOUGH * size:
+        if abs(energy) >= ENOUGH * size:
             return energy
     return energy_by_panels(table, curve, start, end, work)

@@ -30,13 +30,15 @@ from gradhesion.core.struve.pair import horner8
 from gradhesion.core.struve.power import amplitude_power
 
 
-def _rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
+def gauss_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
     """Return Gauss's rule on [-1, 1], with weights that add up to 1."""
     places, weights = np.polynomial.legendre.leggauss(nodes)
     return places, 0.5 * weights
 
 
-NODES, WEIGHTS = _rule(8)
+NODES, WEIGHTS = gauss_rule(8)
+ENOUGH: Final = 0.1
+"""Of the size of its terms: a smaller energy is left to quadrature, which loses no digits."""
 _REACH: Final = 0.1
 """Half a jump over its middle, for which 8 nodes, and the series of z^(-c) in the table, leave 1e-16."""
 _NEAR: Final = 0.15

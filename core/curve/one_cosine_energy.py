@@ -12,17 +12,14 @@ belong to the coordinate at z,
     e = e_depth(0 -> z) - beta P^2/((1+k) alpha)
 """
 
-from typing import Any, Final
+from typing import Any
 
 from gradhesion.core._jit import NO, kernel
 from gradhesion.core.curve.arches import one_cosine
 from gradhesion.core.curve.cosine import wave
 from gradhesion.core.curve.cosine_energy import energy_from_zero
-from gradhesion.core.curve.cosine_jump import energy_between
+from gradhesion.core.curve.cosine_jump import ENOUGH, energy_between
 from gradhesion.core.curve.general import Basis, Curve
-
-_ENOUGH: Final = 0.1
-"""Of the terms that it is the sum of: a smaller energy is left to quadrature, which loses no digits."""
 
 
 @kernel(contract=True)
@@ -46,7 +43,7 @@ def jump_of_one_cosine(basis: Basis, curve: Curve, start: float, end: float, wor
         excess = (front1 - front2) * load_over_front + front2 * fall
         given = beta * excess * excess / ((1.0 + k) * (alpha + beta * front2))
         energy, size = energy + given, size + given
-    return abs(energy) >= _ENOUGH * size, energy
+    return abs(energy) >= ENOUGH * size, energy
 
 
 @kernel(contract=True)
@@ -68,4 +65,4 @@ def jump_of_one_cosine_from_zero(basis: Basis, curve: Curve, x: float, level: fl
         kept = beta * load * load / ((1.0 + k) * alpha)
     elif level != 0.0:
         return NO, energy
-    return abs(energy - kept) >= _ENOUGH * (0.5 * z * z + kept), energy - kept
+    return abs(energy - kept) >= ENOUGH * (0.5 * z * z + kept), energy - kept

@@ -208,13 +208,21 @@ def _sum(
 
 
 @kernel()
-def _enter(table: Any, curve: Curve, after: float, long: Any, trace: Any, losses: bool) -> None:
-    """Find where loading enters the gap by one long jump, at its first wave that ends above the depth; `after` does."""
+def _entry(
+    table: Any, curve: Curve, after: float, long: Any, trace: Any, losses: bool
+) -> tuple[float, float, float, float]:
+    """Return the first wave of the gap that loading stands on, where, and what it has lost and jumped by then.
+
+    It comes from the last branch of the beginning (the place is 0 then), or by one long jump to the first wave that
+    ends above the depth, which `after` does.
+    """
     shared, _ = long
     now = int(shared[LAST_UP])
-    left, level = (trace[END, now], trace[END_DEPTH, now]) if now >= 0 else (0.0, 0.0)
     loss, jumps = (trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]) if now >= 0 else (0.0, 0.0)
+    if 0 <= now == int(shared[NEAR]) - 1:
+        return shared[BEFORE], 0.0, loss, jumps
     if math.isnan(shared[ENTRY]):
+        left, level = (trace[END, now], trace[END_DEPTH, now]) if now >= 0 else (0.0, 0.0)
         wave, _, _, _, _ = first_wave_above(table, curve, shared[BEFORE], after, level)
         x = find_depth(table, curve, level, branch_of_wave(table, curve, wave))
         if losses and now >= 0:
@@ -222,6 +230,7 @@ def _enter(table: Any, curve: Curve, after: float, long: Any, trace: Any, losses
         elif losses:
             loss = energy_from_zero(table, curve, x, 0.0)
         shared[ENTRY], shared[ENTRY_PLACE], shared[ENTRY_LOSS], shared[ENTRY_JUMPS] = wave, x, loss, jumps + 1.0
+    return shared[ENTRY], shared[ENTRY_PLACE], shared[ENTRY_LOSS], shared[ENTRY_JUMPS]
 
 
 @kernel()
@@ -244,13 +253,7 @@ def _load_through(
     trace[RUN, GAP], trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST] = near, 0.0, -1.0
     level = trace[END_DEPTH, now] if now >= 0 else 0.0
     if trace[END_DEPTH, near] > level:
-        if 0 <= now == near - 1:
-            wave, x = shared[BEFORE], 0.0
-            loss, jumps = trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]
-        else:
-            _enter(table, curve, after, long, trace, losses)
-            wave, x = shared[ENTRY], shared[ENTRY_PLACE]
-            loss, jumps = shared[ENTRY_LOSS], shared[ENTRY_JUMPS]
+        wave, x, loss, jumps = _entry(table, curve, after, long, trace, losses)
         if wave < after:
             trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST], trace[RUN, RUN_LANDING] = wave, after - 1.0, x
             if losses:
@@ -331,6 +334,13 @@ def _nominal_branch(table: Any, curve: Curve, rim: float, final: float, trace: A
 
 
 @kernel()
+def _put_branch(trace: Any, branch: int, ends_of_branch: tuple[float, float, float, float]) -> None:
+    """Put start and end of a branch, with their depths, into the trace; its unloading is not known yet."""
+    trace[START, branch], trace[START_DEPTH, branch], trace[END, branch], trace[END_DEPTH, branch] = ends_of_branch
+    trace[UNLOADING_JUMPS, branch] = UNKNOWN
+
+
+@kernel()
 def _branches_at(table: Any, curve: Curve, rim: float, trace: Any, near: int) -> float:
     """Put the last branch that starts within a rim, and the one before, into the trace; return the wave of that."""
     wave = np.floor(rim - table.phase / TWO_PI + 0.5)  # the wave whose centre is next: it has begun, or may have
@@ -338,12 +348,8 @@ def _branches_at(table: Any, curve: Curve, rim: float, trace: Any, near: int) ->
     if start > rim:
         wave -= 1.0
         start, start_depth, end, end_depth = branch_of_wave(table, curve, wave)
-    for branch in range(near + 1, near - 1, -1):
-        trace[START, branch], trace[START_DEPTH, branch] = start, start_depth
-        trace[END, branch], trace[END_DEPTH, branch] = end, end_depth
-        trace[UNLOADING_JUMPS, branch] = UNKNOWN
-        if branch > near:
-            start, start_depth, end, end_depth = branch_of_wave(table, curve, wave - 1.0)
+    _put_branch(trace, near + 1, (start, start_depth, end, end_depth))
+    _put_branch(trace, near, branch_of_wave(table, curve, wave - 1.0))
     return wave - 1.0
 
 
@@ -404,10 +410,7 @@ def open_gap(table: Any, curve: Curve, place: float, trace: Any, long: Any) -> b
     if not top > (trace[END_DEPTH, now] if now >= 0 else 0.0):
         return False
     trace[TANGENCY, 0] = shared[FIRST_CLOSE]
-    wave, x = shared[BEFORE], 0.0
-    if not 0 <= now == near - 1:
-        _enter(table, curve, after, long, trace, NO)
-        wave, x = shared[ENTRY], shared[ENTRY_PLACE]
+    wave, x, _, _ = _entry(table, curve, after, long, trace, NO)
     trace[RUN, GAP], trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER] = near, shared[BEFORE], after
     trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST], trace[RUN, RUN_LANDING] = wave, after, x
     return True

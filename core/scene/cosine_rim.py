@@ -94,28 +94,6 @@ def slopes_of(table: Any, curve: Curve, sense: Any, around: Any, count: int, tra
 
 
 @kernel()
-def _put_slopes(
-    table: Any,
-    curve: Curve,
-    sense: Any,
-    around: Any,
-    scale: float,
-    count: int,
-    trace: Any,
-    final: float,
-    slopes: Any,
-    x: float,
-    slots: Any,
-    out: Any,
-    i: int,
-) -> None:
-    """Store the sensitivities of the energy of a rim if they are asked for."""
-    if sense[4]:
-        energy = out[slots[ENERGY], i]
-        put_energy(table, curve, around, scale, count, trace, final, slopes, x, energy, sense[2], i)
-
-
-@kernel()
 def read_rim(
     table: Any,
     curve: Curve,
@@ -135,5 +113,7 @@ def read_rim(
 ) -> None:
     """Read a rim off a trace: its cycle, and its sensitivities if they are asked for."""
     _cycle_at_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i)
-    if len(sense) > 0:
-        _put_slopes(table, curve, sense, around, scales[0], count, trace, final, slopes, x, slots, out, i)
+    if len(sense) > 0:  # noqa: SIM102 (numba drops the branch by the length alone)
+        if sense[4]:
+            energy = out[slots[ENERGY], i]
+            put_energy(table, curve, around, scales[0], count, trace, final, slopes, x, energy, sense[2], i)

@@ -14,9 +14,9 @@ from gradhesion.core.curve.cosine_folds import first_arch, last_arch
 from gradhesion.core.equations import saturation
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.status import FAILED, NO_VALUE
-from gradhesion.core.variables.similarity import amplitude_of_ratio
 from gradhesion.core.waves.cosine import jump_of_wave
 from gradhesion.core.waves.cosine_sum import branch_points, sum_of_waves
+from tests.core.waves.reaching import reaching
 
 pytestmark = pytest.mark.slow
 
@@ -31,12 +31,7 @@ ANY = (Profile(), Loading(), 1)
 def scene_of(k: float, chi: float, waves: float) -> dict[str, float]:
     """Give the scene of an unbounded punch on which folds end at a given wave, about."""
     material = {"k": k, "nu": 0.5 if k == 1.0 else 0.3, "modulus": 500.0, "c0_over_R": 0.01}
-    n = 0.5 * (1 + k)
-    stretch = math.sqrt(2 ** (1 + k) * math.pi / float(stiffness(*material.values())))
-    length = (chi / (2 * math.pi * waves) ** n * n * stretch) ** (1 / (1 + n))
-    wavelength = 2 * math.pi * length
-    amplitude = float(amplitude_of_ratio(*material.values(), wavelength, chi))
-    return material | {"lambda_over_R": wavelength, "A": amplitude, "a_max_over_R": math.inf}
+    return {name: float(value) for name, value in reaching(material, chi, waves).items()}
 
 
 @pytest.mark.parametrize("k", [0.0, 0.37, 0.9, 1.0])
