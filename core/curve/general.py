@@ -58,6 +58,16 @@ def level_at(k: float, alpha: float, t: float) -> float:
 
 
 @kernel(contract=True)
+def _level(k: float, alpha: float, beta: float, power: float, z: float) -> tuple[float, float, float]:
+    """Return t, q and dq/dz, with power = z^(-n)."""
+    if beta == 0.0:
+        return 0.0, 0.5 * (1.0 - k), 0.0
+    t = beta / (power * power)
+    change = 0.0 if alpha == 0.0 else alpha * t * ((1.0 + k) / (alpha + t)) ** 2 / z
+    return t, level_at(k, alpha, t), change
+
+
+@kernel(contract=True)
 def slope(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[float, float, float]:
     """Return D, dD/dz, and dY/dz at whole + x > 0."""
     table, cosine_bins, series = basis
@@ -65,9 +75,7 @@ def slope(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[flo
     k = table.k
     z = TWO_PI * (whole + x)
     power = amplitude_power(table, z)
-    t = beta / (power * power)
-    q = level_at(k, alpha, t)
-    change = 0.0 if alpha == 0.0 else alpha * t * ((1.0 + k) / (alpha + t)) ** 2 / z
+    t, q, change = _level(k, alpha, beta, power, z)
     bend = 2.0 * B * z if m == 2.0 else m * B * z ** (m - 1.0)
     _, _, v, v1 = sums(table, cosine_bins, series, x, whole)
     value = bend + g * v - q * power
@@ -83,9 +91,7 @@ def rise(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[floa
     z = TWO_PI * (whole + x)
     power = amplitude_power(table, z)
     stretch, front = z * power, 1.0 / (power * power)
-    t = beta * front
-    q = level_at(k, alpha, t)
-    change = 0.0 if alpha == 0.0 else alpha * t * ((1.0 + k) / (alpha + t)) ** 2 / z
+    t, q, change = _level(k, alpha, beta, power, z)
     bend = B * z * z if m == 2.0 else B * z**m
     push = m * bend / z
     w0, w1, v, v1 = sums(table, cosine_bins, series, x, whole)

@@ -7,43 +7,30 @@ Gauss's rule in panels short against the shortest wave, and against the distance
 """
 
 import math
-from typing import Any, Final, TypeAlias
+from typing import Final, TypeAlias
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.curve.cosine_energy import LONG, NODES, SHORT, SHORT_NODES, SHORT_WEIGHTS, WEIGHTS
 from gradhesion.core.curve.general import Basis, Curve, slope
+from gradhesion.core.curve.panels import (
+    INNER_PLACES,
+    INNER_SHARES,
+    PLACES,
+    SHARES,
+    panel_inwards,
+    panel_outwards,
+    panels_to_zero,
+)
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.struve.series import sums
+from gradhesion.core.struve.series import highest_harmonic, sums
 
 Left: TypeAlias = tuple[float, float, float, float, float, float, float]
 """A place on the curve that tells the coordinate of a jump: whole waves, x beyond them, there the waves of depth and of
 load, by how much the coordinate there exceeds that of the jump (0 where the jump leaves the curve there), and there
 B z^m and z^c."""
-_PANEL: Final = LONG
-"""Waves a panel of 16 nodes."""
-_SHORT: Final = SHORT / LONG
-"""The part of it for which 12 nodes serve."""
-_GROWTH: Final = 4.5
-"""Outer over inner end of a panel: its distance from the branch point leaves 1e-15."""
-_GROWTH_OF_MACHINE: Final = 3.0
-"""The same where alpha + beta z^(1+k) has zeros beside the panel."""
-_POWER: Final = 7
-_INNER_NODES: Final = NODES**_POWER
-_INNER_WEIGHTS: Final = WEIGHTS * _POWER * NODES ** (_POWER - 1)
-_SMOOTH: Final = 1.0 / 9.0
-"""Innermost panel over the radius, or over that where powers of z change their balance."""
 _STEPS: Final = 200
 _SURE: Final = 1e-8
 """Step of Newton's method, in waves, whose square is below rounding."""
-
-
-@kernel()
-def _longest_panel(series: Any) -> float:
-    shortest = 0.0
-    for i in range(series.shape[0]):
-        shortest = max(shortest, series[i, 0])
-    return _PANEL / shortest if shortest > 0.0 else math.inf
 
 
 @kernel()
@@ -118,26 +105,17 @@ def find_landing(basis: Basis, curve: Curve, left: Left, low: float, high: float
 @kernel()
 def drop(basis: Basis, curve: Curve, left: Left, low: float, high: float, whole: float) -> float:
     """Return int x (1 - rho^2) dx from whole + low to whole + high, at the coordinate of the place `left`."""
-    _, _, series = basis
-    longest = _longest_panel(series)
+    shortest = highest_harmonic(basis[2])
     total = 0.0
     while low < high:
-        width = min(longest, 2.0 * (whole + low))
-        panels = max(1, math.ceil((high - low) / width - 1e-9))
-        width = (high - low) / panels if panels < 3 else width
+        width, beyond, begin, end = panel_outwards(low, high, whole, shortest)
         part = 0.0
-        if width <= _SHORT * longest and width <= whole + low:
-            for i in range(SHORT_NODES.size):
-                x = low + width * SHORT_NODES[i]
-                u = _rise(basis, curve, left, x, whole)
-                part -= SHORT_WEIGHTS[i] * (whole + x) * u * (2.0 + u)
-        else:
-            for i in range(NODES.size):
-                x = low + width * NODES[i]
-                u = _rise(basis, curve, left, x, whole)
-                part -= WEIGHTS[i] * (whole + x) * u * (2.0 + u)
+        for i in range(begin, end):
+            x = low + width * PLACES[i]
+            u = _rise(basis, curve, left, x, whole)
+            part -= SHARES[i] * (whole + x) * u * (2.0 + u)
         total += width * part
-        low = low + width if panels > 1 else high
+        low = beyond
     return total
 
 
@@ -166,28 +144,20 @@ def _from_zero(basis: Basis, curve: Curve, x: float, level: float) -> float:
 
 @kernel()
 def energy_from_zero(basis: Basis, curve: Curve, x: float, level: float) -> float:
-    """Return e of a jump at Y = level from zero contact to x; the way back has the other sign.
-
-    In the innermost panel the powers of z that have a branch point at 0 are made smooth by x = h t^7: with 16 nodes
-    that leaves 2e-15 of its share, and 1e-15 of waves that turn by no more than 1/4 there.
-    """
+    """Return e of a jump at Y = level from zero contact to x; the way back has the other sign."""
     table, _, series = basis
     _, _, _, alpha, beta = curve
-    longest = _longest_panel(series)
-    inner = min(_SMOOTH * x, longest * (0.25 / (_PANEL * TWO_PI)))
-    growth = _GROWTH
-    if alpha * beta > 0.0:  # the machine's share of the stiffness changes there
-        growth = _GROWTH_OF_MACHINE
-        inner = min(inner, _SMOOTH * (alpha / beta) ** (1.0 / (1.0 + table.k)) / TWO_PI)
+    shortest = highest_harmonic(series)
+    inner, growth = panels_to_zero(table.k, alpha, beta, x, shortest)
     total, high = 0.0, x
     while high > inner:
-        low = max(high - longest, high / growth)
+        low, begin, end = panel_inwards(high, growth, shortest)
         part = 0.0
-        for i in range(NODES.size):
-            part += WEIGHTS[i] * _from_zero(basis, curve, low + (high - low) * NODES[i], level)
+        for i in range(begin, end):
+            part += SHARES[i] * _from_zero(basis, curve, low + (high - low) * PLACES[i], level)
         total += (high - low) * part
         high = low
     part = 0.0
-    for i in range(NODES.size):
-        part += _INNER_WEIGHTS[i] * _from_zero(basis, curve, high * _INNER_NODES[i], level)
+    for i in range(INNER_PLACES.size):
+        part += INNER_SHARES[i] * _from_zero(basis, curve, high * INNER_PLACES[i], level)
     return (total + high * part) * TWO_PI * TWO_PI

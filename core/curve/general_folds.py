@@ -6,19 +6,24 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.curve.cells import DEGREE, MOST, NODES, STACK, isolate
+from gradhesion.core.curve.cells import DEGREE, MOST, NODES, NOISE, STACK, isolate
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Curve, level_at, slope
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.struve.series import highest_harmonic
 
-MOST_CELLS: Final = 1_000_000
-"""Cells of a quarter of the shortest wave that are looked at."""
+MOST_CELLS: Final = 333_000
+"""Cells of three quarters of the shortest wave that are looked at."""
 MOST_FOLDS: Final = 400_000
-_SHARE: Final = 0.5
+_SHARE: Final = 0.7
 """Longest cell over its distance from zero contact, where powers of z have a branch point."""
+_WAVES: Final = 0.75
+"""Longest cell in shortest waves."""
 _STEPS: Final = 80
 _SURE: Final = 1e-15
+_ENOUGH: Final = 1e-8
+"""Step over the bracket, which holds one zero and no other: its square is below rounding."""
 _NEAR: Final = 1e-6
 """Least |D| over the ends' below which it is compared with the terms of D."""
 
@@ -26,16 +31,14 @@ _NEAR: Final = 1e-6
 @kernel()
 def room() -> Any:
     """Return the arrays that a search for folds works in."""
-    return np.empty(DEGREE + 1), np.empty((STACK, DEGREE + 1)), np.empty((STACK, 3)), np.empty((MOST, 4))
+    return np.empty(DEGREE + 1), np.empty((STACK, DEGREE + 1)), np.empty((STACK, 3)), np.empty((MOST, 5))
 
 
 @kernel()
 def cell_width(series: Any, x: float) -> float:
     """Return the width of the cell that begins or ends at x."""
-    shortest = 0.0
-    for i in range(series.shape[0]):
-        shortest = max(shortest, series[i, 0])
-    return min(0.25 / shortest, _SHARE * x) if shortest > 0.0 else _SHARE * x
+    shortest = highest_harmonic(series)
+    return min(_WAVES / shortest, _SHARE * x) if shortest > 0.0 else _SHARE * x
 
 
 @kernel()
@@ -47,6 +50,7 @@ def refine(
     Newton's method from a guess, kept in the bracket.
     """
     x = guess if low < guess < high else 0.5 * (low + high)
+    enough = _ENOUGH * (high - low)
     last, rate = 0.0, 0.0
     for _ in range(_STEPS):
         value, rate, _ = slope(basis, curve, x, whole)
@@ -63,7 +67,7 @@ def refine(
             last = 0.0
             if x <= low or x >= high:
                 break
-        elif step * step <= _SURE * abs(x) * abs(last):  # what is left is about step^2/last
+        elif abs(step) <= enough or step * step <= _SURE * abs(x) * abs(last):  # what is left is less than step^2/last
             break
         else:
             last = step
@@ -103,7 +107,10 @@ def folds_of_cell(
     here, negative = low, at_low < 0.0
     rows, nearest = isolate(values, stack, spans, found)
     if nearest <= _NEAR * max(abs(at_low), abs(at_high)):
-        miss = nearest / _terms(basis, curve, low, whole)
+        largest = 0.0
+        for i in range(DEGREE + 1):
+            largest = max(largest, abs(values[i]))
+        miss = max(0.0, nearest - NOISE * largest) / _terms(basis, curve, low, whole)
     for row in range(rows):
         left, right = low + (high - low) * found[row, 0], low + (high - low) * found[row, 1]
         points = 2
@@ -121,7 +128,8 @@ def folds_of_cell(
             if x < high:
                 value, _, _ = slope(basis, curve, x, whole)
             if (value < 0.0) != negative:
-                zeros[count], _ = refine(basis, curve, here, here, x, negative, whole)
+                guess = low + (high - low) * found[row, 4]
+                zeros[count], _ = refine(basis, curve, guess, here, x, negative, whole)
                 count += 1
                 negative = value < 0.0
             here = x

@@ -60,7 +60,7 @@ from gradhesion.core.sensitivities.general_slopes import (
 )
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
-from gradhesion.core.waves.general import highest_harmonic
+from gradhesion.core.struve.series import highest_harmonic
 
 
 @kernel()

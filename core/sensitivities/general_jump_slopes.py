@@ -16,23 +16,21 @@ import math
 from typing import Any, Final, TypeAlias
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.curve.cosine_energy import NODES, SHORT_NODES, SHORT_WEIGHTS, WEIGHTS
 from gradhesion.core.curve.general import Basis, Curve, coordinate, state
-from gradhesion.core.curve.general_energy import (
-    _GROWTH,
-    _GROWTH_OF_MACHINE,
-    _INNER_NODES,
-    _INNER_WEIGHTS,
-    _PANEL,
-    _SHORT,
-    _SMOOTH,
-    Left,
-    _longest_panel,
-    place_left,
+from gradhesion.core.curve.general_energy import Left, place_left
+from gradhesion.core.curve.panels import (
+    INNER_PLACES,
+    INNER_SHARES,
+    PLACES,
+    SHARES,
+    panel_inwards,
+    panel_outwards,
+    panels_to_zero,
 )
 from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, EXPONENT, GAIN, SHARE
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.struve.series_by_k import sums_by_k
 
 Parts: TypeAlias = tuple[float, float, float, float]
@@ -134,16 +132,13 @@ def drop_slopes(
     """Add `sign` times the slopes of what `drop` of curve/general_energy.py returns, times 4 pi^2."""
     left, more, held = jump
     _, _, series = basis
-    longest = _longest_panel(series)
+    shortest = highest_harmonic(series)
     bends, gains, shares, exponents, levels = 0.0, 0.0, 0.0, 0.0, 0.0
     while low < high:
-        width = min(longest, 2.0 * (whole + low))
-        panels = max(1, math.ceil((high - low) / width - 1e-9))
-        width = (high - low) / panels if panels < 3 else width
-        short = width <= _SHORT * longest and width <= whole + low
-        for i in range(SHORT_NODES.size if short else NODES.size):
-            x = low + width * (SHORT_NODES[i] if short else NODES[i])
-            weight = width * (SHORT_WEIGHTS[i] if short else WEIGHTS[i])
+        width, beyond, begin, end = panel_outwards(low, high, whole, shortest)
+        for i in range(begin, end):
+            x = low + width * PLACES[i]
+            weight = width * SHARES[i]
             u, bend, gain, share, by_k, level = _slopes_of_rise(basis, curve, change, left, more, held, x, whole)
             part = -2.0 * weight * (whole + x) * (1.0 + u)
             bends += part * bend
@@ -151,7 +146,7 @@ def drop_slopes(
             shares += part * share
             exponents += part * by_k
             levels += part * level
-        low = low + width if panels > 1 else high
+        low = beyond
     total[BEND] += sign * _AREA * bends
     total[GAIN] += sign * _AREA * gains
     total[SHARE] += sign * _AREA * shares
@@ -190,21 +185,17 @@ def add_from_zero(
     """
     table, _, series = basis
     _, _, _, alpha, beta = curve
-    longest = _longest_panel(series)
-    inner = min(_SMOOTH * x, longest * (0.25 / (_PANEL * TWO_PI)))
-    growth = _GROWTH
-    if alpha * beta > 0.0:
-        growth = _GROWTH_OF_MACHINE
-        inner = min(inner, _SMOOTH * (alpha / beta) ** (1.0 / (1.0 + table.k)) / TWO_PI)
+    shortest = highest_harmonic(series)
+    inner, growth = panels_to_zero(table.k, alpha, beta, x, shortest)
     high, scale = x, sign * _AREA
     while high > inner:
-        low = max(high - longest, high / growth)
-        for i in range(NODES.size):
-            place, weight = low + (high - low) * NODES[i], scale * (high - low) * WEIGHTS[i]
+        low, begin, end = panel_inwards(high, growth, shortest)
+        for i in range(begin, end):
+            place, weight = low + (high - low) * PLACES[i], scale * (high - low) * SHARES[i]
             _slopes_from_zero(basis, curve, change, parts, place, level, weight, total)
         high = low
-    for i in range(NODES.size):
-        place, weight = high * _INNER_NODES[i], scale * high * _INNER_WEIGHTS[i]
+    for i in range(INNER_PLACES.size):
+        place, weight = high * INNER_PLACES[i], scale * high * INNER_SHARES[i]
         _slopes_from_zero(basis, curve, change, parts, place, level, weight, total)
 
 

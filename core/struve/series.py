@@ -40,13 +40,23 @@ horner4 = make_horner(4, BIN_TERMS)
 horner8 = make_horner(8, TAIL_TERMS)
 
 
+@kernel()
+def highest_harmonic(series: Any) -> float:
+    """Return n of the highest harmonic, 0 without any."""
+    shortest = 0.0
+    for i in range(series.shape[0]):
+        shortest = max(shortest, series[i, 0])
+    return shortest
+
+
 @kernel(contract=True)
 def integrals(
-    table: Any, cosine_bins: Any, x: float, x_low: float, whole: float = 0.0
+    table: Any, cosine_bins: Any, x: float, x_low: float, whole: float = 0.0, odd: float = 1.0
 ) -> tuple[float, float, float, float, float, float]:
     """Return z, S0, S1, S0', T0, T1 at z = 2 pi (whole + x + x_low) and the phase of x + x_low.
 
-    x_low is below the last place of x. Where z < 40 `whole` must be 0.
+    x_low is below the last place of x. Where z < 40 `whole` must be 0. T0 and T1 are 0 where `odd` is: a harmonic
+    without a sine does not need them.
     """
     k = table.k
     z = TWO_PI * (whole + x)
@@ -54,6 +64,8 @@ def integrals(
         i = int(2.0 * z)
         t = fma(4.0 * TWO_PI, x, -(2.0 * i + 1.0)) + 4.0 * (TWO_PI_LOW * x + TWO_PI * x_low)
         s0_over_z, s1_over_z, s0_slope, _ = horner4(table.bins[i], t)
+        if odd == 0.0:
+            return z, z * s0_over_z, z * s1_over_z, s0_slope, 0.0, 0.0
         t0, t1 = horner2(cosine_bins[_COSINE_BIN * i : _COSINE_BIN * (i + 1)], t)
         return z, z * s0_over_z, z * s1_over_z, s0_slope, t0, t1
     inverse = 1.0 / z
@@ -68,6 +80,8 @@ def integrals(
     wave1 = q1 * inverse * s - p1 * c
     s0 = g0 * inverse + (p0 * s + q0 * inverse * c)
     s1 = inverse * (g1 + (k + 1.0) * wave1)
+    if odd == 0.0:
+        return z, s0, s1, h0 * inverse * inverse - wave1, 0.0, 0.0
     t0 = p0 * c - q0 * inverse * s
     t1 = inverse * (k + 1.0) * (p1 * s + q1 * inverse * c)
     return z, s0, s1, h0 * inverse * inverse - wave1, t0, t1
@@ -84,12 +98,17 @@ def summed(
         n = series[i, 0]
         even, odd = n * series[i, 1], n * series[i, 2]
         product = n * x
-        y, s0, s1, d0, t0, t1 = integrals(table, waves, product, fma(n, x, -product) + n * x_low, n * whole)
-        fall = -y * t1 / k1  # T0'
-        w0 += even * s0 + odd * t0
-        w1 += even * (s0 - s1) + odd * (t0 - t1)
-        v += even * (s0 + y * d0) + odd * (t0 + y * fall)
-        v1 += n * (even * (2.0 * d0 + y * (s1 - s0)) + odd * (2.0 * fall + y * (t1 - t0)))
+        y, s0, s1, d0, t0, t1 = integrals(table, waves, product, fma(n, x, -product) + n * x_low, n * whole, odd)
+        w0 += even * s0
+        w1 += even * (s0 - s1)
+        v += even * (s0 + y * d0)
+        v1 += n * even * (2.0 * d0 + y * (s1 - s0))
+        if odd != 0.0:
+            fall = -y * t1 / k1  # T0'
+            w0 += odd * t0
+            w1 += odd * (t0 - t1)
+            v += odd * (t0 + y * fall)
+            v1 += n * odd * (2.0 * fall + y * (t1 - t0))
     return w0, w1, v, v1
 
 

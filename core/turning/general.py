@@ -20,10 +20,10 @@ from gradhesion.core.path.general_ties import is_at_a_fold
 from gradhesion.core.path.ties import rim_is_close
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.turning.corners import corners_of, first_reached
 from gradhesion.core.turning.general_far import turn_far
 from gradhesion.core.turning.general_reach import reach
-from gradhesion.core.waves.general import highest_harmonic
 
 _TRIALS: Final = 12
 """Times that a trace is made longer: a jump may land beyond where the target is surely exceeded."""

@@ -26,6 +26,7 @@ from gradhesion.core.curve.general_energy import Left, drop, find_landing, place
 from gradhesion.core.curve.general_folds import folds_of_cell, refine, room
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.struve.series import highest_harmonic
 
 Step: TypeAlias = tuple[float, float, int]
 """What the jumps of a wave lose, their number, and the pattern they make: 0 for none, -1 where they are not regular."""
@@ -39,15 +40,6 @@ _STEPS: Final = 8
 _LEVEL: Final = 1e-8
 """Distance from a crest in z, whose square is below rounding."""
 _MODULUS: Final = 2_147_483_647
-
-
-@kernel()
-def highest_harmonic(series: Any) -> float:
-    """Return n of the highest harmonic, 0 without any."""
-    shortest = 0.0
-    for i in range(series.shape[0]):
-        shortest = max(shortest, series[i, 0])
-    return shortest
 
 
 @kernel()

@@ -6,8 +6,8 @@ import pytest
 from gradhesion.core.curve.cells import DEGREE, MOST, NODES, STACK, isolate
 
 
-def _isolate(values: np.ndarray) -> list[tuple[float, float, float, float]]:
-    found = np.empty((MOST, 4))
+def _isolate(values: np.ndarray) -> list[tuple[float, ...]]:
+    found = np.empty((MOST, 5))
     count, nearest = isolate(values, np.empty((STACK, DEGREE + 1)), np.empty((STACK, 3)), found)
     assert nearest >= 0.0
     return [tuple(row) for row in found[:count].tolist()]
@@ -25,10 +25,20 @@ def test_zeros_of_polynomials(count: int) -> None:
         rows = _isolate(values)
         single = [row for row in rows if row[3] == 1.0]
         assert len(single) == count == len(rows)
-        for zero, (left, right, sign, _) in zip(zeros, single, strict=True):
+        for zero, (left, right, sign, _, guess) in zip(zeros, single, strict=True):
             assert left <= zero <= right
+            assert left <= guess <= right
             inside = np.prod(left - 1e-9 - np.concatenate([zeros, away]))
             assert sign * inside > 0.0 or left == 0.0
+
+
+@pytest.mark.parametrize("phase", [0.0, 0.7, 1.9, 2.4])
+def test_guesses_of_a_wave(phase: float) -> None:
+    """Newton's method on the curve begins where its interpolant is zero."""
+    rows = _isolate(np.cos(1.5 * np.pi * NODES + phase))
+    zeros = np.array([(j + 0.5) / 1.5 - phase / (1.5 * np.pi) for j in range(4)])
+    zeros = zeros[(zeros > 0.0) & (zeros < 1.0)]
+    assert [row[4] for row in rows] == pytest.approx(zeros.tolist(), abs=1e-6)
 
 
 def test_a_pair_is_told_apart_or_handed_on() -> None:
