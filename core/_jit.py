@@ -1,6 +1,5 @@
 """The one decorator of every kernel, and what is heard of their compilation."""
 
-import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import update_wrapper
@@ -10,7 +9,7 @@ import numba
 import numpy as np
 from numba.core import event
 
-from gradhesion.core import cache, linking
+from gradhesion.core import cache, keeping, linking
 from gradhesion.core._borrowed import BorrowingCompiler
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -27,7 +26,6 @@ NONE: Final = constant(0)
 """The number of what there is none of yet."""
 
 _PACKAGE: Final = "gradhesion.core."
-_setting: Final = threading.Lock()
 
 
 class Kernel:
@@ -90,7 +88,8 @@ def kernel(*, contract: bool = False, inline: bool = False, entry: bool = False)
         inner = numba.njit(**options | {"no_cpython_wrapper": True})(function)
         if options["no_cpython_wrapper"]:
             return inner
-        whole = _kept(function, options)
+        whole = numba.njit(**options)(function)
+        keeping.keep(whole, cache.place().folder)
         linking.note_entry(whole)
         return cast("Function", Kernel(function, whole, inner))
 
@@ -98,20 +97,16 @@ def kernel(*, contract: bool = False, inline: bool = False, entry: bool = False)
 
 
 def _kept(function: Function, options: dict[str, Any]) -> Function:
-    """Have a function compiled when it is called, and the code kept where that is possible."""
+    """Have a function compiled when it is called, and the code kept as numba does where that is possible."""
     folder = cache.place().folder
     if folder is not None:
-        with _setting:
-            previous = numba.config.CACHE_DIR
-            try:
-                numba.config.CACHE_DIR = str(folder)
-                kept: Function = numba.njit(cache=True, **options)(function)
-            except (OSError, RuntimeError):  # the folder has gone, or is full
-                pass
-            else:
-                return kept
-            finally:
-                numba.config.CACHE_DIR = previous
+        try:
+            with keeping.kept_in(folder):
+                found: Function = numba.njit(cache=True, **options)(function)
+        except (OSError, RuntimeError):  # the folder has gone, or is full
+            pass
+        else:
+            return found
     compiled: Function = numba.njit(**options)(function)
     return compiled
 

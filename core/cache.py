@@ -26,6 +26,7 @@ import numba
 import platformdirs
 from llvmlite import binding
 
+from gradhesion.core.ahead import is_complete
 from gradhesion.core.linking import LAZY
 from gradhesion.core.sources import COMPILED, CORE
 
@@ -179,7 +180,8 @@ def remove_unused(folder: Path, now: float | None = None) -> None:
 @lru_cache(maxsize=1)
 def _machine() -> str:
     """Return a digest of all that compiled code depends on beside the sources."""
-    processor = (binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten())
+    asked = (numba.config.CPU_NAME, numba.config.CPU_FEATURES)
+    processor = (*asked, binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten())
     return hashlib.sha256(repr((sys.version, numba.__version__, processor)).encode()).hexdigest()[:16]
 
 
@@ -195,7 +197,7 @@ _here: Final[set[str]] = set()
 def compiled_before(kind: str) -> bool:
     """Return whether the kernels of a kind of work (one of `KINDS`) need no compiling; else the first call is slow."""
     mark = _mark(kind)
-    return kind in _here or (mark is not None and mark.exists())
+    return kind in _here or is_complete(kind) or (mark is not None and mark.exists())
 
 
 def note_compiled(kind: str) -> None:

@@ -105,6 +105,11 @@ def note_entry(dispatcher: Any) -> None:
     _entries.add(dispatcher)
 
 
+def entries() -> list[Any]:
+    """Return what Python calls, of all modules that are imported."""
+    return list(_entries)
+
+
 def is_kept(dispatcher: Any) -> bool:
     """Report whether the machine code of a kernel is kept by itself, not in that of entries alone."""
     return not LAZY or dispatcher in _entries

@@ -1,0 +1,149 @@
+"""Code of kernels that was compiled ahead: what a wheel carries, and where it fits.
+
+The folder `compiled` beside this file, of which only a wheel that is built so has one, holds a file for each kernel and
+types of arguments, and a manifest: what the code was compiled from and for, a digest of each file, and the kinds of
+work that are complete. Where all of it fits, that code is used and nothing is compiled. Anywhere else, and where a file
+is missing or is not what was written, kernels are compiled as from the sources.
+
+The code is that of numba's own cache, for a processor that most have instead of the one at hand. It has the same bits
+(tests/wheels).
+"""
+
+import hashlib
+import json
+import os
+import pickle
+import platform
+import sys
+import sysconfig
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, Final
+
+import llvmlite
+import numba
+import numpy as np
+from llvmlite import binding
+
+from gradhesion.core import linking
+from gradhesion.core.sources import COMPILED, CORE
+
+FOLDER: Final = CORE / "compiled"
+"""Where the code stands, if there is any."""
+MANIFEST: Final = "manifest.json"
+PROCESSOR: Final = "x86-64-v3"
+"""The processor, by LLVM's name: those of Intel since 2013 and of AMD since 2015, but for the smallest."""
+FEATURES: Final = (
+    "64bit", "avx", "avx2", "bmi", "bmi2", "cmov", "crc32", "cx16", "cx8", "f16c", "fma", "fxsr", "lzcnt", "mmx",
+    "movbe", "popcnt", "sahf", "sse", "sse2", "sse3", "sse4.1", "sse4.2", "ssse3", "xsave",
+)  # fmt: skip
+"""What that processor has, by LLVM's names."""
+OTHERS: Final = ("BOUNDSCHECK", "CPU_FEATURES", "CPU_NAME", "DEBUGINFO", "ENABLE_AVX", "LOOP_VECTORIZE", "OPT")
+"""Settings of numba, NUMBA_... in the environment, that ask for other code."""
+
+
+def needed() -> dict[str, str]:
+    """Return what code depends on beside the processor, by its names: where one differs, the code is not used.
+
+    Numpy counts by its major number: its arrays stay where they are in memory as long as that does.
+    """
+    return {
+        "sources": COMPILED,
+        "python": f"{sys.implementation.cache_tag}{sys.abiflags}",
+        "platform": f"{sysconfig.get_platform()} {platform.libc_ver()[0]}".strip(),
+        "numba": numba.__version__,
+        "llvmlite": llvmlite.__version__,
+        "numpy": np.__version__.partition(".")[0],
+    }
+
+
+@dataclass(frozen=True)
+class Ahead:
+    """Code that fits.
+
+    Parameters
+    ----------
+    folder
+        Where it stands.
+    kinds
+        The kinds of work (kinds.py) whose kernels are all there.
+    digests
+        The digest of each file, by its name.
+    """
+
+    folder: Path
+    kinds: frozenset[str]
+    digests: Mapping[str, str]
+
+    def read(self, name: str) -> Any:
+        """Return what a file holds; None if there is no such file or it is not the one that was written."""
+        digest = self.digests.get(name)
+        if digest is None:
+            return None
+        with suppress(OSError):
+            data = (self.folder / name).read_bytes()
+            if hashlib.sha256(data).hexdigest() == digest:
+                return pickle.loads(data)  # noqa: S301 (as trustworthy as the program that it comes with)
+        return None
+
+
+def name_of(function: Callable[..., Any], types: Any) -> str:
+    """Return the name of the file of a kernel and types of arguments."""
+    closed = [cell.cell_contents for cell in function.__closure__ or ()]
+    key = hashlib.sha256(f"{function.__qualname__}{closed!r}{types!r}".encode()).hexdigest()[:16]
+    return f"{function.__module__.removeprefix('gradhesion.core.')}.{function.__name__}-{key}.code"
+
+
+def fitting(folder: Path) -> Ahead | None:
+    """Return the code of a folder; None if there is none, or other code is needed or asked for here."""
+    own = os.environ.get("GRADHESION_KERNELS") == "own" or any(f"NUMBA_{name}" in os.environ for name in OTHERS)
+    if own or not linking.LAZY:
+        return None
+    try:
+        manifest = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
+        found = Ahead(folder, frozenset(manifest["kinds"]), dict(manifest["kernels"]))
+        fits = manifest["needs"] == needed() and _processor_has(manifest["features"])
+    except (OSError, ValueError, TypeError, KeyError):
+        return None
+    return found if fits else None
+
+
+def _processor_has(features: Iterable[str]) -> bool:
+    """Report whether the processor at hand has all of some features."""
+    here = binding.get_host_cpu_features()
+    return all(here.get(feature, False) for feature in features)
+
+
+@lru_cache(maxsize=1)
+def shipped() -> Ahead | None:
+    """Return the code that came with the program and fits here, if any."""
+    return fitting(FOLDER)
+
+
+def is_complete(kind: str) -> bool:
+    """Report whether all kernels of a kind of work came with the program."""
+    found = shipped()
+    return found is not None and kind in found.kinds
+
+
+def write(folder: Path, code: Mapping[str, bytes], kinds: Iterable[str]) -> None:
+    """Write a folder of code, its manifest last.
+
+    Parameters
+    ----------
+    folder
+        A new folder.
+    code
+        What each file holds, by its name.
+    kinds
+        The kinds of work whose kernels are all there.
+    """
+    folder.mkdir(parents=True)
+    for name, data in code.items():
+        (folder / name).write_bytes(data)
+    digests = {name: hashlib.sha256(data).hexdigest() for name, data in sorted(code.items())}
+    manifest = {"needs": needed(), "features": FEATURES, "kinds": sorted(kinds), "kernels": digests}
+    (folder / MANIFEST).write_text(json.dumps(manifest, indent=1) + "\n", encoding="utf-8")

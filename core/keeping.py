@@ -1,0 +1,144 @@
+"""Where an entry is looked for before it is compiled: in what came with the program, and in the cache.
+
+Numba's cache brings numba's whole library into memory before it reads a file, which takes a quarter of a second and is
+for compiling. It also keeps what only other compilations need: intermediate code, types in words, and the constants,
+of which there are none, of every kernel below. Entries are linked into nothing (linking.py), so a third of the file is
+left, and that is read alone.
+
+This file, like linking.py, uses numba's private interfaces; where these are others, nothing of it is (`linking.LAZY`).
+"""
+
+import pickle
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, Final
+
+import numba
+from llvmlite import binding
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, NullCache
+from numba.core.compiler import CompileResult
+from numba.core.runtime.nrt import rtsys
+
+from gradhesion.core import ahead, linking
+
+_setting: Final = threading.Lock()
+
+
+@contextmanager
+def kept_in(folder: Path) -> Iterator[None]:
+    """Have numba keep the code of kernels that are made in the block in a folder."""
+    with _setting:
+        previous = numba.config.CACHE_DIR
+        try:
+            numba.config.CACHE_DIR = str(folder)
+            yield
+        finally:
+            numba.config.CACHE_DIR = previous
+
+
+@lru_cache(maxsize=1)
+def _nothing() -> bytes:
+    """Return the intermediate code of no function."""
+    return bytes(binding.parse_assembly("").as_bitcode())
+
+
+def reduced(result: Any) -> tuple[Any, ...]:
+    """Return of a compiled entry what calling it needs, without intermediate code, words and empty constants."""
+    (name, form, (code, _)), *between, _words, reload_init, environments = result._reduce()  # noqa: SLF001
+    return (name, form, code), *between, reload_init, tuple(one for one in environments if one.consts)
+
+
+def rebuilt(context: Any, parts: tuple[Any, ...]) -> Any:
+    """Return the compiled entry again; `context` is numba's of this process."""
+    (name, form, code), description, *between, reload_init, environments = parts
+    symbols = context.codegen()._engine._defined_symbols  # noqa: SLF001 (numba takes them from the intermediate code)
+    symbols |= {description.llvm_cpython_wrapper_name, context.get_env_name(description)}
+    library = name, form, (code, _nothing())
+    return CompileResult._rebuild(  # noqa: SLF001
+        context, library, description, *between, "", reload_init, environments
+    )
+
+
+class _Impl(CompileResultCacheImpl):  # type: ignore[misc] # numba has no types
+    """How the cache writes and reads entries."""
+
+    def reduce(self, result: Any) -> tuple[Any, ...]:
+        """Return what is written."""
+        return reduced(result)
+
+    def rebuild(self, context: Any, parts: tuple[Any, ...]) -> Any:
+        """Return what was written as an entry."""
+        return rebuilt(context, parts)
+
+
+class _Files(FunctionCache):  # type: ignore[misc]
+    """The files of an entry in the cache."""
+
+    _impl_class = _Impl
+
+    def load_overload(self, types: Any, context: Any) -> Any:
+        """Return the entry for types of arguments, None if it is to be compiled."""
+        with self._guard_against_spurious_io_errors():
+            return self._load_overload(types, context)
+
+
+class Kept(NullCache):  # type: ignore[misc]
+    """What numba asks for an entry before it compiles it, and gives it to afterwards.
+
+    Parameters
+    ----------
+    function
+        The function of the kernel.
+    folder
+        Where code is kept; None if nothing can be.
+    """
+
+    def __init__(self, function: Callable[..., Any], folder: Path | None) -> None:
+        self._function, self._folder = function, folder
+        self._opened: Any = None
+
+    @property
+    def _files(self) -> Any:
+        """The files of the cache, once what came with the program does not have the entry."""
+        if self._opened is None:
+            self._opened = NullCache()
+            if self._folder is not None:
+                try:
+                    with kept_in(self._folder):
+                        self._opened = _Files(self._function)
+                except (OSError, RuntimeError):  # the folder has gone, or is full
+                    pass
+        return self._opened
+
+    @property
+    def cache_path(self) -> Any:
+        """Where the files are."""
+        return self._files.cache_path
+
+    def load_overload(self, types: Any, context: Any) -> Any:
+        """Return the entry for types of arguments, None if it is to be compiled."""
+        rtsys.initialize(context)
+        shipped = ahead.shipped()
+        parts = shipped and shipped.read(ahead.name_of(self._function, types))
+        return rebuilt(context, parts) if parts else self._files.load_overload(types, context)
+
+    def save_overload(self, types: Any, result: Any) -> None:
+        """Keep an entry that has been compiled."""
+        self._files.save_overload(types, result)
+
+
+def keep(entry: Any, folder: Path | None) -> None:
+    """Have an entry, as numba decorates it, looked for and kept so."""
+    entry._cache = Kept(entry.py_func, folder)  # noqa: SLF001
+
+
+def code_of_entries() -> dict[str, bytes]:
+    """Return the code of all entries that this process has compiled or read, by the names of files (ahead.py)."""
+    return {
+        ahead.name_of(entry.py_func, types): pickle.dumps(reduced(result))
+        for entry in linking.entries()
+        for types, result in entry.overloads.items()
+    }
