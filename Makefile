@@ -1,7 +1,7 @@
 PYTHON ?= python3
 sources := $(shell find api cli core twin -name '*.py')
 drawing := $(wildcard figures/*.py api/*.mplstyle)
-checked := $(sources) $(drawing) $(shell find tests benchmarks docs configs -type f -not -path '*/__pycache__/*' -not -name '*.png' 2>/dev/null) README.md CITATION.cff Makefile
+checked := $(sources) $(drawing) $(shell find tests benchmarks docs configs wheels -type f -not -path '*/__pycache__/*' -not -name '*.png' 2>/dev/null) README.md CITATION.cff Makefile
 pictures := $(addprefix fig,1 2a 2b 3a 3b 3c 4a 4b 4c 5a 5b 5c 6 7a 7b 7c 8 9)
 pictures += $(addprefix extra_,amplitudes rim energy_map energy_amplitude energy_wavelength roughness best_exponent best_wavelength error_bars front)
 
@@ -34,8 +34,11 @@ adversary: .venv/complete faults ## those, kills at system calls, disks, 10,000 
 bench: .venv/complete ## measure time and error (minutes), and write docs/benchmarks.md and its figures
 	.venv/bin/python -m benchmarks
 
+wheel: .venv/complete ## build a wheel that carries the compiled solver into dist/ (minutes)
+	.venv/bin/python -m wheels
+
 clean: ## remove the virtual environment and what was built (outputs stay)
-	rm -rf .venv build .mypy_cache .ruff_cache .pytest_cache
+	rm -rf .venv build dist .mypy_cache .ruff_cache .pytest_cache
 
 install = .venv/bin/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
 
@@ -86,4 +89,4 @@ build/tested: $(checked) .venv/complete | build/types/gradhesion
 	.venv/bin/pytest -n auto --dist loadfile --no-loadscope-reorder
 	touch $@
 
-.PHONY: docs reference help maps figures docs-figures test stress faults adversary bench clean
+.PHONY: docs reference help maps figures docs-figures test stress faults adversary bench wheel clean

@@ -1,6 +1,6 @@
 """Code of kernels that was compiled ahead: what a wheel carries, and where it fits.
 
-The folder `compiled` beside this file, of which only a wheel that is built so has one, holds a file for each kernel and
+A wheel that is built so has a folder beside this file, named after a processor. It holds a file for each kernel and
 types of arguments, and a manifest: what the code was compiled from and for, a digest of each file, and the kinds of
 work that are complete. Where all of it fits, that code is used and nothing is compiled. Anywhere else, and where a file
 is missing or is not what was written, kernels are compiled as from the sources.
@@ -31,11 +31,11 @@ from llvmlite import binding
 from gradhesion.core import linking
 from gradhesion.core.sources import COMPILED, CORE
 
-FOLDER: Final = CORE / "compiled"
-"""Where the code stands, if there is any."""
-MANIFEST: Final = "manifest.json"
 PROCESSOR: Final = "x86-64-v3"
 """The processor, by LLVM's name: those of Intel since 2013 and of AMD since 2015, but for the smallest."""
+FOLDER: Final = CORE / PROCESSOR
+"""Where the code stands, if there is any."""
+MANIFEST: Final = "manifest.json"
 FEATURES: Final = (
     "64bit", "avx", "avx2", "bmi", "bmi2", "cmov", "crc32", "cx16", "cx8", "f16c", "fma", "fxsr", "lzcnt", "mmx",
     "movbe", "popcnt", "sahf", "sse", "sse2", "sse3", "sse4.1", "sse4.2", "ssse3", "xsave",
@@ -97,30 +97,50 @@ def name_of(function: Callable[..., Any], types: Any) -> str:
     return f"{function.__module__.removeprefix('gradhesion.core.')}.{function.__name__}-{key}.code"
 
 
-def fitting(folder: Path) -> Ahead | None:
-    """Return the code of a folder; None if there is none, or other code is needed or asked for here."""
+def fitting(folder: Path) -> tuple[Ahead | None, str]:
+    """Return the code of a folder, if there is any and it fits here, and otherwise why not.
+
+    The second is "" as well where there is no code, or where the environment asks for other code.
+    """
     own = os.environ.get("GRADHESION_KERNELS") == "own" or any(f"NUMBA_{name}" in os.environ for name in OTHERS)
-    if own or not linking.LAZY:
-        return None
+    if own or not linking.LAZY or not folder.is_dir():
+        return None, ""
     try:
         manifest = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
         found = Ahead(folder, frozenset(manifest["kinds"]), dict(manifest["kernels"]))
-        fits = manifest["needs"] == needed() and _processor_has(manifest["features"])
+        misfits = _misfits(dict(manifest["needs"]), list(manifest["features"]))
     except (OSError, ValueError, TypeError, KeyError):
-        return None
-    return found if fits else None
+        return None, f"{folder / MANIFEST} cannot be read"
+    return (None, f"they are for {', '.join(misfits)}") if misfits else (found, "")
 
 
-def _processor_has(features: Iterable[str]) -> bool:
-    """Report whether the processor at hand has all of some features."""
-    here = binding.get_host_cpu_features()
-    return all(here.get(feature, False) for feature in features)
+def _misfits(needs: Mapping[str, str], features: Iterable[str]) -> list[str]:
+    """List in words what code needs and this machine does not have."""
+    here, processor = needed(), binding.get_host_cpu_features()
+    found = [
+        "other sources" if name == "sources" else f"{name} {needs[name]}, not {here[name]}"
+        for name in here
+        if needs[name] != here[name]
+    ]
+    lacking = [feature for feature in features if not processor.get(feature, False)]
+    return [*found, *([f"processors that have {', '.join(lacking)}"] if lacking else [])]
 
 
 @lru_cache(maxsize=1)
+def _found() -> tuple[Ahead | None, str]:
+    """Return the code that came with the program, or why it is not used."""
+    return fitting(FOLDER)
+
+
 def shipped() -> Ahead | None:
     """Return the code that came with the program and fits here, if any."""
-    return fitting(FOLDER)
+    return _found()[0]
+
+
+def why_not() -> str:
+    """Return one sentence on why the code that came with the program is not used; "" if it is, or if none came."""
+    why = _found()[1]
+    return f"the compiled kernels that came with the program are not used: {why}" if why else ""
 
 
 def is_complete(kind: str) -> bool:

@@ -22,7 +22,7 @@ from numba.core.caching import CompileResultCacheImpl, FunctionCache, NullCache
 from numba.core.compiler import CompileResult
 from numba.core.runtime.nrt import rtsys
 
-from gradhesion.core import ahead, linking
+from gradhesion.core import ahead
 
 _setting: Final = threading.Lock()
 
@@ -84,6 +84,10 @@ class _Files(FunctionCache):  # type: ignore[misc]
         with self._guard_against_spurious_io_errors():
             return self._load_overload(types, context)
 
+    def parts(self, types: Any, context: Any) -> Any:
+        """Return what is written of the entry for types of arguments, None if that is nothing."""
+        return self._cache_file.load(self._index_key(types, context.codegen()))
+
 
 class Kept(NullCache):  # type: ignore[misc]
     """What numba asks for an entry before it compiles it, and gives it to afterwards.
@@ -135,10 +139,19 @@ def keep(entry: Any, folder: Path | None) -> None:
     entry._cache = Kept(entry.py_func, folder)  # noqa: SLF001
 
 
-def code_of_entries() -> dict[str, bytes]:
-    """Return the code of all entries that this process has compiled or read, by the names of files (ahead.py)."""
-    return {
-        ahead.name_of(entry.py_func, types): pickle.dumps(reduced(result))
-        for entry in linking.entries()
-        for types, result in entry.overloads.items()
-    }
+def code_of(entry: Any) -> dict[str, bytes]:
+    """Return what the cache has of an entry that this process has called, by the names of files (ahead.py).
+
+    Raises
+    ------
+    LookupError
+        It is not in the cache.
+    """
+    found = {}
+    for types in entry.overloads:
+        files = entry._cache._files  # noqa: SLF001
+        parts = files.parts(types, entry.targetctx) if isinstance(files, _Files) else None
+        if parts is None:
+            raise LookupError(f"{entry.py_func.__qualname__}{types}: not in the cache, which cannot be written")
+        found[ahead.name_of(entry.py_func, types)] = pickle.dumps(parts)
+    return found

@@ -22,6 +22,7 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:
     """
     from gradhesion.cli.work.kernels import missing_of, refuse_without_compiler
     from gradhesion.core import KINDS, place
+    from gradhesion.core.ahead import is_complete, why_not
     from gradhesion.core.arrays.processors import processors
 
     refuse_without_compiler()
@@ -29,8 +30,8 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:
 
     kinds = KINDS if everything else ("energy", "envelope", "curves")
     missing, folder, count, start = missing_of(kinds), place().folder, 0, time.monotonic()
-    if place().why:
-        messages.say("cache", place().why)
+    for why in filter(None, (place().why, why_not())):
+        messages.say("cache", why)
 
     def done(kind: str, names: list[str]) -> None:
         nonlocal count
@@ -44,6 +45,7 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:
         warm(kinds, workers or processors(), done)
     if not quiet:
         where = f", kept in {folder}" if folder else ""
+        where = ", with the program" if all(map(is_complete, kinds)) else where
         what = (
             f"{counted(count, 'kernel')} compiled in {time.monotonic() - start:.0f} s"
             if missing

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.kernels import compile_kinds, missing_of, refuse_without_compiler
 from gradhesion.core import KERNELS, place
+from gradhesion.core.ahead import why_not
 
 WORDS = {
     "tables": "tables",
@@ -31,10 +32,10 @@ def prepare(kinds: Sequence[str], *, quiet: bool = False) -> None:
     """
     refuse_without_compiler()
     missing = missing_of(kinds)
-    if place().why and (missing or place().folder is None):
-        messages.say("cache", place().why)
     if not missing:
         return
+    for why in filter(None, (place().why, why_not())):
+        messages.say("cache", why)
     total = sum(KERNELS[kind] for kind in missing)
     what = _in_words(missing)
     messages.say("compile", f"compiling about {total} kernels for {what}, once per version and kind of work")

@@ -2,10 +2,12 @@
 
 import json
 import math
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numba
 import pytest
 
 from gradhesion.core import _jit, ahead, cache, keeping, linking
@@ -32,11 +34,10 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setattr(ahead, "FEATURES", ())  # the test compiles for the processor at hand
     first = made()
     assert first(0.7) == math.sqrt(1.49)
-    name = ahead.name_of(first.py_func, first.signatures[0])
-    ahead.write(tmp_path / "compiled", {name: keeping.code_of_entries()[name]}, ["tables"])
+    ahead.write(tmp_path / "compiled", keeping.code_of(first._entry), ["tables"])
     for kept in (tmp_path / "cache").rglob("*.nb?"):
         kept.unlink()
-    monkeypatch.setattr(ahead, "shipped", lambda: ahead.fitting(tmp_path / "compiled"))
+    monkeypatch.setattr(ahead, "_found", lambda: ahead.fitting(tmp_path / "compiled"))
     return tmp_path / "compiled"
 
 
@@ -51,6 +52,7 @@ def times_compiled(*arguments: float) -> int:
 def test_code_that_fits_is_used_and_nothing_is_written(folder: Path, tmp_path: Path) -> None:
     before = sorted(tmp_path.rglob("*"))
     assert times_compiled(0.7) == 0
+    assert ahead.why_not() == ""
     assert sorted(tmp_path.rglob("*")) == before
     assert folder in before
 
@@ -75,12 +77,21 @@ def other_needs(key: str) -> Callable[[dict[str, Any]], None]:
     return change
 
 
-CHANGES: dict[str, Callable[[dict[str, Any]], Any]] = {
-    **{key: other_needs(key) for key in ("sources", "python", "platform", "numba", "llvmlite", "numpy")},
-    "processor": lambda manifest: manifest["features"].append("a feature that no processor has"),
-    "nothing": lambda manifest: manifest.clear(),
-    "kinds": lambda manifest: manifest.update(kinds=3),
-    "kernels": lambda manifest: manifest.update(kernels=["one", "two"]),
+CHANGES: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
+    "sources": (other_needs("sources"), "they are for other sources"),
+    "python": (other_needs("python"), f"they are for python {sys.implementation.cache_tag}0, not "),
+    "platform": (other_needs("platform"), "they are for platform "),
+    "numba": (other_needs("numba"), f"they are for numba {numba.__version__}0, not {numba.__version__}"),
+    "llvmlite": (other_needs("llvmlite"), "they are for llvmlite "),
+    "numpy": (other_needs("numpy"), "they are for numpy 20, not 2"),
+    "processor": (
+        lambda manifest: manifest["features"].extend(["wings", "fins"]),
+        "they are for processors that have wings, fins",
+    ),
+    "nothing": (lambda manifest: manifest.clear(), "manifest.json cannot be read"),
+    "one need less": (lambda manifest: manifest["needs"].pop("numba"), "manifest.json cannot be read"),
+    "kinds": (lambda manifest: manifest.update(kinds=3), "manifest.json cannot be read"),
+    "kernels": (lambda manifest: manifest.update(kernels=["one", "two"]), "manifest.json cannot be read"),
 }
 
 
@@ -88,24 +99,27 @@ CHANGES: dict[str, Callable[[dict[str, Any]], Any]] = {
 def test_code_for_others_is_not_used(folder: Path, what: str) -> None:
     path = folder / ahead.MANIFEST
     manifest = json.loads(path.read_text())
-    CHANGES[what](manifest)
+    change, why = CHANGES[what]
+    change(manifest)
     path.write_text(json.dumps(manifest))
-    assert ahead.fitting(folder) is None
     assert times_compiled(0.7) == 1
+    assert ahead.why_not().startswith("the compiled kernels that came with the program are not used: ")
+    assert why in ahead.why_not()
 
 
 @pytest.mark.parametrize("text", ["", "[]", "null", "{", "\udc80"])
 def test_a_manifest_that_is_none(folder: Path, text: str) -> None:
     (folder / ahead.MANIFEST).write_bytes(text.encode("utf-8", "surrogateescape"))
-    assert ahead.fitting(folder) is None
+    assert ahead.shipped() is None
+    assert ahead.why_not().endswith(f"{folder / ahead.MANIFEST} cannot be read")
     assert times_compiled(0.7) == 1
 
 
 @pytest.mark.parametrize("name", ["GRADHESION_KERNELS", "NUMBA_CPU_NAME", "NUMBA_OPT"])
 def test_the_environment_can_ask_for_own_code(folder: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert ahead.fitting(folder) is not None
+    assert ahead.fitting(folder)[0] is not None
     monkeypatch.setenv(name, {"GRADHESION_KERNELS": "own", "NUMBA_CPU_NAME": "generic"}.get(name, "3"))
-    assert ahead.fitting(folder) is None
+    assert ahead.fitting(folder) == (None, "")
 
 
 @pytest.mark.parametrize(
@@ -137,4 +151,4 @@ def test_names_of_files_tell_kernels_types_and_constants_apart() -> None:
 
 def test_a_source_tree_has_no_code() -> None:
     assert not ahead.FOLDER.exists()
-    assert ahead.fitting(ahead.FOLDER) is None
+    assert ahead.fitting(ahead.FOLDER) == (None, "")

@@ -117,9 +117,20 @@ def test_what_is_read_needs_no_library_and_what_is_compiled_afterwards_has_it(tm
     assert second[1:] == [False, 1.5, ["nowhere.half"]]
 
 
-def test_the_code_of_entries_has_their_names(folder: Path) -> None:
+@pytest.mark.usefixtures("folder")
+def test_the_code_of_an_entry_can_be_had_by_who_compiled_it_and_by_who_read_it() -> None:
+    first, second = made(), made()
+    first(0.7)
+    second(0.7)
+    name = ahead.name_of(first.py_func, first.signatures[0])
+    assert name.startswith(f"{__name__}.outermost-")
+    assert keeping.code_of(first._entry).keys() == {name}
+    assert keeping.code_of(first._entry) == keeping.code_of(second._entry)
+
+
+def test_without_a_cache_there_is_no_code_to_be_had(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cache, "place", lambda: cache.Place(None))
     entry = made()
     entry(0.7)
-    name = ahead.name_of(entry.py_func, entry.signatures[0])
-    assert name in keeping.code_of_entries()
-    assert folder.exists()
+    with pytest.raises(LookupError, match=r"outermost.*float64.*not in the cache"):
+        keeping.code_of(entry._entry)

@@ -1,0 +1,31 @@
+"""Write the code of kernels for the processor of numba's environment: `python -m wheels.kernels FOLDER KIND...`."""
+
+import sys
+from pathlib import Path
+
+from gradhesion.cli.work.warming import warm
+from gradhesion.core import KINDS, NEEDS, ahead, compile_kind, keeping, linking
+from gradhesion.core.arrays.processors import processors
+
+
+def before(kind: str) -> set[str]:
+    """Return a kind of work with all that it needs."""
+    return {kind}.union(*map(before, NEEDS[kind]))
+
+
+def main(folder: Path, kinds: list[str]) -> None:
+    """Compile side by side, then read all of it and write it down."""
+    if not linking.LAZY:
+        raise SystemExit(
+            "this numba links kernels in its ordinary way, whose code cannot be carried: see core/linking.py"
+        )
+    warm(kinds, processors())
+    needed = [kind for kind in KINDS if any(kind in before(wanted) for wanted in kinds)]
+    for kind in needed:
+        compile_kind(kind)
+    code = {name: data for entry in linking.entries() for name, data in keeping.code_of(entry).items()}
+    ahead.write(folder, code, needed)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), sys.argv[2:])
