@@ -1,5 +1,6 @@
 """The one decorator of every kernel, and what is heard of their compilation."""
 
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import update_wrapper
@@ -28,39 +29,68 @@ NONE: Final = constant(0)
 _PACKAGE: Final = "gradhesion.core."
 
 
+_making: Final = threading.RLock()
+
+
 class Kernel:
     """A kernel: for Python the entry, for other kernels its inner code.
 
-    Both are compiled from the same function when they are first needed, and have its name, its types and its bits. The
-    entry is kept in the cache with all the kernels that it calls; what is inner is linked into entries (linking.py).
+    Both are compiled from the same function, and have its name, its types and its bits. The entry is kept in the cache
+    with all the kernels that it calls; what is inner is linked into entries (linking.py). Either is made when it is
+    first needed: a run whose kernels are all compiled needs some entries, and nothing inner.
     """
 
-    def __init__(self, function: Callable[..., Any], entry: Any, inner: Any) -> None:
+    def __init__(self, function: Callable[..., Any], options: dict[str, Any]) -> None:
         update_wrapper(self, function)
-        self._entry, self._inner = entry, inner
-        self._numba_type_ = inner._numba_type_
+        self._function, self._options, self._folder = function, options, cache.place().folder
 
     def __call__(self, *arguments: Any) -> Any:
         """Call the entry."""
         return self._entry(*arguments)
 
     def __getattr__(self, name: str) -> Any:
-        """Give what the entry has."""
-        if name == "_entry":  # not made yet, as in a copy
+        """Make the entry or the inner code, once; give what the entry has, or the inner code if there is no entry."""
+        if name in {"_function", "_options", "_folder"}:  # not set yet, as in a copy
             raise AttributeError(name)
-        return getattr(self._entry, name)
+        is_inner = self._options["no_cpython_wrapper"]
+        if name not in {"_entry", "_inner"}:
+            return getattr(self._inner if is_inner else self._entry, name)
+        if name == "_entry" and is_inner:
+            raise TypeError(f"{self._function.__qualname__} is called by kernels alone: its name begins with _")
+        with _making:
+            if name not in vars(self):
+                vars(self)[name] = self._made_entry() if name == "_entry" else self._made_inner()
+        return vars(self)[name]
+
+    def _made_entry(self) -> Any:
+        """Make what Python calls."""
+        entry = numba.njit(**self._options)(self._function)
+        keeping.keep(entry, self._folder)
+        linking.note_entry(entry)
+        return entry
+
+    def _made_inner(self) -> Any:
+        """Make what kernels call."""
+        return numba.njit(**self._options | {"no_cpython_wrapper": True})(self._function)
+
+    @property
+    def _numba_type_(self) -> Any:
+        """The type for numba, where a kernel calls this one."""
+        return self._inner._numba_type_
 
     @property
     def signatures(self) -> list[Any]:
         """The types for which it has been compiled."""
-        return list(dict.fromkeys([*self._entry.signatures, *self._inner.signatures]))
+        made = [vars(self)[name] for name in ("_entry", "_inner") if name in vars(self)]
+        return list(dict.fromkeys(types for one in made for types in one.signatures))
 
 
 def kernel(*, contract: bool = False, inline: bool = False, entry: bool = False) -> Callable[[Function], Function]:
     """Compile a function to machine code that releases the GIL and follows IEEE arithmetic.
 
     A kernel whose name begins with an underscore is called by kernels alone, and is compiled without what lets Python
-    call it (a tenth of the time): such a call ends the process. Other kernels can be called from Python as well.
+    call it (a tenth of the time): such a call is a TypeError, or ends the process where kernels are linked as numba
+    does (linking.py). Other kernels can be called from Python as well.
 
     Parameters
     ----------
@@ -85,13 +115,7 @@ def kernel(*, contract: bool = False, inline: bool = False, entry: bool = False)
         }
         if not linking.LAZY or inline:
             return _kept(function, options)
-        inner = numba.njit(**options | {"no_cpython_wrapper": True})(function)
-        if options["no_cpython_wrapper"]:
-            return inner
-        whole = numba.njit(**options)(function)
-        keeping.keep(whole, cache.place().folder)
-        linking.note_entry(whole)
-        return cast("Function", Kernel(function, whole, inner))
+        return cast("Function", Kernel(function, options))
 
     return decorate
 

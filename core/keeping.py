@@ -14,11 +14,11 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, ClassVar, Final
 
 import numba
 from llvmlite import binding
-from numba.core.caching import CompileResultCacheImpl, FunctionCache, NullCache
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, NullCache, UserProvidedCacheLocator
 from numba.core.compiler import CompileResult
 from numba.core.runtime.nrt import rtsys
 
@@ -63,7 +63,9 @@ def rebuilt(context: Any, parts: tuple[Any, ...]) -> Any:
 
 
 class _Impl(CompileResultCacheImpl):  # type: ignore[misc] # numba has no types
-    """How the cache writes and reads entries."""
+    """How the cache writes and reads entries, and that it does so in the folder that is given, or nowhere."""
+
+    _locator_classes: ClassVar[list[Any]] = [UserProvidedCacheLocator]
 
     def reduce(self, result: Any) -> tuple[Any, ...]:
         """Return what is written."""

@@ -3,12 +3,14 @@
 import math
 import re
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from copy import copy
 from pathlib import Path
 
 import numba
 import pytest
 
-from gradhesion.core import _jit, cache
+from gradhesion.core import _jit, cache, linking
 
 CORE = Path(_jit.__file__).parent
 
@@ -120,3 +122,41 @@ def test_a_process_that_compiles_clears_away_other_versions_once(folder: Path, m
     heard.on_start(None)
     heard.on_start(None)
     assert cleared == [folder]
+
+
+@pytest.mark.skipif(not linking.LAZY, reason="numba of another version: such a call ends the process")
+def test_python_cannot_call_what_is_for_kernels_alone(folder: Path) -> None:
+    def third(x: float) -> float:
+        return x / 3.0
+
+    third.__name__ = "_third"
+    inner = _jit.kernel()(third)
+
+    @_jit.kernel()
+    def two_thirds(x: float) -> float:
+        return 2.0 * inner(x)
+
+    with pytest.raises(TypeError, match="third is called by kernels alone: its name begins with _"):
+        inner(1.0)
+    assert two_thirds(1.5) == 1.0
+    assert len(list(folder.rglob("*.nbc"))) == 1
+
+
+@pytest.mark.skipif(not linking.LAZY, reason="numba of another version: all is made at once")
+@pytest.mark.usefixtures("folder")
+def test_threads_that_call_a_kernel_first_make_it_once() -> None:
+    @_jit.kernel()
+    def fifth(x: float) -> float:
+        return x / 5.0
+
+    with ThreadPoolExecutor(8) as pool:
+        assert [*pool.map(fifth, [5.0] * 64)] == [1.0] * 64
+    assert sum(fifth.stats.cache_misses.values()) == 1
+
+
+def test_a_kernel_can_be_copied() -> None:
+    @_jit.kernel()
+    def sixth(x: float) -> float:
+        return x / 6.0
+
+    assert copy(sixth)(6.0) == 1.0

@@ -66,7 +66,10 @@ def test_nothing_is_kept_without_a_folder(monkeypatch: pytest.MonkeyPatch) -> No
 def test_a_folder_that_cannot_be_made_is_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "file").touch()
     monkeypatch.setattr(cache, "place", lambda: cache.Place(tmp_path / "file" / "kernels"))
-    assert counted(made(), 0.7)[1] == 1
+    assert [counted(made(), 0.7)[1] for _ in range(2)] == [1, 1]
+    assert not list(Path(__file__).parent.rglob(f"{Path(__file__).stem}.*.nb?")), (
+        "nor is anything kept beside the source"
+    )
 
 
 @pytest.mark.usefixtures("folder")
@@ -93,11 +96,14 @@ names = []
 with watch_compilation(names.append):
     value = float(stiffness(0.3, 0.3, 500.0, 0.01))
     library = "numba.np.npyimpl" in sys.modules
+    things = [thing for name in [*sys.modules] if name.startswith("gradhesion.core") for thing in vars(sys.modules[name]).values()]
+    kernels = {id(thing): vars(thing) for thing in things if isinstance(thing, _jit.Kernel)}.values()
+    made = [sum(name in kernel for kernel in kernels) for name in ("_entry", "_inner")]
     @_jit.kernel()
     def half(x):
         return x / 2.0
     half.py_func.__module__ = "gradhesion.core.nowhere"
-    print(json.dumps([value, library, half(3.0), names]))
+    print(json.dumps([value, library, half(3.0), names, made]))
 """
 
 
@@ -114,7 +120,9 @@ def test_what_is_read_needs_no_library_and_what_is_compiled_afterwards_has_it(tm
     first, second = run(), run()
     assert first[:2] == [second[0], True]
     assert len(first[3]) > len(second[3])
-    assert second[1:] == [False, 1.5, ["nowhere.half"]]
+    assert second[1:4] == [False, 1.5, ["nowhere.half"]]
+    assert first[4][1] > 5
+    assert second[4] == [1, 0], "the one that is called, and nothing below"
 
 
 @pytest.mark.usefixtures("folder")
