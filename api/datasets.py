@@ -38,7 +38,7 @@ def open_dataset(file: str | Path) -> xarray.Dataset:
         The file is missing or damaged, or something else than a dataset of this program; the message says what it is,
         or what it lacks.
     """
-    dataset = found(Path(file), cache=True)
+    dataset = found(Path(file), kept=True)
     try:
         check_ours(dataset, Path(file))
         check_form(dataset, Path(file))

@@ -27,14 +27,14 @@ MOST: Final = 2**22
 @contextmanager
 def opened(path: Path) -> Iterator["Dataset"]:
     """
-    Open a dataset that `gradhesion run` wrote; nothing is loaded yet.
+    Open a dataset that `gradhesion run` wrote; nothing is loaded yet, and its axes are not indexed.
 
     Raises
     ------
     DatasetError
         The file is missing, damaged or not ours.
     """
-    with found(path, cache=False) as dataset:
+    with found(path, kept=False) as dataset:
         try:
             check_ours(dataset, path)
             check_form(dataset, path)
@@ -45,7 +45,7 @@ def opened(path: Path) -> Iterator["Dataset"]:
             raise DatasetError(f"{path}: is damaged ({error}); write it again with `gradhesion run`") from error
 
 
-def found(path: Path, *, cache: bool) -> "Dataset":
+def found(path: Path, *, kept: bool) -> "Dataset":
     """
     Open a dataset; it is the caller's to close.
 
@@ -53,8 +53,9 @@ def found(path: Path, *, cache: bool) -> "Dataset":
     ----------
     path
         Of a file in NetCDF.
-    cache
-        Whether values that were read are kept.
+    kept
+        Whether values that were read are kept, and axes indexed, so that `sel` finds their labels: for users. Commands
+        read each value once and take items by their numbers; what makes indices takes longer than most of them.
 
     Raises
     ------
@@ -68,7 +69,7 @@ def found(path: Path, *, cache: bool) -> "Dataset":
     try:
         with netCDF4.Dataset(path) as file:
             check_size(file, path)
-        return xarray.open_dataset(path, engine="netcdf4", cache=cache)
+        return xarray.open_dataset(path, engine="netcdf4", cache=kept, create_default_indexes=kept)
     except DatasetError:
         raise
     except (OSError, ValueError, RuntimeError, AttributeError, TypeError) as error:  # as the libraries say it

@@ -14,7 +14,7 @@ def validity_told(dataset: xarray.Dataset) -> Iterator[str]:
     for name, limit in LIMITS.items():
         if name not in dataset:
             continue
-        count = sum(int(is_beyond(dataset[name][block].load()).sum()) for block in tiling_of(dataset[name]))
+        count = sum(int(is_beyond(dataset[name][block]).sum()) for block in tiling_of(dataset[name]))
         if count:
             scenes = dataset[name].size
             share = f"{count:,} of {counted(scenes, 'scene')} ({100 * count / scenes:.2g} %)"

@@ -160,7 +160,7 @@ def _extremes(variable: xarray.DataArray) -> list[tuple[float, dict[str, float |
     """Find the least and the greatest value of a variable with their places, a block at a time."""
     found: list[tuple[float, dict[str, float | str]]] = []
     for block in tiling_of(variable):
-        part = variable[block].load()
+        part = variable[block]
         values = np.asarray(part.values, dtype=float)
         if not np.any(np.isfinite(values)):
             continue
