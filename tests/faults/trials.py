@@ -8,6 +8,7 @@ link, an unlink, a removal of a folder), or by SIGKILL or SIGTERM at a random mo
 """
 
 import argparse
+import atexit
 import os
 import random
 import shutil
@@ -64,10 +65,9 @@ def start(*words: str | Path, folder: Path, before: Callable[[], None] = lambda:
         errors = os.open(folder / "stderr", os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
         os.dup2(errors, 2)
         sys.argv = ["gradhesion", *map(str, words), "--quiet"]
+        atexit._clear()  # what this process tidies up at its end
         before()
         gradhesion()
-    except SystemExit as ended:
-        os._exit(int(ended.code or 0))
     finally:
         os._exit(99)
 
