@@ -99,6 +99,21 @@ def test_a_mistake_in_a_kernel_is_an_error_and_nothing_else() -> None:
     assert math.isclose(three_levels()[0](0.7), expected(0.7), rel_tol=1e-15)
 
 
+READ = """
+import sys
+from gradhesion.core import solve
+scene = dict(k=0.3, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.1, A=0.03, a_max_over_R=0.5)
+assert solve(scene, ["pull_off_force"], threads=1)["pull_off_force"] > 0.0
+print([name for name in ("numba.np.arraymath", "numba.np.linalg", "scipy.linalg") if name in sys.modules])
+"""
+
+
+def test_what_is_kept_is_read_without_what_compiles() -> None:
+    subprocess.run([sys.executable, "-c", READ], check=True)  # it may compile
+    done = subprocess.run([sys.executable, "-c", READ], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
+
+
 SWEEP = """
 import hashlib, json, sys
 import numba
