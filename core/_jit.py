@@ -10,7 +10,7 @@ import numba
 import numpy as np
 from numba.core import event
 
-from gradhesion.core import cache, keeping, linking
+from gradhesion.core import cache, collecting, keeping, linking
 from gradhesion.core._borrowed import BorrowingCompiler
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -27,8 +27,6 @@ NONE: Final = constant(0)
 """The number of what there is none of yet."""
 
 _PACKAGE: Final = "gradhesion.core."
-
-
 _making: Final = threading.RLock()
 
 
@@ -163,6 +161,7 @@ class _Compilation(event.Listener):  # type: ignore[misc] # numba has no types
 
 _compilation: Final = _Compilation()
 event.register("numba:compile", _compilation)
+event.register("numba:compile", collecting.Seldom())
 
 
 @contextmanager

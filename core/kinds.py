@@ -30,7 +30,7 @@ from gradhesion.core.problem.shape import equivalent_wave
 NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "tables": (),
     "force": ("tables",),
-    "energy": ("force",),
+    "energy": ("tables",),
     "reports": ("energy",),
     "turning": ("energy",),
     "asymptotic": ("energy",),
@@ -49,6 +49,7 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
 name. Processes that compile kinds side by side, each after those that it needs and none beside one of `APART`, compile
 nothing twice, and no two write to one index of the cache."""
 APART: Final = (
+    *({"force", other} for other in ("energy", "asymptotic", "envelope", "sensitivities")),
     *({"asymptotic", general} for general in ("general_energy", "general_reports", "general_turning")),
     *({"sensitivities", other} for other in ("asymptotic", "envelope", "general_energy", "general_sensitivities")),
 )
@@ -58,9 +59,9 @@ KINDS: Final = tuple(NEEDS)
 KERNELS: Final[dict[str, int]] = {
     "tables": 51,
     "force": 40,
-    "energy": 126,
+    "energy": 165,
     "reports": 16,
-    "turning": 29,
+    "turning": 31,
     "asymptotic": 42,
     "envelope": 1,
     "curves": 31,
