@@ -27,6 +27,8 @@ SLOPES: Final = "slopes"
 """The name of the sensitivities to the numbers of a scene, from which those to its parameters are put together."""
 BRANCHES: Final = 192
 """Branches of a curve that a task has room for."""
+_SENSED: Final = 64
+"""Exponents a task whose neighbours have tables too, four each."""
 
 
 def run_tasks(
@@ -35,10 +37,11 @@ def run_tasks(
     work: Callable[[NDArray[Any], Task, NDArray[np.float64]], None],
     *,
     forces: bool = False,
+    sensed: bool = False,
 ) -> None:
     """Do the work on every task: with the tables of its exponents, the task itself, and the stiffness of all curves.
 
-    With `forces` the tables serve pull-off forces alone.
+    With `forces` the tables serve pull-off forces alone; with `sensed` each exponent needs tables of neighbours.
     """
     stiffness = np.empty(curves.k.size)
 
@@ -47,7 +50,7 @@ def run_tasks(
         fill_stiffness(tables, task.which, task.index, curves.k, curves.nu, curves.modulus, curves.c0_over_R, stiffness)
         work(tables, task, stiffness)
 
-    run_one_by_one(curves.tasks(), one, workers)
+    run_one_by_one(curves.tasks(*((_SENSED,) if sensed else ())), one, workers)
 
 
 def solve_cosine(
@@ -88,7 +91,7 @@ def solve_cosine(
         if reports:
             report_curves(*curves_of, slots, slots_of_reports, out, status, scratch)
 
-    run_tasks(curves, workers, work, forces=solve_curves is PULL_OFF_LOOP)
+    run_tasks(curves, workers, work, forces=solve_curves is PULL_OFF_LOOP, sensed=slopes is not None)
     if without_rim.any():
         out[:, np.broadcast_to(without_rim, status.shape)] = math.nan
         status[np.broadcast_to(without_rim, status.shape)] = NO_VALUE

@@ -15,8 +15,10 @@ _TASK: Final = 2048
 """Scenes a task: some milliseconds, a thousand times the cost of handing it to a thread."""
 _FEW: Final = 64
 """Curves of an exponent from which on a table of its own is worth its time."""
-_TOGETHER: Final = 64
+_TOGETHER: Final = 512
 """Exponents of few curves that are one task."""
+_MANY: Final = 128
+"""Exponents of few curves from which on it is worth being able to interpolate tables."""
 
 
 @dataclass(frozen=True)
@@ -73,8 +75,8 @@ class Grouped:
         """The number of curves, and of rims on each."""
         return self.k.size, self.rims[0].shape[1]
 
-    def tasks(self) -> list[Task]:
-        """Cut the curves into tasks: those of one exponent, or those of many exponents that have few curves each."""
+    def tasks(self, together: int = _TOGETHER) -> list[Task]:
+        """Cut the curves into tasks: those of one exponent, or those of many that have few each, `together` at most."""
         k, size = self.k, max(1, _TASK // max(1, self.rims[0].shape[1]))
         if k.size == 0:
             return []
@@ -82,7 +84,7 @@ class Grouped:
         ordered = k[order]
         counts = np.diff(first, append=k.size)
         few = counts < _FEW
-        if few.sum() < 2 * _TOGETHER:
+        if few.sum() < _MANY:
             few[:] = False
         tasks = []
         for begin, count in zip(first[~few].tolist(), counts[~few].tolist(), strict=True):
@@ -93,11 +95,12 @@ class Grouped:
         exponents, left = ordered[first[few]], order[np.repeat(few, counts)]
         counts = counts[few]
         ends = np.cumsum(counts)
-        together = max(1, min(_TOGETHER, size))
-        for i in range(0, exponents.size, together):
-            begin, end = ends[i] - counts[i], ends[min(i + together, exponents.size) - 1]
-            which = np.repeat(np.arange(min(together, exponents.size - i)), counts[i : i + together])
-            tasks.append(Task(exponents[i : i + together], which, left[begin:end], interpolated=True))
+        begin, i = 0, 0
+        while i < exponents.size:
+            last = max(i + 1, min(i + together, int(np.searchsorted(ends, begin + size, side="right"))))
+            which = np.repeat(np.arange(last - i), counts[i:last])
+            tasks.append(Task(exponents[i:last], which, left[begin : ends[last - 1]], interpolated=True))
+            begin, i = int(ends[last - 1]), last
         return tasks
 
 

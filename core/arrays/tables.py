@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from gradhesion.core.arrays.grouping import Task
 from gradhesion.core.sensitivities.neighbours import exponents_beside
 from gradhesion.core.struve.cosine_bins import build_cosine_bins
-from gradhesion.core.struve.interpolated import interpolated_tables
+from gradhesion.core.struve.interpolated import interpolated_tables, table_of_each
 from gradhesion.core.struve.series import with_table
 from gradhesion.core.struve.series_by_k import change_of
 from gradhesion.core.struve.series_table import has_table
@@ -27,12 +27,12 @@ def table_of(k: float) -> Any:
 
 
 def tables_for(task: Task, *, forces: bool = False) -> NDArray[Any]:
-    """Return the tables of a task, shape (exponents,): that of exponent 0 for what is no exponent.
+    """Return the tables of a task, for kernels that ask for each of them (struve/current.py); shape (1,).
 
-    With `forces` only pull-off forces are read from them.
+    What is no exponent has that of exponent 0. With `forces` only pull-off forces are read from them.
     """
     exponents = np.where((task.exponents >= 0.0) & (task.exponents <= 1.0), task.exponents, 0.0)
-    return interpolated_tables(exponents, forces=forces) if task.interpolated else _own(float(exponents[0]))
+    return table_of_each(exponents, forces=forces) if task.interpolated else _own(float(exponents[0]))
 
 
 def neighbours_for(task: Task) -> tuple[NDArray[Any], NDArray[np.float64]]:
@@ -46,7 +46,7 @@ def neighbours_for(task: Task) -> tuple[NDArray[Any], NDArray[np.float64]]:
     beside = [exponents_beside(float(k)) for k in inside]
     exponents = np.array([others for others, _ in beside])
     if task.interpolated:
-        tables = interpolated_tables(exponents.ravel(), forces=False)
+        tables = interpolated_tables(exponents.ravel())
     else:
         tables = np.concatenate([_own(k) for k in exponents.ravel().tolist()])
     return tables.reshape(exponents.shape), np.array([weights for _, weights in beside])

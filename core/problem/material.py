@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core._jit import kernel
+from gradhesion.core.struve.current import ready_for_theta
 from gradhesion.core.struve.theta import front_of, gammas_by_table, gammas_of, sinc
 
 
@@ -95,7 +96,7 @@ def fill_stiffness(
     for j in range(index.size):
         i = index[j]
         if j == 0 or k[i] != k[before] or nu[i] != nu[before]:
-            value = _theta_by_table(tables[which[j]], k[i], nu[i])
+            value = _theta_by_table(tables[ready_for_theta(tables, which[j])], k[i], nu[i])
         if j == 0 or k[i] != k[before] or c0_over_R[i] != c0_over_R[before]:
             power = c0_over_R[i] ** k[i]
         before = i

@@ -31,6 +31,7 @@ from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.results import ENERGY, FORCE, RADIUS, put
 from gradhesion.core.problem.status import NO_VALUE, TOLERANCE_NOT_MET
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.current import ready
 
 NEEDED: Final = {
     "pull_off_force_error": "pull_off_radius",
@@ -255,7 +256,7 @@ def report_curves(
 ) -> None:
     """Report on the curves `index`, `which` are their tables; `results` are the slots of what is solved already."""
     for j in range(index.size):
-        i, table = index[j], tables[which[j]]
+        i, table = index[j], tables[ready(tables, which[j])]
         constants, stretch_factor = smooth.smooth_constants(table.k), 2.0 ** (1.0 + table.k) * math.pi
         row = rims[i if rims.shape[0] > 1 else 0]
         values, flags = out[:, i], status[i]

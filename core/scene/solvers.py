@@ -11,11 +11,12 @@ from typing import Any, Final
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.closed import envelope
-from gradhesion.core.closed.smooth import smooth_constants
+from gradhesion.core.closed.smooth import smooth_constants, smooth_places
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene import cosine as scene
 from gradhesion.core.scene import short_wave as asymptotic_cycle
 from gradhesion.core.sensitivities.cosine_slopes import of_curve
+from gradhesion.core.struve.current import ready
 
 EXACT, ASYMPTOTIC, ENVELOPE, PULL_OFF = 0, 1, 2, 3
 """The last one is the exact solver where nothing but the pull-off is asked for: a third of the code to compile."""
@@ -53,12 +54,13 @@ def loop_of(solver: int) -> Callable[..., None]:
         row for each table, and the sensitivities go to (3, COUNT, curves, rims).
         """
         table = tables[0]
-        constants, stretch_factor = smooth_constants(table.k), 2.0 ** (1.0 + table.k) * math.pi
+        constants, stretch_factor = smooth_places(table.k), math.nan
         for j in range(index.size):
             i = index[j]
-            if which[j] != (which[j - 1] if j > 0 else 0):
-                table = tables[which[j]]
-                constants, stretch_factor = smooth_constants(table.k), 2.0 ** (1.0 + table.k) * math.pi
+            if j == 0 or which[j] != which[j - 1]:
+                table = tables[ready(tables, which[j])]
+                constants = smooth_places(table.k) if solver == PULL_OFF else smooth_constants(table.k)
+                stretch_factor = 2.0 ** (1.0 + table.k) * math.pi
             row = rims[i if rims.shape[0] > 1 else 0]
             values, flags = out[:, i], status[i]
             stretch = math.sqrt(stretch_factor / stiffness[i])  # s = sqrt(2^(1+k) pi dgamma/M)

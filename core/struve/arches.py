@@ -20,7 +20,8 @@ from typing import Any
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import ARCHES
+from gradhesion.core.struve.filling import ask_for_arches
+from gradhesion.core.struve.layout import ARCHES, ARCHES_AT_ONCE
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.power import amplitude_power
 
@@ -99,6 +100,7 @@ def build_arches(table: Any) -> None:
 def inner_edge(table: Any, i: int) -> tuple[float, float, float]:
     """Return x, X, Q at the inner edge of arch i."""
     if i <= ARCHES:
+        ask_for_arches(table, i // ARCHES_AT_ONCE)
         row = table.arches[i]
         return row[0], row[1], row[2]
     return find_inflection(table, i)
@@ -108,6 +110,7 @@ def inner_edge(table: Any, i: int) -> tuple[float, float, float]:
 def summit(table: Any, i: int) -> tuple[float, float, float]:
     """Return x, X, Q at the summit of arch i."""
     if i <= ARCHES:
+        ask_for_arches(table, i // ARCHES_AT_ONCE)
         row = table.arches[i]
         return row[3], row[4], row[5]
     return find_summit(table, i)

@@ -1,9 +1,10 @@
 """Tables of many exponents at once: each entry is a polynomial in k, between tables of a few exponents.
 
-A table of its own costs 0.2 ms, a hundred times a force. Over G((1+k)/2), or its square where squares of S0 are
-integrated, every entry is so smooth on 0 <= k <= 1 that a polynomial of degree 15 through Chebyshev nodes leaves its
-rounding (against tables of their own, on scenes of random k: forces within 3e-15 of the terms they are the difference
-of, energies within 5e-14). A batch of tables takes some 10 us a table.
+A table of its own costs 0.2 ms, hundreds of times a force. Over G((1+k)/2), or its square where squares of S0 are
+integrated, every entry is so smooth on 0 <= k <= 1 that the polynomial of degree 15 through 24 tables at Chebyshev
+nodes leaves its rounding. It is expanded anew on each of 24 pieces of [0, 1], where 8 coefficients serve (against
+tables of their own, on scenes of random k: forces within 3e-15 of the terms they are the difference of, energies within
+5e-14). Of bins, moments and arches those are filled that are read (filling.py), all else at once.
 """
 
 import math
@@ -11,137 +12,142 @@ from functools import lru_cache
 from typing import Any, Final
 
 import numpy as np
+from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.struve.chebyshev import chebyshev_fit
-from gradhesion.core.struve.layout import EXPONENT_SPAN, TABLE
-from gradhesion.core.struve.table import build_table, fill_constants
+from gradhesion.core.struve.current import RECIPE, prepare
+from gradhesion.core.struve.filling import ALL
+from gradhesion.core.struve.intrinsics import bits_of
+from gradhesion.core.struve.layout import TABLE
+from gradhesion.core.struve.table import build_table
 
 _NODES: Final = 24
-_TERMS: Final = 16
+_DEGREES: Final = 16
+_PIECES: Final = 24
+_EDGES: Final = 0.5 - 0.5 * np.cos(np.pi / _PIECES * np.arange(_PIECES + 1))
+"""Pieces are narrow near the ends, where a polynomial through the nodes, and so its rounding, bends most."""
+_CENTRES, _HALVES = 0.5 * (_EDGES[1:] + _EDGES[:-1]), 0.5 * np.diff(_EDGES)
 ROUNDING: Final = 4.0
 """Errors of an interpolated table over those of one of its own: what stated errors multiply by."""
-_POWERS: Final = {
-    "bins": 1,
-    "tail": 0,
-    "power_mantissa": 0,
-    "moment_series": 2,
-    "moment_bins": 2,
-    "moment_tail": 2,
-    "jump_tail": 0,
-    "slow_tail": 0,
-    "inverse_stretch": 0,
-    "moment_constant": 2,
-    "moment_logarithm": 2,
-    "arches": 1,
-    "fractional": 0,
-    "theta": 0,
-    "theta_front": 0,
-}
-"""The power of G((1+k)/2) that is taken out of each field."""
-_FOR_FORCES: Final = ("bins", "tail", "power_mantissa", "arches", "theta", "theta_front")
-"""Fields that a pull-off force reads."""
 _WORD: Final = 8
-_BLOCK: Final = 256
-"""Columns that are filled for all tables before the next: their coefficients stay in the nearest cache."""
-_STEP: Final = 32
-"""Powers of 2^e are products of one for e/32 and one for the rest."""
-
-
-def _columns(field: str) -> slice:
-    """Return where a field stands among the numbers of a record."""
-    shape, offset = TABLE.fields[field][:2]  # type: ignore[index]
-    return slice(offset // _WORD, (offset + shape.itemsize) // _WORD)
-
-
-_COLUMNS: Final = {
-    forces: np.array([(_columns(f).start, _columns(f).stop, _POWERS[f]) for f in (_FOR_FORCES if forces else _POWERS)])
-    for forces in (False, True)
-}
-"""The first column of each field, the one behind its last, and its power of G((1+k)/2)."""
 
 
 @lru_cache(maxsize=1)
-def _coefficients() -> NDArray[np.float64]:
-    """Return the Chebyshev coefficients of all numbers of a record, shape (_TERMS, numbers)."""
-    places, fit = chebyshev_fit(_NODES, _TERMS)
+def _at_nodes() -> tuple[NDArray[np.float64], list[NDArray[np.float64]]]:
+    """Return the exponents of the nodes, and what their tables hold: arrays of the shape (blocks, nodes, numbers)."""
+    places, _ = chebyshev_fit(_NODES, _DEGREES)
     exponents = 0.5 * (1.0 + places)
-    values = np.array([build_table(k) for k in exponents.tolist()]).view(np.float64).reshape(_NODES, -1)
+    tables = np.array([build_table(k) for k in exponents.tolist()]).view(np.float64).reshape(_NODES, -1)
     gamma = np.array([[math.gamma(0.5 * (1.0 + k))] for k in exponents.tolist()])
-    for field, power in _POWERS.items():
-        values[:, _columns(field)] /= gamma**power
-    found: NDArray[np.float64] = fit @ values
-    return found
+    found = []
+    for blocks in ALL:
+        first = TABLE.fields[blocks.field][1] // _WORD  # type: ignore[index]
+        begins = np.minimum(np.arange(blocks.number) * blocks.size, blocks.total - blocks.size)
+        of_field = tables[:, first + begins[:, None] + np.arange(blocks.size)] / gamma[:, :, None] ** blocks.power
+        found.append(np.ascontiguousarray(of_field.transpose(1, 0, 2)))
+    return exponents, found
+
+
+@lru_cache(maxsize=2)
+def _expansions(terms: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the matrices from values at the nodes to Chebyshev coefficients on pieces, and from these to powers of t.
+
+    Shapes (_PIECES, terms, nodes) and (terms, terms).
+    """
+    _, fit = chebyshev_fit(_NODES, _DEGREES)
+    places, fit_of_piece = chebyshev_fit(_DEGREES, terms)
+    whole = chebyshev.chebvander(2.0 * (_CENTRES[:, None] + _HALVES[:, None] * places) - 1.0, _DEGREES - 1)
+    powers = np.zeros((terms, terms))
+    for j, row in enumerate(np.eye(terms)):
+        powers[: j + 1, j] = chebyshev.cheb2poly(row)[: j + 1]
+    return fit_of_piece @ whole @ fit, powers
+
+
+def _made(piece: int) -> NDArray[np.float64]:
+    """Return the coefficients of a piece, block by block (filling.py)."""
+    exponents, values_of_all = _at_nodes()
+    nearest = np.argmin(np.abs(exponents - _CENTRES[piece]))
+    parts = []
+    for blocks, values in zip(ALL, values_of_all, strict=True):
+        expansions, powers = _expansions(blocks.terms)
+        middle = values[:, nearest]
+        # rounding leaves parts of the differences, and of powers parts of the Chebyshev coefficients, which fall off;
+        # these are small products, which no library does by threads of its own
+        coefficients = powers @ (expansions[piece] @ (values - middle[:, None]))
+        coefficients[:, 0] += middle
+        parts.append(coefficients.ravel())
+    return np.concatenate(parts)
+
+
+_pieces: Final[dict[int, NDArray[np.float64]]] = {}
+"""What has been made, for good: tables know its address."""
+
+
+def _piece(piece: int) -> NDArray[np.float64]:
+    """Return the coefficients of a piece, of many threads' the first one's."""
+    if piece not in _pieces:
+        return _pieces.setdefault(piece, _made(piece))
+    return _pieces[piece]
 
 
 @kernel(entry=True)
-def _powers(table: Any, k: float, high: Any, low: Any) -> None:
-    """Fill the powers of 2^e."""
-    power = -0.5 * (1.0 + k)
-    for j in range(high.size):
-        high[j] = 2.0 ** (power * (j * _STEP - EXPONENT_SPAN))
-    for j in range(_STEP):
-        low[j] = 2.0 ** (power * j)
-    for j in range(high.size):
-        for m in range(_STEP):
-            table.power_exponent[j * _STEP + m] = high[j] * low[m]
+def _prepare(recipes: Any, tables: Any) -> None:
+    """Make each of some records the table of its recipe."""
+    for i in range(tables.size):
+        prepare(tables[i], recipes[i, 0], recipes[i, 1], bits_of(recipes[i, 2]))
 
 
-@kernel(contract=True, entry=True)
-def _add(a: Any, rows: tuple[Any, Any, Any, Any], out: Any) -> None:
-    """Add four rows of coefficients, each by its weight, to `out`."""
-    one, two, three, four = rows
-    weight_one, weight_two, weight_three, weight_four = a[0], a[1], a[2], a[3]
-    for i in range(out.size):
-        out[i] += (weight_one * one[i] + weight_two * two[i]) + (weight_three * three[i] + weight_four * four[i])
+def _fill_recipes(exponents: NDArray[np.float64], recipes: NDArray[np.float64]) -> None:
+    """Put the exponents, their places on their pieces, and the bits of the addresses of these into `recipes`."""
+    pieces = np.searchsorted(_EDGES[1:-1], exponents)
+    addresses = np.zeros(_PIECES, dtype=np.int64)
+    for piece in np.unique(pieces).tolist():
+        addresses[piece] = _piece(piece).ctypes.data
+    recipes[:, 0] = exponents
+    recipes[:, 1] = (exponents - _CENTRES[pieces]) / _HALVES[pieces]
+    recipes[:, 2] = addresses[pieces].view(np.float64)
 
 
-@kernel(entry=True)
-def _fill(exponents: Any, coefficients: Any, columns: Any, rounding: float, tables: Any, numbers: Any) -> None:
-    """Fill tables, block by block of their columns; `numbers` are their numbers, shape (tables, numbers)."""
-    weights = np.empty((3, exponents.size, _TERMS))
-    for i in range(exponents.size):
-        gamma, place = math.gamma(0.5 * (1.0 + exponents[i])), 2.0 * exponents[i] - 1.0
-        here, before = 1.0, place
-        for j in range(_TERMS):
-            weights[0, i, j], weights[1, i, j], weights[2, i, j] = here, here * gamma, here * (gamma * gamma)
-            here, before = (place, 1.0) if j == 0 else (2.0 * place * here - before, here)
-    for f in range(columns.shape[0]):
-        begin, last, power = columns[f]
-        while begin < last:
-            end = min(last, begin + _BLOCK)
-            for i in range(exponents.size):
-                out, own = numbers[i, begin:end], weights[power, i]
-                out[:] = 0.0
-                for j in range(0, _TERMS, 4):
-                    one, two = coefficients[j, begin:end], coefficients[j + 1, begin:end]
-                    three, four = coefficients[j + 2, begin:end], coefficients[j + 3, begin:end]
-                    _add(own[j : j + 4], (one, two, three, four), out)
-            begin = end
-    high, low = np.empty(2 * EXPONENT_SPAN // _STEP), np.empty(_STEP)
-    for i in range(exponents.size):
-        table = tables[i]
-        fill_constants(table, exponents[i])
-        table.rounding = rounding
-        _powers(table, exponents[i], high, low)
-
-
-def interpolated_tables(exponents: NDArray[np.float64], *, forces: bool) -> NDArray[Any]:
+def interpolated_tables(exponents: NDArray[np.float64]) -> NDArray[Any]:
     """Return the tables of some exponents, records of layout.TABLE.
 
     Parameters
     ----------
     exponents
         Gradient exponents, 0 to 1, shape (n,).
-    forces
-        Whether only pull-off forces are read from them: the moments and fractional integrals are left out.
 
     Returns
     -------
-    Array of shape (n,). Errors are at most `ROUNDING` times those of `build_table`.
+    Array of shape (n,). Bins, moments and arches are filled by the thread that reads them first (filling.py): no other
+    may read them. Errors are at most `ROUNDING` times those of `build_table`.
     """
-    tables = np.empty(exponents.size, dtype=TABLE)
-    numbers = tables.view(np.float64).reshape(exponents.size, TABLE.itemsize // _WORD)
-    _fill(exponents, _coefficients(), _COLUMNS[forces], ROUNDING, tables, numbers)
+    tables, recipes = np.empty(exponents.size, dtype=TABLE), np.empty((exponents.size, RECIPE))
+    _fill_recipes(exponents, recipes)
+    tables["rounding"], tables["recipes"], tables["for_forces"] = ROUNDING, 0, 0
+    _prepare(recipes, tables)
     return tables
+
+
+def table_of_each(exponents: NDArray[np.float64], *, forces: bool) -> NDArray[Any]:
+    """Return one record that becomes the table of one exponent after the other (current.py).
+
+    Parameters
+    ----------
+    exponents
+        Gradient exponents, 0 to 1, shape (n,).
+    forces
+        Whether only pull-off forces are read from them: what no force reads is left out.
+
+    Returns
+    -------
+    Array of shape (1,), for one thread. Errors are as those of `interpolated_tables`.
+    """
+    memory = np.empty(TABLE.itemsize + exponents.size * RECIPE * _WORD, dtype=np.uint8)  # of both: one keeps the other
+    table = memory[: TABLE.itemsize].view(TABLE)
+    recipes = memory[TABLE.itemsize :].view(np.float64).reshape(-1, RECIPE)
+    _fill_recipes(exponents, recipes)
+    table["rounding"], table["recipes"], table["for_forces"] = ROUNDING, recipes.ctypes.data, forces
+    table["k"] = np.nan
+    return table

@@ -47,6 +47,16 @@ def float_of(typingctx: Any, bits: Any) -> Any:
     return types.float64(types.int64), generate
 
 
+@intrinsic
+def numbers_at(typingctx: Any, address: Any) -> Any:
+    """Return a pointer to the float64 numbers at an address."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return builder.inttoptr(arguments[0], _DOUBLE.as_pointer())
+
+    return types.CPointer(types.float64)(types.int64), generate
+
+
 def make_horner(lanes: int, terms: int) -> Any:
     """Make `horner(coefficients, t)`: the values of `lanes` polynomials, `terms` coefficients each, at t.
 

@@ -32,6 +32,8 @@ MOMENT_TERMS: Final = 14
 MOMENT_TAIL_TERMS: Final = 24
 ARCHES: Final = 256
 """Arches of the fold function that are tabulated, two a wave; those further out are found when asked for."""
+ARCHES_AT_ONCE: Final = 4
+"""Arches that are filled together where a table is interpolated."""
 STRETCH_TERMS: Final = 15
 """An odd number; where |eta| <= 0.1 they leave 1e-17."""
 FRACTIONAL_NODES: Final = 16
@@ -46,22 +48,30 @@ TABLE: Final = np.dtype(
         ("phase", "f8"),  # phi = (1+k) pi/4
         ("cos_phase", "f8"),  # C cos phi
         ("sin_phase", "f8"),  # C sin phi
-        ("bins", "f8", (BINS, BIN_TERMS, 4)),  # S0/z, S1/z, S0', S1' in t = 4 z - (2 bin + 1)
+        ("gamma", "f8"),  # G((1+k)/2)
+        ("place", "f8"),  # this and what follows to lacks_arches: see filling.py and current.py
+        ("source", "i8"),
+        ("recipes", "i8"),
+        ("for_forces", "i1"),
+        ("lacks_bin", "i1", (BINS,)),
+        ("lacks_moments", "i1", (MOMENT_BINS,)),
+        ("lacks_arches", "i1", (1 + ARCHES // ARCHES_AT_ONCE,)),
+        ("theta_front", "f8"),  # sqrt(pi) (1+k) G(1+k/2) G(2+k)/G((1+k)/2)
+        ("theta", "f8", (THETA_TERMS,)),  # see theta.py
         ("tail", "f8", (TAIL_TERMS, 8)),  # Re P0, z Im P0, Re P1, z Im P1, z G0, z G1, z^2 G0', z^2 G1'
         ("power_mantissa", "f8", (2**MANTISSA_BITS, POWER_TERMS)),
-        ("power_exponent", "f8", (2 * EXPONENT_SPAN,)),
-        ("moment_series", "f8", (MOMENT_SERIES_TERMS, 2)),  # E2/z^(5+k), W/z^(5+k) in z^2
-        ("moment_bins", "f8", (MOMENT_BINS, MOMENT_TERMS, 2)),  # the same in t
-        ("moment_tail", "f8", (MOMENT_TAIL_TERMS, 5)),  # see moments.py
         ("jump_tail", "f8", (TAIL_TERMS, 8)),  # Re P0, z Im P0, Re P1, z Im P1, and four of jump_tail.py
         ("slow_tail", "f8", (TAIL_TERMS, 2)),  # z G0, |P0|^2
         ("inverse_stretch", "f8", (STRETCH_TERMS,)),  # of (1 + eta)^(-(1-k)/2) in eta
+        ("fractional", "f8", (FRACTIONAL_NODES, FRACTIONAL_NODES + 1)),  # see fractional.py
+        ("moment_series", "f8", (MOMENT_SERIES_TERMS, 2)),  # E2/z^(5+k), W/z^(5+k) in z^2
+        ("moment_tail", "f8", (MOMENT_TAIL_TERMS, 5)),  # see moments.py
         ("moment_constant", "f8"),
         ("moment_logarithm", "f8"),
+        ("power_exponent", "f8", (2 * EXPONENT_SPAN,)),
+        ("bins", "f8", (BINS, BIN_TERMS, 4)),  # S0/z, S1/z, S0', S1' in t = 4 z - (2 bin + 1)
+        ("moment_bins", "f8", (MOMENT_BINS, MOMENT_TERMS, 2)),  # the moments in t
         ("arches", "f8", (ARCHES + 1, 6)),  # x, X, Q at the inner edge, then at the summit; see arches.py
-        ("fractional", "f8", (FRACTIONAL_NODES, FRACTIONAL_NODES + 1)),  # see fractional.py
-        ("theta", "f8", (THETA_TERMS,)),  # see theta.py
-        ("theta_front", "f8"),  # sqrt(pi) (1+k) G(1+k/2) G(2+k)/G((1+k)/2)
     ],
     align=True,
 )

@@ -29,6 +29,7 @@ import numpy as np
 from gradhesion.core._jit import kernel
 from gradhesion.core.struve.bins import economisation
 from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
+from gradhesion.core.struve.filling import ask_for_moments
 from gradhesion.core.struve.intrinsics import fma, make_horner
 from gradhesion.core.struve.layout import (
     BIN_TERMS,
@@ -198,6 +199,7 @@ def moments(table: Any, x: float, power: float) -> tuple[float, float]:
     if z < SWITCH:
         i = int(2.0 * z)
         t = fma(4.0 * TWO_PI, x, -(2.0 * i + 1.0)) + 4.0 * TWO_PI_LOW * x
+        ask_for_moments(table, i - 4)
         return _bins(table.moment_bins[i - 4], t)
     k = table.k
     s0, s1, _, _ = pair(table, x)

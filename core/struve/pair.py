@@ -9,6 +9,7 @@ from typing import Any
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
+from gradhesion.core.struve.filling import ask_for_bin
 from gradhesion.core.struve.intrinsics import fma, make_horner
 from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS
 from gradhesion.core.struve.power import amplitude_power
@@ -22,6 +23,7 @@ def pair_below(table: Any, x: float, z: float) -> tuple[float, float, float, flo
     """Return S0, S1, S0', S1' for z = 2 pi x < 40."""
     i = int(2.0 * z)
     t = fma(4.0 * TWO_PI, x, -(2.0 * i + 1.0)) + 4.0 * TWO_PI_LOW * x  # of the exact 2 pi x
+    ask_for_bin(table, i)
     s0_over_z, s1_over_z, s0_slope, s1_slope = horner4(table.bins[i], t)
     return z * s0_over_z, z * s1_over_z, s0_slope, s1_slope
 

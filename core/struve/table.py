@@ -21,8 +21,9 @@ from gradhesion.core.struve.power import build_power
 def fill_constants(table: Any, k: float) -> None:
     """Fill the constants of the amplitude and the phase."""
     table.k = k
-    amplitude = 2.0 ** (0.5 * (k - 1.0)) * math.gamma(0.5 * (k + 1.0))
-    table.amplitude = amplitude
+    gamma = math.gamma(0.5 * (k + 1.0))
+    amplitude = 2.0 ** (0.5 * (k - 1.0)) * gamma
+    table.gamma, table.amplitude = gamma, amplitude
     table.phase = 0.25 * math.pi * (1.0 + k)
     # cos(phi) and sin(phi) through cos and sin of k pi/4: no rounding of 1 + k
     cosine, sine = math.cos(0.25 * math.pi * k), math.sin(0.25 * math.pi * k)

@@ -29,6 +29,7 @@ from gradhesion.core.path.cosine_long import NEAR, begin_long, ends_folds, open_
 from gradhesion.core.path.ties import rim_is_close
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.current import ready
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.turning.cosine_reach import reach, reach_outwards
 from gradhesion.core.turning.first_reached import (
@@ -261,7 +262,7 @@ def turn_curves(
         The results, of the shape (curves, rims): a/R, 0 without contact, NaN without a value; and bits of the status.
     """
     for j in range(index.size):
-        i, table = index[j], tables[which[j]]
+        i, table = index[j], tables[ready(tables, which[j])]
         k = table.k
         stretch_factor = 2.0 ** (1.0 + k) * math.pi
         row = i if rims.shape[0] > 1 else 0

@@ -40,14 +40,12 @@ def test_each_is_what_it_is_alone(scenes: dict[str, np.ndarray]) -> None:
 
 def test_tables_are_made_together(scenes: dict[str, np.ndarray], monkeypatch: pytest.MonkeyPatch) -> None:
     made: list[int] = []
-    real = tables.interpolated_tables
-    monkeypatch.setattr(
-        tables, "interpolated_tables", lambda k, *, forces: made.append(k.size) or real(k, forces=forces)
-    )
+    real = tables.table_of_each
+    monkeypatch.setattr(tables, "table_of_each", lambda k, *, forces: made.append(k.size) or real(k, forces=forces))
     monkeypatch.setattr(tables, "build_table", lambda _: pytest.fail("a table of its own"))
     solve(scenes, ["pull_off_force"], threads=1)
     assert sum(made) == COUNT
-    assert max(made) == 64
+    assert max(made) == min(COUNT, 512)
 
 
 def test_threads_change_nothing(scenes: dict[str, np.ndarray]) -> None:

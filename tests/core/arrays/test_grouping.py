@@ -26,7 +26,7 @@ def test_every_curve_is_in_one_task(counts: list[int], rims: int) -> None:
     for task in tasks:
         assert task.which.shape == task.index.shape
         np.testing.assert_array_equal(task.exponents[task.which], k[task.index])
-        assert task.index.size * rims <= 64 * 2048
+        assert task.index.size * rims <= 2048 or task.exponents.size == 1
         assert task.interpolated or task.exponents.size == 1
 
 
@@ -35,7 +35,7 @@ def test_exponents_of_few_curves_share_a_task() -> None:
     many = rng.uniform(0.0, 1.0, 10_000)
     tasks = curves_of(many).tasks()
     assert all(task.interpolated for task in tasks)
-    assert len(tasks) == -(-many.size // 64)
+    assert len(tasks) == -(-many.size // 512)
     few = np.repeat(many[:40], 10)  # tables of their own, which are kept, cost no more
     assert not any(task.interpolated for task in curves_of(few).tasks())
     mixed = curves_of(np.concatenate([np.full(500, 0.3), many])).tasks()

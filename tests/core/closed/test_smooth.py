@@ -107,3 +107,8 @@ def test_depth_plain_and_jitted() -> None:
         for z in np.geomspace(1e-8, 1e8, 30):
             expected = smooth.smooth_depth.py_func(k, z)
             assert math.isclose(smooth.smooth_depth(k, z), expected, rel_tol=4 * EPS, abs_tol=4 * EPS)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.3, 1.0])
+def test_places_are_the_first_of_the_constants(k: float) -> None:
+    assert smooth.smooth_places(k)[:2] == smooth.smooth_constants(k)[:2]

@@ -11,6 +11,7 @@ from gradhesion.core.struve.interpolated import ROUNDING, interpolated_tables
 from gradhesion.core.struve.layout import EXPONENT_SPAN, TABLE
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.table import build_table
+from tests.core.completed import completed
 
 EPS = 2.0**-52
 EXPONENTS = np.concatenate([np.random.default_rng(3).uniform(0.0, 1.0, 24), [0.0, 1e-9, 0.5, 1.0 - 1e-9, 1.0]])
@@ -19,7 +20,7 @@ EXPONENTS = np.concatenate([np.random.default_rng(3).uniform(0.0, 1.0, 24), [0.0
 @pytest.fixture(scope="module")
 def tables() -> tuple[NDArray[Any], NDArray[Any]]:
     """Give the tables of some exponents, interpolated and their own."""
-    return interpolated_tables(EXPONENTS, forces=False), np.array([build_table(k) for k in EXPONENTS.tolist()])
+    return completed(interpolated_tables(EXPONENTS)), np.array([build_table(k) for k in EXPONENTS.tolist()])
 
 
 def test_constants_are_no_polynomials(tables: tuple[NDArray[Any], NDArray[Any]]) -> None:
@@ -62,9 +63,6 @@ def test_powers_of_two(tables: tuple[NDArray[Any], NDArray[Any]]) -> None:
     assert (error <= (8.0 + span) * EPS).all()
 
 
-def test_tables_of_forces_have_what_forces_read() -> None:
-    some, all_ = (interpolated_tables(EXPONENTS, forces=forces) for forces in (True, False))
-    for field in ("bins", "tail", "power_mantissa", "power_exponent", "arches", "theta", "k"):
-        np.testing.assert_array_equal(some[field], all_[field])
-    assert some.dtype == TABLE
-    assert interpolated_tables(np.empty(0), forces=True).shape == (0,)
+def test_no_exponent_no_table() -> None:
+    assert interpolated_tables(np.empty(0)).shape == (0,)
+    assert interpolated_tables(np.empty(0)).dtype == TABLE

@@ -29,6 +29,9 @@ def test_no_coefficient_is_left_out() -> None:
     table = build_table(0.613)
     assert table.dtype == TABLE
     for name in TABLE.names or ():
+        if name == "place" or np.asarray(table[name]).dtype.kind == "i":  # of what is interpolated
+            assert not np.asarray(table[name]).any(), name
+            continue
         values = np.asarray(table[name])
         assert np.isfinite(values).all(), name
         assert (values != 0.0).any(), name
