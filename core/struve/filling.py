@@ -3,12 +3,8 @@
 An interpolated table (interpolated.py) is polynomials in k. It has hundreds of bins and arches, of which a force reads
 some, and a cycle some dozens. So each of them is asked for before it is read. A table of its own lacks nothing: that
 is one byte, which is zero, and a branch that is never taken.
-
-A block is what is filled at once: a bin of the pair or of the moments, or four arches. Its coefficients are those of
-powers of t, -1 <= t <= 1 over the piece of [0, 1] that k lies in, of the shape (TERMS, numbers), one after the other.
 """
 
-from dataclasses import dataclass
 from typing import Any, Final
 
 from llvmlite import ir
@@ -16,76 +12,26 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from gradhesion.core.struve.layout import (
-    ARCHES,
-    ARCHES_AT_ONCE,
-    BIN_TERMS,
-    BINS,
-    EXPONENT_SPAN,
-    MOMENT_BINS,
-    MOMENT_TERMS,
-    TABLE,
+from gradhesion.core.struve.blocks import (
+    OF_ARCHES,
+    OF_BINS,
+    OF_CYCLES,
+    OF_ENERGIES,
+    OF_FORCES,
+    OF_MANTISSAS,
+    OF_MOMENTS,
+    Blocks,
 )
+from gradhesion.core.struve.layout import EXPONENT_SPAN, TABLE
 
-TERMS: Final = 8
-"""Coefficients of powers of t, at most."""
-POWERS_AT_ONCE: Final = 32
+_STEP: Final = 32
+"""Powers of 2^e are products of one for e/32 and one for the rest."""
+_COLD: Final = "preserve_mostcc"
+"""How functions are called that keep the registers of their callers, which are hot where they are cold."""
 _WORD: Final = 8
 _LANES: Final = 8
 """Numbers of one vector operation; 4 are left at the end of a block."""
 _BYTE, _BIT, _INTEGER, _DOUBLE = ir.IntType(8), ir.IntType(1), ir.IntType(64), ir.DoubleType()
-
-
-@dataclass(frozen=True)
-class Blocks:
-    """The blocks of one field.
-
-    Attributes
-    ----------
-    field, lacks
-        The names of the field, or the first of several, and of the flags of its blocks, "" where all is filled at once.
-    number
-        How many blocks there are.
-    size
-        Numbers of a block, a multiple of 4.
-    total
-        Numbers of the field: the last block ends there, and overlaps the one before where it has to.
-    power
-        The power of G((1+k)/2) that is taken out.
-    first
-        The number of doubles before its coefficients.
-    terms
-        How many coefficients a number has.
-    """
-
-    field: str
-    lacks: str
-    number: int
-    size: int
-    total: int
-    power: int
-    first: int = 0
-    terms: int = TERMS
-
-    @property
-    def end(self) -> int:
-        """The number of doubles before what follows its coefficients."""
-        return self.first + self.terms * self.size * self.number
-
-
-OF_BINS: Final = Blocks("bins", "lacks_bin", BINS, 4 * BIN_TERMS, 4 * BIN_TERMS * BINS, 1)
-OF_MOMENTS: Final = Blocks(
-    "moment_bins", "lacks_moments", MOMENT_BINS, 2 * MOMENT_TERMS, 2 * MOMENT_TERMS * MOMENT_BINS, 2, OF_BINS.end
-)
-OF_ARCHES: Final = Blocks(
-    "arches", "lacks_arches", 1 + ARCHES // ARCHES_AT_ONCE, 6 * ARCHES_AT_ONCE, 6 * (ARCHES + 1), 1, OF_MOMENTS.end
-)
-OF_FORCES: Final = Blocks("theta_front", "", 3, 32, 81, 0, OF_ARCHES.end)
-OF_POWERS: Final = Blocks("power_mantissa", "", 14, 32, 448, 0, OF_FORCES.end, 6)
-OF_CYCLES: Final = Blocks("jump_tail", "", 12, 32, 367, 0, OF_POWERS.end)
-OF_ENERGIES: Final = Blocks("moment_series", "", 5, 32, 150, 2, OF_CYCLES.end)
-"""What every force reads, theta_front to power_mantissa; and what cycles read: to fractional, to moment_logarithm."""
-ALL: Final = (OF_BINS, OF_MOMENTS, OF_ARCHES, OF_FORCES, OF_POWERS, OF_CYCLES, OF_ENERGIES)
 
 
 def _offset(field: str) -> int:
@@ -106,15 +52,12 @@ def _spread(builder: Any, number: Any, lanes: int) -> Any:
 
 
 def _define_filling(module: Any, blocks: Blocks) -> Any:
-    """Return the function that fills a block of a record: `fill(record, block)`.
-
-    It keeps the registers of its callers, which are hot where it is cold.
-    """
+    """Return the function that fills a block of a record: `fill(record, block)`."""
     name = f"gradhesion.fill.{blocks.field}"
     if name in module.globals:
         return module.globals[name]
     fill = ir.Function(module, ir.FunctionType(ir.VoidType(), [_BYTE.as_pointer(), _INTEGER]), name)
-    fill.linkage, fill.calling_convention = "linkonce_odr", "preserve_mostcc"
+    fill.linkage, fill.calling_convention = "linkonce_odr", _COLD
     for attribute in ("noinline", "cold", "nounwind"):
         fill.attributes.add(attribute)
     builder = ir.IRBuilder(fill.append_basic_block())
@@ -156,19 +99,9 @@ def _define_filling(module: Any, blocks: Blocks) -> Any:
     return fill
 
 
-def _make_filling(blocks: Blocks) -> Any:
-    """Make `fill(table, block)`."""
-
-    @intrinsic
-    def fill(typingctx: Any, table: Any, block: Any) -> Any:
-        def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-            record = builder.bitcast(arguments[0], _BYTE.as_pointer())
-            builder.call(_define_filling(builder.module, blocks), [record, arguments[1]], cconv="preserve_mostcc")
-            return context.get_dummy_value()
-
-        return types.none(table, types.int64), generate
-
-    return fill
+def _call_filling(builder: Any, blocks: Blocks, record: Any, block: Any) -> None:
+    """Fill a block of a record."""
+    builder.call(_define_filling(builder.module, blocks), [record, block], cconv=_COLD)
 
 
 def _make_asking(blocks: Blocks) -> Any:
@@ -178,7 +111,6 @@ def _make_asking(blocks: Blocks) -> Any:
     def ask(typingctx: Any, table: Any, block: Any) -> Any:
         def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
             module = builder.module
-            fill = _define_filling(module, blocks)
             record = builder.bitcast(arguments[0], _BYTE.as_pointer())
             block = arguments[1]
             assume = cgutils.get_or_insert_function(module, ir.FunctionType(ir.VoidType(), [_BIT]), "llvm.assume")
@@ -188,7 +120,7 @@ def _make_asking(blocks: Blocks) -> Any:
             flag = builder.load(builder.gep(record, [offset]))
             lacks = builder.icmp_signed("!=", flag, ir.Constant(_BYTE, 0))
             with builder.if_then(builder.call(expect, [lacks, ir.Constant(_BIT, 0)])):
-                builder.call(fill, [record, block], cconv="preserve_mostcc")
+                _call_filling(builder, blocks, record, block)
             return context.get_dummy_value()
 
         return types.none(table, types.int64), generate
@@ -196,35 +128,88 @@ def _make_asking(blocks: Blocks) -> Any:
     return ask
 
 
+def _fill_powers(builder: Any, record: Any, power: Any) -> None:
+    """Fill the powers of 2^e from that of 2^32: roots of it, their products, and multiples of these."""
+    one = _offset("power_exponent") + _WORD * EXPONENT_SPAN
+    sqrt = cgutils.get_or_insert_function(builder.module, ir.FunctionType(_DOUBLE, [_DOUBLE]), "llvm.sqrt.f64")
+    vector = ir.VectorType(_DOUBLE, _LANES)
+
+    def at(e: int, kind: Any) -> Any:
+        return _at(builder, record, ir.Constant(_INTEGER, one + _WORD * e), kind)
+
+    powers, root = {0: ir.Constant(_DOUBLE, 1.0)}, power
+    for step in (16, 8, 4, 2, 1):
+        root = powers[step] = builder.call(sqrt, [root])
+    for e in range(_STEP):
+        if e not in powers:
+            step = 1 << e.bit_length() - 1
+            powers[e] = builder.fmul(powers[step], powers[e - step])
+        builder.store(powers[e], at(e, _DOUBLE), align=8)
+    starts = range(0, _STEP, _LANES)
+    first = [builder.load(at(start, vector), align=8) for start in starts]
+    inverse = builder.fdiv(ir.Constant(_DOUBLE, 1.0), power)
+    rise, fall = power, inverse
+    for e in range(_STEP, EXPONENT_SPAN + 1, _STEP):
+        for start, values in zip(starts, first, strict=True):
+            if e < EXPONENT_SPAN:
+                builder.store(builder.fmul(values, _spread(builder, rise, _LANES)), at(e + start, vector), align=8)
+            builder.store(builder.fmul(values, _spread(builder, fall, _LANES)), at(start - e, vector), align=8)
+        rise, fall = builder.fmul(rise, power), builder.fmul(fall, inverse)
+
+
+def _define_refilling(module: Any) -> Any:
+    """Return the function that fills what is filled at once: `refill(record, power)`."""
+    name = "gradhesion.refill"
+    if name in module.globals:
+        return module.globals[name]
+    refill = ir.Function(module, ir.FunctionType(ir.VoidType(), [_BYTE.as_pointer(), _DOUBLE]), name)
+    refill.linkage = "linkonce_odr"
+    for attribute in ("noinline", "nounwind"):
+        refill.attributes.add(attribute)
+    builder = ir.IRBuilder(refill.append_basic_block())
+    record, power = refill.args
+
+    def fill(*fields: Blocks) -> None:
+        for blocks in fields:
+            for block in range(blocks.number):
+                _call_filling(builder, blocks, record, ir.Constant(_INTEGER, block))
+
+    for blocks in (OF_BINS, OF_MOMENTS, OF_ARCHES):
+        flags = builder.gep(record, [ir.Constant(_INTEGER, _offset(blocks.lacks))])
+        cgutils.memset(builder, flags, ir.Constant(_INTEGER, blocks.number), 1)
+    fill(OF_FORCES, OF_MANTISSAS)
+    _fill_powers(builder, record, power)
+    for_forces = builder.load(builder.gep(record, [ir.Constant(_INTEGER, _offset("for_forces"))]))
+    with builder.if_then(builder.icmp_signed("==", for_forces, ir.Constant(_BYTE, 0))):
+        fill(OF_CYCLES, OF_ENERGIES)
+    builder.ret_void()
+    return refill
+
+
 @intrinsic
-def fill_powers(typingctx: Any, table: Any, up: Any, down: Any) -> Any:
-    """Fill the powers of 2^e from those for 0 <= e < 32 and from those for 32 and -32."""
+def refill(typingctx: Any, table: Any, power: Any) -> Any:
+    """Fill a table with all but what is filled when it is read; `power` is 2^(-16 (1+k))."""
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        record, rise, fall = builder.bitcast(arguments[0], _BYTE.as_pointer()), arguments[1], arguments[2]
-        one = _offset("power_exponent") + _WORD * EXPONENT_SPAN
-        vector = ir.VectorType(_DOUBLE, _LANES)
-        starts = range(0, POWERS_AT_ONCE, _LANES)
-
-        def at(e: int) -> Any:
-            return _at(builder, record, ir.Constant(_INTEGER, one + _WORD * e), vector)
-
-        first = [builder.load(at(start), align=8) for start in starts]
-        for e in range(POWERS_AT_ONCE, EXPONENT_SPAN + 1, POWERS_AT_ONCE):
-            for start, powers in zip(starts, first, strict=True):
-                if e < EXPONENT_SPAN:
-                    builder.store(builder.fmul(powers, _spread(builder, rise, _LANES)), at(e + start), align=8)
-                builder.store(builder.fmul(powers, _spread(builder, fall, _LANES)), at(start - e), align=8)
-            rise, fall = builder.fmul(rise, arguments[1]), builder.fmul(fall, arguments[2])
+        record = builder.bitcast(arguments[0], _BYTE.as_pointer())
+        builder.call(_define_refilling(builder.module), [record, arguments[1]])
         return context.get_dummy_value()
 
-    return types.none(table, types.float64, types.float64), generate
+    return types.none(table, types.float64), generate
 
 
-fill_for_forces = _make_filling(OF_FORCES)
-fill_mantissas = _make_filling(OF_POWERS)
-fill_for_cycles = _make_filling(OF_CYCLES)
-fill_for_energies = _make_filling(OF_ENERGIES)
+@intrinsic
+def fill_theta(typingctx: Any, table: Any) -> Any:
+    """Fill what theta needs."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        record = builder.bitcast(arguments[0], _BYTE.as_pointer())
+        _call_filling(builder, OF_FORCES, record, ir.Constant(_INTEGER, 0))
+        return context.get_dummy_value()
+
+    return types.none(table), generate
+
+
 ask_for_bin = _make_asking(OF_BINS)
 ask_for_moments = _make_asking(OF_MOMENTS)
 ask_for_arches = _make_asking(OF_ARCHES)

@@ -16,9 +16,9 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from gradhesion.core._jit import kernel
+from gradhesion.core.struve.blocks import ALL
 from gradhesion.core.struve.chebyshev import chebyshev_fit
 from gradhesion.core.struve.current import RECIPE, prepare
-from gradhesion.core.struve.filling import ALL
 from gradhesion.core.struve.intrinsics import bits_of
 from gradhesion.core.struve.layout import TABLE
 from gradhesion.core.struve.table import build_table

@@ -7,9 +7,9 @@ import pytest
 from numpy.typing import NDArray
 
 from gradhesion.core.struve.arches import inner_edge, summit
-from gradhesion.core.struve.filling import ALL, OF_ARCHES, OF_BINS, OF_MOMENTS
+from gradhesion.core.struve.blocks import OF_ARCHES, OF_BINS, OF_MOMENTS
 from gradhesion.core.struve.interpolated import interpolated_tables
-from gradhesion.core.struve.layout import ARCHES, ARCHES_AT_ONCE, TABLE
+from gradhesion.core.struve.layout import ARCHES, ARCHES_AT_ONCE
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.table import build_table
@@ -81,17 +81,3 @@ def test_what_a_table_has_of_its_own_stays() -> None:
     for i in range(ARCHES + 1):
         inner_edge(own[0], i)
     assert own.tobytes() == before
-
-
-def test_every_number_is_in_a_block() -> None:
-    """All of a record but its constants and powers of 2^e, once each, and no block reaches into another field."""
-    starts = {name: TABLE.fields[name][1] // 8 for name in TABLE.names or ()}  # type: ignore[index]
-    numbers = np.zeros(TABLE.itemsize // 8, dtype=int)
-    for blocks in ALL:
-        numbers[starts[blocks.field] : starts[blocks.field] + blocks.total] += 1
-        assert blocks.number == -(-blocks.total // blocks.size)
-        assert blocks.size % 4 == 0
-    assert (numbers[: starts["theta_front"]] == 0).all()
-    power = slice(starts["power_exponent"], starts["bins"])
-    assert (numbers[power] == 0).all()
-    assert (np.delete(numbers[starts["theta_front"] :], np.r_[power] - starts["theta_front"]) == 1).all()
