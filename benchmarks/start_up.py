@@ -1,4 +1,4 @@
-"""Start-up of the command: help, a study checked, run and described, and the first run ever, which compiles."""
+"""Start-up of the command: help, a study checked, run and described; the first run ever, which compiles or need not."""
 
 import argparse
 import os
@@ -14,15 +14,25 @@ from benchmarks.clock import ROOT, table
 SMOKE = ROOT / "configs" / "smoke.toml"
 
 
-def run(*arguments: str, cache: str | None = None) -> float:
-    """Return the wall time of the command."""
-    environment = os.environ | ({"XDG_CACHE_HOME": cache} if cache else {})
+def run(*arguments: str, **changes: str) -> float:
+    """Return the wall time of the command, with changes of the environment."""
+    environment = os.environ | changes
     environment.pop("PYTHONDONTWRITEBYTECODE", None)  # an installed program has the bytecode of its modules
     start = time.perf_counter()
     subprocess.run(
         [sys.executable, "-m", "gradhesion.cli", *arguments], env=environment, check=True, capture_output=True
     )
     return time.perf_counter() - start
+
+
+def from_a_wheel(folder: Path, *arguments: str) -> float:
+    """Return the wall time of the first run of a wheel with the compiled kernels of cycles, its cache empty."""
+    wheel, installed = folder / "wheel", folder / "installed"
+    build = [sys.executable, "-m", "wheels", "--kinds", "energy", "--target", wheel, "--kept", folder / "kept"]
+    subprocess.run(build, cwd=ROOT, check=True, capture_output=True)
+    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--target", installed]
+    subprocess.run([*pip, *wheel.iterdir()], check=True)
+    return run(*arguments, PYTHONPATH=str(installed), XDG_CACHE_HOME=str(folder / "empty"))
 
 
 def start_up_table(repeat: int = 9) -> str:
@@ -41,9 +51,10 @@ def start_up_table(repeat: int = 9) -> str:
         for _ in range(repeat):  # in turns, so that a busy moment of the machine is in all of them
             for words, arguments in warm.items():
                 times[words].append(run(*arguments))
-        first = run(*smoke, cache=folder)
+        first = run(*smoke, XDG_CACHE_HOME=folder)
+        carried = from_a_wheel(Path(folder), *smoke)
     lines = [[f"`{words}`", statistics.median(own)] for words, own in times.items()]
-    lines.append(["first run ever, which compiles", first])
+    lines += [["first run ever, which compiles", first], ["first run ever, of a wheel with compiled kernels", carried]]
     return table(["command", "s"], lines)
 
 
