@@ -52,7 +52,7 @@ def needed() -> dict[str, str]:
     """
     return {
         "sources": COMPILED,
-        "python": f"{sys.implementation.cache_tag}{sys.abiflags}",
+        "python": f"{sys.implementation.cache_tag}{getattr(sys, 'abiflags', '')}",
         "platform": f"{sysconfig.get_platform()} {platform.libc_ver()[0]}".strip(),
         "numba": numba.__version__,
         "llvmlite": llvmlite.__version__,
@@ -116,14 +116,20 @@ def fitting(folder: Path) -> tuple[Ahead | None, str]:
 
 def _misfits(needs: Mapping[str, str], features: Iterable[str]) -> list[str]:
     """List in words what code needs and this machine does not have."""
-    here, processor = needed(), binding.get_host_cpu_features()
+    here = needed()
     found = [
         "other sources" if name == "sources" else f"{name} {needs[name]}, not {here[name]}"
         for name in here
         if needs[name] != here[name]
     ]
-    lacking = [feature for feature in features if not processor.get(feature, False)]
-    return [*found, *([f"processors that have {', '.join(lacking)}"] if lacking else [])]
+    lacks = lacking(features)
+    return [*found, *([f"processors that have {', '.join(lacks)}"] if lacks else [])]
+
+
+def lacking(features: Iterable[str]) -> list[str]:
+    """List those of some features, by LLVM's names, that the processor at hand does not have."""
+    processor = binding.get_host_cpu_features()
+    return [feature for feature in features if not processor.get(feature, False)]
 
 
 @lru_cache(maxsize=1)

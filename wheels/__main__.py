@@ -14,7 +14,7 @@ from tempfile import TemporaryDirectory
 from typing import Final
 
 from gradhesion.core import KINDS
-from gradhesion.core.ahead import FEATURES, FOLDER, PROCESSOR
+from gradhesion.core.ahead import FEATURES, FOLDER, PROCESSOR, lacking
 from gradhesion.core.sources import COMPILED, WITHOUT_KERNELS, digest_of
 from wheels import package
 
@@ -61,6 +61,8 @@ def main() -> None:
     parser.add_argument("--kept", type=Path, default=ROOT / "build" / "wheels", help="a folder for what is compiled")
     parser.add_argument("--kinds", nargs="+", choices=KINDS, default=KINDS, help="kinds of work, all if not given")
     given, start = parser.parse_args(), time.monotonic()
+    if lacks := lacking(FEATURES):
+        raise SystemExit(f"kernels for {PROCESSOR} are also run here, and this processor lacks {', '.join(lacks)}")
     path = build(given.target.resolve(), given.kept.resolve(), tuple(given.kinds))
     print(f"{path}: {path.stat().st_size / 1e6:.1f} MB in {time.monotonic() - start:.0f} s")
 

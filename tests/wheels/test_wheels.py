@@ -16,6 +16,7 @@ from packaging.utils import parse_wheel_filename
 from gradhesion.core import linking
 from gradhesion.core.ahead import FEATURES
 from wheels import package
+from wheels.__main__ import main
 
 ROOT = Path(__file__).parents[2]
 
@@ -133,6 +134,16 @@ def test_a_first_run_compiles_nothing(installed: Path, tmp_path: Path) -> None:
     done = subprocess.run(run, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
     assert (done.returncode, "compil" in done.stderr) == (0, False), done.stderr
     assert "4 scenes" in done.stdout + done.stderr
+
+
+def test_a_processor_that_cannot_run_the_code_builds_none(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(
+        "llvmlite.binding.get_host_cpu_features", lambda: dict.fromkeys(FEATURES, True) | {"avx2": False}
+    )
+    monkeypatch.setattr(sys, "argv", ["wheels", "--target", str(tmp_path / "dist"), "--kept", str(tmp_path / "kept")])
+    with pytest.raises(SystemExit, match=r"this processor lacks avx2$"):
+        main()
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.slow
