@@ -20,6 +20,7 @@ and `tables` is what all of them share.
 """
 
 from collections.abc import Sequence
+from itertools import combinations
 from typing import Final
 
 from gradhesion.core.problem.control import Loading
@@ -33,41 +34,44 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "energy": ("tables",),
     "reports": ("energy",),
     "turning": ("energy",),
-    "asymptotic": ("energy",),
-    "envelope": ("asymptotic",),
+    "asymptotic": ("tables",),
+    "envelope": ("tables",),
     "curves": ("energy", "asymptotic"),
     "sensitivities": ("energy",),
-    "general_force": ("force",),
-    "general_energy": ("energy", "general_force"),
+    "general_force": ("tables",),
+    "general_energy": ("tables",),
     "general_reports": ("general_energy",),
     "general_turning": ("general_energy",),
     "general_sensitivities": ("general_energy",),
     "general_envelope": ("tables",),
     "general_curves": ("general_energy", "curves"),
 }
-"""The kinds that are compiled before a kind, directly: those of whose kernels it needs the same, or others of the same
+"""The kinds that are compiled before a kind, directly: those of whose entries it needs the same, or others of the same
 name. Processes that compile kinds side by side, each after those that it needs and none beside one of `APART`, compile
-nothing twice, and no two write to one index of the cache."""
+no entry twice, and no two write to one index of the cache."""
+_OF_COSINE: Final = ("force", "energy", "asymptotic", "envelope", "sensitivities")
+"""Kinds whose loops over curves are entries of the same name (scene/solvers.py)."""
 APART: Final = (
-    *({"force", other} for other in ("energy", "asymptotic", "envelope", "sensitivities")),
+    *({one, other} for one, other in combinations(_OF_COSINE, 2)),
+    *({"general_force", other} for other in ("general_energy", "general_sensitivities")),
     *({"asymptotic", general} for general in ("general_energy", "general_reports", "general_turning")),
-    *({"sensitivities", other} for other in ("asymptotic", "envelope", "general_energy", "general_sensitivities")),
+    *({"sensitivities", other} for other in ("general_energy", "general_sensitivities")),
 )
-"""Kinds that do not need each other, and yet compile kernels of the same name: not to be compiled side by side."""
+"""Kinds that do not need each other, and yet compile entries of the same name: not to be compiled side by side."""
 KINDS: Final = tuple(NEEDS)
 """All kinds, each after those that it needs."""
 KERNELS: Final[dict[str, int]] = {
-    "tables": 51,
-    "force": 40,
-    "energy": 165,
+    "tables": 50,
+    "force": 42,
+    "energy": 168,
     "reports": 16,
     "turning": 31,
-    "asymptotic": 42,
-    "envelope": 1,
+    "asymptotic": 67,
+    "envelope": 20,
     "curves": 31,
     "sensitivities": 54,
-    "general_force": 65,
-    "general_energy": 124,
+    "general_force": 87,
+    "general_energy": 236,
     "general_reports": 12,
     "general_turning": 24,
     "general_sensitivities": 47,

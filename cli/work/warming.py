@@ -7,6 +7,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.kernels import compile_kinds, missing_of
 from gradhesion.core import APART, NEEDS, compile_kind, watch_compilation
+from gradhesion.core.linking import LAZY
 
 
 def warm(
@@ -24,7 +25,7 @@ def warm(
     `kept` of those alone whose code is kept by itself.
     """
     left = missing_of(kinds)
-    if workers == 1 or len(left) < 2:
+    if workers == 1 or len(left) < 2 or not LAZY:  # numba keeps every kernel by itself, and kinds share most of them
         names: list[str] = []
         compile_kinds(kinds, names.append)
         done(", ".join(left), names)

@@ -88,7 +88,7 @@ def test_it_says_what_is_compiled_and_when_it_is_done(compiled: list[str], capsy
     compiling.prepare(["general_force"], quiet=True)
     (line,) = capsys.readouterr().err.splitlines()
     assert "the pull-off force of other profiles and controls" in line
-    assert compiled == ["tables", "energy", "force", "general_force"]
+    assert compiled == ["tables", "energy", "general_force"]
 
 
 def test_where_nothing_can_be_kept_it_says_so(

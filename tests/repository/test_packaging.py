@@ -165,7 +165,7 @@ def test_the_installed_program_works_away_from_the_repository(wheel: Path, tmp_p
     assert "run" in call("-m", "gradhesion", "--help")
     call("-m", "gradhesion.cli", "init", "smoke")
     sets = ["parameters.k=0.5", "parameters.A=0.0", 'outputs=["pull_off_force"]']
-    sets.append('method={ solver = "envelope" }')  # which compiles in a third of the time
+    sets.append('method={ solver = "envelope" }')  # which compiles little
     call("-m", "gradhesion.cli", "run", "smoke.toml", "-o", "smoke.nc", *(f"--set={entry}" for entry in sets))
     assert "1.166667" in call("-m", "gradhesion.cli", "info", "smoke.nc")  # (3 + k)/3
     code = "import gradhesion as gr; print(gr.open('smoke.nc').gr.valid().all().item(), gr.load('smoke.toml').kind)"
