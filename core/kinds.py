@@ -61,7 +61,7 @@ APART: Final = (
 KINDS: Final = tuple(NEEDS)
 """All kinds, each after those that it needs."""
 KERNELS: Final[dict[str, int]] = {
-    "tables": 50,
+    "tables": 51,
     "force": 42,
     "energy": 168,
     "reports": 16,

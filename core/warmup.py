@@ -68,7 +68,7 @@ def compile_kind(kind: str) -> None:
         case "tables":
             stiffness(0.3, 0.3, 500.0, 0.01)
             build_table(0.3)
-            interpolated_tables(np.array([0.3]))
+            interpolated_tables(np.array([0.3]), whole=True)
         case "force":
             solve(scene, ["pull_off_force"], threads=1, **driven)
         case "energy":

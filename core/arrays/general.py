@@ -56,8 +56,8 @@ def solve_general(
         front_by_k = float(weights @ np.log([depth_factor_of(k, profile.exponent) for k in exponents]))
         return *changes_of(exponent, series), front_by_k, (exponent, profile.exponent)
 
-    def work(exponent: float, index: NDArray[np.int64]) -> None:
-        table, cosine_bins = tables_of(exponent, series)
+    def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
+        table, cosine_bins = tables_of(exponent, series, interpolated=interpolated and slopes is None)
         depth_factor = depth_factor_of(exponent, profile.exponent)
         arrays = (scenes.stretch, wavelength, amplitude, scenes.compliance, scenes.rim)
         sense = () if slopes is None else (*change(exponent), sensed, *slopes, turned)

@@ -43,8 +43,8 @@ def report_general(
         found[name].ravel() if name in found else none for name in ("pull_off_radius", "dissipated_energy")
     )
 
-    def work(exponent: float, index: NDArray[np.int64]) -> None:
-        table, cosine_bins = tables_of(exponent, series)
+    def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
+        table, cosine_bins = tables_of(exponent, series, interpolated=interpolated)
         depth_factor = depth_factor_of(exponent, profile.exponent)
         arrays = (stretch, wavelength / n, n * amplitude, compliance, rim, radius, energy)
         report_scenes(table, cosine_bins, series, profile.exponent, depth_factor, index, *arrays, wanted, out, status)

@@ -45,8 +45,8 @@ def turning_general(
     radii = np.empty((scenes.k.size, rims.shape[1]))
     flags = np.zeros(radii.shape, dtype=np.int8)
 
-    def work(exponent: float, index: NDArray[np.int64]) -> None:
-        table, cosine_bins = tables_of(exponent, series)
+    def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
+        table, cosine_bins = tables_of(exponent, series, interpolated=interpolated)
         depth_factor = depth_factor_of(exponent, profile.exponent)
         arrays = (scenes.stretch, wavelength, amplitude, scenes.compliance, rims, targets)
         modes = (turn == "load_max", check_contact)

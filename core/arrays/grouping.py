@@ -13,11 +13,11 @@ from gradhesion.core.problem.names import PARAMETERS
 
 _TASK: Final = 2048
 """Scenes a task: some milliseconds, a thousand times the cost of handing it to a thread."""
-_FEW: Final = 64
+FEW: Final = 64
 """Curves of an exponent from which on a table of its own is worth its time."""
 _TOGETHER: Final = 512
 """Exponents of few curves that are one task."""
-_MANY: Final = 128
+MANY: Final = 128
 """Exponents of few curves from which on it is worth being able to interpolate tables."""
 
 
@@ -83,8 +83,8 @@ class Grouped:
         order, first = groups_of(k)
         ordered = k[order]
         counts = np.diff(first, append=k.size)
-        few = counts < _FEW
-        if few.sum() < _MANY:
+        few = counts < FEW
+        if few.sum() < MANY:
             few[:] = False
         tasks = []
         for begin, count in zip(first[~few].tolist(), counts[~few].tolist(), strict=True):

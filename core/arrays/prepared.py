@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.arrays.grouping import grouped
+from gradhesion.core.arrays.grouping import FEW, MANY, grouped
 from gradhesion.core.arrays.tasks import Task, run_one_by_one, tasks_of
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
@@ -71,12 +71,19 @@ def prepared(parameters: Mapping[str, ArrayLike], loading: Loading, along: Seque
 
 
 def run_by_exponent(
-    k: NDArray[np.float64], work: Callable[[float, NDArray[np.int64]], None], workers: int, rims: int = 1
+    k: NDArray[np.float64], work: Callable[[float, NDArray[np.int64], bool], None], workers: int, rims: int = 1
 ) -> None:
-    """Do the work on curves by their numbers, in tasks of one gradient exponent each."""
+    """Do the work on curves by their numbers, in tasks of one gradient exponent each.
+
+    It is given the exponent, the curves, and whether a table of its own is not worth its time (arrays/grouping.py).
+    """
+    tasks = tasks_of(k, max(1, _TASK // max(1, rims)))
+    counts = np.diff(tasks.ends)
+    many = np.count_nonzero(counts < FEW) >= MANY
+    few = set(k[tasks.order[tasks.ends[:-1][counts < FEW]]].tolist()) if many else set()
 
     def one(task: Task) -> None:
         exponent, index = task
-        work(exponent if 0.0 <= exponent <= 1.0 else 0.0, index)  # beyond, the stretch has no value
+        work(exponent if 0.0 <= exponent <= 1.0 else 0.0, index, exponent in few)  # beyond, the stretch has no value
 
-    run_one_by_one(tasks_of(k, max(1, _TASK // max(1, rims))), one, workers)
+    run_one_by_one(tasks, one, workers)

@@ -1,7 +1,7 @@
 """Tables of gradient exponents, made once and kept."""
 
 from functools import lru_cache
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from gradhesion.core.struve.cosine_bins import build_cosine_bins
 from gradhesion.core.struve.interpolated import interpolated_tables, table_of_each
 from gradhesion.core.struve.series import with_table
 from gradhesion.core.struve.series_by_k import change_of
-from gradhesion.core.struve.series_table import has_table
+from gradhesion.core.struve.series_table import COSINES, has_table
 from gradhesion.core.struve.table import build_table
 
 
@@ -52,6 +52,10 @@ def neighbours_for(task: Task) -> tuple[NDArray[Any], NDArray[np.float64]]:
     return tables.reshape(exponents.shape), np.array([weights for _, weights in beside])
 
 
+_NO_SINES: Final = np.zeros(COSINES)
+"""In the place of the table of sines where a profile has none: no value depends on it, the sizes of terms a little."""
+
+
 @lru_cache(maxsize=128)
 def _tables(k: float) -> tuple[Any, NDArray[np.float64]]:
     return build_table(k), build_cosine_bins(k)
@@ -63,8 +67,15 @@ def _waves(k: float, rows: bytes) -> NDArray[np.float64]:
     return with_table(table, bins, np.frombuffer(rows).reshape(-1, 3).copy())
 
 
-def tables_of(k: float, rows: NDArray[np.float64] | None = None) -> tuple[Any, NDArray[np.float64]]:
-    """Return the tables of an exponent, the second with that of a series if there are many harmonics."""
+def tables_of(
+    k: float, rows: NDArray[np.float64] | None = None, *, interpolated: bool = False
+) -> tuple[Any, NDArray[np.float64]]:
+    """Return the tables of an exponent, the second with that of a series if there are many harmonics.
+
+    They are `interpolated` on demand, where they can be: the second one is of sines, and of many harmonics.
+    """
+    if interpolated and rows is not None and not rows[:, 2].any() and not has_table(rows):
+        return interpolated_tables(np.array([k]), whole=True)[0], _NO_SINES
     table, bins = _tables(k)
     if rows is None or not has_table(rows):
         return table, bins.ravel()

@@ -275,12 +275,12 @@ def report_scenes(
         )
         if wanted[0]:
             scale = 8.0 / (3.0 * (1.0 + table.k)) * length * length / unit
-            out[0, i] = _FORCE_ROUNDING * scale * _force_terms(basis, curve, radius[i] / wavelength[i])
+            out[0, i] = _FORCE_ROUNDING * table.rounding * scale * _force_terms(basis, curve, radius[i] / wavelength[i])
         if wanted[1] or wanted[2]:
             x, scale = rim[i] / wavelength[i], TWO_PI * length * length
             x_low = fma(-x, wavelength[i], rim[i]) / wavelength[i] if x < math.inf else 0.0
             terms, apart, total = _energy_reports(basis, curve, x, x_low, energy[i] / scale)
-            out[1, i] = scale * (_ENERGY_ROUNDING * terms + apart)
+            out[1, i] = scale * (_ENERGY_ROUNDING * table.rounding * terms + apart)
             out[2, i] = energy[i] - scale * total
             if out[1, i] > _PROMISED * scale * terms:
                 status[i] |= TOLERANCE_NOT_MET

@@ -19,6 +19,7 @@ from gradhesion.core._jit import kernel
 from gradhesion.core.struve.blocks import ALL
 from gradhesion.core.struve.chebyshev import chebyshev_fit
 from gradhesion.core.struve.current import RECIPE, prepare
+from gradhesion.core.struve.filling import ask_for_arches, ask_for_bin, ask_for_moments
 from gradhesion.core.struve.intrinsics import bits_of
 from gradhesion.core.struve.layout import TABLE
 from gradhesion.core.struve.table import build_table
@@ -93,6 +94,18 @@ def _piece(piece: int) -> NDArray[np.float64]:
 
 
 @kernel(entry=True)
+def _complete(tables: Any) -> None:
+    """Fill what some records lack."""
+    for j in range(tables.size):
+        for i in range(tables[j].lacks_bin.size):
+            ask_for_bin(tables[j], i)
+        for i in range(tables[j].lacks_moments.size):
+            ask_for_moments(tables[j], i)
+        for i in range(tables[j].lacks_arches.size):
+            ask_for_arches(tables[j], i)
+
+
+@kernel(entry=True)
 def _prepare(recipes: Any, tables: Any) -> None:
     """Make each of some records the table of its recipe."""
     for i in range(tables.size):
@@ -110,23 +123,27 @@ def _fill_recipes(exponents: NDArray[np.float64], recipes: NDArray[np.float64]) 
     recipes[:, 2] = addresses[pieces].view(np.float64)
 
 
-def interpolated_tables(exponents: NDArray[np.float64]) -> NDArray[Any]:
+def interpolated_tables(exponents: NDArray[np.float64], *, whole: bool = False) -> NDArray[Any]:
     """Return the tables of some exponents, records of layout.TABLE.
 
     Parameters
     ----------
     exponents
         Gradient exponents, 0 to 1, shape (n,).
+    whole
+        Whether to fill everything (2 us a table): for kernels that ask for nothing before they read it.
 
     Returns
     -------
     Array of shape (n,). Bins, moments and arches are filled by the thread that reads them first (filling.py): no other
-    may read them. Errors are at most `ROUNDING` times those of `build_table`.
+    may read them, unless the tables are whole. Errors are at most `ROUNDING` times those of `build_table`.
     """
     tables, recipes = np.empty(exponents.size, dtype=TABLE), np.empty((exponents.size, RECIPE))
     _fill_recipes(exponents, recipes)
     tables["rounding"], tables["recipes"], tables["for_forces"] = ROUNDING, 0, 0
     _prepare(recipes, tables)
+    if whole:
+        _complete(tables)
     return tables
 
 

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from gradhesion.core import OUTPUTS, Harmonic, Loading, Profile, solve
+from gradhesion.core.arrays import tables
 from gradhesion.core.arrays.general import solve_general
 from gradhesion.core.problem.names import RESULTS
 from gradhesion.core.problem.shape import equivalent_wave
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, NO_VALUE
+from gradhesion.core.struve.interpolated import ROUNDING
 
 EPS = float(np.finfo(float).eps)
 SCENES = json.loads((Path(__file__).parents[2] / "reference" / "general.json").read_text())["scenes"]
@@ -100,3 +102,43 @@ def test_scenes_without_value() -> None:
     stiffness = np.array([0.0, -1.0, np.nan, 1.0])
     result = solve(scene | {"machine_stiffness": stiffness}, profile=cone, loading=machine)
     assert (result["status"] & NO_VALUE != 0).tolist() == [True, True, True, False]
+
+
+MANY_EXPONENTS = 160
+"""Exponents of one scene each: more than it takes for their tables to be interpolated."""
+INTERPOLATED = {
+    "exponent 1.5": {"profile": Profile(exponent=1.5)},
+    "two cosines": {"profile": Profile(harmonics=(Harmonic(n=1), Harmonic(n=3, cos=0.2)))},
+    "load": {"loading": Loading(control="load")},
+}
+
+
+def _of_many_exponents() -> dict[str, np.ndarray]:
+    scenes = _draw(MANY_EXPONENTS, 7)
+    return scenes | {"k": np.linspace(0.0, 0.98, MANY_EXPONENTS), "nu": np.full(MANY_EXPONENTS, 0.27)}
+
+
+@pytest.mark.parametrize("how", INTERPOLATED.values(), ids=list(INTERPOLATED))
+def test_many_exponents_are_each_what_they_are_alone(how: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    values, errors = ["pull_off_force", "dissipated_energy"], ["pull_off_force_error", "dissipated_energy_error"]
+    scenes = _of_many_exponents()
+    some = slice(0, None, 8)
+    alone = solve({name: value[some] for name, value in scenes.items()}, [*values, *errors], threads=1, **how)
+    monkeypatch.setattr(tables, "_tables", lambda _: pytest.fail("a table of its own"))
+    together = solve(scenes, [*values, *errors], threads=2, **how)
+    np.testing.assert_array_equal(together["status"][some], alone["status"])
+    for name, error in zip(values, errors, strict=True):
+        difference = np.abs(together[name][some] - alone[name])
+        assert (difference <= together[error][some] + alone[error]).all()
+    # the sizes of terms at pull-off count the sines, which are read where a table has them: up to half of a size
+    ratio = together[errors[0]][some] / alone[errors[0]]
+    assert (ratio > 0.5 * ROUNDING).all()
+    assert (ratio <= ROUNDING * (1.0 + 1e-6)).all()
+
+
+def test_sines_have_tables_of_their_own() -> None:
+    profile = Profile(harmonics=(Harmonic(n=1), Harmonic(n=2, sin=0.3)))
+    scenes = _of_many_exponents()
+    together = solve(scenes, ["pull_off_force"], threads=1, profile=profile)["pull_off_force"]
+    alone = solve({name: value[:9] for name, value in scenes.items()}, ["pull_off_force"], threads=1, profile=profile)
+    np.testing.assert_array_equal(together[:9], alone["pull_off_force"])
