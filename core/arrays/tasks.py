@@ -4,13 +4,15 @@ import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Protocol, TypeAlias, TypeVar
+from typing import Final, Protocol, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 _T = TypeVar("_T")
 _Made_co = TypeVar("_Made_co", covariant=True)
+_LIKE: Final = 32
+"""The first exponents, by which all are judged to differ."""
 Task: TypeAlias = tuple[float, NDArray[np.int64]]
 """A gradient exponent, and the indices of curves that have it."""
 
@@ -55,6 +57,15 @@ class Tasks:
                 yield exponent, self.order[first : min(first + self.size, end)]
 
 
+def _sorted(k: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return the stable order of exponents: where all differ, by a sort that is six times faster."""
+    if np.unique(k[:_LIKE]).size == _LIKE:
+        order = np.argsort(k)
+        if np.all(k[order[1:]] > k[order[:-1]]):
+            return order
+    return np.argsort(k, kind="stable")
+
+
 def groups_of(k: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return curves in the order of their exponents, and where in it each exponent begins.
 
@@ -64,7 +75,7 @@ def groups_of(k: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int
     >>> order.tolist(), begins.tolist()
     ([1, 0, 2], [0, 1])
     """
-    order = np.arange(k.size) if np.all(k[1:] >= k[:-1]) else np.argsort(k, kind="stable")
+    order = np.arange(k.size) if np.all(k[1:] >= k[:-1]) else _sorted(k)
     ordered = k[order]
     changes = np.concatenate([[True], ordered[1:] != ordered[:-1]]) if k.size else np.array([], dtype=bool)
     return order, np.flatnonzero(changes)

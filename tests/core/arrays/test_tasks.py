@@ -6,7 +6,7 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from gradhesion.core.arrays.tasks import Task, run_one_by_one, tasks_of
+from gradhesion.core.arrays.tasks import Task, groups_of, run_one_by_one, tasks_of
 
 
 @pytest.mark.parametrize("size", [1, 3, 100])
@@ -58,3 +58,13 @@ def test_tasks_are_not_held(workers: int) -> None:
     tracemalloc.stop()
     assert len(tasks) == 100_000
     assert peak < 2**20 + 100_000 * 8, f"{peak} bytes"
+
+
+@pytest.mark.parametrize("repeated", [0, 1, 300])
+def test_the_order_is_stable(repeated: int) -> None:
+    rng = np.random.default_rng(8)
+    k = rng.uniform(0.0, 1.0, 1000)
+    k[600 : 600 + repeated] = k[0]
+    order, begins = groups_of(k)
+    np.testing.assert_array_equal(order, np.argsort(k, kind="stable"))
+    assert begins.size == 1000 - repeated
