@@ -16,8 +16,8 @@ from gradhesion.cli.work.probe import probe
 from gradhesion.cli.work.resume import found
 from gradhesion.core.arrays.processors import processors
 
-BASE: Final = 245e6
-"""Bytes of the program itself, its libraries and kernels: 180 to 235 MB as measured, the more kernels the more."""
+BASE: Final = 220e6
+"""Bytes of the program itself, its libraries and kernels: 170 to 195 MB as measured, the more kernels the more."""
 START: Final = 3.0
 """Seconds until the workers of a cluster on this machine are at work: 4 of processor time on two cores, and waiting."""
 OF_CLUSTER: Final = 0.006
