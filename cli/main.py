@@ -4,6 +4,7 @@ import atexit
 import io
 import os
 import sys
+import threading
 from contextlib import suppress
 from typing import Any, Final, NoReturn
 
@@ -113,8 +114,9 @@ def main() -> NoReturn:
     # A failed or interrupted run may leave a block in work and a file that HDF5 cannot flush: wait for neither. Of a
     # command that has done its work nothing is left but modules, which take a seventh of a short one to take apart.
     if code == 0:
-        with suppress(KeyboardInterrupt):
-            atexit._run_exitfuncs()  # noqa: SLF001 (as Python does first at its end)
+        with suppress(KeyboardInterrupt):  # as Python does first at its end
+            threading._shutdown()  # type: ignore[attr-defined] # noqa: SLF001 (of pools of processes too)
+            atexit._run_exitfuncs()  # noqa: SLF001
     for stream in (sys.stdout, sys.stderr):
         with suppress(OSError, ValueError, AttributeError):
             stream.flush()
