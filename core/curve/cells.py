@@ -3,7 +3,7 @@
 On a cell of three quarters of the shortest wave, no longer than 0.7 of its distance from z = 0, the function D of
 curve/general.py is its interpolant at 17 Chebyshev points to 2e-13, and rounding moves Bernstein coefficients by
 `NOISE`. A polynomial has no more zeros in an interval than its Bernstein coefficients change sign there, and as many up
-to an even number; intervals with two changes or more are halved (de Casteljau). A pair that is not told apart after 20
+to an even number; intervals with two changes or more are halved (de Casteljau). A pair that is not told apart after 16
 halvings is two zeros on either side of an extremum of the function itself, or none.
 """
 
@@ -16,7 +16,7 @@ import numpy as np
 from gradhesion.core._jit import kernel
 
 DEGREE: Final = 16
-HALVINGS: Final = 20
+HALVINGS: Final = 16
 STACK: Final = HALVINGS + 2
 MOST: Final = 2 * DEGREE
 
@@ -31,7 +31,7 @@ NODES: Final = np.sin(0.5 * np.pi * np.arange(DEGREE + 1) / DEGREE) ** 2
 """Chebyshev points on [0, 1], the ends among them."""
 MATRIX: Final = _to_bernstein()
 NOISE: Final = 2.0**-53 * float(np.abs(MATRIX).sum(axis=0).max())
-"""Rounding of a Bernstein coefficient over the largest value (5e-12)."""
+"""Rounding of a Bernstein coefficient over the largest value, or what that is the difference of (5e-12)."""
 
 
 BINOMIALS: Final = np.array([float(comb(DEGREE, j)) for j in range(DEGREE + 1)])

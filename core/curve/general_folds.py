@@ -107,10 +107,11 @@ def folds_of_cell(
     here, negative = low, at_low < 0.0
     rows, nearest = isolate(values, stack, spans, found)
     if nearest <= _NEAR * max(abs(at_low), abs(at_high)):
-        largest = 0.0
+        terms = _terms(basis, curve, low, whole)
+        largest = terms
         for i in range(DEGREE + 1):
             largest = max(largest, abs(values[i]))
-        miss = max(0.0, nearest - NOISE * largest) / _terms(basis, curve, low, whole)
+        miss = max(0.0, nearest - NOISE * largest) / terms
     for row in range(rows):
         left, right = low + (high - low) * found[row, 0], low + (high - low) * found[row, 1]
         points = 2
