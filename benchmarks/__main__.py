@@ -137,7 +137,7 @@ or more.
 The same axes with more and more values, computed and written by `gradhesion.cli.dataset.writer.write` in a process of
 its own, what a study of 2,000 scenes takes (a file opened, closed and renamed) subtracted. Aims: level within 20 %,
 memory too; 10^8 scenes in 180 s. `of it solving` is the time of `gradhesion.core.solve` alone on 10^6 of these scenes
-over that of the whole. Peaks count from that of the process that measures, which is why small studies have it too.
+over that of the whole.
 
 {scale.scale_table(10**5 if quick else 10**8)}"""
     yield f"""## Start-up
