@@ -18,6 +18,7 @@ from benchmarks import (
     sensitivities,
     start_up,
     study,
+    threads,
 )
 from benchmarks.clock import ROOT, machine
 
@@ -140,6 +141,13 @@ memory too; 10^8 scenes in 180 s. `of it solving` is the time of `gradhesion.cor
 over that of the whole.
 
 {scale.scale_table(10**5 if quick else 10**8)}"""
+    yield f"""### Threads
+
+The same studies on 1, 2, 4, 8 and 16 threads, as far as the machine has processors for them (two at least): the time of
+`gradhesion.core.solve`, and of computing and writing, where one more thread compresses. The serial part of solving is
+that of Amdahl's law; it must not grow with the number of scenes.
+
+{threads.threads_table(10**5 if quick else 10**7)}"""
     yield f"""## Start-up
 
 Medians, except the first runs. Aims: 0.15 s, 0.25 s, 0.6 s, 0.4 s, 12 s, 1.5 s.

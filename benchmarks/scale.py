@@ -48,7 +48,7 @@ def peak_memory() -> float:
     return next(float(line.split()[1]) for line in status.read_text().splitlines() if line.startswith("VmHWM")) / 2**10
 
 
-def measure(cells: int, samples: int) -> tuple[float, float, float]:
+def measure(cells: int, samples: int, threads: int | None = None) -> tuple[float, float, float]:
     """Return the least time of computing and writing a study in s, peak memory in MiB and size of the file in MB."""
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "study.nc"
@@ -56,7 +56,7 @@ def measure(cells: int, samples: int) -> tuple[float, float, float]:
         def once(numbers: tuple[int, int, int]) -> float:
             study = study_from(tomllib.loads(study_of(*numbers)))
             start = time.perf_counter()
-            write(study, output, history="", overwrite=True)
+            write(study, output, history="", overwrite=True, threads=threads)
             return time.perf_counter() - start
 
         once(_SMALL)
@@ -65,18 +65,18 @@ def measure(cells: int, samples: int) -> tuple[float, float, float]:
         return seconds, peak_memory(), output.stat().st_size / 1e6
 
 
-def in_its_own_process(cells: int) -> tuple[float, float, float]:
+def in_its_own_process(cells: int, threads: int | None = None) -> tuple[float, float, float]:
     """Return what `measure` does, of a fresh process: its memory is that of this size alone."""
     samples = {10**7: 3, 10**8: 1}.get(cells, 9)
-    code = f"from benchmarks.scale import measure; print(*measure({cells}, {samples}))"
+    code = f"from benchmarks.scale import measure; print(*measure({cells}, {samples}, {threads}))"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
     seconds, peak, size = map(float, done.stdout.split())
     return seconds, peak, size
 
 
-def solving() -> float:
-    """Return the time of solving alone, in s a scene, on all processors."""
-    depths, wavelengths, amplitudes = SIZES[10**6]
+def solving(cells: int = 10**6, threads: int | None = None) -> float:
+    """Return the time of solving alone, in s a scene, on all processors or so many threads."""
+    depths, wavelengths, amplitudes = SIZES[cells]
     axes = {
         "k": np.array(_EXPONENTS),
         "c0_over_R": np.geomspace(0.01, 1.0, depths),
@@ -85,7 +85,10 @@ def solving() -> float:
         "a_max_over_R": np.linspace(0.1, 1.0, _RIMS),
     }
     open_mesh = dict(zip(axes, np.ix_(*axes.values()), strict=True))
-    return seconds_of(lambda: solve({**open_mesh, "nu": 0.3, "modulus": 500.0}, OUTPUTS), repeat=3) / 10**6
+    return (
+        seconds_of(lambda: solve({**open_mesh, "nu": 0.3, "modulus": 500.0}, OUTPUTS, threads=threads), repeat=3)
+        / cells
+    )
 
 
 def scale_table(most: int = 10**8) -> str:
