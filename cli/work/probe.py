@@ -26,6 +26,8 @@ PIECES: Final = 32
 SECONDS_OF_PIECE: Final = 0.03
 CELLS: Final = 8192
 """Scenes of a piece at most."""
+OF_COLUMN: Final = 1.6
+"""Writing a column of numbers over compressing it: they hardly get smaller, and are shuffled and written too."""
 FIRST_CELLS: Final = 128
 """Scenes of the first piece: enough to know how many the others may have."""
 
@@ -43,6 +45,8 @@ class Probe:
     """Of all gradient exponents together."""
     compressing: float
     ratio: float
+    columns: float
+    """Of writing all that is given as long columns, a table of points above all."""
 
 
 def probe(study: Study, numbers: Sequence[int]) -> Probe | None:
@@ -88,7 +92,20 @@ def probe(study: Study, numbers: Sequence[int]) -> Probe | None:
         tables=max(0.0, making) / new * _exponents(study).size if new else 0.0,
         compressing=compressing / scenes,
         ratio=compressed / plain,
+        columns=_seconds_of_columns(study),
     )
+
+
+def _seconds_of_columns(study: Study) -> float:
+    """Time how long a part of each long column takes to compress, for writing all of it."""
+    seconds = 0.0
+    for values in study.parameters.values():
+        column = np.ravel(values)
+        if column.size > CELLS:
+            start = clock()
+            _compressed(column[:CELLS])
+            seconds += OF_COLUMN * (clock() - start) * column.size / CELLS
+    return seconds
 
 
 def _next_cells(study: Study, seconds: float, scenes: int) -> int:
