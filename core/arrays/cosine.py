@@ -50,7 +50,7 @@ def run_tasks(
         fill_stiffness(tables, task.which, task.index, curves.k, curves.nu, curves.modulus, curves.c0_over_R, stiffness)
         work(tables, task, stiffness)
 
-    run_one_by_one(curves.tasks(*((_SENSED,) if sensed else ())), one, workers)
+    run_one_by_one(curves.tasks(_SENSED) if sensed else curves.tasks(), one, workers)
 
 
 def solve_cosine(

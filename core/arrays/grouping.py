@@ -13,12 +13,18 @@ from gradhesion.core.problem.names import PARAMETERS
 
 _TASK: Final = 2048
 """Scenes a task: some milliseconds, a thousand times the cost of handing it to a thread."""
-FEW: Final = 64
+_FEW: Final = 64
 """Curves of an exponent from which on a table of its own is worth its time."""
 _TOGETHER: Final = 512
 """Exponents of few curves that are one task."""
-MANY: Final = 128
+_MANY: Final = 128
 """Exponents of few curves from which on it is worth being able to interpolate tables."""
+
+
+def are_few(counts: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Report which exponents, by the numbers of their curves, are to have interpolated tables; shape of `counts`."""
+    few = counts < _FEW
+    return few & (np.count_nonzero(few) >= _MANY)
 
 
 @dataclass(frozen=True)
@@ -83,9 +89,7 @@ class Grouped:
         order, first = groups_of(k)
         ordered = k[order]
         counts = np.diff(first, append=k.size)
-        few = counts < FEW
-        if few.sum() < MANY:
-            few[:] = False
+        few = are_few(counts)
         tasks = []
         for begin, count in zip(first[~few].tolist(), counts[~few].tolist(), strict=True):
             group = order[begin : begin + count]

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.arrays.grouping import FEW, MANY, grouped
+from gradhesion.core.arrays.grouping import are_few, grouped
 from gradhesion.core.arrays.tasks import Task, run_one_by_one, tasks_of
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
@@ -78,9 +78,7 @@ def run_by_exponent(
     It is given the exponent, the curves, and whether a table of its own is not worth its time (arrays/grouping.py).
     """
     tasks = tasks_of(k, max(1, _TASK // max(1, rims)))
-    counts = np.diff(tasks.ends)
-    many = np.count_nonzero(counts < FEW) >= MANY
-    few = set(k[tasks.order[tasks.ends[:-1][counts < FEW]]].tolist()) if many else set()
+    few = set(k[tasks.order[tasks.ends[:-1][are_few(np.diff(tasks.ends))]]].tolist())
 
     def one(task: Task) -> None:
         exponent, index = task

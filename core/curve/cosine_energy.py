@@ -33,15 +33,15 @@ _PANELS: Final = {12: 0.8, 16: 1.25}
 """Gauss nodes, and the longest panel in waves for which they leave 1e-14 of a term cos 2 z, the fastest there is."""
 
 
-def _rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
+def unit_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
     """Return Gauss's rule on [0, 1]."""
     places, weights = gauss_rule(nodes)
     return 0.5 * (1.0 + places), weights
 
 
 SHORT, LONG = _PANELS.values()
-SHORT_NODES, SHORT_WEIGHTS = _rule(12)
-NODES, WEIGHTS = _rule(16)
+SHORT_NODES, SHORT_WEIGHTS = unit_rule(12)
+NODES, WEIGHTS = unit_rule(16)
 _FURTHEST: Final = 64.0
 """In waves: over longer jumps the antiderivative loses less to cancellation than the sum of panels costs."""
 _POWER_TERMS: Final = 12

@@ -11,16 +11,15 @@ from typing import Final
 import numpy as np
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.curve.cosine_energy import LONG, NODES, WEIGHTS
-from gradhesion.core.curve.cosine_jump import gauss_rule
+from gradhesion.core.curve.cosine_energy import LONG, NODES, WEIGHTS, unit_rule
 from gradhesion.core.struve.circle import TWO_PI
 
 _RULES: Final = {12: 0.8, 16: LONG, 20: 1.85, 24: 2.6, 32: 4.2}
 """The shortest waves that a rule of so many nodes serves: 1e-15 of the square of a wave is left."""
 _REACH: Final = np.array([*_RULES.values()])
 _BEGIN: Final = np.cumsum([0, *_RULES])
-PLACES: Final = np.concatenate([0.5 * (1.0 + gauss_rule(nodes)[0]) for nodes in _RULES])
-SHARES: Final = np.concatenate([gauss_rule(nodes)[1] for nodes in _RULES])
+PLACES: Final = np.concatenate([unit_rule(nodes)[0] for nodes in _RULES])
+SHARES: Final = np.concatenate([unit_rule(nodes)[1] for nodes in _RULES])
 GROWTH: Final = 4.5
 """Outer over inner end of a panel: its distance from the branch point leaves 1e-15."""
 GROWTH_OF_MACHINE: Final = 3.0

@@ -93,9 +93,9 @@ def _piece(piece: int) -> NDArray[np.float64]:
     return _pieces[piece]
 
 
-@kernel(entry=True)
-def _complete(tables: Any) -> None:
-    """Fill what some records lack."""
+@kernel()
+def complete(tables: Any) -> None:
+    """Fill what some records, shape (n,), lack of bins, moments and arches."""
     for j in range(tables.size):
         for i in range(tables[j].lacks_bin.size):
             ask_for_bin(tables[j], i)
@@ -143,7 +143,7 @@ def interpolated_tables(exponents: NDArray[np.float64], *, whole: bool = False) 
     tables["rounding"], tables["recipes"], tables["for_forces"] = ROUNDING, 0, 0
     _prepare(recipes, tables)
     if whole:
-        _complete(tables)
+        complete(tables)
     return tables
 
 

@@ -8,10 +8,9 @@ from numpy.typing import NDArray
 
 from gradhesion.core.problem.material import fill_stiffness, stiffness
 from gradhesion.core.struve.current import ready, ready_for_theta
-from gradhesion.core.struve.interpolated import interpolated_tables, table_of_each
+from gradhesion.core.struve.interpolated import complete, interpolated_tables, table_of_each
 from gradhesion.core.struve.layout import TABLE
 from gradhesion.core.struve.table import build_table
-from tests.core.completed import completed
 
 EXPONENTS = np.concatenate([np.random.default_rng(4).uniform(0.0, 1.0, 9), [0.0, 1.0]])
 OF_CYCLES = (
@@ -27,8 +26,9 @@ OF_CYCLES = (
 
 def values_of(table: NDArray[Any]) -> dict[str, Any]:
     """Return what a table holds for its readers."""
+    complete(table)
     used = [name for name in TABLE.names or () if name not in ("recipes", "for_forces")]
-    return {name: completed(table)[0][name].tolist() for name in used}
+    return {name: table[0][name].tolist() for name in used}
 
 
 @pytest.mark.parametrize("order", [np.arange(11), np.random.default_rng(5).permutation(11)])
@@ -42,7 +42,7 @@ def test_it_has_the_bits_of_a_table_for_that_exponent(order: NDArray[np.int64]) 
 def test_the_same_exponent_again_keeps_what_is_filled() -> None:
     current = table_of_each(EXPONENTS, forces=True)
     ready(current, 3)
-    completed(current)
+    complete(current)
     ready(current, 3)
     assert not current[0]["lacks_bin"].any()
     ready(current, 4)
@@ -55,11 +55,12 @@ def test_forces_leave_out_what_they_do_not_read() -> None:
         current[name] = -7.0
     ready(current, 5)
     ready(whole, 5)
+    complete(current)
     for name, value in values_of(whole).items():
         if name in OF_CYCLES:
             assert (current[0][name] == -7.0).all(), name
         elif name != "moment_logarithm":
-            np.testing.assert_array_equal(completed(current)[0][name], value, err_msg=name)
+            np.testing.assert_array_equal(current[0][name], value, err_msg=name)
 
 
 def test_theta_alone() -> None:

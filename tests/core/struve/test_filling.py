@@ -13,7 +13,6 @@ from gradhesion.core.struve.layout import ARCHES, ARCHES_AT_ONCE
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.table import build_table
-from tests.core.completed import completed
 
 EXPONENT = 0.613
 TWO_PI = 2.0 * np.pi
@@ -28,7 +27,7 @@ def table() -> Any:
 @pytest.fixture(scope="module")
 def whole() -> NDArray[Any]:
     """Give the same one with all that it can have."""
-    return completed(interpolated_tables(np.array([EXPONENT])))
+    return interpolated_tables(np.array([EXPONENT]), whole=True)
 
 
 def filled(table: NDArray[Any], lacks: str) -> list[int]:

@@ -11,7 +11,6 @@ from gradhesion.core.struve.interpolated import ROUNDING, interpolated_tables
 from gradhesion.core.struve.layout import EXPONENT_SPAN, TABLE
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.table import build_table
-from tests.core.completed import completed
 
 EPS = 2.0**-52
 EXPONENTS = np.concatenate([np.random.default_rng(3).uniform(0.0, 1.0, 24), [0.0, 1e-9, 0.5, 1.0 - 1e-9, 1.0]])
@@ -20,7 +19,7 @@ EXPONENTS = np.concatenate([np.random.default_rng(3).uniform(0.0, 1.0, 24), [0.0
 @pytest.fixture(scope="module")
 def tables() -> tuple[NDArray[Any], NDArray[Any]]:
     """Give the tables of some exponents, interpolated and their own."""
-    return completed(interpolated_tables(EXPONENTS)), np.array([build_table(k) for k in EXPONENTS.tolist()])
+    return interpolated_tables(EXPONENTS, whole=True), np.array([build_table(k) for k in EXPONENTS.tolist()])
 
 
 def test_constants_are_no_polynomials(tables: tuple[NDArray[Any], NDArray[Any]]) -> None:
