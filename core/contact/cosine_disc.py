@@ -83,21 +83,21 @@ def _least_of(openings: Any) -> tuple[int, float]:
 
 
 @kernel()
-def _search(table: Any, curve: Curve, edge: Edge, low: float, high: float) -> float:
+def _search(table: Any, curve: Curve, edge: Edge, low: float, high: float, heights: Any) -> float:
     """Return the least opening between two radii, or the first negative one that is met (golden section)."""
     inner, outer = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-    first, second = opening(table, curve, edge, inner), opening(table, curve, edge, outer)
+    first, second = opening(table, curve, edge, inner, heights), opening(table, curve, edge, outer, heights)
     for _ in range(_STEPS):
         if min(first, second) < 0.0:
             break
         if first < second:
             high, outer, second = outer, inner, first
             inner = high - _GOLDEN * (high - low)
-            first = opening(table, curve, edge, inner)
+            first = opening(table, curve, edge, inner, heights)
         else:
             low, inner, first = inner, outer, second
             outer = low + _GOLDEN * (high - low)
-            second = opening(table, curve, edge, outer)
+            second = opening(table, curve, edge, outer, heights)
     return min(first, second)
 
 
@@ -119,7 +119,7 @@ def _least_in_window(
         return least
     if low > a or error > _CLEAR:
         for i in range(NODES.size + 1):
-            openings[i] = opening(table, curve, edge, place_of(low, high, i))
+            openings[i] = opening(table, curve, edge, place_of(low, high, i), heights)
             if openings[i] < 0.0:
                 return openings[i]
         at, least = _least_of(openings)
@@ -128,13 +128,14 @@ def _least_in_window(
     elif openings[at] < -error:
         return openings[at]
     return min(
-        opening(table, curve, edge, place_of(low, high, at)),
+        opening(table, curve, edge, place_of(low, high, at), heights),
         _search(
             table,
             curve,
             edge,
             place_of(low, high, at - 1) if at > 0 else low,
             place_of(low, high, min(at + 1, NODES.size)),
+            heights,
         ),
     )
 

@@ -47,16 +47,17 @@ from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
 from gradhesion.core.path.cosine import MOST_ARCHES
 from gradhesion.core.path.loading import arrive, climb, load_up
-from gradhesion.core.path.ties import note_loading, note_loading_from
-from gradhesion.core.path.unloading import descend, leave, next_lower
+from gradhesion.core.path.ties import note_loading, note_loading_from, scan_inwards, tolerance
+from gradhesion.core.path.unloading import descend, leave
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.waves.cosine import branch_of_wave, fold_of_wave, landing_of_wave
+from gradhesion.core.waves.cosine_lanes import room_for_lanes
 from gradhesion.core.waves.cosine_running import COUNT, begin_sums, room_for_sums, sum_up_to
 from gradhesion.core.waves.cosine_sum import sum_of_waves
 
-BEGINNING: Final = 16.0
-"""Waves walked at the beginning; z > 150 there."""
+BEGINNING: Final = 9.0
+"""Waves walked at the beginning; z > 50 there."""
 NEAR_RIM: Final = 10.0
 """Waves walked before the folds end."""
 _BEFORE_RIM: Final = 2.5
@@ -72,10 +73,11 @@ NEAR, BEFORE, LAST_UP, FIRST_CLOSE, ENTRY, ENTRY_PLACE, ENTRY_LOSS, ENTRY_JUMPS 
 LOWEST, LOWEST_LOSS, LOWEST_JUMPS, LOWEST_LAST = 8, 9, 10, 11
 DISC_INNER, DISC_OUTER, RUN_SEEN = 12, 13, 14
 """What all rims of a curve share: the number of branches of the beginning, the wave of the last one, the last one that
-loading arrives on, and where a pair of folds is close there; the wave of the gap that loading enters (NaN: not found
-yet), where, and what it has lost and jumped by then; the wave that starts lowest (NaN, too), what unloading loses from
-its start on, its jumps, and the depth at which contact ends; the radii between which loading of the beginning ceases to
-keep the contact one disc (NaN, too); and whether the contact on the waves of the gap has been looked at (NaN: not)."""
+loading arrives on, and where a pair of folds, or the way through the gap, is close; the wave of the gap that loading
+enters (NaN: not found yet), where, and what it has lost and jumped by then; the wave that starts lowest (NaN, too),
+what unloading loses from its start on, its jumps, and the depth at which contact ends; the radii between which loading
+of the beginning ceases to keep the contact one disc (NaN, too); and whether the contact on the waves of the gap has
+been looked at (NaN: not)."""
 _SHARED: Final = 15
 
 
@@ -135,8 +137,10 @@ def first_wave_above(
 
 
 @kernel()
-def _lowest_wave(table: Any, curve: Curve, low: float, high: float) -> float:
-    """Return the wave between two others whose branch starts lowest; the starts fall up to it and rise from it on.
+def _lowest_wave(table: Any, curve: Curve, low: float, high: float) -> tuple[float, bool]:
+    """Return the wave between two others whose branch starts lowest, and whether a neighbour hardly starts higher.
+
+    The starts fall up to it and rise from it on.
 
     It is where the lower envelope b z^2/2 - (1 + C g) z^c is lowest, or next to it.
     """
@@ -144,13 +148,14 @@ def _lowest_wave(table: Any, curve: Curve, low: float, high: float) -> float:
     k = table.k
     z = (0.5 * (1.0 - k) * (1.0 + g * table.amplitude) / b) ** (2.0 / (3.0 + k))
     middle = np.floor(z / TWO_PI - table.phase / TWO_PI)
-    step = 1.0
+    step, close = 1.0, NO
     for _ in range(_HALVINGS):  # the lowest is one of low .. high
         if high <= low:
             break
         middle = max(low, min(high - 1.0, middle))
-        _, here = fold_of_wave(table, curve, middle, YES)
+        place, here = fold_of_wave(table, curve, middle, YES)
         _, beyond = fold_of_wave(table, curve, middle + 1.0, YES)
+        close = close or abs(beyond - here) <= tolerance(table, curve, place)
         if beyond < here:
             low, middle = middle + 1.0, middle + step
         else:
@@ -158,14 +163,14 @@ def _lowest_wave(table: Any, curve: Curve, low: float, high: float) -> float:
         step *= 2.0
         if not low <= middle < high:
             middle = np.floor(0.5 * (low + high))
-    return low
+    return low, close
 
 
 @kernel()
 def begin_long(
     table: Any, curve: Curve, arches: tuple[float, float], trace: Any, losses: bool, reach: float
-) -> tuple[Any, tuple[Any, Any]]:
-    """Walk the first waves of a long curve; return the trace, and what all rims share: numbers (above) and sums."""
+) -> tuple[Any, tuple[Any, Any, Any]]:
+    """Walk the first waves of a long curve; return the trace, and what all rims share: numbers (above), sums, room."""
     first, final = arches
     trace = room_for(trace, 4.0 * reach * (BEGINNING + NEAR_RIM))
     shared = np.full(_SHARED, math.nan)
@@ -178,7 +183,7 @@ def begin_long(
     shared[NEAR], shared[BEFORE], shared[FIRST_CLOSE] = near, before, trace[TANGENCY, 0]
     shared[LAST_UP] = load_up(table, curve, near, trace, math.inf, losses)
     note_loading(table, curve, near, trace, math.inf)
-    return trace, (shared, room_for_sums())
+    return trace, (shared, room_for_sums(), room_for_lanes())
 
 
 @kernel()
@@ -197,14 +202,14 @@ def _sum(
     outwards: bool,
     final: float,
     running: bool,
-    work: Any,
+    room: Any,
 ) -> float:
     """Return what the waves `first` to `last` of the gap lose, for one rim or from what serves all of them."""
     if not running:
-        return sum_of_waves(table, curve, first, last, outwards, final, work)
+        return sum_of_waves(table, curve, first, last, outwards, final, room)
     if sums[0, COUNT] < 0.0:
         begin_sums(table, curve, sums, first, outwards, final)
-    return sum_up_to(table, curve, sums, last, outwards, final, work)
+    return sum_up_to(table, curve, sums, last, outwards, final, room)
 
 
 @kernel()
@@ -216,14 +221,16 @@ def _entry(
     It comes from the last branch of the beginning (the place is 0 then), or by one long jump to the first wave that
     ends above the depth, which `after` does.
     """
-    shared, _ = long
+    shared, _, _ = long
     now = int(shared[LAST_UP])
     loss, jumps = (trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]) if now >= 0 else (0.0, 0.0)
     if 0 <= now == int(shared[NEAR]) - 1:
         return shared[BEFORE], 0.0, loss, jumps
     if math.isnan(shared[ENTRY]):
         left, level = (trace[END, now], trace[END_DEPTH, now]) if now >= 0 else (0.0, 0.0)
-        wave, _, _, _, _ = first_wave_above(table, curve, shared[BEFORE], after, level)
+        wave, end, top, _, top_before = first_wave_above(table, curve, shared[BEFORE], after, level)
+        if min(abs(top - level), abs(top_before - level)) <= tolerance(table, curve, end):
+            shared[FIRST_CLOSE] = min(shared[FIRST_CLOSE], end)
         x = find_depth(table, curve, level, branch_of_wave(table, curve, wave))
         if losses and now >= 0:
             loss += jump_energy(table, curve, left, x, trace[WORK])
@@ -247,7 +254,7 @@ def _load_through(
     losses: bool,
 ) -> None:
     """Follow loading from the beginning through the gap to the branches near the rim; `after` is the first of them."""
-    shared, sums = long
+    shared, sums, room = long
     near, now = int(shared[NEAR]), int(shared[LAST_UP])
     trace[ARRIVAL, near:count] = math.inf
     trace[RUN, GAP], trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST] = near, 0.0, -1.0
@@ -257,7 +264,7 @@ def _load_through(
         if wave < after:
             trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST], trace[RUN, RUN_LANDING] = wave, after - 1.0, x
             if losses:
-                loss += _sum(table, curve, sums[0], wave, after - 1.0, YES, final, running, trace[WORK])
+                loss += _sum(table, curve, sums[0], wave, after - 1.0, YES, final, running, room)
             x = after - 1.0 + landing_of_wave(table, curve, after - 1.0, YES)
             jumps += after - wave
         arrive(trace, near, x, loss, jumps)
@@ -268,11 +275,11 @@ def _load_through(
 @kernel()
 def _leave_lowest(table: Any, curve: Curve, long: Any, final: float, trace: Any, losses: bool) -> None:
     """Find the wave of the gap that starts lowest, and what unloading loses from there on, if that is not known yet."""
-    shared, _ = long
+    shared, _, _ = long
     if not math.isnan(shared[LOWEST]):
         return
     near, before = int(shared[NEAR]), shared[BEFORE]
-    lowest = _lowest_wave(table, curve, before, max(before, np.floor(0.5 * final - NEAR_RIM)))
+    lowest, close = _lowest_wave(table, curve, before, max(before, np.floor(0.5 * final - NEAR_RIM)))
     loss, jumps, last = 0.0, 1.0, 0.0
     if lowest == before and near > 0:
         descend(table, curve, trace, near - 1, losses)
@@ -282,8 +289,9 @@ def _leave_lowest(table: Any, curve: Curve, long: Any, final: float, trace: Any,
             trace[LAST_DEPTH, near - 1],
         )
     else:
-        start, level, _, _ = branch_of_wave(table, curve, lowest)
-        lower = next_lower(trace, near - 1, level)
+        start, level = fold_of_wave(table, curve, lowest, YES)
+        hardly, lower = scan_inwards(table, curve, trace, near - 1, level, start)
+        close = close or hardly
         if lower >= 0:
             descend(table, curve, trace, lower, losses)
             landing = find_depth(table, curve, level, ends(trace, lower))
@@ -296,6 +304,8 @@ def _leave_lowest(table: Any, curve: Curve, long: Any, final: float, trace: Any,
         else:
             loss, last = -energy_from_zero(table, curve, start, level) if losses else 0.0, level
     shared[LOWEST], shared[LOWEST_LOSS], shared[LOWEST_JUMPS], shared[LOWEST_LAST] = lowest, loss, jumps, last
+    if close:
+        shared[FIRST_CLOSE] = min(shared[FIRST_CLOSE], lowest)
 
 
 @kernel()
@@ -303,7 +313,7 @@ def _unload_through(
     table: Any, curve: Curve, after: float, final: float, long: Any, trace: Any, running: bool, losses: bool
 ) -> None:
     """Give the first branch after the gap what unloading loses from there, if it goes on into the gap."""
-    shared, sums = long
+    shared, sums, room = long
     _leave_lowest(table, curve, long, final, trace, losses)
     lowest = min(shared[LOWEST], after)  # starts fall outwards up to the lowest one
     trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER], trace[RUN, RUN_LOWEST] = shared[BEFORE], after, lowest
@@ -311,7 +321,7 @@ def _unload_through(
         return
     loss = shared[LOWEST_LOSS]
     if losses:
-        loss += _sum(table, curve, sums[1], lowest + 1.0, after, NO, final, running, trace[WORK])
+        loss += _sum(table, curve, sums[1], lowest + 1.0, after, NO, final, running, room)
     leave(trace, int(shared[NEAR]), loss, shared[LOWEST_JUMPS] + after - lowest, shared[LOWEST_LAST])
 
 
@@ -371,7 +381,7 @@ def stride(
     alone, which tells how good the sums are (scene/cosine_report.py).
     """
     _, final = arches
-    shared, _ = long
+    shared, _, _ = long
     near = int(shared[NEAR])
     trace[TANGENCY, 0] = shared[FIRST_CLOSE]
     running = reach == 1.0 and not ends_folds(table, arches, rim)
@@ -393,6 +403,7 @@ def stride(
     if nominal and trace[ARRIVAL, near] < math.inf and rim <= 0.5 * final:
         trace[ARRIVAL, near] = trace[START, near]
     _unload_through(table, curve, after, final, long, trace, running, losses)
+    trace[TANGENCY, 0] = min(trace[TANGENCY, 0], shared[FIRST_CLOSE])
     note_loading_from(table, curve, near, count, trace, rim)
     return count
 
@@ -403,7 +414,7 @@ def open_gap(table: Any, curve: Curve, place: float, trace: Any, long: Any) -> b
 
     That is enough for a cycle that surely turns before the place.
     """
-    shared, _ = long
+    shared, _, _ = long
     near, now = int(shared[NEAR]), int(shared[LAST_UP])
     after = np.floor(place - table.phase / TWO_PI) + 1.0
     _, top = fold_of_wave(table, curve, after, NO)

@@ -9,7 +9,7 @@ The curve is any of path/passage.py. Decisions of loading are noted with the bra
 of unloading with the branches from which on, so that all rims of a curve read them.
 
 On a long curve (path/cosine_long.py) the branches that are summed are not looked at: each is visited, and their
-neighbours stand apart by a wave.
+neighbours stand apart by a wave. Where loading enters them, and unloading leaves them, is.
 """
 
 import math
@@ -87,7 +87,7 @@ def highest_before(trace: Any, branch: int) -> float:
 
 
 @kernel()
-def _scan_inwards(table: Any, curve: Any, trace: Any, branch: int, level: float, place: float) -> tuple[bool, int]:
+def scan_inwards(table: Any, curve: Any, trace: Any, branch: int, level: float, place: float) -> tuple[bool, int]:
     """Return whether a branch from `branch` inwards hardly starts below a level, and the first that does, -1 if none.
 
     The level is that of the curve at `place`.
@@ -113,7 +113,7 @@ def _unloading_is_close(table: Any, curve: Any, trace: Any, branch: int) -> bool
         if trace[START, now] == 0.0:
             trace[UNLOADING_IS_CLOSE, now] = NO
             break
-        close, lower = _scan_inwards(table, curve, trace, now - 1, trace[START_DEPTH, now], trace[START, now])
+        close, lower = scan_inwards(table, curve, trace, now - 1, trace[START_DEPTH, now], trace[START, now])
         if close or lower < 0:
             trace[UNLOADING_IS_CLOSE, now] = close
             break
@@ -177,5 +177,5 @@ def is_close_to_a_jump(
         return True
     if on_branch:
         return _unloading_is_close(table, curve, trace, now)
-    close, lower = _scan_inwards(table, curve, trace, now, rim_level, rim)
+    close, lower = scan_inwards(table, curve, trace, now, rim_level, rim)
     return close or (lower >= 0 and _unloading_is_close(table, curve, trace, lower))

@@ -34,7 +34,7 @@ def _limits_beyond(
     _, g, _ = curve
     if slots[CONTACT] < 0 or g * table.amplitude <= ALWAYS_ONE:
         return math.inf, math.inf, tangency
-    shared, _ = long
+    shared, _, _ = long
     near, now = int(shared[NEAR]), int(shared[LAST_UP])
     if math.isnan(shared[DISC_INNER]):
         inner, outer = limits_from(table, curve, NONE, near - 1, NOWHERE, near, trace, math.inf)

@@ -16,12 +16,11 @@ from gradhesion.core.waves.cosine import _fold, _landing, _slope
 from gradhesion.core.waves.cosine_sum import (
     _DIRECT,
     _EDGE,
-    _EDGE_NEAR,
     _EVEN,
+    _FIRST,
     _FRACTION,
     _LONG,
     _LONGEST,
-    _NEAR,
     _PART,
     _REMOTE,
     _WIDE,
@@ -71,7 +70,7 @@ def _add_outer_part(
     table: Any, curve: Curve, near: Any, begin: float, end: float, outer: float, outwards: bool, work: Any, total: Any
 ) -> None:
     """Add the integral in y."""
-    found = work[_SAMPLES + 6 * SLOPES : _SAMPLES + 7 * SLOPES]
+    found = work[_SAMPLES + 2 * _EDGE * SLOPES : _SAMPLES + (2 * _EDGE + 1) * SLOPES]
     outer = min(max(outer, end), _REMOTE * end)
     low, width = outer_limits(begin, end, outer)
     for i in range(NODES.size):
@@ -86,7 +85,7 @@ def _add_inner_part(
     table: Any, curve: Curve, near: Any, begin: float, end: float, inner: float, outwards: bool, work: Any, total: Any
 ) -> None:
     """Add the integral in v."""
-    found = work[_SAMPLES + 6 * SLOPES : _SAMPLES + 7 * SLOPES]
+    found = work[_SAMPLES + 2 * _EDGE * SLOPES : _SAMPLES + (2 * _EDGE + 1) * SLOPES]
     inner = min(inner, begin)
     low, width = inner_limits(begin, end, inner)
     for i in range(SHORT_NODES.size):
@@ -116,26 +115,25 @@ def add_slopes_of_waves(
     table: Any, curve: Curve, near: Any, first: float, last: float, outwards: bool, final: float, work: Any, total: Any
 ) -> None:
     """Add the slopes of what the jumps from the waves `first` to `last` lose, as `sum_of_waves` of cosine_sum.py."""
-    found = work[_SAMPLES + 6 * SLOPES : _SAMPLES + 7 * SLOPES]
+    found = work[_SAMPLES + 2 * _EDGE * SLOPES : _SAMPLES + (2 * _EDGE + 1) * SLOPES]
     points = branch_points(table, curve, final, outwards)
     if last - first > _EVEN:
         _add_integral(table, curve, near, first - 0.5, last + 0.5, points, outwards, work, total)
         return
-    edge = _EDGE_NEAR if abs(first - points[0]) < _NEAR else _EDGE
-    if last - first < _DIRECT + edge:
+    if last - first < _DIRECT:
         wave = first
         while wave <= last:
             slopes_of_wave(table, curve, near, wave, outwards, work, found)
             total += found
             wave += 1.0
         return
-    values = work[_SAMPLES : _SAMPLES + 6 * SLOPES].reshape((SLOPES, 6))
-    for i in range(edge + _EDGE):
+    values = work[_SAMPLES : _SAMPLES + 2 * _EDGE * SLOPES].reshape((SLOPES, 2 * _EDGE))
+    for i in range(_FIRST + _EDGE):
         slopes_of_wave(table, curve, near, first + i, outwards, work, found)
-        if i < edge:
+        if i < _FIRST:
             total += found
-        if i >= edge - _EDGE:
-            values[:, i - edge + _EDGE] = found
+        if i >= _FIRST - _EDGE:
+            values[:, i - _FIRST + _EDGE] = found
     for j in range(SLOPES):
         total[j] += limit_terms(values[j])
     for i in range(2 * _EDGE):
@@ -145,4 +143,4 @@ def add_slopes_of_waves(
             total += found
     for j in range(SLOPES):
         total[j] -= limit_terms(values[j])
-    _add_integral(table, curve, near, first + edge - 0.5, last - _EDGE + 0.5, points, outwards, work, total)
+    _add_integral(table, curve, near, first + _FIRST - 0.5, last - _EDGE + 0.5, points, outwards, work, total)

@@ -27,11 +27,11 @@ NEAREST: Final = 8.0
 FAR: Final = 4.0e6
 """Waves up to which a float tells a place and its phase together well enough to sum a gap."""
 _STEPS: Final = 100
-_LAST_STEP: Final = 1e-4
+LAST_STEP: Final = 1e-4
 """A cubically convergent step of this size leaves 1e-12, and the loss is stationary at a fold (cosine_folds.py)."""
-_LAST_LANDING: Final = 1e-3
+LAST_LANDING: Final = 1e-3
 """The same of a landing (curve/branches.py)."""
-_WIDE: Final = 2.2
+WIDE: Final = 2.2
 """Half the width of a branch, in radians, from which on both its folds are found."""
 _RATIO_TERMS: Final = 9
 """Terms of (1 + e)^c - 1 for |e| < 0.04, a wave over its place."""
@@ -95,7 +95,7 @@ def _fold_near(
             high = x
         step = -d * d1 / (d1 * d1 - 0.5 * d * d2)
         new = x + step / TWO_PI
-        if abs(step) * (abs(d2) + abs(d1)) < _LAST_STEP * abs(d1) and low <= new <= high:
+        if abs(step) * (abs(d2) + abs(d1)) < LAST_STEP * abs(d1) and low <= new <= high:
             return new, x, z, wave, stretch, step * (d + step * (0.5 * d1 + step * d2 / 6.0))
         if not low < new < high:
             new = 0.5 * (low + high)
@@ -132,7 +132,7 @@ def _landing(table: Any, curve: Curve, whole: float, left: Left, start: float, c
     rest = _rise(table, curve, left, x - start, z, wave) + gain
     angle = TWO_PI * abs(far - centre)
     near = 2.0 * centre - far
-    if angle > _WIDE:
+    if angle > WIDE:
         near, x, z, wave, _, gain = _fold_near(table, curve, whole, centre, not rising, near)
         near_rest = _rise(table, curve, left, x - start, z, wave) + gain
     else:
@@ -156,7 +156,7 @@ def _landing(table: Any, curve: Curve, whole: float, left: Left, start: float, c
         step = -rest * d / (d * d - 0.5 * rest * d1)
         x += step / TWO_PI
         # the loss is stationary at the place of landing: its error is the square of what is left here
-        if low <= x <= high and abs(step) * (abs(d1) + abs(d)) < _LAST_LANDING * abs(d):
+        if low <= x <= high and abs(step) * (abs(d1) + abs(d)) < LAST_LANDING * abs(d):
             return x
         if not low < x < high:
             x = 0.5 * (low + high)

@@ -22,7 +22,7 @@ import numpy as np
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.struve.chebyshev import chebyshev_fit
-from gradhesion.core.waves.cosine import jump_of_wave
+from gradhesion.core.waves.cosine_lanes import LANES, LOSSES, WAVES, jumps_in_a_row, jumps_of_waves
 from gradhesion.core.waves.cosine_sum import branch_points, sum_of_waves
 
 _SINGLE: Final = 12
@@ -32,7 +32,7 @@ _CLEAR: Final = 12.5
 _INNERMOST: Final = 8.0
 _NEAREST: Final = 6.0
 """Waves from the inner branch point at which the first panel may begin at the nearest."""
-_TERMS: Final = 16
+_TERMS: Final = LANES
 _PLACES, _FIT = chebyshev_fit(_TERMS, _TERMS)
 _FIRST_GROWTH: Final = 4.0
 _GROWTH: Final = 8.0
@@ -44,6 +44,8 @@ _OUTER_HALF: Final = 0.7
 """Part of the way to `_MIDDLE` from which on a panel is taken in y."""
 _LEAST: Final = 8.0
 """Waves that a panel has at least."""
+_BEFORE: Final = 8.0
+"""Waves from the last one of any sum to the outer branch point, at least."""
 _MOST: Final = 2.0**52
 """Waves up to which half a wave is told."""
 _LINKED: Final = 3
@@ -144,24 +146,25 @@ def _up_to(head: Any, panel: Any, wave: float) -> float:
 
 
 @kernel()
-def _fill(table: Any, curve: Curve, head: Any, panel: Any, outwards: bool, work: Any) -> None:
+def _fill(table: Any, curve: Curve, head: Any, panel: Any, outwards: bool, room: Any) -> None:
     """Put the coefficients of the loss and of its integral into a panel."""
     low, high = _variable(head, panel, panel[BEGIN]), _variable(head, panel, panel[END])
     panel[LOW], panel[HIGH] = low, high
     half = 0.5 * (high - low)
     panel[_LOSS : _INTEGRAL + _TERMS + 1] = 0.0
-    steps = np.zeros(_TERMS + 2)
+    steps, rates = np.zeros(_TERMS + 2), np.zeros(_TERMS)
     for i in range(_TERMS):
         variable = 0.5 * (low + high) + half * _PLACES[i]
-        if panel[IN_Y] > 0.0:
-            rest = 1.0 - variable * variable
-            wave, rate = head[OUTER] * rest**4, -8.0 * head[OUTER] * variable * rest**3
-        else:
-            wave, rate = head[INNER] + variable * variable, 2.0 * variable
-        _, loss = jump_of_wave(table, curve, wave, outwards, work)
+        rest = 1.0 - variable * variable
+        is_y = panel[IN_Y] > 0.0
+        room[WAVES + i] = head[OUTER] * rest**4 if is_y else head[INNER] + variable * variable
+        rates[i] = half * (-8.0 * head[OUTER] * variable * rest**3 if is_y else 2.0 * variable)
+    jumps_of_waves(table, curve, outwards, room)
+    for i in range(_TERMS):
+        loss = room[LOSSES + i]
         for j in range(_TERMS):
             panel[_LOSS + j] += _FIT[j, i] * loss
-            steps[j] += _FIT[j, i] * (loss * rate * half)
+            steps[j] += _FIT[j, i] * (loss * rates[i])
     head[SAMPLES] += _TERMS
     panel[_INTEGRAL + 1] = steps[0] - 0.5 * steps[2]
     for j in range(2, _TERMS + 1):
@@ -169,31 +172,34 @@ def _fill(table: Any, curve: Curve, head: Any, panel: Any, outwards: bool, work:
 
 
 @kernel()
-def _first_waves(table: Any, curve: Curve, head: Any, count: int, outwards: bool, work: Any) -> float:
-    """Return the sum over some of the first waves."""
-    known = int(head[KNOWN])
-    while known < count:
-        _, loss = jump_of_wave(table, curve, head[FIRST] + known, outwards, work)
-        head[_SUMS + known] = loss + (head[_SUMS + known - 1] if known > 0 else 0.0)
-        head[SAMPLES] += 1.0
-        known += 1
-    head[KNOWN] = known
+def _first_waves(table: Any, curve: Curve, head: Any, count: int, outwards: bool, room: Any) -> float:
+    """Return the sum over some of the first waves; all of them are found at once."""
+    if head[KNOWN] == 0.0 and count > 0:
+        first, known = head[FIRST], head[SINGLE]
+        last = min(first + (known - 1.0), max(first, head[OUTER] - _BEFORE))
+        jumps_in_a_row(table, curve, first, last, outwards, room)
+        total = 0.0
+        for i in range(int(known)):
+            total += room[LOSSES + i]
+            head[_SUMS + i] = total
+        head[SAMPLES] += known
+        head[KNOWN] = known
     return head[_SUMS + count - 1] if count > 0 else 0.0
 
 
 @kernel()
-def sum_up_to(table: Any, curve: Curve, sums: Any, last: float, outwards: bool, final: float, work: Any) -> float:
+def sum_up_to(table: Any, curve: Curve, sums: Any, last: float, outwards: bool, final: float, room: Any) -> float:
     """Return the sum of what the jumps from the first wave to wave `last` lose.
 
     `last` stands eight waves or more before the outer branch point; `sums` is what `begin_sums` has begun for the
-    direction, and `work` has room for 22 floats.
+    direction.
     """
     head = sums[0]
     count = last - head[FIRST] + 1.0
     if count <= head[SINGLE]:
-        return _first_waves(table, curve, head, max(0, int(count)), outwards, work)
+        return _first_waves(table, curve, head, max(0, int(count)), outwards, room)
     if head[COUNT] < 1.0:
-        return sum_of_waves(table, curve, head[FIRST], last, outwards, final, work)
+        return sum_of_waves(table, curve, head[FIRST], last, outwards, final, room)
     number = 1
     while number < head[COUNT] and sums[number, END] < last:
         number += 1
@@ -206,13 +212,13 @@ def sum_up_to(table: Any, curve: Curve, sums: Any, last: float, outwards: bool, 
         if not math.isnan(panel[BASE]):
             continue
         if i == 1:
-            base = _first_waves(table, curve, head, int(head[SINGLE]), outwards, work)
+            base = _first_waves(table, curve, head, int(head[SINGLE]), outwards, room)
         elif (i - 1) % _LINKED == 0:
-            base = sum_of_waves(table, curve, head[FIRST], panel[BEGIN] - 0.5, outwards, final, work)
+            base = sum_of_waves(table, curve, head[FIRST], panel[BEGIN] - 0.5, outwards, final, room)
         else:
             before = sums[i - 1]
             base = before[BASE] + (_up_to(head, before, before[END]) - _up_to(head, before, before[BEGIN]))
-        _fill(table, curve, head, panel, outwards, work)
+        _fill(table, curve, head, panel, outwards, room)
         panel[BASE] = base
     panel = sums[number]
     return panel[BASE] + (_up_to(head, panel, last + 0.5) - _up_to(head, panel, panel[BEGIN]))

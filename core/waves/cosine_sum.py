@@ -1,10 +1,10 @@
-"""What the jumps of millions of waves lose, from some fifty of them.
+"""What the jumps of millions of waves lose, from a hundred of them at most.
 
 Far from zero contact loading goes from every wave to the next one, and so does unloading. What such a jump loses is a
 smooth function e of the index of the wave, which may be any real number (waves/cosine.py). So the sum is an integral,
 and Euler and Maclaurin tell the rest from a few single waves at both ends:
 
-    sum_{w=p}^{q} e_w = int_{p-1/2}^{q+1/2} e dw - [e'/24 - 7 e'''/5760 + 31 e^(5)/967680] between the two limits
+    sum_{w=p}^{q} e_w = int_{p-1/2}^{q+1/2} e dw - [e'/24 - 7 e'''/5760 + 31 e^(5)/967680 - ...] between the limits
 
 The function has two branch points, both outside of the sum. At one, w = `outer`, the last fall of the coordinate
 vanishes: e is a power series in the root of the distance there, and in w^((1+k)/4) further in. Gauss's rule takes it in
@@ -23,17 +23,15 @@ from typing import Any, Final
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve.cosine import Curve
-from gradhesion.core.curve.cosine_energy import NODES, SHORT_NODES, SHORT_WEIGHTS, WEIGHTS
+from gradhesion.core.curve.cosine_energy import NODES, WEIGHTS
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.waves.cosine import jump_of_wave
+from gradhesion.core.waves.cosine_lanes import LANES, LOSSES, WAVES, jumps_in_a_row, jumps_of_waves
 
-_EDGE: Final = 3
-"""Waves at a limit of the integral that are taken one by one: its derivatives there come from six around it."""
-_EDGE_NEAR: Final = 10
-"""The same at a limit next to a branch point: six waves from it on are no polynomial."""
-_NEAR: Final = 8.0
-"""Waves from the inner branch point to the first one of a sum, below which they are next to each other."""
-_DIRECT: Final = 40.0
+_EDGE: Final = 4
+"""Waves at a limit of the integral that are taken one by one: its derivatives there come from eight around it."""
+_FIRST: Final = LANES - _EDGE
+"""The same at the first limit: waves next to a branch point are no polynomial."""
+_DIRECT: Final = 4 * LANES
 """Waves that are summed one by one."""
 _WIDE: Final = 0.3
 """The inner branch point over the first wave from which on the integral is taken in two parts."""
@@ -53,12 +51,17 @@ _REMOTE: Final = 1e8
 
 @kernel()
 def limit_terms(values: Any) -> float:
-    """Return e'/24 - 7 e'''/5760 + 31 e^(5)/967680 in the middle of six values."""
-    first = values[3] - values[2]
-    third = values[4] - values[1] - 3.0 * first
-    fifth = values[5] - values[0] - 5.0 * (values[4] - values[1]) + 10.0 * first
-    slope = first - third / 24.0 + 3.0 * fifth / 640.0
-    return slope / 24.0 - 7.0 / 5760.0 * (third - fifth / 8.0) + 31.0 / 967680.0 * fifth
+    """Return e'/24 - 7 e'''/5760 + 31 e^(5)/967680 - 127 e^(7)/154828800 in the middle of eight values, or of six."""
+    half = values.size // 2
+    one, two = values[half] - values[half - 1], values[half + 1] - values[half - 2]
+    three = values[half + 2] - values[half - 3]
+    third, fifth, seventh = two - 3.0 * one, three - 5.0 * two + 10.0 * one, 0.0
+    if half > 3:
+        seventh = values[half + 3] - values[half - 4] - 7.0 * three + 21.0 * two - 35.0 * one
+    slope = one - third / 24.0 + 3.0 * fifth / 640.0 - 5.0 * seventh / 7168.0
+    bow = third - fifth / 8.0 + 37.0 * seventh / 1920.0
+    rest = 31.0 / 967680.0 * (fifth - 5.0 * seventh / 24.0) - 127.0 / 154828800.0 * seventh
+    return slope / 24.0 - 7.0 / 5760.0 * bow + rest
 
 
 @kernel()
@@ -95,79 +98,77 @@ def inner_limits(begin: float, end: float, inner: float) -> tuple[float, float]:
 
 
 @kernel()
-def _outer_part(table: Any, curve: Curve, begin: float, end: float, outer: float, outwards: bool, work: Any) -> float:
+def _outer_part(table: Any, curve: Curve, begin: float, end: float, outer: float, outwards: bool, room: Any) -> float:
     """Return the integral in y."""
     outer = min(max(outer, end), _REMOTE * end)  # so that 1 - y^2 keeps its digits
     low, width = outer_limits(begin, end, outer)
-    total = 0.0
-    for i in range(NODES.size):
+    for i in range(LANES):
         y = low + width * NODES[i]
-        rest = 1.0 - y * y
-        _, loss = jump_of_wave(table, curve, outer * rest**4, outwards, work)
-        total += WEIGHTS[i] * loss * 8.0 * outer * y * rest**3
+        room[WAVES + i] = outer * (1.0 - y * y) ** 4
+    jumps_of_waves(table, curve, outwards, room)
+    total = 0.0
+    for i in range(LANES):
+        y = low + width * NODES[i]
+        total += WEIGHTS[i] * room[LOSSES + i] * 8.0 * outer * y * (1.0 - y * y) ** 3
     return total * width
 
 
 @kernel()
-def _inner_part(table: Any, curve: Curve, begin: float, end: float, inner: float, outwards: bool, work: Any) -> float:
+def _inner_part(table: Any, curve: Curve, begin: float, end: float, inner: float, outwards: bool, room: Any) -> float:
     """Return the integral in v."""
     inner = min(inner, begin)
     low, width = inner_limits(begin, end, inner)
+    for i in range(LANES):
+        v = low + width * NODES[i]
+        room[WAVES + i] = inner + v * v
+    jumps_of_waves(table, curve, outwards, room)
     total = 0.0
-    for i in range(SHORT_NODES.size):
-        v = low + width * SHORT_NODES[i]
-        _, loss = jump_of_wave(table, curve, inner + v * v, outwards, work)
-        total += SHORT_WEIGHTS[i] * loss * 2.0 * v
+    for i in range(LANES):
+        total += WEIGHTS[i] * room[LOSSES + i] * 2.0 * (low + width * NODES[i])
     return total * width
 
 
 @kernel()
 def _integral(
-    table: Any, curve: Curve, begin: float, end: float, points: tuple[float, float], outwards: bool, work: Any
+    table: Any, curve: Curve, begin: float, end: float, points: tuple[float, float], outwards: bool, room: Any
 ) -> float:
     """Return the integral of what a jump loses over the index of its wave."""
     inner, outer = points
     total = 0.0
     if inner > _WIDE * begin or end > _LONG * begin:
         middle = max(begin, min(_PART * max(inner, begin), math.sqrt(begin * end)))
-        total += _inner_part(table, curve, begin, middle, inner, outwards, work)
+        total += _inner_part(table, curve, begin, middle, inner, outwards, room)
         begin = middle
     if end > _LONGEST * begin:
-        total += _outer_part(table, curve, begin, _FRACTION * end, outer, outwards, work)
+        total += _outer_part(table, curve, begin, _FRACTION * end, outer, outwards, room)
         begin = _FRACTION * end
-    return total + _outer_part(table, curve, begin, end, outer, outwards, work)
+    return total + _outer_part(table, curve, begin, end, outer, outwards, room)
 
 
 @kernel()
-def sum_of_waves(table: Any, curve: Curve, first: float, last: float, outwards: bool, final: float, work: Any) -> float:
-    """Return the sum of what the jumps from the waves `first` to `last` lose; `work` has room for 22 floats.
+def sum_of_waves(table: Any, curve: Curve, first: float, last: float, outwards: bool, final: float, room: Any) -> float:
+    """Return the sum of what the jumps from the waves `first` to `last` lose.
 
     Outwards each goes from the end of a wave's branch to the next wave, inwards from its start to the one before.
     `final` is the last arch on which the curve can fold.
     """
     points = branch_points(table, curve, final, outwards)
     if last - first > _EVEN:
-        return _integral(table, curve, first - 0.5, last + 0.5, points, outwards, work)
-    near = _EDGE_NEAR if abs(first - points[0]) < _NEAR else _EDGE
+        return _integral(table, curve, first - 0.5, last + 0.5, points, outwards, room)
     total = 0.0
-    if last - first < _DIRECT + near:
-        wave = first
-        while wave <= last:
-            _, loss = jump_of_wave(table, curve, wave, outwards, work)
-            total += loss
-            wave += 1.0
+    if last - first < _DIRECT:
+        while first <= last:
+            jumps_in_a_row(table, curve, first, last, outwards, room)
+            for i in range(min(LANES, int(last - first) + 1)):
+                total += room[LOSSES + i]
+            first += LANES
         return total
-    values = work[16:22]
-    for i in range(near + _EDGE):
-        _, loss = jump_of_wave(table, curve, first + i, outwards, work)
-        if i < near:
-            total += loss
-        if i >= near - _EDGE:
-            values[i - near + _EDGE] = loss
-    total += limit_terms(values)
-    for i in range(2 * _EDGE):
-        _, values[i] = jump_of_wave(table, curve, last - (2 * _EDGE - 1) + i, outwards, work)
-        if i >= _EDGE:
-            total += values[i]
-    total -= limit_terms(values)
-    return total + _integral(table, curve, first + near - 0.5, last - _EDGE + 0.5, points, outwards, work)
+    jumps_in_a_row(table, curve, first, last, outwards, room)
+    for i in range(_FIRST):
+        total += room[LOSSES + i]
+    total += limit_terms(room[LOSSES + _FIRST - _EDGE : LOSSES + LANES])
+    jumps_in_a_row(table, curve, last - (2 * _EDGE - 1), last, outwards, room)
+    for i in range(_EDGE):
+        total += room[LOSSES + _EDGE + i]
+    total -= limit_terms(room[LOSSES : LOSSES + 2 * _EDGE])
+    return total + _integral(table, curve, first + (_FIRST - 0.5), last - _EDGE + 0.5, points, outwards, room)

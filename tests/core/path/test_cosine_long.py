@@ -70,7 +70,7 @@ def test_rims_share_the_samples_of_their_sums(chi: float, waves: float, table_of
         assert cycle.is_long(table, arches, rim)
         assert not long_cycle.ends_folds(table, arches, rim)
         long_cycle.stride(table, curve, arches, rim, trace, long, True, 1.0)
-    _, sums = long
+    _, sums, _ = long
     samples = sums[:, 0, SAMPLES]
     assert np.all(samples > 0.0)
     assert np.all(samples <= 12 + 16 * sums[:, 0, COUNT])

@@ -9,10 +9,11 @@ import pytest
 
 from gradhesion.core.curve.cosine_folds import first_arch, last_arch
 from gradhesion.core.waves.cosine import jump_of_wave
+from gradhesion.core.waves.cosine_lanes import room_for_lanes
 from gradhesion.core.waves.cosine_running import COUNT, SAMPLES, begin_sums, room_for_sums, sum_up_to
 from gradhesion.core.waves.cosine_sum import branch_points, sum_of_waves
 
-WORK = np.zeros(22)
+WORK, ROOM = np.zeros(22), room_for_lanes()
 GOOD = 1e-12
 """What sums are promised to, in parts of the loss."""
 BEFORE_OUTER = 8.0
@@ -46,7 +47,7 @@ def test_a_sum_up_to_any_wave(k: float, chi: float, outwards: bool, table_of: Ca
         of_all = room_for_sums()[0]
         begin_sums(table, curve, of_all, first, outwards, final)
         for i in {*range(15), *np.geomspace(15, losses.size, 60).astype(int) - 1, losses.size - 1}:
-            found = sum_up_to(table, curve, of_all, first + i, outwards, final, WORK)
+            found = sum_up_to(table, curve, of_all, first + i, outwards, final, ROOM)
             assert abs(found - float(exact[i])) <= GOOD * size[i]
             sums += 1
     assert sums > 60
@@ -61,8 +62,8 @@ def test_a_sum_at_every_power_of_ten(k: float, outwards: bool, table_of: Callabl
     of_all = room_for_sums()[0]
     begin_sums(table, curve, of_all, first, outwards, final)
     for last in np.floor(10.0 ** np.arange(2.0, 15.0)):
-        found = sum_up_to(table, curve, of_all, first + last, outwards, final, WORK)
-        alone = sum_of_waves(table, curve, first, first + last, outwards, final, WORK)
+        found = sum_up_to(table, curve, of_all, first + last, outwards, final, ROOM)
+        alone = sum_of_waves(table, curve, first, first + last, outwards, final, ROOM)
         assert math.isclose(found, alone, rel_tol=GOOD)
 
 
@@ -74,10 +75,10 @@ def test_many_sums_take_the_samples_of_a_few(waves: float, table_of: Callable[[f
     ends = np.floor(np.linspace(first + 20.0, last, 1000))
     of_all = room_for_sums()[0]
     begin_sums(table, curve, of_all, first, True, final)
-    together = [sum_up_to(table, curve, of_all, end, True, final, WORK) for end in ends]
+    together = [sum_up_to(table, curve, of_all, end, True, final, ROOM) for end in ends]
     assert of_all[0, SAMPLES] <= 12 + 16 * of_all[0, COUNT]
     for i in (0, 17, 500, 999):
         alone = room_for_sums()[0]
         begin_sums(table, curve, alone, first, True, final)
-        assert sum_up_to(table, curve, alone, ends[i], True, final, WORK) == together[i]
+        assert sum_up_to(table, curve, alone, ends[i], True, final, ROOM) == together[i]
         assert 0 < alone[0, SAMPLES] <= 12 + 16 * 3
