@@ -90,18 +90,21 @@ def make_horner(lanes: int, terms: int) -> Any:
     return horner
 
 
-def make_polynomials(count: int, terms: int) -> Any:
-    """Make what `make_horner` makes, by operations on single numbers: for a loop whose runs are worked on at once."""
+def make_polynomials(count: int, terms: int, first: int = 0) -> Any:
+    """Make what `make_horner` makes, by operations on single numbers: for a loop whose runs are worked on at once.
+
+    Row `first` of the coefficients belongs to t**0.
+    """
 
     @intrinsic
     def polynomials(typingctx: Any, coefficients: Any, t: Any) -> Any:
         def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-            first = context.make_array(signature.args[0])(context, builder, arguments[0]).data
+            begin = context.make_array(signature.args[0])(context, builder, arguments[0]).data
             kind = ir.FunctionType(_DOUBLE, [_DOUBLE] * 3)
             multiply_add = cgutils.get_or_insert_function(builder.module, kind, "llvm.fmuladd.f64")
 
             def coefficient(j: int, of: int) -> Any:
-                return builder.load(builder.gep(first, [ir.Constant(_INTEGER, j * count + of)]))
+                return builder.load(builder.gep(begin, [ir.Constant(_INTEGER, (first + j) * count + of)]))
 
             values = [coefficient(terms - 1, of) for of in range(count)]
             for j in range(terms - 2, -1, -1):

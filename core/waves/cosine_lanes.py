@@ -18,6 +18,7 @@ from gradhesion.core._jit import kernel
 from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.curve.cosine_energy import unit_rule
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
+from gradhesion.core.struve.intrinsics import make_polynomials
 from gradhesion.core.struve.layout import SWITCH
 from gradhesion.core.struve.pair import polynomials8
 from gradhesion.core.struve.power import amplitude_power
@@ -30,17 +31,42 @@ WORK: Final = 22
 WAVES: Final = WORK
 LOSSES: Final = WORK + LANES
 """Where the waves stand in the room, any real numbers, and where what their jumps lose is put."""
-(_Z0, _POWER0, _X, _D, _D1, _D2, _Z, _WAVE, _STRETCH, _PLACE, _GAIN, _DONE, _GOOD, _START, _Z1, _WAVE1, _STRETCH1) = (
-    range(LOSSES + LANES, LOSSES + 18 * LANES, LANES)
-)
-_FAR, _FAR_REST, _NEAR, _NEAR_REST, _LOW, _HIGH = range(LOSSES + 18 * LANES, LOSSES + 24 * LANES, LANES)
-ROOM: Final = LOSSES + 24 * LANES
+(
+    _Z0,
+    _STRETCH0,
+    _X,
+    _D,
+    _D1,
+    _D2,
+    _Z,
+    _WAVE,
+    _STRETCH,
+    _PLACE,
+    _GAIN,
+    _DONE,
+    _GOOD,
+    _START,
+    _FROM,
+    _RISEN,
+    _Z1,
+    _WAVE1,
+    _STRETCH1,
+    _FAR,
+    _FAR_REST,
+    _NEAR,
+    _NEAR_REST,
+    _LOW,
+    _HIGH,
+    _REST,
+    _END,
+) = range(LOSSES + LANES, LOSSES + 28 * LANES, LANES)
+ROOM: Final = _END
 """Floats that `jumps_of_waves` works in."""
 _FIRST: Final = 8.5
 _BETWEEN: Final = 0.875
 """Waves from the centre of a wave to the middle of all places on its jump."""
-_BINOMIAL: Final = 12
-"""Terms of (1 + e)^p - 1 for |e| < 0.05, five eighths of a wave over its place."""
+_inverse_series = make_polynomials(1, 12, 1)
+"""Of ((1 + e)^(-c) - 1)/e for |e| < 0.08, five eighths of a wave over its place: 2e-16 is left."""
 _FOLD_STEPS: Final = 3
 _LANDING_STEPS: Final = 5
 _NODES, _WEIGHTS = unit_rule(14)
@@ -65,17 +91,15 @@ def _arc_cosine(cosine: float) -> float:
 
 
 @kernel(contract=True)
-def _binomial(power: float, e: float) -> float:
-    """Return ((1 + e)^power - 1)/(power e)."""
-    ratio = 1.0
-    for j in range(_BINOMIAL - 1, 0, -1):
-        ratio = 1.0 + ratio * e * ((power - j) / (j + 1.0))
-    return ratio
+def _inverse_stretch(table: Any, e: float) -> float:
+    """Return (1 + e)^(-c) - 1."""
+    (series,) = _inverse_series(table.inverse_stretch, e)
+    return e * series
 
 
 @kernel(contract=True)
 def _evaluate(table: Any, curve: Curve, middle: float, room: Any) -> None:
-    """Put D at the level of the depth, its first two derivatives, z, z S0 and z^c at the places x into their rows."""
+    """Put the places x, D at the level of the depth there, its derivatives, z, z S0 and z^c into their rows."""
     b, g, _ = curve
     k = table.k
     n = 0.5 * (1.0 + k)
@@ -83,10 +107,10 @@ def _evaluate(table: Any, curve: Curve, middle: float, room: Any) -> None:
     for i in range(LANES):
         x, z0 = room[_X + i], room[_Z0 + i]
         offset = TWO_PI * (x - middle)
-        e = offset / z0
-        power = room[_POWER0 + i] * (1.0 - n * e * _binomial(-n, e))
         z = z0 + offset
-        inverse = 1.0 / z
+        ratio = 1.0 + _inverse_stretch(table, offset / z0)
+        power = 1.0 / (ratio * z)  # one division for both
+        inverse, power = ratio * power, room[_STRETCH0 + i] * power
         square = inverse * inverse
         t = 2.0 * SWITCH * SWITCH * square - 1.0
         p0, q0, p1, q1, g0, g1, h0, _ = polynomials8(tail, t)
@@ -103,18 +127,23 @@ def _evaluate(table: Any, curve: Curve, middle: float, room: Any) -> None:
         room[_D + i] = b * z + g * (s0 + z_d0) - pull
         room[_D1 + i] = b + g * (2.0 * z_d0 * inverse + z * (s1 - s0)) + bend
         room[_D2 + i] = g * ((1.0 - k) * s1 - (2.0 - k) * s0 - z_d0) - (n + 1.0) * bend * inverse
+        room[_PLACE + i] = x
         room[_Z + i] = z
         room[_WAVE + i] = g0 + z * wave0
         room[_STRETCH + i] = z * power
 
 
 @kernel(contract=True)
-def _rise(curve: Curve, k: float, z1: float, step: float, z: float, waves: float, stretch1: float) -> float:
-    """Return what the depth gains from z1 on, `step` further out; `waves` is what z S0 gains."""
+def _put_rests(table: Any, curve: Curve, room: Any) -> None:
+    """Put the depth at the places evaluated last, less that of the jump, into its row."""
     b, g, _ = curve
-    c = 0.5 * (1.0 - k)
-    e = step / z1
-    return 0.5 * b * (z + z1) * step + g * waves - stretch1 * (c * e * _binomial(c, e))
+    for i in range(LANES):
+        z1 = room[_Z1 + i]
+        step = TWO_PI * (room[_PLACE + i] - room[_FROM + i])
+        less = _inverse_stretch(table, step / z1)
+        pull = room[_STRETCH1 + i] * (less / (1.0 + less))
+        rise = 0.5 * b * (room[_Z + i] + z1) * step + g * (room[_WAVE + i] - room[_WAVE1 + i])
+        room[_REST + i] = (rise + pull) - room[_RISEN + i]
 
 
 @kernel()
@@ -141,7 +170,6 @@ def _find_folds(table: Any, curve: Curve, middle: float, bracket: tuple[float, f
             new = x + step / TWO_PI
             done = (abs(step) * (abs(d2) + abs(d1)) < LAST_STEP * abs(d1)) & (low <= new) & (new <= high)
             room[_DONE + i] = 1.0 if done else 0.0
-            room[_PLACE + i] = x
             room[_GAIN + i] = step * (d + step * (0.5 * d1 + step * d2 / 6.0))
             room[_X + i] = min(max(new, low), high)
         if _all_done(room):
@@ -153,64 +181,65 @@ def _begin(table: Any, curve: Curve, middle: float, outwards: bool, room: Any) -
     """Put what belongs to the middle of each jump into its rows, and guess the fold that it leaves."""
     b, g, _ = curve
     k = table.k
-    n, c = 0.5 * (1.0 + k), 0.5 * (1.0 - k)
+    c = 0.5 * (1.0 - k)
     centre = table.phase / TWO_PI + 2.0
     for i in range(LANES):
         z0 = TWO_PI * (room[WAVES + i] - 2.0 + middle)
         room[_Z0 + i] = z0
-        room[_POWER0 + i] = amplitude_power(table, z0)
+        room[_STRETCH0 + i] = z0 * amplitude_power(table, z0)
     side = 1.0 if outwards else -1.0
+    low, high = (centre, centre + 0.5) if outwards else (centre - 0.5, centre)
     for i in range(LANES):
-        z0, power0 = room[_Z0 + i], room[_POWER0 + i]
+        z0, stretch0 = room[_Z0 + i], room[_STRETCH0 + i]
         offset, angle = TWO_PI * (centre - middle), 0.0
         for _ in range(2):
-            e = (offset + side * angle) / z0
-            power = power0 * (1.0 - n * e * _binomial(-n, e))
-            cosine = (c / (z0 + (offset + side * angle)) - b / power) / (g * table.amplitude)
-            angle = _arc_cosine(max(-1.0, min(1.0, cosine)))
+            beyond = offset + side * angle
+            z = z0 + beyond
+            cosine = c / z - b * z / stretch0 * (1.0 + _inverse_stretch(table, beyond / z0))
+            angle = _arc_cosine(max(-1.0, min(1.0, cosine / (g * table.amplitude))))
         shift = (c + 0.125 * (1.0 - k * k)) / (TWO_PI * (z0 + offset))
-        low, high = (centre, centre + 0.5) if outwards else (centre - 0.5, centre)
         x = centre + shift + side * angle / TWO_PI
         room[_X + i] = x if (low < x) & (x < high) else 0.5 * (low + high)
+
+
+@kernel()
+def _widest(centre: float, room: Any) -> float:
+    """Return the largest distance of the places x from a centre, in radians."""
+    widest = 0.0
+    for i in range(LANES):
+        widest = max(widest, abs(room[_X + i] - centre))
+    return TWO_PI * widest
 
 
 @kernel(contract=True)
 def _bound(table: Any, curve: Curve, middle: float, outwards: bool, room: Any) -> None:
     """Find between which places the jumps land, and guess where (waves/cosine.py)."""
     _, g, _ = curve
-    k = table.k
     side = 1.0 if outwards else -1.0
     centre = table.phase / TWO_PI + 2.0 + side
     inner, outer = (centre - 0.5, centre), (centre, centre + 0.5)
     for i in range(LANES):
         room[_X + i] = room[_START + i] + side
     _find_folds(table, curve, middle, outer if outwards else inner, room)
-    widest = 0.0
+    _put_rests(table, curve, room)
+    is_wide = _widest(centre, room) > WIDE
     for i in range(LANES):
-        far = room[_X + i]
-        z1, stretch1 = room[_Z1 + i], room[_STRETCH1 + i]
-        step = TWO_PI * (room[_PLACE + i] - room[_START + i])
-        rest = _rise(curve, k, z1, step, room[_Z + i], room[_WAVE + i] - room[_WAVE1 + i], stretch1) + room[_GAIN + i]
+        far, rest = room[_X + i], room[_REST + i] + room[_GAIN + i]
         turns = abs(far - centre)
         sine, cosine = sine_cosine_of_turns(turns)
         drop = 2.0 * g * table.amplitude * room[_STRETCH + i] * (sine - TWO_PI * turns * cosine)
-        widest = max(widest, turns)
         room[_FAR + i], room[_FAR_REST + i] = far, rest
         room[_NEAR + i], room[_NEAR_REST + i] = 2.0 * centre - far, rest - side * drop
         room[_GOOD + i] = room[_GOOD + i] * room[_DONE + i]
         room[_X + i] = 2.0 * centre - far
-    if TWO_PI * widest > WIDE:
+    if is_wide:
         _find_folds(table, curve, middle, inner if outwards else outer, room)
+        _put_rests(table, curve, room)
         for i in range(LANES):
-            step = TWO_PI * (room[_PLACE + i] - room[_START + i])
-            z1, stretch1 = room[_Z1 + i], room[_STRETCH1 + i]
-            rest = (
-                _rise(curve, k, z1, step, room[_Z + i], room[_WAVE + i] - room[_WAVE1 + i], stretch1) + room[_GAIN + i]
-            )
-            is_wide = TWO_PI * abs(room[_FAR + i] - centre) > WIDE
-            room[_NEAR + i] = room[_X + i] if is_wide else room[_NEAR + i]
-            room[_NEAR_REST + i] = rest if is_wide else room[_NEAR_REST + i]
-            room[_GOOD + i] = room[_GOOD + i] * (room[_DONE + i] if is_wide else 1.0)
+            found = TWO_PI * abs(room[_FAR + i] - centre) > WIDE
+            room[_NEAR + i] = room[_X + i] if found else room[_NEAR + i]
+            room[_NEAR_REST + i] = room[_REST + i] + room[_GAIN + i] if found else room[_NEAR_REST + i]
+            room[_GOOD + i] = room[_GOOD + i] * (room[_DONE + i] if found else 1.0)
     for i in range(LANES):
         far, far_rest, near, near_rest = room[_FAR + i], room[_FAR_REST + i], room[_NEAR + i], room[_NEAR_REST + i]
         low, high = (near, far) if outwards else (far, near)
@@ -225,15 +254,12 @@ def _bound(table: Any, curve: Curve, middle: float, outwards: bool, room: Any) -
 @kernel(contract=True)
 def _land(table: Any, curve: Curve, middle: float, room: Any) -> None:
     """Move the places x to where the depth is that of the fold (Halley, in a bracket)."""
-    k = table.k
     for _ in range(_LANDING_STEPS):
         _evaluate(table, curve, middle, room)
+        _put_rests(table, curve, room)
         for i in range(LANES):
-            x, d, d1, low, high = room[_X + i], room[_D + i], room[_D1 + i], room[_LOW + i], room[_HIGH + i]
-            step = TWO_PI * (x - room[_START + i])
-            waves = room[_WAVE + i] - room[_WAVE1 + i]
-            rest = _rise(curve, k, room[_Z1 + i], step, room[_Z + i], waves, room[_STRETCH1 + i])
-            low, high = (x if rest < 0.0 else low), (high if rest < 0.0 else x)
+            x, d, d1, rest = room[_X + i], room[_D + i], room[_D1 + i], room[_REST + i]
+            low, high = (x if rest < 0.0 else room[_LOW + i]), (room[_HIGH + i] if rest < 0.0 else x)
             step = -rest * d / (d * d - 0.5 * rest * d1)
             new = x + step / TWO_PI
             inside = (low <= new) & (new <= high)
@@ -247,42 +273,42 @@ def _land(table: Any, curve: Curve, middle: float, room: Any) -> None:
 
 @kernel(contract=True)
 def _integrate(table: Any, curve: Curve, middle: float, room: Any) -> None:
-    """Put what the jumps lose into their row (curve/cosine_energy.py's `panel_above`)."""
+    """Put what the jumps lose into their row: curve/cosine_energy.py's `panel_above`, with m for the middle of a jump.
+
+    With (1 + eta)^(-c) = 1 + s it is (1 + s) [(depth_H - depth_j - stretch_m)/stretch_m] + s that is rho - 1, and in it
+    the wave at z has the factor 1: nothing is divided by the stretch there.
+    """
     b, g, _ = curve
-    k = table.k
-    n, c = 0.5 * (1.0 + k), 0.5 * (1.0 - k)
     cos_phase, sin_phase, tail = table.cos_phase, table.sin_phase, table.tail
     for i in range(LANES):
         width = room[_X + i] - room[_START + i]
         offset = TWO_PI * (room[_START + i] + 0.5 * width - middle)
         z = room[_Z0 + i] + offset
-        e = offset / room[_Z0 + i]
-        ratio = 0.5 * TWO_PI * width / z
+        less = _inverse_stretch(table, TWO_PI * (room[_FROM + i] - (room[_START + i] + 0.5 * width)) / z)
+        inverse = (1.0 + _inverse_stretch(table, offset / room[_Z0 + i])) / room[_STRETCH0 + i]
+        # what does not change along the jump: the stretch that is left less that in the middle, and the level
+        room[_GAIN + i] = -less / (1.0 + less) - inverse * (g * room[_WAVE1 + i] + room[_RISEN + i])
         room[_D + i] = width
-        room[_D1 + i] = ratio
-        room[_D2 + i] = c * -ratio * _binomial(c, -ratio)
+        room[_D1 + i] = 0.5 * TWO_PI * width / z
         room[_Z + i] = z
-        room[_STRETCH + i] = z * room[_POWER0 + i] * (1.0 - n * e * _binomial(-n, e))
+        room[_STRETCH + i] = inverse
         room[LOSSES + i] = 0.0
     for node in range(_NODES.size):
         share, weight = _NODES[node], _WEIGHTS[node]
         for i in range(LANES):
-            width, middle_z, middle_stretch = room[_D + i], room[_Z + i], room[_STRETCH + i]
             eta = room[_D1 + i] * (2.0 * share - 1.0)
-            beyond = width * share
-            x = room[_START + i] + beyond
-            z = middle_z + middle_z * eta
+            less = _inverse_stretch(table, eta)
+            x = room[_START + i] + room[_D + i] * share
+            z = room[_Z + i] + room[_Z + i] * eta
             inverse = 1.0 / z
             t = 2.0 * SWITCH * SWITCH * (inverse * inverse) - 1.0
             p, q, _, _, height, _, _, _ = polynomials8(tail, t)
-            power = c * eta * _binomial(c, eta)
-            stretch = middle_stretch * (1.0 + power)
             sine, cosine = sine_cosine_of_turns(x)
             s = sine * cos_phase - cosine * sin_phase
-            cosine_z = cosine * cos_phase + sine * sin_phase
-            wave = height + stretch * (p * s + q * inverse * cosine_z)
-            rise = 0.5 * b * (z + room[_Z1 + i]) * (TWO_PI * beyond) + g * (wave - room[_WAVE1 + i])
-            excess = (rise - middle_stretch * (power - room[_D2 + i])) / stretch  # rho - 1
+            c = cosine * cos_phase + sine * sin_phase
+            rise = 0.5 * b * (z + room[_Z1 + i]) * (TWO_PI * (x - room[_FROM + i])) + g * height
+            slow = room[_STRETCH + i] * rise + room[_GAIN + i]
+            excess = (slow + less * slow) + less + g * (p * s + q * inverse * c)  # rho - 1
             room[LOSSES + i] += weight * z * (-excess * (2.0 + excess))
     for i in range(LANES):
         room[LOSSES + i] *= TWO_PI * room[_D + i]
@@ -296,11 +322,9 @@ def jumps_of_waves(table: Any, curve: Curve, outwards: bool, room: Any) -> None:
     _begin(table, curve, middle, outwards, room)
     _find_folds(table, curve, middle, (centre, centre + 0.5) if outwards else (centre - 0.5, centre), room)
     for i in range(LANES):
-        room[_START + i] = room[_X + i]
-        room[_GOOD + i] = room[_DONE + i] if room[WAVES + i] >= _FIRST else 0.0
-    _evaluate(table, curve, middle, room)
-    for i in range(LANES):
+        room[_START + i], room[_FROM + i], room[_RISEN + i] = room[_X + i], room[_PLACE + i], room[_GAIN + i]
         room[_Z1 + i], room[_WAVE1 + i], room[_STRETCH1 + i] = room[_Z + i], room[_WAVE + i], room[_STRETCH + i]
+        room[_GOOD + i] = room[_DONE + i] if room[WAVES + i] >= _FIRST else 0.0
     _bound(table, curve, middle, outwards, room)
     _land(table, curve, middle, room)
     for i in range(LANES):
