@@ -13,6 +13,8 @@ _T = TypeVar("_T")
 _Made_co = TypeVar("_Made_co", covariant=True)
 _LIKE: Final = 32
 """The first exponents, by which all are judged to differ."""
+_PARTS: Final = 2.0**16 - 1.0
+"""Parts of [0, 1] that whole numbers of 16 bits can tell apart: numpy sorts these by counting."""
 Task: TypeAlias = tuple[float, NDArray[np.int64]]
 """A gradient exponent, and the indices of curves that have it."""
 
@@ -57,13 +59,23 @@ class Tasks:
                 yield exponent, self.order[first : min(first + self.size, end)]
 
 
+def _rises(values: NDArray[np.float64]) -> bool:
+    """Report whether values are sorted; NaN is not."""
+    return bool(np.all(values[1:] >= values[:-1]))
+
+
 def _sorted(k: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Return the stable order of exponents: where all differ, by a sort that is six times faster."""
+    """Return the stable order of exponents, by the fastest sort that gives it.
+
+    Where all differ any sort is stable. Where no two of them are in one of `_PARTS`, that of the parts is the order.
+    """
     if np.unique(k[:_LIKE]).size == _LIKE:
         order = np.argsort(k)
         if np.all(k[order[1:]] > k[order[:-1]]):
             return order
-    return np.argsort(k, kind="stable")
+    parts = (_PARTS * np.fmin(np.fmax(k, 0.0), 1.0)).astype(np.uint16)  # NaN is in the first one
+    order = np.argsort(parts, kind="stable")
+    return order if _rises(k[order]) else np.argsort(k, kind="stable")
 
 
 def groups_of(k: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -75,7 +87,7 @@ def groups_of(k: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int
     >>> order.tolist(), begins.tolist()
     ([1, 0, 2], [0, 1])
     """
-    order = np.arange(k.size) if np.all(k[1:] >= k[:-1]) else _sorted(k)
+    order = np.arange(k.size) if _rises(k) else _sorted(k)
     ordered = k[order]
     changes = np.concatenate([[True], ordered[1:] != ordered[:-1]]) if k.size else np.array([], dtype=bool)
     return order, np.flatnonzero(changes)

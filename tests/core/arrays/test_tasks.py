@@ -68,3 +68,14 @@ def test_the_order_is_stable(repeated: int) -> None:
     order, begins = groups_of(k)
     np.testing.assert_array_equal(order, np.argsort(k, kind="stable"))
     assert begins.size == 1000 - repeated
+
+
+@pytest.mark.parametrize("others", [[], [0.3 + 1e-9], [-1.0, 2.0, np.inf, -np.inf], [np.nan]])
+def test_few_exponents_are_in_stable_order(others: list[float]) -> None:
+    """Those that are too close to be told apart by counting, or no exponents, are sorted too."""
+    rng = np.random.default_rng(9)
+    k = rng.choice([0.0, 5e-324, 0.3, np.nextafter(1.0, 0.0), 1.0, *others], 3000)
+    order, begins = groups_of(k)
+    np.testing.assert_array_equal(order, np.argsort(k, kind="stable"))
+    numbers = np.unique(k[~np.isnan(k)]).size
+    assert begins.size == numbers + np.count_nonzero(np.isnan(k))
