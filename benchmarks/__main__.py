@@ -68,8 +68,8 @@ to 1.5, a_max/L from 1 to 4, k one of {", ".join(map(str, draw.EXPONENTS))}. L =
 length of the contact, r/s the share of the adhesion that short waves take or add (`core/closed/envelope.py`).
 
 Aims: 0.6 us for the force, 5 us for both, 0.05 us where the punch is smooth. Long waves leave few jumps, short ones
-many, and the cost of the energy is that of the jumps. Where all materials differ, the gamma functions of the stiffness
-cost more than all the rest of a smooth scene.
+many, and the cost of the energy is that of the jumps. Many smooth scenes are solved in blocks,
+by vector operations; where k, nu or c0 differ, most of their time is that of the stiffness.
 
 {scenes.mixture_table(100_000 if quick else 1_000_000)}"""
     by_waves, waves = scenes.waves_table()

@@ -2,6 +2,7 @@
 
     force              the pull-off of one cosine wave under displacement control, by the exact solver
     energy             anything else of `OUTPUTS` of it
+    smooth             both of many punches whose waves count for nothing
     reports            `REPORTS` of it
     turning            where its cycles turn before the rim
     asymptotic         the two other solvers of it
@@ -32,6 +33,7 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "tables": (),
     "force": ("tables",),
     "energy": ("tables",),
+    "smooth": ("tables",),
     "reports": ("energy",),
     "turning": ("energy",),
     "asymptotic": ("tables",),
@@ -49,6 +51,8 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
 """The kinds that are compiled before a kind, directly: those of whose entries it needs the same, or others of the same
 name. Processes that compile kinds side by side, each after those that it needs and none beside one of `APART`, compile
 no entry twice, and no two write to one index of the cache."""
+MANY_SMOOTH: Final = 4096
+"""Scenes of smooth punches in a call from which on kernels of their own solve them."""
 _OF_COSINE: Final = ("force", "energy", "asymptotic", "envelope", "sensitivities")
 """Kinds whose loops over curves are entries of the same name (scene/solvers.py)."""
 APART: Final = (
@@ -62,14 +66,15 @@ KINDS: Final = tuple(NEEDS)
 """All kinds, each after those that it needs."""
 KERNELS: Final[dict[str, int]] = {
     "tables": 51,
-    "force": 42,
-    "energy": 168,
+    "force": 51,
+    "energy": 176,
+    "smooth": 36,
     "reports": 16,
     "turning": 31,
     "asymptotic": 67,
     "envelope": 20,
     "curves": 31,
-    "sensitivities": 54,
+    "sensitivities": 57,
     "general_force": 87,
     "general_energy": 236,
     "general_reports": 12,

@@ -6,7 +6,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core.cache import note_compiled
-from gradhesion.core.kinds import KINDS
+from gradhesion.core.kinds import KINDS, MANY_SMOOTH
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import OUTPUTS, REPORTS, SENSITIVITIES
@@ -73,6 +73,9 @@ def compile_kind(kind: str) -> None:
             solve(scene, ["pull_off_force"], threads=1, **driven)
         case "energy":
             solve(scene, OUTPUTS, threads=1, **driven)
+        case "smooth":
+            rims = np.linspace(0.1, 1.0, MANY_SMOOTH)
+            solve(SCENE | {"A": 0.0, "a_max_over_R": rims}, ["pull_off_force"], threads=1)
         case "turning":
             for turn in ({"indentation_max_over_R": 0.05}, {"load_max": 1.0}):
                 solve(scene | turn, OUTPUTS, threads=1, **driven)

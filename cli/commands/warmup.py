@@ -28,7 +28,7 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:
     refuse_without_compiler()
     from gradhesion.cli.work.warming import warm  # it imports kernels, which need the compiler
 
-    kinds = KINDS if everything else ("energy", "envelope", "curves")
+    kinds = KINDS if everything else ("energy", "smooth", "envelope", "curves")
     missing, folder, count, start = missing_of(kinds), place().folder, 0, time.monotonic()
     for why in filter(None, (place().why, why_not())):
         messages.say("cache", why)

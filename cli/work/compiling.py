@@ -14,6 +14,7 @@ WORDS = {
     "tables": "tables",
     "force": "the pull-off force",
     "energy": "cycles and energies",
+    "smooth": "smooth punches",
     "reports": "errors and gains",
     "turning": "turning points",
     "asymptotic": "the asymptotic solver",

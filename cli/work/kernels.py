@@ -12,12 +12,14 @@ from pathlib import Path
 from typing import Final
 
 import numba
+import numpy as np
 
 from gradhesion.cli.errors import CompilerError
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.locks import closing, try_lock
 from gradhesion.core import (
+    MANY_SMOOTH,
     NEEDS,
     SENSITIVITIES,
     VALIDITY,
@@ -32,6 +34,10 @@ from gradhesion.core import (
 PAUSE: Final = 0.2
 """Seconds between two looks at what another process compiles."""
 
+_AMPLITUDES: Final = ("A", "chi", "amplitude")
+"""The parameters that give the height of waves (core/variables/reduced.py)."""
+_WITH_SMOOTH: Final = frozenset({"force", "energy", "reports"})
+"""The kinds of work whose smooth scenes, if they are many, have kernels of their own."""
 _one_of_us: Final = threading.Lock()
 
 
@@ -44,8 +50,15 @@ def kinds_of(study: Study) -> tuple[str, ...]:
     solvers = (solvers,) if isinstance(solvers, str) else solvers
     outputs = [name for name in study.solved if name not in VALIDITY]
     slopes = (kind_of_sensitivities(study.profile, study.loading),) if {*outputs} & {*SENSITIVITIES} else ()
-    kinds = (kind_of_map(outputs, solver, study.profile, study.loading) for solver in solvers)
-    return (*dict.fromkeys(kinds), *turning, *slopes)
+    kinds = dict.fromkeys(kind_of_map(outputs, solver, study.profile, study.loading) for solver in solvers)
+    smooth = ("smooth",) if {*kinds} & _WITH_SMOOTH and not slopes and _smooth_scenes(study) >= MANY_SMOOTH else ()
+    return (*kinds, *smooth, *turning, *slopes)
+
+
+def _smooth_scenes(study: Study) -> float:
+    """Give the number of a study's scenes that have no waves."""
+    given = (study.parameters[name] for name in _AMPLITUDES if name in study.parameters)
+    return study.scenes * max((float(np.mean(np.equal(values, 0.0))) for values in given), default=0.0)
 
 
 def missing_of(kinds: Sequence[str]) -> list[str]:

@@ -5,6 +5,7 @@ The work is cut into tasks of a fixed size, so that results do not depend on the
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from inspect import unwrap
 from typing import Any, Final
 
 import numpy as np
@@ -13,12 +14,18 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core.arrays.grouping import Grouped, Task, grouped
 from gradhesion.core.arrays.tables import neighbours_for, tables_for
 from gradhesion.core.arrays.tasks import run_one_by_one
+from gradhesion.core.cache import note_compiled
 from gradhesion.core.curve.branches import ROWS
+from gradhesion.core.kinds import MANY_SMOOTH
+from gradhesion.core.path.cosine import is_endless_wave
 from gradhesion.core.problem.material import fill_stiffness
 from gradhesion.core.problem.names import PARAMETERS, PULL_OFF, REPORTS, RESULTS
 from gradhesion.core.problem.results import typed
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene.cosine_report import NEEDED, report_curves
+from gradhesion.core.scene.smooth import ROWS as SMOOTH_ROWS
+from gradhesion.core.scene.smooth import SCENES as SMOOTH_SCENES
+from gradhesion.core.scene.smooth import solve_smooth
 from gradhesion.core.scene.solvers import LOOPS, PULL_OFF_LOOP
 from gradhesion.core.sensitivities.cosine_slopes import COUNT
 from gradhesion.core.turning.cosine import turn_curves
@@ -29,6 +36,11 @@ BRANCHES: Final = 192
 """Branches of a curve that a task has room for."""
 _SENSED: Final = 64
 """Exponents a task whose neighbours have tables too, four each."""
+_SMOOTH: Final = 16384
+"""Smooth scenes a task: what takes half a millisecond."""
+_are_endless: Final[Any] = unwrap(is_endless_wave)
+"""The same of arrays, without numba."""
+_NO_CURVES: Final = np.empty(0, dtype=np.int64)
 
 
 def run_tasks(
@@ -37,11 +49,11 @@ def run_tasks(
     work: Callable[[NDArray[Any], Task, NDArray[np.float64]], None],
     *,
     forces: bool = False,
-    sensed: bool = False,
+    **how: Any,
 ) -> None:
     """Do the work on every task: with the tables of its exponents, the task itself, and the stiffness of all curves.
 
-    With `forces` the tables serve pull-off forces alone; with `sensed` each exponent needs tables of neighbours.
+    With `forces` the tables serve pull-off forces alone; `how` to cut curves into tasks is as in `Grouped.tasks`.
     """
     stiffness = np.empty(curves.k.size)
 
@@ -50,7 +62,22 @@ def run_tasks(
         fill_stiffness(tables, task.which, task.index, curves.k, curves.nu, curves.modulus, curves.c0_over_R, stiffness)
         work(tables, task, stiffness)
 
-    run_one_by_one(curves.tasks(_SENSED) if sensed else curves.tasks(), one, workers)
+    run_one_by_one(curves.tasks(**how), one, workers)
+
+
+def _smooth_and_others(curves: Grouped) -> tuple[NDArray[np.int64] | None, NDArray[np.int64] | None]:
+    """Return the numbers of the curves that are solved as smooth ones, and of the others; None for all of them.
+
+    They are those whose waves count for nothing, if they have many scenes: the values are the same either way.
+    """
+    count, rims = curves.size
+    if count * rims < MANY_SMOOTH:
+        return _NO_CURVES, None
+    with np.errstate(all="ignore"):  # what overflows has no value
+        smooth = _are_endless(curves.lambda_over_R, curves.A)
+    if np.count_nonzero(smooth) * rims < MANY_SMOOTH:
+        return _NO_CURVES, None
+    return (None, _NO_CURVES) if smooth.all() else (np.flatnonzero(smooth), np.flatnonzero(~smooth))
 
 
 def solve_cosine(
@@ -91,7 +118,23 @@ def solve_cosine(
         if reports:
             report_curves(*curves_of, slots, slots_of_reports, out, status, scratch)
 
-    run_tasks(curves, workers, work, forces=solve_curves is PULL_OFF_LOOP, sensed=slopes is not None)
+    def work_on_smooth(tables: NDArray[Any], task: Task, stiffness: NDArray[np.float64]) -> None:
+        block = np.empty((2, SMOOTH_ROWS, SMOOTH_SCENES))
+        curves_of = (stiffness, curves.lambda_over_R, curves.A, rims)
+        solve_smooth(task.index, curves.k, *curves_of, slots, out, status, block)
+        if reports:
+            scratch = np.empty((ROWS, BRANCHES))
+            report_curves(tables, task.which, task.index, *curves_of, slots, slots_of_reports, out, status, scratch)
+
+    if slopes is not None:
+        run_tasks(curves, workers, work, together=_SENSED)
+    else:
+        smooth, others = _smooth_and_others(curves) if solver == "exact" else (_NO_CURVES, None)
+        if smooth is None or smooth.size > 0:
+            many = {"some": smooth, "scenes": _SMOOTH, "together": _SMOOTH}
+            run_tasks(curves, workers, work_on_smooth, forces=not reports, **many)
+            note_compiled("smooth")
+        run_tasks(curves, workers, work, forces=solve_curves is PULL_OFF_LOOP, some=others)
     if without_rim.any():
         out[:, np.broadcast_to(without_rim, status.shape)] = math.nan
         status[np.broadcast_to(without_rim, status.shape)] = NO_VALUE

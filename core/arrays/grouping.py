@@ -81,13 +81,24 @@ class Grouped:
         """The number of curves, and of rims on each."""
         return self.k.size, self.rims[0].shape[1]
 
-    def tasks(self, together: int = _TOGETHER) -> list[Task]:
-        """Cut the curves into tasks: those of one exponent, or those of many that have few each, `together` at most."""
-        k, size = self.k, max(1, _TASK // max(1, self.rims[0].shape[1]))
+    def tasks(
+        self, some: NDArray[np.int64] | None = None, *, scenes: int = _TASK, together: int = _TOGETHER
+    ) -> list[Task]:
+        """Cut curves into tasks: those of one exponent, or those of many that have few each.
+
+        Parameters
+        ----------
+        some
+            The numbers of the curves, shape (n,); all of them if not given.
+        scenes, together
+            Scenes of a task, and exponents of few curves, at most.
+        """
+        k, size = self.k if some is None else self.k[some], max(1, scenes // max(1, self.rims[0].shape[1]))
         if k.size == 0:
             return []
         order, first = groups_of(k)
         ordered = k[order]
+        order = order if some is None else some[order]
         counts = np.diff(first, append=k.size)
         few = are_few(counts)
         tasks = []

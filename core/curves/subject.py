@@ -97,7 +97,7 @@ def wavy_form(table: Any, stretch: float, wavelength: float, mean_height: float)
 
 def _smooth_trace(k: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the one branch of a smooth punch, and where its load is least."""
-    z_pull, z_in, _, z_out, last_depth, _ = smooth.smooth_constants(k)
+    z_pull, z_in, z_out, last_depth = smooth.smooth_places(k)
     trace = np.full((ROWS, 1), math.nan)
     trace[START], trace[START_DEPTH] = z_out, last_depth
     trace[END] = trace[END_DEPTH] = math.inf

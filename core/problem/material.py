@@ -82,7 +82,7 @@ def theta(k: ArrayLike, nu: ArrayLike) -> NDArray[np.float64]:
     """
     exponents, ratios = np.broadcast_arrays(np.asarray(k, dtype=float), np.asarray(nu, dtype=float))
     out = np.empty(exponents.size)
-    _thetas(np.ascontiguousarray(exponents).ravel(), np.ascontiguousarray(ratios).ravel(), out)
+    _thetas(np.array(exponents).ravel(), np.array(ratios).ravel(), out)
     return out.reshape(exponents.shape)
 
 

@@ -12,6 +12,7 @@ from typing import Any
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.closed import smooth
+from gradhesion.core.closed.power import power
 from gradhesion.core.curve.cosine import Curve, curve_of, force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.path.cosine import (
@@ -60,34 +61,35 @@ from gradhesion.core.struve.intrinsics import fma
 
 
 @kernel()
-def _solve_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: Any, out: Any, status: Any) -> None:
-    """Solve a smooth punch for all its rims."""
-    length = smooth.smooth_length(k, stretch)
-    depth_scale = 2.0 * length * length / (1.0 + k)
+def _solve_smooth(k: float, stretch: float, rims: Any, slots: Any, out: Any, status: Any) -> None:
+    """Solve a smooth punch for all its rims (scene/smooth.py does so for many at once)."""
+    jump_in = smooth.smooth_square(k, stretch, smooth.ABSCISSA_OF_JUMP_IN)
+    jump_out = smooth.smooth_square(k, stretch, smooth.abscissa_of_jump_out(k))
     for i in range(rims.size):
-        z_rim = rims[i] / length
+        rim, abscissa = rims[i], smooth.smooth_abscissa(k, stretch, rims[i])
         if wants_force(slots):
-            force, z = smooth.smooth_force(k, constants[0], z_rim)
-            put(out, slots, FORCE, i, force)
-            put(out, slots, RADIUS, i, z * length if z < z_rim else rims[i])
-            if z == z_rim:
+            put(out, slots, FORCE, i, smooth.smooth_force(k, abscissa))
+            at_rim = smooth.is_pulled_off_at_rim(k, abscissa)
+            if slots[RADIUS] >= 0:
+                square = smooth.smooth_square(k, stretch, smooth.abscissa_of_pull_off(k))
+                put(out, slots, RADIUS, i, rim if at_rim else math.sqrt(square))
+            if at_rim:
                 status[i] |= PULL_OFF_AT_RIM
         if wants_cycle(slots):
-            loaded, unloaded, unloading_jumps, last = smooth.smooth_cycle(k, constants, z_rim)
-            scale = TWO_PI * length * length
-            put(out, slots, ENERGY, i, scale * (loaded + unloaded))
-            put(out, slots, LOADED, i, scale * loaded)
-            put(out, slots, UNLOADED, i, scale * unloaded)
+            loaded = smooth.smooth_loading(k, abscissa, rim, jump_in)
+            unloaded = smooth.smooth_unloading(k, abscissa, rim, jump_out)
+            put(out, slots, ENERGY, i, loaded + unloaded)
+            put(out, slots, LOADED, i, loaded)
+            put(out, slots, UNLOADED, i, unloaded)
             put(out, slots, LOADING, i, 1.0)
-            put(out, slots, UNLOADING, i, unloading_jumps)
-            put(out, slots, LAST, i, depth_scale * last)
-        if slots[DEEPEST] >= 0:
-            deepest = depth_scale * max(0.0, smooth.smooth_depth(k, z_rim))
-            if z_rim > LARGEST:  # its square may overflow, and nothing else counts
-                deepest = rims[i] * rims[i] / (1.0 + k)
-            put(out, slots, DEEPEST, i, deepest)
-        if wants_folds(slots) and z_rim < constants[1]:
-            status[i] |= JUMP_IN_TO_RIM
+            put(out, slots, UNLOADING, i, smooth.smooth_jumps_out(k))
+            square = min(rim * rim, jump_out)
+            root = power(math.sqrt(square), 0.5 * (1.0 - k))
+            put(out, slots, LAST, i, smooth.smooth_last(k, stretch, square, root))
+        if wants_folds(slots):
+            put(out, slots, DEEPEST, i, smooth.smooth_deepest(k, abscissa, rim))
+            if smooth.jumps_in_to_rim(abscissa):
+                status[i] |= JUMP_IN_TO_RIM
 
 
 @kernel()
@@ -165,7 +167,6 @@ def _mark_unresolved(wavelength: float, rims: Any, out: Any, status: Any) -> Non
 @kernel()
 def solve_pull_off(
     table: Any,
-    constants: Any,
     stretch: float,
     wavelength: float,
     amplitude: float,
@@ -177,7 +178,7 @@ def solve_pull_off(
     """Do what `solve_curve` does where nothing but the pull-off is asked for: no cycle is compiled with it."""
     k = table.k
     if is_endless_wave(wavelength, amplitude):
-        _solve_smooth(k, constants, stretch, rims, slots, out, status)
+        _solve_smooth(k, stretch, rims, slots, out, status)
         return
     curve, length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
     if not (0.0 < curve[0] < LARGEST and curve[1] < LARGEST):
@@ -191,7 +192,6 @@ def solve_pull_off(
 @kernel()
 def solve_curve(
     table: Any,
-    constants: Any,
     stretch: float,
     wavelength: float,
     amplitude: float,
@@ -210,9 +210,9 @@ def solve_curve(
     """
     k = table.k
     if is_endless_wave(wavelength, amplitude):  # A = 0 among them
-        _solve_smooth(k, constants, stretch, rims, slots, out, status)
+        _solve_smooth(k, stretch, rims, slots, out, status)
         if len(sense) > 0:
-            put_smooth(table, constants, stretch, rims, slots, out, status, sense, scratch)
+            put_smooth(table, stretch, rims, slots, out, status, sense, scratch)
         return
     curve, length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
     if not (0.0 < curve[0] < LARGEST and curve[1] < LARGEST):  # powers of them would overflow
@@ -222,9 +222,9 @@ def solve_curve(
     folds = wants_folds(slots)
     arches = extent(table, curve) if folds else (0.0, 0.0)
     if folds and is_smooth(arches):
-        _solve_smooth(k, constants, stretch, rims, slots, out, status)
+        _solve_smooth(k, stretch, rims, slots, out, status)
         if len(sense) > 0:
-            put_smooth(table, constants, stretch, rims, slots, out, status, sense, scratch)
+            put_smooth(table, stretch, rims, slots, out, status, sense, scratch)
         return
     around = beside(table, sense, stretch, wavelength, amplitude) if len(sense) > 0 else ()
     if wants_force(slots):

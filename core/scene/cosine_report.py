@@ -167,41 +167,39 @@ def _report_energy(
 
 
 @kernel()
-def _report_smooth(k: float, constants: Any, stretch: float, rims: Any, slots: Any, out: Any) -> None:
+def _report_smooth(k: float, stretch: float, rims: Any, slots: Any, out: Any) -> None:
     """Report on a smooth punch for all its rims."""
-    length = smooth.smooth_length(k, stretch)
+    jump_in = smooth.smooth_square(k, stretch, smooth.ABSCISSA_OF_JUMP_IN)
+    last_radius = math.sqrt(smooth.smooth_square(k, stretch, smooth.abscissa_of_jump_out(k)))
     for i in range(rims.size):
-        z_rim = rims[i] / length
-        _, z = smooth.smooth_force(k, constants[0], z_rim)
-        abscissa = z ** (0.5 * (3.0 + k))
+        abscissa = min(smooth.smooth_abscissa(k, stretch, rims[i]), smooth.abscissa_of_pull_off(k))
         put(out, slots, FORCE_ERROR, i, _EDGE_ROUNDING * smooth.FORCE_SCALE * abscissa * (1.0 + abscissa / (3.0 + k)))
-        put(out, slots, ENERGY_ERROR, i, _ROUNDING * TWO_PI * (length * min(z_rim, constants[1])) ** 2)
+        put(out, slots, ENERGY_ERROR, i, _ROUNDING * TWO_PI * min(rims[i] * rims[i], jump_in))
         put(out, slots, RESIDUAL, i, 0.0)
         put(out, slots, ROUGHNESS, i, 0.0)
-        put(out, slots, SATURATION, i, length * constants[3])
+        put(out, slots, SATURATION, i, last_radius)
         put(out, slots, ADHESION_GAIN, i, 1.0)
         put(out, slots, ENERGY_GAIN, i, 1.0)
 
 
 @kernel()
-def _report_gains(k: float, constants: Any, stretch: float, rims: Any, results: Any, slots: Any, out: Any) -> None:
+def _report_gains(k: float, stretch: float, rims: Any, results: Any, slots: Any, out: Any) -> None:
     """Set force and energy in relation to those of the smooth punch of the same material and rim."""
-    length = smooth.smooth_length(k, stretch)
+    jump_in = smooth.smooth_square(k, stretch, smooth.ABSCISSA_OF_JUMP_IN)
+    jump_out = smooth.smooth_square(k, stretch, smooth.abscissa_of_jump_out(k))
     for i in range(rims.size):
-        z_rim = rims[i] / length
-        force, _ = smooth.smooth_force(k, constants[0], z_rim)
-        loaded, unloaded, _, _ = smooth.smooth_cycle(k, constants, z_rim)
-        loss = loaded + unloaded
+        abscissa = smooth.smooth_abscissa(k, stretch, rims[i])
         if slots[ADHESION_GAIN] >= 0:
-            out[slots[ADHESION_GAIN], i] = out[results[FORCE], i] / force
+            out[slots[ADHESION_GAIN], i] = out[results[FORCE], i] / smooth.smooth_force(k, abscissa)
         if slots[ENERGY_GAIN] >= 0:
-            out[slots[ENERGY_GAIN], i] = out[results[ENERGY], i] / (TWO_PI * length * length * loss)
+            loaded = smooth.smooth_loading(k, abscissa, rims[i], jump_in)
+            unloaded = smooth.smooth_unloading(k, abscissa, rims[i], jump_out)
+            out[slots[ENERGY_GAIN], i] = out[results[ENERGY], i] / (loaded + unloaded)
 
 
 @kernel()
 def _report_curve(
     table: Any,
-    constants: Any,
     stretch: float,
     wavelength: float,
     amplitude: float,
@@ -218,11 +216,11 @@ def _report_curve(
     endless = is_endless_wave(wavelength, amplitude)
     arches = (0.0, 0.0) if endless else extent(table, curve)
     if endless or is_smooth(arches):
-        _report_smooth(k, constants, stretch, rims, slots, out)
+        _report_smooth(k, stretch, rims, slots, out)
         for i in range(rims.size):
             put(out, slots, ROUGHNESS, i, curve[1] * table.amplitude if amplitude > 0.0 else 0.0)
         return
-    _report_gains(k, constants, stretch, rims, results, slots, out)
+    _report_gains(k, stretch, rims, results, slots, out)
     force_scale = force_unit(k, length, depth_scale)
     saturation = last_fold(table, curve, arches) * wavelength if slots[SATURATION] >= 0 else 0.0
     for i in range(rims.size):
@@ -257,13 +255,13 @@ def report_curves(
     """Report on the curves `index`, `which` are their tables; `results` are the slots of what is solved already."""
     for j in range(index.size):
         i, table = index[j], tables[ready(tables, which[j])]
-        constants, stretch_factor = smooth.smooth_constants(table.k), 2.0 ** (1.0 + table.k) * math.pi
+        stretch_factor = 2.0 ** (1.0 + table.k) * math.pi
         row = rims[i if rims.shape[0] > 1 else 0]
         values, flags = out[:, i], status[i]
         stretch = math.sqrt(stretch_factor / stiffness[i])
         if np.any((flags & NO_VALUE) == 0):  # what solve gives no value may be out of every range
             solved = (results, slots, values, flags, scratch)
-            _report_curve(table, constants, stretch, wavelength[i], amplitude[i], row, *solved)
+            _report_curve(table, stretch, wavelength[i], amplitude[i], row, *solved)
         for rim in range(flags.size):
             if flags[rim] & NO_VALUE:
                 for slot in slots:

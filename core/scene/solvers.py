@@ -11,7 +11,6 @@ from typing import Any, Final
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.closed import envelope
-from gradhesion.core.closed.smooth import smooth_constants, smooth_places
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene import cosine as scene
 from gradhesion.core.scene import short_wave as asymptotic_cycle
@@ -54,12 +53,11 @@ def loop_of(solver: int) -> Callable[..., None]:
         row for each table, and the sensitivities go to (3, COUNT, curves, rims).
         """
         table = tables[0]
-        constants, stretch_factor = smooth_places(table.k), math.nan
+        stretch_factor = math.nan
         for j in range(index.size):
             i = index[j]
             if j == 0 or which[j] != which[j - 1]:
                 table = tables[ready(tables, which[j])]
-                constants = smooth_places(table.k) if solver == PULL_OFF else smooth_constants(table.k)
                 stretch_factor = 2.0 ** (1.0 + table.k) * math.pi
             row = rims[i if rims.shape[0] > 1 else 0]
             values, flags = out[:, i], status[i]
@@ -71,11 +69,9 @@ def loop_of(solver: int) -> Callable[..., None]:
                 flags[rim] = 0
             if solver == EXACT:
                 own = of_curve(sense, i, which[j])
-                scene.solve_curve(
-                    table, constants, stretch, wavelength[i], amplitude[i], row, slots, values, flags, scratch, own
-                )
+                scene.solve_curve(table, stretch, wavelength[i], amplitude[i], row, slots, values, flags, scratch, own)
             elif solver == PULL_OFF:
-                scene.solve_pull_off(table, constants, stretch, wavelength[i], amplitude[i], row, slots, values, flags)
+                scene.solve_pull_off(table, stretch, wavelength[i], amplitude[i], row, slots, values, flags)
             elif solver == ASYMPTOTIC:
                 asymptotic_cycle.solve_curve(table, stretch, wavelength[i], amplitude[i], row, slots, values, flags)
             else:

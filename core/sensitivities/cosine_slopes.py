@@ -122,9 +122,9 @@ def _put_depth(table: Any, curve: Curve, near: Any, units: Any, unit: float, x: 
 
 
 @kernel()
-def smooth_trace(table: Any, curve: Curve, constants: Any, trace: Any) -> int:
+def smooth_trace(table: Any, curve: Curve, trace: Any) -> int:
     """Put the one branch of a smooth punch of b = 1 into the trace; return the number of branches."""
-    _, z_in, _, z_out, _, _ = constants
+    _, z_in, z_out, _ = smooth.smooth_places(table.k)
     trace[RUN, GAP] = math.inf
     trace[START, 0], trace[END, 0], trace[END_DEPTH, 0] = z_out / TWO_PI, math.inf, math.inf
     trace[START_DEPTH, 0] = depth(table, curve, z_out / TWO_PI) if z_out > 0.0 else -1.0
@@ -233,7 +233,7 @@ def put_energy(
 
 @kernel()
 def put_smooth(
-    table: Any, constants: Any, stretch: float, rims: Any, slots: Any, out: Any, status: Any, sense: Any, trace: Any
+    table: Any, stretch: float, rims: Any, slots: Any, out: Any, status: Any, sense: Any, trace: Any
 ) -> None:
     """Store the sensitivities of a smooth punch, whose values are there, for all rims."""
     found, force, energy = sense[2], sense[3], sense[4]
@@ -243,7 +243,7 @@ def put_smooth(
     if force:
         put_forces(table, curve, around, unit, wavelength, rims, slots, out, status, sense)
     if energy:
-        count = smooth_trace(table, curve, constants, trace)
+        count = smooth_trace(table, curve, trace)
         slopes = slopes_for(trace)
         fill_loading(table, curve, around[0], count, trace, 0.0, slopes)
         scale = TWO_PI * length * length

@@ -13,8 +13,13 @@ import pytest
 from gradhesion.cli.study import study_from
 from gradhesion.cli.work import compiling, kernels
 from gradhesion.cli.work.locks import closing, try_lock
-from gradhesion.core import KINDS, NEEDS
+from gradhesion.core import KINDS, MANY_SMOOTH, NEEDS
 from gradhesion.core.cache import Place
+from gradhesion.core.warmup import SCENE
+
+MANY = {"start": 1.0, "stop": 100.0, "num": MANY_SMOOTH}
+SMOOTH: dict[str, Any] = {"parameters": SCENE | {"A": [0.0, 0.1], "modulus": MANY}}
+"""A study half of whose scenes are smooth."""
 
 
 @pytest.fixture
@@ -60,6 +65,11 @@ def test_each_kind_comes_once_and_after_those_that_it_needs(compiled: list[str])
         ({}, ("energy",)),
         ({"outputs": ["pull_off_force"], "method": {"solver": ["exact", "envelope"]}}, ("force", "envelope")),
         ({"outputs": ["energy_residual"]}, ("reports",)),
+        (SMOOTH, ("energy", "smooth")),
+        (SMOOTH | {"outputs": ["energy_residual"]}, ("reports", "smooth")),
+        (SMOOTH | {"outputs": ["pull_off_force_sensitivity"]}, ("energy", "sensitivities")),
+        (SMOOTH | {"method": {"solver": "envelope"}}, ("envelope",)),
+        (SMOOTH | {"loading": {"control": "load"}}, ("general_energy",)),
         ({"profile": {"exponent": 1.5}}, ("general_energy",)),
         ({"loading": {"control": "load"}, "outputs": ["pull_off_force"]}, ("general_force",)),
         ({"kind": "curve", "outputs": ["path"]}, ("curves",)),

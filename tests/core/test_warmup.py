@@ -9,6 +9,7 @@ import pytest
 from gradhesion.core import (
     CURVES,
     KINDS,
+    MANY_SMOOTH,
     OUTPUTS,
     REPORTS,
     SENSITIVITIES,
@@ -26,6 +27,7 @@ from gradhesion.core.warmup import SCENE, SPRING
 
 OTHERS = {"profile": Profile(exponent=1.0, harmonics=(Harmonic(n=2, cos=0.3, sin=0.4), Harmonic(n=5, cos=0.1)))}
 BY_LOAD = {"profile": Profile(exponent=2.5), "loading": Loading(control="load")}
+FLAT = {"A": 0.0, "modulus": np.linspace(1.0, 100.0, MANY_SMOOTH)}
 DEEP = {"indentation_max_over_R": 0.04}
 NOT_OF_A_LOAD = tuple(name for name in REPORTS if name != "energy_residual")
 
@@ -41,6 +43,7 @@ NOT_OF_A_LOAD = tuple(name for name in REPORTS if name != "energy_residual")
             ],
         ),
         ("energy", [solve, lambda s: solve(s | {"a_max_over_R": [0.3, 0.5, math.inf]}, OUTPUTS)]),
+        ("smooth", [lambda s: solve(s | FLAT, OUTPUTS), lambda s: solve(s | FLAT, ["delta_max"])]),
         ("reports", [lambda s: solve(s, REPORTS), lambda s: solve(s, ["roughness_parameter"])]),
         ("turning", [lambda s: solve(s | {"load_max": [0.1, 3.0]}, OUTPUTS), lambda s: solve(s | DEEP, OUTPUTS)]),
         ("asymptotic", [lambda s: solve(s, solver="asymptotic")]),

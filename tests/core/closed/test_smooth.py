@@ -1,18 +1,18 @@
 """The smooth punch: its closed forms against the curve that they come from, at 30 digits."""
 
 import math
-from collections.abc import Callable
-from typing import Any
 
 import mpmath
 import numpy as np
 import pytest
 
 from gradhesion.core.closed import smooth
+from gradhesion.core.closed.power import power
 
 EPS = 2.0**-52
 EXPONENTS = [0.0, 1e-16, 0.27, 0.5, 0.83, 1 - 1e-12, 1.0]
-KINDS = [lambda f: f, lambda f: f.py_func]
+UNIT = 2.0
+"""(1+k) s where the length l is R."""
 
 
 def _depth(k: mpmath.mpf, z: mpmath.mpf) -> mpmath.mpf:
@@ -33,21 +33,26 @@ def _energy(k: mpmath.mpf, z: mpmath.mpf, level: mpmath.mpf) -> mpmath.mpf:
 
 
 @pytest.mark.parametrize("k", EXPONENTS)
-@pytest.mark.parametrize("kind", KINDS)
-def test_pull_off_is_the_lowest_load(k: float, kind: Callable[..., Any]) -> None:
+def test_pull_off_is_the_lowest_load(k: float) -> None:
     """P = X (X/(3+k) - 1) in units that are 4/3 of 1.5 pi R dgamma for every k."""
-    force, place = kind(smooth.smooth_force)(k, kind(smooth.smooth_constants)(k)[0], math.inf)
+    force = smooth.smooth_force(k, math.inf)
+    edge = smooth.abscissa_of_pull_off(k)
+    place = math.sqrt(smooth.smooth_square(k, UNIT / (1.0 + k), edge))
     z = mpmath.findroot(lambda z: mpmath.diff(lambda y: _load(k, y), z), mpmath.mpf(1.4))
     assert abs(place / z - 1) <= 4 * EPS
     assert abs(force / (-4 * _load(k, z) / 3) - 1) <= 4 * EPS
     assert abs(force - (3 + k) / 3) <= EPS
+    # on both sides of that radius: a force at the rim is as large there
+    assert smooth.is_pulled_off_at_rim(k, edge)
+    assert not smooth.is_pulled_off_at_rim(k, edge * (1 + EPS))
+    assert math.isclose(smooth.smooth_force(k, edge * (1 - EPS)), force, rel_tol=2 * EPS)
 
 
 @pytest.mark.parametrize("k", EXPONENTS)
 def test_small_punch_is_pulled_off_at_its_rim(k: float) -> None:
+    stretch = UNIT / (1.0 + k)
     for rim in (1e-30, 0.1, 1.1):
-        force, place = smooth.smooth_force(k, smooth.smooth_constants(k)[0], rim)
-        assert place == rim
+        force = smooth.smooth_force(k, smooth.smooth_abscissa(k, stretch, rim))
         # a power, whose exponent is rounded, and three products
         assert abs(force / (-4 * _load(k, mpmath.mpf(rim)) / 3) - 1) <= (4 + abs(math.log(rim))) * EPS
 
@@ -62,36 +67,75 @@ def test_length_makes_the_bend_one(k: float) -> None:
 
 
 @pytest.mark.parametrize("k", EXPONENTS)
-@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("rim", [0.05, 0.31, 0.9, 1.5, 2.7, math.inf])
-def test_cycle(k: float, rim: float, kind: Callable[..., Any]) -> None:
-    loaded, unloaded, unloading, last = kind(smooth.smooth_cycle)(k, kind(smooth.smooth_constants)(k), rim)
-    kappa = mpmath.mpf(k)
+def test_cycle(k: float, rim: float) -> None:
+    """At the stretch 2/(1+k) the length l is R."""
+    stretch, kappa = UNIT / (1.0 + k), mpmath.mpf(k)
+    abscissa, jump_in, jump_out = of_curve(k, rim)
     goal = min(mpmath.mpf(rim), 2 ** (2 / (3 + kappa)))
     left = min(mpmath.mpf(rim), ((1 - kappa) / 2) ** (2 / (3 + kappa)))
-    expected_last = _depth(kappa, left) if left > 0 else mpmath.mpf(-1)
-    # the jump-in and the jump-out are differences of terms of the size z^2
-    assert abs(loaded - _energy(kappa, goal, mpmath.mpf(0))) <= 8 * EPS * float(goal) ** 2
-    expected = -_energy(kappa, left, expected_last) if left > 0 else 0
-    assert abs(unloaded - expected) <= 8 * EPS * float(goal) ** 2
-    assert unloading == (0 if k == 1.0 else 1)
+    assert abs(jump_in / 2 ** (4 / (3 + kappa)) - 1) <= 4 * EPS
+    assert abs(jump_out - ((1 - kappa) / 2) ** (4 / (3 + kappa))) <= 4 * EPS * jump_out
+    loaded = smooth.smooth_loading(k, abscissa, rim, jump_in)
+    expected = 2 * mpmath.pi * _energy(kappa, goal, mpmath.mpf(0))
+    assert abs(loaded - expected) <= 8 * EPS * expected
+    unloaded = smooth.smooth_unloading(k, abscissa, rim, jump_out)
+    expected = -2 * mpmath.pi * _energy(kappa, left, _depth(kappa, left)) if left > 0 else mpmath.mpf(0)
+    # 1 - k, 1 + k and 3 + k are rounded; quadrature is as good as that of terms that cancel
+    assert abs(unloaded - expected) <= 16 * EPS * expected + 1e-27
+    assert smooth.smooth_jumps_out(k) == (0 if k == 1.0 else 1)
+    expected_last = 2 * _depth(kappa, left) / (1 + kappa) if left > 0 else mpmath.mpf(-1)
+    square = min(rim * rim, jump_out)
+    last = smooth.smooth_last(k, stretch, square, power(math.sqrt(square), 0.5 * (1.0 - k)))
     assert abs(last - expected_last) <= 4 * EPS
+    deepest = smooth.smooth_deepest(k, abscissa, rim)
+    if rim < math.inf:
+        depth = 2 * max(mpmath.mpf(0), _depth(kappa, mpmath.mpf(rim))) / (1 + kappa)
+        assert abs(deepest - depth) <= 8 * EPS * (1 + rim**2), "a difference of two terms"
+    else:
+        assert deepest == math.inf
+    assert smooth.jumps_in_to_rim(abscissa) == (rim < float(2 ** (2 / (3 + kappa))))
+
+
+@pytest.mark.parametrize("k", EXPONENTS)
+def test_places_are_those_of_the_closed_forms(k: float) -> None:
+    stretch, kappa = UNIT / (1.0 + k), mpmath.mpf(k)
+    *radii, last = smooth.smooth_places(k)
+    abscissas = smooth.abscissa_of_pull_off(k), smooth.ABSCISSA_OF_JUMP_IN, smooth.abscissa_of_jump_out(k)
+    for radius, abscissa in zip(radii, abscissas, strict=True):
+        assert abs(radius**2 - smooth.smooth_square(k, stretch, abscissa)) <= 8 * EPS * radius**2
+        assert abs(smooth.smooth_abscissa(k, stretch, radius) - abscissa) <= 8 * EPS * abscissa
+    assert abs(last - (_depth(kappa, mpmath.mpf(radii[-1])) if k < 1.0 else -1)) <= 4 * EPS
+
+
+def of_curve(k: float, rim: float) -> tuple[float, float, float]:
+    """Return X at a rim, a_2^2 and a_1^2 where the length l is R."""
+    stretch = UNIT / (1.0 + k)
+    squares = (
+        smooth.smooth_square(k, stretch, place)
+        for place in (smooth.ABSCISSA_OF_JUMP_IN, smooth.abscissa_of_jump_out(k))
+    )
+    return smooth.smooth_abscissa(k, stretch, rim), *squares
+
+
+def losses(k: float, rim: float) -> tuple[float, float]:
+    """Return what loading and unloading lose where the length l is R."""
+    abscissa, jump_in, jump_out = of_curve(k, rim)
+    return smooth.smooth_loading(k, abscissa, rim, jump_in), smooth.smooth_unloading(k, abscissa, rim, jump_out)
 
 
 @pytest.mark.parametrize("k", [0.0, 0.27, 0.83, 1.0])
 def test_loss_is_continuous_in_the_rim_and_constant_beyond_the_jump_in(k: float) -> None:
-    constants = smooth.smooth_constants(k)
     for place in (2 ** (2 / (3 + k)), (0.5 * (1 - k)) ** (2 / (3 + k))):
         if place > 0.0:
-            near = [sum(smooth.smooth_cycle(k, constants, place * (1 + step))[:2]) for step in (-1e-12, 1e-12)]
+            near = [sum(losses(k, place * (1 + step))) for step in (-1e-12, 1e-12)]
             assert math.isclose(*near, abs_tol=1e-11)
-    assert smooth.smooth_cycle(k, constants, 3.0) == smooth.smooth_cycle(k, constants, math.inf)
+    assert losses(k, 3.0) == losses(k, math.inf)
 
 
 @pytest.mark.parametrize("k", [0.0, 0.5, 0.9])
 def test_whole_cycle_in_closed_form(k: float) -> None:
     """H = pi dgamma [F(q) a2^2 - F(1) a1^2], section 11 of docs/theory.md."""
-    loss = sum(smooth.smooth_cycle(k, smooth.smooth_constants(k), math.inf)[:2])
 
     def part(q: float) -> float:
         return 16 * q**2 / ((1 + k) * (3 + k) * (5 + k)) - 8 * q / ((1 + k) * (3 + k)) + 2 / (1 + k) - 1
@@ -99,7 +143,8 @@ def test_whole_cycle_in_closed_form(k: float) -> None:
     # at b = 1, (1+k) R s = 2 in units of the length
     q = (1 - k) / 4
     first, second = 2 ** (2 / (3 + k)), (2 * q) ** (2 / (3 + k))
-    assert math.isclose(loss, 0.5 * (part(q) * second**2 - part(1.0) * first**2), rel_tol=8 * EPS)
+    expected = math.pi * (part(q) * second**2 - part(1.0) * first**2)
+    assert math.isclose(sum(losses(k, math.inf)), expected, rel_tol=8 * EPS)
 
 
 def test_depth_plain_and_jitted() -> None:
@@ -107,8 +152,3 @@ def test_depth_plain_and_jitted() -> None:
         for z in np.geomspace(1e-8, 1e8, 30):
             expected = smooth.smooth_depth.py_func(k, z)
             assert math.isclose(smooth.smooth_depth(k, z), expected, rel_tol=4 * EPS, abs_tol=4 * EPS)
-
-
-@pytest.mark.parametrize("k", [0.0, 0.3, 1.0])
-def test_places_are_the_first_of_the_constants(k: float) -> None:
-    assert smooth.smooth_places(k)[:2] == smooth.smooth_constants(k)[:2]

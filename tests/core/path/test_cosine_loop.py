@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core.closed.smooth import smooth_constants, smooth_cycle
+from gradhesion.core.closed import smooth
 from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, ROWS, START, START_DEPTH
 from gradhesion.core.curve.cosine import depth, load
 from gradhesion.core.path import cosine as cycle
@@ -67,8 +67,11 @@ def test_smooth(k: float, table_of: Callable[[float], Any]) -> None:
     for z_rim in (0.7, 1.9, 4.0, math.inf):
         rim = z_rim / (2 * math.pi)
         count, trace, rim_depth = _walked(table, (1.0, 1e-300, 0.0), rim)
-        loaded, unloaded, _, _ = smooth_cycle(k, smooth_constants(k), z_rim)
-        expected = loaded + unloaded
+        stretch = 2.0 / (1.0 + k)
+        abscissa = smooth.smooth_abscissa(k, stretch, z_rim)
+        loaded = smooth.smooth_loading(k, abscissa, z_rim, smooth.smooth_square(k, stretch, 2.0))
+        last = smooth.smooth_square(k, stretch, smooth.abscissa_of_jump_out(k))
+        expected = (loaded + smooth.smooth_unloading(k, abscissa, z_rim, last)) / (2.0 * math.pi)
         assert math.isclose(
             loop_energy(table, (1.0, 1e-300, 0.0), count, trace, rim, rim_depth), expected, rel_tol=256 * EPS
         )

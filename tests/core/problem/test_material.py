@@ -120,3 +120,7 @@ def test_the_modulus_law_is_the_same_at_every_reference_depth(k: float) -> None:
     assert stiffness(k, 0.3, 7.0**k * 500.0, 7 * 0.02) == pytest.approx(
         float(stiffness(k, 0.3, 500.0, 0.02)), rel=1e-14
     )
+
+
+def test_arrays_of_one() -> None:
+    assert stiffness(np.array([0.3]), 0.3, [500.0], 0.01).shape == (1,)

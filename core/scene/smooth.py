@@ -1,0 +1,216 @@
+"""Smooth punches, many at once: each step for a block of them, as a loop of vector operations.
+
+A block has rows of numbers of scenes: their results in the order of problem/results.py, then what these follow from. Of
+curves it has the first of the latter. Formulas are those of closed/smooth.py.
+"""
+
+import math
+from typing import Any, Final
+
+from gradhesion.core._jit import kernel
+from gradhesion.core.closed import smooth
+from gradhesion.core.closed.power import fill_powers
+from gradhesion.core.problem.results import (
+    DEEPEST,
+    ENERGY,
+    FORCE,
+    LAST,
+    LOADED,
+    LOADING,
+    RADIUS,
+    UNLOADED,
+    UNLOADING,
+    wants_cycle,
+    wants_folds,
+    wants_force,
+    wants_losses,
+)
+from gradhesion.core.problem.status import JUMP_IN_TO_RIM, NO_VALUE, PULL_OFF_AT_RIM
+
+ROWS: Final = 18
+SCENES: Final = 256
+"""Scenes of a block: what is used of it stays in the nearest cache."""
+_RESULTS: Final = 9
+_K, _STRETCH, _IN, _OUT, _RIM, _X, _BASE, _EXPONENT, _FLAGS = range(_RESULTS, ROWS)
+"""The rows: k, s, a_2^2, a_4^2, the rim, X there, x and p of a power x^p, and flags."""
+
+
+@kernel()
+def _take_curves(index: Any, k: Any, stiffness: Any, wavelength: Any, amplitude: Any, block: Any) -> None:
+    """Take k and s of some curves, s being NaN for one that is out of range."""
+    before, factor = math.nan, math.nan
+    for j in range(index.size):
+        i = index[j]
+        if k[i] != before:
+            before = k[i]
+            factor = 2.0 ** (1.0 + before) * math.pi
+        stretch = math.sqrt(factor / stiffness[i])  # s = sqrt(2^(1+k) pi dgamma/M)
+        sound = 0.0 < stretch < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf
+        block[_K, j], block[_STRETCH, j] = before, stretch if sound else math.nan
+
+
+@kernel()
+def _take_scenes(index: Any, first: int, count: int, rims: Any, curves: Any, scenes: Any) -> None:
+    """Take the rims of scenes, from number `first` on, and what is known of their curves."""
+    number = rims.shape[1]
+    if number == 1:  # curves and scenes are the same block
+        for e in range(count):
+            scenes[_RIM, e] = rims[index[e] if rims.shape[0] > 1 else 0, 0]
+        return
+    e, j, rim = 0, first // number, first % number
+    while e < count:
+        end = min(count, e + number - rim)
+        i = index[j] if rims.shape[0] > 1 else 0
+        for row in range(_K, _RIM):
+            value = curves[row, j]
+            for place in range(e, end):
+                scenes[row, place] = value
+        for place in range(e, end):
+            scenes[_RIM, place] = rims[i, rim + place - e]
+        e, j, rim = end, j + 1, 0
+
+
+@kernel()
+def _store(index: Any, first: int, count: int, values: Any, out: Any) -> None:
+    """Store numbers of scenes, from number `first` on, where they belong in `out`, shape (curves, rims)."""
+    number = out.shape[1]
+    if number == 1:
+        for e in range(count):
+            out[index[e], 0] = values[e]
+        return
+    e, j, rim = 0, first // number, first % number
+    while e < count:
+        end = min(count, e + number - rim)
+        i = index[j]
+        for place in range(e, end):
+            out[i, rim + place - e] = values[place]
+        e, j, rim = end, j + 1, 0
+
+
+@kernel()
+def _find_squares(count: int, block: Any, start: float, slope: float, row: int) -> None:
+    """Find the squares of radii, those where X = start + slope k."""
+    for e in range(count):
+        k = block[_K, e]
+        block[_BASE, e] = smooth.raised_of(k, block[_STRETCH, e], start + slope * k)
+        block[_EXPONENT, e] = 4.0 / (3.0 + k)
+    fill_powers(count, block[_BASE], block[_EXPONENT], block[row])
+
+
+@kernel()
+def _find_abscissas(count: int, block: Any) -> None:
+    """Find X at the rims."""
+    for e in range(count):
+        block[_EXPONENT, e] = 0.5 * (3.0 + block[_K, e])
+    fill_powers(count, block[_RIM], block[_EXPONENT], block[_X])
+    for e in range(count):
+        block[_X, e] = smooth.abscissa_of(block[_K, e], block[_STRETCH, e], block[_X, e])
+
+
+@kernel()
+def _find_radii(count: int, block: Any) -> None:
+    """Find the radii of the pull-off."""
+    _find_squares(count, block, smooth.abscissa_of_pull_off(0.0), 0.5, RADIUS)
+    for e in range(count):
+        at_rim = smooth.is_pulled_off_at_rim(block[_K, e], block[_X, e])
+        block[RADIUS, e] = block[_RIM, e] if at_rim else math.sqrt(block[RADIUS, e])
+
+
+@kernel()
+def _find_losses(count: int, block: Any) -> None:
+    """Find the energies of loading and unloading."""
+    for e in range(count):
+        k, abscissa, rim = block[_K, e], block[_X, e], block[_RIM, e]
+        loaded = smooth.smooth_loading(k, abscissa, rim, block[_IN, e])
+        unloaded = smooth.smooth_unloading(k, abscissa, rim, block[_OUT, e])
+        block[LOADED, e], block[UNLOADED, e], block[ENERGY, e] = loaded, unloaded, loaded + unloaded
+
+
+@kernel()
+def _find_last(count: int, block: Any) -> None:
+    """Find the depths at which contact ends."""
+    for e in range(count):
+        block[_BASE, e] = math.sqrt(min(block[_RIM, e] * block[_RIM, e], block[_OUT, e]))
+        block[_EXPONENT, e] = 0.5 * (1.0 - block[_K, e])
+    fill_powers(count, block[_BASE], block[_EXPONENT], block[LAST])
+    for e in range(count):
+        square = min(block[_RIM, e] * block[_RIM, e], block[_OUT, e])
+        block[LAST, e] = smooth.smooth_last(block[_K, e], block[_STRETCH, e], square, block[LAST, e])
+
+
+@kernel()
+def _find_flags(count: int, block: Any, force: bool, folds: bool) -> None:
+    """Find the status of the scenes."""
+    at_rim, in_to_rim = PULL_OFF_AT_RIM if force else 0, JUMP_IN_TO_RIM if folds else 0
+    for e in range(count):
+        flags = at_rim if smooth.is_pulled_off_at_rim(block[_K, e], block[_X, e]) else 0
+        block[_FLAGS, e] = flags | (in_to_rim if smooth.jumps_in_to_rim(block[_X, e]) else 0)
+
+
+@kernel()
+def _solve_block(count: int, block: Any, slots: Any) -> None:
+    """Compute what is asked of scenes."""
+    _find_abscissas(count, block)
+    if slots[FORCE] >= 0:
+        for e in range(count):
+            block[FORCE, e] = smooth.smooth_force(block[_K, e], block[_X, e])
+    if slots[RADIUS] >= 0:
+        _find_radii(count, block)
+    if wants_losses(slots):
+        _find_losses(count, block)
+    if slots[LOADING] >= 0 or slots[UNLOADING] >= 0:
+        for e in range(count):
+            block[LOADING, e], block[UNLOADING, e] = 1.0, smooth.smooth_jumps_out(block[_K, e])
+    if slots[LAST] >= 0:
+        _find_last(count, block)
+    if slots[DEEPEST] >= 0:
+        for e in range(count):
+            block[DEEPEST, e] = smooth.smooth_deepest(block[_K, e], block[_X, e], block[_RIM, e])
+    _find_flags(count, block, wants_force(slots), wants_folds(slots))
+
+
+@kernel()
+def _refuse(index: Any, curves: Any, out: Any, status: Any) -> None:
+    """Give curves that are out of range no value."""
+    for j in range(index.size):
+        if not curves[_STRETCH, j] > 0.0:
+            for rim in range(status.shape[1]):
+                status[index[j], rim] = NO_VALUE
+                for row in range(out.shape[0]):
+                    out[row, index[j], rim] = math.nan
+
+
+@kernel()
+def solve_smooth(
+    index: Any,
+    k: Any,
+    stiffness: Any,
+    wavelength: Any,
+    amplitude: Any,
+    rims: Any,
+    slots: Any,
+    out: Any,
+    status: Any,
+    scratch: Any,
+) -> None:
+    """Solve the curves `index`, whose waves count for nothing; `rims` has one row, or one a curve.
+
+    `slots`, `out` and `status` are as those of `solve_curves` (scene/solvers.py); `scratch` has two blocks.
+    """
+    size, number = scratch.shape[2], rims.shape[1]
+    curves, scenes = scratch[0], scratch[0 if number == 1 else 1]
+    for begin in range(0, index.size, size):
+        some = index[begin : begin + size]
+        _take_curves(some, k, stiffness, wavelength, amplitude, curves)
+        if wants_cycle(slots):
+            _find_squares(some.size, curves, smooth.ABSCISSA_OF_JUMP_IN, 0.0, _IN)
+            _find_squares(some.size, curves, smooth.abscissa_of_jump_out(0.0), -0.5, _OUT)
+        for first in range(0, some.size * number, size):
+            count = min(size, some.size * number - first)
+            _take_scenes(some, first, count, rims, curves, scenes)
+            _solve_block(count, scenes, slots)
+            for row in range(_RESULTS):
+                if slots[row] >= 0:
+                    _store(some, first, count, scenes[row], out[slots[row]])
+            _store(some, first, count, scenes[_FLAGS], status)
+        _refuse(some, curves, out, status)
