@@ -67,7 +67,7 @@ KINDS: Final = tuple(NEEDS)
 KERNELS: Final[dict[str, int]] = {
     "tables": 51,
     "force": 51,
-    "energy": 176,
+    "energy": 191,
     "smooth": 36,
     "reports": 16,
     "turning": 31,
