@@ -5,7 +5,8 @@ each of the four functions is at most 1.0e-15 of the larger of the function and 
 """
 
 import math
-from typing import Any
+from functools import lru_cache
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -63,6 +64,10 @@ def build_table(k: float) -> Any:
     return table
 
 
+_kept: Final = lru_cache(maxsize=16)(build_table)
+"""For those who ask again and again for a few points of one exponent: building a table takes as long as 40,000 points."""
+
+
 @kernel(entry=True)
 def _pairs(table: Any, x: Any, out: Any) -> None:
     for i in range(x.size):
@@ -92,5 +97,5 @@ def struve_pair(k: float, x: ArrayLike) -> NDArray[np.float64]:
     """
     points = np.asarray(x, dtype=float)
     out = np.empty((4, points.size))
-    _pairs(build_table(k), points.ravel(), out)
+    _pairs(_kept(float(k)), points.ravel(), out)
     return out.reshape(4, *points.shape)
