@@ -1,6 +1,7 @@
 """Depth and load of any profile against the defining integrals at 30 digits, and against their own slopes."""
 
 import math
+from functools import cache
 
 import mpmath
 import numpy as np
@@ -22,17 +23,23 @@ MIXED = (Harmonic(n=2, cos=0.61803), Harmonic(n=7, cos=-0.1, sin=0.141421))
 STRETCH, WAVELENGTH, AMPLITUDE = 0.083, 0.41, 0.027
 
 
+@cache
+def _wavy_slope(harmonics: tuple[Harmonic, ...], s: mpmath.mpf) -> mpmath.mpf:
+    """Return the slope of the waves, at nodes that the quadratures of all exponents share."""
+    total = mpmath.mpf(0)
+    for h in harmonics:
+        y = 2 * mpmath.pi * h.n * s / WAVELENGTH
+        total += 2 * mpmath.pi * AMPLITUDE * h.n * (h.cos * mpmath.sin(y) + h.sin * mpmath.cos(y))
+    return total
+
+
 def _integral(k: float, m: float, harmonics: tuple[Harmonic, ...], a: float, j: int) -> mpmath.mpf:
     """Return int_0^a f'(s) (a^2-s^2)^((k-1)/2 + j) ds, with s = a sin u."""
     power = mpmath.mpf(k) + 2 * j
 
     def integrand(u: mpmath.mpf) -> mpmath.mpf:
         s = a * mpmath.sin(u)
-        total = s ** (mpmath.mpf(m) - 1)
-        for h in harmonics:
-            y = 2 * mpmath.pi * h.n * s / WAVELENGTH
-            total += 2 * mpmath.pi * AMPLITUDE * h.n * (h.cos * mpmath.sin(y) + h.sin * mpmath.cos(y))
-        return total * mpmath.cos(u) ** power
+        return (s ** (mpmath.mpf(m) - 1) + _wavy_slope(harmonics, s)) * mpmath.cos(u) ** power
 
     return mpmath.mpf(a) ** power * mpmath.quad(integrand, mpmath.linspace(0, mpmath.pi / 2, 7))
 
