@@ -84,8 +84,7 @@ build/types/gradhesion: api
 build/tested: $(checked) .venv/complete | build/types/gradhesion
 	.venv/bin/ruff check
 	.venv/bin/ruff format --check
-	.venv/bin/mypy
-	.venv/bin/python -m tests.compile
+	.venv/bin/mypy & .venv/bin/python -m tests.compile && wait $$! # side by side
 	.venv/bin/pytest -n auto --dist loadfile --no-loadscope-reorder
 	touch $@
 

@@ -13,6 +13,25 @@ settings.load_profile("no clock")
 
 ROOT = Path(__file__).parents[1]
 
+OF_KERNELS = tuple(
+    f"tests/core/{room}/"
+    for room in ("arrays", "contact", "curve", "path", "pull_off", "scene", "sensitivities", "turning", "waves")
+)
+"""Rooms whose tests call kernels by themselves: each is compiled with all that it calls, which they share."""
+
+
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Give files to processes one by one, but those of kernels to one process, which compiles what they share once."""
+    from xdist.scheduler import LoadFileScheduling
+
+    class ByKernels(LoadFileScheduling):  # type: ignore[misc] # xdist has no types
+        """As `--dist loadfile`, with one unit of work for all files of kernels."""
+
+        def _split_scope(self, nodeid: str) -> str:
+            return "kernels" if nodeid.startswith(OF_KERNELS) else str(super()._split_scope(nodeid))
+
+    return ByKernels(config, log) if config.getvalue("dist") == "loadfile" else None
+
 
 @pytest.fixture
 def root() -> Path:
