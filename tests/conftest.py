@@ -1,5 +1,6 @@
 """What the tests of the command line share."""
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -78,9 +79,12 @@ def study_file(data: dict[str, Any], write_study: Callable[[str], Path]) -> Path
 
 
 @pytest.fixture
-def gradhesion() -> Callable[..., Result]:
-    """The command line, called in this process."""
+def gradhesion(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
+    """The command line, called in this process; without lines of progress, of which a busy machine has some."""
     from gradhesion.cli.main import cli
+
+    for period in ("PERIOD", "PERIOD_OF_JSON"):
+        monkeypatch.setattr(f"gradhesion.cli.terminal.progress.{period}", math.inf)
 
     def call(*arguments: str | Path) -> Result:
         result = CliRunner().invoke(cli, [str(argument) for argument in arguments])

@@ -65,7 +65,7 @@ def build_table(k: float) -> Any:
 
 
 _kept: Final = lru_cache(maxsize=16)(build_table)
-"""For those who ask again and again for a few points of one exponent: building a table takes as long as 40,000 points."""
+"""For those who ask for a few points again and again: building a table takes as long as 40,000 points."""
 
 
 @kernel(entry=True)

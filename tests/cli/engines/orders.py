@@ -14,6 +14,7 @@ from typing import Any
 import netCDF4
 import numpy as np
 from click.testing import Result
+from distributed import Client
 
 Call = Callable[..., Result]
 
@@ -29,7 +30,10 @@ really = getattr(given.solve, "really", given.solve)  # it may be imported again
 
 def solve(parameters, *arguments, **options):
     order = json.loads((orders / "order.json").read_text())
-    (orders / f"{{os.getpid()}}.busy").touch()
+    busy = orders / f"{{os.getpid()}}.busy"
+    if order.get("once") and busy.exists():
+        time.sleep(600.0)  # until it is killed
+    busy.touch()
     block = [round(float(parameters[name].flat[0]), 6) for name in ("k", "lambda_over_R")]
     if order.get("poison") == block:
         os.kill(os.getpid(), signal.SIGKILL)
@@ -112,6 +116,17 @@ class ByHand:
         process = subprocess.Popen(command, env=os.environ | environment, stderr=subprocess.DEVNULL)
         self.processes.append(process)
         return process
+
+    def ready(self, status: str = "running") -> None:
+        """Wait for the worker to be known to the scheduler: how long it takes to start is not what is tested."""
+        deadline = time.monotonic() + 120
+        with Client(scheduler_file=str(self.file), set_as_default=False) as client:
+            while time.monotonic() < deadline:
+                there = client.sync(client.scheduler.identity)["workers"].values()
+                if there and all(one["status"] == status for one in there):
+                    return
+                time.sleep(0.05)
+        raise AssertionError(f"no worker is {status}")
 
     def worker(self, **environment: str) -> None:
         self.start("worker", "--nthreads=1", "--no-nanny", f"--preload={self.orders.preload}", **environment)

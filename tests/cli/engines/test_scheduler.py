@@ -36,7 +36,7 @@ def test_workers_of_another_version(
     assert by_hand.orders.busy() == []
 
     by_hand.worker()
-    deadline = time.monotonic() + 30
+    deadline = time.monotonic() + 120
     while (result := gradhesion(*command)).exit_code == 2 and time.monotonic() < deadline:
         time.sleep(0.1)
     assert result.exit_code == 0, result.stderr
@@ -68,6 +68,9 @@ def test_a_scheduler_that_is_lost(
     end: signal.Signals,
 ) -> None:
     """The same sentence wherever the client has just been: it ends before the nth call of a method."""
+    by_hand.orders.give(sleep=0.2)
+    by_hand.worker()
+    by_hand.ready()
     really, calls = getattr(Client, method), []
 
     def killing(self: Client, *arguments: Any, **options: Any) -> Any:
@@ -81,8 +84,6 @@ def test_a_scheduler_that_is_lost(
 
     monkeypatch.setattr(Client, method, killing)
     monkeypatch.setattr("gradhesion.cli.engines.watch.PERIOD", 0.1)
-    by_hand.orders.give(sleep=0.2)
-    by_hand.worker()
     with dask.config.set({"distributed.comm.timeouts.connect": "500ms"}):
         lost = gradhesion("run", study_file, "-o", output, "--engine=dask", "--scheduler", by_hand.file)
     assert lost.exit_code == 4, lost.stderr
@@ -112,8 +113,9 @@ def test_a_scheduler_that_no_worker_is_left_for(
     timeout = {"DASK_DISTRIBUTED__SCHEDULER__NO_WORKERS_TIMEOUT": "1s"} if whose == "scheduler" else {}
     cluster = ByHand(tmp_path, orders, **timeout)
     try:
-        orders.give(sleep=0.5)
+        orders.give(once=True)
         cluster.worker()
+        cluster.ready()
 
         def end() -> None:
             deadline = time.monotonic() + 60
@@ -155,7 +157,7 @@ def test_an_interrupt_takes_back_what_waits(tmp_path: Path, output: Path, by_han
     assert stderr.strip().startswith("interrupted; ")
     assert "Traceback" not in stderr
     with Client(scheduler_file=str(by_hand.file), set_as_default=False) as client:
-        deadline = time.monotonic() + 10
+        deadline = time.monotonic() + 60
         while any(client.processing().values()) and time.monotonic() < deadline:
             time.sleep(0.05)
         assert not any(client.processing().values())

@@ -79,7 +79,7 @@ def test_a_killed_worker_loses_nothing(dask_run: Call, whole: dict[str, bytes], 
     killed = []
 
     def kill() -> None:
-        deadline = time.monotonic() + 30
+        deadline = time.monotonic() + 120
         while not orders.busy() and time.monotonic() < deadline:
             time.sleep(0.01)
         killed.append(orders.busy()[0])
@@ -173,6 +173,7 @@ def test_workers_that_are_paused_end_the_run(
             "worker", "--nthreads=1", "--memory-limit=1GB",
             **{f"DASK_DISTRIBUTED__WORKER__MEMORY__{name}": share for name, share in shares.items()},
         )  # fmt: skip
+        cluster.ready("paused")
         result = gradhesion("run", study_file, "-o", output, "--engine=dask", "--scheduler", cluster.file)
     finally:
         cluster.end()
