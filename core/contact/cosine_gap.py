@@ -18,6 +18,7 @@ from gradhesion.core._jit import kernel
 from gradhesion.core.curve.cosine import Curve, wave
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.fractional import NODES, WEIGHTS
+from gradhesion.core.struve.lanes import LANES, eight, load, store
 from gradhesion.core.struve.layout import FRACTIONAL_NODES, SWITCH
 from gradhesion.core.struve.pair import polynomials8
 from gradhesion.core.struve.power import amplitude_power
@@ -131,10 +132,15 @@ def openings_between(
     count = NODES.size
     width = (high - low) * (high + low)
     _fill_heights(table, curve, edge, low, width, 0, heights)
-    openings[: count + 1] = 0.0
+    for first in range(0, count, LANES):
+        total = eight(0.0)
+        for i in range(count):
+            total = total + load(table.fractional[i], first) * heights[i]
+        store(openings, first, total)
+    last = 0.0
     for i in range(count):
-        for place in range(count + 1):
-            openings[place] += table.fractional[i, place] * heights[i]
+        last += table.fractional[i, count] * heights[i]
+    openings[count] = last
 
 
 @kernel(contract=True)

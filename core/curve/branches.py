@@ -8,14 +8,25 @@ place at which a pair of folds is about to be born (path/ties.py).
 """
 
 import math
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import NO, YES, kernel
+from gradhesion.core.curve.at_once import find_zeros, guess_zeros
 from gradhesion.core.curve.cosine import Curve, depth, slope
-from gradhesion.core.curve.cosine_folds import CLOSE, fold_of_arch, half_wave, survey_arch
+from gradhesion.core.curve.cosine_folds import (
+    CLOSE,
+    LAST_STEP_OF_DEPTH,
+    edge_of,
+    find_zero,
+    guess_zero,
+    half_wave,
+    survey_between,
+)
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, with_lane
+from gradhesion.core.struve.layout import SWITCH
 
 START, START_DEPTH, END, END_DEPTH = 0, 1, 2, 3
 ARRIVAL, LOADING_LOSS, LOADING_JUMPS = 4, 5, 6
@@ -34,6 +45,8 @@ HIGHEST, LOADING_IS_CLOSE, UNLOADING_IS_CLOSE = 17, 18, 19
 """The highest depth up to the end of a branch, 0 at least, whether a decision of loading was close up to there, and
 whether one of unloading is from the start of the branch on (path/ties.py)."""
 ROWS = 20
+Waiting: TypeAlias = tuple[int, Lanes, Lanes, Lanes, Lanes]
+"""How many folds wait; their arches, 1 where a branch starts and -1 where one ends, and the brackets."""
 UNKNOWN: Final = -1.0
 """Unloading jumps of a branch that unloading has not visited yet."""
 _STEPS: Final = 100
@@ -121,50 +134,78 @@ def room_for(trace: Any, columns: float) -> Any:
 
 
 @kernel()
+def _put_waiting(
+    table: Any, curve: Curve, furthest: float, trace: Any, count: int, waiting: Waiting
+) -> tuple[int, bool]:
+    """Put the folds that wait into the trace; return the number of branches, and whether the last is beyond reach."""
+    level = 0.5 * (1.0 - table.k)
+    number, arches, signs, lows, highs = waiting
+    guesses = guess_zeros(table, curve, level, arches, signs)
+    places, bottoms = eight(math.nan), eight(math.nan)
+    if TWO_PI * lane_of(lows, number - 1) >= SWITCH:
+        places, bottoms = find_zeros(table, curve, level, lows, highs, guesses)
+    for lane in range(number):
+        x, bottom, rising = lane_of(places, lane), lane_of(bottoms, lane), lane_of(signs, lane) > 0.0
+        low, high = lane_of(lows, lane), lane_of(highs, lane)
+        if TWO_PI * low < SWITCH or math.isnan(x):
+            guess = lane_of(guesses, lane)
+            if not low < guess < high:
+                i = int(lane_of(arches, lane))
+                guess = guess_zero(table, curve, level, i, high, rising != (i % 2 == 0))
+            x, bottom = find_zero(table, curve, level, low, high, rising, guess, LAST_STEP_OF_DEPTH)
+        if rising:
+            if x > furthest:
+                return count, YES
+            trace[START, count], trace[START_DEPTH, count], trace[UNLOADING_JUMPS, count] = x, bottom, UNKNOWN
+        else:
+            trace[END, count], trace[END_DEPTH, count] = x, bottom
+            count += 1
+            if x > furthest:
+                return count, YES
+    return count, NO
+
+
+@kernel()
 def append_branches(table: Any, curve: Curve, first: int, final: float, furthest: float, trace: Any, count: int) -> int:
     """Append the branches that start on arch `first` or later and within `furthest`; return the new count.
 
-    The last branch is complete: it ends at its true fold, or at infinity where no arch up to `final` ends it.
+    The last branch is complete: it ends at its true fold, or at infinity where no arch up to `final` ends it. Folds
+    beyond z = 40 are found eight at a time, each for itself.
     """
     level = 0.5 * (1.0 - table.k)
-    inside = False
+    inside, beyond = False, False
     if count == 0:
         trace[TANGENCY, 0] = math.inf
     if level == 0.0 and first == 0:  # k = 1: the first branch starts at zero contact, at the depth -1
         trace[START, count], trace[START_DEPTH, count], trace[UNLOADING_JUMPS, count] = 0.0, -1.0, UNKNOWN
         inside = True
-    i = first
-    while i <= final:
-        survey = survey_arch(table, curve, level, i)
-        kind, place, missing, high = survey
-        if kind == 0 and missing <= CLOSE:
-            trace[TANGENCY, 0] = min(trace[TANGENCY, 0], place)
+    number, arches, signs, lows, highs = 0, eight(0.0), eight(0.0), eight(0.0), eight(0.0)
+    i, outer = first, edge_of(table, curve, level, first)
+    while i <= final and not beyond:
+        inner, outer = outer, edge_of(table, curve, level, i + 1)
+        kind, low, peak, high = survey_between(table, curve, level, i, inner, outer)
+        if kind == 0 and peak <= CLOSE:
+            trace[TANGENCY, 0] = min(trace[TANGENCY, 0], low)
         rising = kind == 1 or (kind == 2 and i % 2 == 0)
-        for _ in range(abs(kind)):
+        for j in range(abs(kind)):
             if rising or inside:
-                row = START if rising else END
-                guess = 0.0
-                if count > 2:
-                    guess = 3.0 * (trace[row, count - 1] - trace[row, count - 2]) + trace[row, count - 3]
-                elif count > 1:
-                    guess = 2.0 * trace[row, count - 1] - trace[row, count - 2]
-                x, bottom = fold_of_arch(table, curve, level, i, survey, rising, guess)
-                if rising:
-                    if x > furthest:
-                        return count
-                    trace[START, count], trace[START_DEPTH, count] = x, bottom
-                    trace[UNLOADING_JUMPS, count] = UNKNOWN
-                else:
-                    trace[END, count], trace[END_DEPTH, count] = x, bottom
-                    count += 1
-                    if x > furthest:
-                        return count
+                arches, signs = with_lane(arches, number, float(i)), with_lane(signs, number, 1.0 if rising else -1.0)
+                lows = with_lane(lows, number, peak if kind == 2 and j == 1 else low)
+                highs = with_lane(highs, number, peak if kind == 2 and j == 0 else high)
+                number += 1
+                if number == LANES:
+                    waiting = (number, arches, signs, lows, highs)
+                    count, beyond = _put_waiting(table, curve, furthest, trace, count, waiting)
+                    number = 0
             inside = rising
             rising = not rising
         if not inside and high > furthest:
-            return count
+            break
         i += 1
-    if inside:
+    if number > 0 and not beyond:
+        waiting = (number, arches, signs, lows, highs)
+        count, beyond = _put_waiting(table, curve, furthest, trace, count, waiting)
+    if inside and not beyond:
         trace[END, count] = trace[END_DEPTH, count] = math.inf
         count += 1
     return count

@@ -23,9 +23,10 @@ from typing import Any, TypeAlias
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.lanes import Lanes
 from gradhesion.core.struve.layout import SWITCH
 from gradhesion.core.struve.pair import pair_above, pair_below
-from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.struve.power import amplitude_power, amplitude_powers
 
 Curve: TypeAlias = tuple[float, float, float]
 """Bend, gain and lag."""
@@ -93,14 +94,13 @@ def slope(table: Any, curve: Curve, level: float, x: float) -> tuple[float, floa
 
 
 @kernel(contract=True)
-def slopes(table: Any, curve: Curve, level: float, x: float) -> tuple[float, float, float, float, float]:
-    """Return D, its first three derivatives with respect to z, and the depth, at x > 0."""
-    b, g, lag = curve
-    k = table.k
+def _slopes_of(
+    k: float, curve: Curve, level: float, z: float, power: float, pair: tuple[float, float, float, float]
+) -> tuple[float, float, float, float, float]:
+    """Return what `slopes` does, from z^(-n) and the pair; z is a number or eight (struve/lanes.py)."""
+    b, g, _ = curve
     n = 0.5 * (1.0 + k)
-    z = TWO_PI * x
-    power = amplitude_power(table, z)
-    s0, s1, d0, d1 = pair_below(table, x, z) if z < SWITCH else pair_above(table, x - lag, z, power)
+    s0, s1, d0, d1 = pair
     pull = level * power
     inverse = 1.0 / z
     bend = n * pull * inverse
@@ -114,6 +114,25 @@ def slopes(table: Any, curve: Curve, level: float, x: float) -> tuple[float, flo
     )
 
 
+@kernel(contract=True)
+def slopes(table: Any, curve: Curve, level: float, x: float) -> tuple[float, float, float, float, float]:
+    """Return D, its first three derivatives with respect to z, and the depth, at x > 0."""
+    _, _, lag = curve
+    z = TWO_PI * x
+    power = amplitude_power(table, z)
+    pair = pair_below(table, x, z) if z < SWITCH else pair_above(table, x - lag, z, power)
+    return _slopes_of(table.k, curve, level, z, power, pair)
+
+
+@kernel(contract=True)
+def slopes_at_once(table: Any, curve: Curve, level: float, x: Lanes) -> tuple[Lanes, Lanes, Lanes, Lanes, Lanes]:
+    """Return what `slopes` does at eight places beyond z = 40."""
+    _, _, lag = curve
+    z = TWO_PI * x
+    power = amplitude_powers(table, z)
+    return _slopes_of(table.k, curve, level, z, power, pair_above(table, x - lag, z, power))
+
+
 @kernel()
 def depth_size(table: Any, curve: Curve, x: float) -> float:
     """Return the size of the terms of the reduced depth at x."""
@@ -122,3 +141,11 @@ def depth_size(table: Any, curve: Curve, x: float) -> float:
     if z <= 0.0:
         return 1.0
     return 0.5 * b * z * z + z * amplitude_power(table, z) * (1.0 + g * table.amplitude) + g
+
+
+@kernel()
+def most_depth_size(table: Any, curve: Curve, x: float) -> float:
+    """Return a bound of `depth_size` at x >= 0 that needs no power: z^c <= 1 + z/2 for c <= 1/2."""
+    b, g, _ = curve
+    z = TWO_PI * x
+    return 1.0 + z * (0.5 * b * z + 0.5 + g * table.amplitude) + g * (1.0 + table.amplitude)

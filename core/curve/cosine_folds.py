@@ -6,7 +6,7 @@ far side of the arch's curvature, none; equal signs on the near side, two or non
 """
 
 import math
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 
@@ -14,13 +14,18 @@ from gradhesion.core._jit import kernel
 from gradhesion.core.curve.cosine import Curve, slope, slopes
 from gradhesion.core.struve.arches import inner_edge, summit
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.lanes import chosen, root_of
 from gradhesion.core.struve.power import amplitude_power
 
 _STEPS = 100
 """Halving alone ends after 60 steps; 3 is the rule."""
-_LAST_STEP = 1e-3
+LAST_STEP: Final = 1e-3
 """A step of the fourth order of this size (relative to a curvature length) leaves 1e-12, and
 depth, load and energy are stationary at a fold: their error is the square of that."""
+LAST_STEP_OF_DEPTH: Final = 3e-3
+"""The same where only depth and energy count: 1e-8 is left of the place."""
+Edge: TypeAlias = tuple[float, float, float]
+"""x, X and F at the edge of an arch."""
 CLOSE: Final = 4e-12
 """A part of its terms by which an input error of 1e-12 may move a number."""
 FEW: Final = 20.0
@@ -29,7 +34,7 @@ FEW: Final = 20.0
 
 @kernel(contract=True)
 def find_zero(
-    table: Any, curve: Curve, level: float, low: float, high: float, rising: bool, guess: float
+    table: Any, curve: Curve, level: float, low: float, high: float, rising: bool, guess: float, last_step: float
 ) -> tuple[float, float]:
     """Return the only zero of D between low and high, where D rises or falls through it, and the depth there.
 
@@ -48,7 +53,7 @@ def find_zero(
         square = d1 * d1
         step = -d * (square - 0.5 * d * d2) / (d1 * (square - d * d2) + d * d * d3 / 6.0)
         new = x + step / TWO_PI
-        small = abs(step) * (abs(d2) + abs(d1)) < _LAST_STEP * abs(d1) * min(1.0, TWO_PI * x)
+        small = abs(step) * (abs(d2) + abs(d1)) < last_step * abs(d1) * min(1.0, TWO_PI * x)
         if small and low <= new <= high:
             return new, depth + step * (d + step * (0.5 * d1 + step * (d2 / 6.0 + step * d3 / 24.0)))
         if not low < new < high:
@@ -92,10 +97,10 @@ def find_extremum(table: Any, curve: Curve, level: float, low: float, high: floa
 
 @kernel(contract=True)
 def half_wave(share: float) -> float:
-    """Return acos(1 - 2 share)/pi to 3e-5, for 0 < share < 1."""
-    least = min(share, 1.0 - share)
-    place = math.sqrt(least) * (0.63659317 + least * (0.10770327 + least * (0.03327311 + least * 0.06647575)))
-    return place if share <= 0.5 else 1.0 - place
+    """Return acos(1 - 2 share)/pi to 3e-5, for 0 < share < 1, a number or eight."""
+    least = chosen(share, 0.5, share, 1.0 - share)
+    place = root_of(least) * (0.63659317 + least * (0.10770327 + least * (0.03327311 + least * 0.06647575)))
+    return chosen(share, 0.5, place, 1.0 - place)
 
 
 @kernel(contract=True)
@@ -126,19 +131,28 @@ def guess_zero(table: Any, curve: Curve, level: float, i: int, place: float, out
 
 
 @kernel()
-def survey_arch(table: Any, curve: Curve, level: float, i: int) -> tuple[int, float, float, float]:
+def edge_of(table: Any, curve: Curve, level: float, i: int) -> Edge:
+    """Return x, X and F at the inner edge of arch i."""
+    b, g, _ = curve
+    x, abscissa, height = inner_edge(table, i)
+    if i == 0 and level == 0.0:  # k = 1: F starts at zero and rises
+        return x, abscissa, 1.0
+    return x, abscissa, b * abscissa + g * height - level
+
+
+@kernel()
+def survey_between(
+    table: Any, curve: Curve, level: float, i: int, inner: Edge, outer: Edge
+) -> tuple[int, float, float, float]:
     """Return what stands on arch i: 0, 1 (F rises through 0), -1 (falls) or 2 folds, and where to look for them.
 
-    The places are the inner edge, a point at which F has the other sign (2 folds only), and the outer edge. Where there
-    is no fold but nearly a pair, they are that of the extremum and what is missing to it, in parts of the terms of F.
+    Its two edges are given. The places are the inner edge, a point at which F has the other sign (2 folds only), and
+    the outer edge. Where there is no fold but nearly a pair, they are that of the extremum and what is missing to it,
+    in parts of the terms of F.
     """
     b, g, _ = curve
-    low, low_abscissa, height = inner_edge(table, i)
-    first = b * low_abscissa + g * height - level
-    high, high_abscissa, height = inner_edge(table, i + 1)
-    last = b * high_abscissa + g * height - level
-    if i == 0 and level == 0.0:  # k = 1: F starts at zero and rises
-        first = 1.0
+    low, low_abscissa, first = inner
+    high, high_abscissa, last = outer
     if first < 0.0 <= last:
         return 1, low, high, high
     if last < 0.0 <= first:
@@ -162,6 +176,13 @@ def survey_arch(table: Any, curve: Curve, level: float, i: int) -> tuple[int, fl
 
 
 @kernel()
+def survey_arch(table: Any, curve: Curve, level: float, i: int) -> tuple[int, float, float, float]:
+    """Return what `survey_between` does, from the number of the arch alone."""
+    inner, outer = edge_of(table, curve, level, i), edge_of(table, curve, level, i + 1)
+    return survey_between(table, curve, level, i, inner, outer)
+
+
+@kernel()
 def fold_of_arch(
     table: Any,
     curve: Curve,
@@ -170,10 +191,11 @@ def fold_of_arch(
     survey: tuple[int, float, float, float],
     rising: bool,
     guess: float,
+    last_step: float = LAST_STEP,
 ) -> tuple[float, float]:
     """Return where D rises (or falls) through zero on an arch, as its survey told, and the depth there.
 
-    A `guess` that cannot be right is replaced by a better one.
+    A `guess` that cannot be right is replaced by a better one. The `last_step` is that of `find_zero`.
     """
     kind, low, peak, high = survey
     outer = rising != (i % 2 == 0)
@@ -183,7 +205,7 @@ def fold_of_arch(
         high = peak
     if not low < guess < high:
         guess = guess_zero(table, curve, level, i, peak, outer)
-    return find_zero(table, curve, level, low, high, rising, guess)
+    return find_zero(table, curve, level, low, high, rising, guess, last_step)
 
 
 @kernel(contract=True)

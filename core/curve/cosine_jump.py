@@ -24,10 +24,12 @@ import numpy as np
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve.cosine import Curve, wave
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
+from gradhesion.core.struve.intrinsics import make_horner
+from gradhesion.core.struve.lanes import Lanes, load, size_of, sum_of
 from gradhesion.core.struve.layout import STRETCH_TERMS, SWITCH, TAIL_TERMS
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.pair import horner8
-from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.struve.power import amplitude_power, amplitude_powers
 
 
 def gauss_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
@@ -36,10 +38,11 @@ def gauss_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
     return places, 0.5 * weights
 
 
+_horner_of_slow = make_horner(2, TAIL_TERMS)
 NODES, WEIGHTS = gauss_rule(8)
-ENOUGH: Final = 0.1
+ENOUGH: Final = 0.03
 """Of the size of its terms: a smaller energy is left to quadrature, which loses no digits."""
-_REACH: Final = 0.1
+REACH: Final = 0.1
 """Half a jump over its middle, for which 8 nodes, and the series of z^(-c) in the table, leave 1e-16."""
 _NEAR: Final = 0.15
 """The same where powers are not expanded; over longer jumps the smooth integral is taken in closed form."""
@@ -62,75 +65,101 @@ def _oscillating(table: Any, curve: Curve, x: float, z: float, power: float) -> 
 
 
 @kernel(contract=True)
-def _height(table: Any, z: float) -> float:
-    """Return h at z >= 40."""
-    w = SWITCH / z
-    t = 2.0 * (w * w) - 1.0
-    total = table.slow_tail[TAIL_TERMS - 1, 0]
-    for j in range(TAIL_TERMS - 2, -1, -1):
-        total = total * t + table.slow_tail[j, 0]
-    return total
-
-
-@kernel(contract=True)
-def _slow(table: Any, curve: Curve, z1: float, stretch: float, wave1: float, dz: float, rule: Any, work: Any) -> float:
-    """Integrate the smooth part of the second form from z1, where z^c and z S0 are given, to z1 + dz.
-
-    It is rho_s - 1 that is computed: in 1 - rho_s it would lose 1/chi. The loop is written so that all nodes are worked
-    on at once; powers are (1 + eta)^(-c), for a half panel eta = -ratio at z1.
-    """
-    b, g, _ = curve
-    nodes, weights = rule
-    middle = z1 + 0.5 * dz
-    ratio = 0.5 * dz / middle
-    strength = 0.5 * (g * table.amplitude) * (g * table.amplitude)
-    tail, series = table.slow_tail, table.inverse_stretch
-    left = 0.0
+def _front(table: Any, ratio: float) -> tuple[float, float]:
+    """Return (1 - ratio)^(-c) - 1, the power at the first end over that at the middle, and 1 over that ratio."""
+    series = table.inverse_stretch
+    left = 0.0 * ratio
     for j in range(STRETCH_TERMS - 1, 0, -1):
         left = ratio * (left - series[j] if j % 2 == 1 else left + series[j])
-    front = 1.0 / (1.0 + left)
-    other = front / stretch
-    for i in range(nodes.size):
-        eta = ratio * nodes[i]
-        z = middle + middle * eta
-        w = SWITCH / z
-        t = 2.0 * (w * w) - 1.0
-        height, square = tail[TAIL_TERMS - 1, 0], tail[TAIL_TERMS - 1, 1]
-        for j in range(TAIL_TERMS - 2, -1, -1):
-            height = height * t + tail[j, 0]
-            square = square * t + tail[j, 1]
-        eta2 = eta * eta
-        odd, even = series[STRETCH_TERMS - 2], series[STRETCH_TERMS - 1]
-        for j in range(STRETCH_TERMS - 4, 0, -2):
-            odd = odd * eta2 + series[j]
-            even = even * eta2 + series[j + 1]
-        power = eta * (odd + eta * even)
-        beyond = 0.5 * dz * (1.0 + nodes[i])
-        rise = 0.5 * b * (z + z1) * beyond + g * (height - wave1)
-        excess = (1.0 + power) * (other * rise) + front * (power - left)
-        work[i] = weights[i] * z * (-excess * (2.0 + excess) - strength * square)
-    total = 0.0
-    for i in range(nodes.size):
-        total += work[i]
-    return total * dz
+    return left, 1.0 / (1.0 + left)
 
 
 @kernel(contract=True)
-def _beyond(table: Any, curve: Curve, start: float, end: float, work: Any) -> tuple[float, float]:
-    """Return e, and the size of its terms, where both ends lie at z >= 40 and not too far from each other."""
+def _slow(
+    table: Any,
+    curve: Curve,
+    z1: float,
+    stretch: float,
+    wave1: float,
+    dz: float,
+    ratio: float,
+    front: tuple[float, float],
+    node: float,
+) -> float:
+    """Return the smooth part of the second form at a node from -1 to 1 of the way from z1 to z1 + dz.
+
+    z1^c and z S0 at z1 are given, and half of dz over the middle. It is rho_s - 1 that is computed: in 1 - rho_s it
+    would lose 1/chi. Powers are (1 + eta)^(-c), for a half panel eta = -ratio at z1. Ends and node are numbers, or one
+    of both is eight (struve/lanes.py).
+    """
+    b, g, _ = curve
+    left, start = front
+    strength = 0.5 * (g * table.amplitude) * (g * table.amplitude)
+    series = table.inverse_stretch
+    eta = ratio * node
+    z = (z1 + 0.5 * dz) * (1.0 + eta)
+    w = SWITCH / z
+    height, square = _horner_of_slow(table.slow_tail, 2.0 * (w * w) - 1.0)
+    eta2 = eta * eta
+    odd, even = (
+        series[STRETCH_TERMS - 4] + eta2 * series[STRETCH_TERMS - 2],
+        series[STRETCH_TERMS - 3] + eta2 * series[STRETCH_TERMS - 1],
+    )
+    for j in range(STRETCH_TERMS - 6, 0, -2):
+        odd = odd * eta2 + series[j]
+        even = even * eta2 + series[j + 1]
+    power = eta * (odd + eta * even)
+    rise = 0.25 * b * (z + z1) * (dz * (1.0 + node)) + g * (height - wave1)
+    excess = (1.0 + power) * ((start / stretch) * rise) + start * (power - left)
+    return z * (-excess * (2.0 + excess) - strength * square)
+
+
+@kernel(contract=True)
+def _ends(
+    table: Any, curve: Curve, start: float, end: float, power1: float, power2: float
+) -> tuple[float, float, float, float]:
+    """Return what the bracket of the second form is at the two ends, and z^c and z S0 at the first."""
     b, g, _ = curve
     z1, z2, dz = TWO_PI * start, TWO_PI * end, TWO_PI * (end - start)
-    power1, power2 = amplitude_power(table, z1), amplitude_power(table, z2)
     wave0, wave1, braces1 = _oscillating(table, curve, start, z1, power1)
     _, wave2, braces2 = _oscillating(table, curve, end, z2, power2)
-    wave0 += _height(table, z1)
+    w = SWITCH / z1
+    height, _ = _horner_of_slow(table.slow_tail, 2.0 * (w * w) - 1.0)
+    wave0 = wave0 + height
     stretch = z1 * power1
     q1 = stretch - g * wave0
     q2 = q1 + 0.5 * b * (z1 + z2) * dz
     first = (2.0 * q1 * wave1 + braces1) / (power1 * power1)
     last = (2.0 * q2 * wave2 + braces2) / (power2 * power2)
-    smooth = _slow(table, curve, z1, stretch, wave0, dz, (NODES, WEIGHTS), work)
-    return smooth - g * (last - first), g * (abs(last) + abs(first))
+    return first, last, stretch, wave0
+
+
+@kernel(contract=True)
+def _beyond(table: Any, curve: Curve, start: float, end: float) -> tuple[float, float]:
+    """Return e, and the size of its terms, where both ends lie at z >= 40 and not too far from each other."""
+    _, g, _ = curve
+    z1, dz = TWO_PI * start, TWO_PI * (end - start)
+    power1, power2 = amplitude_power(table, z1), amplitude_power(table, TWO_PI * end)
+    first, last, stretch, wave1 = _ends(table, curve, start, end, power1, power2)
+    ratio = 0.5 * dz / (z1 + 0.5 * dz)
+    front = _front(table, ratio)
+    smooth = sum_of(load(WEIGHTS, 0) * _slow(table, curve, z1, stretch, wave1, dz, ratio, front, load(NODES, 0)))
+    return smooth * dz - g * (last - first), g * (abs(last) + abs(first))
+
+
+@kernel(contract=True)
+def beyond_at_once(table: Any, curve: Curve, start: Lanes, end: Lanes) -> tuple[Lanes, Lanes]:
+    """Return what `energy_between` does for eight jumps with both ends beyond z = 40, each within REACH."""
+    _, g, _ = curve
+    z1, dz = TWO_PI * start, TWO_PI * (end - start)
+    power1, power2 = amplitude_powers(table, z1), amplitude_powers(table, TWO_PI * end)
+    first, last, stretch, wave1 = _ends(table, curve, start, end, power1, power2)
+    ratio = 0.5 * dz / (z1 + 0.5 * dz)
+    front = _front(table, ratio)
+    smooth = 0.0 * dz
+    for i in range(NODES.size):
+        smooth = smooth + WEIGHTS[i] * _slow(table, curve, z1, stretch, wave1, dz, ratio, front, NODES[i])
+    return smooth * dz - g * (last - first), g * (size_of(last) + size_of(first))
 
 
 @kernel(contract=True)
@@ -167,16 +196,16 @@ def _anywhere(table: Any, curve: Curve, start: float, end: float) -> tuple[float
 
 
 @kernel()
-def energy_between(table: Any, curve: Curve, start: float, end: float, work: Any) -> tuple[float, float]:
+def energy_between(table: Any, curve: Curve, start: float, end: float) -> tuple[float, float]:
     """Return e of a jump from x = start > 0 on the curve to x = end > 0, and the size of the terms it is made of.
 
-    The size is infinite where neither form serves. `work` has room for 8 floats.
+    The size is infinite where neither form serves.
     """
     _, _, lag = curve
     if TWO_PI * min(start, end) >= SWITCH:
-        if abs(end - start) > _REACH * (start + end):
+        if abs(end - start) > REACH * (start + end):
             return 0.0, math.inf
-        return _beyond(table, curve, start, end, work)
+        return _beyond(table, curve, start, end)
     if lag != 0.0:
         return 0.0, math.inf
     return _anywhere(table, curve, start, end)

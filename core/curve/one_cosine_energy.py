@@ -12,8 +12,6 @@ belong to the coordinate at z,
     e = e_depth(0 -> z) - beta P^2/((1+k) alpha)
 """
 
-from typing import Any
-
 from gradhesion.core._jit import NO, kernel
 from gradhesion.core.curve.arches import one_cosine
 from gradhesion.core.curve.cosine import wave
@@ -23,16 +21,13 @@ from gradhesion.core.curve.general import Basis, Curve
 
 
 @kernel(contract=True)
-def jump_of_one_cosine(basis: Basis, curve: Curve, start: float, end: float, work: Any) -> tuple[bool, float]:
-    """Return whether the formula serves, and e of a jump from x = start > 0 on the curve to x = end > 0.
-
-    `work` has room for 8 floats.
-    """
+def jump_of_one_cosine(basis: Basis, curve: Curve, start: float, end: float) -> tuple[bool, float]:
+    """Return whether the formula serves, and e of a jump from x = start > 0 on the curve to x = end > 0."""
     table, _, series = basis
     _, _, _, alpha, beta = curve
     k = table.k
     own = one_cosine(series, curve)
-    energy, size = energy_between(table, own, start, end, work)
+    energy, size = energy_between(table, own, start, end)
     if beta > 0.0:
         b, g, _ = own
         z1, power1, s0, s1, _, _, _ = wave(table, 0.0, start)

@@ -6,13 +6,14 @@ tuple with its wave, which needs no table. Numba knows the length of each when i
 trace has the rows of curve/branches.py for all; its "depths" are the coordinates Y of a general curve.
 """
 
+import math
 from typing import Any
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve import short_wave as asymptotic
 from gradhesion.core.curve.arches import is_one_cosine
 from gradhesion.core.curve.branches import ends, find_depth
-from gradhesion.core.curve.cosine import depth_size
+from gradhesion.core.curve.cosine import depth_size, most_depth_size
 from gradhesion.core.curve.cosine import slope as cosine_slope
 from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
 from gradhesion.core.curve.general import size, slope, state
@@ -41,7 +42,7 @@ def loss_between(table: Any, curve: Any, start: float, end: float, work: Any) ->
     if len(curve) == 1:
         return loss_of_jump(curve[0], asymptotic.depth(curve[0], start), start, end)
     if is_one_cosine(table[2], curve[1]) and end > 0.0:
-        served, energy = jump_of_one_cosine(table, curve, start, end, work)
+        served, energy = jump_of_one_cosine(table, curve, start, end)
         if served:
             return energy
     return jump_between(table, curve, start, end, 0.0)
@@ -85,6 +86,14 @@ def size_at(table: Any, curve: Any, x: float) -> float:
     if len(curve) == 3:
         return depth_size(table, curve, x)
     return size(table, curve, x, 0.0)
+
+
+@kernel()
+def most_size_at(table: Any, curve: Any, x: float) -> float:
+    """Return a bound of that size: without a power where there is one."""
+    if len(curve) == 3:
+        return most_depth_size(table, curve, x)
+    return math.inf
 
 
 @kernel()

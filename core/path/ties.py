@@ -15,7 +15,7 @@ neighbours stand apart by a wave. Where loading enters them, and unloading leave
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import NO, NONE, YES, kernel
+from gradhesion.core._jit import NO, NONE, kernel
 from gradhesion.core.curve.branches import (
     CALLER,
     END,
@@ -30,7 +30,7 @@ from gradhesion.core.curve.branches import (
     branch_within,
 )
 from gradhesion.core.curve.cosine_folds import CLOSE
-from gradhesion.core.path.passage import fold_at, size_at
+from gradhesion.core.path.passage import fold_at, most_size_at, size_at
 from gradhesion.core.struve.circle import TWO_PI
 
 PAIR: Final = 8.0 * CLOSE
@@ -41,6 +41,12 @@ PAIR: Final = 8.0 * CLOSE
 def tolerance(table: Any, curve: Any, x: float) -> float:
     """Return CLOSE times the size of the terms of the coordinate at x."""
     return CLOSE * size_at(table, curve, x)
+
+
+@kernel()
+def _is_within(table: Any, curve: Any, difference: float, x: float) -> bool:
+    """Return whether a difference of coordinates is within the tolerance at x, which is seldom worth its power."""
+    return difference <= CLOSE * most_size_at(table, curve, x) and difference <= tolerance(table, curve, x)
 
 
 @kernel()
@@ -67,7 +73,7 @@ def note_loading_from(table: Any, curve: Any, first: int, count: int, trace: Any
         highest, close = trace[HIGHEST, first - 1], trace[LOADING_IS_CLOSE, first - 1]
     for branch in range(first, count):
         top, end = trace[END_DEPTH, branch], trace[END, branch]
-        if end < furthest and abs(top - highest) <= tolerance(table, curve, end):
+        if end < furthest and _is_within(table, curve, abs(top - highest), end):
             close = 1.0
         highest = max(highest, top)
         trace[HIGHEST, branch], trace[LOADING_IS_CLOSE, branch] = highest, close
@@ -92,17 +98,14 @@ def scan_inwards(table: Any, curve: Any, trace: Any, branch: int, level: float, 
 
     The level is that of the curve at `place`.
     """
-    close = NO
-    if branch >= 0:
-        enough = tolerance(table, curve, place)
-        while branch >= 0:
-            bottom = trace[START_DEPTH, branch]
-            if abs(bottom - level) <= enough:
-                close = YES
-            if bottom < level:
-                break
-            branch -= 1
-    return close, branch
+    nearest = math.inf
+    while branch >= 0:
+        bottom = trace[START_DEPTH, branch]
+        nearest = min(nearest, abs(bottom - level))
+        if bottom < level:
+            break
+        branch -= 1
+    return nearest < math.inf and _is_within(table, curve, nearest, place), branch
 
 
 @kernel()

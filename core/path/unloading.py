@@ -8,11 +8,10 @@ in the depth at which contact ends.
 
 from typing import Any
 
-from gradhesion.core._jit import kernel
+from gradhesion.core._jit import NO, kernel
 from gradhesion.core.curve.branches import (
     CALLER,
     END,
-    LANDING,
     LAST_DEPTH,
     NEXT,
     START,
@@ -22,6 +21,7 @@ from gradhesion.core.curve.branches import (
     WORK,
     branch_within,
 )
+from gradhesion.core.path.jumps import add, finish, nobody
 from gradhesion.core.path.passage import depth_at, find_place, loss_between, loss_to_zero
 
 
@@ -42,7 +42,7 @@ def next_lower(trace: Any, branch: int, level: float) -> int:
 @kernel()
 def descend(table: Any, curve: Any, trace: Any, branch: int, losses: bool) -> None:
     """Complete where unloading goes from the start of a branch on, and what it loses, for all that it visits."""
-    now = branch
+    now, waiting = branch, nobody()
     while trace[UNLOADING_JUMPS, now] < 0.0:  # inwards to where it is known, or to the end of contact
         start, level = trace[START, now], trace[START_DEPTH, now]
         lower = next_lower(trace, now - 1, level)
@@ -53,14 +53,13 @@ def descend(table: Any, curve: Any, trace: Any, branch: int, losses: bool) -> No
             loss = loss_to_zero(table, curve, start, level) if losses else 0.0
             leave(trace, now, loss, 1.0, depth_at(table, curve, start, level))
         else:
+            waiting = add(table, curve, trace, waiting, now, lower, NO, losses)
             trace[CALLER, lower] = now
             now = lower
+    finish(table, curve, trace, waiting, NO, losses)
     while now != branch:  # and back
         outer = int(trace[CALLER, now])
-        loss = trace[UNLOADING_LOSS, now]
-        trace[LANDING, outer] = find_place(table, curve, trace[START_DEPTH, outer], trace, now)
-        if losses:
-            loss += loss_between(table, curve, trace[START, outer], trace[LANDING, outer], trace[WORK])
+        loss = trace[UNLOADING_LOSS, now] + trace[UNLOADING_LOSS, outer]
         leave(trace, outer, loss, trace[UNLOADING_JUMPS, now] + 1.0, trace[LAST_DEPTH, now])
         now = outer
 

@@ -7,7 +7,7 @@ quarter turn first, which is exact in floating point.
 from typing import Final
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.struve.intrinsics import bits_of, float_of, fma
+from gradhesion.core.struve.intrinsics import fma, turned, zero_from
 
 TWO_PI: Final = 6.283185307179586
 TWO_PI_LOW: Final = 2.4492935982947064e-16
@@ -21,14 +21,12 @@ _ROUND: Final = 6755399441055744.0
 def _sine_cosine(r: float) -> tuple[float, float]:
     """Return sin r and cos r for |r| <= pi/4 (polynomials of least maximal error, 0.6 ulp)."""
     u = r * r
-    s = 1.591810123027412e-10
-    s = s * u - 2.5051131455427946e-08
+    s = 1.591810123027412e-10 * u - 2.5051131455427946e-08
     s = s * u + 2.755731610068303e-06
     s = s * u - 0.0001984126983674977
     s = s * u + 0.008333333333330946
     s = s * u - 0.16666666666666666
-    c = -1.1382614868556325e-11
-    c = c * u + 2.0876146024689747e-09
+    c = -1.1382614868556325e-11 * u + 2.0876146024689747e-09
     c = c * u - 2.7557317270560326e-07
     c = c * u + 2.4801587298763433e-05
     c = c * u - 0.0013888888888887395
@@ -38,13 +36,12 @@ def _sine_cosine(r: float) -> tuple[float, float]:
 
 @kernel(contract=True)
 def sine_cosine_of_turns(x: float) -> tuple[float, float]:
-    """Return sin(2 pi x) and cos(2 pi x) for 0 <= x < 2^49; beyond, x tells no phase, and 0 stands for it."""
-    x = x - x if x >= _PHASELESS else x
+    """Return sin(2 pi x) and cos(2 pi x) for 0 <= x < 2^49; beyond, x tells no phase, and 0 stands for it.
+
+    x is a number or eight (lanes.py).
+    """
+    x = zero_from(x, _PHASELESS)
     quarters = 4.0 * x + _ROUND
-    n = bits_of(quarters)
-    rest = fma(-0.25, quarters - _ROUND, x)  # exact
+    rest = fma(quarters - _ROUND, -0.25, x)  # exact
     s, c = _sine_cosine(fma(rest, TWO_PI_LOW, rest * TWO_PI))
-    odd = (n & 1) != 0
-    sine = c if odd else s
-    cosine = s if odd else c
-    return float_of(bits_of(sine) ^ ((n & 2) << 62)), float_of(bits_of(cosine) ^ (((n + 1) & 2) << 62))
+    return turned(s, c, quarters)

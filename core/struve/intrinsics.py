@@ -1,6 +1,7 @@
 """Machine operations that numba does not offer.
 
-A fused multiply-add, the bits of a float and back, and Horner's rule on several polynomials at once.
+A fused multiply-add, the bits of a float and back, quarter turns, and Horner's rule on several polynomials at once, of
+one number or of eight (lanes.py).
 Several polynomials of one argument cost as little as one when each step is a single vector operation; that is what
 makes the four functions S0, S1, S0', S1' as cheap as one of them.
 """
@@ -12,6 +13,8 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
+from gradhesion.core.struve.lanes import LANES, LANES_TYPE, VECTOR, spread
+
 _DOUBLE = ir.DoubleType()
 _INTEGER = ir.IntType(64)
 
@@ -19,12 +22,57 @@ _INTEGER = ir.IntType(64)
 @intrinsic
 def fma(typingctx: Any, a: Any, b: Any, c: Any) -> Any:
     """Return a * b + c, rounded once."""
+    wide = LANES_TYPE in (a, b, c)
+    number, name = (VECTOR, f"llvm.fma.v{LANES}f64") if wide else (_DOUBLE, "llvm.fma.f64")
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        kind = ir.FunctionType(_DOUBLE, [_DOUBLE] * 3)
-        return builder.call(cgutils.get_or_insert_function(builder.module, kind, "llvm.fma.f64"), arguments)
+        if wide:
+            given = zip(arguments, signature.args, strict=True)
+            arguments = [value if kind == LANES_TYPE else spread(builder, value) for value, kind in given]
+        kind = ir.FunctionType(number, [number] * 3)
+        return builder.call(cgutils.get_or_insert_function(builder.module, kind, name), arguments)
 
-    return types.float64(types.float64, types.float64, types.float64), generate
+    own = [kind if kind == LANES_TYPE else types.float64 for kind in (a, b, c)]
+    return (LANES_TYPE if wide else types.float64)(*own), generate
+
+
+@intrinsic
+def turned(typingctx: Any, sine: Any, cosine: Any, quarters: Any) -> Any:
+    """Return sine and cosine of an angle some quarter turns further on; these stand in the last bits of `quarters`."""
+    lanes = LANES if sine == LANES_TYPE else 1
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        sine, cosine, quarters = arguments
+        real = sine.type
+        whole = ir.VectorType(_INTEGER, lanes) if lanes > 1 else _INTEGER
+        number = builder.bitcast(quarters, whole)
+
+        def constant(value: int) -> Any:
+            return ir.Constant(whole, [value] * lanes if lanes > 1 else value)
+
+        def flipped(value: Any, number: Any) -> Any:
+            sign = builder.shl(builder.and_(number, constant(2)), constant(62))
+            return builder.bitcast(builder.xor(builder.bitcast(value, whole), sign), real)
+
+        odd = builder.icmp_unsigned("!=", builder.and_(number, constant(1)), constant(0))
+        first, second = builder.select(odd, cosine, sine), builder.select(odd, sine, cosine)
+        pair = [flipped(first, number), flipped(second, builder.add(number, constant(1)))]
+        return cgutils.pack_array(builder, pair)
+
+    return types.UniTuple(sine, 2)(sine, sine, sine), generate
+
+
+@intrinsic
+def zero_from(typingctx: Any, value: Any, bound: Any) -> Any:
+    """Return what is below a bound, 0 for what is not, and NaN for infinity."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        value, bound = arguments
+        bound = spread(builder, bound) if signature.args[0] == LANES_TYPE else bound
+        below = builder.fcmp_unordered("<", value, bound)
+        return builder.select(below, value, builder.fsub(value, value))
+
+    return value(value, types.float64), generate
 
 
 @intrinsic
@@ -60,32 +108,43 @@ def numbers_at(typingctx: Any, address: Any) -> Any:
 def make_horner(lanes: int, terms: int) -> Any:
     """Make `horner(coefficients, t)`: the values of `lanes` polynomials, `terms` coefficients each, at t.
 
-    `coefficients` is a C-contiguous float64 array whose item `[j, lane]` belongs to t**j.
+    `coefficients` is a C-contiguous float64 array whose item `[j, lane]` belongs to t**j; t is a number or eight.
     """
 
     @intrinsic
     def horner(typingctx: Any, coefficients: Any, t: Any) -> Any:
+        wide = t == LANES_TYPE
+
         def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-            vector = ir.VectorType(_DOUBLE, lanes)
-            undefined = ir.Constant(vector, ir.Undefined)
+            vector = VECTOR if wide else ir.VectorType(_DOUBLE, lanes)
             first = context.make_array(signature.args[0])(context, builder, arguments[0]).data
+            kind = ir.FunctionType(vector, [vector] * 3)
+            name = f"llvm.fmuladd.v{vector.count}f64"
+            multiply_add = cgutils.get_or_insert_function(builder.module, kind, name)
+
+            def coefficient(j: int, lane: int) -> Any:
+                place = builder.gep(first, [ir.Constant(_INTEGER, j * lanes + lane)])
+                if wide:
+                    return spread(builder, builder.load(place))
+                return builder.load(builder.bitcast(place, vector.as_pointer()), align=8)
+
+            def summed(argument: Any, lane: int) -> Any:
+                value = coefficient(terms - 1, lane)
+                for j in range(terms - 2, -1, -1):
+                    value = builder.call(multiply_add, [value, argument, coefficient(j, lane)])
+                return value
+
+            if wide:
+                return cgutils.pack_array(builder, [summed(arguments[1], lane) for lane in range(lanes)])
+            undefined = ir.Constant(vector, ir.Undefined)
             single = builder.insert_element(undefined, arguments[1], ir.Constant(ir.IntType(32), 0))
             zeros = ir.Constant(ir.VectorType(ir.IntType(32), lanes), [0] * lanes)
-            argument = builder.shuffle_vector(single, undefined, zeros)
-            kind = ir.FunctionType(vector, [vector] * 3)
-            multiply_add = cgutils.get_or_insert_function(builder.module, kind, f"llvm.fmuladd.v{lanes}f64")
-
-            def coefficient(j: int) -> Any:
-                row = builder.gep(first, [ir.Constant(_INTEGER, j * lanes)])
-                return builder.load(builder.bitcast(row, vector.as_pointer()), align=8)
-
-            value = coefficient(terms - 1)
-            for j in range(terms - 2, -1, -1):
-                value = builder.call(multiply_add, [value, argument, coefficient(j)])
+            value = summed(builder.shuffle_vector(single, undefined, zeros), 0)
             items = [builder.extract_element(value, ir.Constant(ir.IntType(32), lane)) for lane in range(lanes)]
             return cgutils.pack_array(builder, items)
 
-        return types.UniTuple(types.float64, lanes)(coefficients, types.float64), generate
+        number = LANES_TYPE if wide else types.float64
+        return types.UniTuple(number, lanes)(coefficients, number), generate
 
     return horner
 

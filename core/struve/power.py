@@ -9,6 +9,7 @@ from typing import Any, Final
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.struve.intrinsics import bits_of, float_of, fma
+from gradhesion.core.struve.lanes import LANES, Lanes, lane_of, with_lane
 from gradhesion.core.struve.layout import EXPONENT_SPAN, MANTISSA_BITS, POWER_TERMS
 
 _MANTISSA: Final = (1 << 52) - 1
@@ -65,3 +66,12 @@ def amplitude_power(table: Any, z: float) -> float:
     t2 = t * t
     value = (c[0] + c[1] * t) + t2 * ((c[2] + c[3] * t) + t2 * ((c[4] + c[5] * t) + t2 * c[6]))
     return value * table.power_exponent[(bits >> 52) - 1023 + EXPONENT_SPAN]
+
+
+@kernel()
+def amplitude_powers(table: Any, z: Lanes) -> Lanes:
+    """Return the powers of eight z."""
+    powers = z
+    for lane in range(LANES):
+        powers = with_lane(powers, lane, amplitude_power(table, lane_of(z, lane)))
+    return powers

@@ -54,7 +54,7 @@ def test_against_quadrature(
     table = table_of(k)
     for chi, share in ((0.02, 0.3), (0.4, 0.9), (1.5, 0.1)):
         curve = _curve(k, start, chi, share, float(table["amplitude"]))
-        energy, size = energy_between(table, curve, start, end, WORK)
+        energy, size = energy_between(table, curve, start, end)
         with mpmath.workdps(20):
             exact = _exact(k, curve, start, end, slow_pair)
         # two ends of ten terms, each of at most the size, and a sum of nodes of the size of z
@@ -71,7 +71,7 @@ def test_against_panels(k: float, table_of: Callable[[float], Any]) -> None:
         start = 10.0 ** rng.uniform(-1, 4)
         end = max(0.05, start + rng.uniform(-1.2, 1.2))
         curve = _curve(k, start, 10.0 ** rng.uniform(-2, 0.3), rng.uniform(0, 1), float(table["amplitude"]))
-        energy, size = energy_between(table, curve, start, end, WORK)
+        energy, size = energy_between(table, curve, start, end)
         if abs(energy) < 0.01 * size:
             continue
         kept += 1
@@ -87,18 +87,18 @@ def test_long_ways_are_those_by_way_of_zero_contact(k: float, table_of: Callable
         curve = _curve(k, start, 0.7, 0.3, float(table["amplitude"]))
         level = depth(table, curve, start)
         whole = energy_from_zero(table, curve, end, level) - energy_from_zero(table, curve, start, level)
-        energy, size = energy_between(table, curve, start, end, WORK)
+        energy, size = energy_between(table, curve, start, end)
         assert abs(energy - whole) <= 20 * EPS * size
 
 
 def test_no_way_costs_nothing(table_of: Callable[[float], Any]) -> None:
     for x in (0.2, 5.0, 7.1, 300.0):
-        energy, size = energy_between(table_of(0.41), (0.003, 0.9, 0.0), x, x, WORK)
+        energy, size = energy_between(table_of(0.41), (0.003, 0.9, 0.0), x, x)
         assert abs(energy) <= 2 * EPS * size
 
 
 def test_no_size_is_known_of_too_long_a_jump(table_of: Callable[[float], Any]) -> None:
-    _, size = energy_between(table_of(0.41), (0.003, 0.9, 0.0), 7.0, 9.0, WORK)
+    _, size = energy_between(table_of(0.41), (0.003, 0.9, 0.0), 7.0, 9.0)
     assert size == np.inf
-    _, size = energy_between(table_of(0.41), (0.003, 0.9, 0.2), 6.0, 6.2, WORK)
+    _, size = energy_between(table_of(0.41), (0.003, 0.9, 0.2), 6.0, 6.2)
     assert size == np.inf

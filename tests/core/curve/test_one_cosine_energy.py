@@ -41,7 +41,7 @@ def test_jumps(k: float, share: float) -> None:
         start = 10.0 ** rng.uniform(-0.7, 1.7)
         end = max(0.1, start + rng.uniform(-1.0, 1.0))
         curve = _curve(basis, start, 10.0 ** rng.uniform(-1.5, 0.2), rng.uniform(0.2, 3), share)
-        serves, energy = jump_of_one_cosine(basis, curve, start, end, WORK)
+        serves, energy = jump_of_one_cosine(basis, curve, start, end)
         if serves:
             served += 1
             expected = jump_energy(basis, curve, start, end, 0.0)
