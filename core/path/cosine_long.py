@@ -67,6 +67,7 @@ _MOST_NEAR_RIM: Final = 2.0e13
 _ORDERED: Final = 20.0
 """Times the square of what rounding leaves of a phase, below which neighbours need not be in order (is_told)."""
 _HALVINGS: Final = 200
+_NEWTON_STEPS: Final = 8
 _NEAR_WAVE: Final = 0.3
 """Last step of Newton's method, in z, in search of a wave."""
 NEAR, BEFORE, LAST_UP, FIRST_CLOSE, ENTRY, ENTRY_PLACE, ENTRY_LOSS, ENTRY_JUMPS = 0, 1, 2, 3, 4, 5, 6, 7
@@ -111,8 +112,10 @@ def first_wave_above(
     """
     b, g, _ = curve
     stretch = 1.0 - g * table.amplitude
-    z = math.sqrt(2.0 * (max(level - g, 0.0) + max(stretch, 0.0)) / b) + TWO_PI * low
-    for _ in range(8):
+    # beyond it: Newton's method comes down to it from there
+    z = math.sqrt(2.0 * max(level - g, 0.0) / b) + (2.0 * max(stretch, 0.0) / b) ** (2.0 / (3.0 + table.k))
+    z = max(z, TWO_PI * low)
+    for _ in range(_NEWTON_STEPS):
         pull = stretch * z * amplitude_power(table, z)
         step = (0.5 * b * z * z - pull + g - level) / (b * z - 0.5 * (1.0 - table.k) * pull / z)
         z = max(z - step, TWO_PI * low)

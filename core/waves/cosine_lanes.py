@@ -19,7 +19,7 @@ from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.curve.cosine_energy import unit_rule
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.intrinsics import make_polynomials
-from gradhesion.core.struve.layout import SWITCH
+from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS
 from gradhesion.core.struve.pair import polynomials8
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.waves.cosine import LAST_LANDING, LAST_STEP, WIDE, jump_of_wave
@@ -65,12 +65,19 @@ ROOM: Final = _END
 _FIRST: Final = 8.5
 _BETWEEN: Final = 0.875
 """Waves from the centre of a wave to the middle of all places on its jump."""
+_slow_tail = make_polynomials(2, TAIL_TERMS)
 _inverse_series = make_polynomials(1, 12, 1)
 """Of ((1 + e)^(-c) - 1)/e for |e| < 0.08, five eighths of a wave over its place: 2e-16 is left."""
 _FOLD_STEPS: Final = 3
 _LANDING_STEPS: Final = 5
+_FEW_NODES, _FEW_WEIGHTS = unit_rule(6)
+"""Of the smooth part of a jump, which is no longer than a ninth of its place: 1e-16 is left."""
+_SHORT: Final = 0.55
+_SHORT_NODES, _SHORT_WEIGHTS = unit_rule(11)
 _NODES, _WEIGHTS = unit_rule(14)
-"""A jump to the next wave is no longer than a wave: 1e-14 of a term cos 2 z is left."""
+"""Of jumps of so many waves, and of a wave: 1e-15 of a term cos 2 z is left."""
+_ENOUGH: Final = 0.1
+"""Of the size of its terms: a smaller loss is left to the nodes, which lose no digits."""
 
 
 @kernel()
@@ -272,7 +279,100 @@ def _land(table: Any, curve: Curve, middle: float, room: Any) -> None:
 
 
 @kernel(contract=True)
-def _integrate(table: Any, curve: Curve, middle: float, room: Any) -> None:
+def _put_brackets(table: Any, curve: Curve, middle: float, room: Any) -> None:
+    """Put z, z S0, z^c, w1, the braces but for their term with q, and z^(-n) of the last places into their rows.
+
+    They are those of curve/cosine_jump.py.
+    """
+    b, g, _ = curve
+    k = table.k
+    cos_phase, sin_phase = table.cos_phase, table.sin_phase
+    for i in range(LANES):
+        x, z0 = room[_PLACE + i], room[_Z0 + i]
+        offset = TWO_PI * (x - middle)
+        z = z0 + offset
+        ratio = 1.0 + _inverse_stretch(table, offset / z0)
+        power = 1.0 / (ratio * z)
+        inverse, power = ratio * power, room[_STRETCH0 + i] * power
+        t = 2.0 * SWITCH * SWITCH * (inverse * inverse) - 1.0
+        p0, q0, p1, q1, even1, odd1, even2, odd2 = polynomials8(table.jump_tail, t)
+        height, _ = _slow_tail(table.slow_tail, t)
+        sine, cosine = sine_cosine_of_turns(x)
+        s = power * (sine * cos_phase - cosine * sin_phase)
+        c = power * (cosine * cos_phase + sine * sin_phase)
+        wave0 = z * (p0 * s + q0 * inverse * c)
+        wave1 = q1 * inverse * s - p1 * c
+        squares = (c * even1 - s * inverse * odd1) + z * (2.0 * s * c * even2 + (c * c - s * s) * inverse * odd2)
+        room[_Z + i], room[_WAVE + i], room[_STRETCH + i] = z, wave0 + height, z * power
+        room[_D + i] = wave1
+        room[_D1 + i] = 2.0 * b * (wave0 - (k + 2.0) * wave1) - g * squares
+        room[_D2 + i] = power
+
+
+@kernel(contract=True)
+def _begin_integral(table: Any, middle: float, room: Any) -> None:
+    """Put what does not change along a jump into rows.
+
+    Its width, that over z in its middle, z^(-c) there, and in parts of the stretch there what the one that is left has
+    more, less the wave and the level that are left.
+    """
+    for i in range(LANES):
+        width = room[_X + i] - room[_START + i]
+        offset = TWO_PI * (room[_START + i] + 0.5 * width - middle)
+        z = room[_Z0 + i] + offset
+        less = _inverse_stretch(table, TWO_PI * (room[_FROM + i] - (room[_START + i] + 0.5 * width)) / z)
+        inverse = (1.0 + _inverse_stretch(table, offset / room[_Z0 + i])) / room[_STRETCH0 + i]
+        room[_REST + i] = -less / (1.0 + less)
+        room[_D + i] = width
+        room[_D1 + i] = 0.5 * TWO_PI * width / z
+        room[_Z + i] = z
+        room[_STRETCH + i] = inverse
+        room[LOSSES + i] = 0.0
+
+
+@kernel(contract=True)
+def _by_form(table: Any, curve: Curve, middle: float, room: Any) -> None:
+    """Put what the jumps lose into their row, by the antiderivative of curve/cosine_jump.py.
+
+    What loses more than nine tenths of its digits is no longer good.
+    """
+    b, g, _ = curve
+    strength = 0.5 * (g * table.amplitude) * (g * table.amplitude)
+    for i in range(LANES):
+        room[_PLACE + i] = room[_START + i]
+    _put_brackets(table, curve, middle, room)
+    for i in range(LANES):
+        power, q = room[_D2 + i], room[_STRETCH + i] - g * room[_WAVE + i]
+        room[_FROM + i], room[_RISEN + i], room[_PLACE + i] = room[_START + i], 0.0, room[_X + i]
+        room[_Z1 + i], room[_WAVE1 + i] = room[_Z + i], room[_WAVE + i]
+        room[_LOW + i] = g * (2.0 * q * room[_D + i] + room[_D1 + i]) / (power * power)
+        room[_GAIN + i] = q
+    _put_brackets(table, curve, middle, room)
+    for i in range(LANES):
+        power, z, z1 = room[_D2 + i], room[_Z + i], room[_Z1 + i]
+        q = room[_GAIN + i] + 0.5 * b * (z + z1) * (TWO_PI * (room[_X + i] - room[_START + i]))
+        room[_HIGH + i] = g * (2.0 * q * room[_D + i] + room[_D1 + i]) / (power * power)
+    _begin_integral(table, middle, room)
+    for node in range(_FEW_NODES.size):
+        share, weight = _FEW_NODES[node], _FEW_WEIGHTS[node]
+        for i in range(LANES):
+            eta = room[_D1 + i] * (2.0 * share - 1.0)
+            less = _inverse_stretch(table, eta)
+            z = room[_Z + i] + room[_Z + i] * eta
+            inverse = 1.0 / z
+            height, square = _slow_tail(table.slow_tail, 2.0 * SWITCH * SWITCH * (inverse * inverse) - 1.0)
+            rise = 0.5 * b * (z + room[_Z1 + i]) * (TWO_PI * room[_D + i] * share) + g * (height - room[_WAVE1 + i])
+            slow = room[_STRETCH + i] * rise + room[_REST + i]
+            excess = (slow + less * slow) + less
+            room[LOSSES + i] += weight * z * (-excess * (2.0 + excess) - strength * square)
+    for i in range(LANES):
+        loss = TWO_PI * room[_D + i] * room[LOSSES + i] - (room[_HIGH + i] - room[_LOW + i])
+        room[LOSSES + i] = loss
+        room[_DONE + i] = 1.0 if _ENOUGH * (abs(room[_HIGH + i]) + abs(room[_LOW + i])) <= abs(loss) else 0.0
+
+
+@kernel(contract=True)
+def _by_nodes(table: Any, curve: Curve, middle: float, rule: tuple[Any, Any], room: Any) -> None:
     """Put what the jumps lose into their row: curve/cosine_energy.py's `panel_above`, with m for the middle of a jump.
 
     With (1 + eta)^(-c) = 1 + s it is (1 + s) [(depth_H - depth_j - stretch_m)/stretch_m] + s that is rho - 1, and in it
@@ -280,21 +380,10 @@ def _integrate(table: Any, curve: Curve, middle: float, room: Any) -> None:
     """
     b, g, _ = curve
     cos_phase, sin_phase, tail = table.cos_phase, table.sin_phase, table.tail
-    for i in range(LANES):
-        width = room[_X + i] - room[_START + i]
-        offset = TWO_PI * (room[_START + i] + 0.5 * width - middle)
-        z = room[_Z0 + i] + offset
-        less = _inverse_stretch(table, TWO_PI * (room[_FROM + i] - (room[_START + i] + 0.5 * width)) / z)
-        inverse = (1.0 + _inverse_stretch(table, offset / room[_Z0 + i])) / room[_STRETCH0 + i]
-        # what does not change along the jump: the stretch that is left less that in the middle, and the level
-        room[_GAIN + i] = -less / (1.0 + less) - inverse * (g * room[_WAVE1 + i] + room[_RISEN + i])
-        room[_D + i] = width
-        room[_D1 + i] = 0.5 * TWO_PI * width / z
-        room[_Z + i] = z
-        room[_STRETCH + i] = inverse
-        room[LOSSES + i] = 0.0
-    for node in range(_NODES.size):
-        share, weight = _NODES[node], _WEIGHTS[node]
+    nodes, weights = rule
+    _begin_integral(table, middle, room)
+    for node in range(nodes.size):
+        share, weight = nodes[node], weights[node]
         for i in range(LANES):
             eta = room[_D1 + i] * (2.0 * share - 1.0)
             less = _inverse_stretch(table, eta)
@@ -306,12 +395,21 @@ def _integrate(table: Any, curve: Curve, middle: float, room: Any) -> None:
             sine, cosine = sine_cosine_of_turns(x)
             s = sine * cos_phase - cosine * sin_phase
             c = cosine * cos_phase + sine * sin_phase
-            rise = 0.5 * b * (z + room[_Z1 + i]) * (TWO_PI * (x - room[_FROM + i])) + g * height
-            slow = room[_STRETCH + i] * rise + room[_GAIN + i]
+            rise = 0.5 * b * (z + room[_Z1 + i]) * (TWO_PI * (x - room[_FROM + i])) + g * (height - room[_WAVE1 + i])
+            slow = room[_STRETCH + i] * (rise - room[_RISEN + i]) + room[_REST + i]
             excess = (slow + less * slow) + less + g * (p * s + q * inverse * c)  # rho - 1
             room[LOSSES + i] += weight * z * (-excess * (2.0 + excess))
     for i in range(LANES):
         room[LOSSES + i] *= TWO_PI * room[_D + i]
+
+
+@kernel()
+def _longest(room: Any) -> float:
+    """Return the length of the longest jump, in waves."""
+    longest = 0.0
+    for i in range(LANES):
+        longest = max(longest, abs(room[_X + i] - room[_START + i]))
+    return longest
 
 
 @kernel()
@@ -329,7 +427,12 @@ def jumps_of_waves(table: Any, curve: Curve, outwards: bool, room: Any) -> None:
     _land(table, curve, middle, room)
     for i in range(LANES):
         room[_GOOD + i] = room[_GOOD + i] * room[_DONE + i]
-    _integrate(table, curve, middle, room)
+    if _longest(room) <= _SHORT:  # far out, where the folds end: little is left of the form
+        _by_nodes(table, curve, middle, (_SHORT_NODES, _SHORT_WEIGHTS), room)
+    else:
+        _by_form(table, curve, middle, room)
+        if not _all_done(room):
+            _by_nodes(table, curve, middle, (_NODES, _WEIGHTS), room)
     for i in range(LANES):
         if not room[_GOOD + i] > 0.0:
             _, room[LOSSES + i] = jump_of_wave(table, curve, room[WAVES + i], outwards, room)
