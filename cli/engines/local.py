@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import Any, Final
 
+from gradhesion.cli.engines.scheduler import started
 from gradhesion.cli.errors import ClusterError
 
 SETTINGS: Final = {
@@ -38,7 +39,7 @@ def local_client(workers: int | None, most: int) -> Iterator[Any]:
     """
     import dask  # noqa: PLC0415
     from dask.system import CPU_COUNT  # noqa: PLC0415 (of this process, on every system)
-    from distributed import Client, LocalCluster, Security  # noqa: PLC0415
+    from distributed import LocalCluster, Security  # noqa: PLC0415
 
     with dask.config.set(SETTINGS), _without_sigint():
         try:
@@ -57,7 +58,7 @@ def local_client(workers: int | None, most: int) -> Iterator[Any]:
                 f"--engine dask: no cluster can be started on this machine ({error}); use --engine threads"
             ) from error
     try:
-        with Client(cluster, set_as_default=False, name="gradhesion") as client:
+        with started(cluster) as client:
             yield client
     except BaseException:
         _kill(cluster)

@@ -63,17 +63,34 @@ def client_of(scheduler: str) -> Any:
     ClusterError
         It does not answer.
     """
-    from distributed import Client  # noqa: PLC0415
-
     address = scheduler if "://" in scheduler else _address_in(Path(scheduler))
     try:
-        return Client(address, timeout=patience(), set_as_default=False, name="gradhesion")
-    except (OSError, ValueError, RuntimeError) as error:
+        return started(address, timeout=patience())
+    except (OSError, TypeError, ValueError, RuntimeError) as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise ClusterError(
             f"--scheduler {scheduler}: no Dask scheduler answers ({reason}); start one with `dask scheduler`, or "
             "leave --scheduler out for a cluster of this machine"
         ) from None
+
+
+def started(address: Any, **options: Any) -> Any:
+    """
+    Start a client of the scheduler of an address or of a cluster, and close it if it does not start.
+
+    Dask closes one that is left open when Python clears it away, in any thread, and waits there for the lock under
+    which the next client waits 10 s for its thread: where that is the same thread, the next one does not start either.
+    """
+    from distributed import Client  # noqa: PLC0415
+
+    client = Client.__new__(Client)
+    try:
+        client.__init__(address, set_as_default=False, name="gradhesion", **options)
+    except BaseException:
+        with suppress(OSError, RuntimeError):
+            client.close()
+        raise
+    return client
 
 
 def patience() -> float:

@@ -13,6 +13,8 @@ import numpy as np
 import pytest
 from distributed import Client
 
+from gradhesion.cli.engines.scheduler import client_of
+from gradhesion.cli.errors import ClusterError
 from gradhesion.cli.work.folder import folder_of
 from tests.cli.engines.orders import HUGE, ByHand, Call, Orders, values_of
 
@@ -175,6 +177,8 @@ def test_mistakes(
     for scheduler, sentence in (
         ("tcp://127.0.0.1:9", "no Dask scheduler answers"),
         ("nonsense://1", "no Dask scheduler answers"),
+        ("tcp://127.0.0.1", "no Dask scheduler answers"),
+        ("tls://127.0.0.1:9", "no Dask scheduler answers"),  # without a certificate
         (str(tmp_path / "none.json"), "neither an address, as tcp://host:8786, nor the file of a scheduler"),
     ):
         with dask.config.set({"distributed.comm.timeouts.connect": "300ms"}):
@@ -189,3 +193,22 @@ def test_mistakes(
             "--engine dask needs Dask: install it with `pip install dask distributed cryptography`\n"
         )
     assert not list(output.parent.glob("*"))
+
+
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nonsense://1", "tcp://127.0.0.1", "tls://127.0.0.1:9"])
+def test_a_client_that_does_not_start_is_closed(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One that is left open is closed by the collector, in any thread; that of the next client can then not go on."""
+    made: list[Client] = []
+    start = Client.start
+
+    def starting(self: Client, **options: Any) -> None:
+        made.append(self)
+        start(self, **options)
+
+    monkeypatch.setattr(Client, "start", starting)
+    with (
+        dask.config.set({"distributed.comm.timeouts.connect": "300ms"}),
+        pytest.raises(ClusterError, match=f"--scheduler {address}: no Dask scheduler answers"),
+    ):
+        client_of(address)
+    assert [client.status for client in made] == ["closed"]
