@@ -98,8 +98,21 @@ def _find_squares(count: int, block: Any, start: float, slope: float, row: int) 
 
 
 @kernel()
-def _find_abscissas(count: int, block: Any) -> None:
-    """Find X at the rims."""
+def _are_far_out(count: int, block: Any) -> bool:
+    """Return whether all rims are far beyond the radius to which contacts jump: where X is does not matter then."""
+    near = 0
+    for e in range(count):
+        near += 0 if block[_RIM, e] * block[_RIM, e] > 2.0 * block[_IN, e] else 1
+    return near == 0
+
+
+@kernel()
+def _find_abscissas(count: int, block: Any, far: bool) -> None:
+    """Find X at the rims; infinity for those that are `far` out."""
+    if far:
+        for e in range(count):
+            block[_X, e] = math.inf
+        return
     for e in range(count):
         block[_EXPONENT, e] = 0.5 * (3.0 + block[_K, e])
     fill_powers(count, block[_RIM], block[_EXPONENT], block[_X])
@@ -148,9 +161,9 @@ def _find_flags(count: int, block: Any, force: bool, folds: bool) -> None:
 
 
 @kernel()
-def _solve_block(count: int, block: Any, slots: Any) -> None:
+def _solve_block(count: int, block: Any, slots: Any, far: bool) -> None:
     """Compute what is asked of scenes."""
-    _find_abscissas(count, block)
+    _find_abscissas(count, block, far)
     if slots[FORCE] >= 0:
         for e in range(count):
             block[FORCE, e] = smooth.smooth_force(block[_K, e], block[_X, e])
@@ -202,13 +215,15 @@ def solve_smooth(
     for begin in range(0, index.size, size):
         some = index[begin : begin + size]
         _take_curves(some, k, stiffness, wavelength, amplitude, curves)
-        if wants_cycle(slots):
+        if wants_cycle(slots) or number > 1:
             _find_squares(some.size, curves, smooth.ABSCISSA_OF_JUMP_IN, 0.0, _IN)
+        if wants_cycle(slots):
             _find_squares(some.size, curves, smooth.abscissa_of_jump_out(0.0), -0.5, _OUT)
         for first in range(0, some.size * number, size):
             count = min(size, some.size * number - first)
             _take_scenes(some, first, count, rims, curves, scenes)
-            _solve_block(count, scenes, slots)
+            far = number > 1 and slots[DEEPEST] < 0 and _are_far_out(count, scenes)
+            _solve_block(count, scenes, slots, far)
             for row in range(_RESULTS):
                 if slots[row] >= 0:
                     _store(some, first, count, scenes[row], out[slots[row]])

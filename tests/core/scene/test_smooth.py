@@ -53,9 +53,10 @@ def test_each_is_solved_as_alone(number: int) -> None:
 
 @pytest.mark.parametrize(("curves", "rims"), [(1, 1000), (5, SCENES), (70, 3), (300, 2), (3, SCENES + 1)])
 def test_rims_of_curves(curves: int, rims: int) -> None:
-    """Of the same rims for all curves, and of their own."""
+    """Of the same rims for all curves, and of their own; and far out, where they do not matter."""
     scenes = {name: values if np.ndim(values) == 0 else values[:, None] for name, values in drawn(curves).items()}
-    for own in (np.geomspace(0.01, 3.0, rims)[None], np.random.default_rng(2).uniform(0.01, 1.0, (curves, rims))):
+    uniform = np.random.default_rng(2).uniform
+    for own in (np.geomspace(0.01, 3.0, rims)[None], uniform(0.01, 1.0, (curves, rims)), uniform(3.0, 9.0, (1, rims))):
         found = solve_all(scenes | {"a_max_over_R": own}, OUTPUTS, threads=1)
         flat = {name: np.broadcast_to(values, (curves, rims)).ravel() for name, values in scenes.items()}
         expected = solve(flat | {"a_max_over_R": np.broadcast_to(own, (curves, rims)).ravel()}, OUTPUTS, threads=1)
