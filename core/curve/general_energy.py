@@ -7,7 +7,7 @@ Gauss's rule in panels short against the shortest wave, and against the distance
 """
 
 import math
-from typing import Final, TypeAlias
+from typing import Any, Final, TypeAlias
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve.general import Basis, Curve, slope
@@ -16,9 +16,12 @@ from gradhesion.core.curve.panels import (
     INNER_SHARES,
     PLACES,
     SHARES,
+    SMOOTH,
+    panel_after,
     panel_inwards,
     panel_outwards,
     panels_to_zero,
+    rule_between,
 )
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
@@ -143,6 +146,24 @@ def _from_zero(basis: Basis, curve: Curve, x: float, level: float) -> float:
 
 
 @kernel()
+def _panel(basis: Basis, curve: Curve, low: float, high: float, begin: int, end: int, level: float) -> float:
+    """Return int x (1 - rho^2) dx over a panel, by a range of places."""
+    part = 0.0
+    for i in range(begin, end):
+        part += SHARES[i] * _from_zero(basis, curve, low + (high - low) * PLACES[i], level)
+    return (high - low) * part
+
+
+@kernel()
+def _innermost(basis: Basis, curve: Curve, high: float, level: float) -> float:
+    """Return int x (1 - rho^2) dx over the panel from zero contact on."""
+    part = 0.0
+    for i in range(INNER_PLACES.size):
+        part += INNER_SHARES[i] * _from_zero(basis, curve, high * INNER_PLACES[i], level)
+    return high * part
+
+
+@kernel()
 def energy_from_zero(basis: Basis, curve: Curve, x: float, level: float) -> float:
     """Return e of a jump at Y = level from zero contact to x; the way back has the other sign."""
     table, _, series = basis
@@ -152,12 +173,39 @@ def energy_from_zero(basis: Basis, curve: Curve, x: float, level: float) -> floa
     total, high = 0.0, x
     while high > inner:
         low, begin, end = panel_inwards(high, growth, shortest)
-        part = 0.0
-        for i in range(begin, end):
-            part += SHARES[i] * _from_zero(basis, curve, low + (high - low) * PLACES[i], level)
-        total += (high - low) * part
+        total += _panel(basis, curve, low, high, begin, end, level)
         high = low
-    part = 0.0
-    for i in range(INNER_PLACES.size):
-        part += INNER_SHARES[i] * _from_zero(basis, curve, high * INNER_PLACES[i], level)
-    return (total + high * part) * TWO_PI * TWO_PI
+    return (total + _innermost(basis, curve, high, level)) * TWO_PI * TWO_PI
+
+
+@kernel()
+def energy_in(basis: Basis, curve: Curve, x: float, stations: Any) -> float:
+    """Return e of a jump at Y = 0 from zero contact to x.
+
+    Panels end at stations, the same for any x, where the last one begins: many x, rims within the jump-in, share all
+    but that. `stations`, shape (2, n), has places, infinite where nothing has been found yet, and integrals up to them.
+    """
+    table, _, series = basis
+    _, _, _, alpha, beta = curve
+    shortest = highest_harmonic(series)
+    low, growth = panels_to_zero(table.k, alpha, beta, math.inf, shortest)
+    if not SMOOTH * x > low:
+        return energy_from_zero(basis, curve, x, 0.0)
+    if stations[0, 0] == math.inf:
+        stations[0, 0], stations[1, 0] = low, _innermost(basis, curve, low, 0.0)
+    total, j = stations[1, 0], 0
+    while True:
+        high = panel_after(low, growth, shortest)
+        if high >= x:
+            break
+        j += 1
+        if j < stations.shape[1] and stations[0, j] < math.inf:
+            total = stations[1, j]
+        else:
+            begin, end = rule_between(low, high, shortest)
+            total += _panel(basis, curve, low, high, begin, end, 0.0)
+            if j < stations.shape[1]:
+                stations[0, j], stations[1, j] = high, total
+        low = high
+    begin, end = rule_between(low, x, shortest)
+    return (total + _panel(basis, curve, low, x, begin, end, 0.0)) * TWO_PI * TWO_PI

@@ -68,6 +68,18 @@ def panel_inwards(high: float, growth: float, shortest: float) -> tuple[float, i
 
 
 @kernel()
+def panel_after(low: float, growth: float, shortest: float) -> float:
+    """Return where the panel ends that begins at `low`, where panels go outwards from places of their own."""
+    return min(low * growth, low + _REACH[-1] / shortest)
+
+
+@kernel()
+def rule_between(low: float, high: float, shortest: float) -> tuple[int, int]:
+    """Return the range of places of a panel away from zero, which may be the part of one."""
+    return _rule(shortest * (high - low), 1)
+
+
+@kernel()
 def panels_to_zero(k: float, alpha: float, beta: float, x: float, shortest: float) -> tuple[float, float]:
     """Return where the innermost panel ends at most, and by how much those beyond it may grow."""
     inner, growth = SMOOTH * x, GROWTH

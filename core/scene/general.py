@@ -12,14 +12,16 @@ import numpy as np
 
 from gradhesion.core._jit import NONE, kernel
 from gradhesion.core.contact.general_disc import disc_limits, is_one_disc
+from gradhesion.core.curve.arches import is_one_cosine
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Curve, coordinate, curve_of, state
+from gradhesion.core.curve.general_energy import energy_in
 from gradhesion.core.curve.general_folds import MOST_CELLS, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.path.general import depth_at_full_contact, walk
 from gradhesion.core.path.general_long import FEW, LONGEST_WALK, REGULAR, Middle, middle_of, stride
-from gradhesion.core.path.loading import highest_depth, loading_to
+from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
 from gradhesion.core.path.pieces import notes_for
 from gradhesion.core.path.ties import is_close_to_a_jump
 from gradhesion.core.path.unloading import unloading_from
@@ -61,6 +63,10 @@ from gradhesion.core.sensitivities.general_slopes import (
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.struve.series import highest_harmonic
+from gradhesion.core.waves.general_jump import LONG
+
+_STATIONS: Final = 64
+"""Places within the jump-in that a curve has room for."""
 
 
 @kernel()
@@ -147,6 +153,7 @@ def _walked(
     count, trace, tangency = walk(basis, curve, first, last, furthest, losses)
     if count < 0:
         return False
+    stations = np.full((2, _STATIONS), math.inf)
     limits = disc_limits(basis, curve, count, trace, furthest) if slots[CONTACT] >= 0 else (math.inf, math.inf)
     if len(own) > 0:
         slopes = slopes_of(basis, curve, own, count, trace)
@@ -155,7 +162,10 @@ def _walked(
             continue
         x = rims[i]
         level = coordinate(basis, curve, x) if x < math.inf else math.inf
-        loss, jumps = loading_to(basis, curve, count, trace, x, losses)
+        if losses and x <= LONG and not is_one_cosine(basis[2], curve[1]) and jumps_in_to(count, trace, x):
+            loss, jumps = energy_in(basis, curve, x, stations), 1.0
+        else:
+            loss, jumps = loading_to(basis, curve, count, trace, x, losses)
         loading = (loss, jumps, highest_depth(count, trace, x, level))
         unloading = unloading_from(basis, curve, count, trace, x, level, losses)
         close = is_close_to_a_jump(basis, curve, count, trace, tangency, x, level, turned)

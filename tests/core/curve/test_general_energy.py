@@ -1,12 +1,14 @@
 """The energy of a jump from zero contact, by 30-digit quadrature of the smooth punch under any control."""
 
+import math
+
 import mpmath
 import numpy as np
 import pytest
 
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.general import coordinate
-from gradhesion.core.curve.general_energy import energy_from_zero
+from gradhesion.core.curve.general_energy import energy_from_zero, energy_in
 from gradhesion.core.struve.circle import TWO_PI
 
 EPS = 2.0**-52
@@ -44,3 +46,30 @@ def test_energy_from_zero(k: float) -> None:
             error = abs(energy_from_zero(basis, curve, x, level) - expected)
         # rounding of some 50 terms that are of the size of the square and of the result
         assert error <= 8 * EPS * (end**2 + abs(expected)), (share, m, x)
+
+
+WAVES = {
+    "none": np.zeros((0, 3)),
+    "two": np.array([[1.0, 1.0, 0.0], [3.0, 0.2, 0.1]]),
+    "one": np.array([[2.0, 0.0, 1.0]]),
+}
+
+
+@pytest.mark.parametrize("share", [0.0, 0.01, 1.0, 1e4])
+@pytest.mark.parametrize("waves", WAVES)
+@pytest.mark.parametrize("k", [0.0, 0.37, 0.98])
+def test_energy_of_a_jump_to_any_rim(k: float, waves: str, share: float) -> None:
+    """With stations it is that of panels from the rim inwards, whatever the stations hold already."""
+    rng = np.random.default_rng(3)
+    basis = (*tables_of(k), WAVES[waves])
+    curve = (0.02, 2.0, 0.3, 1.0 / (1.0 + share), share / (1.0 + share))
+    rims = rng.permutation(np.geomspace(1e-3, 20.0, 60))
+    kept, few = (np.full((2, n), math.inf) for n in (64, 3))
+    for x in rims.tolist():
+        energy = energy_in(basis, curve, x, kept)
+        # rounding of the square, and of waves and a bend that are some times as large as the stretch
+        size = (TWO_PI * x) ** 2 + abs(energy)
+        assert abs(energy - energy_from_zero(basis, curve, x, 0.0)) <= 16 * EPS * size, x
+        for stations in (few, np.full((2, 1), math.inf)):
+            assert energy_in(basis, curve, x, stations) == energy
+    assert np.isfinite(kept[0]).sum() > 3 or not WAVES[waves].size
