@@ -31,7 +31,7 @@ from gradhesion.core.curve.branches import (
 )
 from gradhesion.core.curve.cosine import Curve, depth
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.fractional import NODES
+from gradhesion.core.struve.fractional import NODES, interpolated
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.waves.cosine import end_of_wave
 
@@ -83,21 +83,40 @@ def _least_of(openings: Any) -> tuple[int, float]:
 
 
 @kernel()
-def _search(table: Any, curve: Curve, edge: Edge, low: float, high: float, heights: Any) -> float:
+def _least_between_nodes(openings: Any, at: int) -> float:
+    """Return the least value next to node `at`, the last for 1, of the polynomial through openings (golden section)."""
+    low = NODES[at - 1] if at > 0 else 0.0
+    high = NODES[at + 1] if at + 1 < NODES.size else 1.0
+    inner, outer = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+    first, second = interpolated(openings, inner), interpolated(openings, outer)
+    for _ in range(_STEPS):
+        if first < second:
+            high, outer, second = outer, inner, first
+            inner = high - _GOLDEN * (high - low)
+            first = interpolated(openings, inner)
+        else:
+            low, inner, first = inner, outer, second
+            outer = low + _GOLDEN * (high - low)
+            second = interpolated(openings, outer)
+    return min(first, second, openings[at])
+
+
+@kernel()
+def _search(table: Any, curve: Curve, edge: Edge, low: float, high: float) -> float:
     """Return the least opening between two radii, or the first negative one that is met (golden section)."""
     inner, outer = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-    first, second = opening(table, curve, edge, inner, heights), opening(table, curve, edge, outer, heights)
+    first, second = opening(table, curve, edge, inner), opening(table, curve, edge, outer)
     for _ in range(_STEPS):
         if min(first, second) < 0.0:
             break
         if first < second:
             high, outer, second = outer, inner, first
             inner = high - _GOLDEN * (high - low)
-            first = opening(table, curve, edge, inner, heights)
+            first = opening(table, curve, edge, inner)
         else:
             low, inner, first = inner, outer, second
             outer = low + _GOLDEN * (high - low)
-            second = opening(table, curve, edge, outer, heights)
+            second = opening(table, curve, edge, outer)
     return min(first, second)
 
 
@@ -119,7 +138,7 @@ def _least_in_window(
         return least
     if low > a or error > _CLEAR:
         for i in range(NODES.size + 1):
-            openings[i] = opening(table, curve, edge, place_of(low, high, i), heights)
+            openings[i] = opening(table, curve, edge, place_of(low, high, i))
             if openings[i] < 0.0:
                 return openings[i]
         at, least = _least_of(openings)
@@ -127,15 +146,18 @@ def _least_in_window(
             return least
     elif openings[at] < -error:
         return openings[at]
+    else:
+        least = _least_between_nodes(openings, at)
+        if abs(least) > 10.0 * error:
+            return least
     return min(
-        opening(table, curve, edge, place_of(low, high, at), heights),
+        opening(table, curve, edge, place_of(low, high, at)),
         _search(
             table,
             curve,
             edge,
             place_of(low, high, at - 1) if at > 0 else low,
             place_of(low, high, min(at + 1, NODES.size)),
-            heights,
         ),
     )
 

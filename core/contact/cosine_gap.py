@@ -16,12 +16,11 @@ from typing import Any, Final, TypeAlias
 
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve.cosine import Curve, wave
-from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
+from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.fractional import NODES, WEIGHTS
-from gradhesion.core.struve.lanes import LANES, eight, load, store
-from gradhesion.core.struve.layout import FRACTIONAL_NODES, SWITCH
-from gradhesion.core.struve.pair import polynomials8
-from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.struve.lanes import LANES, Lanes, eight, load, root_of, store
+from gradhesion.core.struve.pair import first_functions
+from gradhesion.core.struve.power import amplitude_power, amplitude_powers
 
 Edge: TypeAlias = tuple[float, float, float, float]
 """x, z, z S0 and z^c at the edge of a contact."""
@@ -32,10 +31,6 @@ _PANEL: Final = 2.0
 """Waves a Gauss panel."""
 _NEAR: Final = 0.75
 """Inner over outer radius of the last panel, at least: the branch point at s = 0 then leaves 1e-13."""
-_OWN: Final = FRACTIONAL_NODES
-"""Where the heights of a single opening stand in the room, behind those of a window."""
-ROOM: Final = 2 * FRACTIONAL_NODES
-"""Floats of the room for heights."""
 
 
 @kernel(contract=True)
@@ -47,11 +42,10 @@ def edge_at(table: Any, curve: Curve, x: float) -> Edge:
 
 
 @kernel(contract=True)
-def height(table: Any, curve: Curve, edge: Edge, x: float) -> float:
-    """Return F at the radius x: by how much depth_H exceeds the depth of the contact, weighted."""
-    b, g, lag = curve
+def _excess(curve: Curve, edge: Edge, x: float, z: float, power: float, s0: float) -> float:
+    """Return F where z^(-n) and S0 are known, at one place or at eight (struve/lanes.py)."""
+    b, g, _ = curve
     x1, z1, wave1, stretch1 = edge
-    z, power, s0, _, _, _, _ = wave(table, lag, x)
     # differences first, as in curve/cosine_energy.py
     rise = 0.5 * b * (z + z1) * (TWO_PI * (x - x1)) + g * (z * s0 - wave1)
     stretch = z * power
@@ -59,37 +53,25 @@ def height(table: Any, curve: Curve, edge: Edge, x: float) -> float:
 
 
 @kernel(contract=True)
-def _fill_heights(table: Any, curve: Curve, edge: Edge, low: float, width: float, at: int, heights: Any) -> None:
-    """Put F at the nodes of a window, which divide x^2 from low^2 on, into the room.
-
-    Where all z >= 40 pair.py's expansion is written so that all nodes are worked on at once.
-    """
-    if TWO_PI * low < SWITCH:
-        for i in range(FRACTIONAL_NODES):
-            heights[at + i] = height(table, curve, edge, math.sqrt(low * low + width * NODES[i]))
-        return
-    b, g, lag = curve
-    x1, z1, wave1, stretch1 = edge
-    cos_phase, sin_phase = table.cos_phase, table.sin_phase
-    for i in range(FRACTIONAL_NODES):
-        heights[at + i] = amplitude_power(table, TWO_PI * math.sqrt(low * low + width * NODES[i]))
-    for i in range(FRACTIONAL_NODES):
-        x = math.sqrt(low * low + width * NODES[i])
-        z = TWO_PI * x
-        inverse = 1.0 / z
-        t = 2.0 * SWITCH * SWITCH * (inverse * inverse) - 1.0
-        p, q, _, _, mean, _, _, _ = polynomials8(table.tail, t)
-        sine, cosine = sine_cosine_of_turns(x - lag)
-        s = sine * cos_phase - cosine * sin_phase
-        c = cosine * cos_phase + sine * sin_phase
-        stretch = z * heights[at + i]
-        rise = 0.5 * b * (z + z1) * (TWO_PI * (x - x1)) + g * (mean + stretch * (p * s + q * inverse * c) - wave1)
-        heights[at + i] = (rise + stretch1) * stretch1 / (stretch * stretch)
+def height(table: Any, curve: Curve, edge: Edge, x: float) -> float:
+    """Return F at the radius x: by how much depth_H exceeds the depth of the contact, weighted."""
+    _, _, lag = curve
+    z, power, s0, _, _, _, _ = wave(table, lag, x)
+    return _excess(curve, edge, x, z, power, s0)
 
 
 @kernel(contract=True)
-def opening(table: Any, curve: Curve, edge: Edge, r: float, heights: Any) -> float:
-    """Return the opening at the radius r > a; `heights` is room for ROOM floats, of which it leaves the first 16.
+def _heights(table: Any, curve: Curve, edge: Edge, x: Lanes) -> Lanes:
+    """Return F at eight radii, the innermost first."""
+    _, _, lag = curve
+    z = TWO_PI * x
+    power = amplitude_powers(table, z)
+    return _excess(curve, edge, x, z, power, first_functions(table, lag, x, z, power))
+
+
+@kernel(contract=True)
+def opening(table: Any, curve: Curve, edge: Edge, r: float) -> float:
+    """Return the opening at the radius r > a.
 
     Panels go inwards from r: the first with the weights of fractional.py, which take the singular factor into
     account, the others by Gauss's rule. Error: 1e-11 of the largest F.
@@ -99,10 +81,9 @@ def opening(table: Any, curve: Curve, edge: Edge, r: float, heights: Any) -> flo
     whole = (r - x1) * (r + x1)
     low = max(x1, _NEAR * r, r - _LAST_PANEL)
     part = (r - low) * (r + low)
-    _fill_heights(table, curve, edge, low, part, _OWN, heights)
     total = 0.0
     for i in range(count):
-        total += table.fractional[i, count] * heights[_OWN + i]
+        total += table.fractional[i, count] * height(table, curve, edge, math.sqrt(low * low + part * NODES[i]))
     share = part / whole
     total *= share * amplitude_power(table, share)
     c = 0.5 * (1.0 - table.k)
@@ -112,11 +93,11 @@ def opening(table: Any, curve: Curve, edge: Edge, r: float, heights: Any) -> flo
         reach = r * r - 4.0 * (r - high) * (r + high)
         low = max(x1, 0.5 * high, high - _PANEL, math.sqrt(max(0.0, reach)))
         width = (high - low) * (high + low)
-        _fill_heights(table, curve, edge, low, width, _OWN, heights)
         for i in range(count):
-            square = (r - low) * (r + low) - width * NODES[i]
+            square = (r - high) * (r + high) + width * NODES[i]
+            x = math.sqrt(r * r - square)
             share = square / whole
-            total += c * WEIGHTS[i] * width / whole * amplitude_power(table, share) * heights[_OWN + i]
+            total += c * WEIGHTS[i] * width / whole * amplitude_power(table, share) * height(table, curve, edge, x)
     return total
 
 
@@ -124,14 +105,16 @@ def opening(table: Any, curve: Curve, edge: Edge, r: float, heights: Any) -> flo
 def openings_between(
     table: Any, curve: Curve, edge: Edge, low: float, high: float, heights: Any, openings: Any
 ) -> None:
-    """Put F at the 16 nodes of low .. high, and what it contributes from there to openings there and at `high`.
+    """Fill F at the nodes of low .. high, and what F contributes from there to the opening, at the nodes and at `high`.
 
     The contributions are over (x^2 - low^2)^c in place of X^c: for low = a they are the opening itself, else their
     signs are what matters. The nodes divide x^2. At most a wave is taken at a time.
     """
     count = NODES.size
     width = (high - low) * (high + low)
-    _fill_heights(table, curve, edge, low, width, 0, heights)
+    for first in range(0, count, LANES):
+        radii = root_of(low * low + width * load(NODES, first))
+        store(heights, first, _heights(table, curve, edge, radii))
     for first in range(0, count, LANES):
         total = eight(0.0)
         for i in range(count):

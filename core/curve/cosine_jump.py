@@ -181,12 +181,10 @@ def _anywhere(table: Any, curve: Curve, start: float, end: float) -> tuple[float
     total, size = -g * (last - first), g * (abs(last) + abs(first))
     dz = TWO_PI * (end - start)
     if abs(dz) < _NEAR * (z1 + z2):
-        smooth = 0.0
-        for i in range(NODES.size):
-            shift = 0.5 * dz * (1.0 + NODES[i])
-            z = z1 + shift
-            rho = (0.5 * b * shift * (z + z1) + q1) / (z * amplitude_power(table, z))
-            smooth += WEIGHTS[i] * z * ((1.0 - rho) * (1.0 + rho))
+        shift = 0.5 * dz * (1.0 + load(NODES, 0))
+        z = z1 + shift
+        rho = (0.5 * b * shift * (z + z1) + q1) / (z * amplitude_powers(table, z))
+        smooth = sum_of(load(WEIGHTS, 0) * z * ((1.0 - rho) * (1.0 + rho)))
         return total + dz * smooth, size
     a, c, d = 0.25 * b * b / (5.0 + k), b * depth / (3.0 + k), depth * depth * gain
     inner, outer = front1 * ((a * square1 - c) * square1 + d), front2 * ((a * square2 - c) * square2 + d)

@@ -24,6 +24,21 @@ _BARYCENTRIC: Final = (-1.0) ** np.arange(FRACTIONAL_NODES) * np.sqrt(NODES * (1
 
 
 @kernel()
+def interpolated(values: Any, x: float) -> float:
+    """Return at 0 <= x <= 1 the polynomial that has given values at the nodes; such as J F, which is one as F is."""
+    total, weights = 0.0, 0.0
+    for i in range(NODES.size):
+        away = x - NODES[i]
+        if away == 0.0:
+            value: float = values[i]
+            return value
+        part = _BARYCENTRIC[i] / away
+        total += part * values[i]
+        weights += part
+    return total / weights
+
+
+@kernel()
 def _end_weights(c: float, weights: Any) -> None:
     """Fill the weights with which the values at the nodes give c int_0^1 v^(c-1) F(v) dv."""
     for i in range(weights.size):

@@ -11,6 +11,7 @@ from gradhesion.core._jit import kernel
 from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
 from gradhesion.core.struve.filling import ask_for_bin
 from gradhesion.core.struve.intrinsics import fma, make_horner, make_polynomials
+from gradhesion.core.struve.lanes import LANES, Lanes, lane_of, with_lane
 from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS
 from gradhesion.core.struve.power import amplitude_power
 
@@ -46,6 +47,23 @@ def pair_above(table: Any, x: float, z: float, power: float) -> tuple[float, flo
     s0_slope = h0 * inverse * inverse - wave1
     s1_slope = inverse * (h1 * inverse + (k + 1.0) * (wave0 - (k + 2.0) * inverse * wave1))
     return s0, s1, s0_slope, s1_slope
+
+
+@kernel(contract=True)
+def first_functions(table: Any, lag: float, x: Lanes, z: Lanes, power: Lanes) -> Lanes:
+    """Return S0 at eight places x > 0, the innermost first; beyond z = 40 the waves are `lag` turns behind."""
+    if lane_of(z, 0) >= SWITCH:
+        s0, _, _, _ = pair_above(table, x - lag, z, power)
+        return s0
+    values = z
+    for lane in range(LANES):
+        place, here = lane_of(x, lane), lane_of(z, lane)
+        if here < SWITCH:
+            value, _, _, _ = pair_below(table, place, here)
+        else:
+            value, _, _, _ = pair_above(table, place - lag, here, lane_of(power, lane))
+        values = with_lane(values, lane, value)
+    return values
 
 
 @kernel(contract=True)

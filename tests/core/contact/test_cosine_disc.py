@@ -15,7 +15,6 @@ from scipy.special import roots_jacobi
 
 from gradhesion.core import OUTPUTS, PARAMETERS, solve
 from gradhesion.core.contact import cosine_disc as contact
-from gradhesion.core.contact.cosine_gap import ROOM
 from gradhesion.core.curve.branches import ROWS
 from gradhesion.core.path import cosine as cycle
 from gradhesion.core.path import cosine_long as long_cycle
@@ -200,7 +199,7 @@ def test_regular_waves_alone(k: float, table_of: Callable[[float], Any]) -> None
     else:
         average = np.cos(u)
     critical = 1.0 / (1.0 - average.min())
-    heights, openings = np.empty(ROOM), np.empty(17)
+    heights, openings = np.empty(16), np.empty(17)
     for factor in (0.98, 1.02):
         curve = _curve(k, factor * critical, 1e15)
         for wave in (3000.0, 123456.4):

@@ -90,7 +90,7 @@ def test_one_cosine_is_that_of_its_own_kernel(k: float) -> None:
     basis, _ = _scene(k, 2.0, ONE)
     curve, own = (BEND / 2, 2.0, GAIN, 1.0, 0.0), (BEND, GAIN, 0.0)
     for a, r in [(0.4, 1.1), (0.9, 3.3), (2.37, 2.9), (7.7, 9.1)]:
-        expected = gap.opening(basis[0], own, gap.edge_at(basis[0], own, a), r, np.empty(gap.ROOM))
+        expected = gap.opening(basis[0], own, gap.edge_at(basis[0], own, a), r)
         assert math.isclose(opening(basis, curve, edge_at(basis, curve, a), r), expected, rel_tol=1e-11)
 
 

@@ -8,7 +8,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from gradhesion.core.struve.fractional import NODES
+from gradhesion.core.struve.fractional import NODES, interpolated
 
 EPS = 2.0**-52
 EXPONENTS = [0.0, 1e-9, 0.31, 0.7, 0.95, 1 - 1e-9, 1.0]
@@ -43,3 +43,14 @@ def test_a_wave(k: float, table_of: Callable[[float], Any]) -> None:
         else:
             expected = mpmath.quad(lambda q, x=x: mpmath.cos(6.3 * x * (1 - q ** (1 / c)) + 0.4), [0, 0.5, 0.9, 1])
         assert abs(values[i] - expected) < 3e-9
+
+
+def test_the_polynomial_between_the_nodes() -> None:
+    """It has the values of any polynomial of its degree, at the nodes and between them, up to rounding."""
+    coefficients = np.random.default_rng(4).normal(size=NODES.size)
+    polynomial = np.polynomial.Polynomial(coefficients, domain=[0.0, 1.0])
+    values = polynomial(NODES)
+    # the Lebesgue constant of Gauss's nodes at the ends is about 2 sqrt(16)
+    tolerance = 16 * 8 * EPS * np.abs(values).max()
+    for x in (0.0, 0.013, 0.5, float(NODES[4]), 0.97, 1.0):
+        assert abs(interpolated(values, x) - polynomial(x)) < tolerance

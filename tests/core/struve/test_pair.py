@@ -2,17 +2,47 @@
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import mpmath
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from gradhesion.core._jit import kernel
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.lanes import LANES, load, store
+from gradhesion.core.struve.pair import first_functions
+from gradhesion.core.struve.power import amplitude_powers
 from gradhesion.core.struve.table import struve_pair
 
 EPS = 2.0**-52
 PLACES = np.concatenate([np.random.default_rng(8).uniform(0, 12, 2000), np.geomspace(1e-9, 1e6, 500)])
 EXPONENTS = [0.0, 1e-12, 0.21, 0.5, 0.83, 1 - 1e-12, 1.0]
+
+
+@kernel()
+def first_at_once(table: Any, x: Any, out: Any) -> None:
+    """Put S0 and z^(-n) at eight places into the rows of `out`."""
+    places = load(x, 0)
+    z = TWO_PI * places
+    power = amplitude_powers(table, z)
+    store(out[0], 0, first_functions(table, 0.0, places, z, power))
+    store(out[1], 0, power)
+
+
+@pytest.mark.parametrize("k", EXPONENTS)
+def test_eight_at_once(k: float, table_of: Callable[[float], Any]) -> None:
+    """Within, across and beyond z = 40, where the two forms meet."""
+    out = np.empty((2, LANES))
+    for low, high in [(0.1, 1.2), (5.9, 6.8), (6.4, 7.5), (90.3, 91.4)]:
+        x = np.linspace(low, high, LANES)
+        first_at_once(table_of(k), x, out)
+        z = 2 * math.pi * x
+        # a rounding or two apart, of the amplitude
+        assert (np.abs(out[0] - struve_pair(k, x)[0]) <= 4 * EPS * z ** (-0.5 * (1 + k))).all()
+        # of the power from its table, and of the other one
+        assert (np.abs(out[1] / z ** (-0.5 * (1 + k)) - 1) <= 4 * EPS).all()
 
 
 def test_the_reference(struve_rows: NDArray[np.float64], pair_error: Callable[..., NDArray[np.float64]]) -> None:
