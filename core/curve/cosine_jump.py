@@ -17,7 +17,7 @@ The size of the bracket's terms is returned with the energy: one that is much sm
 """
 
 import math
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 
@@ -38,6 +38,8 @@ def gauss_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
     return places, 0.5 * weights
 
 
+End: TypeAlias = tuple[float, float, float]
+"""x, z and z^(-n) at one end of a jump, numbers or eight of them (struve/lanes.py)."""
 _horner_of_slow = make_horner(2, TAIL_TERMS)
 NODES, WEIGHTS = gauss_rule(8)
 ENOUGH: Final = 0.03
@@ -65,13 +67,13 @@ def _oscillating(table: Any, curve: Curve, x: float, z: float, power: float) -> 
 
 
 @kernel(contract=True)
-def _front(table: Any, ratio: float) -> tuple[float, float]:
-    """Return (1 - ratio)^(-c) - 1, the power at the first end over that at the middle, and 1 over that ratio."""
+def inverse_stretch(table: Any, e: float) -> float:
+    """Return (1 + e)^(-c) - 1 for |e| <= 0.1; e is a number or eight (struve/lanes.py)."""
     series = table.inverse_stretch
-    left = 0.0 * ratio
+    less = 0.0 * e
     for j in range(STRETCH_TERMS - 1, 0, -1):
-        left = ratio * (left - series[j] if j % 2 == 1 else left + series[j])
-    return left, 1.0 / (1.0 + left)
+        less = e * (less + series[j])
+    return less
 
 
 @kernel(contract=True)
@@ -115,14 +117,13 @@ def _slow(
 
 
 @kernel(contract=True)
-def _ends(
-    table: Any, curve: Curve, start: float, end: float, power1: float, power2: float
-) -> tuple[float, float, float, float]:
+def _ends(table: Any, curve: Curve, start: End, end: End, dz: float) -> tuple[float, float, float, float]:
     """Return what the bracket of the second form is at the two ends, and z^c and z S0 at the first."""
     b, g, _ = curve
-    z1, z2, dz = TWO_PI * start, TWO_PI * end, TWO_PI * (end - start)
-    wave0, wave1, braces1 = _oscillating(table, curve, start, z1, power1)
-    _, wave2, braces2 = _oscillating(table, curve, end, z2, power2)
+    x1, z1, power1 = start
+    x2, z2, power2 = end
+    wave0, wave1, braces1 = _oscillating(table, curve, x1, z1, power1)
+    _, wave2, braces2 = _oscillating(table, curve, x2, z2, power2)
     w = SWITCH / z1
     height, _ = _horner_of_slow(table.slow_tail, 2.0 * (w * w) - 1.0)
     wave0 = wave0 + height
@@ -138,28 +139,37 @@ def _ends(
 def _beyond(table: Any, curve: Curve, start: float, end: float) -> tuple[float, float]:
     """Return e, and the size of its terms, where both ends lie at z >= 40 and not too far from each other."""
     _, g, _ = curve
-    z1, dz = TWO_PI * start, TWO_PI * (end - start)
-    power1, power2 = amplitude_power(table, z1), amplitude_power(table, TWO_PI * end)
-    first, last, stretch, wave1 = _ends(table, curve, start, end, power1, power2)
+    z1, z2, dz = TWO_PI * start, TWO_PI * end, TWO_PI * (end - start)
+    ends = (start, z1, amplitude_power(table, z1)), (end, z2, amplitude_power(table, z2))
+    first, last, stretch, wave1 = _ends(table, curve, ends[0], ends[1], dz)
     ratio = 0.5 * dz / (z1 + 0.5 * dz)
-    front = _front(table, ratio)
+    left = inverse_stretch(table, -ratio)
+    front = left, 1.0 / (1.0 + left)
     smooth = sum_of(load(WEIGHTS, 0) * _slow(table, curve, z1, stretch, wave1, dz, ratio, front, load(NODES, 0)))
     return smooth * dz - g * (last - first), g * (abs(last) + abs(first))
 
 
 @kernel(contract=True)
-def beyond_at_once(table: Any, curve: Curve, start: Lanes, end: Lanes) -> tuple[Lanes, Lanes]:
-    """Return what `energy_between` does for eight jumps with both ends beyond z = 40, each within REACH."""
+def beyond_from(table: Any, curve: Curve, start: End, end: End, dz: Lanes) -> tuple[Lanes, Lanes]:
+    """Return what `beyond_at_once` does, from x for the phase, z and z^(-n) at both ends, and how far z is between."""
     _, g, _ = curve
-    z1, dz = TWO_PI * start, TWO_PI * (end - start)
-    power1, power2 = amplitude_powers(table, z1), amplitude_powers(table, TWO_PI * end)
-    first, last, stretch, wave1 = _ends(table, curve, start, end, power1, power2)
+    _, z1, _ = start
+    first, last, stretch, wave1 = _ends(table, curve, start, end, dz)
     ratio = 0.5 * dz / (z1 + 0.5 * dz)
-    front = _front(table, ratio)
+    left = inverse_stretch(table, -ratio)
+    front = left, 1.0 / (1.0 + left)
     smooth = 0.0 * dz
     for i in range(NODES.size):
         smooth = smooth + WEIGHTS[i] * _slow(table, curve, z1, stretch, wave1, dz, ratio, front, NODES[i])
     return smooth * dz - g * (last - first), g * (size_of(last) + size_of(first))
+
+
+@kernel(contract=True)
+def beyond_at_once(table: Any, curve: Curve, start: Lanes, end: Lanes) -> tuple[Lanes, Lanes]:
+    """Return what `energy_between` does for eight jumps with both ends beyond z = 40, each within REACH."""
+    z1, z2, dz = TWO_PI * start, TWO_PI * end, TWO_PI * (end - start)
+    ends = (start, z1, amplitude_powers(table, z1)), (end, z2, amplitude_powers(table, z2))
+    return beyond_from(table, curve, ends[0], ends[1], dz)
 
 
 @kernel(contract=True)

@@ -52,7 +52,7 @@ from gradhesion.core.path.unloading import descend, leave
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.waves.cosine import branch_of_wave, fold_of_wave, landing_of_wave
-from gradhesion.core.waves.cosine_lanes import room_for_lanes
+from gradhesion.core.waves.cosine_at_once import room_for_batch
 from gradhesion.core.waves.cosine_running import COUNT, begin_sums, room_for_sums, sum_up_to
 from gradhesion.core.waves.cosine_sum import sum_of_waves
 
@@ -186,7 +186,7 @@ def begin_long(
     shared[NEAR], shared[BEFORE], shared[FIRST_CLOSE] = near, before, trace[TANGENCY, 0]
     shared[LAST_UP] = load_up(table, curve, near, trace, math.inf, losses)
     note_loading(table, curve, near, trace, math.inf)
-    return trace, (shared, room_for_sums(), room_for_lanes())
+    return trace, (shared, room_for_sums(), room_for_batch())
 
 
 @kernel()

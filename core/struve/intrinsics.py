@@ -147,32 +147,3 @@ def make_horner(lanes: int, terms: int) -> Any:
         return types.UniTuple(number, lanes)(coefficients, number), generate
 
     return horner
-
-
-def make_polynomials(count: int, terms: int, first: int = 0) -> Any:
-    """Make what `make_horner` makes, by operations on single numbers: for a loop whose runs are worked on at once.
-
-    Row `first` of the coefficients belongs to t**0.
-    """
-
-    @intrinsic
-    def polynomials(typingctx: Any, coefficients: Any, t: Any) -> Any:
-        def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-            begin = context.make_array(signature.args[0])(context, builder, arguments[0]).data
-            kind = ir.FunctionType(_DOUBLE, [_DOUBLE] * 3)
-            multiply_add = cgutils.get_or_insert_function(builder.module, kind, "llvm.fmuladd.f64")
-
-            def coefficient(j: int, of: int) -> Any:
-                return builder.load(builder.gep(begin, [ir.Constant(_INTEGER, (first + j) * count + of)]))
-
-            values = [coefficient(terms - 1, of) for of in range(count)]
-            for j in range(terms - 2, -1, -1):
-                values = [
-                    builder.call(multiply_add, [value, arguments[1], coefficient(j, of)])
-                    for of, value in enumerate(values)
-                ]
-            return cgutils.pack_array(builder, values)
-
-        return types.UniTuple(types.float64, count)(coefficients, types.float64), generate
-
-    return polynomials

@@ -10,14 +10,13 @@ from typing import Any
 from gradhesion.core._jit import kernel
 from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
 from gradhesion.core.struve.filling import ask_for_bin
-from gradhesion.core.struve.intrinsics import fma, make_horner, make_polynomials
+from gradhesion.core.struve.intrinsics import fma, make_horner
 from gradhesion.core.struve.lanes import LANES, Lanes, lane_of, with_lane
 from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS
 from gradhesion.core.struve.power import amplitude_power
 
 horner4 = make_horner(4, BIN_TERMS)
 horner8 = make_horner(8, TAIL_TERMS)
-polynomials8 = make_polynomials(8, TAIL_TERMS)
 
 
 @kernel(contract=True)

@@ -38,13 +38,13 @@ _RATIO_TERMS: Final = 9
 
 
 @kernel(contract=True)
-def _slope(table: Any, curve: Curve, whole: float, x: float) -> tuple[float, float, float, float, float, float]:
-    """Return D at the level of the depth, its first two derivatives with respect to z, z, z S0 and z^c."""
+def slope_of(
+    table: Any, curve: Curve, x: float, z: float, power: float
+) -> tuple[float, float, float, float, float, float]:
+    """Return what `_slope` does from z and z^(-n), numbers or eight of them (struve/lanes.py)."""
     b, g, _ = curve
     k = table.k
     n = 0.5 * (1.0 + k)
-    z = TWO_PI * (whole + x)
-    power = amplitude_power(table, z)
     s0, s1, d0, _ = pair_above(table, x, z, power)
     v = s0 + z * d0
     v1 = 2.0 * d0 + z * (s1 - s0)
@@ -52,6 +52,13 @@ def _slope(table: Any, curve: Curve, whole: float, x: float) -> tuple[float, flo
     pull = 0.5 * (1.0 - k) * power
     bend = n * pull / z
     return b * z + g * v - pull, b + g * v1 + bend, g * v2 - (n + 1.0) * bend / z, z, z * s0, z * power
+
+
+@kernel(contract=True)
+def _slope(table: Any, curve: Curve, whole: float, x: float) -> tuple[float, float, float, float, float, float]:
+    """Return D at the level of the depth, its first two derivatives with respect to z, z, z S0 and z^c."""
+    z = TWO_PI * (whole + x)
+    return slope_of(table, curve, x, z, amplitude_power(table, z))
 
 
 @kernel(contract=True)

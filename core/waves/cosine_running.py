@@ -22,7 +22,7 @@ import numpy as np
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.struve.chebyshev import chebyshev_fit
-from gradhesion.core.waves.cosine_lanes import LANES, LOSSES, WAVES, jumps_in_a_row, jumps_of_waves
+from gradhesion.core.waves.cosine_at_once import BATCH, LOSSES, WAVES, jumps_in_a_row, jumps_of_batch
 from gradhesion.core.waves.cosine_sum import branch_points, sum_of_waves
 
 _SINGLE: Final = 12
@@ -32,7 +32,7 @@ _CLEAR: Final = 12.5
 _INNERMOST: Final = 8.0
 _NEAREST: Final = 6.0
 """Waves from the inner branch point at which the first panel may begin at the nearest."""
-_TERMS: Final = LANES
+_TERMS: Final = BATCH
 _PLACES, _FIT = chebyshev_fit(_TERMS, _TERMS)
 _FIRST_GROWTH: Final = 4.0
 _GROWTH: Final = 8.0
@@ -159,7 +159,7 @@ def _fill(table: Any, curve: Curve, head: Any, panel: Any, outwards: bool, room:
         is_y = panel[IN_Y] > 0.0
         room[WAVES + i] = head[OUTER] * rest**4 if is_y else head[INNER] + variable * variable
         rates[i] = half * (-8.0 * head[OUTER] * variable * rest**3 if is_y else 2.0 * variable)
-    jumps_of_waves(table, curve, outwards, room)
+    jumps_of_batch(table, curve, outwards, room)
     for i in range(_TERMS):
         loss = room[LOSSES + i]
         for j in range(_TERMS):

@@ -25,13 +25,13 @@ from gradhesion.core._jit import kernel
 from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.curve.cosine_energy import NODES, WEIGHTS
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.waves.cosine_lanes import LANES, LOSSES, WAVES, jumps_in_a_row, jumps_of_waves
+from gradhesion.core.waves.cosine_at_once import BATCH, LOSSES, WAVES, jumps_in_a_row, jumps_of_batch
 
 _EDGE: Final = 4
 """Waves at a limit of the integral that are taken one by one: its derivatives there come from eight around it."""
-_FIRST: Final = LANES - _EDGE
+_FIRST: Final = BATCH - _EDGE
 """The same at the first limit: waves next to a branch point are no polynomial."""
-_DIRECT: Final = 4 * LANES
+_DIRECT: Final = 4 * BATCH
 """Waves that are summed one by one."""
 _WIDE: Final = 0.3
 """The inner branch point over the first wave from which on the integral is taken in two parts."""
@@ -102,12 +102,12 @@ def _outer_part(table: Any, curve: Curve, begin: float, end: float, outer: float
     """Return the integral in y."""
     outer = min(max(outer, end), _REMOTE * end)  # so that 1 - y^2 keeps its digits
     low, width = outer_limits(begin, end, outer)
-    for i in range(LANES):
+    for i in range(BATCH):
         y = low + width * NODES[i]
         room[WAVES + i] = outer * (1.0 - y * y) ** 4
-    jumps_of_waves(table, curve, outwards, room)
+    jumps_of_batch(table, curve, outwards, room)
     total = 0.0
-    for i in range(LANES):
+    for i in range(BATCH):
         y = low + width * NODES[i]
         total += WEIGHTS[i] * room[LOSSES + i] * 8.0 * outer * y * (1.0 - y * y) ** 3
     return total * width
@@ -118,12 +118,12 @@ def _inner_part(table: Any, curve: Curve, begin: float, end: float, inner: float
     """Return the integral in v."""
     inner = min(inner, begin)
     low, width = inner_limits(begin, end, inner)
-    for i in range(LANES):
+    for i in range(BATCH):
         v = low + width * NODES[i]
         room[WAVES + i] = inner + v * v
-    jumps_of_waves(table, curve, outwards, room)
+    jumps_of_batch(table, curve, outwards, room)
     total = 0.0
-    for i in range(LANES):
+    for i in range(BATCH):
         total += WEIGHTS[i] * room[LOSSES + i] * 2.0 * (low + width * NODES[i])
     return total * width
 
@@ -159,14 +159,14 @@ def sum_of_waves(table: Any, curve: Curve, first: float, last: float, outwards: 
     if last - first < _DIRECT:
         while first <= last:
             jumps_in_a_row(table, curve, first, last, outwards, room)
-            for i in range(min(LANES, int(last - first) + 1)):
+            for i in range(min(BATCH, int(last - first) + 1)):
                 total += room[LOSSES + i]
-            first += LANES
+            first += BATCH
         return total
     jumps_in_a_row(table, curve, first, last, outwards, room)
     for i in range(_FIRST):
         total += room[LOSSES + i]
-    total += limit_terms(room[LOSSES + _FIRST - _EDGE : LOSSES + LANES])
+    total += limit_terms(room[LOSSES + _FIRST - _EDGE : LOSSES + BATCH])
     jumps_in_a_row(table, curve, last - (2 * _EDGE - 1), last, outwards, room)
     for i in range(_EDGE):
         total += room[LOSSES + _EDGE + i]

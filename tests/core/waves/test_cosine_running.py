@@ -9,11 +9,11 @@ import pytest
 
 from gradhesion.core.curve.cosine_folds import first_arch, last_arch
 from gradhesion.core.waves.cosine import jump_of_wave
-from gradhesion.core.waves.cosine_lanes import room_for_lanes
+from gradhesion.core.waves.cosine_at_once import room_for_batch
 from gradhesion.core.waves.cosine_running import COUNT, SAMPLES, begin_sums, room_for_sums, sum_up_to
 from gradhesion.core.waves.cosine_sum import branch_points, sum_of_waves
 
-WORK, ROOM = np.zeros(22), room_for_lanes()
+WORK, ROOM = np.zeros(22), room_for_batch()
 GOOD = 1e-12
 """What sums are promised to, in parts of the loss."""
 BEFORE_OUTER = 8.0

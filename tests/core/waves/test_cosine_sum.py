@@ -15,13 +15,13 @@ from gradhesion.core.equations import saturation
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.status import FAILED, NO_VALUE
 from gradhesion.core.waves.cosine import jump_of_wave
-from gradhesion.core.waves.cosine_lanes import room_for_lanes
+from gradhesion.core.waves.cosine_at_once import room_for_batch
 from gradhesion.core.waves.cosine_sum import branch_points, sum_of_waves
 from tests.core.waves.reaching import reaching
 
 pytestmark = pytest.mark.slow
 
-WORK, ROOM = np.zeros(22), room_for_lanes()
+WORK, ROOM = np.zeros(22), room_for_batch()
 GOOD = 1e-12
 """What sums are promised to, in parts of the loss."""
 NAMES = ("dissipated_energy", "dissipated_energy_error")
