@@ -50,9 +50,10 @@ from gradhesion.core.path.loading import arrive, climb, load_up
 from gradhesion.core.path.ties import note_loading, note_loading_from, scan_inwards, tolerance
 from gradhesion.core.path.unloading import descend, leave
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.lanes import eight, lane_of, with_lane
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.waves.cosine import branch_of_wave, fold_of_wave, landing_of_wave
-from gradhesion.core.waves.cosine_at_once import room_for_batch
+from gradhesion.core.waves.cosine_at_once import folds_at_once, room_for_batch
 from gradhesion.core.waves.cosine_running import COUNT, begin_sums, room_for_sums, sum_up_to
 from gradhesion.core.waves.cosine_sum import sum_of_waves
 
@@ -357,13 +358,22 @@ def _put_branch(trace: Any, branch: int, ends_of_branch: tuple[float, float, flo
 def _branches_at(table: Any, curve: Curve, rim: float, trace: Any, near: int) -> float:
     """Put the last branch that starts within a rim, and the one before, into the trace; return the wave of that."""
     wave = np.floor(rim - table.phase / TWO_PI + 0.5)  # the wave whose centre is next: it has begun, or may have
-    start, start_depth, end, end_depth = branch_of_wave(table, curve, wave)
-    if start > rim:
-        wave -= 1.0
-        start, start_depth, end, end_depth = branch_of_wave(table, curve, wave)
-    _put_branch(trace, near + 1, (start, start_depth, end, end_depth))
-    _put_branch(trace, near, branch_of_wave(table, curve, wave - 1.0))
-    return wave - 1.0
+    waves, signs = eight(wave - 2.0), eight(1.0)
+    for lane in range(6):  # start and end of three of them
+        waves = with_lane(waves, lane, wave - lane // 2)
+        signs = with_lane(signs, lane, 1.0 - 2.0 * (lane % 2))
+    places, depths = folds_at_once(table, curve, waves, signs)
+    start = lane_of(places, 0)
+    if math.isnan(start):
+        start, _ = fold_of_wave(table, curve, wave, YES)
+    first = 1 if start > rim else 0
+    for i in range(2):
+        lane = 2 * (first + i)
+        branch = lane_of(places, lane), lane_of(depths, lane), lane_of(places, lane + 1), lane_of(depths, lane + 1)
+        if math.isnan(branch[0] + branch[2]):
+            branch = branch_of_wave(table, curve, wave - first - i)
+        _put_branch(trace, near + 1 - i, branch)
+    return wave - first - 1.0
 
 
 @kernel()

@@ -14,6 +14,7 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 
 from gradhesion.core._jit import kernel
+from gradhesion.core.curve.at_once import find_zeros, guess_zeros
 from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.curve.cosine_energy import unit_rule
 from gradhesion.core.curve.cosine_folds import half_wave
@@ -203,6 +204,17 @@ def _by_nodes(
         excess = (slow + less * slow) + less + g * (p * s + q * inverse * c)  # rho - 1
         total = total - weights[i] * z * (excess * (2.0 + excess))
     return TWO_PI * width * total
+
+
+@kernel(contract=True)
+def folds_at_once(table: Any, curve: Curve, waves: Lanes, signs: Lanes) -> tuple[Lanes, Lanes]:
+    """Return the places in waves where branches start (sign 1) or end (-1), and the depths there.
+
+    They are those of `fold_of_wave`, for waves whose phase a float tells with their place; NaN where that takes longer.
+    """
+    level = 0.5 * (1.0 - table.k)
+    low = waves + (table.phase / TWO_PI - 0.25) - 0.25 * signs
+    return find_zeros(table, curve, level, low, low + 0.5, guess_zeros(table, curve, level, 2.0 * waves, signs))
 
 
 @kernel(contract=True)
