@@ -22,6 +22,7 @@ import numpy as np
 from gradhesion.core._jit import kernel
 from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.struve.chebyshev import chebyshev_fit
+from gradhesion.core.struve.lanes import chosen, lane_of, load, root_of
 from gradhesion.core.waves.cosine_at_once import BATCH, LOSSES, WAVES, jumps_in_a_row, jumps_of_batch
 from gradhesion.core.waves.cosine_sum import branch_points, sum_of_waves
 
@@ -54,10 +55,12 @@ _PANELS: Final = 32
 FIRST, INNER, OUTER, COUNT, SAMPLES, SINGLE, KNOWN, _SUMS = 0, 1, 2, 3, 4, 5, 6, 8
 """Row 0 of the sums: the first wave, the branch points, the number of panels; the waves whose jump has been found; how
 many of the first waves are to be summed one by one, how many are, and their sums."""
-BEGIN, END, BASE, LOW, HIGH, IN_Y, _LOSS, _INTEGRAL = 0, 1, 2, 3, 4, 5, 8, 24
+BEGIN, END, BASE, LOW, HIGH, IN_Y, _AT_BEGIN, _LOSS, _INTEGRAL = 0, 1, 2, 3, 4, 5, 6, 8, 24
 """Other rows: where a panel begins and ends, the sum up to its begin (NaN: not filled), the variable at both ends,
-which one it is, and the coefficients of the loss and of its integral."""
+which one it is, `_up_to` at the begin, and the coefficients of the loss and of its integral."""
 _COLUMNS: Final = 41
+_AROUND: Final = np.array([-1.25, -0.75, -0.25, 0.25, 0.75, 1.25, 1.25, 1.25])
+"""Waves around a half wave at which the loss gives its derivatives; the last ones fill eight."""
 
 
 @kernel()
@@ -106,16 +109,17 @@ def begin_sums(table: Any, curve: Curve, sums: Any, first: float, outwards: bool
 
 @kernel(contract=True)
 def _variable(head: Any, panel: Any, wave: float) -> float:
-    """Return y or v."""
+    """Return y or v, of a wave or of eight (struve/lanes.py)."""
     if panel[IN_Y] > 0.0:
-        return math.sqrt(max(0.0, 1.0 - math.sqrt(math.sqrt(wave / head[OUTER]))))
-    return math.sqrt(wave - head[INNER])
+        rest = 1.0 - root_of(root_of(wave / head[OUTER]))
+        return root_of(chosen(rest, 0.0, 0.0, rest))
+    return root_of(wave - head[INNER])
 
 
 @kernel(contract=True)
 def _series(panel: Any, at: int, terms: int, t: float) -> float:
-    """Return a Chebyshev series at t (Clenshaw)."""
-    here, before = 0.0, 0.0
+    """Return a Chebyshev series at t, a number or eight (Clenshaw)."""
+    here, before = 0.0 * t, 0.0 * t
     for j in range(terms - 1, 0, -1):
         here, before = panel[at + j] + 2.0 * t * here - before, here
     return panel[at] + t * here - before
@@ -123,7 +127,7 @@ def _series(panel: Any, at: int, terms: int, t: float) -> float:
 
 @kernel(contract=True)
 def _place(head: Any, panel: Any, wave: float) -> float:
-    """Return the place of a wave on the [-1, 1] of its panel."""
+    """Return the place of a wave, or of eight, on the [-1, 1] of its panel."""
     low, high = panel[LOW], panel[HIGH]
     return (2.0 * _variable(head, panel, wave) - low - high) / (high - low)
 
@@ -132,16 +136,11 @@ def _place(head: Any, panel: Any, wave: float) -> float:
 def _up_to(head: Any, panel: Any, wave: float) -> float:
     """Return the integral up to a half wave less e'/24 - 7 e'''/5760 + 31 e^(5)/967680 there."""
     total = _series(panel, _INTEGRAL, _TERMS + 1, _place(head, panel, wave))
-    a = _series(panel, _LOSS, _TERMS, _place(head, panel, wave - 1.25))
-    b = _series(panel, _LOSS, _TERMS, _place(head, panel, wave - 0.75))
-    c = _series(panel, _LOSS, _TERMS, _place(head, panel, wave - 0.25))
-    d = _series(panel, _LOSS, _TERMS, _place(head, panel, wave + 0.25))
-    e = _series(panel, _LOSS, _TERMS, _place(head, panel, wave + 0.75))
-    f = _series(panel, _LOSS, _TERMS, _place(head, panel, wave + 1.25))
-    first = d - c
-    third = e - b - 3.0 * first
-    fifth = f - a - 5.0 * (e - b) + 10.0 * first
-    slope = first - third / 24.0 + 3.0 * fifth / 640.0  # by half a wave
+    around = _series(panel, _LOSS, _TERMS, _place(head, panel, wave + load(_AROUND, 0)))
+    one = lane_of(around, 3) - lane_of(around, 2)
+    two, three = lane_of(around, 4) - lane_of(around, 1), lane_of(around, 5) - lane_of(around, 0)
+    third, fifth = two - 3.0 * one, three - 5.0 * two + 10.0 * one
+    slope = one - third / 24.0 + 3.0 * fifth / 640.0  # by half a wave
     return total - (slope / 12.0 - 7.0 / 720.0 * (third - fifth / 8.0) + 31.0 / 30240.0 * fifth)
 
 
@@ -169,6 +168,7 @@ def _fill(table: Any, curve: Curve, head: Any, panel: Any, outwards: bool, room:
     panel[_INTEGRAL + 1] = steps[0] - 0.5 * steps[2]
     for j in range(2, _TERMS + 1):
         panel[_INTEGRAL + j] = 0.5 / j * (steps[j - 1] - steps[j + 1])
+    panel[_AT_BEGIN] = _up_to(head, panel, panel[BEGIN])
 
 
 @kernel()
@@ -217,8 +217,8 @@ def sum_up_to(table: Any, curve: Curve, sums: Any, last: float, outwards: bool, 
             base = sum_of_waves(table, curve, head[FIRST], panel[BEGIN] - 0.5, outwards, final, room)
         else:
             before = sums[i - 1]
-            base = before[BASE] + (_up_to(head, before, before[END]) - _up_to(head, before, before[BEGIN]))
+            base = before[BASE] + (_up_to(head, before, before[END]) - before[_AT_BEGIN])
         _fill(table, curve, head, panel, outwards, room)
         panel[BASE] = base
     panel = sums[number]
-    return panel[BASE] + (_up_to(head, panel, last + 0.5) - _up_to(head, panel, panel[BEGIN]))
+    return panel[BASE] + (_up_to(head, panel, last + 0.5) - panel[_AT_BEGIN])
