@@ -26,10 +26,11 @@ from gradhesion.core._jit import kernel
 from gradhesion.core.curve.cosine import Curve, wave
 from gradhesion.core.curve.cosine_jump import ENOUGH, REACH, beyond_at_once, energy_between, gauss_rule
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
-from gradhesion.core.struve.lanes import Lanes, chosen, size_of
+from gradhesion.core.struve.lanes import LANES, Lanes, chosen, load, size_of, sum_of
 from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS
 from gradhesion.core.struve.moments import moments
-from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.struve.pair import first_functions
+from gradhesion.core.struve.power import amplitude_power, amplitude_powers
 
 _PANELS: Final = {12: 0.8, 16: 1.25}
 """Gauss nodes, and the longest panel in waves for which they leave 1e-14 of a term cos 2 z, the fastest there is."""
@@ -53,20 +54,20 @@ _SMALL_LAG: Final = 0.1
 
 
 @kernel(contract=True)
-def _panel_below(
-    table: Any, curve: Curve, start: float, left: Any, begin: float, width: float, nodes: Any, weights: Any
-) -> float:
-    """Integrate z (1 - rho^2) over one panel of the x axis, per unit of x."""
+def _panel_below(table: Any, curve: Curve, start: float, left: Any, begin: float, width: float) -> float:
+    """Integrate z (1 - rho^2) over one panel of the x axis, per unit of x, eight nodes at a time."""
     b, g, lag = curve
     z1, wave1, stretch1 = left
     total = 0.0
-    for i in range(nodes.size):
-        x = begin + width * nodes[i]
-        z, power, s0, _, _, _, _ = wave(table, lag, x)
+    for first in range(0, NODES.size, LANES):
+        x = begin + width * load(NODES, first)
+        z = TWO_PI * x
+        power = amplitude_powers(table, z)
+        s0 = first_functions(table, lag, x, z, power)
         # differences first: each is of the size of the stretch, however large the depths are
         rise = 0.5 * b * (z + z1) * (TWO_PI * (x - start)) + g * (z * s0 - wave1)
         rho = (rise + stretch1) / (z * power)
-        total += weights[i] * z * ((1.0 - rho) * (1.0 + rho))
+        total += sum_of(load(WEIGHTS, first) * z * ((1.0 - rho) * (1.0 + rho)))
     return total * width
 
 
@@ -154,7 +155,7 @@ def energy_by_panels(table: Any, curve: Curve, start: float, end: float, work: A
     while (
         high - begin > 2.0 * begin and begin < 0.5 * LONG
     ):  # panels grow with their distance from the branch point at 0
-        total += _panel_below(table, curve, start, left, begin, 2.0 * begin, NODES, WEIGHTS)
+        total += _panel_below(table, curve, start, left, begin, 2.0 * begin)
         begin *= 3.0
     panels = int((high - begin) / LONG) + 1
     width = (high - begin) / panels
@@ -163,10 +164,8 @@ def energy_by_panels(table: Any, curve: Curve, start: float, end: float, work: A
             # whole waves apart: beyond 10^6 of them a node rounded as a whole would miss its phase by 10^-9
             whole = float(int(begin))
             total += panel_above(table, curve, whole, start - whole, left, begin - whole, width, work)
-        elif width <= min(SHORT, begin):
-            total += _panel_below(table, curve, start, left, begin, width, SHORT_NODES, SHORT_WEIGHTS)
         else:
-            total += _panel_below(table, curve, start, left, begin, width, NODES, WEIGHTS)
+            total += _panel_below(table, curve, start, left, begin, width)
         begin += width
     return total * (TWO_PI if end > start else -TWO_PI)
 

@@ -7,14 +7,12 @@ quarter turn first, which is exact in floating point.
 from typing import Final
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.struve.intrinsics import fma, turned, zero_from
+from gradhesion.core.struve.intrinsics import ROUND, fma, turned, zero_from
 
 TWO_PI: Final = 6.283185307179586
 TWO_PI_LOW: Final = 2.4492935982947064e-16
 """2 pi = TWO_PI + TWO_PI_LOW to 33 digits."""
 _PHASELESS: Final = 2.0**49
-_ROUND: Final = 6755399441055744.0
-"""1.5 2^52: adding it rounds to an integer, which then stands in the last bits."""
 
 
 @kernel(contract=True)
@@ -41,7 +39,7 @@ def sine_cosine_of_turns(x: float) -> tuple[float, float]:
     x is a number or eight (lanes.py).
     """
     x = zero_from(x, _PHASELESS)
-    quarters = 4.0 * x + _ROUND
-    rest = fma(quarters - _ROUND, -0.25, x)  # exact
+    quarters = 4.0 * x + ROUND
+    rest = fma(quarters - ROUND, -0.25, x)  # exact
     s, c = _sine_cosine(fma(rest, TWO_PI_LOW, rest * TWO_PI))
     return turned(s, c, quarters)

@@ -6,7 +6,7 @@ Several polynomials of one argument cost as little as one when each step is a si
 makes the four functions S0, S1, S0', S1' as cheap as one of them.
 """
 
-from typing import Any
+from typing import Any, Final
 
 from llvmlite import ir
 from numba import types
@@ -15,6 +15,11 @@ from numba.extending import intrinsic
 
 from gradhesion.core.struve.lanes import LANES, LANES_TYPE, VECTOR, spread
 
+ROUND: Final = 6755399441055744.0
+"""1.5 2^52: adding it rounds to an integer, which then stands in the last bits."""
+_ROUND_BITS: Final = 0x4338000000000000
+_ROOT_HALF: Final = 0x3FE6A09E667F3BCD
+_MANTISSA_BITS: Final = 52
 _DOUBLE = ir.DoubleType()
 _INTEGER = ir.IntType(64)
 
@@ -73,6 +78,39 @@ def zero_from(typingctx: Any, value: Any, bound: Any) -> Any:
         return builder.select(below, value, builder.fsub(value, value))
 
     return value(value, types.float64), generate
+
+
+@intrinsic
+def parts_of(typingctx: Any, values: Any) -> Any:
+    """Return m and e of eight normal numbers 2^e m > 0, sqrt(1/2) <= m < sqrt(2)."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        whole = ir.VectorType(_INTEGER, LANES)
+
+        def constant(value: int) -> Any:
+            return ir.Constant(whole, [value] * LANES)
+
+        bits = builder.bitcast(arguments[0], whole)
+        exponent = builder.ashr(builder.sub(bits, constant(_ROOT_HALF)), constant(_MANTISSA_BITS))
+        mantissa = builder.sub(bits, builder.shl(exponent, constant(_MANTISSA_BITS)))
+        shifted = builder.bitcast(builder.add(exponent, constant(_ROUND_BITS)), VECTOR)
+        number = builder.fsub(shifted, spread(builder, ir.Constant(_DOUBLE, ROUND)))
+        return cgutils.pack_array(builder, [builder.bitcast(mantissa, VECTOR), number])
+
+    return types.UniTuple(LANES_TYPE, 2)(LANES_TYPE), generate
+
+
+@intrinsic
+def scaled(typingctx: Any, values: Any, rounded: Any) -> Any:
+    """Return eight numbers times 2^t, for whole numbers t to which ROUND has been added."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        whole = ir.VectorType(_INTEGER, LANES)
+        value, power = (builder.bitcast(argument, whole) for argument in arguments)
+        power = builder.shl(power, ir.Constant(whole, [_MANTISSA_BITS] * LANES))
+        return builder.bitcast(builder.add(value, power), VECTOR)
+
+    return LANES_TYPE(LANES_TYPE, LANES_TYPE), generate
 
 
 @intrinsic

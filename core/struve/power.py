@@ -8,8 +8,8 @@ import math
 from typing import Any, Final
 
 from gradhesion.core._jit import kernel
-from gradhesion.core.struve.intrinsics import bits_of, float_of, fma
-from gradhesion.core.struve.lanes import LANES, Lanes, lane_of, with_lane
+from gradhesion.core.struve.intrinsics import ROUND, bits_of, float_of, fma, parts_of, scaled
+from gradhesion.core.struve.lanes import Lanes
 from gradhesion.core.struve.layout import EXPONENT_SPAN, MANTISSA_BITS, POWER_TERMS
 
 _MANTISSA: Final = (1 << 52) - 1
@@ -68,10 +68,40 @@ def amplitude_power(table: Any, z: float) -> float:
     return value * table.power_exponent[(bits >> 52) - 1023 + EXPONENT_SPAN]
 
 
+@kernel(contract=True)
+def _logarithms(m: Lanes) -> Lanes:
+    """Return the logarithms of base 2 of eight numbers from sqrt(1/2) to sqrt(2): 4e-17 of their size is left."""
+    s = (m - 1.0) / (m + 1.0)
+    u = s * s
+    v = u * u
+    low = (2.8853900817779268 + 0.9617966939259898 * u) + v * (0.5770780163455203 + 0.4121985858409005 * u)
+    high = (0.32059853491395984 + 0.262334352504183 * u) + v * (0.2209130842311768 + 0.2136589569431927 * u)
+    return s * (low + v * v * high)
+
+
+@kernel(contract=True)
+def _powers_of_two(r: Lanes) -> Lanes:
+    """Return 2^r for eight r from -1/2 to 1/2: 2e-17 is left."""
+    u = r * r
+    v = u * u
+    low = 0.24022650695910158 + 0.055504108664821625 * r + u * (0.009618129107587256 + 0.001333355814640647 * r)
+    middle = 0.00015403530463724353 + 1.5252733841556773e-05 * r
+    high = (
+        1.3215432535912375e-06 + 1.0178057087733941e-07 * r + u * (7.074194297288521e-09 + 4.4558179083360645e-10 * r)
+    )
+    return 1.0 + (0.6931471805599453 * r + u * (low + v * (middle + u * high)))
+
+
 @kernel()
 def amplitude_powers(table: Any, z: Lanes) -> Lanes:
-    """Return the powers of eight z."""
-    powers = z
-    for lane in range(LANES):
-        powers = with_lane(powers, lane, amplitude_power(table, lane_of(z, lane)))
-    return powers
+    """Return the powers of eight z, to two units in the last place, for 2^-512 <= z < 2^512.
+
+    They come from polynomials of least maximal error, for logarithm and exponential: eight do not read tables well.
+    """
+    m, e = parts_of(z)
+    n = 0.5 * (1.0 + table.k)
+    part = -n * _logarithms(m)
+    whole = -n * e
+    rounded = (whole + part) + ROUND
+    r = ((whole - (rounded - ROUND)) + fma(-n, e, -whole)) + part
+    return scaled(_powers_of_two(r), rounded)

@@ -15,6 +15,7 @@ from gradhesion.core.struve.fractional import NODES
 EXPONENTS = [0.0, 0.3, 0.7, 0.95]
 CASES = [(0.4, 1.1), (0.9, 1.0), (0.9, 3.3), (2.37, 2.9), (2.37, 9.4)]
 BEND, GAIN = 0.037, 0.83
+EPS = 2.0**-52
 Table = Callable[[float], Any]
 Pair = Callable[[float, float], tuple[mpmath.mpf, mpmath.mpf]]
 
@@ -92,7 +93,8 @@ def test_windows(k: float, a: float, table_of: Table) -> None:
         expected = [opening(table, curve, edge, r) for r in radii]
         # at a = 1.3 the branch point at 0 is near; depths grow by bend 2 pi a a wave
         assert np.abs(openings - expected).max() < (1e-6 if a < 2 else 3e-9) * np.abs(heights).max()
-    assert heights[3] == height(table, curve, edge, radii[3])
+    # powers are good to two units either way, and the terms of a height are no larger than some of these
+    assert abs(heights[3] - height(table, curve, edge, radii[3])) < 64 * EPS * np.abs(heights).max()
     # no curve at all leaves F = 1 - (1 - z^c/z_a^c): it falls, and averages of it from a + 0.4 on lie between
     flat = (0.0, 0.0, 0.0)
     edge = edge_at(table, flat, a)

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core._jit import kernel
+from gradhesion.core.struve.lanes import LANES, load, store
+from gradhesion.core.struve.power import amplitude_power, amplitude_powers
 
 EPS = 2.0**-52
 EXPONENTS = [0.0, 1e-16, 1e-8, 0.123, 1 / 3, 0.5, 0.777, 1 - 1e-12, 1.0]
@@ -21,6 +23,26 @@ def _powers(table: Any, z: NDArray[np.float64]) -> NDArray[np.float64]:
     for i in range(z.size):
         out[i] = amplitude_power(table, z[i])
     return out
+
+
+@kernel()
+def powers_at_once(table: Any, z: Any, out: Any) -> None:
+    """Put the powers of z into `out`, eight at a time."""
+    for first in range(0, z.size, LANES):
+        store(out, first, amplitude_powers(table, load(z, first)))
+
+
+@pytest.mark.parametrize("k", EXPONENTS)
+def test_eight_at_once(k: float, table_of: Callable[[float], Any]) -> None:
+    rng = np.random.default_rng(6)
+    halves = np.repeat(2.0 ** np.arange(-511.5, 512), LANES) * (1.0 + EPS * np.tile(np.arange(-4, 4), 1024))
+    z = np.concatenate([2.0 ** rng.uniform(-512, 511.99, 400), rng.uniform(0.01, 1000, 400), halves])
+    values = np.empty(z.size)
+    powers_at_once(table_of(k), z, values)
+    exact = [mpmath.mpf(float(place)) ** (-(1 + mpmath.mpf(k)) / 2) for place in z]
+    error = np.array([abs(float(value / truth - 1)) for value, truth in zip(values, exact, strict=True)])
+    # of the logarithm, its product with the exponent, the polynomial; 1 + k is rounded, times ln z
+    assert (error <= (2.0 + 0.25 * np.abs(np.log(z)) * (0.0 < k < 1.0)) * EPS).all()
 
 
 @pytest.mark.parametrize("k", EXPONENTS)
