@@ -76,7 +76,7 @@ KERNELS: Final[dict[str, int]] = {
     "curves": 31,
     "sensitivities": 57,
     "general_force": 87,
-    "general_energy": 241,
+    "general_energy": 242,
     "general_reports": 12,
     "general_turning": 24,
     "general_sensitivities": 47,

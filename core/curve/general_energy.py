@@ -146,24 +146,6 @@ def _from_zero(basis: Basis, curve: Curve, x: float, level: float) -> float:
 
 
 @kernel()
-def _panel(basis: Basis, curve: Curve, low: float, high: float, begin: int, end: int, level: float) -> float:
-    """Return int x (1 - rho^2) dx over a panel, by a range of places."""
-    part = 0.0
-    for i in range(begin, end):
-        part += SHARES[i] * _from_zero(basis, curve, low + (high - low) * PLACES[i], level)
-    return (high - low) * part
-
-
-@kernel()
-def _innermost(basis: Basis, curve: Curve, high: float, level: float) -> float:
-    """Return int x (1 - rho^2) dx over the panel from zero contact on."""
-    part = 0.0
-    for i in range(INNER_PLACES.size):
-        part += INNER_SHARES[i] * _from_zero(basis, curve, high * INNER_PLACES[i], level)
-    return high * part
-
-
-@kernel()
 def energy_from_zero(basis: Basis, curve: Curve, x: float, level: float) -> float:
     """Return e of a jump at Y = level from zero contact to x; the way back has the other sign."""
     table, _, series = basis
@@ -173,39 +155,89 @@ def energy_from_zero(basis: Basis, curve: Curve, x: float, level: float) -> floa
     total, high = 0.0, x
     while high > inner:
         low, begin, end = panel_inwards(high, growth, shortest)
-        total += _panel(basis, curve, low, high, begin, end, level)
+        part = 0.0
+        for i in range(begin, end):
+            part += SHARES[i] * _from_zero(basis, curve, low + (high - low) * PLACES[i], level)
+        total += (high - low) * part
         high = low
-    return (total + _innermost(basis, curve, high, level)) * TWO_PI * TWO_PI
+    part = 0.0
+    for i in range(INNER_PLACES.size):
+        part += INNER_SHARES[i] * _from_zero(basis, curve, high * INNER_PLACES[i], level)
+    return (total + high * part) * TWO_PI * TWO_PI
+
+
+@kernel(contract=True)
+def _parts(basis: Basis, curve: Curve, x: float) -> tuple[float, float, float]:
+    """Return x (1 - rho^2) at a radius of a jump from or to zero contact as a polynomial of the coordinate Y_j."""
+    table, cosine_bins, series = basis
+    B, m, g, alpha, beta = curve
+    z = TWO_PI * x
+    power = amplitude_power(table, z)
+    stretch, t = z * power, beta / (power * power)
+    w0, w1, _, _ = sums(table, cosine_bins, series, x, 0.0)
+    bend = B * z * z if m == 2.0 else B * z**m
+    depth, height = bend + g * z * w0 - stretch, bend * (m / (1.0 + table.k + m)) + g * z * w1 - stretch
+    share = 1.0 / ((alpha + t) * stretch)
+    u = (alpha * depth + t * height) * share
+    return -x * u * (2.0 + u), 2.0 * x * (1.0 + u) * share, -x * share * share
 
 
 @kernel()
-def energy_in(basis: Basis, curve: Curve, x: float, stations: Any) -> float:
-    """Return e of a jump at Y = 0 from zero contact to x.
+def _with_panel(
+    basis: Basis, curve: Curve, low: float, high: float, shortest: float, total: tuple[float, float, float]
+) -> tuple[float, float, float]:
+    """Return integrals of `_parts` with those over a panel away from zero, which may be the part of one."""
+    first, second, third = 0.0, 0.0, 0.0
+    begin, end = rule_between(low, high, shortest)
+    for i in range(begin, end):
+        parts = _parts(basis, curve, low + (high - low) * PLACES[i])
+        first += SHARES[i] * parts[0]
+        second += SHARES[i] * parts[1]
+        third += SHARES[i] * parts[2]
+    width = high - low
+    return total[0] + width * first, total[1] + width * second, total[2] + width * third
 
-    Panels end at stations, the same for any x, where the last one begins: many x, rims within the jump-in, share all
-    but that. `stations`, shape (2, n), has places, infinite where nothing has been found yet, and integrals up to them.
+
+@kernel()
+def _innermost_parts(basis: Basis, curve: Curve, high: float) -> tuple[float, float, float]:
+    """Return integrals of `_parts` over the panel from zero contact on."""
+    first, second, third = 0.0, 0.0, 0.0
+    for i in range(INNER_PLACES.size):
+        parts = _parts(basis, curve, high * INNER_PLACES[i])
+        first += INNER_SHARES[i] * parts[0]
+        second += INNER_SHARES[i] * parts[1]
+        third += INNER_SHARES[i] * parts[2]
+    return high * first, high * second, high * third
+
+
+@kernel()
+def energy_in(basis: Basis, curve: Curve, x: float, level: float, stations: Any) -> float:
+    """Return e of a jump at Y = level from zero contact to x, as `energy_from_zero`.
+
+    Panels end at stations, the same for any x, where the last one begins: many x, rims within the jump-in or the
+    jump-out, share all but that. `stations`, shape (4, n), has places, infinite where nothing has been found yet, and
+    up to them the integrals of the coefficients of a polynomial in Y.
     """
     table, _, series = basis
     _, _, _, alpha, beta = curve
     shortest = highest_harmonic(series)
     low, growth = panels_to_zero(table.k, alpha, beta, math.inf, shortest)
     if not SMOOTH * x > low:
-        return energy_from_zero(basis, curve, x, 0.0)
-    if stations[0, 0] == math.inf:
-        stations[0, 0], stations[1, 0] = low, _innermost(basis, curve, low, 0.0)
-    total, j = stations[1, 0], 0
+        return energy_from_zero(basis, curve, x, level)
+    total, j = (0.0, 0.0, 0.0), 0
     while True:
+        known = j < stations.shape[1] and stations[0, j] < math.inf
+        if known:
+            total = (stations[1, j], stations[2, j], stations[3, j])
+        elif j == 0:
+            total = _innermost_parts(basis, curve, low)
+        if not known and j < stations.shape[1]:
+            stations[0, j], stations[1, j], stations[2, j], stations[3, j] = low, total[0], total[1], total[2]
         high = panel_after(low, growth, shortest)
         if high >= x:
             break
-        j += 1
-        if j < stations.shape[1] and stations[0, j] < math.inf:
-            total = stations[1, j]
-        else:
-            begin, end = rule_between(low, high, shortest)
-            total += _panel(basis, curve, low, high, begin, end, 0.0)
-            if j < stations.shape[1]:
-                stations[0, j], stations[1, j] = high, total
-        low = high
-    begin, end = rule_between(low, x, shortest)
-    return (total + _panel(basis, curve, low, x, begin, end, 0.0)) * TWO_PI * TWO_PI
+        if not (j + 1 < stations.shape[1] and stations[0, j + 1] < math.inf):
+            total = _with_panel(basis, curve, low, high, shortest, total)
+        low, j = high, j + 1
+    first, second, third = _with_panel(basis, curve, low, x, shortest, total)
+    return (first + level * (second + level * third)) * TWO_PI * TWO_PI

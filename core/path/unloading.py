@@ -65,6 +65,13 @@ def descend(table: Any, curve: Any, trace: Any, branch: int, losses: bool) -> No
 
 
 @kernel()
+def jumps_out_from(count: int, trace: Any, rim: float, rim_depth: float) -> bool:
+    """Return whether unloading goes from the rim to zero contact at once."""
+    now = branch_within(count, trace, rim)
+    return not (now >= 0 and trace[END, now] >= rim) and next_lower(trace, now, rim_depth) < 0
+
+
+@kernel()
 def leave_rim(table: Any, curve: Any, count: int, trace: Any, rim: float, rim_depth: float) -> tuple[int, float]:
     """Return the branch on which unloading is when it has left the rim, -1 for none, and where it arrives there.
 

@@ -22,9 +22,10 @@ from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.path.general import depth_at_full_contact, walk
 from gradhesion.core.path.general_long import FEW, LONGEST_WALK, REGULAR, Middle, middle_of, stride
 from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
+from gradhesion.core.path.passage import depth_at
 from gradhesion.core.path.pieces import notes_for
 from gradhesion.core.path.ties import is_close_to_a_jump
-from gradhesion.core.path.unloading import unloading_from
+from gradhesion.core.path.unloading import jumps_out_from, unloading_from
 from gradhesion.core.problem.results import (
     CONTACT,
     DEEPEST,
@@ -153,7 +154,7 @@ def _walked(
     count, trace, tangency = walk(basis, curve, first, last, furthest, losses)
     if count < 0:
         return False
-    stations = np.full((2, _STATIONS), math.inf)
+    stations = np.full((4, _STATIONS), math.inf)
     limits = disc_limits(basis, curve, count, trace, furthest) if slots[CONTACT] >= 0 else (math.inf, math.inf)
     if len(own) > 0:
         slopes = slopes_of(basis, curve, own, count, trace)
@@ -162,12 +163,16 @@ def _walked(
             continue
         x = rims[i]
         level = coordinate(basis, curve, x) if x < math.inf else math.inf
-        if losses and x <= LONG and not is_one_cosine(basis[2], curve[1]) and jumps_in_to(count, trace, x):
-            loss, jumps = energy_in(basis, curve, x, stations), 1.0
+        shared = losses and x <= LONG and not is_one_cosine(basis[2], curve[1])
+        if shared and jumps_in_to(count, trace, x):
+            loss, jumps = energy_in(basis, curve, x, 0.0, stations), 1.0
         else:
             loss, jumps = loading_to(basis, curve, count, trace, x, losses)
         loading = (loss, jumps, highest_depth(count, trace, x, level))
-        unloading = unloading_from(basis, curve, count, trace, x, level, losses)
+        if shared and curve[3] > 0.0 and jumps_out_from(count, trace, x, level):
+            unloading = (-energy_in(basis, curve, x, level, stations), 1.0, depth_at(basis, curve, x, level))
+        else:
+            unloading = unloading_from(basis, curve, count, trace, x, level, losses)
         close = is_close_to_a_jump(basis, curve, count, trace, tangency, x, level, turned)
         flags = (close, is_one_disc(basis, curve, limits, x))
         _put_cycle(basis, curve, length, unit, (x, 0.0), loading, unloading, flags, slots, out, status, i)

@@ -58,18 +58,19 @@ WAVES = {
 @pytest.mark.parametrize("share", [0.0, 0.01, 1.0, 1e4])
 @pytest.mark.parametrize("waves", WAVES)
 @pytest.mark.parametrize("k", [0.0, 0.37, 0.98])
-def test_energy_of_a_jump_to_any_rim(k: float, waves: str, share: float) -> None:
+def test_energy_of_a_jump_between_any_rim_and_zero_contact(k: float, waves: str, share: float) -> None:
     """With stations it is that of panels from the rim inwards, whatever the stations hold already."""
     rng = np.random.default_rng(3)
     basis = (*tables_of(k), WAVES[waves])
     curve = (0.02, 2.0, 0.3, 1.0 / (1.0 + share), share / (1.0 + share))
     rims = rng.permutation(np.geomspace(1e-3, 20.0, 60))
-    kept, few = (np.full((2, n), math.inf) for n in (64, 3))
+    kept, few = (np.full((4, n), math.inf) for n in (64, 3))
     for x in rims.tolist():
-        energy = energy_in(basis, curve, x, kept)
-        # rounding of the square, and of waves and a bend that are some times as large as the stretch
-        size = (TWO_PI * x) ** 2 + abs(energy)
-        assert abs(energy - energy_from_zero(basis, curve, x, 0.0)) <= 16 * EPS * size, x
-        for stations in (few, np.full((2, 1), math.inf)):
-            assert energy_in(basis, curve, x, stations) == energy
+        for level in (0.0, coordinate(basis, curve, x)):
+            energy = energy_in(basis, curve, x, level, kept)
+            # rounding of the square, and of waves and a bend that are some times as large as the stretch
+            size = (TWO_PI * x) ** 2 + abs(energy)
+            assert abs(energy - energy_from_zero(basis, curve, x, level)) <= 16 * EPS * size, x
+            for stations in (few, np.full((4, 1), math.inf)):
+                assert energy_in(basis, curve, x, level, stations) == energy
     assert np.isfinite(kept[0]).sum() > 3 or not WAVES[waves].size
