@@ -131,7 +131,7 @@ def solve_cosine(
     else:
         smooth, others = _smooth_and_others(curves) if solver == "exact" else (_NO_CURVES, None)
         if smooth is None or smooth.size > 0:
-            many = {"some": smooth, "scenes": _SMOOTH, "together": _SMOOTH}
+            many = {"some": smooth, "scenes": _SMOOTH, "together": _SMOOTH, "as_they_stand": not reports}
             run_tasks(curves, workers, work_on_smooth, forces=not reports, **many)
             note_compiled("smooth")
         run_tasks(curves, workers, work, forces=solve_curves is PULL_OFF_LOOP, some=others)

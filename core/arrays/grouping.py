@@ -20,11 +20,19 @@ _TOGETHER: Final = 512
 _MANY: Final = 128
 """Exponents of few curves from which on it is worth being able to interpolate tables."""
 
+_LOOKED_AT: Final = 1024
+"""Curves whose exponents tell whether all differ."""
+
 
 def are_few(counts: NDArray[np.int64]) -> NDArray[np.bool_]:
     """Report which exponents, by the numbers of their curves, are to have interpolated tables; shape of `counts`."""
     few = counts < _FEW
     return few & (np.count_nonzero(few) >= _MANY)
+
+
+def _seem_to_differ(k: NDArray[np.float64]) -> bool:
+    """Report whether nearly all of some curves have an exponent of their own, by the first ones."""
+    return k.size >= _LOOKED_AT and np.unique(k[:_LOOKED_AT]).size > 0.9 * _LOOKED_AT
 
 
 @dataclass(frozen=True)
@@ -82,7 +90,12 @@ class Grouped:
         return self.k.size, self.rims[0].shape[1]
 
     def tasks(
-        self, some: NDArray[np.int64] | None = None, *, scenes: int = _TASK, together: int = _TOGETHER
+        self,
+        some: NDArray[np.int64] | None = None,
+        *,
+        scenes: int = _TASK,
+        together: int = _TOGETHER,
+        as_they_stand: bool = False,
     ) -> list[Task]:
         """Cut curves into tasks: those of one exponent, or those of many that have few each.
 
@@ -92,10 +105,19 @@ class Grouped:
             The numbers of the curves, shape (n,); all of them if not given.
         scenes, together
             Scenes of a task, and exponents of few curves, at most.
+        as_they_stand
+            Whether curves that have an exponent each may be left in their order: so they are read and written faster,
+            and tables slower, where neighbours have close exponents.
         """
         k, size = self.k if some is None else self.k[some], max(1, scenes // max(1, self.rims[0].shape[1]))
         if k.size == 0:
             return []
+        if as_they_stand and _seem_to_differ(k):
+            order = np.arange(k.size) if some is None else some
+            return [
+                Task(k[i : i + size], np.arange(min(size, k.size - i)), order[i : i + size], interpolated=True)
+                for i in range(0, k.size, size)
+            ]
         order, first = groups_of(k)
         ordered = k[order]
         order = order if some is None else some[order]

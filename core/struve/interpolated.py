@@ -116,7 +116,7 @@ def _fill_recipes(exponents: NDArray[np.float64], recipes: NDArray[np.float64]) 
     """Put the exponents, their places on their pieces, and the bits of the addresses of these into `recipes`."""
     pieces = np.searchsorted(_EDGES[1:-1], exponents)
     addresses = np.zeros(_PIECES, dtype=np.int64)
-    for piece in np.unique(pieces).tolist():
+    for piece in np.flatnonzero(np.bincount(pieces)).tolist():
         addresses[piece] = _piece(piece).ctypes.data
     recipes[:, 0] = exponents
     recipes[:, 1] = (exponents - _CENTRES[pieces]) / _HALVES[pieces]

@@ -51,3 +51,29 @@ def test_what_is_no_exponent_is_in_a_task_too() -> None:
     k = np.concatenate([[np.nan, np.nan, -1.0, 2.0], np.random.default_rng(3).uniform(0.0, 1.0, 300)])
     found = np.concatenate([task.index for task in curves_of(k).tasks()])
     np.testing.assert_array_equal(np.sort(found), np.arange(k.size))
+
+
+@pytest.mark.parametrize("part", [False, True])
+def test_curves_of_an_exponent_each_may_stay_in_their_order(part: bool) -> None:
+    k = np.random.default_rng(4).uniform(0.0, 1.0, 5000)
+    k[2:20] = k[1]
+    some = np.flatnonzero(k > 0.3) if part else None
+    tasks = curves_of(k).tasks(some, scenes=700, as_they_stand=True)
+    found = np.concatenate([task.index for task in tasks])
+    np.testing.assert_array_equal(found, np.arange(5000) if some is None else some)
+    for task in tasks:
+        assert task.interpolated
+        assert task.index.size <= 700
+        np.testing.assert_array_equal(task.exponents[task.which], k[task.index])
+
+
+def test_curves_that_share_exponents_do_not_stay_in_their_order() -> None:
+    for k in (
+        np.tile(np.linspace(0.0, 1.0, 50), 100),
+        np.repeat(np.linspace(0.0, 1.0, 900), 3),
+        np.linspace(0.0, 1.0, 99),
+    ):
+        ordered, standing = (curves_of(k).tasks(as_they_stand=stand) for stand in (False, True))
+        assert len(ordered) == len(standing)
+        for one, other in zip(ordered, standing, strict=True):
+            np.testing.assert_array_equal(one.index, other.index)

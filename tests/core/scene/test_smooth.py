@@ -179,3 +179,18 @@ def test_reports_of_smooth_punches() -> None:
     found, expected = solve_all(scenes, reports), solve(scenes, reports)
     for name, values in found.items():
         np.testing.assert_array_equal(values, expected[name], err_msg=name)
+
+
+def test_an_exponent_for_each() -> None:
+    """Many are solved in their order by interpolated tables, of which the stiffness is right to some units."""
+    rng, number = np.random.default_rng(7), MANY_SMOOTH
+    scenes = drawn(number) | {"k": rng.uniform(0.0, 1.0, number)}
+    whole = solve(scenes, RESULTS, threads=1)
+    for first in range(0, number, 512):
+        part = {name: values if np.ndim(values) == 0 else values[first : first + 60] for name, values in scenes.items()}
+        for name, values in solve(part, RESULTS).items():
+            found, finite = whole[name][first : first + 60], np.isfinite(values)
+            np.testing.assert_array_equal(found[~finite], values[~finite])
+            # of the largest depth a difference of two terms is left, of which the rim's is the larger
+            size = np.maximum(np.abs(values), part["a_max_over_R"] ** 2 if name == "delta_max" else 0.0)
+            assert np.all(np.abs(found[finite] - values[finite]) <= 32 * EPS * size[finite]), name
