@@ -65,8 +65,8 @@ APART: Final = (
 KINDS: Final = tuple(NEEDS)
 """All kinds, each after those that it needs."""
 KERNELS: Final[dict[str, int]] = {
-    "tables": 51,
-    "force": 51,
+    "tables": 52,
+    "force": 54,
     "energy": 191,
     "smooth": 36,
     "reports": 16,

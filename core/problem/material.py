@@ -26,11 +26,17 @@ def _square(k: float, nu: float) -> float:
 
 
 @kernel(entry=True)
-def _rest(k: float, nu: float) -> float:
-    """Return cos(k pi/2)/(beta sin(beta pi/2)) times sinc(beta/2): (1-k)/beta^2 sinc((1-k)/2)."""
-    rest = 1.0 - k  # exact near k = 1
+def _wave(k: float) -> float:
+    """Return sinc((1-k)/2)."""
+    return sinc(0.5 * (1.0 - k))  # 1 - k is exact near k = 1
+
+
+@kernel(entry=True)
+def _rest(k: float, nu: float, wave: float) -> float:
+    """Return cos(k pi/2)/(beta sin(beta pi/2)) times sinc(beta/2): (1-k)/beta^2 times `_wave`."""
+    rest = 1.0 - k
     quotient = (1.0 - nu) / ((1.0 + k) * (nu + (1.0 - 2.0 * nu) / rest)) if rest > 0.0 else 0.5
-    return quotient * sinc(0.5 * rest)
+    return quotient * wave
 
 
 @kernel(entry=True)
@@ -44,15 +50,15 @@ def theta_of(k: float, nu: float) -> float:
     """Return theta, NaN out of range."""
     if _is_out_of_range(k, nu):
         return math.nan
-    return front_of(k) * gammas_of(k, _square(k, nu)) * _rest(k, nu)
+    return front_of(k) * gammas_of(k, _square(k, nu)) * _rest(k, nu, _wave(k))
 
 
 @kernel()
-def _theta_by_table(table: Any, k: float, nu: float) -> float:
-    """Return theta, NaN out of range; the table is that of k, if k has one."""
+def _theta_by_table(table: Any, k: float, nu: float, wave: float) -> float:
+    """Return theta, NaN out of range; the table is that of k, if k has one, and `wave` that of `_wave`."""
     if _is_out_of_range(k, nu):
         return math.nan
-    return table.theta_front * gammas_by_table(table, _square(k, nu)) * _rest(k, nu)
+    return table.theta_front * gammas_by_table(table, _square(k, nu)) * _rest(k, nu, wave)
 
 
 @kernel(entry=True)
@@ -91,12 +97,14 @@ def fill_stiffness(
     tables: Any, which: Any, index: Any, k: Any, nu: Any, modulus: Any, c0_over_R: Any, out: Any
 ) -> None:
     """Put M R^(1+k)/dgamma of the scenes `index` into `out`, NaN outside the ranges; `which` are their tables."""
-    value, power = math.nan, math.nan
+    value, power, wave = math.nan, math.nan, math.nan
     before = index[0] if index.size > 0 else 0
     for j in range(index.size):
         i = index[j]
+        if j == 0 or k[i] != k[before]:
+            wave = _wave(k[i])
         if j == 0 or k[i] != k[before] or nu[i] != nu[before]:
-            value = _theta_by_table(tables[ready_for_theta(tables, which[j])], k[i], nu[i])
+            value = _theta_by_table(tables[ready_for_theta(tables, which[j])], k[i], nu[i], wave)
         if j == 0 or k[i] != k[before] or c0_over_R[i] != c0_over_R[before]:
             power = c0_over_R[i] ** k[i]
         before = i
