@@ -23,9 +23,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
-    from gradhesion.core._jit import watch_compilation
-    from gradhesion.core.cache import CACHE_FOLDER, compiled_before, place
     from gradhesion.core.closed.applicability import validity
+    from gradhesion.core.compiler.cache import CACHE_FOLDER, compiled_before, place
+    from gradhesion.core.compiler.jit import watch_compilation
+    from gradhesion.core.compiler.sources import SOURCES
     from gradhesion.core.curves import draw_curves
     from gradhesion.core.kinds import (
         APART,
@@ -52,7 +53,6 @@ if TYPE_CHECKING:
     )
     from gradhesion.core.problem.profile import Harmonic, Profile
     from gradhesion.core.problem.status import DOUBTFUL, FAILED, FLAGS, doubts_about
-    from gradhesion.core.sources import SOURCES
     from gradhesion.core.sweep import solve
     from gradhesion.core.warmup import compile_kind
 
@@ -95,8 +95,8 @@ __all__ = [
 ]
 
 _HOMES: Final = {
-    "_jit": ("watch_compilation",),
-    "cache": ("CACHE_FOLDER", "compiled_before", "place"),
+    "compiler.jit": ("watch_compilation",),
+    "compiler.cache": ("CACHE_FOLDER", "compiled_before", "place"),
     "curves": ("draw_curves",),
     "kinds": (
         "APART",
@@ -122,7 +122,7 @@ _HOMES: Final = {
         "VALIDITY",
     ),
     "problem.profile": ("Harmonic", "Profile"),
-    "sources": ("SOURCES",),
+    "compiler.sources": ("SOURCES",),
     "problem.status": ("DOUBTFUL", "FAILED", "FLAGS", "doubts_about"),
     "sweep": ("solve",),
     "closed.applicability": ("validity",),

@@ -1,7 +1,7 @@
 """Build a wheel that carries compiled kernels: `python -m wheels`, or `make wheel`.
 
-The kernels are compiled for a processor that most have (core/ahead.py), by this Python, numba and numpy. Where these
-are others, and on other processors, the program compiles as it does from its sources.
+The kernels are compiled for a processor that most have (core/compiler/ahead.py), by this Python, numba and numpy.
+Where these are others, and on other processors, the program compiles as it does from its sources.
 """
 
 import argparse
@@ -14,8 +14,8 @@ from tempfile import TemporaryDirectory
 from typing import Final
 
 from gradhesion.core import KINDS
-from gradhesion.core.ahead import FEATURES, FOLDER, PROCESSOR, lacking
-from gradhesion.core.sources import COMPILED, WITHOUT_KERNELS, digest_of
+from gradhesion.core.compiler.ahead import FEATURES, FOLDER, PROCESSOR, lacking
+from gradhesion.core.compiler.sources import COMPILED, WITHOUT_KERNELS, digest_of
 from wheels import package
 
 ROOT: Final = Path(__file__).parents[1]

@@ -4,8 +4,9 @@ import sys
 from pathlib import Path
 
 from gradhesion.cli.work.warming import warm
-from gradhesion.core import KINDS, NEEDS, ahead, compile_kind, keeping, linking
+from gradhesion.core import KINDS, NEEDS, compile_kind
 from gradhesion.core.arrays.processors import processors
+from gradhesion.core.compiler import ahead, keeping, linking
 
 
 def before(kind: str) -> set[str]:
@@ -17,7 +18,7 @@ def main(folder: Path, kinds: list[str]) -> None:
     """Compile side by side, then read all of it and write it down."""
     if not linking.LAZY:
         raise SystemExit(
-            "this numba links kernels in its ordinary way, whose code cannot be carried: see core/linking.py"
+            "this numba links kernels in its ordinary way, whose code cannot be carried: see core/compiler/linking.py"
         )
     warm(kinds, processors())
     needed = [kind for kind in KINDS if any(kind in before(wanted) for wanted in kinds)]

@@ -22,8 +22,8 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:
     """
     from gradhesion.cli.work.kernels import missing_of, refuse_without_compiler
     from gradhesion.core import KINDS, place
-    from gradhesion.core.ahead import is_complete, why_not
     from gradhesion.core.arrays.processors import processors
+    from gradhesion.core.compiler.ahead import is_complete, why_not
 
     refuse_without_compiler()
     from gradhesion.cli.work.warming import warm  # it imports kernels, which need the compiler

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.kernels import compile_kinds, missing_of, refuse_without_compiler
 from gradhesion.core import KERNELS, place
-from gradhesion.core.ahead import why_not
+from gradhesion.core.compiler.ahead import why_not
 
 WORDS = {
     "tables": "tables",

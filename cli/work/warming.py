@@ -7,7 +7,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.kernels import compile_kinds, missing_of
 from gradhesion.core import APART, NEEDS, compile_kind, watch_compilation
-from gradhesion.core.linking import LAZY
+from gradhesion.core.compiler.linking import LAZY
 
 
 def warm(

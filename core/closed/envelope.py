@@ -25,8 +25,8 @@ error of the order (lambda/a)^2, one wave not being at its lowest point.
 import math
 from typing import Any
 
-from gradhesion.core._jit import kernel
 from gradhesion.core.closed.smooth import FORCE_SCALE, smooth_length
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.problem.results import put_all
 from gradhesion.core.struve.circle import TWO_PI
 

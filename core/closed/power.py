@@ -11,7 +11,7 @@ in two parts, s and its product with 2/ln 2 being rounded on the way: the expone
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.intrinsics import bits_of, float_of, fma
 
 _ROOT_HALF: Final = 0x3FE6A09E667F3BCD

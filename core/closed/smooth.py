@@ -17,8 +17,8 @@ and all results follow from k, the rim, X there, and the a_2 and a_4 of docs/the
 import math
 from typing import Final
 
-from gradhesion.core._jit import kernel
 from gradhesion.core.closed.power import power
+from gradhesion.core.compiler.jit import kernel
 
 ABSCISSA_OF_JUMP_IN: Final = 2.0
 """X where the depth is zero."""

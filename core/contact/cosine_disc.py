@@ -13,7 +13,7 @@ at 17 radii a wave; only where its least value there is near zero it is searched
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import NONE, constant, kernel
+from gradhesion.core.compiler.jit import NONE, constant, kernel
 from gradhesion.core.contact.cosine_gap import Edge, edge_at, opening, openings_between, trough_gap
 from gradhesion.core.curve.branches import (
     ARRIVAL,

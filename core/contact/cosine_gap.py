@@ -14,7 +14,7 @@ follows the punch locally.
 import math
 from typing import Any, Final, TypeAlias
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Curve, wave
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.fractional import NODES, WEIGHTS

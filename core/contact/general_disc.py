@@ -14,7 +14,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact.cosine_disc import next_window, place_of
 from gradhesion.core.contact.general_gap import (
     Edge,

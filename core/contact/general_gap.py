@@ -12,7 +12,7 @@ of docs/theory.md, section 12). Lengths of panels are told in waves of the highe
 import math
 from typing import Any, Final, TypeAlias
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact.touch import profile_at
 from gradhesion.core.curve.general import Basis, Curve
 from gradhesion.core.struve.circle import TWO_PI

@@ -10,7 +10,7 @@ amplitude, may be.
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Curve
 from gradhesion.core.struve.circle import TWO_PI
 

@@ -13,7 +13,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import NO, kernel
+from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.cosine import Curve as OneWave
 from gradhesion.core.curve.cosine import slope, slopes
 from gradhesion.core.curve.cosine_folds import CLOSE, fold_of_arch, survey_arch

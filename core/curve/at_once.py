@@ -7,7 +7,7 @@ with. Out there the first guesses are so good that one step is the rule.
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Curve, slopes_at_once
 from gradhesion.core.curve.cosine_folds import LAST_STEP_OF_DEPTH, half_wave
 from gradhesion.core.struve.circle import TWO_PI

@@ -12,7 +12,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core._jit import NO, YES, kernel
+from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.at_once import find_zeros, guess_zeros
 from gradhesion.core.curve.cosine import Curve, depth, slope
 from gradhesion.core.curve.cosine_folds import (

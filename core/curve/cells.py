@@ -13,7 +13,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 
 DEGREE: Final = 16
 HALVINGS: Final = 16

@@ -21,7 +21,7 @@ punch. With it the wave number becomes continuous (waves/cosine.py).
 
 from typing import Any, TypeAlias
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.lanes import Lanes
 from gradhesion.core.struve.layout import SWITCH

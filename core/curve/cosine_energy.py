@@ -22,7 +22,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Curve, wave
 from gradhesion.core.curve.cosine_jump import ENOUGH, REACH, beyond_at_once, energy_between, gauss_rule
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns

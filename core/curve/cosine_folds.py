@@ -10,7 +10,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Curve, slope, slopes
 from gradhesion.core.struve.arches import inner_edge, summit
 from gradhesion.core.struve.circle import TWO_PI

@@ -21,7 +21,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Curve, wave
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.intrinsics import make_horner

@@ -15,7 +15,7 @@ so that every control has the folds D = 0 of its own level q (docs/theory.md, se
 import math
 from typing import Any, TypeAlias
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import sums

@@ -3,7 +3,7 @@
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import END, END_DEPTH, START, START_DEPTH
 from gradhesion.core.curve.general import Basis, Curve, coordinate, rise
 from gradhesion.core.struve.circle import TWO_PI

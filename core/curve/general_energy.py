@@ -9,7 +9,7 @@ Gauss's rule in panels short against the shortest wave, and against the distance
 import math
 from typing import Any, Final, TypeAlias
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Curve, slope
 from gradhesion.core.curve.panels import (
     INNER_PLACES,

@@ -5,7 +5,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cells import DEGREE, MOST, NODES, NOISE, STACK, isolate
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Curve, level_at, slope

@@ -12,7 +12,7 @@ belong to the coordinate at z,
     e = e_depth(0 -> z) - beta P^2/((1+k) alpha)
 """
 
-from gradhesion.core._jit import NO, kernel
+from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.arches import one_cosine
 from gradhesion.core.curve.cosine import wave
 from gradhesion.core.curve.cosine_energy import energy_from_zero

@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine_energy import LONG, NODES, WEIGHTS, unit_rule
 from gradhesion.core.struve.circle import TWO_PI
 

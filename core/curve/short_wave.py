@@ -22,9 +22,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
 from gradhesion.core.closed.envelope import envelope_force
 from gradhesion.core.closed.smooth import FORCE_SCALE
+from gradhesion.core.compiler.jit import kernel
 
 Wave: TypeAlias = tuple[float, float, float, float, float]
 """k, b, chi, g and phi."""

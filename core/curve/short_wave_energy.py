@@ -14,7 +14,7 @@ import math
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.short_wave import Wave
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)

@@ -12,7 +12,7 @@ so that D > 0 wherever, and D < 0 wherever the level is larger than what is left
 import math
 from typing import Any
 
-from gradhesion.core._jit import NO, YES, kernel
+from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.general import Basis, Curve
 from gradhesion.core.struve.cosine_bins import integral_at_zero
 

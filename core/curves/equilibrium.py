@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curves.forms import fill_points
 from gradhesion.core.curves.sampling import sample

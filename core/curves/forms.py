@@ -17,7 +17,7 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve import short_wave as asymptotic
 from gradhesion.core.curve.cosine import wave
 from gradhesion.core.curve.general import state

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core._jit import kernel
 from gradhesion.core.closed.smooth import smooth_energy_from_zero
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import ROWS, WORK
 from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy

@@ -5,7 +5,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curve.cosine import Curve, slope
 from gradhesion.core.curve.cosine_folds import first_arch, fold_of_arch, last_arch, survey_arch

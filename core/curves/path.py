@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core._jit import NO, NONE, YES, kernel
+from gradhesion.core.compiler.jit import NO, NONE, YES, kernel
 from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, START_DEPTH
 from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.curves.equilibrium import scales_of

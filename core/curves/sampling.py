@@ -11,7 +11,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curves.forms import Numbers, point, ripple
 
 TOLERANCE: Final = 1.2e-4

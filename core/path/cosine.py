@@ -7,7 +7,7 @@ it gets there, and unloading does not depend on where it came from. A long one i
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import NONE, kernel
+from gradhesion.core.compiler.jit import NONE, kernel
 from gradhesion.core.curve.branches import (
     GAP,
     RUN,

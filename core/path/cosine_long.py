@@ -14,7 +14,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import NO, NONE, YES, kernel
+from gradhesion.core.compiler.jit import NO, NONE, YES, kernel
 from gradhesion.core.curve.branches import (
     ARRIVAL,
     END,

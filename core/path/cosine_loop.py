@@ -16,7 +16,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import NO, kernel
+from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, START_DEPTH
 from gradhesion.core.curve.cosine import Curve, depth, load, slope
 from gradhesion.core.path.unloading import descend, leave_rim

@@ -10,7 +10,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import NO, kernel
+from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.arches import folds_between
 from gradhesion.core.curve.branches import ROWS, UNKNOWN, UNLOADING_JUMPS
 from gradhesion.core.curve.general import Basis, Curve, state

@@ -10,7 +10,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core._jit import NO, constant, kernel
+from gradhesion.core.compiler.jit import NO, constant, kernel
 from gradhesion.core.contact.general_disc import climb_is_one_disc
 from gradhesion.core.curve.arches import folds_between
 from gradhesion.core.curve.branches import END, START

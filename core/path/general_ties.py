@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Curve, size, slope
 from gradhesion.core.path.ties import PAIR

@@ -8,7 +8,7 @@ depend on how many there are.
 import math
 from typing import Any, TypeAlias
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.at_once import find_depths
 from gradhesion.core.curve.branches import (
     ARRIVAL,

@@ -6,7 +6,7 @@ The curve is any of path/passage.py; "depth" stands for what is prescribed.
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import YES, constant, kernel
+from gradhesion.core.compiler.jit import YES, constant, kernel
 from gradhesion.core.curve.branches import (
     ARRIVAL,
     END,

@@ -9,7 +9,7 @@ trace has the rows of curve/branches.py for all; its "depths" are the coordinate
 import math
 from typing import Any
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve import short_wave as asymptotic
 from gradhesion.core.curve.arches import is_one_cosine
 from gradhesion.core.curve.branches import ends, find_depth

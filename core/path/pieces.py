@@ -13,7 +13,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core._jit import NO, YES, constant, kernel
+from gradhesion.core.compiler.jit import NO, YES, constant, kernel
 from gradhesion.core.curve.branches import END, START, ends
 from gradhesion.core.curve.general import Basis, Curve, coordinate
 from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, find_level

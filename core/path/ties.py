@@ -15,7 +15,7 @@ neighbours stand apart by a wave. Where loading enters them, and unloading leave
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import NO, NONE, kernel
+from gradhesion.core.compiler.jit import NO, NONE, kernel
 from gradhesion.core.curve.branches import (
     CALLER,
     END,

@@ -8,7 +8,7 @@ in the depth at which contact ends.
 
 from typing import Any
 
-from gradhesion.core._jit import NO, kernel
+from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.branches import (
     CALLER,
     END,

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.current import ready_for_theta
 from gradhesion.core.struve.theta import front_of, gammas_by_table, gammas_of, sinc
 

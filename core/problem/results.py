@@ -8,7 +8,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core._jit import constant, kernel
+from gradhesion.core.compiler.jit import constant, kernel
 
 INTEGERS: Final = ("loading_jumps", "unloading_jumps")
 """Those that count."""

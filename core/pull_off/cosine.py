@@ -11,7 +11,7 @@ the best trough found: two or three troughs of a thousand are ever looked at.
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import YES, kernel
+from gradhesion.core.compiler.jit import YES, kernel
 from gradhesion.core.curve.cosine import Curve, load, wave
 from gradhesion.core.curve.cosine_folds import fold_of_arch, survey_arch
 from gradhesion.core.struve.arches import inner_edge

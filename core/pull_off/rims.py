@@ -9,7 +9,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.arches import is_one_cosine
 from gradhesion.core.curve.cells import MOST
 from gradhesion.core.curve.cosine_folds import CLOSE

@@ -10,9 +10,9 @@ energy is read off; without them `sense` is an empty tuple, whose length numba k
 import math
 from typing import Any
 
-from gradhesion.core._jit import kernel
 from gradhesion.core.closed import smooth
 from gradhesion.core.closed.power import power
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Curve, curve_of, force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.path.cosine import (

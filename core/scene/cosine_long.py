@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from gradhesion.core._jit import NONE, kernel
+from gradhesion.core.compiler.jit import NONE, kernel
 from gradhesion.core.contact.cosine_disc import ALWAYS_ONE, NOWHERE, limits_from, note_run
 from gradhesion.core.curve.branches import RUN, RUN_FIRST, RUN_LAST, RUN_LEAST
 from gradhesion.core.curve.cosine import Curve

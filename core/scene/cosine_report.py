@@ -18,8 +18,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import NO, YES, constant, kernel
 from gradhesion.core.closed import smooth
+from gradhesion.core.compiler.jit import NO, YES, constant, kernel
 from gradhesion.core.curve.branches import ARRIVAL, END, START
 from gradhesion.core.curve.cosine import Curve, curve_of, depth, force_unit, wave
 from gradhesion.core.curve.cosine_folds import fold_of_arch, survey_arch

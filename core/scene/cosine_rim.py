@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact.cosine_disc import disc_limits, is_one_disc
 from gradhesion.core.curve.cosine import Curve, depth
 from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to

@@ -17,7 +17,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import NO, NONE, YES, kernel
+from gradhesion.core.compiler.jit import NO, NONE, YES, kernel
 from gradhesion.core.curve.branches import ARRIVAL, END, LANDING, NEXT, START
 from gradhesion.core.curve.cosine_energy import NODES, WEIGHTS
 from gradhesion.core.curve.general import Basis, Curve, coordinate, curve_of, slope, state

@@ -8,8 +8,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import YES, kernel
 from gradhesion.core.closed import envelope
+from gradhesion.core.compiler.jit import YES, kernel
 from gradhesion.core.curve.branches import END, END_DEPTH, HIGHEST, ROWS, START, START_DEPTH, UNKNOWN, UNLOADING_JUMPS
 from gradhesion.core.curve.cosine import curve_of, force_unit
 from gradhesion.core.curve.short_wave import (

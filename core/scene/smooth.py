@@ -7,9 +7,9 @@ curves it has the first of the latter. Formulas are those of closed/smooth.py.
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import kernel
 from gradhesion.core.closed import smooth
 from gradhesion.core.closed.power import fill_powers
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.problem.results import (
     DEEPEST,
     ENERGY,

@@ -9,8 +9,8 @@ import math
 from collections.abc import Callable
 from typing import Any, Final
 
-from gradhesion.core._jit import kernel
 from gradhesion.core.closed import envelope
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene import cosine as scene
 from gradhesion.core.scene import short_wave as asymptotic_cycle

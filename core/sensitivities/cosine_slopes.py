@@ -17,8 +17,8 @@ from typing import Any
 
 import numpy as np
 
-from gradhesion.core._jit import constant, kernel
 from gradhesion.core.closed import smooth
+from gradhesion.core.compiler.jit import constant, kernel
 from gradhesion.core.curve.branches import (
     ARRIVAL,
     END,

@@ -15,7 +15,7 @@ alpha may be held.
 import math
 from typing import Any, Final, TypeAlias
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Curve, coordinate, state
 from gradhesion.core.curve.general_energy import Left, place_left
 from gradhesion.core.curve.panels import (

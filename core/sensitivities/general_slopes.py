@@ -17,7 +17,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Curve, coordinate, slope, state
 from gradhesion.core.path.pieces import NOTED_DOWN, NOTED_JUMP, NOTED_OUT, NOTED_UP
 from gradhesion.core.problem.results import RADIUS

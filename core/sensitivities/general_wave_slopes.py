@@ -9,7 +9,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import NO, kernel
+from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curve.general import Basis, Curve, coordinate
 from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL

@@ -16,7 +16,7 @@ that depth alone; of a general curve (sensitivities/general_jump_slopes.py) also
 
 from typing import Any, Final
 
-from gradhesion.core._jit import YES, kernel
+from gradhesion.core.compiler.jit import YES, kernel
 from gradhesion.core.curve.cosine import Curve, depth, wave
 from gradhesion.core.curve.cosine_energy import (
     LONG,

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from gradhesion.core._jit import NO, YES, kernel
+from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve import general
 from gradhesion.core.curve.branches import (
     ARRIVAL,

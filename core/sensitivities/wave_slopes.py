@@ -7,7 +7,7 @@ the inner one its power is 1/2 in the place of 3/2, which Gauss's rule takes in 
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.curve.cosine_energy import LONG, NODES, SHORT_NODES, SHORT_WEIGHTS, WEIGHTS, panel_above
 from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, EXPONENT, GAIN, SLOPES, panel_slopes_above

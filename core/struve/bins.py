@@ -16,7 +16,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve import double_double as dd
 from gradhesion.core.struve.layout import BIN_TERMS, BIN_WIDTH
 

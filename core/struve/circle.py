@@ -6,7 +6,7 @@ quarter turn first, which is exact in floating point.
 
 from typing import Final
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.intrinsics import ROUND, fma, turned, zero_from
 
 TWO_PI: Final = 6.283185307179586

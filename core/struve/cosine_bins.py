@@ -20,7 +20,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve import double_double as dd
 from gradhesion.core.struve.bins import (
     ECONOMISATION,

@@ -7,7 +7,7 @@ table of the next exponent before they read it: it takes the place of the last o
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.filling import fill_theta, refill
 from gradhesion.core.struve.intrinsics import bits_of, numbers_at
 from gradhesion.core.struve.table import fill_constants

@@ -3,7 +3,7 @@
 Used where a table is made, so that every stored coefficient is the float nearest to the true one.
 """
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.intrinsics import fma
 
 

@@ -14,7 +14,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.layout import FRACTIONAL_NODES
 
 _PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(FRACTIONAL_NODES)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.blocks import ALL
 from gradhesion.core.struve.chebyshev import chebyshev_fit
 from gradhesion.core.struve.current import RECIPE, prepare

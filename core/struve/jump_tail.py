@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.layout import MOMENT_TAIL_TERMS, SWITCH
 
 _OF_PAIR = 4

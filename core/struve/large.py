@@ -17,7 +17,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS
 
 NODES: Final = np.cos(np.pi * (2 * np.arange(TAIL_TERMS) + 1) / (2 * TAIL_TERMS))

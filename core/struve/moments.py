@@ -26,7 +26,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.bins import economisation
 from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
 from gradhesion.core.struve.filling import ask_for_moments

@@ -7,7 +7,7 @@ S0' is kept as a function of its own: by the first identity it would lose eps z^
 
 from typing import Any
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
 from gradhesion.core.struve.filling import ask_for_bin
 from gradhesion.core.struve.intrinsics import fma, make_horner

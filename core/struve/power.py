@@ -7,7 +7,7 @@ rounding it would cost |k e ln 2| units in the last place.
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.intrinsics import ROUND, bits_of, float_of, fma, parts_of, scaled
 from gradhesion.core.struve.lanes import Lanes
 from gradhesion.core.struve.layout import EXPONENT_SPAN, MANTISSA_BITS, POWER_TERMS

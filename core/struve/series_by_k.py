@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
 from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.struve.layout import SWITCH

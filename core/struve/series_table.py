@@ -18,7 +18,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.intrinsics import fma, make_horner
 from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS

@@ -11,7 +11,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve import arches, bins, fractional, jump_tail, large, moments, theta
 from gradhesion.core.struve.layout import TABLE
 from gradhesion.core.struve.pair import pair

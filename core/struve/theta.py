@@ -11,7 +11,7 @@ Chebyshev coefficients of (4 - beta^2) H leave 4 eps where three gamma functions
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.chebyshev import chebyshev_fit
 from gradhesion.core.struve.layout import THETA_TERMS
 

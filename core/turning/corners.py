@@ -9,7 +9,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core._jit import NO, constant, kernel
+from gradhesion.core.compiler.jit import NO, constant, kernel
 from gradhesion.core.curve.arches import folds_between
 from gradhesion.core.curve.branches import ARRIVAL, END
 from gradhesion.core.curve.cosine_folds import CLOSE

@@ -9,8 +9,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import NO, YES, kernel
 from gradhesion.core.closed import smooth
+from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.contact.cosine_disc import ALWAYS_ONE, least_opening
 from gradhesion.core.curve.branches import END, END_DEPTH, GAP, RUN, START, START_DEPTH, VALUES, WORK, ends, find_depth
 from gradhesion.core.curve.cosine import Curve, curve_of, depth, force_unit

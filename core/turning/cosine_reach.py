@@ -9,7 +9,7 @@ With chi = g C both hold at every z:
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import YES, kernel
+from gradhesion.core.compiler.jit import YES, kernel
 from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.path.cosine import LARGEST
 from gradhesion.core.struve.circle import TWO_PI

@@ -11,7 +11,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core._jit import NO, YES, kernel
+from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.branches import (
     ARRIVAL,
     END,

@@ -5,7 +5,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact.general_disc import is_surely_open, least_opening
 from gradhesion.core.curve.branches import END_DEPTH, START, START_DEPTH, ends
 from gradhesion.core.curve.cosine import force_unit

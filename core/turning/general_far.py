@@ -5,7 +5,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from gradhesion.core._jit import NO, YES, kernel
+from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.branches import END, END_DEPTH, ROWS, ends
 from gradhesion.core.curve.general import Basis, Curve
 from gradhesion.core.curve.general_branches import fill_branches, find_level

@@ -3,7 +3,7 @@
 import math
 from typing import Final
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Curve
 from gradhesion.core.struve.circle import TWO_PI
 

@@ -13,7 +13,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core._jit import NO, YES, kernel
+from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.curve.cosine_energy import LONG, panel_above
 from gradhesion.core.struve.circle import TWO_PI

@@ -13,7 +13,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.at_once import find_zeros, guess_zeros
 from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.curve.cosine_energy import unit_rule

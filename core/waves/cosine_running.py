@@ -19,7 +19,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.struve.chebyshev import chebyshev_fit
 from gradhesion.core.struve.lanes import chosen, lane_of, load, root_of

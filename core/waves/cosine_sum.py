@@ -21,7 +21,7 @@ Against the sum wave by wave, of 10^2 to 10^5 of them: 1e-12 of the loss, mostly
 import math
 from typing import Any, Final
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.curve.cosine_energy import NODES, WEIGHTS
 from gradhesion.core.struve.circle import TWO_PI

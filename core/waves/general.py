@@ -17,7 +17,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core._jit import constant, kernel
+from gradhesion.core.compiler.jit import constant, kernel
 from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curve.cells import MOST
 from gradhesion.core.curve.general import Basis, Curve, coordinate, slope

@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.core._jit import YES, kernel
+from gradhesion.core.compiler.jit import YES, kernel
 from gradhesion.core.curve.general import Basis, Curve, coordinate
 from gradhesion.core.curve.general_energy import Left, drop, energy_from_zero, jump_energy, place_left
 from gradhesion.core.struve.circle import TWO_PI

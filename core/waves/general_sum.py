@@ -19,7 +19,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import NO, kernel
+from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.general import Basis, Curve
 from gradhesion.core.curve.general_energy import Left
 from gradhesion.core.waves.cosine_sum import limit_terms

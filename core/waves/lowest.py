@@ -10,7 +10,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import START
 from gradhesion.core.curve.general import Basis, Curve
 from gradhesion.core.curve.general_branches import START_LEVEL

@@ -14,7 +14,7 @@ from gradhesion.cli.study import study_from
 from gradhesion.cli.work import compiling, kernels
 from gradhesion.cli.work.locks import closing, try_lock
 from gradhesion.core import KINDS, MANY_SMOOTH, NEEDS
-from gradhesion.core.cache import Place
+from gradhesion.core.compiler.cache import Place
 from gradhesion.core.warmup import SCENE
 
 MANY = {"start": 1.0, "stop": 100.0, "num": MANY_SMOOTH}

@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 
 import gradhesion.core
-from gradhesion.core import _jit
+from gradhesion.core.compiler import jit
 
 ROOT = Path(__file__).parents[2]
-CORE = Path(_jit.__file__).parent
+CORE = Path(jit.__file__).parents[1]
 MODULES = sorted(
     module.name for module in pkgutil.walk_packages([str(CORE)], f"{gradhesion.core.__name__}.") if not module.ispkg
 )

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from gradhesion.core._jit import NO, YES
 from gradhesion.core.arrays.prepared import prepared
 from gradhesion.core.arrays.tables import tables_of
+from gradhesion.core.compiler.jit import NO, YES
 from gradhesion.core.curve.branches import ROWS
 from gradhesion.core.curve.cosine import curve_of as cosine_of
 from gradhesion.core.curve.cosine import depth

@@ -13,8 +13,8 @@ import pytest
 from packaging.tags import sys_tags
 from packaging.utils import parse_wheel_filename
 
-from gradhesion.core import linking
-from gradhesion.core.ahead import FEATURES
+from gradhesion.core.compiler import linking
+from gradhesion.core.compiler.ahead import FEATURES
 from wheels import package
 from wheels.__main__ import main
 
@@ -23,7 +23,8 @@ ROOT = Path(__file__).parents[2]
 SWEEP = """
 import hashlib, json, sys
 import numpy as np
-from gradhesion.core import CACHE_FOLDER, compiled_before, solve, sources, watch_compilation
+from gradhesion.core import CACHE_FOLDER, compiled_before, solve, watch_compilation
+from gradhesion.core.compiler import sources
 rng = np.random.default_rng(11)
 n = 100_000
 scenes = dict(
@@ -150,7 +151,7 @@ def test_a_processor_that_cannot_run_the_code_builds_none(monkeypatch: pytest.Mo
 def test_a_numba_of_another_version_compiles_and_says_why(installed: Path, tmp_path: Path) -> None:
     code = (
         "import numba; numba.__version__ = '0.68.99'\n"
-        "from gradhesion.core import compiled_before\nfrom gradhesion.core.ahead import why_not\n"
+        "from gradhesion.core import compiled_before\nfrom gradhesion.core.compiler.ahead import why_not\n"
         "print(compiled_before('force'), why_not())"
     )
     environment = os.environ | {"PYTHONPATH": str(installed), "NUMBA_CACHE_DIR": str(tmp_path)}

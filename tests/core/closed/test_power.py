@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gradhesion.core._jit import kernel
 from gradhesion.core.closed.power import power
+from gradhesion.core.compiler.jit import kernel
 
 EPS = 2.0**-52
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.at_once import find_depths, find_zeros, guess_zeros
 from gradhesion.core.curve.branches import find_depth
 from gradhesion.core.curve.cosine import slope

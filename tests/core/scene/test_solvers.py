@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import OUTPUTS, SOLVERS, cache, solve
+from gradhesion.core import OUTPUTS, SOLVERS, solve
 from gradhesion.core.arrays.tables import table_of
+from gradhesion.core.compiler import cache
 from gradhesion.core.curve.branches import ROWS
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene import cosine as scene

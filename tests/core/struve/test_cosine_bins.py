@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.cosine_bins import build_cosine_bins, integral_at_zero
 from gradhesion.core.struve.series import integrals
 from gradhesion.core.struve.table import build_table

@@ -7,7 +7,7 @@ import numba
 import numpy as np
 import pytest
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import sine_cosine_of_turns
 from gradhesion.core.struve.intrinsics import fma, make_horner
 from gradhesion.core.struve.lanes import (

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gradhesion.core._jit import kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.lanes import LANES, load, store
 from gradhesion.core.struve.power import amplitude_power, amplitude_powers
 

@@ -10,8 +10,8 @@ import numba
 import numpy as np
 from numba.core import event
 
-from gradhesion.core import cache, collecting, keeping, linking
-from gradhesion.core._borrowed import BorrowingCompiler
+from gradhesion.core.compiler import cache, collecting, keeping, linking
+from gradhesion.core.compiler.borrowed import BorrowingCompiler
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 

@@ -22,7 +22,7 @@ from numba.core.caching import CompileResultCacheImpl, FunctionCache, NullCache,
 from numba.core.compiler import CompileResult
 from numba.core.runtime.nrt import rtsys
 
-from gradhesion.core import ahead
+from gradhesion.core.compiler import ahead
 
 _setting: Final = threading.Lock()
 

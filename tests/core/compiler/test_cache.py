@@ -10,7 +10,7 @@ from pathlib import Path
 import platformdirs
 import pytest
 
-from gradhesion.core import cache
+from gradhesion.core.compiler import cache
 
 pytestmark = pytest.mark.slow
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core import _jit, ahead, cache, keeping, linking
+from gradhesion.core.compiler import ahead, cache, jit, keeping, linking
 
 pytestmark = pytest.mark.skipif(not linking.LAZY, reason="numba of another version: kernels are kept as it does")
 
@@ -24,7 +24,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return place
 
 
-@_jit.kernel()
+@jit.kernel()
 def root(x: float) -> float:
     return math.sqrt(x * x + 1.0)
 
@@ -32,7 +32,7 @@ def root(x: float) -> float:
 def made() -> Any:
     """An entry with a kernel below, as a new process would make it."""
 
-    @_jit.kernel()
+    @jit.kernel()
     def outermost(x: float) -> float:
         return root(x) - root(2.0 * x)
 
@@ -75,7 +75,7 @@ def test_a_folder_that_cannot_be_made_is_none(tmp_path: Path, monkeypatch: pytes
 @pytest.mark.usefixtures("folder")
 def test_constants_that_python_needs_are_kept() -> None:
     def make() -> Any:
-        @_jit.kernel()
+        @jit.kernel()
         def second(rows: Any) -> Any:
             return rows[1]
 
@@ -90,16 +90,17 @@ def test_constants_that_python_needs_are_kept() -> None:
 PROCESS = """
 import json, sys
 from pathlib import Path
-from gradhesion.core import _jit, watch_compilation
+from gradhesion.core import watch_compilation
+from gradhesion.core.compiler import jit
 from gradhesion.core.problem.material import stiffness
 names = []
 with watch_compilation(names.append):
     value = float(stiffness(0.3, 0.3, 500.0, 0.01))
     library = "numba.np.npyimpl" in sys.modules
     things = [thing for name in [*sys.modules] if name.startswith("gradhesion.core") for thing in vars(sys.modules[name]).values()]
-    kernels = {id(thing): vars(thing) for thing in things if isinstance(thing, _jit.Kernel)}.values()
+    kernels = {id(thing): vars(thing) for thing in things if isinstance(thing, jit.Kernel)}.values()
     made = [sum(name in kernel for kernel in kernels) for name in ("_entry", "_inner")]
-    @_jit.kernel()
+    @jit.kernel()
     def half(x):
         return x / 2.0
     half.py_func.__module__ = "gradhesion.core.nowhere"

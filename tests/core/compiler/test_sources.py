@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from gradhesion.core.sources import COMPILED, CORE, SOURCES, WITHOUT_KERNELS, digest_of
+from gradhesion.core.compiler.sources import COMPILED, CORE, SOURCES, WITHOUT_KERNELS, digest_of
 
 
 def test_the_digest_follows_every_source(tmp_path: Path) -> None:
@@ -22,12 +22,12 @@ def test_the_digest_follows_every_source(tmp_path: Path) -> None:
 
 def test_it_is_that_of_the_core() -> None:
     assert digest_of(CORE) == SOURCES
-    assert (CORE / "sources.py").is_file()
+    assert (CORE / "sweep.py").is_file()
 
 
 def test_what_compiled_code_depends_on(tmp_path: Path) -> None:
     for room in WITHOUT_KERNELS:
-        assert [source for source in (CORE / room).rglob("*.py") if "core._jit" in source.read_text()] == []
+        assert [source for source in (CORE / room).rglob("*.py") if "core.compiler.jit" in source.read_text()] == []
     (tmp_path / "answers").mkdir()
     (tmp_path / "one.py").touch()
     digest = digest_of(tmp_path, WITHOUT_KERNELS)

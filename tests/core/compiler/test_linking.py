@@ -11,7 +11,7 @@ from typing import Any
 import numba
 import pytest
 
-from gradhesion.core import _jit, cache, linking
+from gradhesion.core.compiler import cache, jit, linking
 
 pytestmark = pytest.mark.skipif(not linking.LAZY, reason="numba of another version: kernels are linked as it does")
 
@@ -27,15 +27,15 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def three_levels() -> tuple[Any, Any, Any]:
     """An entry, a kernel that it calls, and one below it."""
 
-    @_jit.kernel(contract=True)
+    @jit.kernel(contract=True)
     def root(x: float) -> float:
         return math.sqrt(x * x + 1.0)
 
-    @_jit.kernel()
+    @jit.kernel()
     def middle(x: float) -> float:
         return root(x) + math.sin(root(3.0 * x))
 
-    @_jit.kernel()
+    @jit.kernel()
     def outermost(x: float) -> float:
         return middle(x) - root(2.0 * x)
 
@@ -85,11 +85,11 @@ def test_kernels_of_others_can_call_ours(first: bool) -> None:
 
 @pytest.mark.usefixtures("folder")
 def test_a_mistake_in_a_kernel_is_an_error_and_nothing_else() -> None:
-    @_jit.kernel()
+    @jit.kernel()
     def wrong(x: float) -> float:
         return x.nothing  # type: ignore[attr-defined, no-any-return]
 
-    @_jit.kernel()
+    @jit.kernel()
     def calls(x: float) -> float:
         return wrong(x)
 
@@ -120,7 +120,8 @@ import numba
 if sys.argv[1] == "another version":
     numba.version_info = numba.version_info._replace(short=(0, 59))
 import numpy as np
-from gradhesion.core import linking, solve
+from gradhesion.core import solve
+from gradhesion.core.compiler import linking
 from numba.core.registry import cpu_target
 rng = np.random.default_rng(5)
 scenes = dict(
@@ -129,7 +130,7 @@ scenes = dict(
 )
 found = {output: solve(scenes, [output], threads=1)[output] for output in ("dissipated_energy", "pull_off_force")}
 values = [hashlib.sha256(array.tobytes()).hexdigest() for array in found.values()]
-own = cpu_target.target_context.codegen()._library_class.__module__ == "gradhesion.core.linking"
+own = cpu_target.target_context.codegen()._library_class.__module__ == "gradhesion.core.compiler.linking"
 print(json.dumps([linking.LAZY, own, values, [float(np.nanmax(array)) for array in found.values()]]))
 """
 
@@ -156,7 +157,7 @@ def test_both_ways_give_the_same_bits(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("how", "lazy"), [("", "True"), ("ordinary", "False")])
 def test_the_environment_can_ask_for_the_ordinary_way(how: str, lazy: str) -> None:
     code = (
-        "from gradhesion.core import linking; from numba.core.registry import cpu_target; "
+        "from gradhesion.core.compiler import linking; from numba.core.registry import cpu_target; "
         "print(linking.LAZY, cpu_target.target_context.codegen()._library_class is linking._Library)"
     )
     environment = os.environ | {"GRADHESION_LINKING": how}

@@ -4,7 +4,7 @@ import hashlib
 from pathlib import Path
 from typing import Final
 
-CORE: Final = Path(__file__).parent
+CORE: Final = Path(__file__).parents[1]
 
 
 WITHOUT_KERNELS: Final = ("answers", "arrays", "equations", "variables")

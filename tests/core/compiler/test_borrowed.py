@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from numba.core.runtime import _nrt_python, rtsys
 
-from gradhesion.core import Harmonic, Loading, Profile, _jit, cache, solve
+from gradhesion.core import Harmonic, Loading, Profile, solve
+from gradhesion.core.compiler import cache, jit
 
 
 @pytest.fixture(autouse=True)
@@ -32,36 +33,36 @@ def counts_references(kernel: Any) -> bool:
     return any("NRT_incref" in code or "NRT_decref" in code for code in kernel.inspect_llvm().values())
 
 
-@_jit.kernel()
+@jit.kernel()
 def last_of_row(table: Any, row: int) -> float:
     part = table[row]
     return part[part.size - 1]
 
 
-@_jit.kernel()
+@jit.kernel()
 def last_in_pair(pair: Any) -> float:
     table, row = pair
     other = (table, row)
     return last_of_row(other[0], row)
 
 
-@_jit.kernel()
+@jit.kernel()
 def half_of(values: Any) -> Any:
     return values[: values.size // 2]
 
 
-@_jit.kernel()
+@jit.kernel()
 def doubled(values: Any) -> Any:
     return 2.0 * values
 
 
-@_jit.kernel()
+@jit.kernel()
 def last_of_doubled(values: Any) -> float:
     own = doubled(values)
     return own[own.size - 1]
 
 
-@_jit.kernel()
+@jit.kernel()
 def sum_at(values: Any, places: Any) -> float:
     taken = values[places]
     total = 0.0
@@ -70,7 +71,7 @@ def sum_at(values: Any, places: Any) -> float:
     return total
 
 
-@_jit.kernel()
+@jit.kernel()
 def shift(values: Any) -> float:
     values[1:] = values[:-1]
     return values[0]

@@ -26,9 +26,9 @@ import numba
 import platformdirs
 from llvmlite import binding
 
-from gradhesion.core.ahead import is_complete
-from gradhesion.core.linking import LAZY
-from gradhesion.core.sources import COMPILED, CORE
+from gradhesion.core.compiler.ahead import is_complete
+from gradhesion.core.compiler.linking import LAZY
+from gradhesion.core.compiler.sources import COMPILED, CORE
 
 _NAME: Final = f"kernels-{hashlib.sha256(f'{CORE}{COMPILED}{LAZY}'.encode()).hexdigest()[:16]}"
 _OURS: Final = re.compile(r"kernels-[0-9a-f]{16}")

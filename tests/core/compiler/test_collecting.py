@@ -8,8 +8,8 @@ import numba
 import pytest
 from numba.core import event
 
-from gradhesion.core import _jit, cache
-from gradhesion.core.collecting import SELDOM
+from gradhesion.core.compiler import cache, jit
+from gradhesion.core.compiler.collecting import SELDOM
 
 
 class Seen(event.Listener):  # type: ignore[misc] # numba has no types
@@ -40,11 +40,11 @@ USUAL = (700, 10, 10)
     ("usual", "within"), [(USUAL, SELDOM), ((0, 10, 10), (0, 10, 10)), ((10**6, 9, 9), (10**6, 9, 9))]
 )
 def test_it_is_rare_within_and_as_before_afterwards(usual: tuple[int, int, int], within: tuple[int, int, int]) -> None:
-    @_jit.kernel()
+    @jit.kernel()
     def inner(x: float) -> float:
         return x + 1.0
 
-    @_jit.kernel()
+    @jit.kernel()
     def outer(x: float) -> float:
         return inner(x) + 1.0
 
@@ -57,7 +57,7 @@ def test_it_is_rare_within_and_as_before_afterwards(usual: tuple[int, int, int],
 
 
 def test_it_is_as_before_after_a_mistake_too() -> None:
-    @_jit.kernel()
+    @jit.kernel()
     def wrong(x: float) -> float:
         return x.nothing  # type: ignore[attr-defined, no-any-return]
 

@@ -10,7 +10,7 @@ from typing import Any
 import numba
 import pytest
 
-from gradhesion.core import _jit, ahead, cache, keeping, linking
+from gradhesion.core.compiler import ahead, cache, jit, keeping, linking
 
 pytestmark = pytest.mark.skipif(not linking.LAZY, reason="numba of another version: code is never used")
 
@@ -18,7 +18,7 @@ pytestmark = pytest.mark.skipif(not linking.LAZY, reason="numba of another versi
 def made() -> Any:
     """An entry, as a new process would make it."""
 
-    @_jit.kernel()
+    @jit.kernel()
     def hyperbola(x: float) -> float:
         return math.sqrt(x * x + 1.0)
 

@@ -1,6 +1,6 @@
 """Code of kernels that was compiled ahead: what a wheel carries, and where it fits.
 
-A wheel that is built so has a folder beside this file, named after a processor. It holds a file for each kernel and
+A wheel that is built so has a folder in core/, named after a processor. It holds a file for each kernel and
 types of arguments, and a manifest: what the code was compiled from and for, a digest of each file, and the kinds of
 work that are complete. Where all of it fits, that code is used and nothing is compiled. Anywhere else, and where a file
 is missing or is not what was written, kernels are compiled as from the sources.
@@ -28,8 +28,8 @@ import numba
 import numpy as np
 from llvmlite import binding
 
-from gradhesion.core import linking
-from gradhesion.core.sources import COMPILED, CORE
+from gradhesion.core.compiler import linking
+from gradhesion.core.compiler.sources import COMPILED, CORE
 
 PROCESSOR: Final = "x86-64-v3"
 """The processor, by LLVM's name: those of Intel since 2013 and of AMD since 2015, but for the smallest."""

@@ -1,0 +1,11 @@
+"""How kernels are compiled, linked and kept; what is compiled here knows of no kernel.
+
+jit         the one decorator of every kernel, and what is heard of compilations
+borrowed    kernels that own no array count no references
+linking     each entry is optimised once, with all that it calls
+collecting  garbage is looked for seldom meanwhile
+keeping     where an entry is looked for before it is compiled
+ahead       code that came with the program
+cache       the folder of compiled code, and what has been compiled there
+sources     digests of the sources
+"""
