@@ -23,15 +23,15 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:
     from gradhesion.cli.work.kernels import missing_of, refuse_without_compiler
     from gradhesion.core import KINDS, place
     from gradhesion.core.arrays.processors import processors
-    from gradhesion.core.compiler.ahead import is_complete, why_not
+    from gradhesion.core.compiler.ahead import is_complete
 
     refuse_without_compiler()
+    from gradhesion.cli.work.compiling import say_why
     from gradhesion.cli.work.warming import warm  # it imports kernels, which need the compiler
 
     kinds = KINDS if everything else ("energy", "smooth", "envelope", "curves")
     missing, folder, count, start = missing_of(kinds), place().folder, 0, time.monotonic()
-    for why in filter(None, (place().why, why_not())):
-        messages.say("cache", why)
+    say_why()
 
     def done(kind: str, names: list[str]) -> None:
         nonlocal count

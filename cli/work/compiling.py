@@ -35,8 +35,7 @@ def prepare(kinds: Sequence[str], *, quiet: bool = False) -> None:
     missing = missing_of(kinds)
     if not missing:
         return
-    for why in filter(None, (place().why, why_not())):
-        messages.say("cache", why)
+    say_why()
     total = sum(KERNELS[kind] for kind in missing)
     what = _in_words(missing)
     messages.say("compile", f"compiling about {total} kernels for {what}, once per version and kind of work")
@@ -46,6 +45,12 @@ def prepare(kinds: Sequence[str], *, quiet: bool = False) -> None:
     if not quiet:
         seconds = time.monotonic() - start
         messages.say("compiled", f"compiled in {seconds:.0f} s", seconds=seconds, kinds=missing)
+
+
+def say_why() -> None:
+    """Report why kernels are not kept in the usual folder, and why those that came with the program are not used."""
+    for why in filter(None, (place().why, why_not())):
+        messages.say("cache", why)
 
 
 def _in_words(kinds: Sequence[str]) -> str:
