@@ -32,7 +32,7 @@ class Watch:
         self._refused: dict[str, str] = {}
         self._workers: dict[str, int] = {}
         self._looked = -PERIOD
-        self._seen = time.monotonic()
+        self._lost: float | None = None
         self._most = 0
         self.moved()
 
@@ -92,8 +92,10 @@ class Watch:
         many = len(self._workers)
         able = any(one["status"] != "paused" for one in there.values())
         if able:
-            self._seen = self._looked
-        elif self._looked - self._seen > self._deserted:
+            self._lost = None
+        elif self._lost is None:  # now, however long ago the last look was
+            self._lost = self._looked
+        elif self._looked - self._lost > self._deserted:
             raise paused_workers(many, self._deserted) if many else without_workers(self._deserted)
         self._come |= self._workers.keys()
         self._most = max(self._most, many)

@@ -131,7 +131,7 @@ def test_workers_that_all_die_end_the_run_and_lose_nothing(
 ) -> None:
     """Every worker is killed at its second block, and whatever is started in its place ends at once."""
     monkeypatch.setattr("gradhesion.cli.engines.cluster.DESERTED_HERE", 3.0)
-    monkeypatch.setattr("gradhesion.cli.engines.watch.LONELY", 1.0)
+    monkeypatch.setattr("gradhesion.cli.engines.watch.LONELY", 0.0)
     orders.give(once=True)
     folder = folder_of(output)
 

@@ -164,7 +164,7 @@ def test_workers_that_are_paused_end_the_run(
 ) -> None:
     """Dask gives nothing to a worker that has 80 % of its memory in use, and would wait without end."""
     monkeypatch.setattr("gradhesion.cli.engines.cluster.DESERTED", 2.0)
-    monkeypatch.setattr("gradhesion.cli.engines.watch.LONELY", 0.2)
+    monkeypatch.setattr("gradhesion.cli.engines.watch.LONELY", 0.0)
     monkeypatch.setattr("gradhesion.cli.engines.watch.PERIOD", 0.2)
     shares = {"PAUSE": "0.01", "TERMINATE": "False", "SPILL": "False", "TARGET": "False"}
     cluster = ByHand(tmp_path, orders)
