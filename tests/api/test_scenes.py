@@ -164,16 +164,16 @@ def test_a_million_scenes_need_no_text_of_a_million_numbers() -> None:
     arrays = {name: xarray.DataArray(rng.uniform(*ends, 1_000_000), dims="sample") for name, ends in
               {"A": (0.0, 1e-3), "modulus": (300.0, 500.0)}.items()}  # fmt: skip
     gr.solve(PUNCH, "pull_off_force", solver="envelope")
-    start = time.perf_counter()
+    start = time.process_time()
     found = gr.solve(PUNCH | arrays, "pull_off_force", solver="envelope")
-    seconds = time.perf_counter() - start
+    seconds = time.process_time() - start
     assert found["pull_off_force"].shape == (1_000_000,)
     assert bool(np.isfinite(found["pull_off_force"]).all())
     assert len(repr(found.attrs)) < 5_000
     tenth = {name: array[:100_000] for name, array in arrays.items()}
-    start = time.perf_counter()
+    start = time.process_time()
     gr.solve(PUNCH | tenth, "pull_off_force", solver="envelope")
-    assert seconds < 40 * (time.perf_counter() - start) + 1.0, "the cost is that of the scenes, not of their square"
+    assert seconds < 40 * (time.process_time() - start) + 1.0, "the cost is that of the scenes, not of their square"
     axis = gr.solve(PUNCH | {"A": np.linspace(0.0, 1e-3, 100_000)}, "pull_off_force", solver="envelope")
     assert "study" not in axis.attrs
     assert "study" in gr.solve(PUNCH | {"A": np.linspace(0.0, 1e-3, 10_000)}, "pull_off_force", solver="envelope").attrs

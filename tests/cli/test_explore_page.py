@@ -164,6 +164,7 @@ class Opened:
 
     def __init__(self, browser: Browser, file: Path, address: str = "", **options: Any) -> None:
         self.page: Page = browser.new_page(**{"viewport": {"width": 1400, "height": 900}, **options})
+        self.page.set_default_timeout(120_000)  # a busy machine
         self.requests: list[str] = []
         self.complaints: list[str] = []
         self.page.on("request", lambda request: self.requests.append(request.url))

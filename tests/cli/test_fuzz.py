@@ -150,12 +150,12 @@ DEEP = [".".join("a" * 20_000) + " = 1", "[" + ".".join("a" * 20_000) + "]", "x 
 def test_keys_however_deep_are_refused_at_once(text: str, tmp_path: Path) -> None:
     path = tmp_path / "study.toml"
     path.write_text(text)
-    start = time.perf_counter()
+    start = time.process_time()
     with pytest.raises(
         StudyError, match="not a study, tables or lists are nested more than 32 deep; remove some levels"
     ):
         load_study(path)
-    assert time.perf_counter() - start < 2.0, "it took 80 s"
+    assert time.process_time() - start < 2.0, "it took 80 s"
 
 
 @pytest.mark.parametrize("override", [f"{'a.' * 5000}b=1", f"parameters.k={'[' * 50}{']' * 50}", f"{'a.' * 40}b=1"])

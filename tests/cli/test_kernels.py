@@ -42,7 +42,7 @@ def test_the_second_waits_for_the_first(compiled: list[str], tmp_path: Path) -> 
         thread.start()
         time.sleep(0.1)
         assert compiled == []
-    thread.join(10)
+    thread.join(60)
     assert compiled == ["tables", "force"]
     handle = try_lock(tmp_path / "lock")
     assert handle is not None
