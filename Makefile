@@ -40,7 +40,8 @@ wheel: .venv/complete ## build a wheel that carries the compiled solver into dis
 clean: ## remove the virtual environment and what was built (outputs stay)
 	rm -rf .venv build dist .mypy_cache .ruff_cache .pytest_cache
 
-install = .venv/bin/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
+# Modules are compiled when they are first imported: to compile all of them takes as long as the rest.
+install = .venv/bin/python -m pip install --quiet --no-compile --disable-pip-version-check -c constraints.txt
 
 .venv/installed: pyproject.toml constraints.txt
 	$(PYTHON) -m venv .venv
