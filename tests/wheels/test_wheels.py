@@ -63,7 +63,7 @@ def sizes(folder: Path) -> dict[str, tuple[int, int]]:
 
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A wheel with the kernels of the force."""
+    """A wheel with the kernels of the force, also of many smooth punches."""
     if not linking.LAZY:
         pytest.skip("numba of another version: no code is carried")
     folder = tmp_path_factory.mktemp("wheel")
@@ -73,6 +73,7 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
         "wheels",
         "--kinds",
         "force",
+        "smooth",
         "--target",
         folder / "dist",
         "--kept",
@@ -105,7 +106,7 @@ def test_the_wheel_is_for_this_python_and_platform_and_no_other(wheel: Path) -> 
         assert "Root-Is-Purelib: false" in archive.read(name).decode().splitlines()
         manifest = json.loads(archive.read("gradhesion/core/x86-64-v3/manifest.json"))
         code = {name: archive.read(f"gradhesion/core/x86-64-v3/{name}") for name in manifest["kernels"]}
-    assert manifest["kinds"] == ["force", "tables"]
+    assert manifest["kinds"] == ["force", "smooth", "tables"]
     assert manifest["features"] == [*FEATURES]
     assert {name: hashlib.sha256(data).hexdigest() for name, data in code.items()} == manifest["kernels"]
 
