@@ -25,7 +25,7 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Curve, wave
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.intrinsics import make_horner
-from gradhesion.core.struve.lanes import Lanes, load, size_of, sum_of
+from gradhesion.core.struve.lanes import Lanes, load, rounded, size_of, stand_apart, sum_of
 from gradhesion.core.struve.layout import STRETCH_TERMS, SWITCH, TAIL_TERMS
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.pair import horner8
@@ -50,7 +50,7 @@ _NEAR: Final = 0.15
 """The same where powers are not expanded; over longer jumps the smooth integral is taken in closed form."""
 
 
-@kernel(contract=True)
+@kernel(contract=True, inline=True)
 def _oscillating(table: Any, curve: Curve, x: float, z: float, power: float) -> tuple[float, float, float]:
     """Return z w0, w1, and the braces of the second form but for their term with q, at z >= 40."""
     b, g, lag = curve
@@ -60,13 +60,13 @@ def _oscillating(table: Any, curve: Curve, x: float, z: float, power: float) -> 
     sine, cosine = sine_cosine_of_turns(x - lag)
     s = power * (sine * table.cos_phase - cosine * table.sin_phase)
     c = power * (cosine * table.cos_phase + sine * table.sin_phase)
-    wave0 = z * (p0 * s + q0 * inverse * c)
+    wave0 = rounded(z * (p0 * s + q0 * inverse * c))
     wave1 = q1 * inverse * s - p1 * c
     squares = (c * even1 - s * inverse * odd1) + z * (2.0 * s * c * even2 + (c * c - s * s) * inverse * odd2)
     return wave0, wave1, 2.0 * b * (wave0 - (table.k + 2.0) * wave1) - g * squares
 
 
-@kernel(contract=True)
+@kernel(contract=True, inline=True)
 def inverse_stretch(table: Any, e: float) -> float:
     """Return (1 + e)^(-c) - 1 for |e| <= 0.1; e is a number or eight (struve/lanes.py)."""
     series = table.inverse_stretch
@@ -76,7 +76,7 @@ def inverse_stretch(table: Any, e: float) -> float:
     return less
 
 
-@kernel(contract=True)
+@kernel(contract=True, inline=True)
 def _slow(
     table: Any,
     curve: Curve,
@@ -116,7 +116,7 @@ def _slow(
     return z * (-excess * (2.0 + excess) - strength * square)
 
 
-@kernel(contract=True)
+@kernel(contract=True, inline=True)
 def _ends(table: Any, curve: Curve, start: End, end: End, dz: float) -> tuple[float, float, float, float]:
     """Return what the bracket of the second form is at the two ends, and z^c and z S0 at the first."""
     b, g, _ = curve
@@ -152,6 +152,7 @@ def _beyond(table: Any, curve: Curve, start: float, end: float) -> tuple[float, 
 @kernel(contract=True)
 def beyond_from(table: Any, curve: Curve, start: End, end: End, dz: Lanes) -> tuple[Lanes, Lanes]:
     """Return what `beyond_at_once` does, from x for the phase, z and z^(-n) at both ends, and how far z is between."""
+    stand_apart()
     _, g, _ = curve
     _, z1, _ = start
     first, last, stretch, wave1 = _ends(table, curve, start, end, dz)

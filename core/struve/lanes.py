@@ -204,6 +204,9 @@ def _make_unary(name: str) -> Callable[..., Any]:
 size_of = _make_unary("fabs")
 root_of = _make_unary("sqrt")
 floor_of = _make_unary("floor")
+rounded = _make_unary("arithmetic.fence")
+"""The value itself, rounded as it stands: a product that a kernel returns is no part of a sum of its caller, which it
+else would be where the compiler puts the one into the other, and not elsewhere."""
 
 
 @intrinsic
@@ -216,3 +219,14 @@ def any_above(typingctx: Any, values: Any, bound: Any) -> Any:
         return builder.icmp_unsigned("!=", bits, ir.Constant(ir.IntType(LANES), 0))
 
     return types.boolean(LANES_TYPE, bound), generate
+
+
+@intrinsic
+def stand_apart(typingctx: Any) -> Any:
+    """Keep the kernel that calls this from being put into others: which product a sum is fused with depends on that."""
+
+    def generate(context: Any, builder: Any, kinds: Any, arguments: Any) -> Any:
+        builder.function.attributes.add("noinline")
+        return context.get_dummy_value()
+
+    return types.none(), generate

@@ -37,7 +37,7 @@ _RATIO_TERMS: Final = 9
 """Terms of (1 + e)^c - 1 for |e| < 0.04, a wave over its place."""
 
 
-@kernel(contract=True)
+@kernel(contract=True, inline=True)
 def slope_of(
     table: Any, curve: Curve, x: float, z: float, power: float
 ) -> tuple[float, float, float, float, float, float]:

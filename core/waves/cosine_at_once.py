@@ -20,7 +20,7 @@ from gradhesion.core.curve.cosine_energy import unit_rule
 from gradhesion.core.curve.cosine_folds import half_wave
 from gradhesion.core.curve.cosine_jump import beyond_from, inverse_stretch
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
-from gradhesion.core.struve.lanes import LANES, Lanes, any_above, chosen, eight, load, size_of, store
+from gradhesion.core.struve.lanes import LANES, Lanes, any_above, chosen, eight, load, rounded, size_of, store
 from gradhesion.core.struve.layout import SWITCH
 from gradhesion.core.struve.pair import horner8
 from gradhesion.core.struve.power import amplitude_powers
@@ -54,13 +54,13 @@ def room_for_batch() -> Any:
     return np.empty(LOSSES + BATCH)
 
 
-@kernel(contract=True)
+@kernel(contract=True, inline=True)
 def _within(low: Lanes, value: Lanes, high: Lanes) -> Lanes:
     """Return values that lie between two others, NaN for the rest."""
     return chosen(low, value, chosen(value, high, value, math.nan), math.nan)
 
 
-@kernel(contract=True)
+@kernel(contract=True, inline=True)
 def _powers_at(table: Any, middle: Middle, x: Lanes) -> tuple[Lanes, Lanes]:
     """Return z and z^(-n) at the places x beyond the whole waves."""
     _, place, z0, stretch0 = middle
@@ -69,14 +69,14 @@ def _powers_at(table: Any, middle: Middle, x: Lanes) -> tuple[Lanes, Lanes]:
     return z, stretch0 / (z * (1.0 + inverse_stretch(table, beyond / z0)))
 
 
-@kernel(contract=True)
+@kernel(contract=True, inline=True)
 def _slope(table: Any, curve: Curve, middle: Middle, x: Lanes) -> tuple[Lanes, Lanes, Lanes, Lanes, Lanes, Lanes]:
     """Return D at the level of the depth, its first two derivatives, z, z S0 and z^c."""
     z, power = _powers_at(table, middle, x)
     return slope_of(table, curve, x, z, power)
 
 
-@kernel(contract=True)
+@kernel(contract=True, inline=True)
 def _rise(table: Any, curve: Curve, left: Left, step: Lanes, z: Lanes, wave: Lanes) -> Lanes:
     """Return the depth less that of the place that is left, `step` waves further in; `wave` is z S0 here."""
     b, g, _ = curve
@@ -119,7 +119,7 @@ def _find_folds(
         found = _within(low, chosen(size_of(step) * (size_of(d2) + size), LAST_STEP * size, x, math.nan), high)
         if not any_above(found, math.inf):
             break
-    return found, place, (z, wave, stretch), gain
+    return found, place, (z, wave, stretch), rounded(gain)
 
 
 @kernel(contract=True)
