@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numba
+import numpy as np
 import pytest
 
 from gradhesion.core.compiler import cache, jit, linking
@@ -129,9 +130,9 @@ scenes = dict(
     lambda_over_R=10 ** rng.uniform(-1.3, 0, 2000), A=10 ** rng.uniform(-3.5, -1, 2000), a_max_over_R=1.0,
 )
 found = {output: solve(scenes, [output], threads=1)[output] for output in ("dissipated_energy", "pull_off_force")}
-values = [hashlib.sha256(array.tobytes()).hexdigest() for array in found.values()]
+force = hashlib.sha256(found["pull_off_force"].tobytes()).hexdigest()
 own = cpu_target.target_context.codegen()._library_class.__module__ == "gradhesion.core.compiler.linking"
-print(json.dumps([linking.LAZY, own, values, [float(np.nanmax(array)) for array in found.values()]]))
+print(json.dumps([linking.LAZY, own, force, found["dissipated_energy"].tolist()]))
 """
 
 
@@ -145,12 +146,15 @@ def swept(how: str, folder: Path | None = None) -> list[Any]:
 
 
 @pytest.mark.slow
-def test_both_ways_give_the_same_bits(tmp_path: Path) -> None:
+def test_both_ways_give_the_same_values(tmp_path: Path) -> None:
+    """Forces to the bit; energies to the roundings of a few sums: see linking.py."""
     lazy, ordinary = swept(""), swept("another version", tmp_path)
     assert lazy[:2] == [True, True]
     assert ordinary[:2] == [False, False]
-    assert lazy[2:] == ordinary[2:]
-    assert min(lazy[3]) > 0.0
+    assert lazy[2] == ordinary[2]
+    one, other = np.array(lazy[3]), np.array(ordinary[3])
+    np.testing.assert_allclose(one, other, rtol=8 * 2.0**-52, atol=0.0)
+    assert np.count_nonzero(one == other) > 0.99 * np.count_nonzero(one > 0.0) > 500
     assert len(list(tmp_path.rglob("*.nbc"))) > 30, "numba keeps every kernel"
 
 
