@@ -131,8 +131,8 @@ def jump_energy(basis: Basis, curve: Curve, start: float, end: float, whole: flo
 
 
 @kernel(contract=True)
-def _from_zero(basis: Basis, curve: Curve, x: float, level: float) -> float:
-    """Return x (1 - rho^2) at a radius of a jump from or to zero contact."""
+def _balance(basis: Basis, curve: Curve, x: float) -> tuple[float, float]:
+    """Return Y on the curve at a radius, and (alpha + beta z^(1+k)) z^c: rho is 1 + (Y - Y_j) over that."""
     table, cosine_bins, series = basis
     B, m, g, alpha, beta = curve
     z = TWO_PI * x
@@ -141,7 +141,14 @@ def _from_zero(basis: Basis, curve: Curve, x: float, level: float) -> float:
     w0, w1, _, _ = sums(table, cosine_bins, series, x, 0.0)
     bend = B * z * z if m == 2.0 else B * z**m
     depth, height = bend + g * z * w0 - stretch, bend * (m / (1.0 + table.k + m)) + g * z * w1 - stretch
-    u = (alpha * depth + t * height - level) / ((alpha + t) * stretch)
+    return alpha * depth + t * height, (alpha + t) * stretch
+
+
+@kernel(contract=True)
+def _from_zero(basis: Basis, curve: Curve, x: float, level: float) -> float:
+    """Return x (1 - rho^2) at a radius of a jump from or to zero contact."""
+    value, scale = _balance(basis, curve, x)
+    u = (value - level) / scale
     return -x * u * (2.0 + u)
 
 
@@ -169,16 +176,9 @@ def energy_from_zero(basis: Basis, curve: Curve, x: float, level: float) -> floa
 @kernel(contract=True)
 def _parts(basis: Basis, curve: Curve, x: float) -> tuple[float, float, float]:
     """Return x (1 - rho^2) at a radius of a jump from or to zero contact as a polynomial of the coordinate Y_j."""
-    table, cosine_bins, series = basis
-    B, m, g, alpha, beta = curve
-    z = TWO_PI * x
-    power = amplitude_power(table, z)
-    stretch, t = z * power, beta / (power * power)
-    w0, w1, _, _ = sums(table, cosine_bins, series, x, 0.0)
-    bend = B * z * z if m == 2.0 else B * z**m
-    depth, height = bend + g * z * w0 - stretch, bend * (m / (1.0 + table.k + m)) + g * z * w1 - stretch
-    share = 1.0 / ((alpha + t) * stretch)
-    u = (alpha * depth + t * height) * share
+    value, scale = _balance(basis, curve, x)
+    share = 1.0 / scale
+    u = value * share
     return -x * u * (2.0 + u), 2.0 * x * (1.0 + u) * share, -x * share * share
 
 

@@ -26,8 +26,8 @@ from gradhesion.core.struve.pair import horner8
 from gradhesion.core.struve.power import amplitude_powers
 from gradhesion.core.waves.cosine import LAST_LANDING, LAST_STEP, WIDE, Left, jump_of_wave, slope_of
 
-Middle: TypeAlias = tuple[Lanes, float, Lanes, Lanes]
-"""Whole waves, a place x beyond them near the middle of all that a jump meets, and z and z^c there."""
+Middle: TypeAlias = tuple[float, Lanes, Lanes]
+"""A place x beyond whole waves, near the middle of all that a jump meets, and z and z^c there."""
 FIRST: Final = 8.5
 """The innermost wave: z > 40 from the one before it on."""
 BATCH: Final = 16
@@ -63,7 +63,7 @@ def _within(low: Lanes, value: Lanes, high: Lanes) -> Lanes:
 @kernel(contract=True, inline=True)
 def _powers_at(table: Any, middle: Middle, x: Lanes) -> tuple[Lanes, Lanes]:
     """Return z and z^(-n) at the places x beyond the whole waves."""
-    _, place, z0, stretch0 = middle
+    place, z0, stretch0 = middle
     beyond = TWO_PI * (x - place)
     z = z0 + beyond
     return z, stretch0 / (z * (1.0 + inverse_stretch(table, beyond / z0)))
@@ -90,7 +90,7 @@ def _guess(table: Any, curve: Curve, middle: Middle, centre: float, side: float)
     """Return about where the branches around a centre end (side = 1) or start (-1), as `_fold` of waves/cosine.py."""
     b, g, _ = curve
     k = table.k
-    _, place, z0, _ = middle
+    place, z0, _ = middle
     x = centre + 0.0 * z0
     for _ in range(2):
         z, power = _powers_at(table, middle, x)
@@ -225,9 +225,9 @@ def jumps_at_once(table: Any, curve: Curve, waves: Lanes, outwards: bool) -> Lan
     """
     side = 1.0 if outwards else -1.0
     centre = table.phase / TWO_PI + 2.0
-    whole, place = waves - 2.0, centre + side * _BETWEEN
-    z0 = TWO_PI * (whole + place)
-    middle = (whole, place, z0, z0 * amplitude_powers(table, z0))
+    place = centre + side * _BETWEEN
+    z0 = TWO_PI * ((waves - 2.0) + place)
+    middle = (place, z0, z0 * amplitude_powers(table, z0))
     low, high = (centre, centre + 0.5) if outwards else (centre - 0.5, centre)
     guess = _guess(table, curve, middle, centre, side)
     start = _find_folds(table, curve, middle, low, high, guess)
