@@ -1,8 +1,10 @@
 """How kernels are compiled, linked and kept; what is compiled here knows of no kernel.
 
 jit         the one decorator of every kernel, and what is heard of compilations
+pipeline    the steps in which a kernel becomes code
 borrowed    kernels that own no array count no references
 linking     each entry is optimised once, with all that it calls
+resolving   what numba's own functions give is found once
 collecting  garbage is looked for seldom meanwhile
 keeping     where an entry is looked for before it is compiled
 ahead       code that came with the program

@@ -11,9 +11,7 @@ keeps the counting.
 from typing import Any, Final
 
 from numba.core import ir
-from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import FunctionPass, register_pass
-from numba.core.typed_passes import NopythonRewrites
 
 _BORROWING: Final = ("build_tuple", "cast", "exhaust_iter", "getattr", "getitem", "static_getitem")
 """Operations whose result, if it holds an array, holds one of their operands, or a view of it."""
@@ -51,7 +49,7 @@ def owns_nothing(state: Any) -> bool:
 
 
 @register_pass(mutates_CFG=False, analysis_only=False)
-class _Borrow(FunctionPass):  # type: ignore[misc] # numba has no types
+class Borrow(FunctionPass):  # type: ignore[misc] # numba has no types
     """Leaves the counting out of a kernel that owns nothing."""
 
     _name = "gradhesion_borrow"
@@ -65,14 +63,3 @@ class _Borrow(FunctionPass):  # type: ignore[misc] # numba has no types
             state.targetctx.enable_nrt = False  # the context is this kernel's own copy
             return True
         return False
-
-
-class BorrowingCompiler(CompilerBase):  # type: ignore[misc] # numba has no types
-    """Numba's compiler of kernels, with this one pass more."""
-
-    def define_pipelines(self) -> list[Any]:
-        """Return the one pipeline."""
-        pipeline = DefaultPassBuilder.define_nopython_pipeline(self.state)
-        pipeline.add_pass_after(_Borrow, NopythonRewrites)
-        pipeline.finalize()
-        return [pipeline]

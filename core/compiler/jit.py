@@ -11,7 +11,7 @@ import numpy as np
 from numba.core import event
 
 from gradhesion.core.compiler import cache, collecting, keeping, linking
-from gradhesion.core.compiler.borrowed import BorrowingCompiler
+from gradhesion.core.compiler.pipeline import KernelCompiler
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -104,7 +104,7 @@ def kernel(*, contract: bool = False, inline: bool = False, entry: bool = False)
     def decorate(function: Function) -> Function:
         options = {
             "nogil": True,
-            "pipeline_class": BorrowingCompiler,
+            "pipeline_class": KernelCompiler,
             "error_model": "numpy",
             "fastmath": {"contract"} if contract else False,
             "inline": "always" if inline else "never",

@@ -6,8 +6,9 @@ half the time, keeps one file for each entry instead of one for each kernel, and
 bit, and of 20,000 energies all but five, which differ in the last bit. In a sum of two products one is fused with the
 addition, and which one may depend on what else stands in a kernel (tests/core/compiler/test_linking.py).
 
-Numba has no option for it: this file is all that uses its private interfaces, of the versions in `KNOWN`. With another
-version, or with GRADHESION_LINKING=ordinary in the environment, `LAZY` is false and kernels are linked as numba does.
+Numba has no option for it: the files of this folder use its private interfaces, of the versions in `KNOWN`. With another
+version, or with GRADHESION_LINKING=ordinary in the environment, `LAZY` is false: kernels are compiled and linked as numba
+does, and nothing of what pipeline.py, resolving.py and keeping.py change is changed.
 """
 
 import os
@@ -18,6 +19,8 @@ import numba
 from numba.core import event
 from numba.core.codegen import JITCodeLibrary
 from numba.core.registry import cpu_target
+
+from gradhesion.core.compiler.resolving import remember_calls
 
 KNOWN: Final = ((0, 68),)
 """The versions of numba, major and minor number, whose interfaces are those that are used here."""
@@ -99,6 +102,7 @@ def _install() -> None:
     codegen._library_class = _Library  # noqa: SLF001
     codegen.set_env = set_if_defined
     event.register("numba:compile", _Stack())
+    remember_calls(_is_inside)
 
 
 def note_entry(dispatcher: Any) -> None:

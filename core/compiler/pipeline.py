@@ -1,0 +1,66 @@
+"""The steps in which a kernel becomes code.
+
+Numba has thirty, most of which look for what no kernel of ours has: closures, generators, `with` blocks, expressions of
+whole arrays, literals that choose a type. Each goes through all of a kernel, and after many of them numba finds anew
+where every variable lives. With those alone that change something, a kernel of the same code takes a seventh less time.
+"""
+
+from typing import Any, Final
+
+from numba.core.compiler import CompilerBase, DefaultPassBuilder
+from numba.core.compiler_machinery import PassManager
+from numba.core.typed_passes import (
+    IRLegalization,
+    NativeLowering,
+    NoPythonBackend,
+    NopythonRewrites,
+    NopythonTypeInference,
+    PreLowerStripPhis,
+)
+from numba.core.untyped_passes import (
+    DeadBranchPrune,
+    FixupArgs,
+    GenericRewrites,
+    InlineInlinables,
+    IRProcessing,
+    ReconstructSSA,
+    RewriteSemanticConstants,
+    TranslateByteCode,
+)
+
+from gradhesion.core.compiler.borrowed import Borrow
+from gradhesion.core.compiler.linking import LAZY
+
+STEPS: Final = (
+    TranslateByteCode,
+    FixupArgs,
+    IRProcessing,
+    RewriteSemanticConstants,  # the length of a tuple is a number
+    DeadBranchPrune,  # what such a number excludes is not compiled
+    GenericRewrites,  # items of tuples by number
+    InlineInlinables,
+    ReconstructSSA,
+    NopythonTypeInference,
+    PreLowerStripPhis,
+    Borrow,
+    IRLegalization,
+    NativeLowering,
+    NoPythonBackend,
+)
+"""Those that kernels need, in numba's order; the one of our own follows when types are known."""
+
+
+class KernelCompiler(CompilerBase):  # type: ignore[misc] # numba has no types
+    """Numba's compiler, of these steps; of all of numba's where kernels are linked as numba does."""
+
+    def define_pipelines(self) -> list[Any]:
+        """Return the one pipeline."""
+        if LAZY:
+            pipeline = PassManager("kernel")
+            for step in STEPS:
+                pipeline.add_pass(step, step.__name__)
+        else:
+            pipeline = DefaultPassBuilder.define_nopython_pipeline(self.state)
+            pipeline.add_pass_after(Borrow, NopythonRewrites)
+        pipeline.finalize()
+        return [pipeline]
