@@ -12,11 +12,13 @@ import sys
 import tempfile
 import time
 from collections import Counter
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Final
 
 from gradhesion.cli.terminal import interrupts
-from tests.faults.trials import OLD, Trials, ended, run, values_of
+from tests.faults.trials import OLD, Trials, ended, run, signal_at, values_of
 
 PAGE: Final = os.sysconf("SC_PAGE_SIZE")
 CODES: Final = (0, 4)
@@ -36,10 +38,11 @@ def checked(trials: Trials, code: int, *, overwrite: bool) -> int:
     assert told.count("\n") == (code != 0), told
     assert "Traceback" not in told
     old = trials.output.read_bytes() if trials.output.exists() else None
-    if code and overwrite:
-        assert old == OLD, "the old output is gone"
-    elif code:
-        assert old is None, "half an output"
+    if old not in (OLD, None):
+        assert values_of(trials.output) == trials.whole, "half an output"
+    else:
+        assert code != 0, "it says that it is fine"
+        assert (old == OLD) == overwrite, "the old output is gone"
     options = ("--overwrite",) if overwrite or code == 0 else ()
     assert ended(run(trials.study, trials.output, *options)) == 0, (trials.folder.parent / "stderr").read_text()
     assert values_of(trials.output) == trials.whole
@@ -47,10 +50,15 @@ def checked(trials: Trials, code: int, *, overwrite: bool) -> int:
     return code
 
 
-def prepared(trials: Trials, *, overwrite: bool) -> tuple[str, ...]:
-    """Empty the disk, but for an old output that is to be replaced."""
+def empty(trials: Trials) -> None:
+    """Empty the disk."""
     for path in trials.folder.iterdir():
         shutil.rmtree(path) if path.is_dir() else path.unlink()
+
+
+def prepared(trials: Trials, *, overwrite: bool) -> tuple[str, ...]:
+    """Empty the disk, but for an old output that is to be replaced."""
+    empty(trials)
     if overwrite:
         trials.output.write_bytes(OLD)
     return ("--overwrite",) if overwrite else ()
@@ -73,43 +81,76 @@ def full(trials: Trials, step: int) -> Counter[int]:
     return codes
 
 
-def at_a_moment(trials: Trials, count: int, draw: random.Random, change: str) -> Counter[int]:
-    """Run on a disk that becomes read-only, or vanishes, at a random moment."""
+def make_read_only(trials: Trials) -> None:
+    """Make the disk read-only, unless a file is open for writing: that keeps it writable."""
+    subprocess.run(["mount", "-o", "remount,ro", trials.folder], check=False, capture_output=True)
+
+
+def make_writable(trials: Trials, code: int) -> int:
+    """Make the disk writable again; gives the code of the run that has ended meanwhile."""
+    mount("-o", "remount,rw", trials.folder)
+    return code
+
+
+def take_away(trials: Trials) -> None:
+    """Let the disk vanish: what stands there is the disk below."""
+    mount("--move", trials.folder, trials.folder.parent / "kept")
+
+
+def bring_back(trials: Trials, code: int) -> int:
+    """Bring the disk back; a run that began anew on the disk below, and ended well there, has written nothing on it."""
+    below = {*os.listdir(trials.folder)}
+    assert below <= {"out.nc.parts", *(["out.nc"] if code == 0 else [])}, below
+    empty(trials)
+    mount("--move", trials.folder.parent / "kept", trials.folder)
+    if "out.nc" in below:
+        (trials.folder.parent / "stderr").write_text("it stood on the disk below\n")
+        return 4
+    return code
+
+
+CHANGES: Final[dict[str, tuple[Callable[[Trials], None], Callable[[Trials, int], int]]]] = {
+    "read-only": (make_read_only, make_writable),
+    "gone": (take_away, bring_back),
+}
+"""What becomes of a disk, and how that is undone."""
+
+
+def changed_while_stopped(trials: Trials, what: str, pid: int, *, overwrite: bool) -> int | None:
+    """Change the disk while a run is stopped, let it go on, and check what it leaves; None where it ended before."""
+    _, status = os.waitpid(pid, os.WUNTRACED)
+    if not os.WIFSTOPPED(status):
+        assert checked(trials, os.waitstatus_to_exitcode(status), overwrite=overwrite) == 0
+        return None
+    change, undo = CHANGES[what]
+    change(trials)
+    os.kill(pid, signal.SIGCONT)
+    return checked(trials, undo(trials, ended(pid)), overwrite=overwrite)
+
+
+def at_every_change_of_a_name(trials: Trials, what: str, every: int = 1) -> Counter[int]:
+    """Change the disk before a run's n-th change of a name, for every n or each so many."""
+    codes: Counter[int] = Counter()
+    for number in range(1, 1000, every):
+        overwrite = len(range(1, number, every)) % 2 == 0
+        options = prepared(trials, overwrite=overwrite)
+        pid = run(trials.study, trials.output, *options, before=partial(signal_at, number, signal.SIGSTOP, after=False))
+        code = changed_while_stopped(trials, what, pid, overwrite=overwrite)
+        if code is None:
+            return codes
+        codes[code] += 1
+    raise AssertionError("it never ends")
+
+
+def at_random_moments(trials: Trials, what: str, count: int, draw: random.Random) -> Counter[int]:
+    """Change the disk at random moments: some fall between two changes of a name, some after the end."""
     codes: Counter[int] = Counter()
     for number in range(count):
         overwrite = number % 2 == 0
-        options = prepared(trials, overwrite=overwrite)
-        pid = run(trials.study, trials.output, *options)
+        pid = run(trials.study, trials.output, *prepared(trials, overwrite=overwrite))
         time.sleep(draw.uniform(0.0, 1.1 * trials.seconds))
-        if change == "vanishes":
-            os.kill(pid, signal.SIGSTOP)
-            kept = trials.folder.parent / "kept"
-            mount("--move", trials.folder, kept)
-            os.kill(pid, signal.SIGCONT)
-            code = ended(pid)
-            left = os.listdir(trials.folder)
-            for name in left:  # what it has begun on the disk below
-                assert name == "out.nc.parts" or (name == "out.nc" and code == 0), left
-            for path in trials.folder.iterdir():
-                shutil.rmtree(path) if path.is_dir() else path.unlink()
-            mount("--move", kept, trials.folder)
-            made = trials.output.exists() and trials.output.read_bytes() != OLD
-            if code == 0 and not made:  # all of it was begun anew on the disk below
-                code = 4
-                (trials.folder.parent / "stderr").write_text("it stood on the disk below\n")
-        else:
-            for _ in range(200):  # a file that is open for writing keeps it writable
-                if (
-                    subprocess.run(
-                        ["mount", "-o", "remount,ro", trials.folder], check=False, capture_output=True
-                    ).returncode
-                    == 0
-                ):
-                    break
-                time.sleep(0.001)
-            code = ended(pid)
-            mount("-o", "remount,rw", trials.folder)
-        codes[checked(trials, code, overwrite=overwrite)] += 1
+        os.kill(pid, signal.SIGSTOP)
+        codes[changed_while_stopped(trials, what, pid, overwrite=overwrite) or 0] += 1
     return codes
 
 
@@ -134,7 +175,9 @@ def main() -> None:
         mount("--make-rprivate", "/")
         mount("-t", "tmpfs", "-o", "size=64m", "none", trials.folder)
         words = [f"full disks, page by page: {in_words(full(trials, step))}"]
-        words += [f"{name}: {in_words(at_a_moment(trials, count, draw, name))}" for name in ("read-only", "vanishes")]
+        for what in CHANGES:
+            words.append(f"{what} at a change of a name: {in_words(at_every_change_of_a_name(trials, what, step))}")
+            words.append(f"{what} at a random moment: {in_words(at_random_moments(trials, what, count, draw))}")
         subprocess.run(["umount", trials.folder], check=True)
     print(f"runs on {'; '.join(words)}; nothing lost, {time.monotonic() - start:.0f} s")
 

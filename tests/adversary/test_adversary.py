@@ -66,12 +66,18 @@ def test_kills_at_system_calls_lose_nothing(root: Path) -> None:
     reason="no disk can be mounted here",
 )
 def test_disks_that_are_full_read_only_or_gone_lose_nothing(root: Path) -> None:
-    command = [sys.executable, "-m", "tests.adversary.disks", "7", "4"]
+    """A run is stopped before its 1st, 8th ... change of a name; the dataset has its name after twelve, at the earliest."""
+    command = [sys.executable, "-m", "tests.adversary.disks", "7", "2"]
     done = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    full, read_only, gone = map(int, re.findall(r"\((\d+) ended with exit code 4\)", done.stdout))
-    assert min(full, gone) > 0
-    assert read_only >= 0
+    ended = {what: int(failed) for what, failed in re.findall(r"([^:;]+): [\d,]+ \((\d+) ended with", done.stdout)}
+    assert ended.keys() == {
+        "runs on full disks, page by page",
+        *(f" {what} at a {when}" for what in ("read-only", "gone") for when in ("change of a name", "random moment")),
+    }
+    assert ended["runs on full disks, page by page"] > 0
+    assert ended[" read-only at a change of a name"] > 0, "before the first nothing is open for writing"
+    assert ended[" gone at a change of a name"] >= 2
 
 
 ATTRIBUTES = ["title", "source", "history", "profile", "control", "study", "study_sha256", "numpy_version"]

@@ -77,19 +77,20 @@ def ended(pid: int) -> int:
     return os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
 
 
-def kill_at(number: int, *, after: bool) -> None:
-    """Kill this process at its n-th change of a name."""
+def signal_at(number: int, sent: signal.Signals, *, after: bool) -> None:
+    """Send this process a signal at its n-th change of a name, before it or after: SIGKILL ends it there, SIGSTOP stops it."""
     count = 0
 
     def wrap(change: Callable[..., Any]) -> Callable[..., Any]:
         def changed(*arguments: Any, **options: Any) -> Any:
             nonlocal count
             count += 1
-            if count == number and not after:
-                os.kill(os.getpid(), signal.SIGKILL)
+            this = count
+            if this == number and not after:
+                os.kill(os.getpid(), sent)
             result = change(*arguments, **options)
-            if count == number and after:
-                os.kill(os.getpid(), signal.SIGKILL)
+            if this == number and after:
+                os.kill(os.getpid(), sent)
             return result
 
         return changed
@@ -162,7 +163,7 @@ class Trials:
             for after in (False, True):
                 code = self.fault(
                     overwrite=number % 2 == 0,
-                    before=lambda number=number, after=after: kill_at(number, after=after),
+                    before=partial(signal_at, number, signal.SIGKILL, after=after),
                     kill=lambda _: None,
                 )
                 if code == 0:
@@ -177,8 +178,8 @@ class Trials:
                 self.folder.mkdir()
                 assert ended(run(self.study, self.output, "--shard", "1/1")) == 0
                 command = ("merge", self.output)
-                pid = start(*command, folder=self.folder.parent, before=partial(kill_at, number, after=after))
-                code = ended(pid)
+                kill = partial(signal_at, number, signal.SIGKILL, after=after)
+                code = ended(start(*command, folder=self.folder.parent, before=kill))
                 if self.output.exists():
                     assert status_of(self.output)["state"] == "complete"
                 assert ended(start(*command, folder=self.folder.parent)) == 0, self._told()
