@@ -66,7 +66,7 @@ def test_kills_at_system_calls_lose_nothing(root: Path) -> None:
     reason="no disk can be mounted here",
 )
 def test_disks_that_are_full_read_only_or_gone_lose_nothing(root: Path) -> None:
-    """A run is stopped before its 1st, 8th ... change of a name; the dataset has its name after twelve, at the earliest."""
+    """A run is stopped before its 1st, 8th ... change of a name; the dataset gets its name by the 12th."""
     command = [sys.executable, "-m", "tests.adversary.disks", "7", "2"]
     done = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr

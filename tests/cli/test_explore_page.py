@@ -486,6 +486,11 @@ def test_curves_in_units_are_those_of_the_scene(tmp_path: Path, open_page: Calla
     assert page.page.locator("#value-path_load_si").count() == 0
 
 
+FRAMES = """explorer.figures().map((figure) => {
+    const view = Bokeh.index.find_one(figure), box = view.canvas_view.el.getBoundingClientRect()
+    return [box.left + view.frame.bbox.left, box.left + view.frame.bbox.right]
+})"""
+"""Of two maps, and of the two sections of each."""
 SIZES = ((390, 844), (1280, 900), (1920, 1080))
 
 
@@ -495,12 +500,11 @@ def test_the_page_is_used_and_frames_stand_in_line(
 ) -> None:
     page = open_page(maps, viewport={"width": width, "height": height})
     assert page.page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
-    page.page.wait_for_timeout(300)  # the layout follows the borders
-    frames = page.page.evaluate(
-        "explorer.figures().map((figure) => { const view = Bokeh.index.find_one(figure);"
-        "const box = view.canvas_view.el.getBoundingClientRect();"
-        "return [box.left + view.frame.bbox.left, box.left + view.frame.bbox.right] })"
-    )
+    page.page.wait_for_function(
+        f"Math.max(...({FRAMES}).slice(2).map(([left, right], i) => {{"
+        f"const map = ({FRAMES})[i >> 1]; return Math.max(Math.abs(left - map[0]), Math.abs(right - map[1])) }})) < 1.5"
+    )  # the layout follows the borders
+    frames = page.page.evaluate(FRAMES)
     first_map, second_map, *sections = np.array(frames)
     for number_of_map, wanted in ((0, first_map), (1, second_map)):
         for frame in sections[2 * number_of_map : 2 * number_of_map + 2]:

@@ -20,6 +20,7 @@ Call = Callable[..., Result]
 
 PRELOAD = """
 import json, os, signal, time
+from contextlib import suppress
 from pathlib import Path
 import gradhesion.cli.work.given as given
 
@@ -28,12 +29,22 @@ if (orders / "dead").exists():
     os._exit(1)
 really = getattr(given.solve, "really", given.solve)  # it may be imported again
 
+def ordered():
+    return json.loads((orders / "order.json").read_text())
+
 def solve(parameters, *arguments, **options):
-    order = json.loads((orders / "order.json").read_text())
+    order = ordered()
     busy = orders / f"{{os.getpid()}}.busy"
-    if order.get("once") and busy.exists():
-        time.sleep(600.0)  # until it is killed
+    while order.get("once") and busy.exists():  # until it is killed, or the order is another
+        time.sleep(0.01)
+        order = ordered()
     busy.touch()
+    while len([*orders.glob("*.busy")]) < order.get("together", 0):
+        time.sleep(0.01)
+    if order.get("first_dies"):
+        with suppress(FileExistsError):
+            (orders / "died").touch(exist_ok=False)
+            os.kill(os.getpid(), signal.SIGKILL)
     block = [round(float(parameters[name].flat[0]), 6) for name in ("k", "lambda_over_R")]
     if order.get("poison") == block:
         os.kill(os.getpid(), signal.SIGKILL)
@@ -83,7 +94,7 @@ class Orders:
     def give(self, **order: Any) -> None:
         (self.folder / "new.json").write_text(json.dumps(order))
         (self.folder / "new.json").replace(self.folder / "order.json")
-        for path in (*self.folder.glob("*.busy"), *self.folder.glob("dead")):
+        for path in (*self.folder.glob("*.busy"), *self.folder.glob("died"), *self.folder.glob("dead")):
             path.unlink()
 
     def no_more(self) -> None:

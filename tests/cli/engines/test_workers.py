@@ -2,9 +2,7 @@
 
 import json
 import os
-import signal
 import sys
-import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -62,6 +60,7 @@ def test_a_run_goes_on_with_the_other_engine(
     dask_run: Call, gradhesion: Call, study_file: Path, whole: dict[str, bytes], output: Path, orders: Orders
 ) -> None:
     assert gradhesion("run", study_file, "-o", output, "--shard", "1/3").exit_code == 0
+    orders.give(together=2)
     events = [json.loads(line) for line in dask_run("-o", output, "--log-json").stderr.splitlines()]
     assert {name: events[-1][name] for name in ("event", "blocks_reused", "blocks_computed", "failed")} == {
         "event": "done",
@@ -75,22 +74,10 @@ def test_a_run_goes_on_with_the_other_engine(
 
 
 def test_a_killed_worker_loses_nothing(dask_run: Call, whole: dict[str, bytes], output: Path, orders: Orders) -> None:
-    orders.give(sleep=0.3)
-    killed = []
-
-    def kill() -> None:
-        deadline = time.monotonic() + 120
-        while not orders.busy() and time.monotonic() < deadline:
-            time.sleep(0.01)
-        killed.append(orders.busy()[0])
-        os.kill(killed[0], signal.SIGKILL)
-
-    thread = threading.Thread(target=kill)
-    thread.start()
+    orders.give(first_dies=True)
     result = dask_run("-o", output)
-    thread.join()
     assert result.exit_code == 0, result.stderr
-    assert killed
+    assert (orders.folder / "died").exists()
     assert values_of(output) == whole
 
 
