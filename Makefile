@@ -40,7 +40,9 @@ wheel: .venv/complete ## build a wheel that carries the compiled solver into dis
 clean: ## remove the virtual environment and what was built (outputs stay)
 	rm -rf .venv build dist .mypy_cache .ruff_cache .pytest_cache
 
-# Modules are compiled when they are first imported: to compile all of them takes as long as the rest.
+# Modules are compiled when they are first imported: to compile all of them takes as long as the rest. Where none may be
+# kept, as some containers set, every process would compile all that it imports: a second in place of a fifth.
+unexport PYTHONDONTWRITEBYTECODE
 install = .venv/bin/python -m pip install --quiet --no-compile --disable-pip-version-check -c constraints.txt
 
 .venv/installed: pyproject.toml constraints.txt
