@@ -1,6 +1,7 @@
 """What the tests of the command line share."""
 
 import math
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -8,6 +9,8 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 from hypothesis import HealthCheck, settings
+
+from tests.memory import in_memory
 
 settings.register_profile("no clock", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("no clock")
@@ -19,6 +22,12 @@ OF_KERNELS = tuple(
     for room in ("arrays", "contact", "curve", "path", "pull_off", "scene", "sensitivities", "turning", "waves")
 )
 """Rooms whose tests call kernels by themselves: each is compiled with all that it calls, which they share."""
+
+
+def pytest_configure() -> None:
+    """Have temporary folders in memory, where there is room."""
+    if place := in_memory(2**32):
+        os.environ.setdefault("PYTEST_DEBUG_TEMPROOT", place)
 
 
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:

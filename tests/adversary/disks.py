@@ -18,7 +18,8 @@ from pathlib import Path
 from typing import Final
 
 from gradhesion.cli.terminal import interrupts
-from tests.faults.trials import MEMORY, OLD, Trials, ended, run, signal_at, values_of
+from tests.faults.trials import OLD, Trials, ended, run, signal_at, values_of
+from tests.memory import in_memory
 
 PAGE: Final = os.sysconf("SC_PAGE_SIZE")
 CODES: Final = (0, 4)
@@ -168,7 +169,7 @@ def main() -> None:
     step, count = numbers or (1, 100)
     interrupts.listen()
     start, draw = time.monotonic(), random.Random(11)
-    with tempfile.TemporaryDirectory(dir=MEMORY) as folder:
+    with tempfile.TemporaryDirectory(dir=in_memory(2**26)) as folder:
         trials = Trials(Path(folder))
         (Path(folder) / "kept").mkdir()
         prepared(trials, overwrite=False)

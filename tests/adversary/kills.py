@@ -15,7 +15,8 @@ from pathlib import Path
 from typing import Final
 
 from gradhesion.cli.terminal import interrupts
-from tests.faults.trials import MEMORY, Trials
+from tests.faults.trials import Trials
+from tests.memory import in_memory
 
 CALLS: Final = (
     "write", "pwrite64", "writev", "ftruncate", "fsync", "fdatasync", "rename", "renameat", "renameat2", "link", "linkat",
@@ -79,7 +80,7 @@ def trials_of_kills(every: int = 1) -> str:
         return ""
     interrupts.listen()
     start = time.monotonic()
-    with tempfile.TemporaryDirectory(dir=MEMORY) as folder:
+    with tempfile.TemporaryDirectory(dir=in_memory(2**26)) as folder:
         trials = Trials(Path(folder))
         found, killed = kill_at_every_call(trials, Path(folder), every)
     return (

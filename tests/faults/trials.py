@@ -20,7 +20,7 @@ import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import netCDF4
 import numpy as np
@@ -31,6 +31,7 @@ from gradhesion.cli.main import main as gradhesion
 from gradhesion.cli.study.study import load_study
 from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work import state
+from tests.memory import in_memory
 
 STUDY = """\
 outputs = ["pull_off_force", "dissipated_energy", "loading_jumps"]
@@ -44,8 +45,6 @@ A = [0.0, 0.023]
 a_max_over_R = [1.7, inf]
 """
 OLD = b"precious"
-MEMORY: Final = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None  # noqa: S108 (a folder is made in it)
-"""Where trials stand, if the system has it: they wait for no disk, as it is processes that end and not the machine."""
 
 
 def values_of(path: Path) -> dict[str, bytes]:
@@ -215,7 +214,7 @@ def main() -> None:
     asked = parser.parse_args()
     interrupts.listen()
     start = time.monotonic()
-    with tempfile.TemporaryDirectory(dir=MEMORY) as folder:
+    with tempfile.TemporaryDirectory(dir=in_memory(2**26)) as folder:
         trials = Trials(Path(folder))
         changes = trials.at_every_change_of_a_name()
         merges = trials.merges_at_every_change_of_a_name()
