@@ -5,7 +5,7 @@ is regular, and what passes it enters as what loading has lost where it arrives 
 has to lose.
 
 The beginning serves all rims, and so do the samples of the sums (waves/cosine_running.py): a rim adds the branch on
-which it stands and the one before. Only where the folds end are the last waves walked. What a rim gets does not depend
+which it stands and the one before, or less (path/cosine_rims.py). Only where the folds end are the last waves walked. What a rim gets does not depend
 on the other rims of its curve.
 """
 
@@ -47,13 +47,12 @@ from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
 from gradhesion.core.path.cosine import MOST_ARCHES
 from gradhesion.core.path.loading import arrive, climb, load_up
-from gradhesion.core.path.ties import note_loading, note_loading_from, scan_inwards, tolerance
+from gradhesion.core.path.ties import first_close_pair, note_loading, note_loading_from, scan_inwards, tolerance
 from gradhesion.core.path.unloading import descend, leave
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.lanes import eight, lane_of, with_lane
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.waves.cosine import branch_of_wave, fold_of_wave, landing_of_wave
-from gradhesion.core.waves.cosine_at_once import folds_at_once, room_for_batch
+from gradhesion.core.waves.cosine_at_once import room_for_batch
 from gradhesion.core.waves.cosine_running import COUNT, begin_sums, room_for_sums, sum_up_to
 from gradhesion.core.waves.cosine_sum import sum_of_waves
 
@@ -73,14 +72,14 @@ _NEAR_WAVE: Final = 0.3
 """Last step of Newton's method, in z, in search of a wave."""
 NEAR, BEFORE, LAST_UP, FIRST_CLOSE, ENTRY, ENTRY_PLACE, ENTRY_LOSS, ENTRY_JUMPS = 0, 1, 2, 3, 4, 5, 6, 7
 LOWEST, LOWEST_LOSS, LOWEST_JUMPS, LOWEST_LAST = 8, 9, 10, 11
-DISC_INNER, DISC_OUTER, RUN_SEEN = 12, 13, 14
+DISC_INNER, DISC_OUTER, RUN_SEEN, LOWEST_BRANCH = 12, 13, 14, 15
 """What all rims of a curve share: the number of branches of the beginning, the wave of the last one, the last one that
 loading arrives on, and where a pair of folds, or the way through the gap, is close; the wave of the gap that loading
 enters (NaN: not found yet), where, and what it has lost and jumped by then; the wave that starts lowest (NaN, too),
 what unloading loses from its start on, its jumps, and the depth at which contact ends; the radii between which loading
-of the beginning ceases to keep the contact one disc (NaN, too); and whether the contact on the waves of the gap has
-been looked at (NaN: not)."""
-_SHARED: Final = 15
+of the beginning ceases to keep the contact one disc (NaN, too); whether the contact on the waves of the gap has been
+looked at (NaN: not); and the branch of the beginning on which unloading arrives from there, -1 for none."""
+_SHARED: Final = 16
 
 
 @kernel()
@@ -184,7 +183,7 @@ def begin_long(
         beginning = (0.5 * first + reach * BEGINNING) + table.phase / TWO_PI
         near = append_branches(table, curve, int(first), final, beginning, trace, NONE)
         before = wave_of(table, trace[START, near - 1]) if near > 0 else before
-    shared[NEAR], shared[BEFORE], shared[FIRST_CLOSE] = near, before, trace[TANGENCY, 0]
+    shared[NEAR], shared[BEFORE], shared[FIRST_CLOSE] = near, before, first_close_pair(near, trace)
     shared[LAST_UP] = load_up(table, curve, near, trace, math.inf, losses)
     note_loading(table, curve, near, trace, math.inf)
     return trace, (shared, room_for_sums(), room_for_batch())
@@ -197,7 +196,7 @@ def ends_folds(table: Any, arches: tuple[float, float], rim: float) -> bool:
 
 
 @kernel()
-def _sum(
+def sum_of_gap(
     table: Any,
     curve: Curve,
     sums: Any,
@@ -217,7 +216,7 @@ def _sum(
 
 
 @kernel()
-def _entry(
+def entry(
     table: Any, curve: Curve, after: float, long: Any, trace: Any, losses: bool
 ) -> tuple[float, float, float, float]:
     """Return the first wave of the gap that loading stands on, where, and what it has lost and jumped by then.
@@ -264,11 +263,11 @@ def _load_through(
     trace[RUN, GAP], trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST] = near, 0.0, -1.0
     level = trace[END_DEPTH, now] if now >= 0 else 0.0
     if trace[END_DEPTH, near] > level:
-        wave, x, loss, jumps = _entry(table, curve, after, long, trace, losses)
+        wave, x, loss, jumps = entry(table, curve, after, long, trace, losses)
         if wave < after:
             trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST], trace[RUN, RUN_LANDING] = wave, after - 1.0, x
             if losses:
-                loss += _sum(table, curve, sums[0], wave, after - 1.0, YES, final, running, room)
+                loss += sum_of_gap(table, curve, sums[0], wave, after - 1.0, YES, final, running, room)
             x = after - 1.0 + landing_of_wave(table, curve, after - 1.0, YES)
             jumps += after - wave
         arrive(trace, near, x, loss, jumps)
@@ -277,14 +276,14 @@ def _load_through(
 
 
 @kernel()
-def _leave_lowest(table: Any, curve: Curve, long: Any, final: float, trace: Any, losses: bool) -> None:
+def leave_lowest(table: Any, curve: Curve, long: Any, final: float, trace: Any, losses: bool) -> None:
     """Find the wave of the gap that starts lowest, and what unloading loses from there on, if that is not known yet."""
     shared, _, _ = long
     if not math.isnan(shared[LOWEST]):
         return
     near, before = int(shared[NEAR]), shared[BEFORE]
     lowest, close = _lowest_wave(table, curve, before, max(before, np.floor(0.5 * final - NEAR_RIM)))
-    loss, jumps, last = 0.0, 1.0, 0.0
+    loss, jumps, last, lower = 0.0, 1.0, 0.0, near - 1
     if lowest == before and near > 0:
         descend(table, curve, trace, near - 1, losses)
         loss, jumps, last = (
@@ -308,6 +307,7 @@ def _leave_lowest(table: Any, curve: Curve, long: Any, final: float, trace: Any,
         else:
             loss, last = -energy_from_zero(table, curve, start, level) if losses else 0.0, level
     shared[LOWEST], shared[LOWEST_LOSS], shared[LOWEST_JUMPS], shared[LOWEST_LAST] = lowest, loss, jumps, last
+    shared[LOWEST_BRANCH] = lower
     if close:
         shared[FIRST_CLOSE] = min(shared[FIRST_CLOSE], lowest)
 
@@ -318,14 +318,14 @@ def _unload_through(
 ) -> None:
     """Give the first branch after the gap what unloading loses from there, if it goes on into the gap."""
     shared, sums, room = long
-    _leave_lowest(table, curve, long, final, trace, losses)
+    leave_lowest(table, curve, long, final, trace, losses)
     lowest = min(shared[LOWEST], after)  # starts fall outwards up to the lowest one
     trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER], trace[RUN, RUN_LOWEST] = shared[BEFORE], after, lowest
     if lowest == after:  # nothing in the gap is lower
         return
     loss = shared[LOWEST_LOSS]
     if losses:
-        loss += _sum(table, curve, sums[1], lowest + 1.0, after, NO, final, running, room)
+        loss += sum_of_gap(table, curve, sums[1], lowest + 1.0, after, NO, final, running, room)
     leave(trace, int(shared[NEAR]), loss, shared[LOWEST_JUMPS] + after - lowest, shared[LOWEST_LAST])
 
 
@@ -345,35 +345,6 @@ def _nominal_branch(table: Any, curve: Curve, rim: float, final: float, trace: A
         trace[END_DEPTH, near] = math.inf
     trace[UNLOADING_JUMPS, near] = UNKNOWN
     return np.floor(place - table.phase / TWO_PI)
-
-
-@kernel()
-def _put_branch(trace: Any, branch: int, ends_of_branch: tuple[float, float, float, float]) -> None:
-    """Put start and end of a branch, with their depths, into the trace; its unloading is not known yet."""
-    trace[START, branch], trace[START_DEPTH, branch], trace[END, branch], trace[END_DEPTH, branch] = ends_of_branch
-    trace[UNLOADING_JUMPS, branch] = UNKNOWN
-
-
-@kernel()
-def _branches_at(table: Any, curve: Curve, rim: float, trace: Any, near: int) -> float:
-    """Put the last branch that starts within a rim, and the one before, into the trace; return the wave of that."""
-    wave = np.floor(rim - table.phase / TWO_PI + 0.5)  # the wave whose centre is next: it has begun, or may have
-    waves, signs = eight(wave - 2.0), eight(1.0)
-    for lane in range(6):  # start and end of three of them
-        waves = with_lane(waves, lane, wave - lane // 2)
-        signs = with_lane(signs, lane, 1.0 - 2.0 * (lane % 2))
-    places, depths = folds_at_once(table, curve, waves, signs)
-    start = lane_of(places, 0)
-    if math.isnan(start):
-        start, _ = fold_of_wave(table, curve, wave, YES)
-    first = 1 if start > rim else 0
-    for i in range(2):
-        lane = 2 * (first + i)
-        branch = lane_of(places, lane), lane_of(depths, lane), lane_of(places, lane + 1), lane_of(depths, lane + 1)
-        if math.isnan(branch[0] + branch[2]):
-            branch = branch_of_wave(table, curve, wave - first - i)
-        _put_branch(trace, near + 1 - i, branch)
-    return wave - first - 1.0
 
 
 @kernel()
@@ -402,10 +373,7 @@ def stride(
     if ends_folds(table, arches, rim):
         last, waves = final, reach * NEAR_RIM
     count, after = near, 0.0
-    if running and is_told(table, curve, last):
-        after = _branches_at(table, curve, rim, trace, near)
-        count = near + 2
-    elif is_told(table, curve, last):
+    if is_told(table, curve, last):
         count = append_branches(table, curve, 2 * int(0.5 * last - waves) - 1, final, rim, trace, near)
         after = wave_of(table, trace[START, near]) if count > near else 0.0
     nominal = count == near
@@ -434,7 +402,7 @@ def open_gap(table: Any, curve: Curve, place: float, trace: Any, long: Any) -> b
     if not top > (trace[END_DEPTH, now] if now >= 0 else 0.0):
         return False
     trace[TANGENCY, 0] = shared[FIRST_CLOSE]
-    wave, x, _, _ = _entry(table, curve, after, long, trace, NO)
+    wave, x, _, _ = entry(table, curve, after, long, trace, NO)
     trace[RUN, GAP], trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER] = near, shared[BEFORE], after
     trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST], trace[RUN, RUN_LANDING] = wave, after, x
     return True

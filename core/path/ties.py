@@ -44,7 +44,7 @@ def tolerance(table: Any, curve: Any, x: float) -> float:
 
 
 @kernel()
-def _is_within(table: Any, curve: Any, difference: float, x: float) -> bool:
+def is_within(table: Any, curve: Any, difference: float, x: float) -> bool:
     """Return whether a difference of coordinates is within the tolerance at x, which is seldom worth its power."""
     return difference <= CLOSE * most_size_at(table, curve, x) and difference <= tolerance(table, curve, x)
 
@@ -73,7 +73,7 @@ def note_loading_from(table: Any, curve: Any, first: int, count: int, trace: Any
         highest, close = trace[HIGHEST, first - 1], trace[LOADING_IS_CLOSE, first - 1]
     for branch in range(first, count):
         top, end = trace[END_DEPTH, branch], trace[END, branch]
-        if end < furthest and _is_within(table, curve, abs(top - highest), end):
+        if end < furthest and is_within(table, curve, abs(top - highest), end):
             close = 1.0
         highest = max(highest, top)
         trace[HIGHEST, branch], trace[LOADING_IS_CLOSE, branch] = highest, close
@@ -105,11 +105,11 @@ def scan_inwards(table: Any, curve: Any, trace: Any, branch: int, level: float, 
         if bottom < level:
             break
         branch -= 1
-    return nearest < math.inf and _is_within(table, curve, nearest, place), branch
+    return nearest < math.inf and is_within(table, curve, nearest, place), branch
 
 
 @kernel()
-def _unloading_is_close(table: Any, curve: Any, trace: Any, branch: int) -> bool:
+def unloading_is_close(table: Any, curve: Any, trace: Any, branch: int) -> bool:
     """Return whether a decision of unloading is close from the start of a branch on."""
     now = branch
     while trace[UNLOADING_IS_CLOSE, now] < 0.0:  # inwards to where it is known, or to a close decision
@@ -179,6 +179,6 @@ def is_close_to_a_jump(
     if not turned and rim_is_close(table, curve, count, trace, rim, rim_level):
         return True
     if on_branch:
-        return _unloading_is_close(table, curve, trace, now)
+        return unloading_is_close(table, curve, trace, now)
     close, lower = scan_inwards(table, curve, trace, now, rim_level, rim)
-    return close or (lower >= 0 and _unloading_is_close(table, curve, trace, lower))
+    return close or (lower >= 0 and unloading_is_close(table, curve, trace, lower))

@@ -3,9 +3,9 @@
 import math
 from typing import Any
 
-from gradhesion.core.compiler.jit import NONE, kernel
-from gradhesion.core.contact.cosine_disc import ALWAYS_ONE, NOWHERE, limits_from, note_run
-from gradhesion.core.curve.branches import RUN, RUN_FIRST, RUN_LAST, RUN_LEAST
+from gradhesion.core.compiler.jit import NO, NONE, kernel
+from gradhesion.core.contact.cosine_disc import ALWAYS_ONE, NOWHERE, is_one_disc, limits_from, note_run
+from gradhesion.core.curve.branches import GAP, RUN, RUN_FIRST, RUN_LAST, RUN_LEAST
 from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.path.cosine import is_long, is_unresolved
 from gradhesion.core.path.cosine_long import (
@@ -20,9 +20,46 @@ from gradhesion.core.path.cosine_long import (
     is_told,
     stride,
 )
+from gradhesion.core.path.cosine_rims import FURTHEST, cycle_among, is_close_among, stand_at_once
 from gradhesion.core.path.ties import first_close_pair
-from gradhesion.core.problem.results import CONTACT, wants_losses
+from gradhesion.core.problem.results import (
+    CONTACT,
+    DEEPEST,
+    ENERGY,
+    LAST,
+    LOADED,
+    LOADING,
+    TURNED,
+    UNLOADED,
+    UNLOADING,
+    put,
+    wants_cycle,
+    wants_losses,
+)
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.scene.cosine_rim import limits_of, read_rim, slopes_of
+from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, with_lane
+
+
+@kernel()
+def _limits_of_beginning(
+    table: Any, curve: Curve, first: float, last: float, trace: Any, long: Any, final: float
+) -> tuple[float, float]:
+    """Return the radii between which loading of the beginning ceases to keep the contact one disc, looked at once.
+
+    The waves `first` to `last` of the gap, which loading leaves, are looked at too, where that serves all rims
+    (RUN_LEAST of the trace).
+    """
+    shared, _, _ = long
+    near = int(shared[NEAR])
+    trace[RUN, GAP], trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST] = near, first, last
+    if math.isnan(shared[DISC_INNER]):
+        inner, outer = limits_from(table, curve, NONE, near - 1, NOWHERE, near, trace, math.inf)
+        shared[DISC_INNER], shared[DISC_OUTER] = inner, outer
+    if math.isnan(shared[RUN_SEEN]) and last >= first:
+        note_run(table, curve, math.floor(0.5 * final - NEAR_RIM), trace)
+        shared[RUN_SEEN] = 1.0
+    return shared[DISC_INNER], shared[DISC_OUTER]
 
 
 @kernel()
@@ -34,18 +71,102 @@ def _limits_beyond(
     _, g, _ = curve
     if slots[CONTACT] < 0 or g * table.amplitude <= ALWAYS_ONE:
         return math.inf, math.inf, tangency
-    shared, _, _ = long
-    near, now = int(shared[NEAR]), int(shared[LAST_UP])
-    if math.isnan(shared[DISC_INNER]):
-        inner, outer = limits_from(table, curve, NONE, near - 1, NOWHERE, near, trace, math.inf)
-        shared[DISC_INNER], shared[DISC_OUTER] = inner, outer
-    if math.isnan(shared[RUN_SEEN]) and trace[RUN, RUN_LAST] >= trace[RUN, RUN_FIRST]:
-        note_run(table, curve, math.floor(0.5 * final - NEAR_RIM), trace)
-        shared[RUN_SEEN] = 1.0
-    inner, outer = shared[DISC_INNER], shared[DISC_OUTER]
+    first, last = trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST]
+    inner, outer = _limits_of_beginning(table, curve, first, last, trace, long, final)
     if inner == math.inf:
+        shared, _, _ = long
+        near, now = int(shared[NEAR]), int(shared[LAST_UP])
         inner, outer = limits_from(table, curve, near, count, now, count, trace, rim)
     return inner, outer, tangency
+
+
+@kernel()
+def _follow(
+    table: Any,
+    curve: Curve,
+    arches: tuple[float, float],
+    scales: Any,
+    x: float,
+    slots: Any,
+    out: Any,
+    status: Any,
+    i: int,
+    trace: Any,
+    long: Any,
+    sense: Any,
+    around: Any,
+) -> None:
+    """Follow the cycle of one rim, on branches of its own."""
+    losses, final = wants_losses(slots), arches[1]
+    count = stride(table, curve, arches, x, trace, long, losses, 1.0)
+    limits = _limits_beyond(table, curve, count, trace, long, x, final, slots)
+    slopes = slopes_of(table, curve, sense, around, count, trace, final) if len(sense) > 0 else ()
+    read_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i, sense, around, final, slopes)
+
+
+@kernel()
+def _is_one_disc_among(
+    table: Any, curve: Curve, arches: tuple[float, float], x: float, first: float, trace: Any, long: Any, slots: Any
+) -> bool:
+    """Return whether loading keeps the contact one disc up to a rim among the waves that it enters with `first`."""
+    _, g, _ = curve
+    if slots[CONTACT] < 0 or g * table.amplitude <= ALWAYS_ONE:
+        return True
+    limits = _limits_of_beginning(table, curve, first, first, trace, long, arches[1])
+    if limits[0] < math.inf:
+        return is_one_disc(table, curve, limits, x, trace)
+    if trace[RUN, RUN_LEAST] < 0.0:
+        return False
+    count = stride(table, curve, arches, x, trace, long, NO, 1.0)
+    inner, outer, _ = _limits_beyond(table, curve, count, trace, long, x, arches[1], slots)
+    return is_one_disc(table, curve, (inner, outer), x, trace)
+
+
+@kernel()
+def _follow_eight(
+    table: Any,
+    curve: Curve,
+    arches: tuple[float, float],
+    scales: Any,
+    waiting: tuple[int, Lanes, Lanes],
+    slots: Any,
+    out: Any,
+    status: Any,
+    trace: Any,
+    long: Any,
+    sense: Any,
+    around: Any,
+) -> None:
+    """Do the same for the rims that wait: at once for those that stand among regular waves, sensitivities apart."""
+    count, indices, places = waiting
+    energy_scale, depth_scale = scales
+    losses = wants_losses(slots)
+    stands = stand_at_once(table, curve, places, losses)
+    for lane in range(count):
+        i, x = int(lane_of(indices, lane)), lane_of(places, lane)
+        among, loaded, loading_jumps, unloaded, unloading_jumps, last, deepest, first = cycle_among(
+            table, curve, stands, lane, x, arches[1], long, trace, losses
+        )
+        if not among or len(sense) > 0:
+            _follow(table, curve, arches, scales, x, slots, out, status, i, trace, long, sense, around)
+        if not among:
+            continue
+        if wants_cycle(slots):
+            energy = energy_scale * (loaded + unloaded)
+            if not abs(energy) < math.inf:  # an overflow
+                energy = math.nan
+                status[i] |= NO_VALUE
+            if is_close_among(table, curve, stands, lane, x, long, trace, slots[TURNED] > 0):
+                status[i] |= CLOSE_TO_A_JUMP
+            put(out, slots, ENERGY, i, energy)
+            put(out, slots, LOADED, i, energy_scale * loaded)
+            put(out, slots, UNLOADED, i, energy_scale * unloaded)
+            put(out, slots, LOADING, i, loading_jumps)
+            put(out, slots, UNLOADING, i, unloading_jumps)
+            put(out, slots, LAST, i, depth_scale * last)
+        put(out, slots, DEEPEST, i, depth_scale * deepest)
+        if not _is_one_disc_among(table, curve, arches, x, first, trace, long, slots):
+            status[i] |= LOADING_NOT_ONE_DISC
 
 
 @kernel()
@@ -65,22 +186,33 @@ def solve_long(
 ) -> None:
     """Follow the cycle of a wavy punch for its rims that no walk reaches: they share its beginning and its sums.
 
-    Those beyond the folds, or among the last of them, share all of the trace.
+    Those among regular waves are taken eight at a time. Those beyond the folds, or among the last of them, share all of
+    the trace.
     """
     losses, final = wants_losses(slots), arches[1]
     trace, long = begin_long(table, curve, arches, scratch, losses, 1.0)
     furthest, told = 0.0, is_told(table, curve, final)
+    number, indices, places = 0, eight(0.0), eight(math.nan)
     for i in range(rims.size):
         x = rims[i] / wavelength
         if is_unresolved(arches, x) or not is_long(table, arches, x):
             continue
         if told and ends_folds(table, arches, x):
             furthest = max(furthest, x)
-            continue
-        count = stride(table, curve, arches, x, trace, long, losses, 1.0)
-        limits = _limits_beyond(table, curve, count, trace, long, x, final, slots)
-        slopes = slopes_of(table, curve, sense, around, count, trace, final) if len(sense) > 0 else ()
-        read_rim(table, curve, scales, count, trace, limits, x, slots, out, status, i, sense, around, final, slopes)
+        elif ends_folds(table, arches, x) or 2.0 * x > FURTHEST:
+            _follow(table, curve, arches, scales, x, slots, out, status, i, trace, long, sense, around)
+        else:
+            indices, places = with_lane(indices, number, float(i)), with_lane(places, number, x)
+            number += 1
+            if number == LANES:
+                waiting = (number, indices, places)
+                _follow_eight(table, curve, arches, scales, waiting, slots, out, status, trace, long, sense, around)
+                number = 0
+    if number > 0:
+        for lane in range(number, LANES):
+            places = with_lane(places, lane, lane_of(places, 0))
+        waiting = (number, indices, places)
+        _follow_eight(table, curve, arches, scales, waiting, slots, out, status, trace, long, sense, around)
     if furthest == 0.0:
         return
     trace[RUN, RUN_LEAST] = math.nan  # these look at the waves of their own gap
