@@ -6,9 +6,9 @@ half the time, keeps one file for each entry instead of one for each kernel, and
 bit, and of 20,000 energies all but five, which differ in the last bit. In a sum of two products one is fused with the
 addition, and which one may depend on what else stands in a kernel (tests/core/compiler/test_linking.py).
 
-Numba has no option for it: the files of this folder use its private interfaces, of the versions in `KNOWN`. With another
-version, or with GRADHESION_LINKING=ordinary in the environment, `LAZY` is false: kernels are compiled and linked as numba
-does, and nothing of what pipeline.py, resolving.py and keeping.py change is changed.
+Numba has no option for it: the files of this folder use its private interfaces, of the versions in `KNOWN`. With
+another version, or with GRADHESION_LINKING=ordinary in the environment, `LAZY` is false: kernels are compiled and
+linked as numba does, and nothing of what pipeline.py, resolving.py and keeping.py change is changed.
 """
 
 import os

@@ -5,8 +5,8 @@ is regular, and what passes it enters as what loading has lost where it arrives 
 has to lose.
 
 The beginning serves all rims, and so do the samples of the sums (waves/cosine_running.py): a rim adds the branch on
-which it stands and the one before, or less (path/cosine_rims.py). Only where the folds end are the last waves walked. What a rim gets does not depend
-on the other rims of its curve.
+which it stands and the one before, or less (path/cosine_rims.py). Only where the folds end are the last waves walked.
+What a rim gets does not depend on the other rims of its curve.
 """
 
 import math
