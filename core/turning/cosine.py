@@ -1,7 +1,8 @@
 """Where the cycles of one cosine wave turn: at a depth, or at a load (physics in docs/theory.md, section 16).
 
 Nothing beyond the place is walked where the lower envelope reaches the target, and no branch before the place where the
-upper one does (turning/cosine_reach.py). All scenes of a curve share one trace.
+upper one does (turning/cosine_reach.py). All scenes of a curve share one trace. Depths that are reached among the waves
+of a long curve are looked for eight at a time (turning/cosine_at_once.py).
 """
 
 import math
@@ -25,12 +26,14 @@ from gradhesion.core.path.cosine import (
     is_unresolved,
     walk,
 )
-from gradhesion.core.path.cosine_long import NEAR, begin_long, ends_folds, open_gap, stride
-from gradhesion.core.path.ties import rim_is_close
+from gradhesion.core.path.cosine_long import BEFORE, LAST_UP, NEAR, begin_long, ends_folds, open_gap, stride
+from gradhesion.core.path.ties import is_within, rim_is_close
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.current import ready
+from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, with_lane
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.turning.cosine_at_once import turns_at_once
 from gradhesion.core.turning.cosine_reach import reach, reach_outwards
 from gradhesion.core.turning.first_reached import (
     peaks_of,
@@ -164,6 +167,81 @@ def _turn_rim(
 
 
 @kernel()
+def _turn_long(
+    table: Any,
+    curve: Curve,
+    arches: tuple[float, float],
+    inner: float,
+    reach: float,
+    scene: tuple[float, float, float],
+    modes: tuple[bool, bool],
+    trace: Any,
+    beginning: Any,
+) -> tuple[float, int]:
+    """Return what `_turn_rim` does for a scene of a long curve.
+
+    A cycle that turns among the waves of a gap, surely before the rim, needs no branch beyond the gap.
+    """
+    count = int(beginning[0][NEAR])
+    inside = reach < scene[0] and not ends_folds(table, arches, reach)
+    if not inside or not open_gap(table, curve, reach, trace, beginning):
+        count = stride(table, curve, arches, reach, trace, beginning, NO, 1.0)
+    peaks = peaks_of(table, curve, count, trace, inner, 1) if modes[0] else trace[WORK]
+    return _turn_rim(table, curve, count, trace, peaks, True, reach, scene, modes)
+
+
+@kernel()
+def _turn_eight(
+    table: Any,
+    curve: Curve,
+    arches: tuple[float, float],
+    wavelength: float,
+    waiting: tuple[int, Lanes, Lanes],
+    reaches: Any,
+    rims: Any,
+    modes: tuple[bool, bool],
+    radii: Any,
+    flags: Any,
+    trace: Any,
+    beginning: Any,
+) -> None:
+    """Turn the scenes of a long curve that wait at their depths: at once where these are those of regular waves."""
+    count, indices, targets = waiting
+    shared, _, _ = beginning
+    b, g, _ = curve
+    now = int(shared[LAST_UP])
+    left, level = (trace[END, now], trace[END_DEPTH, now]) if now >= 0 else (0.0, 0.0)
+    places, waves, ends, tops, befores = turns_at_once(table, curve, targets)
+    for lane in range(count):
+        i, x, target, end = (
+            int(lane_of(indices, lane)),
+            lane_of(places, lane),
+            lane_of(targets, lane),
+            lane_of(ends, lane),
+        )
+        rim = rims[i] / wavelength
+        among = x < rim and x * wavelength < rim * wavelength and lane_of(waves, lane) > shared[BEFORE] + 1.0
+        if (
+            not among
+            or ends_folds(table, arches, end)
+            or target <= level
+            or is_within(table, curve, target - level, left)
+        ):
+            scene = (rim, target, wavelength)
+            x, flags[i] = _turn_long(table, curve, arches, 0.0, reaches[i], scene, modes, trace, beginning)
+            radii[i] = min(rims[i], x * wavelength)
+            continue
+        radii[i] = min(rims[i], x * wavelength)
+        apart = min(target - lane_of(befores, lane), lane_of(tops, lane) - target)
+        if is_within(table, curve, apart, end) or _is_first_contact(table.k, b, target):
+            flags[i] |= CLOSE_TO_A_JUMP
+        if modes[1] and g * table.amplitude > ALWAYS_ONE:
+            outer = min(rim, x + _AROUND)
+            if least_opening(table, curve, x, outer, trace[WORK], trace[VALUES]) < 0.0:
+                flags[i] |= LOADING_NOT_ONE_DISC
+
+
+@kernel()
 def _turn_curve(
     table: Any,
     curve: Curve,
@@ -176,10 +254,7 @@ def _turn_curve(
     flags: Any,
     scratch: Any,
 ) -> None:
-    """Turn a wavy punch, all its rims: they share one trace, or the beginning of a long one.
-
-    A cycle that turns among the waves of a gap, surely before the rim, needs no branch beyond the gap.
-    """
+    """Turn a wavy punch, all its rims: they share one trace, or the beginning of a long one."""
     wavelength, unit = scales
     by_load, _ = modes
     b, g, _ = curve
@@ -216,20 +291,30 @@ def _turn_curve(
                 scene = (rims[i] / wavelength, targets[i] / unit, wavelength)
                 x, flags[i] = _turn_rim(table, curve, count, trace, peaks, False, reaches[i], scene, modes)
                 radii[i] = min(rims[i], x * wavelength)
-    begun = False
+    begun, number, indices, levels = False, 0, eight(0.0), eight(0.0)
     for i in range(rims.size):
         if reaches[i] > 0.0 and is_long(table, arches, reaches[i]):
             if not begun:
                 trace, beginning = begin_long(table, curve, arches, scratch, NO, 1.0)
                 begun = True
-            count = int(beginning[0][NEAR])
-            inside = reaches[i] < rims[i] / wavelength and not ends_folds(table, arches, reaches[i])
-            if not inside or not open_gap(table, curve, reaches[i], trace, beginning):
-                count = stride(table, curve, arches, reaches[i], trace, beginning, NO, 1.0)
-            peaks = peaks_of(table, curve, count, trace, inner, 1) if by_load else reaches
-            scene = (rims[i] / wavelength, targets[i] / unit, wavelength)
-            x, flags[i] = _turn_rim(table, curve, count, trace, peaks, True, reaches[i], scene, modes)
-            radii[i] = min(rims[i], x * wavelength)
+            if by_load:
+                scene = (rims[i] / wavelength, targets[i] / unit, wavelength)
+                x, flags[i] = _turn_long(table, curve, arches, inner, reaches[i], scene, modes, trace, beginning)
+                radii[i] = min(rims[i], x * wavelength)
+                continue
+            indices, levels = with_lane(indices, number, float(i)), with_lane(levels, number, targets[i] / unit)
+            number += 1
+            if number == LANES:
+                waiting = (number, indices, levels)
+                _turn_eight(
+                    table, curve, arches, wavelength, waiting, reaches, rims, modes, radii, flags, trace, beginning
+                )
+                number = 0
+    if number > 0:
+        for lane in range(number, LANES):
+            levels = with_lane(levels, lane, lane_of(levels, 0))
+        waiting = (number, indices, levels)
+        _turn_eight(table, curve, arches, wavelength, waiting, reaches, rims, modes, radii, flags, trace, beginning)
 
 
 @kernel()

@@ -30,7 +30,9 @@ def _envelope(k: float, b: float, pull: float, z: float, by_load: bool) -> float
 @kernel()
 def reach(k: float, b: float, pull: float, target: float, by_load: bool, outwards: bool) -> float:
     """Return x where an envelope rises through a target >= 0, rounded outwards or inwards by some percent at most."""
-    low, high = 0.0, 1.0
+    near = (target * (3.0 + k) / b) ** (1.0 / (3.0 + k)) if by_load else math.sqrt(2.0 * target / b)
+    _, power = math.frexp(near)
+    low, high = 0.0, math.ldexp(1.0, power)  # a power of two, whichever this is
     while _envelope(k, b, pull, high, by_load) <= target:
         low, high = high, 2.0 * high
         if high > LARGEST:

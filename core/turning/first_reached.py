@@ -34,13 +34,12 @@ from gradhesion.core.path.ties import tolerance
 from gradhesion.core.struve.arches import inner_edge
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.turning.cosine_at_once import SURE
 from gradhesion.core.waves.cosine import branch_of_wave, fold_of_wave, landing_of_wave
 
 Turn: TypeAlias = tuple[float, bool]
 """Where a cycle turns (inf if not here), and whether a step of that is close."""
 _STEPS: Final = 200
-_SURE: Final = 1e-8
-"""The last step of Newton's method, in curvature lengths."""
 _FEW: Final = 3
 """Turning points of a curve up to which each looks for itself."""
 
@@ -85,7 +84,7 @@ def _find(table: Any, curve: Curve, low: float, high: float, target: float, by_l
         else:
             high = x
         step = -rest / rate
-        small = abs(step) * (abs(d1) + abs(d)) <= _SURE * min(1.0, TWO_PI * x) * abs(d)  # what is left is its square
+        small = abs(step) * (abs(d1) + abs(d)) <= SURE * min(1.0, TWO_PI * x) * abs(d)  # what is left is its square
         x += step / TWO_PI
         if small and low < x < high:
             return x
