@@ -86,6 +86,17 @@ KERNELS: Final[dict[str, int]] = {
 """About how many kernels a kind compiles after those that it needs, in one process."""
 
 
+def before(kind: str) -> set[str]:
+    """Return all kinds that are compiled before a kind.
+
+    Examples
+    --------
+    >>> sorted(before("reports"))
+    ['energy', 'tables']
+    """
+    return {*NEEDS[kind]}.union(*map(before, NEEDS[kind]))
+
+
 def kind_of_map(
     outputs: Sequence[str], solver: str = "exact", profile: Profile | None = None, loading: Loading | None = None
 ) -> str:

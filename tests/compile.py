@@ -6,7 +6,8 @@
 from itertools import combinations
 
 from gradhesion.cli.work.warming import warm
-from gradhesion.core import APART, KINDS, NEEDS
+from gradhesion.core import APART, KINDS
+from gradhesion.core.kinds import before
 
 
 def main() -> None:
@@ -15,15 +16,10 @@ def main() -> None:
     warm(KINDS, 2, lambda kind, names: done.update({kind: {*names}}), kept=True)
     side_by_side = {}
     for one, other in combinations(done, 2):
-        if one not in _before(other) and other not in _before(one) and {one, other} not in APART:
+        if one not in before(other) and other not in before(one) and {one, other} not in APART:
             side_by_side[one, other] = sorted(done[one] & done[other])
     twice = {pair: names for pair, names in side_by_side.items() if names}
     assert not twice, f"may run side by side, and compile the same: {twice}"
-
-
-def _before(kind: str) -> set[str]:
-    """All kinds that are compiled before a kind."""
-    return {*NEEDS[kind]}.union(*map(_before, NEEDS[kind]))
 
 
 if __name__ == "__main__":

@@ -4,14 +4,10 @@ import sys
 from pathlib import Path
 
 from gradhesion.cli.work.warming import warm
-from gradhesion.core import KINDS, NEEDS, compile_kind
+from gradhesion.core import KINDS, compile_kind
 from gradhesion.core.arrays.processors import processors
 from gradhesion.core.compiler import ahead, keeping, linking
-
-
-def before(kind: str) -> set[str]:
-    """Return a kind of work with all that it needs."""
-    return {kind}.union(*map(before, NEEDS[kind]))
+from gradhesion.core.kinds import before
 
 
 def main(folder: Path, kinds: list[str]) -> None:
@@ -21,7 +17,7 @@ def main(folder: Path, kinds: list[str]) -> None:
             "this numba links kernels in its ordinary way, whose code cannot be carried: see core/compiler/linking.py"
         )
     warm(kinds, processors())
-    needed = [kind for kind in KINDS if any(kind in before(wanted) for wanted in kinds)]
+    needed = [kind for kind in KINDS if any(kind in {wanted, *before(wanted)} for wanted in kinds)]
     for kind in needed:
         compile_kind(kind)
     code = {name: data for entry in linking.entries() for name, data in keeping.code_of(entry).items()}

@@ -1,13 +1,14 @@
 """All kinds of work compiled ahead, by processes side by side that compile no kernel twice."""
 
 import multiprocessing
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 
 from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.kernels import compile_kinds, missing_of
-from gradhesion.core import APART, NEEDS, compile_kind, watch_compilation
+from gradhesion.core import APART, KERNELS, NEEDS, compile_kind, watch_compilation
 from gradhesion.core.compiler.linking import LAZY
+from gradhesion.core.kinds import before
 
 
 def warm(
@@ -30,22 +31,68 @@ def warm(
         compile_kinds(kinds, names.append)
         done(", ".join(left), names)
         return
-    running: dict[Future[list[str]], str] = {}
-    pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
+    processes = [_Worker() for _ in range(workers)]
     try:
-        while left or running:
-            begun = {*left, *running.values()}
-            for kind in [kind for kind in left if not begun & {*NEEDS[kind]}]:
-                if any(kind in pair and pair & {*running.values()} for pair in APART):
-                    continue
-                running[pool.submit(_compile, kind, kept=kept)] = kind
-                left.remove(kind)
-            finished, _ = wait(running, timeout=0.2, return_when=FIRST_COMPLETED)
+        while left or any(worker.kind for worker in processes):
+            for worker in processes:
+                running = [one.kind for one in processes if one.kind]
+                if not worker.kind and (kind := next_kind(left, running, worker.behind)):
+                    worker.begin(kind, kept=kept)
+                    left.remove(kind)
+            wait([worker.future for worker in processes if worker.kind], timeout=0.2, return_when=FIRST_COMPLETED)
             interrupts.check()
-            for future in finished:
-                done(running.pop(future), future.result())
+            for worker in processes:
+                if worker.kind and worker.future.done():
+                    done(*worker.end())
     finally:
-        pool.shutdown(wait=False, cancel_futures=True)
+        for worker in processes:
+            worker.pool.shutdown(wait=False, cancel_futures=True)
+
+
+def next_kind(left: Sequence[str], running: Sequence[str], behind: Container[str]) -> str:
+    """
+    Choose what a process compiles next: of what may be begun, that of which most is behind it; "" if nothing may be.
+
+    Of several such kinds it is the one for which most others wait. So one process compiles what is for one cosine, and
+    another what is for all profiles, and what kinds share is hardly compiled by both.
+
+    >>> next_kind(["energy", "general_energy", "general_force"], ["energy"], {"tables"})
+    'general_energy'
+    >>> next_kind(["reports", "general_reports"], [], {"tables", "general_energy"})
+    'general_reports'
+    """
+    begun = {*left, *running}
+    ready = [
+        kind
+        for kind in left
+        if not begun & {*NEEDS[kind]} and not any(kind in pair and pair & {*running} for pair in APART)
+    ]
+
+    def worth(kind: str) -> tuple[int, int]:
+        waiting = [other for other in left if kind in before(other)]
+        return sum(KERNELS[one] for one in before(kind) if one in behind), sum(KERNELS[one] for one in waiting)
+
+    return max(ready, key=worth, default="")
+
+
+class _Worker:
+    """A process that compiles one kind after the other."""
+
+    def __init__(self) -> None:
+        self.pool = ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn"))
+        self.kind = ""
+        self.behind: set[str] = set()
+        self.future: Future[list[str]]
+
+    def begin(self, kind: str, *, kept: bool) -> None:
+        """Have a kind compiled."""
+        self.kind, self.future = kind, self.pool.submit(_compile, kind, kept=kept)
+
+    def end(self) -> tuple[str, list[str]]:
+        """Give the kind that is compiled, with the names of its kernels."""
+        kind, self.kind = self.kind, ""
+        self.behind.add(kind)
+        return kind, self.future.result()
 
 
 def _compile(kind: str, *, kept: bool) -> list[str]:
