@@ -13,6 +13,7 @@ at 17 radii a wave; only where its least value there is near zero it is searched
 import math
 from typing import Any, Final
 
+from gradhesion.core.closed.power import power
 from gradhesion.core.compiler.jit import NONE, constant, kernel
 from gradhesion.core.contact.cosine_gap import Edge, edge_at, opening, openings_between, trough_gap
 from gradhesion.core.curve.branches import (
@@ -207,7 +208,7 @@ def _least_of_wave(table: Any, curve: Curve, wave: float, heights: Any, openings
 def _least_of_run(table: Any, curve: Curve, first: float, last: float, heights: Any, openings: Any) -> float:
     """Return the least opening outside the ends of regular waves: a smooth function of the wave, sampled."""
     first = max(first, 1.0)
-    ratio = (last / first) ** (1.0 / (_SAMPLES - 1.0))
+    ratio = power(last / first, 1.0 / (_SAMPLES - 1.0))
     least, at = math.inf, first
     wave = first
     for _ in range(_SAMPLES):

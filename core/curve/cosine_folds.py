@@ -10,6 +10,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
+from gradhesion.core.closed.power import power
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Curve, slope, slopes
 from gradhesion.core.struve.arches import inner_edge, summit
@@ -114,7 +115,7 @@ def guess_zero(table: Any, curve: Curve, level: float, i: int, place: float, out
     b, g, lag = curve
     k = table.k
     if i == 0 and not outer:
-        z = (level / (b + 2.0 * g / (1.0 + k))) ** (2.0 / (3.0 + k))
+        z = power(level / (b + 2.0 * g / (1.0 + k)), 2.0 / (3.0 + k))
         if z < 1.0:
             return z / TWO_PI
     sign = 1.0 if i % 2 == 0 else -1.0
@@ -218,7 +219,7 @@ def last_arch(table: Any, curve: Curve, level: float) -> float:
     b, g, _ = curve
     n = 0.5 * (1.0 + table.k)
     chi = g * table.amplitude
-    z = max((chi / b) ** (1.0 / n), (level / b) ** (1.0 / (1.0 + n)))
+    z = max(power(chi / b, 1.0 / n), power(level / b, 1.0 / (1.0 + n)))
     for _ in range(7):
         if not z > 1.0:
             return 1.0
@@ -242,7 +243,7 @@ def first_arch(table: Any, curve: Curve, level: float) -> float:
     z = 0.5 * level / chi
     if not z > FEW:
         return 0.0
-    z = min(z, (0.5 * level / b) ** (1.0 / (1.0 + n)))
+    z = min(z, power(0.5 * level / b, 1.0 / (1.0 + n)))
     for _ in range(6):
         if not z > FEW:
             return 0.0

@@ -14,6 +14,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from gradhesion.core.closed.power import power
 from gradhesion.core.compiler.jit import NO, NONE, YES, kernel
 from gradhesion.core.curve.branches import (
     ARRIVAL,
@@ -113,7 +114,7 @@ def first_wave_above(
     b, g, _ = curve
     stretch = 1.0 - g * table.amplitude
     # beyond it: Newton's method comes down to it from there
-    z = math.sqrt(2.0 * max(level - g, 0.0) / b) + (2.0 * max(stretch, 0.0) / b) ** (2.0 / (3.0 + table.k))
+    z = math.sqrt(2.0 * max(level - g, 0.0) / b) + power(2.0 * max(stretch, 0.0) / b, 2.0 / (3.0 + table.k))
     z = max(z, TWO_PI * low)
     for _ in range(_NEWTON_STEPS):
         pull = stretch * z * amplitude_power(table, z)
@@ -149,7 +150,7 @@ def _lowest_wave(table: Any, curve: Curve, low: float, high: float) -> tuple[flo
     """
     b, g, _ = curve
     k = table.k
-    z = (0.5 * (1.0 - k) * (1.0 + g * table.amplitude) / b) ** (2.0 / (3.0 + k))
+    z = power(0.5 * (1.0 - k) * (1.0 + g * table.amplitude) / b, 2.0 / (3.0 + k))
     middle = np.floor(z / TWO_PI - table.phase / TWO_PI)
     step, close = 1.0, NO
     for _ in range(_HALVINGS):  # the lowest is one of low .. high
