@@ -13,6 +13,8 @@ END_LEVEL: Final = END_DEPTH
 """The coordinates at the two ends."""
 _STEPS: Final = 200
 _OUTERMOST: Final = 1e100
+_FAR: Final = 1e6
+"""End of a branch over its start from which on that is no bracket for a search."""
 _SURE: Final = 1e-6
 """Step over the length on which the slope changes, whose cube is below rounding."""
 
@@ -53,7 +55,9 @@ def find_level(
     `branch` has what `ends` of core/curve/branches.py returns.
     """
     low, low_level, high, high_level = branch
-    if high == math.inf:
+    if not low_level < target < high_level:
+        return low if target <= low_level else high
+    if high > _FAR * (1.0 + whole + low):  # or infinite
         step = whole + low if whole + low > 0.0 else 1.0
         high = low + step
         high_level = coordinate(basis, curve, high, whole)

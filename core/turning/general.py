@@ -169,7 +169,11 @@ def _turn_curve(
     measured = (B, m, g, 0.0, 1.0) if by_load else (B, m, g, 1.0, 0.0)
     edges, reduced, reaches, places = np.empty(count), np.empty(count), np.empty(count), np.empty(count)
     chosen, alone = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
-    together = False
+    together, bound = False, 0.0
+    for i in range(count):  # that of the largest serves all that are walked together
+        if abs(targets[i]) < math.inf:
+            bound = max(bound, targets[i] / unit)
+    bound = reach(basis, measured, bound)
     for i in range(count):
         target = targets[i] / unit
         edges[i], reduced[i], places[i] = rims[i] / wavelength, target, math.nan
@@ -180,7 +184,9 @@ def _turn_curve(
         if target < 0.0:
             places[i] = 0.0
             continue
-        reaches[i] = reach(basis, measured, target)
+        reaches[i] = bound
+        if bound == math.inf or min(edges[i], bound, last) - first > LONGEST_WALK:
+            reaches[i] = reach(basis, measured, target)
         waves = min(edges[i], reaches[i], last) - first
         if series.shape[0] > 0 and LONGEST_WALK < waves < math.inf:
             middle = middle_of(basis, curve, first, min(edges[i], reaches[i], last), 0.0)
@@ -207,7 +213,7 @@ def _turn_curve(
     ):
         for i in range(count):  # too many folds up to the furthest of them
             if chosen[i]:
-                alone[i] = True
+                alone[i], reaches[i] = True, reach(basis, measured, reduced[i])
                 _turn_walked(basis, curve, by_load, check, (first, last), edges, reduced, reaches, alone, places, flags)
                 alone[i] = False
     for i in range(count):
