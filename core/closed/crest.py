@@ -34,32 +34,30 @@ def swings(k: float, rows: Rows) -> tuple[float, float]:
     """
     if not rows:
         return 0.0, 0.0
-    numbers = np.array([int(n) for n, _, _ in rows])
+    numbers = np.array([int(n) for n, _, _ in rows])[:, np.newaxis]
     size = numbers ** (0.5 * (1.0 - k))
-    even, odd = (size * np.array([row[i] for row in rows]) for i in (1, 2))
+    even, odd = (size * np.array([row[i] for row in rows])[:, np.newaxis] for i in (1, 2))
     count = _SAMPLES * int(numbers.max())
     shift = 0.25 * math.pi * (1.0 + k)
 
     def derivative(x: NDArray[np.float64], order: int) -> NDArray[np.float64]:
         # x is exact in units of 1/count, and what is left over in turns beside it
-        total = np.zeros(x.shape[1:])
-        for n, cosine, sine in zip(numbers, even, odd, strict=True):
-            turns = (int(n) * x[0]) % count / count + n * x[1]
-            phase = 2.0 * math.pi * turns - shift + 0.5 * math.pi * order
-            total += (2.0 * math.pi * n) ** order * (cosine * np.sin(phase) + sine * np.cos(phase))
-        return total
+        turns = (numbers * x[0]) % count / count + numbers * x[1]
+        phase = 2.0 * math.pi * turns - shift + 0.5 * math.pi * order
+        return np.sum((2.0 * math.pi * numbers) ** order * (even * np.sin(phase) + odd * np.cos(phase)), axis=0)
 
-    points = np.stack([np.arange(count, dtype=float), np.zeros(count)])
-    values = derivative(points, 0)
+    waves = np.zeros(count // 2 + 1, dtype=complex)
+    np.add.at(waves, numbers, 0.5 * count * (odd - 1j * even) * np.exp(-1j * shift))
+    values = np.fft.irfft(waves, count)  # good enough to choose by
     found = []
     for sign in (1.0, -1.0):
         best = np.argsort(-sign * values)[:_CANDIDATES]
         crest = (sign * values >= np.roll(sign * values, 1)) & (sign * values >= np.roll(sign * values, -1))
         near = np.union1d(best[crest[best]], best[:1])
-        x = points[:, near]
+        samples = x = np.stack([near.astype(float), np.zeros(near.size)])
         for _ in range(_STEPS):
             bend = sign * derivative(x, 2)
             step = np.divide(-sign * derivative(x, 1), bend, out=np.zeros_like(bend), where=bend < 0.0)
             x = np.stack([x[0], np.clip(x[1] + step, -1.0 / count, 1.0 / count)])
-        found.append(max(0.0, float(np.max(np.maximum(sign * derivative(x, 0), sign * values[near])))))
+        found.append(max(0.0, *(sign * np.concatenate([derivative(x, 0), derivative(samples, 0)])).tolist()))
     return found[0], found[1]
