@@ -87,7 +87,7 @@ def estimate(study: Study, output: Path, threads: int | None = None) -> Estimate
     seconds = uncertain = by_dask = of_one = None
     if probed:
         workers = threads or processors()
-        writing = probed.compressing * study.scenes + probed.columns
+        writing = probed.compressing * study.scenes + probed.columns + probed.sealing * scenes_left * parts
         solving = probed.solving * scenes_left + probed.tables * len(left) / count
         seconds = FILE + max((solving + writing) / workers, writing)
         uncertain = probed.uncertainty * scenes_left / workers

@@ -8,7 +8,7 @@ neither the name of a part nor its age matters.
 import hashlib
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, fields
 from importlib.metadata import version
 from pathlib import Path
@@ -101,10 +101,15 @@ def write_part(path: Path, key: str, values: Mapping[str, NDArray[Any]], study: 
     """Write the values of a block to disk, whole or not at all."""
     pieces = [memoryview(f"{key}\n".encode())]
     pieces += [np.ascontiguousarray(values[name], kind).data.cast("B") for name, kind in types_of(study).items()]
+    write_whole(path, f"{digest_of(pieces)}\n".encode(), *pieces)
+
+
+def digest_of(pieces: Iterable[memoryview]) -> str:
+    """Return the SHA-256 of all pieces in turn, in hexadecimal: what takes longest of a part that is written."""
     digest = hashlib.sha256()
     for piece in pieces:
         digest.update(piece)
-    write_whole(path, f"{digest.hexdigest()}\n".encode(), *pieces)
+    return digest.hexdigest()
 
 
 def read_part(path: Path, key: str, study: Study, block: Block) -> Results:

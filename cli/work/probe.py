@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, shape_of, size_of
 from gradhesion.cli.work.blocks import solve_block
+from gradhesion.cli.work.parts import digest_of
 
 clock = time.perf_counter
 SECONDS: Final = 2.0
@@ -44,6 +45,9 @@ class Probe:
     tables: float
     """Of all gradient exponents together."""
     compressing: float
+    """A scene, for the dataset."""
+    sealing: float
+    """A scene, for its part."""
     ratio: float
     columns: float
     """Of writing all that is given as long columns, a table of points above all."""
@@ -62,7 +66,7 @@ def probe(study: Study, numbers: Sequence[int]) -> Probe | None:
     seen = {*_exponents(study, first).tolist()}
     rates: list[float] = []
     scenes = compressed = plain = new = 0
-    compressing = making = 0.0
+    compressing = sealing = making = 0.0
     begun = time.monotonic()
     for part in _spread(PIECES):
         number, place = divmod(part * len(numbers), 1.0)
@@ -80,7 +84,10 @@ def probe(study: Study, numbers: Sequence[int]) -> Probe | None:
         scenes += size_of(piece)
         start = clock()
         compressed += sum(_compressed(array) for array in values.values())
-        compressing += clock() - start
+        sealed = clock()
+        digest_of(np.ascontiguousarray(array).data.cast("B") for array in values.values())
+        compressing += sealed - start
+        sealing += clock() - sealed
         plain += sum(array.nbytes for array in values.values())
         cells = min(cells, _next_cells(study, seconds, size_of(piece)))
         if time.monotonic() - begun > SECONDS or scenes >= study.scenes:
@@ -91,6 +98,7 @@ def probe(study: Study, numbers: Sequence[int]) -> Probe | None:
         uncertainty=2 * float(np.std(rates, ddof=1)) / math.sqrt(len(rates)) if len(rates) > 1 else math.inf,
         tables=max(0.0, making) / new * _exponents(study).size if new else 0.0,
         compressing=compressing / scenes,
+        sealing=sealing / scenes,
         ratio=compressed / plain,
         columns=_seconds_of_columns(study),
     )

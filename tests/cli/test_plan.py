@@ -3,7 +3,7 @@
 import json
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,7 @@ from click.testing import Result
 from gradhesion.cli.study.study import study_from
 from gradhesion.cli.study.tiling import Tiling, size_of
 from gradhesion.cli.work import probe
+from gradhesion.cli.work.estimate import FILE, estimate
 from gradhesion.cli.work.folder import folder_of
 
 Call = Callable[..., Result]
@@ -143,6 +144,29 @@ def test_tables_of_exponents_are_in_the_estimate(data: dict[str, Any], monkeypat
     assert 8 < len(made) < 40, "most of them are not made for it"
     assert abs(found.tables - 400 * 3e-4) < 1e-9
     assert abs(found.solving - 1e-6) < 1e-9
+
+
+@pytest.mark.parametrize("parts", [True, False])
+def test_the_parts_of_several_blocks_are_in_the_estimate(
+    parts: bool, data: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On a clock that knows nothing but what the digest of a byte costs; a map of one block has no part."""
+    data["parameters"]["A"] = {"start": 0.0, "stop": 0.5, "num": 600}
+    study = study_from(data).chunked(1000 if parts else 131_072)
+    clock = 0.0
+
+    def digest_of(pieces: Iterable[memoryview]) -> str:
+        nonlocal clock
+        clock += sum(1e-9 * piece.nbytes for piece in pieces)
+        return ""
+
+    monkeypatch.setattr(probe, "digest_of", digest_of)
+    monkeypatch.setattr(probe, "clock", lambda: clock)
+    found = estimate(study, tmp_path / "out.nc", 2)
+    assert found.seconds is not None
+    bytes_of_parts = study.scenes * (8 + 8 + 4 + 1) if parts else 0
+    assert found.bytes_of_parts == bytes_of_parts
+    assert abs(found.seconds - FILE - 1e-9 * bytes_of_parts) < 1e-12
 
 
 def test_every_scene_is_as_likely_in_a_piece() -> None:
