@@ -39,7 +39,7 @@ def _integral(k: float, a: float, power: float, values: Callable[[NDArray[np.flo
     # within: w = r^(1+power), graded towards 0
     n = 1.0 + power
     w, weights = _panels(
-        (0.5 * a) ** n * np.concatenate([[0.0], 0.5 ** np.arange(45.0, 1.0, -1.0), np.linspace(0.5, 1.0, 13)])
+        (0.5 * a) ** n * np.concatenate([[0.0], 0.5 ** np.arange(45.0, 2.0, -2.0), np.linspace(0.5, 1.0, 13)])
     )
     within = float(np.sum(weights / n * values(w ** (1.0 / n))))
     # beyond: u = a^2 - r^2, in which p is u^((k-1)/2) times a smooth function; Jacobi's rule takes the panel at the edge
