@@ -1,10 +1,11 @@
 """All zeros of a smooth function on a cell: isolated on its interpolant by the signs of Bernstein coefficients.
 
 On a cell of three quarters of the shortest wave, no longer than 0.7 of its distance from z = 0, the function D of
-curve/general.py is its interpolant at 17 Chebyshev points to 2e-13, and rounding moves Bernstein coefficients by
-`NOISE`. A polynomial has no more zeros in an interval than its Bernstein coefficients change sign there, and as many up
-to an even number; intervals with two changes or more are halved (de Casteljau). A pair that is not told apart after 16
-halvings is two zeros on either side of an extremum of the function itself, or none.
+curve/general.py is its Hermite interpolant at nine places, by D at all and dD/dx at eight of them, to 3e-13, and
+rounding moves Bernstein coefficients by `NOISE`. A polynomial has no more zeros in an interval than its Bernstein
+coefficients change sign there, and as many up to an even number; intervals with two changes or more are halved (de
+Casteljau). A pair that is not told apart after 16 halvings is two zeros on either side of an extremum of the function
+itself, or none.
 """
 
 import math
@@ -21,17 +22,33 @@ STACK: Final = HALVINGS + 2
 MOST: Final = 2 * DEGREE
 
 
+NODES: Final = 0.5 + 0.5 * np.array(
+    [-1.0, -0.931893, -0.736770, -0.440985, -0.084483, 0.284587, 0.616381, 0.866087, 1.0]
+)
+"""On [0, 1], the ends among them: the product of the distances from them, squared but for that from the first, is as
+small as it can be (test_cells.py)."""
+PLACES: Final = NODES.size
+
+
 def _to_bernstein() -> np.ndarray:
-    """Return what a value at each of the `NODES` adds to the Bernstein coefficients on [0, 1]."""
-    basis = np.array([[comb(DEGREE, j) * u**j * (1.0 - u) ** (DEGREE - j) for j in range(DEGREE + 1)] for u in NODES])
-    return np.ascontiguousarray(np.linalg.inv(basis).T)
+    """Return what the values at `NODES`, and then the rates at all but the first, add to the Bernstein coefficients."""
+
+    def polynomials(u: float, degree: int) -> np.ndarray:
+        return np.array([comb(degree, j) * u**j * (1.0 - u) ** (degree - j) for j in range(degree + 1)])
+
+    values = [polynomials(u, DEGREE) for u in NODES]
+    steps = [polynomials(u, DEGREE - 1) for u in NODES[1:]]
+    rates = [DEGREE * (np.append(0.0, step) - np.append(step, 0.0)) for step in steps]
+    return np.ascontiguousarray(np.linalg.inv(np.array(values + rates)).T)
 
 
-NODES: Final = np.sin(0.5 * np.pi * np.arange(DEGREE + 1) / DEGREE) ** 2
-"""Chebyshev points on [0, 1], the ends among them."""
+_STEEPEST: Final = 1.5 * math.pi
+"""Rate over value of three quarters of a wave."""
 MATRIX: Final = _to_bernstein()
-NOISE: Final = 2.0**-53 * float(np.abs(MATRIX).sum(axis=0).max())
-"""Rounding of a Bernstein coefficient over the largest value, or what that is the difference of (5e-12)."""
+NOISE: Final = 2.0**-53 * float(
+    (np.abs(MATRIX[:PLACES]).sum(axis=0) + _STEEPEST * np.abs(MATRIX[PLACES:]).sum(axis=0)).max()
+)
+"""Rounding of a Bernstein coefficient over the largest value, or what that is the difference of (1e-12)."""
 
 
 BINOMIALS: Final = np.array([float(comb(DEGREE, j)) for j in range(DEGREE + 1)])
@@ -40,15 +57,15 @@ _NEWTON: Final = 4
 
 
 @kernel(contract=True)
-def _zero(coefficients: Any) -> float:
-    """Return about where a polynomial in [0, 1] whose Bernstein coefficients change sign once is zero.
+def _zero(stack: Any, top: int) -> float:
+    """Return about where a polynomial in [0, 1] whose Bernstein coefficients, row `top`, change sign once is zero.
 
     Over (1 - u)^DEGREE it is a polynomial in r = u/(1 - u), on which Newton's method is used.
     """
     first = 0
-    while first < DEGREE - 1 and (coefficients[first] < 0.0) == (coefficients[first + 1] < 0.0):
+    while first < DEGREE - 1 and (stack[top, first] < 0.0) == (stack[top, first + 1] < 0.0):
         first += 1
-    before, behind = coefficients[first], coefficients[first + 1]
+    before, behind = stack[top, first], stack[top, first + 1]
     guess = (first + before / (before - behind)) / DEGREE
     back = guess > 0.5
     r = (1.0 - guess) / guess if back else guess / (1.0 - guess)
@@ -56,7 +73,7 @@ def _zero(coefficients: Any) -> float:
         value, rate = 0.0, 0.0
         for j in range(DEGREE, -1, -1):
             rate = rate * r + value
-            value = value * r + BINOMIALS[j] * coefficients[DEGREE - j if back else j]
+            value = value * r + BINOMIALS[j] * stack[top, DEGREE - j if back else j]
         step = value / rate
         if not abs(step) < 0.5 * r:
             return guess
@@ -65,11 +82,11 @@ def _zero(coefficients: Any) -> float:
 
 
 @kernel()
-def _changes(coefficients: Any) -> int:
-    """Return how often the sign changes; zero counts as positive."""
+def _changes(stack: Any, top: int) -> int:
+    """Return how often the sign changes in row `top`; zero counts as positive."""
     count = 0
     for j in range(DEGREE):
-        if (coefficients[j] < 0.0) != (coefficients[j + 1] < 0.0):
+        if (stack[top, j] < 0.0) != (stack[top, j + 1] < 0.0):
             count += 1
     return count
 
@@ -81,7 +98,7 @@ def isolate(values: Any, stack: Any, spans: Any, found: Any) -> tuple[int, float
     Parameters
     ----------
     values
-        Those at `NODES`.
+        Those at `NODES`, and behind them the rates on [0, 1] at all of these but the first.
     stack, spans
         Room, of shapes (STACK, DEGREE + 1) and (STACK, 3).
     found
@@ -92,16 +109,17 @@ def isolate(values: Any, stack: Any, spans: Any, found: Any) -> tuple[int, float
     -------
     The number of rows, and a number below |interpolant| wherever it is in no row: nearly zero at a near miss.
     """
-    stack[0, :] = 0.0
+    for j in range(DEGREE + 1):
+        stack[0, j] = 0.0
     for i in range(DEGREE + 1):
         for j in range(DEGREE + 1):
             stack[0, j] += MATRIX[i, j] * values[i]
-    stack[0, 0], stack[0, DEGREE] = values[0], values[DEGREE]
+    stack[0, 0], stack[0, DEGREE] = values[0], values[PLACES - 1]
     spans[0, 0], spans[0, 1], spans[0, 2] = 0.0, 1.0, 0.0
     top, count = 0, 0
     nearest = math.inf
     while top >= 0:
-        changes = _changes(stack[top])
+        changes = _changes(stack, top)
         left, right, halvings = spans[top, 0], spans[top, 1], spans[top, 2]
         if changes == 0:
             for j in range(DEGREE + 1):
@@ -113,7 +131,7 @@ def isolate(values: Any, stack: Any, spans: Any, found: Any) -> tuple[int, float
             found[count, 0], found[count, 1] = left, right
             found[count, 2] = -1.0 if stack[top, 0] < 0.0 else 1.0
             found[count, 3] = 1.0 if changes % 2 == 1 else 2.0
-            found[count, 4] = left + (right - left) * (_zero(stack[top]) if changes == 1 else 0.5)
+            found[count, 4] = left + (right - left) * (_zero(stack, top) if changes == 1 else 0.5)
             count += 1
             top -= 1
         else:  # the left half goes on top, the right half below it

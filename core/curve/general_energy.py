@@ -44,7 +44,8 @@ def place_left(basis: Basis, curve: Curve, x: float, whole: float, above: float 
     z = TWO_PI * (whole + x)
     w0, w1, _, _ = sums(table, cosine_bins, series, x, whole)
     power = amplitude_power(table, z)
-    return whole, x, g * z * w0, g * z * w1 / (power * power), above, B * z**m, z * power
+    bend = B * z * z if m == 2.0 else B * z**m
+    return whole, x, g * z * w0, g * z * w1 / (power * power), above, bend, z * power
 
 
 @kernel(contract=True)

@@ -6,7 +6,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.cells import DEGREE, MOST, NODES, NOISE, STACK, isolate
+from gradhesion.core.curve.cells import DEGREE, MOST, NODES, NOISE, PLACES, STACK, isolate
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Curve, level_at, slope
 from gradhesion.core.struve.circle import TWO_PI
@@ -100,16 +100,18 @@ def folds_of_cell(
     """
     values, stack, spans, found = work
     values[0] = at_low
-    for i in range(1, DEGREE + 1):
-        values[i], _, _ = slope(basis, curve, high if i == DEGREE else low + (high - low) * NODES[i], whole)
-    at_high = values[DEGREE]
+    for i in range(1, PLACES):
+        x = high if i == PLACES - 1 else low + (high - low) * NODES[i]
+        values[i], rate, _ = slope(basis, curve, x, whole)
+        values[PLACES - 1 + i] = TWO_PI * (high - low) * rate
+    at_high = values[PLACES - 1]
     count, miss = 0, math.inf
     here, negative = low, at_low < 0.0
     rows, nearest = isolate(values, stack, spans, found)
     if nearest <= _NEAR * max(abs(at_low), abs(at_high)):
         terms = _terms(basis, curve, low, whole)
         largest = terms
-        for i in range(DEGREE + 1):
+        for i in range(PLACES):
             largest = max(largest, abs(values[i]))
         miss = max(0.0, nearest - NOISE * largest) / terms
     for row in range(rows):

@@ -49,7 +49,7 @@ def highest_harmonic(series: Any) -> float:
     return shortest
 
 
-@kernel(contract=True)
+@kernel(contract=True, inline=True)
 def integrals(
     table: Any, cosine_bins: Any, x: float, x_low: float, whole: float = 0.0, odd: float = 1.0
 ) -> tuple[float, float, float, float, float, float]:
