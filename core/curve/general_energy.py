@@ -212,8 +212,10 @@ def _innermost_parts(basis: Basis, curve: Curve, high: float) -> tuple[float, fl
 
 
 @kernel()
-def energy_in(basis: Basis, curve: Curve, x: float, level: float, stations: Any) -> float:
-    """Return e of a jump at Y = level from zero contact to x, as `energy_from_zero`.
+def energies_in(
+    basis: Basis, curve: Curve, x: float, first_level: float, other_level: float, stations: Any
+) -> tuple[float, float]:
+    """Return e of the jumps at two coordinates from zero contact to x, as `energy_from_zero`.
 
     Panels end at stations, the same for any x, where the last one begins: many x, rims within the jump-in or the
     jump-out, share all but that. `stations`, shape (4, n), has places, infinite where nothing has been found yet, and
@@ -224,7 +226,8 @@ def energy_in(basis: Basis, curve: Curve, x: float, level: float, stations: Any)
     shortest = highest_harmonic(series)
     low, growth = panels_to_zero(table.k, alpha, beta, math.inf, shortest)
     if not SMOOTH * x > low:
-        return energy_from_zero(basis, curve, x, level)
+        energy = energy_from_zero(basis, curve, x, first_level)
+        return energy, energy_from_zero(basis, curve, x, other_level) if other_level != first_level else energy
     total, j = (0.0, 0.0, 0.0), 0
     while True:
         known = j < stations.shape[1] and stations[0, j] < math.inf
@@ -241,4 +244,8 @@ def energy_in(basis: Basis, curve: Curve, x: float, level: float, stations: Any)
             total = _with_panel(basis, curve, low, high, shortest, total)
         low, j = high, j + 1
     first, second, third = _with_panel(basis, curve, low, x, shortest, total)
-    return (first + level * (second + level * third)) * TWO_PI * TWO_PI
+    square = TWO_PI * TWO_PI
+    return (
+        (first + first_level * (second + first_level * third)) * square,
+        (first + other_level * (second + other_level * third)) * square,
+    )

@@ -135,6 +135,8 @@ def folds_of_cell(
                 zeros[count], _ = refine(basis, curve, guess, here, x, negative, whole)
                 count += 1
                 negative = value < 0.0
+            elif points == 2 and i == 1:  # a zero of the interpolant alone: of a pair that D has not, or hardly
+                miss = min(miss, abs(value) / _terms(basis, curve, x, whole))
             here = x
     if (at_high < 0.0) != negative:
         zeros[count], _ = refine(basis, curve, here, here, high, negative, whole)

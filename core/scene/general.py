@@ -16,7 +16,7 @@ from gradhesion.core.curve.arches import is_one_cosine
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Curve, coordinate, curve_of, state
-from gradhesion.core.curve.general_energy import energy_in
+from gradhesion.core.curve.general_energy import energies_in
 from gradhesion.core.curve.general_folds import MOST_CELLS, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.path.general import depth_at_full_contact, walk
@@ -164,13 +164,19 @@ def _walked(
         x = rims[i]
         level = coordinate(basis, curve, x) if x < math.inf else math.inf
         shared = losses and x <= LONG and not is_one_cosine(basis[2], curve[1])
-        if shared and jumps_in_to(count, trace, x):
-            loss, jumps = energy_in(basis, curve, x, 0.0, stations), 1.0
+        jumps_in = shared and jumps_in_to(count, trace, x)
+        jumps_out = shared and curve[3] > 0.0 and jumps_out_from(count, trace, x, level)
+        inwards, outwards = 0.0, 0.0
+        if jumps_in or jumps_out:
+            levels = (0.0 if jumps_in else level, level if jumps_out else 0.0)
+            inwards, outwards = energies_in(basis, curve, x, levels[0], levels[1], stations)
+        if jumps_in:
+            loss, jumps = inwards, 1.0
         else:
             loss, jumps = loading_to(basis, curve, count, trace, x, losses)
         loading = (loss, jumps, highest_depth(count, trace, x, level))
-        if shared and curve[3] > 0.0 and jumps_out_from(count, trace, x, level):
-            unloading = (-energy_in(basis, curve, x, level, stations), 1.0, depth_at(basis, curve, x, level))
+        if jumps_out:
+            unloading = (-outwards, 1.0, depth_at(basis, curve, x, level))
         else:
             unloading = unloading_from(basis, curve, count, trace, x, level, losses)
         close = is_close_to_a_jump(basis, curve, count, trace, tangency, x, level, turned)

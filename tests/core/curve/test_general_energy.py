@@ -8,7 +8,7 @@ import pytest
 
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.general import coordinate
-from gradhesion.core.curve.general_energy import energy_from_zero, energy_in
+from gradhesion.core.curve.general_energy import energies_in, energy_from_zero
 from gradhesion.core.struve.circle import TWO_PI
 
 EPS = 2.0**-52
@@ -66,11 +66,12 @@ def test_energy_of_a_jump_between_any_rim_and_zero_contact(k: float, waves: str,
     rims = rng.permutation(np.geomspace(1e-3, 20.0, 60))
     kept, few = (np.full((4, n), math.inf) for n in (64, 3))
     for x in rims.tolist():
-        for level in (0.0, coordinate(basis, curve, x)):
-            energy = energy_in(basis, curve, x, level, kept)
+        levels = 0.0, coordinate(basis, curve, x)
+        energies = energies_in(basis, curve, x, *levels, kept)
+        for level, energy in zip(levels, energies, strict=True):
             # rounding of the square, and of waves and a bend that are some times as large as the stretch
             size = (TWO_PI * x) ** 2 + abs(energy)
             assert abs(energy - energy_from_zero(basis, curve, x, level)) <= 16 * EPS * size, x
             for stations in (few, np.full((4, 1), math.inf)):
-                assert energy_in(basis, curve, x, level, stations) == energy
+                assert energies_in(basis, curve, x, level, level, stations) == (energy, energy)
     assert np.isfinite(kept[0]).sum() > 3 or not WAVES[waves].size
