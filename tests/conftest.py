@@ -1,5 +1,6 @@
 """What the tests of the command line share."""
 
+import gc
 import math
 import os
 from collections.abc import Callable
@@ -25,7 +26,8 @@ OF_KERNELS = tuple(
 
 
 def pytest_configure() -> None:
-    """Have temporary folders in memory, where there is room."""
+    """Have temporary folders in memory, where there is room, and old objects looked through for cycles seldom."""
+    gc.set_threshold(2_000, 10, 1_000)
     if place := in_memory(2**32):
         os.environ.setdefault("PYTEST_DEBUG_TEMPROOT", place)
 
