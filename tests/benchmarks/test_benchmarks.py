@@ -1,35 +1,37 @@
 """The benchmarks run; what they measure is never asserted."""
 
+import importlib
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
+ROOT = Path(__file__).parents[2]
+
 
 def python(root: Path, *arguments: str) -> str:
     return subprocess.run([sys.executable, *arguments], cwd=root, capture_output=True, text=True, check=True).stdout
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        "",
-        ".dense_grid",
-        ".error",
-        ".functions",
-        ".loop_fits",
-        ".optima",
-        ".plan",
-        ".scale",
-        ".scenes",
-        ".sensitivities",
-        ".start_up",
-        ".study",
-    ],
-)
-def test_every_script_has_help(root: Path, name: str) -> None:
-    assert "usage" in python(root, "-m", f"benchmarks{name}", "--help")
+SCRIPTS = [
+    path.stem for path in (ROOT / "benchmarks").glob("*.py") if "\ndef main(" in path.read_text(encoding="utf-8")
+]
+
+
+@pytest.mark.parametrize("name", sorted(SCRIPTS))
+def test_every_script_has_help(
+    root: Path, name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.syspath_prepend(root)
+    monkeypatch.setattr(sys, "argv", ["benchmark", "--help"])
+    with pytest.raises(SystemExit, match=r"^0$"):
+        importlib.import_module(f"benchmarks.{name}").main()
+    assert "usage" in capsys.readouterr().out
+
+
+def test_a_script_is_run_by_its_name(root: Path) -> None:
+    assert "usage" in python(root, "-m", "benchmarks.plan", "--help")
 
 
 def test_the_dense_grid_tends_to_the_exact_values(root: Path) -> None:
