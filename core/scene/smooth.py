@@ -1,7 +1,8 @@
 """Smooth punches, many at once: each step for a block of them, as a loop of vector operations.
 
 A block has rows of numbers of scenes: their results in the order of problem/results.py, then what these follow from. Of
-curves it has the first of the latter. Formulas are those of closed/smooth.py.
+curves it has the first of the latter. Formulas are those of closed/smooth.py. A long run of rims of one curve that are
+all far beyond the radius to which contacts jump is solved once.
 """
 
 import math
@@ -183,6 +184,34 @@ def _solve_block(count: int, block: Any, slots: Any, far: bool) -> None:
 
 
 @kernel()
+def _solve_run(
+    number: int, rims: Any, curve: int, place: int, curves: Any, scenes: Any, slots: Any, out: Any, status: Any
+) -> int:
+    """Solve the rims of a curve from `number` on that are far out, if they fill a block: none of them matters.
+
+    Return how many they are, and 0 if they do not. The curve stands at `place` of the block of curves.
+    """
+    row, end = curve if rims.shape[0] > 1 else 0, number
+    while end < rims.shape[1] and rims[row, end] * rims[row, end] > 2.0 * curves[_IN, place]:
+        end += 1
+    if end - number < scenes.shape[1]:
+        return 0
+    for known in range(_K, _RIM):
+        scenes[known, 0] = curves[known, place]
+    scenes[_RIM, 0] = rims[row, number]
+    _solve_block(1, scenes, slots, True)
+    for result in range(_RESULTS):
+        if slots[result] >= 0:
+            value = scenes[result, 0]
+            for i in range(number, end):
+                out[slots[result], curve, i] = value
+    flags = scenes[_FLAGS, 0]
+    for i in range(number, end):
+        status[curve, i] = flags
+    return end - number
+
+
+@kernel()
 def _refuse(index: Any, curves: Any, out: Any, status: Any) -> None:
     """Give curves that are out of range no value."""
     for j in range(index.size):
@@ -219,8 +248,15 @@ def solve_smooth(
             _find_squares(some.size, curves, smooth.ABSCISSA_OF_JUMP_IN, 0.0, _IN)
         if wants_cycle(slots):
             _find_squares(some.size, curves, smooth.abscissa_of_jump_out(0.0), -0.5, _OUT)
-        for first in range(0, some.size * number, size):
-            count = min(size, some.size * number - first)
+        first, total = 0, some.size * number
+        while first < total:
+            count = min(size, total - first)
+            if number >= size and slots[DEEPEST] < 0:
+                j = first // number
+                run = _solve_run(first % number, rims, some[j], j, curves, scenes, slots, out, status)
+                if run > 0:
+                    first += run
+                    continue
             _take_scenes(some, first, count, rims, curves, scenes)
             far = number > 1 and slots[DEEPEST] < 0 and _are_far_out(count, scenes)
             _solve_block(count, scenes, slots, far)
@@ -228,4 +264,5 @@ def solve_smooth(
                 if slots[row] >= 0:
                     _store(some, first, count, scenes[row], out[slots[row]])
             _store(some, first, count, scenes[_FLAGS], status)
+            first += count
         _refuse(some, curves, out, status)
