@@ -1,5 +1,6 @@
 """The cost of other controls, profiles and exponents, and of what shares a curve: `python -m benchmarks.classes`."""
 
+import argparse
 from typing import Any
 
 import numpy as np
@@ -94,6 +95,7 @@ def shared_table() -> str:
 
 def main() -> None:
     """Print all tables."""
+    argparse.ArgumentParser(description=__doc__).parse_args()
     for made in (controls_table, exponents_table, punches_table, shared_table):
         print(made(), flush=True)
 

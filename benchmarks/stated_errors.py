@@ -3,8 +3,8 @@
 True errors come from the reference solver, and on long curves from walking every wave, the sums being switched off.
 """
 
+import argparse
 import math
-import sys
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -145,8 +145,11 @@ def classes(count: int, seed: int) -> Iterator[tuple[str, np.ndarray]]:
 
 def main() -> None:
     """Print a table."""
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 10_000
-    seed = int(sys.argv[2]) if len(sys.argv) > 2 else 20261
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("count", type=int, nargs="?", default=10_000)
+    parser.add_argument("seed", type=int, nargs="?", default=20261)
+    asked = parser.parse_args()
+    count, seed = asked.count, asked.seed
     print("| class | scenes | exceeded (force, energy) | largest true/stated | median stated/true |")
     print("| --- | --- | --- | --- | --- |")
     for name, found in classes(count, seed):

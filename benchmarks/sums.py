@@ -5,8 +5,8 @@ different means; where the second has no value (weak waves, from 10^9 on), the l
 without a rim.
 """
 
+import argparse
 import math
-import sys
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,8 +67,11 @@ def compared(scenes: dict[str, Values], ratio: Values) -> dict[str, Values]:
 
 def main() -> None:
     """Print a row for each power of ten."""
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 10_000
-    seed = int(sys.argv[2]) if len(sys.argv) > 2 else 20261
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("count", type=int, nargs="?", default=10_000)
+    parser.add_argument("seed", type=int, nargs="?", default=20261)
+    asked = parser.parse_args()
+    count, seed = asked.count, asked.seed
     heads = ("waves", "scenes", "no value", "against the second solver", "over stated", "relative")
     heads += ("against the limit", "over 2/(chi N) + 1e-12", "neither")
     print(f"| {' | '.join(heads)} |\n| {' | '.join(['---'] * len(heads))} |")
