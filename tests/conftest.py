@@ -27,7 +27,7 @@ OF_KERNELS = tuple(
 
 def pytest_configure() -> None:
     """Have temporary folders in memory, where there is room, and old objects looked through for cycles seldom."""
-    gc.set_threshold(2_000, 10, 1_000)
+    gc.set_threshold(2_000, 10, 30)
     if place := in_memory(2**32):
         os.environ.setdefault("PYTEST_DEBUG_TEMPROOT", place)
 
