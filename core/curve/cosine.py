@@ -135,10 +135,10 @@ def slopes_at_once(table: Any, curve: Curve, level: float, x: Lanes) -> tuple[La
 
 @kernel()
 def depth_size(table: Any, curve: Curve, x: float) -> float:
-    """Return the size of the terms of the reduced depth at x."""
+    """Return the size of the terms of the reduced depth at x; 1 where x is 0 or NaN."""
     b, g, _ = curve
     z = TWO_PI * x
-    if z <= 0.0:
+    if not z > 0.0:
         return 1.0
     return 0.5 * b * z * z + z * amplitude_power(table, z) * (1.0 + g * table.amplitude) + g
 

@@ -233,7 +233,10 @@ def entry(
     if math.isnan(shared[ENTRY]):
         left, level = (trace[END, now], trace[END_DEPTH, now]) if now >= 0 else (0.0, 0.0)
         wave, end, top, _, top_before = first_wave_above(table, curve, shared[BEFORE], after, level)
-        if min(abs(top - level), abs(top_before - level)) <= tolerance(table, curve, end):
+        if math.isnan(top):  # the wave is `after` itself
+            end, top = fold_of_wave(table, curve, wave, NO)
+        close = tolerance(table, curve, end)
+        if abs(top - level) <= close or abs(top_before - level) <= close:
             shared[FIRST_CLOSE] = min(shared[FIRST_CLOSE], end)
         x = find_depth(table, curve, level, branch_of_wave(table, curve, wave))
         if losses and now >= 0:

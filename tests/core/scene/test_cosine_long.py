@@ -1,0 +1,31 @@
+"""Rims of a long curve: what is said of one does not depend on the others."""
+
+import numpy as np
+
+from gradhesion.core import solve
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP
+
+MANY_WAVES = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.0005}
+"""Loading jumps from its beginning to the 389th wave or so, and then from wave to wave."""
+RIMS = np.linspace(0.19, 0.21, 161)
+"""Four a wave, about the place to which it jumps."""
+
+
+def jumps_up_to(amplitude: float, rims: float) -> int:
+    return int(solve(MANY_WAVES | {"A": amplitude, "a_max_over_R": rims}, ["loading_jumps"])["loading_jumps"])
+
+
+def test_a_jump_that_hardly_misses_a_wave_is_close_for_each_rim_from_there_on() -> None:
+    below, above = 0.01, 0.015
+    jumps = jumps_up_to(below, 0.3)
+    assert jumps_up_to(above, 0.3) == jumps + 1
+    while np.nextafter(below, 1.0) < above:
+        middle = 0.5 * (below + above)
+        below, above = (middle, above) if jumps_up_to(middle, 0.3) == jumps else (below, middle)
+    for amplitude in (below, above):
+        scene = MANY_WAVES | {"A": amplitude}
+        among = solve(scene | {"a_max_over_R": RIMS}, ["loading_jumps"])["status"] & CLOSE_TO_A_JUMP
+        alone = [solve(scene | {"a_max_over_R": rim}, ["loading_jumps"])["status"] & CLOSE_TO_A_JUMP for rim in RIMS]
+        np.testing.assert_array_equal(among, alone)
+        assert among[-1]
+        assert not among[0]
