@@ -25,20 +25,14 @@ from gradhesion.core.path.ties import first_close_pair
 from gradhesion.core.problem.results import (
     CONTACT,
     DEEPEST,
-    ENERGY,
-    LAST,
-    LOADED,
-    LOADING,
     TURNED,
-    UNLOADED,
-    UNLOADING,
     put,
     wants_cycle,
     wants_losses,
 )
-from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
-from gradhesion.core.scene.cosine_rim import limits_of, read_rim, slopes_of
-from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, with_lane
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC
+from gradhesion.core.scene.cosine_rim import limits_of, put_cycle, read_rim, slopes_of
+from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, next_lane
 
 
 @kernel()
@@ -139,7 +133,7 @@ def _follow_eight(
 ) -> None:
     """Do the same for the rims that wait: at once for those that stand among regular waves, sensitivities apart."""
     count, indices, places = waiting
-    energy_scale, depth_scale = scales
+    _, depth_scale = scales
     losses = wants_losses(slots)
     stands = stand_at_once(table, curve, places, losses)
     for lane in range(count):
@@ -152,18 +146,10 @@ def _follow_eight(
         if not among:
             continue
         if wants_cycle(slots):
-            energy = energy_scale * (loaded + unloaded)
-            if not abs(energy) < math.inf:  # an overflow
-                energy = math.nan
-                status[i] |= NO_VALUE
+            loading, unloading = (loaded, loading_jumps), (unloaded, unloading_jumps)
+            put_cycle(slots, scales, loading, unloading, last, out, status, i)
             if is_close_among(table, curve, stands, lane, x, long, trace, slots[TURNED] > 0):
                 status[i] |= CLOSE_TO_A_JUMP
-            put(out, slots, ENERGY, i, energy)
-            put(out, slots, LOADED, i, energy_scale * loaded)
-            put(out, slots, UNLOADED, i, energy_scale * unloaded)
-            put(out, slots, LOADING, i, loading_jumps)
-            put(out, slots, UNLOADING, i, unloading_jumps)
-            put(out, slots, LAST, i, depth_scale * last)
         put(out, slots, DEEPEST, i, depth_scale * deepest)
         if not _is_one_disc_among(table, curve, arches, x, first, trace, long, slots):
             status[i] |= LOADING_NOT_ONE_DISC
@@ -202,15 +188,13 @@ def solve_long(
         elif ends_folds(table, arches, x) or 2.0 * x > FURTHEST:
             _follow(table, curve, arches, scales, x, slots, out, status, i, trace, long, sense, around)
         else:
-            indices, places = with_lane(indices, number, float(i)), with_lane(places, number, x)
+            indices, places = next_lane(indices, number, float(i)), next_lane(places, number, x)
             number += 1
             if number == LANES:
                 waiting = (number, indices, places)
                 _follow_eight(table, curve, arches, scales, waiting, slots, out, status, trace, long, sense, around)
                 number = 0
     if number > 0:
-        for lane in range(number, LANES):
-            places = with_lane(places, lane, lane_of(places, 0))
         waiting = (number, indices, places)
         _follow_eight(table, curve, arches, scales, waiting, slots, out, status, trace, long, sense, around)
     if furthest == 0.0:

@@ -29,6 +29,33 @@ from gradhesion.core.sensitivities.path_slopes import fill_loading, slopes_for
 
 
 @kernel()
+def put_cycle(
+    slots: Any,
+    scales: Any,
+    loading: tuple[float, float],
+    unloading: tuple[float, float],
+    last: float,
+    out: Any,
+    status: Any,
+    i: int,
+) -> None:
+    """Put down the cycle of one rim: loss and jumps of loading, and of unloading, and the depth of the last contact."""
+    energy_scale, depth_scale = scales
+    loaded, loading_jumps = loading
+    unloaded, unloading_jumps = unloading
+    energy = energy_scale * (loaded + unloaded)
+    if not abs(energy) < math.inf:  # an overflow
+        energy = math.nan
+        status[i] |= NO_VALUE
+    put(out, slots, ENERGY, i, energy)
+    put(out, slots, LOADED, i, energy_scale * loaded)
+    put(out, slots, UNLOADED, i, energy_scale * unloaded)
+    put(out, slots, LOADING, i, loading_jumps)
+    put(out, slots, UNLOADING, i, unloading_jumps)
+    put(out, slots, LAST, i, depth_scale * last)
+
+
+@kernel()
 def _cycle_at_rim(
     table: Any,
     curve: Curve,
@@ -43,25 +70,16 @@ def _cycle_at_rim(
     i: int,
 ) -> None:
     """Read the cycle of one rim off a trace, and what there is to report."""
-    energy_scale, depth_scale = scales
+    _, depth_scale = scales
     losses = wants_losses(slots)
     inner, outer, tangency = limits
     rim_depth = depth(table, curve, x) if x < math.inf else math.inf
     if wants_cycle(slots):
-        loading_loss, loading_jumps = loading_to(table, curve, count, trace, x, losses)
-        unloading_loss, unloading_jumps, last = unloading_from(table, curve, count, trace, x, rim_depth, losses)
-        energy = energy_scale * (loading_loss + unloading_loss)
-        if not abs(energy) < math.inf:  # an overflow
-            energy = math.nan
-            status[i] |= NO_VALUE
+        loading = loading_to(table, curve, count, trace, x, losses)
+        unloaded, unloading_jumps, last = unloading_from(table, curve, count, trace, x, rim_depth, losses)
+        put_cycle(slots, scales, loading, (unloaded, unloading_jumps), last, out, status, i)
         if is_close_to_a_jump(table, curve, count, trace, tangency, x, rim_depth, slots[TURNED] > 0):
             status[i] |= CLOSE_TO_A_JUMP
-        put(out, slots, ENERGY, i, energy)
-        put(out, slots, LOADED, i, energy_scale * loading_loss)
-        put(out, slots, UNLOADED, i, energy_scale * unloading_loss)
-        put(out, slots, LOADING, i, loading_jumps)
-        put(out, slots, UNLOADING, i, unloading_jumps)
-        put(out, slots, LAST, i, depth_scale * last)
     put(out, slots, DEEPEST, i, depth_scale * highest_depth(count, trace, x, rim_depth))
     if jumps_in_to(count, trace, x):
         status[i] |= JUMP_IN_TO_RIM

@@ -15,6 +15,8 @@ from numba.core.errors import TypingError
 from numba.core.typing.templates import ConcreteTemplate, infer_global, signature
 from numba.extending import intrinsic, lower_builtin, lower_cast, models, register_model
 
+from gradhesion.core.compiler.jit import kernel
+
 LANES: Final = 8
 Lanes: TypeAlias = Any
 """Eight numbers, for annotations."""
@@ -151,6 +153,12 @@ def with_lane(typingctx: Any, values: Any, lane: Any, number: Any) -> Any:
         return builder.insert_element(values, number, lane)
 
     return LANES_TYPE(LANES_TYPE, types.int64, types.float64), generate
+
+
+@kernel()
+def next_lane(values: Lanes, number: int, added: float) -> Lanes:
+    """Return the numbers with a next one behind the first `number`; the first of all stands in every place."""
+    return eight(added) if number == 0 else with_lane(values, number, added)
 
 
 @intrinsic

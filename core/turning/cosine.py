@@ -31,7 +31,7 @@ from gradhesion.core.path.ties import is_within, rim_is_close
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.current import ready
-from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, with_lane
+from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, next_lane
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.turning.cosine_at_once import turns_at_once
 from gradhesion.core.turning.cosine_reach import reach, reach_outwards
@@ -302,7 +302,7 @@ def _turn_curve(
                 x, flags[i] = _turn_long(table, curve, arches, inner, reaches[i], scene, modes, trace, beginning)
                 radii[i] = min(rims[i], x * wavelength)
                 continue
-            indices, levels = with_lane(indices, number, float(i)), with_lane(levels, number, targets[i] / unit)
+            indices, levels = next_lane(indices, number, float(i)), next_lane(levels, number, targets[i] / unit)
             number += 1
             if number == LANES:
                 waiting = (number, indices, levels)
@@ -311,8 +311,6 @@ def _turn_curve(
                 )
                 number = 0
     if number > 0:
-        for lane in range(number, LANES):
-            levels = with_lane(levels, lane, lane_of(levels, 0))
         waiting = (number, indices, levels)
         _turn_eight(table, curve, arches, wavelength, waiting, reaches, rims, modes, radii, flags, trace, beginning)
 

@@ -18,6 +18,7 @@ from gradhesion.core.struve.lanes import (
     floor_of,
     lane_of,
     load,
+    next_lane,
     root_of,
     size_of,
     store,
@@ -104,3 +105,19 @@ def test_formulas_have_the_same_bits() -> None:
 def test_other_arrays_are_refused() -> None:
     with pytest.raises(numba.TypingError, match="neighbours"):
         is_any_above(np.arange(2.0 * LANES)[::2], 1.0)
+
+
+@kernel()
+def collected(numbers: Any, out: Any) -> None:
+    """Put numbers into lanes, one behind the other."""
+    values = eight(math.nan)
+    for number in range(numbers.size):
+        values = next_lane(values, number, numbers[number])
+    store(out, 0, values)
+
+
+@pytest.mark.parametrize("count", [1, 3, LANES])
+def test_lanes_that_wait_for_others_hold_the_first(count: int) -> None:
+    numbers, out = np.arange(2.0, 2.0 + count), np.empty(LANES)
+    collected(numbers, out)
+    np.testing.assert_array_equal(out, [*numbers, *[2.0] * (LANES - count)])
