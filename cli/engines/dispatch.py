@@ -75,7 +75,8 @@ class Dispatch:
                 continue
             number = tasks.pop(future.key)
             self._watch.moved()
-            failure = asked(self._client, future.exception)
+            # of a failure alone: what a worker has done that is lost since then waits, for Dask, to be done by another
+            failure = asked(self._client, future.exception) if future.status == "error" else None
             if future.cancelled():  # with the connection to the scheduler
                 waiting.appendleft(number)
                 continue

@@ -14,6 +14,7 @@ import pytest
 from distributed import Client
 
 from gradhesion.cli.engines.scheduler import client_of
+from gradhesion.cli.engines.watch import Watch
 from gradhesion.cli.errors import ClusterError
 from gradhesion.cli.work.folder import folder_of
 from tests.cli.engines.orders import HUGE, ByHand, Call, Orders, values_of
@@ -140,6 +141,46 @@ def test_a_scheduler_that_no_worker_is_left_for(
     assert 0 < len(folder_of(output).parts()) < 6
     orders.give()
     assert gradhesion("run", study_file, "-o", output).exit_code == 0
+    assert values_of(output) == whole
+
+
+def test_a_block_whose_worker_is_lost_before_it_is_looked_at(
+    gradhesion: Call,
+    study_file: Path,
+    whole: dict[str, bytes],
+    output: Path,
+    by_hand: ByHand,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Dask takes back then that its task is done, and has it wait for another worker; the part is there all the same."""
+    by_hand.orders.give(once=True)
+    by_hand.worker()
+    by_hand.ready()
+    really, calls = Watch.moved, []
+
+    def losing(self: Watch) -> None:
+        really(self)
+        calls.append(None)
+        if len(calls) == 2:  # the first is that of the beginning
+            by_hand.orders.no_more()
+            deadline = time.monotonic() + 60
+            while time.monotonic() < deadline and all(one.status != "lost" for one in states(self._client)):
+                time.sleep(0.01)
+            assert [one.status for one in states(self._client)].count("lost") == 1
+
+    def states(client: Client) -> list[Any]:
+        return [*client.futures.values()]
+
+    monkeypatch.setattr(Watch, "moved", losing)
+    with dask.config.set({"distributed.scheduler.no-workers-timeout": "2s"}):
+        alone = gradhesion("run", study_file, "-o", output, "--engine=dask", "--scheduler", by_hand.file)
+    assert alone.exit_code == 4, alone.stderr
+    assert "--engine dask: no worker has been there for 2 s; finished parts are kept" in alone.stderr
+    assert len(folder_of(output).parts()) == 1
+    by_hand.orders.give()
+    again = gradhesion("run", study_file, "-o", output)
+    assert again.exit_code == 0
+    assert "reused 1 block, computed 5" in again.stderr
     assert values_of(output) == whole
 
 
