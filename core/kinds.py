@@ -38,7 +38,7 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "turning": ("energy",),
     "asymptotic": ("tables",),
     "envelope": ("tables",),
-    "curves": ("energy", "asymptotic"),
+    "curves": ("energy",),
     "sensitivities": ("energy",),
     "general_force": ("tables",),
     "general_energy": ("tables",),
@@ -46,7 +46,7 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "general_turning": ("general_energy",),
     "general_sensitivities": ("general_energy",),
     "general_envelope": ("tables",),
-    "general_curves": ("general_energy", "curves"),
+    "general_curves": ("general_energy",),
 }
 """The kinds that are compiled before a kind, directly: those of whose entries it needs the same, or others of the same
 name. Processes that compile kinds side by side, each after those that it needs and none beside one of `APART`, compile
@@ -57,9 +57,9 @@ _OF_COSINE: Final = ("force", "energy", "asymptotic", "envelope", "sensitivities
 """Kinds whose loops over curves are entries of the same name (scene/solvers.py)."""
 APART: Final = (
     *({one, other} for one, other in combinations(_OF_COSINE, 2)),
+    *({"smooth", other} for other in ("force", "energy", "asymptotic", "envelope")),
+    {"curves", "general_curves"},
     *({"general_force", other} for other in ("general_energy", "general_sensitivities")),
-    *({"asymptotic", general} for general in ("general_energy", "general_reports", "general_turning")),
-    *({"sensitivities", other} for other in ("general_energy", "general_sensitivities")),
 )
 """Kinds that do not need each other, and yet compile entries of the same name: not to be compiled side by side."""
 KINDS: Final = tuple(NEEDS)
@@ -67,21 +67,21 @@ KINDS: Final = tuple(NEEDS)
 KERNELS: Final[dict[str, int]] = {
     "tables": 52,
     "force": 54,
-    "energy": 191,
-    "smooth": 36,
+    "energy": 231,
+    "smooth": 49,
     "reports": 16,
-    "turning": 31,
-    "asymptotic": 67,
-    "envelope": 20,
-    "curves": 31,
-    "sensitivities": 57,
-    "general_force": 87,
-    "general_energy": 242,
-    "general_reports": 12,
-    "general_turning": 24,
-    "general_sensitivities": 47,
+    "turning": 35,
+    "asymptotic": 66,
+    "envelope": 16,
+    "curves": 43,
+    "sensitivities": 59,
+    "general_force": 92,
+    "general_energy": 255,
+    "general_reports": 11,
+    "general_turning": 27,
+    "general_sensitivities": 49,
     "general_envelope": 0,
-    "general_curves": 18,
+    "general_curves": 22,
 }
 """About how many kernels a kind compiles after those that it needs, in one process."""
 
