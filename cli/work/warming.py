@@ -1,4 +1,4 @@
-"""All kinds of work compiled ahead, by processes side by side that compile no kernel twice."""
+"""All kinds of work compiled ahead, by processes side by side that share the work."""
 
 import multiprocessing
 from collections.abc import Callable, Container, Sequence
@@ -22,8 +22,10 @@ def warm(
     Compile the kernels of some kinds of work by several processes.
 
     A kind is begun when those that it needs are done, and not beside one of `APART`, so that no two processes compile
-    the same kernel to be kept. `done` gets each kind with the names of the kernels that were compiled for it, or with
-    `kept` of those alone whose code is kept by itself.
+    the same kernel to be kept. Tables are the exception: all kinds need them, and what they are made of, so that every
+    process compiles them while it would wait for another, and keeps the same under the same names. `done` gets each
+    kind, once, with the names of the kernels that were compiled for it, or with `kept` of those alone whose code is
+    kept by itself.
     """
     left = missing_of(kinds)
     if workers == 1 or len(left) < 2 or not LAZY:  # numba keeps every kernel by itself, and kinds share most of them
@@ -31,8 +33,12 @@ def warm(
         compile_kinds(kinds, names.append)
         done(", ".join(left), names)
         return
-    processes = [_Worker() for _ in range(workers)]
+    processes, ended = [_Worker() for _ in range(workers)], set[str]()
     try:
+        if "tables" in left:
+            left.remove("tables")
+            for worker in processes:
+                worker.begin("tables", kept=kept)
         while left or any(worker.kind for worker in processes):
             for worker in processes:
                 running = [one.kind for one in processes if one.kind]
@@ -43,7 +49,10 @@ def warm(
             interrupts.check()
             for worker in processes:
                 if worker.kind and worker.future.done():
-                    done(*worker.end())
+                    kind, names = worker.end()
+                    if kind not in ended:
+                        done(kind, names)
+                    ended.add(kind)
     finally:
         for worker in processes:
             worker.pool.shutdown(wait=False, cancel_futures=True)
@@ -53,8 +62,8 @@ def next_kind(left: Sequence[str], running: Sequence[str], behind: Container[str
     """
     Choose what a process compiles next: of what may be begun, that of which most is behind it; "" if nothing may be.
 
-    Of several such kinds it is the one for which most others wait. So one process compiles what is for one cosine, and
-    another what is for all profiles, and what kinds share is hardly compiled by both.
+    Of several such kinds it is the one for which most others wait, then the longest. So one process compiles what is
+    for one cosine, and another what is for all profiles, and what kinds share is hardly compiled by both.
 
     >>> next_kind(["energy", "general_energy", "general_force"], ["energy"], {"tables"})
     'general_energy'
@@ -68,9 +77,9 @@ def next_kind(left: Sequence[str], running: Sequence[str], behind: Container[str
         if not begun & {*NEEDS[kind]} and not any(kind in pair and pair & {*running} for pair in APART)
     ]
 
-    def worth(kind: str) -> tuple[int, int]:
-        waiting = [other for other in left if kind in before(other)]
-        return sum(KERNELS[one] for one in before(kind) if one in behind), sum(KERNELS[one] for one in waiting)
+    def worth(kind: str) -> tuple[int, int, int]:
+        shared = sum(KERNELS[one] for one in before(kind) if one in behind)
+        return shared, sum(KERNELS[one] for one in left if kind in before(one)), KERNELS[kind]
 
     return max(ready, key=worth, default="")
 

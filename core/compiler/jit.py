@@ -25,6 +25,7 @@ YES: Final = constant(True)
 NO: Final = constant(False)
 NONE: Final = constant(0)
 """The number of what there is none of yet."""
+ONE: Final = constant(1)
 
 _PACKAGE: Final = "gradhesion.core."
 _making: Final = threading.RLock()

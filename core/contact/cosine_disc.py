@@ -14,13 +14,14 @@ import math
 from typing import Any, Final
 
 from gradhesion.core.closed.power import power
-from gradhesion.core.compiler.jit import NONE, constant, kernel
+from gradhesion.core.compiler.jit import NONE, kernel
 from gradhesion.core.contact.cosine_gap import Edge, edge_at, opening, openings_between, trough_gap
 from gradhesion.core.curve.branches import (
     ARRIVAL,
     END,
     END_DEPTH,
     GAP,
+    NOWHERE,
     RUN,
     RUN_FIRST,
     RUN_LANDING,
@@ -49,8 +50,6 @@ _MOST_WINDOWS: Final = 64
 """Windows of a jump; over longer jumps the troughs of the profile further out are sampled."""
 _SAMPLES: Final = 12
 """Waves of a regular run at which the opening is taken."""
-NOWHERE: Final = constant(-1)
-"""The branch of no contact."""
 _SMOOTH: Final = 0.25
 """Least opening of the samples from which on nothing lower is looked for between them."""
 
@@ -305,7 +304,7 @@ def note_run(table: Any, curve: Curve, last: float, trace: Any) -> None:
     """
     _, g, _ = curve
     first = trace[RUN, RUN_FIRST]
-    if g * table.amplitude <= ALWAYS_ONE or last <= first:
+    if g * table.amplitude <= ALWAYS_ONE or not first < last < math.inf:
         return
     least = _least_of_wave(table, curve, max(first, 1.0), trace[WORK], trace[VALUES])
     if least >= 0.0:

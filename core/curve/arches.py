@@ -13,7 +13,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core.compiler.jit import NO, kernel
+from gradhesion.core.compiler.jit import NO, NONE, kernel
 from gradhesion.core.curve.cosine import Curve as OneWave
 from gradhesion.core.curve.cosine import slope, slopes
 from gradhesion.core.curve.cosine_folds import CLOSE, fold_of_arch, survey_arch
@@ -257,7 +257,7 @@ def folds_by_arches(
     level = _level(table, curve, 0.0) if beta == 0.0 else 0.5 * (3.0 + table.k)
     if level == 0.0 or (table.k == 1.0 and not constant):  # the coordinate may rise from zero contact on
         return find_folds(basis, curve, first, last, work, zeros, 0.0)
-    count, tangency = 0, math.inf
+    count, tangency = NONE, math.inf
     i = max(0, int(2.0 * first - table.phase / math.pi - 0.5))
     edge, _, _ = inner_edge(table, i)
     while edge < last:

@@ -12,7 +12,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core.compiler.jit import NO, YES, kernel
+from gradhesion.core.compiler.jit import NO, NONE, YES, constant, kernel
 from gradhesion.core.curve.at_once import find_zeros, guess_zeros
 from gradhesion.core.curve.cosine import Curve, depth, slope
 from gradhesion.core.curve.cosine_folds import (
@@ -47,6 +47,8 @@ whether one of unloading is from the start of the branch on (path/ties.py)."""
 ROWS = 20
 Waiting: TypeAlias = tuple[int, Lanes, Lanes, Lanes, Lanes]
 """How many folds wait; their arches, 1 where a branch starts and -1 where one ends, and the brackets."""
+NOWHERE: Final = constant(-1)
+"""The branch of no contact."""
 UNKNOWN: Final = -1.0
 """Unloading jumps of a branch that unloading has not visited yet."""
 _STEPS: Final = 100
@@ -179,7 +181,7 @@ def append_branches(table: Any, curve: Curve, first: int, final: float, furthest
     if level == 0.0 and first == 0:  # k = 1: the first branch starts at zero contact, at the depth -1
         trace[START, count], trace[START_DEPTH, count], trace[UNLOADING_JUMPS, count] = 0.0, -1.0, UNKNOWN
         inside = True
-    number, arches, signs, lows, highs = 0, eight(0.0), eight(0.0), eight(0.0), eight(0.0)
+    number, arches, signs, lows, highs = NONE, eight(0.0), eight(0.0), eight(0.0), eight(0.0)
     i, outer = first, edge_of(table, curve, level, first)
     while i <= final and not beyond:
         inner, outer = outer, edge_of(table, curve, level, i + 1)
@@ -196,7 +198,7 @@ def append_branches(table: Any, curve: Curve, first: int, final: float, furthest
                 if number == LANES:
                     waiting = (number, arches, signs, lows, highs)
                     count, beyond = _put_waiting(table, curve, furthest, trace, count, waiting)
-                    number = 0
+                    number = NONE
             inside = rising
             rising = not rising
         if not inside and high > furthest:

@@ -14,7 +14,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.compiler.jit import NONE, kernel
 
 DEGREE: Final = 16
 HALVINGS: Final = 16
@@ -116,7 +116,7 @@ def isolate(values: Any, stack: Any, spans: Any, found: Any) -> tuple[int, float
             stack[0, j] += MATRIX[i, j] * values[i]
     stack[0, 0], stack[0, DEGREE] = values[0], values[PLACES - 1]
     spans[0, 0], spans[0, 1], spans[0, 2] = 0.0, 1.0, 0.0
-    top, count = 0, 0
+    top, count = NONE, NONE
     nearest = math.inf
     while top >= 0:
         changes = _changes(stack, top)

@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.compiler.jit import NONE, ONE, kernel
 from gradhesion.core.curve.cosine_energy import LONG, NODES, WEIGHTS, unit_rule
 from gradhesion.core.struve.circle import TWO_PI
 
@@ -53,7 +53,7 @@ def panel_outwards(low: float, high: float, whole: float, shortest: float) -> tu
         width = _REACH[-1] / shortest
     panels = max(1, math.ceil((high - low) / width - 1e-9))
     width = (high - low) / panels if panels < 3 else width
-    begin, end = _rule(shortest * width, 0 if width <= whole + low else 1)
+    begin, end = _rule(shortest * width, NONE if width <= whole + low else ONE)
     return width, low + width if panels > 1 else high, begin, end
 
 
@@ -63,7 +63,7 @@ def panel_inwards(high: float, growth: float, shortest: float) -> tuple[float, i
     low = high / growth
     if shortest * (high - low) > _REACH[-1]:
         low = high - _REACH[-1] / shortest
-    begin, end = _rule(shortest * (high - low), 1)
+    begin, end = _rule(shortest * (high - low), ONE)
     return low, begin, end
 
 
@@ -76,7 +76,7 @@ def panel_after(low: float, growth: float, shortest: float) -> float:
 @kernel()
 def rule_between(low: float, high: float, shortest: float) -> tuple[int, int]:
     """Return the range of places of a panel away from zero, which may be the part of one."""
-    return _rule(shortest * (high - low), 1)
+    return _rule(shortest * (high - low), ONE)
 
 
 @kernel()

@@ -107,8 +107,8 @@ def cycle_among(
             up = jump_energy(table, curve, end, rim, trace[WORK])
         if math.isnan(down):
             down = jump_energy(table, curve, rim, landing, trace[WORK])
-        loaded += sum_of_gap(table, curve, sums[0], wave, last, YES, final, True, room) + up
-        unloaded += sum_of_gap(table, curve, sums[1], lowest + 1.0, branch, NO, final, True, room) + down
+        loaded += sum_of_gap(table, curve, sums[0], wave, last, YES, final, YES, room) + up
+        unloaded += sum_of_gap(table, curve, sums[1], lowest + 1.0, branch, NO, final, YES, room) + down
     loading_jumps += last + 1.0 - wave + (1.0 - reached)
     unloading_jumps = shared[LOWEST_JUMPS] + branch - lowest + (1.0 - on)
     deepest = max(lane_of(stands[HERE], lane), top, highest_before(trace, near - 1), 0.0)

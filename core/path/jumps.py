@@ -8,7 +8,7 @@ depend on how many there are.
 import math
 from typing import Any, TypeAlias
 
-from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.compiler.jit import NONE, kernel
 from gradhesion.core.curve.at_once import find_depths
 from gradhesion.core.curve.branches import (
     ARRIVAL,
@@ -34,7 +34,7 @@ Waiting: TypeAlias = tuple[int, Lanes, Lanes]
 @kernel()
 def nobody() -> Waiting:
     """Return that no jump waits."""
-    return 0, eight(0.0), eight(0.0)
+    return NONE, eight(0.0), eight(0.0)
 
 
 @kernel()

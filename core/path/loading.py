@@ -4,9 +4,9 @@ The curve is any of path/passage.py; "depth" stands for what is prescribed.
 """
 
 import math
-from typing import Any, Final
+from typing import Any
 
-from gradhesion.core.compiler.jit import YES, constant, kernel
+from gradhesion.core.compiler.jit import YES, kernel
 from gradhesion.core.curve.branches import (
     ARRIVAL,
     END,
@@ -14,15 +14,13 @@ from gradhesion.core.curve.branches import (
     HIGHEST,
     LOADING_JUMPS,
     LOADING_LOSS,
+    NOWHERE,
     START,
     WORK,
     branch_within,
 )
 from gradhesion.core.path.jumps import add, finish, nobody
 from gradhesion.core.path.passage import loss_between, loss_from_zero
-
-NOWHERE: Final = constant(-1)
-"""The branch of no contact."""
 
 
 @kernel()

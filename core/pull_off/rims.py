@@ -38,7 +38,7 @@ _UNKNOWN: Final = -1
 def _fill_cell(basis: Basis, curve: Curve, low: float, high: float, work: Any, zeros: Any, troughs: Any) -> int:
     """Put place and load of the troughs of a cell into `troughs`; return their number."""
     at_low, _, _ = slope(basis, curve, low)
-    found, _, _ = folds_of_cell(basis, curve, low, high, at_low, work, zeros)
+    found, _, _ = folds_of_cell(basis, curve, low, high, at_low, work, zeros, 0.0)
     falling, count = at_low < 0.0, 0
     for i in range(found):
         if falling and count < troughs.shape[0]:

@@ -3,9 +3,11 @@
 import math
 from typing import Any
 
+import numpy as np
+
 from gradhesion.core.compiler.jit import NO, NONE, kernel
-from gradhesion.core.contact.cosine_disc import ALWAYS_ONE, NOWHERE, is_one_disc, limits_from, note_run
-from gradhesion.core.curve.branches import GAP, RUN, RUN_FIRST, RUN_LAST, RUN_LEAST
+from gradhesion.core.contact.cosine_disc import ALWAYS_ONE, is_one_disc, limits_from, note_run
+from gradhesion.core.curve.branches import GAP, NOWHERE, RUN, RUN_FIRST, RUN_LAST, RUN_LEAST
 from gradhesion.core.curve.cosine import Curve
 from gradhesion.core.path.cosine import is_long, is_unresolved
 from gradhesion.core.path.cosine_long import (
@@ -51,7 +53,7 @@ def _limits_of_beginning(
         inner, outer = limits_from(table, curve, NONE, near - 1, NOWHERE, near, trace, math.inf)
         shared[DISC_INNER], shared[DISC_OUTER] = inner, outer
     if math.isnan(shared[RUN_SEEN]) and last >= first:
-        note_run(table, curve, math.floor(0.5 * final - NEAR_RIM), trace)
+        note_run(table, curve, np.floor(0.5 * final - NEAR_RIM), trace)
         shared[RUN_SEEN] = 1.0
     return shared[DISC_INNER], shared[DISC_OUTER]
 
@@ -178,7 +180,7 @@ def solve_long(
     losses, final = wants_losses(slots), arches[1]
     trace, long = begin_long(table, curve, arches, scratch, losses, 1.0)
     furthest, told = 0.0, is_told(table, curve, final)
-    number, indices, places = 0, eight(0.0), eight(math.nan)
+    number, indices, places = NONE, eight(0.0), eight(math.nan)
     for i in range(rims.size):
         x = rims[i] / wavelength
         if is_unresolved(arches, x) or not is_long(table, arches, x):
@@ -193,7 +195,7 @@ def solve_long(
             if number == LANES:
                 waiting = (number, indices, places)
                 _follow_eight(table, curve, arches, scales, waiting, slots, out, status, trace, long, sense, around)
-                number = 0
+                number = NONE
     if number > 0:
         waiting = (number, indices, places)
         _follow_eight(table, curve, arches, scales, waiting, slots, out, status, trace, long, sense, around)

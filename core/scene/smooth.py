@@ -10,7 +10,7 @@ from typing import Any, Final
 
 from gradhesion.core.closed import smooth
 from gradhesion.core.closed.power import fill_powers
-from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.compiler.jit import NONE, ONE, YES, constant, kernel
 from gradhesion.core.problem.results import (
     DEEPEST,
     ENERGY,
@@ -32,7 +32,7 @@ ROWS: Final = 18
 SCENES: Final = 256
 """Scenes of a block: what is used of it stays in the nearest cache."""
 _RESULTS: Final = 9
-_K, _STRETCH, _IN, _OUT, _RIM, _X, _BASE, _EXPONENT, _FLAGS = range(_RESULTS, ROWS)
+_K, _STRETCH, _IN, _OUT, _RIM, _X, _BASE, _EXPONENT, _FLAGS = map(constant, range(_RESULTS, ROWS))
 """The rows: k, s, a_2^2, a_4^2, the rim, X there, x and p of a power x^p, and flags."""
 
 
@@ -199,7 +199,7 @@ def _solve_run(
     for known in range(_K, _RIM):
         scenes[known, 0] = curves[known, place]
     scenes[_RIM, 0] = rims[row, number]
-    _solve_block(1, scenes, slots, True)
+    _solve_block(ONE, scenes, slots, YES)
     for result in range(_RESULTS):
         if slots[result] >= 0:
             value = scenes[result, 0]
@@ -248,7 +248,7 @@ def solve_smooth(
             _find_squares(some.size, curves, smooth.ABSCISSA_OF_JUMP_IN, 0.0, _IN)
         if wants_cycle(slots):
             _find_squares(some.size, curves, smooth.abscissa_of_jump_out(0.0), -0.5, _OUT)
-        first, total = 0, some.size * number
+        first, total = NONE, some.size * number
         while first < total:
             count = min(size, total - first)
             if number >= size and slots[DEEPEST] < 0:

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from gradhesion.core.closed import smooth
-from gradhesion.core.compiler.jit import constant, kernel
+from gradhesion.core.compiler.jit import ONE, constant, kernel
 from gradhesion.core.curve.branches import (
     ARRIVAL,
     END,
@@ -130,7 +130,7 @@ def smooth_trace(table: Any, curve: Curve, trace: Any) -> int:
     trace[START_DEPTH, 0] = depth(table, curve, z_out / TWO_PI) if z_out > 0.0 else -1.0
     trace[ARRIVAL, 0], trace[UNLOADING_JUMPS, 0], trace[NEXT, 0] = z_in / TWO_PI, UNKNOWN, -1.0
     trace[LAST_DEPTH, 0] = trace[START_DEPTH, 0]
-    return 1
+    return ONE
 
 
 @kernel()

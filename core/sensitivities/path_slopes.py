@@ -21,6 +21,7 @@ from gradhesion.core.curve.branches import (
     GAP,
     LANDING,
     NEXT,
+    NOWHERE,
     RUN,
     RUN_AFTER,
     RUN_BEFORE,
@@ -111,7 +112,7 @@ def fill_loading(table: Any, curve: Any, near: Any, count: int, trace: Any, fina
     """Put the slopes of loading to where it arrives on each branch into their rows."""
     work, total = slopes[ROWS], slopes[ROWS + 1, :SLOPES]
     total[:] = 0.0
-    now, gap = -1, _gap(curve, trace)
+    now, gap = NOWHERE, _gap(curve, trace)
     for branch in range(count):
         if trace[ARRIVAL, branch] == math.inf:
             continue

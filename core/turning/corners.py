@@ -9,7 +9,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core.compiler.jit import NO, constant, kernel
+from gradhesion.core.compiler.jit import NO, NONE, constant, kernel
 from gradhesion.core.curve.arches import folds_between
 from gradhesion.core.curve.branches import ARRIVAL, END
 from gradhesion.core.curve.cosine_folds import CLOSE
@@ -90,7 +90,7 @@ def corners_of(
     basis: Basis, curve: Curve, by_load: bool, branches: int, trace: Any, furthest: float, room: Any
 ) -> tuple[Any, int]:
     """Return the corners of all that loading visits up to x = `furthest`, and their number."""
-    corners, count = np.empty((ROWS, 2 * branches + 16)), 0
+    corners, count = np.empty((ROWS, 2 * branches + 16)), NONE
     for branch in range(branches):
         begin, end = trace[ARRIVAL, branch], trace[END, branch]
         if begin <= furthest and begin < math.inf:

@@ -11,7 +11,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core.closed import smooth
-from gradhesion.core.compiler.jit import NO, YES, kernel
+from gradhesion.core.compiler.jit import NO, NONE, ONE, YES, kernel
 from gradhesion.core.contact.cosine_disc import ALWAYS_ONE, least_opening
 from gradhesion.core.curve.branches import END, END_DEPTH, GAP, RUN, START, START_DEPTH, VALUES, WORK, ends, find_depth
 from gradhesion.core.curve.cosine import Curve, curve_of, depth, force_unit
@@ -149,12 +149,12 @@ def _turn_rim(
         if long:
             x, close = turn_long_at_load(table, curve, count, trace, peaks, reach, target)
         else:
-            x, close = turn_at_load(table, curve, 0, count, trace, peaks, reach, target)
+            x, close = turn_at_load(table, curve, NONE, count, trace, peaks, reach, target)
     else:
         if long:
             x, close = turn_long_at_depth(table, curve, count, trace, reach, target)
         else:
-            x, close = turn_at_depth(table, curve, 0, count, trace, reach, target)
+            x, close = turn_at_depth(table, curve, NONE, count, trace, reach, target)
         close = close or _is_first_contact(table.k, b, target)
     flags = 0
     if not (x < rim and x * wavelength < rim * wavelength):
@@ -186,8 +186,8 @@ def _turn_long(
     inside = reach < scene[0] and not ends_folds(table, arches, reach)
     if not inside or not open_gap(table, curve, reach, trace, beginning):
         count = stride(table, curve, arches, reach, trace, beginning, NO, 1.0)
-    peaks = peaks_of(table, curve, count, trace, inner, 1) if modes[0] else trace[WORK]
-    return _turn_rim(table, curve, count, trace, peaks, True, reach, scene, modes)
+    peaks = peaks_of(table, curve, count, trace, inner, ONE) if modes[0] else trace[WORK]
+    return _turn_rim(table, curve, count, trace, peaks, YES, reach, scene, modes)
 
 
 @kernel()
@@ -289,9 +289,9 @@ def _turn_curve(
         for i in range(rims.size):
             if reaches[i] > 0.0 and not is_long(table, arches, reaches[i]):
                 scene = (rims[i] / wavelength, targets[i] / unit, wavelength)
-                x, flags[i] = _turn_rim(table, curve, count, trace, peaks, False, reaches[i], scene, modes)
+                x, flags[i] = _turn_rim(table, curve, count, trace, peaks, NO, reaches[i], scene, modes)
                 radii[i] = min(rims[i], x * wavelength)
-    begun, number, indices, levels = False, 0, eight(0.0), eight(0.0)
+    begun, number, indices, levels = False, NONE, eight(0.0), eight(0.0)
     for i in range(rims.size):
         if reaches[i] > 0.0 and is_long(table, arches, reaches[i]):
             if not begun:
@@ -309,7 +309,7 @@ def _turn_curve(
                 _turn_eight(
                     table, curve, arches, wavelength, waiting, reaches, rims, modes, radii, flags, trace, beginning
                 )
-                number = 0
+                number = NONE
     if number > 0:
         waiting = (number, indices, levels)
         _turn_eight(table, curve, arches, wavelength, waiting, reaches, rims, modes, radii, flags, trace, beginning)

@@ -11,7 +11,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core.compiler.jit import NO, YES, kernel
+from gradhesion.core.compiler.jit import NO, NONE, YES, kernel
 from gradhesion.core.curve.branches import (
     ARRIVAL,
     END,
@@ -253,7 +253,7 @@ def turn_long_at_load(
 ) -> Turn:
     """Return where loading first reaches a load on a long curve (stride or open_gap of path/cosine_long.py)."""
     gap = int(trace[RUN, GAP])
-    x, close = turn_at_load(table, curve, 0, gap, trace, peaks, reach, target)
+    x, close = turn_at_load(table, curve, NONE, gap, trace, peaks, reach, target)
     if x == math.inf:
         x, near = turn_on_waves(table, curve, trace, reach, target)
         close = close or near
@@ -267,7 +267,7 @@ def turn_long_at_load(
 def turn_long_at_depth(table: Any, curve: Curve, count: int, trace: Any, reach: float, target: float) -> Turn:
     """Return where loading first reaches a depth on a long curve (stride or open_gap of path/cosine_long.py)."""
     gap = int(trace[RUN, GAP])
-    x, close = turn_at_depth(table, curve, 0, gap, trace, reach, target)
+    x, close = turn_at_depth(table, curve, NONE, gap, trace, reach, target)
     if x < math.inf:
         return x, close
     if gap == count or trace[END_DEPTH, gap] > target:

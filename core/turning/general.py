@@ -5,7 +5,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.compiler.jit import NO, NONE, kernel
 from gradhesion.core.contact.general_disc import is_surely_open, least_opening
 from gradhesion.core.curve.branches import END_DEPTH, START, START_DEPTH, ends
 from gradhesion.core.curve.cosine import force_unit
@@ -47,7 +47,7 @@ def _is_one_disc(basis: Basis, curve: Curve, count: int, trace: Any, x: float, r
             continue
         lowest = min(lowest, trace[START_DEPTH, branch])
         if trace[END_DEPTH, branch] > level:
-            end = find_level(basis, curve, level, ends(trace, branch))
+            end = find_level(basis, curve, level, ends(trace, branch), 0.0)
             break
     if end < math.inf and is_surely_open(basis, curve, x, level - lowest):
         return True
@@ -84,7 +84,7 @@ def _turn_walked(
         for i in range(rims.size):
             if chosen[i]:
                 furthest = max(furthest, min(rims[i], reaches[i]))
-        count, trace, _ = walk(basis, curve, first, last, furthest, False)
+        count, trace, _ = walk(basis, curve, first, last, furthest, NO)
         if count < 0 or furthest == math.inf:
             return False
         corners, number = corners_of(basis, curve, by_load, count, trace, furthest, search)
@@ -136,7 +136,7 @@ def _turn_one_far(
         if found and whole + x < rim:
             if check:
                 empty = np.empty((1, 0))
-                if not _is_one_disc(basis, curve, 0, empty, whole + x, rim):
+                if not _is_one_disc(basis, curve, NONE, empty, whole + x, rim):
                     flags |= LOADING_NOT_ONE_DISC
             return True, whole + x, flags
         if furthest >= rim:

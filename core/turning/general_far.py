@@ -5,7 +5,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from gradhesion.core.compiler.jit import NO, YES, kernel
+from gradhesion.core.compiler.jit import NO, NONE, YES, kernel
 from gradhesion.core.curve.branches import END, END_DEPTH, ROWS, ends
 from gradhesion.core.curve.general import Basis, Curve
 from gradhesion.core.curve.general_branches import fill_branches, find_level
@@ -36,7 +36,7 @@ def _turn_on_piece(
             continue
         begin = find_level(basis, curve, level, ends(rows, branch), whole)
         piece = (begin, rows[END, branch], rows[END, branch] != end)
-        corners, number = append_corners(basis, curve, by_load, piece, search, corners, 0)
+        corners, number = append_corners(basis, curve, by_load, piece, search, corners, NONE)
         found, x, near = first_reached(basis, curve, by_load, corners, number, target, whole)
         close = close or near
         level = rows[END_DEPTH, branch]

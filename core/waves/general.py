@@ -17,7 +17,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core.compiler.jit import constant, kernel
+from gradhesion.core.compiler.jit import NO, YES, constant, kernel
 from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curve.cells import MOST
 from gradhesion.core.curve.general import Basis, Curve, coordinate, slope
@@ -116,8 +116,8 @@ def _branch_of_one_harmonic(basis: Basis, curve: Curve, wave: float, low: float,
         value, rate, _ = slope(basis, curve, crest, wave)
     if value <= 0.0:
         return 0
-    rows[START, 0], _ = refine(basis, curve, _between(low, crest, at_low, value), low, crest, True, wave)
-    rows[END, 0], _ = refine(basis, curve, _between(high, crest, at_high, value), crest, high, False, wave)
+    rows[START, 0], _ = refine(basis, curve, _between(low, crest, at_low, value), low, crest, YES, wave)
+    rows[END, 0], _ = refine(basis, curve, _between(high, crest, at_high, value), crest, high, NO, wave)
     rows[START_LEVEL, 0] = coordinate(basis, curve, rows[START, 0], wave)
     rows[END_LEVEL, 0] = coordinate(basis, curve, rows[END, 0], wave)
     return 1

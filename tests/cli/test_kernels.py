@@ -111,7 +111,7 @@ def test_where_nothing_can_be_kept_it_says_so(
 
 
 @pytest.mark.slow
-def test_processes_side_by_side_compile_no_kernel_twice(tmp_path: Path) -> None:
+def test_processes_side_by_side_keep_each_kernel_once(tmp_path: Path) -> None:
     code = (
         "from gradhesion.cli.work.warming import warm\n"
         "if __name__ == '__main__':\n"

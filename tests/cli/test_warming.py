@@ -47,6 +47,11 @@ def test_first_comes_what_most_others_wait_for() -> None:
     assert waiting[first] == max(waiting[kind] for kind in left if not {*NEEDS[kind]} & {*left})
 
 
+def test_of_equals_the_longest_comes_first() -> None:
+    left = ["general_reports", "general_sensitivities", "general_turning"]
+    assert next_kind(left, [], {"tables", "general_energy"}) == "general_sensitivities"
+
+
 def test_nothing_may_be_begun() -> None:
     assert next_kind(["reports"], ["energy"], set()) == ""
     assert next_kind(["force"], ["asymptotic"], {"tables"}) == "", "they compile entries of the same name"
