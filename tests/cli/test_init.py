@@ -98,6 +98,17 @@ def test_an_unknown_name_has_a_suggestion(gradhesion: Call) -> None:
     assert 'there is no study "fig4"; did you mean "fig4' in result.stderr
 
 
+@pytest.mark.parametrize(
+    ("name", "study"), [("mine.toml", "map"), ("curve.toml", "curve"), ("there/fig4a.toml", "fig4a")]
+)
+def test_a_file_is_named_by_its_option(gradhesion: Call, name: str, study: str) -> None:
+    result = gradhesion("init", name)
+    assert result.exit_code == 2
+    assert result.stderr.splitlines()[-1] == (
+        f'Error: "{name}" names no study; -o names the file: gradhesion init {study} -o {name}'
+    )
+
+
 def test_the_list_names_them_all(gradhesion: Call) -> None:
     lines = gradhesion("init", "--list").stdout.splitlines()
     assert [line.split()[0] for line in lines] == sorted(studies())
