@@ -14,7 +14,8 @@ from gradhesion.cli.keys import INPUTS, PHYSICAL, SETTINGS
 from gradhesion.cli.names import OUTPUTS, PARAMETER, PHYSICAL_PARAMETER, SCENE, SOLVER
 from gradhesion.cli.study.axes import Values, mistakes_of_grid
 from gradhesion.cli.study.kinds import KINDS
-from gradhesion.cli.study.study import Study, study_from
+from gradhesion.cli.study.reading import study_from
+from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core.problem.profile import Profile
 from gradhesion.values import array_of, numbers_of, of_xarray

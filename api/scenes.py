@@ -10,7 +10,7 @@ import xarray
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.names import SCENE
-from gradhesion.cli.study.study import study_from
+from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.kernels import kinds_of
 from gradhesion.core.problem.profile import Profile

@@ -11,7 +11,8 @@ import xarray
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.fit_study import FitStudy
-from gradhesion.cli.study.study import Study, any_from, load_any
+from gradhesion.cli.study.reading import any_from, load_any
+from gradhesion.cli.study.study import Study
 from gradhesion.wording import in_python
 
 

@@ -13,7 +13,8 @@ import numpy as np
 
 from benchmarks.clock import table
 from gradhesion.cli.dataset.writer import write
-from gradhesion.cli.study.study import Study, study_from
+from gradhesion.cli.study.reading import study_from
+from gradhesion.cli.study.study import Study
 from gradhesion.cli.work import probe
 from gradhesion.cli.work.estimate import estimate
 from gradhesion.cli.work.kernels import compile_kinds, kinds_of

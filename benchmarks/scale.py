@@ -14,7 +14,7 @@ import numpy as np
 
 from benchmarks.clock import ROOT, seconds_of, table
 from gradhesion.cli.dataset.writer import write
-from gradhesion.cli.study.study import study_from
+from gradhesion.cli.study.reading import study_from
 from gradhesion.core import solve
 
 OUTPUTS: Final = ("pull_off_force", "dissipated_energy")

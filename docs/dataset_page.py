@@ -10,7 +10,7 @@ from docs.tables import code, table
 from gradhesion.cli import names
 from gradhesion.cli.dataset.dataset import attributes
 from gradhesion.cli.keys import INPUTS, PARAMETERS
-from gradhesion.cli.study.study import study_from
+from gradhesion.cli.study.reading import study_from
 from gradhesion.core import DOUBTFUL, FAILED, REPORTS, SENSITIVITIES
 from gradhesion.core.answers import flags as flags_module
 from gradhesion.core.answers.flags import FLAGS

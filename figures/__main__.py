@@ -49,7 +49,7 @@ def draw(name: str, dataset: xarray.Dataset, files: list[Path], dpi: float | Non
 
 def missing_of(name: str, dataset: xarray.Dataset) -> list[str]:
     """List the variables that a dataset lacks, and the axes in which it differs from the study of a picture."""
-    from gradhesion.cli.study.study import load_study  # noqa: PLC0415 (0.2 s that a picture does not need)
+    from gradhesion.cli.study.reading import load_study  # noqa: PLC0415 (0.2 s that a picture does not need)
 
     study = load_study(study_of(name))
     axes = sorted({*study.sizes} ^ {str(axis) for axis in dataset["status"].dims})

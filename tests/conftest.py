@@ -84,7 +84,7 @@ def write_study(tmp_path: Path) -> Callable[[str], Path]:
 @pytest.fixture
 def study_file(data: dict[str, Any], write_study: Callable[[str], Path]) -> Path:
     """The small study as a file."""
-    from gradhesion.cli.study.study import study_from
+    from gradhesion.cli.study.reading import study_from
 
     return write_study(study_from(data).text)
 

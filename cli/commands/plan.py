@@ -44,7 +44,7 @@ def plan(
     time. The time is estimated by solving scenes of STUDY for a second or two. Nothing is written.
     """
     from gradhesion.cli.study.fit_study import FitStudy
-    from gradhesion.cli.study.study import load_any
+    from gradhesion.cli.study.reading import load_any
 
     asked = load_any(study, overrides)
     path = output or Path("outputs") / f"{asked.name}.nc"

@@ -85,7 +85,7 @@ def run(
     """
     from gradhesion.cli.dataset.writer import write
     from gradhesion.cli.study.fit_study import FitStudy
-    from gradhesion.cli.study.study import load_any
+    from gradhesion.cli.study.reading import load_any
     from gradhesion.cli.work.compiling import prepare
     from gradhesion.cli.work.kernels import kinds_of
 

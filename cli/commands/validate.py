@@ -20,7 +20,7 @@ def validate(study: Path, overrides: tuple[str, ...]) -> None:
     STUDY is a TOML file. Each error is printed with its line and a suggested fix. Nothing is computed.
     """
     from gradhesion.cli.study.fit_study import FitStudy
-    from gradhesion.cli.study.study import load_any
+    from gradhesion.cli.study.reading import load_any
 
     asked = load_any(study, overrides)
     if isinstance(asked, FitStudy):

@@ -15,7 +15,8 @@ from gradhesion.cli.errors import DatasetError, StudyError
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import SOLVER, labels_of
 from gradhesion.cli.study.points import COMMENT, points_of
-from gradhesion.cli.study.study import Study, study_from
+from gradhesion.cli.study.reading import study_from
+from gradhesion.cli.study.study import Study
 
 CLOSE: Final = 16 * 2.0**-52
 """Of a coordinate: logarithmic spacing may differ by some units in the last place from one numpy to the next."""

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from gradhesion.cli.engines import Work
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.study.study import Study, study_from
+from gradhesion.cli.study.reading import study_from
+from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work.resume import Solved, blank
 

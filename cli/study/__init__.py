@@ -3,7 +3,8 @@
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gradhesion.cli.study.study import Method, Study, load_study, study_from
+    from gradhesion.cli.study.reading import load_study, study_from
+    from gradhesion.cli.study.study import Method, Study
 
 __all__ = ["Method", "Study", "load_study", "study_from"]
 
@@ -12,6 +13,6 @@ def __getattr__(name: str) -> Any:
     """Import what is public when it is first asked for: the names alone are needed by light commands."""
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from gradhesion.cli.study import study  # noqa: PLC0415 (numpy)
+    from gradhesion.cli.study import reading  # noqa: PLC0415 (numpy)
 
-    return getattr(study, name)
+    return getattr(reading, name)

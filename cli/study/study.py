@@ -2,17 +2,15 @@
 
 import hashlib
 import math
-import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.errors import StudyError
 from gradhesion.cli.keys import INPUTS, MACHINE, TURNS
 from gradhesion.cli.names import (
     BEST,
@@ -27,23 +25,13 @@ from gradhesion.cli.names import (
     UNITS,
     labels_of,
 )
-from gradhesion.cli.study import places
 from gradhesion.cli.study.axes import Values
-from gradhesion.cli.study.fit_study import FitStudy
 from gradhesion.cli.study.kinds import KINDS, PARETO, Kind
-from gradhesion.cli.study.mistakes import Mistake, checked
-from gradhesion.cli.study.points import Points, points_of
-from gradhesion.cli.study.profile_file import Measured, measured_in
-from gradhesion.cli.study.punch import profile_of, spectrum_of
-from gradhesion.cli.study.roles import left_out
-from gradhesion.cli.study.rules import mistakes_between_keys
-from gradhesion.cli.study.search import Search, search_of, sought_in
-from gradhesion.cli.study.source import Source, read_source
+from gradhesion.cli.study.points import Points
+from gradhesion.cli.study.profile_file import Measured
+from gradhesion.cli.study.search import Search
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
-from gradhesion.cli.study.uncertainty import Uncertainty, uncertainty_of
-from gradhesion.cli.study.written import toml_of
-from gradhesion.cli.terminal import wording
-from gradhesion.cli.terminal.wording import nearest
+from gradhesion.cli.study.uncertainty import Uncertainty
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import PARAMETERS, RANGE, SENSITIVITIES
@@ -51,9 +39,6 @@ from gradhesion.core.problem.profile import Profile
 
 FEW_SAMPLES: Final = 32
 """Samples of each scene that check a linear standard deviation."""
-
-MOST_MISTAKES: Final = 30
-"""Mistakes to print: whoever has more is served by the first."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -290,163 +275,3 @@ class Study:
                 shape[axis] = -1
                 cut[name] = values[block[axis]].reshape(shape)
         return cut
-
-
-def load_study(path: str | Path, overrides: Iterable[str] = ()) -> Study:
-    """
-    Read a study from a file, with `overrides` as `--set` takes them (`"parameters.A=0.02"`).
-
-    Raises
-    ------
-    StudyError
-        The file cannot be read, or the study is wrong; the error has all mistakes.
-    """
-    return _study(read_source(Path(path), overrides))
-
-
-def study_from(
-    data: Mapping[str, Any],
-    name: str = "study",
-    *,
-    folder: str | Path = "",
-    columns: Mapping[str, NDArray[np.float64]] | None = None,
-) -> Study:
-    """
-    Make a study from a mapping with the keys of a study file.
-
-    Parameters
-    ----------
-    data
-        The keys; lists may be arrays.
-    name
-        What the study is called where it has no title.
-    folder
-        Where the files are that it names; the current directory if left out.
-    columns
-        What the file of its points is known to hold, in SI units, so that it is not read.
-
-    Raises
-    ------
-    StudyError
-        The study is wrong; the error has all mistakes.
-    """
-    return _study(_source(data, name, folder), columns)
-
-
-def load_any(path: str | Path, overrides: Iterable[str] = ()) -> Study | FitStudy:
-    """Read a study of scenes, or one of a fit, from a file; as `load_study`."""
-    source = read_source(Path(path), overrides)
-    return _fit(source) if is_fit(source.data) else _study(source)
-
-
-def any_from(data: Mapping[str, Any], name: str = "study", *, folder: str | Path = "") -> Study | FitStudy:
-    """Make a study of scenes, or one of a fit, from a mapping; as `study_from`."""
-    source = _source(data, name, folder)
-    return _fit(source) if is_fit(source.data) else _study(source)
-
-
-def is_fit(data: Mapping[str, Any]) -> bool:
-    """Report whether the keys are meant to be those of a fit."""
-    kind = data.get("kind")
-    return isinstance(kind, str) and nearest(kind, tuple(KINDS)) == "fit"
-
-
-def _fit(source: Source) -> FitStudy:
-    """Check a fit as a whole and read its data."""
-    from gradhesion.cli.study.fit import fit_from  # noqa: PLC0415 (its form, which no study of scenes needs)
-
-    fit, mistakes = fit_from(source)
-    _refuse(source, mistakes)
-    assert fit is not None  # noqa: S101 (it has no mistakes)
-    return fit
-
-
-def _source(data: Mapping[str, Any], name: str, folder: str | Path) -> Source:
-    """Make the source of a study that is a mapping."""
-    if places.is_deep(data):
-        raise StudyError(
-            f"{name}: not a study, tables or lists are nested more than {places.DEEPEST} deep; remove some levels"
-        )
-    home = Path(folder).absolute()
-    return Source(name=name, data=_plain(data), text="", place=lambda _: name, folder=home)
-
-
-def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = None) -> Study:
-    """Check a study as a whole and expand it."""
-    if is_fit(source.data):
-        raise StudyError(f"{source.place(('kind',))}: a fit has no scenes; `gradhesion run` and gradhesion.run fit it")
-    points = points_of(source.data, source.folder, columns)
-    measured = measured_in(source.data, source.folder)
-    sought = sought_in(source.data)
-    found = checked(measured.beside(points.beside(sought.beside())))
-    sound, between = mistakes_between_keys(found, points, sought)
-    mistakes = [
-        mistake
-        for mistake in (*points.mistakes, *measured.mistakes, *found.mistakes, *between)
-        if mistake.value is not None or not (points.unread or (measured.unread and mistake not in measured.mistakes))
-    ]
-    _refuse(source, mistakes)
-    form = found.form
-    absent = left_out(sound, with_units="physical" in form.model_fields_set)
-    given = sound | absent
-    parameters = {name: given[name] for name in INPUTS if name in given and name not in sought.over}
-    for values in parameters.values():
-        if isinstance(values, np.ndarray):
-            if form.layout == "grid" and not (np.all(np.diff(values) > 0) or np.all(np.diff(values) < 0)):
-                values.sort()  # CF wants coordinates that rise or fall
-            values.flags.writeable = False
-    solver = form.method.solver
-    data, text = points.stored(source.data, source.text)
-    data, text = measured.stored(data, text)
-    return Study(
-        name=source.name,
-        title=form.title or source.name,
-        kind=form.kind,
-        layout=form.layout,
-        outputs=() if form.kind == "optimum" else KINDS[form.kind].variables(form.outputs),
-        parameters=parameters,
-        method=Method(
-            solver=solver if isinstance(solver, str) else tuple(solver), check_contact=form.method.check_contact
-        ),
-        profile=measured.profile() or profile_of(form.profile),
-        spectrum=spectrum_of(form.profile),
-        loading=Loading(control=form.loading.control),
-        states=form.states.radii,
-        search=search_of(found, sought),
-        uncertainty=uncertainty_of(found),
-        text=text or toml_of(data),
-        left_out=frozenset(absent.keys() - {"a_max", "a_max_over_R"}),
-        folder=source.folder,
-        points=points,
-        measured=measured,
-    )
-
-
-def _refuse(source: Source, mistakes: Iterable[Mistake]) -> None:
-    """Raise what is wrong with a study, if anything is."""
-    sentences = []
-    for mistake in mistakes:
-        value = "" if mistake.value is None else f" = {wording.shown(mistake.value)}"
-        sentences.append(f"{source.place(mistake.path)}: {places.dotted(mistake.path)}{value}: {mistake.sentence}")
-    sentences.sort(key=_line)
-    found = [*source.mistakes, *sentences]
-    if len(found) > MOST_MISTAKES:
-        more = f"... and {len(found) - MOST_MISTAKES} more mistakes; fix these first"
-        found = [*found[:MOST_MISTAKES], more]
-    if found:
-        raise StudyError(found)
-
-
-def _line(sentence: str) -> tuple[str, int]:
-    """Sort sentences by the line that they name."""
-    at = re.match(r"(.*?):(\d+):", sentence)
-    return (at[1], int(at[2])) if at else ("", 0)
-
-
-def _plain(value: Any) -> Any:
-    """Turn the arrays, tuples and numpy numbers of a mapping made in Python into what TOML would give."""
-    if isinstance(value, Mapping):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, np.ndarray | np.generic):
-        return value.tolist()
-    return [_plain(item) for item in value] if isinstance(value, list | tuple) else value

@@ -13,7 +13,8 @@ import numpy as np
 from gradhesion.cli.errors import DatasetError, OutputError
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.points import Points, points_of
-from gradhesion.cli.study.study import Study, study_from
+from gradhesion.cli.study.reading import study_from
+from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.work.folder import Folder
 from gradhesion.cli.work.parts import settings_of, versions

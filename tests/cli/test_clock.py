@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from click.testing import Result
 
-from gradhesion.cli.study.study import study_from
+from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.work.folder import claimed, folder_of
 from gradhesion.cli.work.manifest import adopt
 from gradhesion.cli.work.records import State, read_record

@@ -11,7 +11,7 @@ import pytest
 from gradhesion.cli.dataset.fit import write_fit
 from gradhesion.cli.dataset.writer import write
 from gradhesion.cli.study.fit_study import FitStudy
-from gradhesion.cli.study.study import load_any, study_from
+from gradhesion.cli.study.reading import load_any, study_from
 from gradhesion.cli.work.fitting import fitted
 
 CONFIGS = Path(__file__).parents[2] / "configs"

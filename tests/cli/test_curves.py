@@ -15,7 +15,7 @@ from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.dataset.reader import opened
 from gradhesion.cli.keys import INPUTS, PARAMETERS
 from gradhesion.cli.names import CURVES, EXTENTS, GENERAL_CURVES, INTEGERS, MEANINGS, RAGGED, STATE_CURVES
-from gradhesion.cli.study.study import load_study, study_from
+from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.words.curve_words import curves_told
 from gradhesion.core import FAILED, FLAGS, draw_curves, solve
 from gradhesion.core import curves as core_curves

@@ -20,7 +20,7 @@ from gradhesion.cli.picture.curve_picture import drawn_curves
 from gradhesion.cli.picture.doubts import BEYOND, CROSS, DOUBTS, GAP, GREY, Doubt, doubts_in
 from gradhesion.cli.picture.picture import drawn
 from gradhesion.cli.picture.pictured import save
-from gradhesion.cli.study.study import study_from
+from gradhesion.cli.study.reading import study_from
 from gradhesion.core import CURVES, DOUBTFUL, FLAGS, OUTPUTS, REPORTS, solve
 from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
 

@@ -13,7 +13,7 @@ from click.testing import Result
 from gradhesion.cli.dataset.writer import write, write_shard
 from gradhesion.cli.engines.threads import Threads
 from gradhesion.cli.errors import OutputError
-from gradhesion.cli.study.study import study_from
+from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.work.folder import claimed, folder_of
 from gradhesion.cli.work.manifest import adopt, manifest_of
 from gradhesion.cli.work.records import Finished, Manifest, read_record, write_record

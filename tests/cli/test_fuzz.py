@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.study.study import load_study, study_from
+from gradhesion.cli.study.reading import load_study, study_from
 
 pytestmark = pytest.mark.slow
 

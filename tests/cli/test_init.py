@@ -14,7 +14,7 @@ from click.testing import Result
 
 from gradhesion.cli.commands.init import studies
 from gradhesion.cli.study.fit_study import FitStudy
-from gradhesion.cli.study.study import load_any
+from gradhesion.cli.study.reading import load_any
 
 Call = Callable[..., Result]
 CONFIGS = Path(__file__).parents[2] / "configs"

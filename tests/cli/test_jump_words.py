@@ -15,7 +15,7 @@ from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.dataset.reader import opened
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import CURVES, INTEGERS
-from gradhesion.cli.study.study import study_from
+from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.words.jump_words import jumps_listed, jumps_told
 from gradhesion.core import draw_curves, solve
 

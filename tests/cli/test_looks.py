@@ -22,7 +22,7 @@ from gradhesion.cli.picture.curve_picture import drawn_curves
 from gradhesion.cli.picture.looks import STYLE, looks_of
 from gradhesion.cli.picture.picture import drawn
 from gradhesion.cli.picture.points_picture import DENSE
-from gradhesion.cli.study.study import study_from
+from gradhesion.cli.study.reading import study_from
 
 Call = Callable[..., Result]
 

@@ -296,7 +296,7 @@ def test_each_bound_of_each_parameter(name: str, form: str, refused: Callable[..
 
 @pytest.mark.parametrize(("k", "nu"), [("0.0", "-0.9999999999999999"), ("1.0", "0.5")])
 def test_the_closed_ends_are_allowed(k: str, nu: str, write_study: Callable[[str], Path]) -> None:
-    from gradhesion.cli.study.study import load_study
+    from gradhesion.cli.study.reading import load_study
 
     study = load_study(write_study(GOOD.replace("[0.0, 0.5]", k).replace("nu = 0.3", f"nu = {nu}")))
     assert study.parameters["k"] == float(k)
@@ -304,7 +304,7 @@ def test_the_closed_ends_are_allowed(k: str, nu: str, write_study: Callable[[str
 
 @pytest.mark.parametrize("layout", ["grid", "points"])
 def test_a_thousand_curves_are_allowed(layout: str, write_study: Callable[[str], Path]) -> None:
-    from gradhesion.cli.study.study import load_study
+    from gradhesion.cli.study.reading import load_study
 
     text = GOOD.replace(*CURVE).replace("pull_off_force", "path").replace("[0.0, 0.5]", "0.5").replace("grid", layout)
     assert load_study(write_study(text.replace("num = 3", "num = 1000"))).scenes == 1000
@@ -414,7 +414,7 @@ def test_an_endless_file_is_not_read_for_ever() -> None:
 
 def test_a_study_made_in_python_is_checked_alike() -> None:
     from gradhesion.cli.errors import StudyError
-    from gradhesion.cli.study.study import study_from
+    from gradhesion.cli.study.reading import study_from
 
     with pytest.raises(StudyError) as caught:
         study_from({"outputs": ["delta_max"], "parameters": {"k": (0.1, 2.0)}}, name="mine")

@@ -13,7 +13,8 @@ from click.testing import Result
 
 from gradhesion.cli.disk import writing
 from gradhesion.cli.errors import OutputError
-from gradhesion.cli.study.study import Study, study_from
+from gradhesion.cli.study.reading import study_from
+from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.work.folder import claimed, folder_of
 from gradhesion.cli.work.parts import PartError, key_of, read_part, write_part

@@ -20,7 +20,7 @@ from gradhesion.cli.explorer.data import study_data
 from gradhesion.cli.explorer.lines import lines_of
 from gradhesion.cli.names import CURVES, OUTPUTS, SI, SYMBOLS, UNITS
 from gradhesion.cli.picture.curve_picture import drawn_curves
-from gradhesion.cli.study.study import load_study, study_from
+from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.core import SENSITIVITIES, VALIDITY
 
 Call = Callable[..., Result]

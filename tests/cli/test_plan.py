@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from click.testing import Result
 
-from gradhesion.cli.study.study import study_from
+from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.tiling import Tiling, size_of
 from gradhesion.cli.work import probe
 from gradhesion.cli.work.estimate import FILE, estimate

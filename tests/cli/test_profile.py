@@ -14,7 +14,7 @@ from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.names import CURVES, STATE_CURVES
-from gradhesion.cli.study.study import load_study, study_from
+from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.core import draw_curves, solve
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Harmonic, Profile

@@ -22,7 +22,7 @@ def dataset(tmp_path_factory: pytest.TempPathFactory) -> xarray.Dataset:
     from click.testing import CliRunner
 
     from gradhesion.cli.main import cli
-    from gradhesion.cli.study.study import study_from
+    from gradhesion.cli.study.reading import study_from
 
     folder = tmp_path_factory.mktemp("reference")
     study: dict[str, Any] = {

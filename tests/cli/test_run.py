@@ -20,8 +20,8 @@ from click.testing import Result
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.keys import PARAMETERS
 from gradhesion.cli.names import OUTPUTS
+from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.study.rules import EXACT_ONLY
-from gradhesion.cli.study.study import load_study, study_from
 from gradhesion.core import FAILED, FLAGS
 from gradhesion.core import solve as real_solve
 

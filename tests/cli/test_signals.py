@@ -76,7 +76,7 @@ def test_an_interrupt_that_a_library_swallows_is_heard_all_the_same(
     study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from gradhesion.cli.dataset.writer import write
-    from gradhesion.cli.study.study import load_study
+    from gradhesion.cli.study.reading import load_study
     from gradhesion.cli.terminal import interrupts
 
     monkeypatch.setattr(interrupts, "_heard", [0.0])

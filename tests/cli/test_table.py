@@ -13,7 +13,7 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset.writer import write
-from gradhesion.cli.study.study import study_from
+from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.words import table
 
 Call = Callable[..., Result]

@@ -11,7 +11,7 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.study.study import load_study, study_from
+from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.core import PARAMETERS, solve
 from gradhesion.core.variables.reduced import parameters_from
 

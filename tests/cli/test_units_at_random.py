@@ -8,7 +8,7 @@ import pytest
 
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.names import SI, UNITS
-from gradhesion.cli.study.study import study_from
+from gradhesion.cli.study.reading import study_from
 
 EPS: Final = Fraction(1, 2**52)
 COUNT: Final = 40

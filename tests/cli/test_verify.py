@@ -19,7 +19,7 @@ ALL = ("--sample", "100", "--seed", "1")
 @pytest.fixture
 def dataset_file(gradhesion: Call, data: dict[str, Any], write_study: Callable[[str], Path], tmp_path: Path) -> Path:
     """The small study with all outputs: 24 scenes."""
-    from gradhesion.cli.study.study import study_from
+    from gradhesion.cli.study.reading import study_from
     from gradhesion.core import OUTPUTS
 
     path = tmp_path / "out.nc"
@@ -283,7 +283,7 @@ def test_of_several_solvers_those_with_a_twin_are_recomputed(
 def test_a_rim_given_in_the_jump_in_radius_is_recomputed(
     layout: str, data: dict[str, Any], gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path
 ) -> None:
-    from gradhesion.cli.study.study import study_from
+    from gradhesion.cli.study.reading import study_from
 
     path = tmp_path / "ratio.nc"
     parameters = data["parameters"] | {"A": [0.0, 0.023, 9.0], "a_max_over_a2": [0.7, 1.3, 2.1]}
@@ -344,7 +344,7 @@ def test_datasets_of_any_profile_and_control_are_recomputed(
     write_study: Callable[[str], Path],
     tmp_path: Path,
 ) -> None:
-    from gradhesion.cli.study.study import study_from
+    from gradhesion.cli.study.reading import study_from
     from gradhesion.core import OUTPUTS
 
     path = tmp_path / "out.nc"
@@ -392,7 +392,7 @@ def test_datasets_of_any_profile_and_control_are_recomputed(
 def test_another_profile_or_control_in_the_study_is_found(
     old: str, new: str, gradhesion: Call, data: dict[str, Any], write_study: Callable[[str], Path], tmp_path: Path
 ) -> None:
-    from gradhesion.cli.study.study import study_from
+    from gradhesion.cli.study.reading import study_from
 
     path = tmp_path / "out.nc"
     parameters = data["parameters"] | {"lambda_over_R": 0.3, "a_max_over_R": 0.5, "A": 0.023}

@@ -28,7 +28,7 @@ import numpy as np
 from gradhesion.cli.commands.status import status_of
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.main import main as gradhesion
-from gradhesion.cli.study.study import load_study
+from gradhesion.cli.study.reading import load_study
 from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work import state
 from tests.memory import in_memory

@@ -9,7 +9,7 @@ import pytest
 import xarray
 
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.study.study import load_study
+from gradhesion.cli.study.reading import load_study
 
 ROOT = Path(__file__).parents[2]
 if str(ROOT) not in sys.path:

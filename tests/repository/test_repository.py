@@ -206,7 +206,7 @@ def test_the_study_in_units_has_jkr_in_newtons(gradhesion: Callable[..., Result]
 
 
 def test_the_maps_are_a_real_study_over_all_five_axes() -> None:
-    from gradhesion.cli.study.study import load_study
+    from gradhesion.cli.study.reading import load_study
 
     study = load_study(ROOT / "configs" / "maps.toml")
     assert study.scenes >= 100_000
