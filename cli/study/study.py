@@ -56,6 +56,7 @@ class Study:
     """
     A valid study, its parameters expanded: a float is fixed, an array is an axis (or, in points, a list).
 
+    >>> from gradhesion.cli.study import study_from
     >>> study = study_from({
     ...     "outputs": ["pull_off_force"],
     ...     "parameters": {"k": [0.0, 0.5], "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1,
