@@ -12,6 +12,9 @@ from pathlib import Path
 from benchmarks.clock import ROOT, table
 
 SMOKE = ROOT / "configs" / "smoke.toml"
+CURVE = ROOT / "configs" / "curve.toml"
+FORCE = ("--set", 'outputs=["pull_off_force"]')
+"""Of the smoke study, the force alone."""
 
 
 def run(*arguments: str, **changes: str) -> float:
@@ -32,11 +35,11 @@ def from_a_wheel(folder: Path, *arguments: str) -> float:
     subprocess.run(build, cwd=ROOT, check=True, capture_output=True)
     pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--target", installed]
     subprocess.run([*pip, *wheel.iterdir()], check=True)
-    return run(*arguments, PYTHONPATH=str(installed), XDG_CACHE_HOME=str(folder / "empty"))
+    return run(*arguments, PYTHONPATH=str(installed), XDG_CACHE_HOME=str(folder / "none"))
 
 
 def start_up_table(repeat: int = 9) -> str:
-    """Return medians; the first run is one."""
+    """Return medians, and what is done once: the first runs."""
     with tempfile.TemporaryDirectory() as folder:
         dataset = str(Path(folder) / "smoke.nc")
         smoke = ["run", str(SMOKE), "-o", dataset, "--overwrite", "--quiet"]
@@ -51,10 +54,17 @@ def start_up_table(repeat: int = 9) -> str:
         for _ in range(repeat):  # in turns, so that a busy moment of the machine is in all of them
             for words, arguments in warm.items():
                 times[words].append(run(*arguments))
-        first = run(*smoke, XDG_CACHE_HOME=folder)
-        carried = from_a_wheel(Path(folder), *smoke)
-    lines = [[f"`{words}`", statistics.median(own)] for words, own in times.items()]
-    lines += [["first run ever, which compiles", first], ["first run ever, of a wheel with compiled kernels", carried]]
+        curve = ["run", str(CURVE), "-o", str(Path(folder) / "curve.nc"), "--quiet"]
+        empty, other, third = (str(Path(folder) / name) for name in ("empty", "other", "third"))
+        first = {
+            "first run ever of the force alone, which compiles": run(*smoke, *FORCE, XDG_CACHE_HOME=other),
+            "first run ever": run(*smoke, XDG_CACHE_HOME=empty),
+            "first run of curves after that": run(*curve, XDG_CACHE_HOME=empty),
+            "everything compiled ahead, `gradhesion warmup --all`": run("warmup", "--all", XDG_CACHE_HOME=third),
+            "first run ever, of a wheel with compiled kernels": from_a_wheel(Path(folder), *smoke),
+        }
+    lines: list[list[object]] = [[f"`{words}`", statistics.median(own)] for words, own in times.items()]
+    lines += [[words, seconds] for words, seconds in first.items()]
     return table(["command", "s"], lines)
 
 
