@@ -13,12 +13,6 @@ from gradhesion.core import Harmonic, Loading, Profile, solve
 from gradhesion.core.compiler import cache, jit
 
 
-@pytest.fixture(autouse=True)
-def _no_folder(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nothing that a test compiles is kept."""
-    monkeypatch.setattr(cache, "place", lambda: cache.Place(None))
-
-
 @pytest.fixture
 def _watched() -> Iterator[None]:
     """What numba allocates and frees is counted."""
@@ -33,48 +27,45 @@ def counts_references(kernel: Any) -> bool:
     return any("NRT_incref" in code or "NRT_decref" in code for code in kernel.inspect_llvm().values())
 
 
-@jit.kernel()
-def last_of_row(table: Any, row: int) -> float:
-    part = table[row]
-    return part[part.size - 1]
+with pytest.MonkeyPatch.context() as patch:
+    patch.setattr(cache, "place", lambda: cache.Place(None))  # code that is read from a cache cannot be looked at
 
+    @jit.kernel()
+    def last_of_row(table: Any, row: int) -> float:
+        part = table[row]
+        return part[part.size - 1]
 
-@jit.kernel()
-def last_in_pair(pair: Any) -> float:
-    table, row = pair
-    other = (table, row)
-    return last_of_row(other[0], row)
+    @jit.kernel()
+    def last_in_pair(pair: Any) -> float:
+        table, row = pair
+        other = (table, row)
+        return last_of_row(other[0], row)
 
+    @jit.kernel()
+    def half_of(values: Any) -> Any:
+        return values[: values.size // 2]
 
-@jit.kernel()
-def half_of(values: Any) -> Any:
-    return values[: values.size // 2]
+    @jit.kernel()
+    def doubled(values: Any) -> Any:
+        return 2.0 * values
 
+    @jit.kernel()
+    def last_of_doubled(values: Any) -> float:
+        own = doubled(values)
+        return own[own.size - 1]
 
-@jit.kernel()
-def doubled(values: Any) -> Any:
-    return 2.0 * values
+    @jit.kernel()
+    def sum_at(values: Any, places: Any) -> float:
+        taken = values[places]
+        total = 0.0
+        for i in range(taken.size):
+            total += taken[i]
+        return total
 
-
-@jit.kernel()
-def last_of_doubled(values: Any) -> float:
-    own = doubled(values)
-    return own[own.size - 1]
-
-
-@jit.kernel()
-def sum_at(values: Any, places: Any) -> float:
-    taken = values[places]
-    total = 0.0
-    for i in range(taken.size):
-        total += taken[i]
-    return total
-
-
-@jit.kernel()
-def shift(values: Any) -> float:
-    values[1:] = values[:-1]
-    return values[0]
+    @jit.kernel()
+    def shift(values: Any) -> float:
+        values[1:] = values[:-1]
+        return values[0]
 
 
 def test_what_only_reads_arrays_counts_nothing() -> None:
