@@ -89,7 +89,7 @@ build/tested: $(checked) .venv/complete | build/types/gradhesion
 	.venv/bin/ruff check
 	.venv/bin/ruff format --check
 	.venv/bin/mypy & .venv/bin/python -m tests.compile && wait $$! # side by side
-	.venv/bin/pytest -n auto --dist loadfile --no-loadscope-reorder
+	.venv/bin/pytest -n auto --dist loadfile --no-loadscope-reorder --max-worker-restart 0
 	touch $@
 
 .PHONY: docs reference help maps figures docs-figures test stress faults adversary bench wheel clean
