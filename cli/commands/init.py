@@ -47,10 +47,10 @@ def init(name: str, output: Path | None, overwrite: bool, listed: bool) -> None:
         for one, text in known.items():
             show(f"{one:{width}}  {text.splitlines()[0].removeprefix('# ')}")
         return
-    if name not in known and name.endswith(".toml"):
-        study = Path(name).stem if Path(name).stem in known else "map"
-        raise click.UsageError(f'"{name}" names no study; -o names the file: gradhesion init {study} -o {name}')
     if name not in known:
+        if name.endswith(".toml"):
+            study = Path(name).stem if Path(name).stem in known else "map"
+            raise click.UsageError(f'"{name}" names no study; -o names the file: gradhesion init {study} -o {name}')
         from gradhesion.cli.terminal.wording import did_you_mean
 
         raise click.UsageError(f'there is no study "{name}"; {did_you_mean(name, list(known))}')

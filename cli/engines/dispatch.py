@@ -75,7 +75,7 @@ class Dispatch:
                 continue
             number = tasks.pop(future.key)
             self._watch.moved()
-            # of a failure alone: what a worker has done that is lost since then waits, for Dask, to be done by another
+            # a failure alone is asked for: that of a task whose worker is lost since it was done would be waited for
             failure = asked(self._client, future.exception) if future.status == "error" else None
             if future.cancelled():  # with the connection to the scheduler
                 waiting.appendleft(number)

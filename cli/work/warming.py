@@ -3,12 +3,16 @@
 import multiprocessing
 from collections.abc import Callable, Container, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from typing import Final
 
 from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.kernels import compile_kinds, missing_of
 from gradhesion.core import APART, KERNELS, NEEDS, compile_kind, watch_compilation
 from gradhesion.core.compiler.linking import LAZY
 from gradhesion.core.kinds import before
+
+_FAMILIES: Final = 2
+"""What is for one cosine, and what is for all profiles: of each, one kind with kernels can begin after the tables."""
 
 
 def warm(
@@ -22,10 +26,9 @@ def warm(
     Compile the kernels of some kinds of work by several processes.
 
     A kind is begun when those that it needs are done, and not beside one of `APART`, so that no two processes compile
-    the same kernel to be kept. Tables are the exception: all kinds need them, and what they are made of, so that every
-    process compiles them while it would wait for another, and keeps the same under the same names. `done` gets each
-    kind, once, with the names of the kernels that were compiled for it, or with `kept` of those alone whose code is
-    kept by itself.
+    the same kernel to be kept. Tables are the exception: all kinds need them, and what they are made of, so that the
+    processes of both families compile them, and keep the same under the same names. `done` gets each kind, once, with
+    the names of the kernels that were compiled for it, or with `kept` of those alone whose code is kept by itself.
     """
     left = missing_of(kinds)
     if workers == 1 or len(left) < 2 or not LAZY:  # numba keeps every kernel by itself, and kinds share most of them
@@ -37,7 +40,7 @@ def warm(
     try:
         if "tables" in left:
             left.remove("tables")
-            for worker in processes:
+            for worker in processes[: min(_FAMILIES, len(left))]:
                 worker.begin("tables", kept=kept)
         while left or any(worker.kind for worker in processes):
             for worker in processes:
