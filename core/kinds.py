@@ -24,9 +24,9 @@ from collections.abc import Sequence
 from itertools import combinations
 from typing import Final
 
-from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.control import BY_DISPLACEMENT, Loading
 from gradhesion.core.problem.names import PULL_OFF, REPORTS
-from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.profile import WAVY, Profile
 from gradhesion.core.problem.shape import equivalent_wave
 
 NEEDS: Final[dict[str, tuple[str, ...]]] = {
@@ -112,8 +112,8 @@ def kind_of_map(
     >>> kind_of_map(["pull_off_force"]), kind_of_map(["pull_off_force"], profile=Profile(exponent=1.5))
     ('force', 'general_force')
     """
-    profile, loading = profile or Profile(), loading or Loading()
-    general = "general_" if loading != Loading() or equivalent_wave(profile) is None else ""
+    profile, loading = profile or WAVY, loading or BY_DISPLACEMENT
+    general = "general_" if loading != BY_DISPLACEMENT or equivalent_wave(profile) is None else ""
     if solver != "exact":
         return general + solver
     if any(name in REPORTS for name in outputs):
@@ -134,8 +134,8 @@ def kind_of_turning(profile: Profile | None = None, loading: Loading | None = No
     >>> kind_of_turning(), kind_of_turning(loading=Loading(control="load"))
     ('turning', 'general_turning')
     """
-    profile, loading = profile or Profile(), loading or Loading()
-    return "turning" if loading == Loading() and equivalent_wave(profile) is not None else "general_turning"
+    profile, loading = profile or WAVY, loading or BY_DISPLACEMENT
+    return "turning" if loading == BY_DISPLACEMENT and equivalent_wave(profile) is not None else "general_turning"
 
 
 def kind_of_sensitivities(profile: Profile | None = None, loading: Loading | None = None) -> str:
@@ -167,5 +167,5 @@ def kind_of_curves(profile: Profile | None = None, loading: Loading | None = Non
     >>> kind_of_curves(), kind_of_curves(loading=Loading(control="load"))
     ('curves', 'general_curves')
     """
-    default = (profile or Profile()) == Profile() and (loading or Loading()) == Loading()
+    default = (profile or WAVY) == WAVY and (loading or BY_DISPLACEMENT) == BY_DISPLACEMENT
     return "curves" if default else "general_curves"

@@ -3,6 +3,8 @@
 What solves other profiles and controls is imported when it is asked for: it takes half as long as a small map.
 """
 
+from __future__ import annotations  # those of inner functions would be made anew in every call: 15 us each
+
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -10,13 +12,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.arrays.cosine import SLOPES, solve_cosine, turning_cosine
-from gradhesion.core.arrays.processors import processors
 from gradhesion.core.arrays.turned import Results, turned_results
 from gradhesion.core.compiler.cache import note_compiled
 from gradhesion.core.kinds import kind_of_map, kind_of_sensitivities, kind_of_turning
-from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.control import BY_DISPLACEMENT, Loading
 from gradhesion.core.problem.names import OUTPUTS, PARAMETERS, PULL_OFF, REPORTS, RESULTS, SENSITIVITIES, SOLVERS, TURNS
-from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.profile import WAVY, Profile
 from gradhesion.core.problem.shape import equivalent_wave
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene.cosine_report import NEEDED
@@ -41,8 +42,8 @@ def _checked(
         raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
     if loading.control == "load" and "energy_residual" in reports:
         raise ValueError("energy_residual: a dead load closes no loop; ask for it under another control")
-    other = solver == "asymptotic" and profile != Profile()
-    if other or (solver != "exact" and loading != Loading()):
+    other = solver == "asymptotic" and profile != WAVY
+    if other or (solver != "exact" and loading != BY_DISPLACEMENT):
         raise ValueError(
             f"solver {solver!r} is known of the paraboloid with one cosine wave under displacement control only; "
             "another profile has the exact solver and the envelopes, another control the exact solver"
@@ -142,13 +143,13 @@ def solve(
     >>> solve(scene | {"A": [0.0, 0.02]})["pull_off_force"].round(6).tolist()
     [1.0, 1.342098]
     """
-    profile, loading = profile or Profile(), loading or Loading()
+    profile = WAVY if profile is None else profile
+    loading = BY_DISPLACEMENT if loading is None else loading
     turn = _checked(parameters, outputs, solver, profile, loading)
-    workers = threads or processors()
     asked = outputs
     outputs = wanted_for(outputs, turned=turn is not None)
-    alike = equivalent_wave(profile) if loading == Loading() else None
-    if alike is not None and profile != Profile():
+    alike = equivalent_wave(profile) if loading == BY_DISPLACEMENT else None
+    if alike is not None and profile != WAVY:
         parameters = _as_one_wave(parameters, *alike)
 
     senses = tuple(name in asked for name in SENSITIVITIES)
@@ -163,18 +164,18 @@ def solve(
             return solve_envelope(scenes, PARAMETERS, wanted, profile)
         checks: Any = {"check_contact": check_contact, "turned": turned, "slopes": slopes}
         if alike is not None:
-            return solve_cosine(scenes, wanted, solver, workers, **checks)
+            return solve_cosine(scenes, wanted, solver, threads, **checks)
         from gradhesion.core.arrays.general import solve_general  # noqa: PLC0415 (kernels of their own)
 
         results = [name for name in wanted if name in RESULTS]
         reports = [name for name in wanted if name in REPORTS]
         results += [NEEDED[name] for name in reports if name in NEEDED]
-        found = solve_general(scenes, results, profile, loading, workers, **checks)
+        found = solve_general(scenes, results, profile, loading, threads, **checks)
         if not reports:
             return found
         from gradhesion.core.arrays.general_report import report_general  # noqa: PLC0415 (kernels of their own)
 
-        return found | report_general(scenes, reports, found, profile, loading, workers)
+        return found | report_general(scenes, reports, found, profile, loading, threads)
 
     def again(scenes: Mapping[str, ArrayLike], wanted: Sequence[str]) -> Results:
         """Solve other scenes that turn as these do."""
@@ -190,11 +191,11 @@ def solve(
     else:
         arguments: dict[str, Any] = {"check_contact": check_contact and not set(outputs) <= set(PULL_OFF)}
         if alike is not None:
-            radii, flags = turning_cosine(parameters, turn, workers, **arguments)
+            radii, flags = turning_cosine(parameters, turn, threads, **arguments)
         else:
             from gradhesion.core.arrays.general_turning import turning_general  # noqa: PLC0415 (kernels of their own)
 
-            radii, flags = turning_general(parameters, turn, profile, loading, workers, **arguments)
+            radii, flags = turning_general(parameters, turn, profile, loading, threads, **arguments)
         found = turned_results(parameters, turn, outputs, radii, flags, solved, again)
         note_compiled(kind_of_turning(profile, loading))
     if not slopes:

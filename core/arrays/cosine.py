@@ -3,6 +3,8 @@
 The work is cut into tasks of a fixed size, so that results do not depend on the number of threads.
 """
 
+from __future__ import annotations  # those of inner functions would be made anew in every call: 15 us each
+
 import math
 from collections.abc import Callable, Mapping, Sequence
 from inspect import unwrap
@@ -45,7 +47,7 @@ _NO_CURVES: Final = np.empty(0, dtype=np.int64)
 
 def run_tasks(
     curves: Grouped,
-    workers: int,
+    threads: int | None,
     work: Callable[[NDArray[Any], Task, NDArray[np.float64]], None],
     *,
     forces: bool = False,
@@ -62,7 +64,7 @@ def run_tasks(
         fill_stiffness(tables, task.which, task.index, curves.k, curves.nu, curves.modulus, curves.c0_over_R, stiffness)
         work(tables, task, stiffness)
 
-    run_one_by_one(curves.tasks(**how), one, workers)
+    run_one_by_one(curves.tasks(**how), one, threads)
 
 
 def _smooth_and_others(curves: Grouped) -> tuple[NDArray[np.int64] | None, NDArray[np.int64] | None]:
@@ -84,7 +86,7 @@ def solve_cosine(
     parameters: Mapping[str, ArrayLike],
     outputs: Sequence[str],
     solver: str,
-    workers: int,
+    threads: int | None,
     *,
     check_contact: bool = True,
     turned: bool = False,
@@ -99,7 +101,9 @@ def solve_cosine(
     curves = grouped(parameters)
     (rims,) = curves.rims
     without_rim = ~(rims > 0.0)
-    rims[without_rim] = math.inf
+    some_without = bool(without_rim.any())
+    if some_without:
+        rims[without_rim] = math.inf
     slots = np.array(
         [*(rows.index(name) if name in rows else -1 for name in RESULTS), int(check_contact) - 1, int(turned)]
     )
@@ -127,15 +131,15 @@ def solve_cosine(
             report_curves(tables, task.which, task.index, *curves_of, slots, slots_of_reports, out, status, scratch)
 
     if slopes is not None:
-        run_tasks(curves, workers, work, together=_SENSED)
+        run_tasks(curves, threads, work, together=_SENSED)
     else:
         smooth, others = _smooth_and_others(curves) if solver == "exact" else (_NO_CURVES, None)
         if smooth is None or smooth.size > 0:
             many = {"some": smooth, "scenes": _SMOOTH, "together": _SMOOTH, "as_they_stand": not reports}
-            run_tasks(curves, workers, work_on_smooth, forces=not reports, **many)
+            run_tasks(curves, threads, work_on_smooth, forces=not reports, **many)
             note_compiled("smooth")
-        run_tasks(curves, workers, work, forces=solve_curves is PULL_OFF_LOOP, some=others)
-    if without_rim.any():
+        run_tasks(curves, threads, work, forces=solve_curves is PULL_OFF_LOOP, some=others)
+    if some_without:
         out[:, np.broadcast_to(without_rim, status.shape)] = math.nan
         status[np.broadcast_to(without_rim, status.shape)] = NO_VALUE
     found = {name: typed(name, out[rows.index(name)]).reshape(curves.shape) for name in outputs}
@@ -145,13 +149,13 @@ def solve_cosine(
 
 
 def turning_cosine(
-    parameters: Mapping[str, ArrayLike], turn: str, workers: int, *, check_contact: bool = True
+    parameters: Mapping[str, ArrayLike], turn: str, threads: int | None, *, check_contact: bool = True
 ) -> tuple[NDArray[np.float64], NDArray[np.int8]]:
     """Return where the cycles turn, and what `status` has to say of that.
 
     Parameters
     ----------
-    parameters, turn, workers, check_contact
+    parameters, turn, threads, check_contact
         As those of `solve`; `turn` is the one of `TURNS` that `parameters` has.
 
     Returns
@@ -170,5 +174,5 @@ def turning_cosine(
         curves_of = (tables, task.which, task.index, stiffness, curves.lambda_over_R, curves.A, rims, targets)
         turn_curves(*curves_of, turn == "load_max", check_contact, radii, flags, scratch)
 
-    run_tasks(curves, workers, work)
+    run_tasks(curves, threads, work)
     return radii.reshape(curves.shape), flags.reshape(curves.shape)

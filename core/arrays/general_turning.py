@@ -1,5 +1,7 @@
 """Arrays of general scenes that turn at a depth or a load: where they do."""
 
+from __future__ import annotations  # those of inner functions would be made anew in every call: 15 us each
+
 from collections.abc import Mapping
 
 import numpy as np
@@ -19,7 +21,7 @@ def turning_general(
     turn: str,
     profile: Profile,
     loading: Loading,
-    workers: int,
+    threads: int | None,
     *,
     check_contact: bool = True,
 ) -> tuple[NDArray[np.float64], NDArray[np.int8]]:
@@ -27,7 +29,7 @@ def turning_general(
 
     Parameters
     ----------
-    parameters, turn, profile, loading, workers, check_contact
+    parameters, turn, profile, loading, threads, check_contact
         As those of `solve` of core/sweep.py; `turn` is the one of `TURNS` that `parameters` has. Scenes that differ
         along the last axes in it and in a_max alone are followed on one trace.
 
@@ -52,5 +54,5 @@ def turning_general(
         modes = (turn == "load_max", check_contact)
         turn_scenes(table, cosine_bins, series, profile.exponent, depth_factor, index, *arrays, *modes, radii, flags)
 
-    run_by_exponent(scenes.k, work, workers, rims.shape[1])
+    run_by_exponent(scenes.k, work, threads, rims.shape[1])
     return radii.reshape(scenes.shape), flags.reshape(scenes.shape)

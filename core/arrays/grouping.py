@@ -112,6 +112,10 @@ class Grouped:
         k, size = self.k if some is None else self.k[some], max(1, scenes // max(1, self.rims[0].shape[1]))
         if k.size == 0:
             return []
+        if k[0] == k[-1] and (k == k[0]).all():
+            alike = np.arange(k.size) if some is None else some
+            parts = (alike[i : i + size] for i in range(0, k.size, size))
+            return [Task(k[:1], np.zeros(index.size, dtype=np.int64), index) for index in parts]
         if as_they_stand and _seem_to_differ(k):
             order = np.arange(k.size) if some is None else some
             return [
@@ -150,7 +154,9 @@ def _shared_axes(shapes: Sequence[tuple[int, ...]], dimensions: int) -> int:
 
 
 def _flat(array: NDArray[np.float64], shape: tuple[int, ...]) -> NDArray[np.float64]:
-    return np.array(np.broadcast_to(array, shape), order="C").reshape(math.prod(shape))
+    spread = np.empty(shape)
+    spread[...] = array
+    return spread.reshape(spread.size)
 
 
 def grouped(
@@ -169,7 +175,7 @@ def grouped(
     """
     names = (*PARAMETERS[:-1], *more, *along)
     arrays: list[NDArray[Any]] = [np.asarray(parameters[name], dtype=float) for name in names]
-    shape = np.broadcast_shapes(*(array.shape for array in arrays))
+    shape = np.broadcast(*arrays).shape
     arrays = [array.reshape((1,) * (len(shape) - array.ndim) + array.shape) for array in arrays]
     of_curves, of_rims = arrays[: -len(along)], arrays[-len(along) :]
     shared = _shared_axes([array.shape for array in of_curves], len(shape))

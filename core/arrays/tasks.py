@@ -9,6 +9,8 @@ from typing import Final, Protocol, TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.core.arrays.processors import processors
+
 _T = TypeVar("_T")
 _Made_co = TypeVar("_Made_co", covariant=True)
 _LIKE: Final = 32
@@ -106,12 +108,14 @@ def tasks_of(k: NDArray[np.float64], size: int) -> Tasks:
     return Tasks(k, order, np.append(begins, k.size), size)
 
 
-def run_one_by_one(tasks: Several[_T], work: Callable[[_T], None], workers: int) -> None:
+def run_one_by_one(tasks: Several[_T], work: Callable[[_T], None], threads: int | None) -> None:
     """Do the work on every task, by some threads that take the next one each; what one of them raises ends all.
 
-    A pool with a future a task would hold all of them: 2 kB each, for what may be one scene.
+    A pool with a future a task would hold all of them: 2 kB each, for what may be one scene. Processors, which
+    `threads` = None is for, are counted only where there are two tasks: that takes as long as 300 scenes.
     """
-    workers = min(workers, len(tasks))
+    count = len(tasks)
+    workers = 1 if count < 2 else min(threads or processors(), count)
     if workers < 2:
         for task in tasks:
             work(task)

@@ -32,3 +32,7 @@ class Loading:
     def __post_init__(self) -> None:
         if self.control not in CONTROLS:
             raise ValueError(f"control = {self.control!r}: it is one of {', '.join(CONTROLS)}")
+
+
+BY_DISPLACEMENT: Final = Loading()
+"""What is prescribed where nothing is said."""

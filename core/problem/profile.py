@@ -85,3 +85,7 @@ class Profile:
         repeated = sorted({n for n in numbers if numbers.count(n) > 1})
         if repeated:
             raise ValueError(f"harmonics n = {repeated} are given more than once")
+
+
+WAVY: Final = Profile()
+"""The punch where no other is given: a paraboloid with one cosine wave."""

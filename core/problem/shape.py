@@ -1,5 +1,7 @@
 """A profile as the kernels take it: its power's factor, its harmonics as rows, and when it is one cosine wave."""
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -33,6 +35,7 @@ def depth_factor_of(k: float, exponent: float) -> float:
     return float(0.5 * beta(0.5 * exponent, 0.5 * (1.0 + k)))
 
 
+@lru_cache(maxsize=128)
 def equivalent_wave(profile: Profile) -> tuple[int, float] | None:
     """Return n and the factor of A for which a profile is a paraboloid with one cosine wave of length lambda/n.
 
