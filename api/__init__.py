@@ -100,7 +100,10 @@ def __getattr__(name: str) -> Any:
         home = next((module for module, own in _HOMES.items() if name in own), None)
         if home is None:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        value = getattr(importlib.import_module(f"{__name__}.{home}"), _OWN_NAMES.get(name, name))
+        from gradhesion.cli.installation import checked
+
+        with checked():
+            value = getattr(importlib.import_module(f"{__name__}.{home}"), _OWN_NAMES.get(name, name))
     globals()[name] = value
     return value
 

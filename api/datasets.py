@@ -9,7 +9,8 @@ import xarray
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.dataset.reader import check_ours, found, opened
 from gradhesion.cli.dataset.soundness import check_form
-from gradhesion.cli.errors import DatasetError, MissingExtraError, StudyError
+from gradhesion.cli.errors import DatasetError, StudyError
+from gradhesion.cli.installation import checked
 from gradhesion.wording import in_python
 
 if TYPE_CHECKING:
@@ -71,7 +72,7 @@ def verify(dataset: Data, *, sample: int = 20, seed: int | None = None) -> "Reco
     DatasetError
         The dataset has no study, does not belong to it, or holds nothing that can be recomputed.
     MissingExtraError
-        python-flint is not installed.
+        python-flint is not installed, or too old.
 
     Examples
     --------
@@ -85,12 +86,8 @@ def verify(dataset: Data, *, sample: int = 20, seed: int | None = None) -> "Reco
         raise StudyError(
             f"gr.verify: sample = {sample}, seed = {seed}: a sample of 1 scene or more, a seed of 0 or more"
         )
-    try:
+    with checked():
         from gradhesion.cli.dataset.recompute import recompute  # noqa: PLC0415 (python-flint)
-    except ModuleNotFoundError as error:
-        if error.name != "flint":
-            raise
-        raise MissingExtraError("verify needs python-flint: install it with `pip install python-flint`") from None
     path = Path(dataset) if isinstance(dataset, str | Path) else Path("the dataset")
     with in_python(), data_of(dataset) as values:
         return recompute(values, path, sample=sample, seed=seed, progress=lambda _: nullcontext(lambda _: None))

@@ -14,7 +14,8 @@ from gradhesion.cli.dataset.reader import has_curves
 from gradhesion.cli.dataset.selection import selection_of
 from gradhesion.cli.dataset.soundness import is_fit, refuse_fit
 from gradhesion.cli.disk import replacement, writing
-from gradhesion.cli.errors import DatasetError, MissingExtraError, OutputError
+from gradhesion.cli.errors import DatasetError, OutputError
+from gradhesion.cli.installation import checked
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import SCENE, SOLVER
 from gradhesion.cli.picture.curve_picture import drawn_curves
@@ -202,14 +203,10 @@ def explore(
     OutputError
         The page exists or cannot be written.
     MissingExtraError
-        Bokeh is not installed.
+        Bokeh is not installed, or too old.
     """
-    try:
+    with checked():
         from gradhesion.cli.explorer.page import page  # noqa: PLC0415 (Bokeh)
-    except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] not in {"bokeh", "jinja2"}:
-            raise
-        raise MissingExtraError("explore needs Bokeh: install it with `pip install bokeh`") from None
     if file is None and isinstance(dataset, xarray.Dataset):
         raise OutputError(
             'a page of a dataset in memory needs a name; write for example gr.explore(dataset, "map.html")'

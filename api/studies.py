@@ -98,11 +98,13 @@ def run(
         with in_python():
             study = any_from(_changed(tomllib.loads(study.text), set), folder=study.folder)
     if isinstance(study, FitStudy):
-        from gradhesion.cli.dataset.fit import compute_fit  # noqa: PLC0415 (the compiler, which `load` does not need)
+        with checked():
+            from gradhesion.cli.dataset.fit import compute_fit  # noqa: PLC0415 (the compiler, for which `load` has no use)
 
         with in_python():
             return compute_fit(study)
-    from gradhesion.cli.dataset.dataset import compute  # noqa: PLC0415 (the compiler, which `load` does not need)
+    with checked():
+        from gradhesion.cli.dataset.dataset import compute  # noqa: PLC0415 (the compiler, as above)
 
     return compute(study, threads=threads)
 

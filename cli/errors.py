@@ -65,8 +65,8 @@ class FitDoubtfulError(GradhesionError):
     exit_code = 3
 
 
-class MissingExtraError(GradhesionError):
-    """A command needs a package that the plain installation leaves out."""
+class MissingExtraError(GradhesionError, ImportError):
+    """A package is missing, as those that the plain installation leaves out, or its version does not serve."""
 
     exit_code = 2
 

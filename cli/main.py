@@ -24,6 +24,7 @@ from gradhesion.cli.commands.validate import schema, validate
 from gradhesion.cli.commands.verify import verify
 from gradhesion.cli.commands.warmup import warmup
 from gradhesion.cli.errors import GradhesionError, OutputError
+from gradhesion.cli.installation import misfit
 from gradhesion.cli.terminal import interrupts, messages
 from gradhesion.cli.terminal.output import complain, open_streams
 from gradhesion.cli.terminal.room import refuse_without_room
@@ -135,6 +136,8 @@ def _code_of(error: BaseException) -> int:
         where = error.filename or (error.errno and "standard output")
         refused = f"{where}: {error.strerror or error}" if where else str(error)
         error = messages.Failure(OutputError(f"{refused}; fix this and run the command again"))
+    elif (unmet := misfit(error)) is not None:
+        error = messages.Failure(unmet)
     if isinstance(error, messages.Failure):
         error.show()
         return error.exit_code

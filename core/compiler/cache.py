@@ -30,7 +30,7 @@ from gradhesion.core.compiler.ahead import is_complete
 from gradhesion.core.compiler.linking import LAZY
 from gradhesion.core.compiler.sources import COMPILED, CORE
 
-_NAME: Final = f"kernels-{hashlib.sha256(f'{CORE}{COMPILED}{LAZY}'.encode()).hexdigest()[:16]}"
+_NAME: Final = f"kernels-{hashlib.sha256(f'{CORE}{COMPILED}{LAZY}{numba.__version__}'.encode()).hexdigest()[:16]}"
 _OURS: Final = re.compile(r"kernels-[0-9a-f]{16}")
 _KEPT: Final = re.compile(r".*\.(nbi|nbc)(\.tmp\..*)?|compiled-.*|lock")
 """The files of such a folder: numba's index and code, finished or not, and the marks of what is compiled."""

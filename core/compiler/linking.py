@@ -22,7 +22,7 @@ from numba.core.registry import cpu_target
 
 from gradhesion.core.compiler.resolving import remember_calls
 
-KNOWN: Final = ((0, 68),)
+KNOWN: Final = tuple((0, minor) for minor in range(62, 69))
 """The versions of numba, major and minor number, whose interfaces are those that are used here."""
 LAZY: Final = numba.version_info.short in KNOWN and os.environ.get("GRADHESION_LINKING") != "ordinary"
 """Whether kernels are linked so."""

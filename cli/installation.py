@@ -1,0 +1,76 @@
+"""Packages that are missing or of a version that does not serve: looked for only where something has failed."""
+
+import re
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from gradhesion.cli.errors import MissingExtraError
+
+
+def unmet() -> list[tuple[str, str, str]]:
+    """
+    List the requirements that the installed packages do not meet: of this package, and of those that it needs.
+
+    Returns
+    -------
+    For each what needs it, what is needed ("bokeh>=3.6"), and the version that is installed, "" if there is none.
+    """
+    from importlib.metadata import PackageNotFoundError, requires, version  # noqa: PLC0415 (10 ms)
+
+    from packaging.requirements import Requirement  # noqa: PLC0415
+
+    found: dict[str, tuple[str, str, str]] = {}
+    names = ["gradhesion"]
+    for owner in names:  # which grows
+        for needed in map(Requirement, requires(owner) or ()):
+            name, extra = needed.name.lower(), "cluster" if owner == "gradhesion" else ""
+            if needed.marker and not needed.marker.evaluate({"extra": extra}):
+                continue
+            try:
+                there = version(name)
+            except PackageNotFoundError:
+                if "extra" in str(needed.marker):
+                    continue
+                there = ""
+            if not there or not needed.specifier.contains(there, prereleases=True):
+                found.setdefault(name, (owner, f"{name}{needed.specifier}", there))
+            if there and name not in names:
+                names.append(name)
+    return [*found.values()]
+
+
+def misfit(error: BaseException) -> MissingExtraError | None:
+    """Return in one sentence which packages an error may come from; None if all are there as they are needed."""
+    if not isinstance(error, ImportError | AttributeError | TypeError):
+        return None
+    try:
+        wanting = unmet()
+    except ImportError as missing:  # gradhesion is not installed, or packaging is not
+        wanting = [("gradhesion", "packaging", "")] if missing.name == "packaging" else []
+    if not wanting:
+        return None
+    symptom = re.sub(r" \([^()]*\)$", "", str(error).partition("\n")[0])  # without the path of a file
+    needs = ", ".join(
+        f"{owner} needs {needed} ({f'{there} is' if there else 'not'} installed)" for owner, needed, there in wanting
+    )
+    remedy = " ".join([sys.executable or "python", "-m pip install", *(f'"{needed}"' for _, needed, _ in wanting)])
+    return MissingExtraError(f"{symptom}: {needs}; run {remedy}")
+
+
+@contextmanager
+def checked() -> Iterator[None]:
+    """
+    Have imports that fail in the block name the packages that do not serve.
+
+    Raises
+    ------
+    MissingExtraError
+        A package is missing, or its version is none that is needed.
+    """
+    try:
+        yield
+    except (ImportError, AttributeError, TypeError) as error:
+        if (found := misfit(error)) is not None:
+            raise found from error
+        raise

@@ -1,0 +1,112 @@
+"""An installation whose packages do not serve says so in one sentence; one that serves never looks."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from gradhesion.cli.errors import GradhesionError, MissingExtraError
+from gradhesion.cli.installation import checked, misfit, unmet
+
+COMMAND = (sys.executable, "-m", "gradhesion")
+SCENE = "k=0.3, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.1, A=0.0, a_max_over_R=1.0"
+
+
+def of_another_version(folder: Path, name: str, version: str, code: str, needs: str = "") -> None:
+    """Make a package that is found before the installed one."""
+    (folder / name).mkdir(parents=True)
+    (folder / name / "__init__.py").write_text(code)
+    about = folder / f"{name}-{version}.dist-info"
+    about.mkdir()
+    metadata = f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n"
+    (about / "METADATA").write_text(metadata + (f"Requires-Dist: {needs}\n" if needs else ""))
+
+
+def ends(folder: Path, *command: str) -> tuple[int, list[str]]:
+    """How a command ends, and the lines that it writes to stderr, with the packages of a folder before the others."""
+    environment = os.environ | {"PYTHONPATH": str(folder), "PYTHONWARNINGS": "ignore"}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    return done.returncode, done.stderr.splitlines()
+
+
+def test_a_package_that_is_too_old_is_named_by_a_command(tmp_path: Path) -> None:
+    of_another_version(tmp_path, "numba", "0.60.0", "")
+    code, lines = ends(tmp_path, *COMMAND, "warmup")
+    assert code == 2
+    assert len(lines) <= 2, "at most one beside it, of what begins"
+    assert lines[-1].endswith(
+        f': gradhesion needs numba>=0.62 (0.60.0 is installed); run {sys.executable} -m pip install "numba>=0.62"'
+    )
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["validate", "x.toml"]])
+def test_what_needs_it_at_once_says_so_as_well(tmp_path: Path, arguments: list[str]) -> None:
+    of_another_version(tmp_path, "click", "7.1", "")
+    code, lines = ends(tmp_path, *COMMAND, *arguments)
+    assert code == 2
+    (line,) = lines
+    assert "gradhesion needs click>=8.2 (7.1 is installed); run " in line
+
+
+def test_what_does_not_need_it_works(tmp_path: Path) -> None:
+    of_another_version(tmp_path, "numba", "0.60.0", "")
+    of_another_version(tmp_path, "bokeh", "3.4.0", "")
+    assert ends(tmp_path, *COMMAND, "--help") == (0, [])
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        f"import gradhesion as gr; gr.solve({SCENE})",
+        "from gradhesion import solve",
+        "import gradhesion as gr; gr.curves",
+    ],
+)
+def test_python_says_it_too(tmp_path: Path, code: str) -> None:
+    of_another_version(tmp_path, "numba", "0.60.0", "")
+    status, lines = ends(tmp_path, sys.executable, "-c", code)
+    assert status == 1
+    assert lines[-1].startswith("gradhesion.cli.errors.MissingExtraError: ")
+    assert "gradhesion needs numba>=0.62 (0.60.0 is installed); run " in lines[-1]
+
+
+def test_a_page_without_its_library(tmp_path: Path) -> None:
+    of_another_version(tmp_path, "bokeh", "3.4.0", "")
+    status, lines = ends(tmp_path, sys.executable, "-c", "import gradhesion as gr; gr.explore('none.nc')")
+    assert status == 1
+    assert "gradhesion needs bokeh>=3.6 (3.4.0 is installed); run " in lines[-1]
+
+
+def test_what_a_package_needs_of_another_is_looked_at(tmp_path: Path) -> None:
+    """As numba, which refuses a numpy that is newer than itself."""
+    refuses = "raise ImportError('Numba needs NumPy 1.9 or less')"
+    of_another_version(tmp_path, "numba", "0.68.0", refuses, "numpy<1.10")
+    code, lines = ends(tmp_path, *COMMAND, "warmup")
+    assert code == 2
+    assert lines[-1].startswith("Numba needs NumPy 1.9 or less: numba needs numpy<1.10 (")
+    assert lines[-1].endswith('-m pip install "numpy<1.10"')
+
+
+def test_this_installation_serves() -> None:
+    assert unmet() == []
+
+
+def test_where_all_packages_serve_an_error_stays_what_it_is() -> None:
+    error = ImportError("no library")
+    assert misfit(error) is None
+    with pytest.raises(ImportError, match=r"^no library$") as raised, checked():
+        raise error
+    assert raised.value is error
+
+
+def test_it_is_an_error_of_the_import_and_of_ours() -> None:
+    assert issubclass(MissingExtraError, ImportError)
+    assert issubclass(MissingExtraError, GradhesionError)
+
+
+def test_nothing_is_looked_up_before_something_fails() -> None:
+    code = "import sys, gradhesion as gr; gr.load; print('packaging.requirements' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "False\n"
