@@ -23,6 +23,8 @@ reference: .venv/complete ## write the generated pages of the manual, docs/refer
 docs: .venv/complete ## build the manual into build/docs/, offline, a warning being an error
 	.venv/bin/python -m sphinx -E -a -q -W --keep-going -d build/doctrees docs build/docs
 
+lowest: build/lowest/tested build/before/tested ## the quick tests with the lowest versions of pyproject.toml, and with the numba before the newest
+
 stress: .venv/complete ## the long form of the stress suite (minutes)
 	.venv/bin/python -m tests.stress.long
 
@@ -92,4 +94,16 @@ build/tested: $(checked) .venv/complete | build/types/gradhesion
 	.venv/bin/pytest -n auto --dist loadfile --no-loadscope-reorder --max-worker-restart 0
 	touch $@
 
-.PHONY: docs reference help maps figures docs-figures test stress faults adversary bench wheel clean
+# Environments of other versions than those of constraints.txt. What old packages call out of date in others is theirs.
+build/lowest/tested: versions = --resolution lowest-direct
+build/before/tested: versions = -c build/before/others.txt '$(shell sed -n 's/^numba==\([0-9]*\.[0-9]*\).*/numba<\1/p' constraints.txt)'
+
+build/lowest/tested build/before/tested: build/%/tested: $(sources) $(shell find tests -name '*.py') pyproject.toml constraints.txt
+	$(PYTHON) -m venv build/$*/.venv
+	build/$*/.venv/bin/python -m pip install --quiet --disable-pip-version-check uv
+	grep -Ev '^(numba|llvmlite|numpy)==' constraints.txt > build/$*/others.txt
+	build/$*/.venv/bin/uv pip install --quiet --python build/$*/.venv/bin/python $(versions) -e '.[test]'
+	build/$*/.venv/bin/pytest -n auto --dist loadfile -m 'not slow' -W ignore::DeprecationWarning -W ignore::FutureWarning tests/api tests/cli tests/core
+	touch $@
+
+.PHONY: docs lowest reference help maps figures docs-figures test stress faults adversary bench wheel clean

@@ -10,6 +10,7 @@ import xarray
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.errors import StudyError
+from gradhesion.cli.installation import checked
 from gradhesion.cli.study.fit_study import FitStudy
 from gradhesion.cli.study.reading import any_from, load_any
 from gradhesion.cli.study.study import Study

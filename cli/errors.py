@@ -9,7 +9,8 @@ from typing import Final
 
 EXIT_CODES: Final = {
     0: "success",
-    2: "the command, the study or the dataset is wrong; no scheduler answers, or no worker is usable",
+    2: "the command, the study or the dataset is wrong; a package is missing or too old; no scheduler answers, "
+    "or no worker is usable",
     3: "written, but some scenes have failed (their `status` reports why), or a fit did not converge or ends at an end "
     "of a range; or `verify` has found a value beyond its stated error",
     4: "the output cannot be written (it exists, no space, no permission, another run is writing it, or parts of "

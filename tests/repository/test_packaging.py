@@ -103,7 +103,7 @@ def test_the_metadata_are_those_of_the_project(wheel: Path) -> None:
     assert "make maps" in metadata.get_payload()  # the README
     with zipfile.ZipFile(wheel) as archive:
         (entry,) = [archive.read(name).decode() for name in archive.namelist() if name.endswith("entry_points.txt")]
-    assert entry.split() == ["[console_scripts]", "gradhesion", "=", "gradhesion.cli.main:main"]
+    assert entry.split() == ["[console_scripts]", "gradhesion", "=", "gradhesion.__main__:main"]
 
 
 def _imported(folder: str) -> set[str]:

@@ -17,6 +17,8 @@ import numpy as np
 import pytest
 import xarray
 from click.testing import Result
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 
 import gradhesion
 import gradhesion.cli
@@ -243,6 +245,24 @@ def test_every_dependency_is_pinned_and_none_by_an_address() -> None:
     extras = PROJECT["project"]["optional-dependencies"]
     wanted = [*PROJECT["project"]["dependencies"], *(name for extra in extras.values() for name in extra)]
     assert {re.split("[<>=]", name)[0].lower() for name in wanted} <= pinned
+
+
+def test_every_version_that_is_pinned_is_one_that_is_claimed() -> None:
+    pins: dict[str, list[str]] = {}
+    for line in (ROOT / "constraints.txt").read_text().splitlines():
+        pin = Requirement(line)
+        pins.setdefault(canonicalize_name(pin.name), []).append(str(pin.specifier).removeprefix("=="))
+    extras = PROJECT["project"]["optional-dependencies"]
+    claims = [*PROJECT["project"]["dependencies"], *(name for extra in extras.values() for name in extra)]
+    for claim in map(Requirement, claims):
+        assert [one.operator for one in claim.specifier] == [">="], f"{claim}: one lowest version, and no highest"
+        assert all(version in claim.specifier for version in pins[canonicalize_name(claim.name)]), claim
+
+
+def test_a_package_that_is_claimed_twice_is_claimed_alike() -> None:
+    extras = PROJECT["project"]["optional-dependencies"]
+    claims = [*PROJECT["project"]["dependencies"], *(name for extra in extras.values() for name in extra)]
+    assert len({*claims}) == len({Requirement(claim).name for claim in claims})
 
 
 def test_the_study_of_the_readme_is_short() -> None:
