@@ -72,5 +72,14 @@ def kind_of(path: Path) -> str:
             begins = file.read(8)
     except (OSError, ValueError):
         return ""
-    by_magic = next((kind for magic, kind in _MAGIC.items() if begins.startswith(magic)), "")
-    return by_magic or _ENDINGS.get(path.suffix.lower(), "")
+    return kind_by_content(begins) or _ENDINGS.get(path.suffix.lower(), "")
+
+
+def kind_by_content(begins: bytes) -> str:
+    r"""
+    Say what a file is by how it begins; "" where that may be anything.
+
+    >>> kind_by_content(b"PK\x03\x04 and so on")
+    'an archive (ZIP, or a workbook)'
+    """
+    return next((kind for magic, kind in _MAGIC.items() if begins.startswith(magic)), "")

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gradhesion.cli import names
 from gradhesion.cli.dataset.dataset import origin
@@ -76,7 +77,7 @@ def dataset_of(study: FitStudy, found: FittedLoop, history: str) -> "xarray.Data
         "measured_indentation": loop.depth,
         "measured_load": loop.load,
         "measured_unloading": loop.unloading.astype(np.int8),
-        "measured_cycle": loop.cycle.astype(np.int32),
+        "measured_cycle": _narrow(loop.cycle),
         "residual": found.residual,
         "fitted_indentation": path[:, 0],
         "fitted_load": path[:, 1],
@@ -118,6 +119,11 @@ def dataset_of(study: FitStudy, found: FittedLoop, history: str) -> "xarray.Data
         "intervals": "profile likelihoods" if study.intervals == "profile" else "linear",
     }
     return xarray.Dataset(made, coordinates | fixed, origin(study, history, own_attributes))
+
+
+def _narrow(cycle: NDArray[np.int64]) -> NDArray[np.int32] | NDArray[np.int64]:
+    """Give the numbers of cycles in 32 bits, or in 64 where they need them."""
+    return cycle.astype(np.int32) if np.abs(cycle).max() < 2**31 else cycle
 
 
 def _of_status() -> dict[str, Any]:

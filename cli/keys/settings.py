@@ -27,13 +27,13 @@ _WITHIN: Final = (
     Key(
         name="branch",
         table="data",
-        about='column with "loading" or "unloading" [from the order of the points]',
+        about='column with "loading" or "unloading", "approach" or "retract", 0 or 1 [from the order of the points]',
         example='branch = "branch"',
     ),
     Key(
         name="cycle",
         table="data",
-        about="column with the number of the cycle",
+        about="column with the number of the cycle, a whole number",
         example='cycle = "cycle"',
     ),
     Key(name="column", table="column", about="name of the column in the header", example='column = "depth"'),
@@ -77,7 +77,7 @@ _WITHIN: Final = (
         name="file",
         table="profile",
         also=("data",),
-        about="name of a file in the folder of the study",
+        about="path of a file, from the folder of the study",
         example='file = "tip.csv"',
     ),
     Key(

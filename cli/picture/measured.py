@@ -12,8 +12,9 @@ from matplotlib.lines import Line2D
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.picture.curve_panels import Values
 from gradhesion.cli.picture.labels import Unit
-from gradhesion.cli.study.columns import Columns, ColumnsError, read_columns
 from gradhesion.cli.study.quantities import si_value
+from gradhesion.cli.tables.columns import Columns, ColumnsError
+from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import nearest, shown
 
 NAMES: Final = {

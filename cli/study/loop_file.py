@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.study.columns import Columns, ColumnsError, read_columns
 from gradhesion.cli.study.quantities import si_value
+from gradhesion.cli.tables.columns import Columns, ColumnsError
+from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 from gradhesion.core.answers import loop_points
@@ -17,8 +18,15 @@ from gradhesion.core.answers import loop_points
 if TYPE_CHECKING:
     from gradhesion.cli.study.fit_form import ColumnTable, DataTable
 
-BRANCHES: Final = {"loading": 0.0, "unloading": 1.0}
-"""What a column of branches says, with the number for it."""
+BRANCHES: Final = {
+    "loading": 0.0,
+    "unloading": 1.0,
+    "approach": 0.0,
+    "retract": 1.0,
+    "false": 0.0,
+    "true": 1.0,
+}
+"""What a column of branches says, with the number for it, which may stand there as well."""
 _DIMENSIONS: Final = {"length": ("R", "nm"), "force": ("preload", "nN")}
 """For each dimension a key of it, and a unit to name."""
 
@@ -40,7 +48,7 @@ class LoopFile:
     load: NDArray[np.float64]
     """In N; positive presses."""
     unloading: NDArray[np.bool_]
-    cycle: NDArray[np.int32]
+    cycle: NDArray[np.int64]
     """The number of the cycle of each point, from 1 unless the file has them."""
     through_machine: bool = False
     """Whether `depth` is the displacement of the machine."""
@@ -73,7 +81,7 @@ def read_loop(path: Path, table: "DataTable") -> LoopFile:
     names = [name for name in wanted.values() if name]
     words = {table.branch: BRANCHES} if table.branch else {}
     try:
-        found = read_columns(path, only=names, words=words)
+        found = read_columns(path, only=names, words=words, whole=[table.cycle] if table.cycle else [])
     except ColumnsError as error:
         raise LoopFileError("file", str(error)) from None
     for key, name in wanted.items():
@@ -87,12 +95,13 @@ def read_loop(path: Path, table: "DataTable") -> LoopFile:
     if not sound.any():
         raise LoopFileError("file", "no row has numbers in all of its columns; name a file with some")
     depth, load = depth[sound], load[sound]
-    cycle = None if table.cycle is None else np.rint(found.values[table.cycle][sound]).astype(np.int32)
+    cycle = None if table.cycle is None else found.whole[table.cycle][sound]
+    rank = None if cycle is None else np.unique(cycle, return_inverse=True)[1].astype(np.int32)
     if table.branch is not None:
         unloading = found.values[table.branch][sound] == 1.0
-        number = np.ones(depth.size, np.int32) if cycle is None else cycle
+        rank = np.ones(depth.size, np.int32) if rank is None else rank
     else:
-        unloading, number = loop_points.ways(depth, cycle)
+        unloading, rank = loop_points.ways(depth, rank)
     if not unloading.any():
         raise LoopFileError(
             "file", "the loop has no unloading: the depth never falls after its deepest point; measure both ways"
@@ -101,18 +110,19 @@ def read_loop(path: Path, table: "DataTable") -> LoopFile:
         depth=depth,
         load=load,
         unloading=unloading,
-        cycle=number,
+        cycle=rank.astype(np.int64) if cycle is None else cycle,
         through_machine=table.displacement is not None,
         sha256=found.sha256,
         dropped=int(np.count_nonzero(~sound)),
-        noise=loop_points.noise(depth, load, unloading, number),
+        noise=loop_points.noise(depth, load, unloading, rank),
     )
 
 
 def _scaled(found: Columns, key: str, asked: "ColumnTable", dimension: str) -> NDArray[np.float64]:
     """Give a column in SI units."""
     own, unit = _DIMENSIONS[dimension]
-    written = asked.unit or found.units.get(asked.column, "")
+    above = found.units.get(asked.column, "")
+    written = asked.unit or above
     if not written:
         raise LoopFileError(
             key,
@@ -120,11 +130,26 @@ def _scaled(found: Columns, key: str, asked: "ColumnTable", dimension: str) -> N
             f'unit = "{unit}" }}, or its unit in brackets after its name in the header',
         )
     try:
-        return found.values[asked.column] * si_value(f"1 {written}", own)
+        factor = si_value(f"1 {written}", own)
     except ValueError:
         raise LoopFileError(
             key, f'the unit {shown(written)} is no {dimension}; write for example unit = "{unit}"'
         ) from None
+    if above and not _is_unit(above, own, factor):
+        raise LoopFileError(
+            key,
+            f"the unit of the column {shown(asked.column)} is {shown(written)} in the study and {shown(above)} in the "
+            "header of the file; correct one of the two, or leave it out of the study",
+        )
+    return found.values[asked.column] * factor
+
+
+def _is_unit(written: str, name: str, factor: float) -> bool:
+    """Tell whether a unit is that of a factor."""
+    try:
+        return si_value(f"1 {written}", name) == factor
+    except ValueError:
+        return False
 
 
 def dropped_sentence(loop: LoopFile, file: str) -> str:

@@ -9,7 +9,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from gradhesion.cli.keys import FILE_KEYS, INPUTS, Path, keys_of
-from gradhesion.cli.study.form import MOST_REALISATIONS, MOST_RESOLUTION, MOST_WAVES, Form
+from gradhesion.cli.study.form import MOST_REALISATIONS, MOST_RESOLUTION, MOST_STATES, MOST_WAVES, Form
 from gradhesion.cli.study.places import dotted
 from gradhesion.cli.terminal.wording import did_you_mean, example, nearest
 from gradhesion.core.problem.profile import MOST_HARMONICS
@@ -161,6 +161,8 @@ def _sentence(detail: ErrorDetails, path: Path) -> str:
         return _profile_sentence(kind, path)
     if path[0] == "optimum" and len(path) > 1:
         return _optimum_sentence(kind, path)
+    if path[0] == "states" and len(path) > 1 and kind != "too_short":
+        return _states_sentence(kind, path)
     if path == ("uncertainty", "seed"):
         return f"the seed is an integer of 0 or more; {example(path)}"
     if path[:2] == ("parameters", "points"):
@@ -244,6 +246,15 @@ def _optimum_sentence(kind: str, path: Path) -> str:
     word = str(path[2]) if path[1] == "require" and len(path) > 2 else str(path[1])
     required = "this key is required" if kind == "missing" else allowed.get(word, "this must be a table")
     return f"{required}; {example((*path[:1], word))}"
+
+
+def _states_sentence(kind: str, path: Path) -> str:
+    """Say what is wrong with the states whose pressure and surface are drawn."""
+    if len(path) > 2:
+        return f"a contact radius a/R is a number above 0, and finite; {example(path)}"
+    if kind == "too_long":
+        return f"a study draws {MOST_STATES:,} states at most; leave some out"
+    return f"this must be a list of numbers in brackets; {example(path)}"
 
 
 def _profile_sentence(kind: str, path: Path) -> str:

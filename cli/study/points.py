@@ -16,9 +16,10 @@ from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import OUTPUTS, SI
 from gradhesion.cli.study import places
 from gradhesion.cli.study.axes import MOST_VALUES, Values
-from gradhesion.cli.study.columns import Columns, ColumnsError, read_columns
 from gradhesion.cli.study.mistakes import Mistake
 from gradhesion.cli.study.quantities import si_value
+from gradhesion.cli.tables.columns import Columns, ColumnsError
+from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 
 KEY: Final[keys.Path] = ("parameters", "points")
@@ -28,6 +29,9 @@ COMMENT: Final = "a column of "
 
 _ANY: Final = {"k": 0.5, "nu": 0.3}
 """Valid values of parameters of which 1 is none."""
+
+OURS: Final = frozenset({*OUTPUTS, *(name + SI for name in OUTPUTS), "status"})
+"""Names that a dataset has, and a file of points may not."""
 
 _LINE: Final = re.compile(r"""(\s*(?:parameters\.)?points\s*=\s*)("[^"\\]*"|'[^']*')(\s*(?:\#.*)?)""")
 """The key on a line of its own, with what stands behind it."""
@@ -118,7 +122,7 @@ def points_of(
     if columns is not None:
         return Points(written=written, file=file, sha256=expected, columns=columns)
     try:
-        found = read_columns(folder / file)
+        found = read_columns(folder / file, known=(*INPUTS, *OURS))
     except ColumnsError as error:
         return Points(written=written, mistakes=(Mistake(KEY, written, str(error)),))
     if expected and expected != found.sha256:
@@ -150,9 +154,8 @@ def points_of(
 
 def _mistakes(data: Mapping[str, Any], found: Columns) -> Iterator[str]:
     """Check that the columns are parameters, each given once, and that the study has points."""
-    ours = {*OUTPUTS, *(name + SI for name in OUTPUTS), "status"}
     for name in found.values:
-        if name in ours:
+        if name in OURS:
             yield f"its column {shown(name)} is an output, not a parameter; leave it out"
         elif name not in INPUTS:
             yield f"its column {shown(name)} is not a parameter; {did_you_mean(name, tuple(INPUTS))}"

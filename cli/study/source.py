@@ -120,17 +120,17 @@ _REMEDIES: Final = {
 
 
 def _syntax_sentence(path: Path, text: str, problem: str) -> str:
-    """Say where a text is not TOML, and show the line."""
+    """Say where a text is not TOML, and show the line of what is meant as a study: any other file may hold secrets."""
     at = re.search(r" ?\(at (?:line (\d+), column (\d+)|end of document)\)", problem)
     if not at:  # Python's own limit on integers
         return f"{path}: not valid TOML, a number of more than 4,300 digits; write it with an exponent, as 1e6"
     lines = text.rstrip().split("\n")
     line = min(int(at[1]) if at[1] else len(lines), len(lines))
-    shown = wording.shown(lines[line - 1].strip())
+    shown = f" in {wording.shown(lines[line - 1].strip())}" if path.suffix == ".toml" else ""
     column = f" (column {at[2]})" if at[2] else ""
     what = problem[: at.start()]
     remedy = next((remedy for start, remedy in _REMEDIES.items() if what.startswith(start)), "fix this line")
-    return f"{path}:{line}: not valid TOML, {what[0].lower()}{what[1:]}{column} in {shown}; {remedy}"
+    return f"{path}:{line}: not valid TOML, {what[0].lower()}{what[1:]}{column}{shown}; {remedy}"
 
 
 _TABLES: Final = ("parameters", "physical", "profile", "loading", "method")

@@ -10,8 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from gradhesion.cli.study import columns
-from gradhesion.cli.study.columns import ColumnsError, read_columns
+from gradhesion.cli.tables import reading
+from gradhesion.cli.tables.columns import ColumnsError, Wanted
+from gradhesion.cli.tables.reading import read_columns
+from gradhesion.cli.tables.text import of_text
 
 
 def written(folder: Path, text: str | bytes, name: str = "table.csv") -> Path:
@@ -38,11 +40,74 @@ def test_a_text_has_a_header_with_units(text: str, tmp_path: Path) -> None:
     assert found.sha256 == hashlib.sha256(text.encode()).hexdigest()
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "A;R [um]\n0,5;1000\n2,25;-2\n",
+        "A\tR [um]\n0,5\t1e3\n2,25\t-2\n",
+        'A,R [um]\n"0,5","1000"\n"2,25","-2"\n',
+        "sep=;\nA;R [um]\n0,5;1000\n2,25;-2\n",
+        "A,R\n-,um\n0.5,1000\n2.25,-2\n",
+        "A;R;\n;[um];\n0,5;1000;\n2,25;-2;\n",
+        "A,R [um],\n0.5,1000,\n2.25,-2,\n",
+        "A,R [um]\n0.5,1000,,\n\n,\n2.25,-2\n",
+        "A;R [um];\r0.5;1000;\r2.25;-2;\r",
+        "A [-],R [um] # comment, and more\n0.5,1000 # comment, and more\n2.25,-2\n",
+        '"A" "R [um]"\n0.5 1000\n2.25 -2\n',
+        "A;R [um]\n0,5;1000\n2,25;-2\n".encode("utf-16"),
+        "A,R [um]\n.5,+1e+3\n225E-2,-2.\n".encode("utf-32"),
+    ],
+)
+def test_what_a_spreadsheet_or_an_instrument_writes_is_read(text: str | bytes, tmp_path: Path) -> None:
+    found = read_columns(written(tmp_path, text))
+    assert {name: values.tolist() for name, values in found.values.items()} == {"A": [0.5, 2.25], "R": [1e3, -2.0]}
+    assert found.units == {"R": "um"}
+
+
+@pytest.mark.parametrize("cell", ["", "nan", " ", "#N/A", "#DIV/0!", '""'])
+def test_a_cell_without_a_number_is_missing(cell: str, tmp_path: Path) -> None:
+    found = read_columns(written(tmp_path, f"A,k\n1,{cell}\n{cell},2\n"))
+    np.testing.assert_array_equal(np.column_stack([*found.values.values()]), [[1.0, np.nan], [np.nan, 2.0]])
+
+
+@given(hnp.arrays(np.float64, st.tuples(st.integers(1, 6), st.integers(1, 4)), elements=st.floats(width=64)))
+def test_both_readers_of_a_text_read_the_same(table: np.ndarray) -> None:
+    rows = [",".join(f"c{i}" for i in range(table.shape[1])), *(",".join(map(repr, row)) for row in table.tolist())]
+    plain = of_text("\n".join(rows).encode(), "", Wanted())
+    quoted = of_text("\n".join([*rows, '"",']).encode(), "", Wanted())
+    np.testing.assert_array_equal(list(quoted.values.values()), list(plain.values.values()))
+
+
+def test_what_is_not_read_may_be_anything_but_ragged(tmp_path: Path) -> None:
+    text = ',A,note,note\n7,1,"a, b",\n8,2,\u00b5,#c\n'
+    found = read_columns(written(tmp_path, text), only=["A", "k"])
+    assert (found.values["A"].tolist(), found.others) == ([1.0, 2.0], ("", "note", "note"))
+    with pytest.raises(ColumnsError, match="line 2 has 4 values under 2 names; if its numbers have decimal commas"):
+        read_columns(written(tmp_path, "A,k\n1,5,2,3\n"), only=["A", "k"])
+    with pytest.raises(ColumnsError, match="line 3 has 2 values under 3 names"):
+        read_columns(written(tmp_path, "A,k,note\n1,2,x\n3,4\n"), only=["A", "k"])
+
+
+def test_whole_numbers_of_netcdf_keep_their_digits(tmp_path: Path) -> None:
+    with netCDF4.Dataset(tmp_path / "table.nc", "w") as file:
+        file.createDimension("row", 3)
+        file.createVariable("n", "i8", ("row",), fill_value=-1)[:] = [2**60 + 1, -1, 2**60]
+        file.createVariable("x", "f8", ("row",))[:] = [1.0, 2.0, 2.5]
+        file.createVariable("way", str, ("row",))[:] = np.array(["in", "out", "In"], object)
+    words = {"way": {"in": 0.0, "out": 1.0}}
+    found = read_columns(tmp_path / "table.nc", words=words, whole=["n"])
+    assert found.whole["n"].tolist() == [2**60 + 1, 0, 2**60]
+    assert found.values["way"].tolist() == [0.0, 1.0, 0.0]
+    np.testing.assert_array_equal(found.values["n"], [0.0, np.nan, 1.0])
+    with pytest.raises(ColumnsError, match=r"row 2, counted from 0: x is not a whole number; write one"):
+        read_columns(tmp_path / "table.nc", whole=["x"])
+
+
 @given(hnp.arrays(np.float64, st.tuples(st.integers(1, 20), st.integers(1, 5)), elements=st.floats(width=64)))
 def test_every_number_comes_back(table: np.ndarray) -> None:
     text = ",".join(f"c{i}" for i in range(table.shape[1])) + "\n"
     text += "\n".join(",".join(map(repr, row)) for row in table.tolist())
-    found = columns._of_text(text.encode(), "")
+    found = of_text(text.encode(), "", Wanted())
     np.testing.assert_array_equal(np.column_stack(list(found.values.values())), table)
 
 
@@ -52,14 +117,12 @@ MISTAKES = {
     "# only\n": "comments only",
     "1,2\n3,4\n": "line 1 has numbers where the names",
     "A,,k\n1,2,3\n": "column 2 of the header on line 1 has no name",
-    "A,k,A\n1,2,3\n": 'line 1 names the column "A" twice',
+    "A,k,A\n1,2,3\n": "columns 1 and 3 of the header on line 1 have one name; rename one",
     "A,k\n": "line 1 has no row of numbers below",
-    "A,k\n1,2\n\n# c\n3\n": "line 5 has 1 values under 2 names",
+    "A,k\n1,2\n\n# c\n3\n": "line 5 has 1 value under 2 names",
     "A,k\n1,2,3\n": "line 2 has 3 values under 2 names",
-    "A,k\n1,2\n3,\n": 'line 3 has no value of "k"',
-    "A,k\n1,2\nabc,3\n": 'line 3: A = "abc" is not a number; write one',
-    "A;k\n1,5;3\n": 'line 2: A = "1,5" is not a number; write one, with a point and not a comma',
-    "A\n1\n2 mm\n": "line 3 has 2 values under 1 names",
+    "A,k\n1,2\nabc,3\n": "line 3: column 1 is not a number; write one",
+    "A\n1\n2 mm\n": "line 3 has 2 values under 1 name;",
     b"A,k\n1,2\n\xff\xfe,3\n": "not text in UTF-8",
     b"\xff\xfeA": "not text in UTF-8",
     b"\x89HDF\r\n\x1a\nbroken": "cannot be read as NetCDF",
@@ -79,7 +142,7 @@ def test_a_file_that_is_none_is_refused(tmp_path: Path, monkeypatch: pytest.Monk
     for path in (tmp_path / "absent.csv", tmp_path, tmp_path / "\0.csv", Path("/dev/zero")):
         with pytest.raises(ColumnsError, match="cannot be read"):
             read_columns(path)
-    monkeypatch.setattr(columns, "MOST_BYTES", 100)
+    monkeypatch.setattr(reading, "MOST_BYTES", 100)
     with pytest.raises(ColumnsError, match="larger than"):
         read_columns(written(tmp_path, "A\n" + 100 * "1\n"))
 

@@ -216,7 +216,7 @@ def test_what_is_missing_is_said(gradhesion: Call, folder: Path) -> None:
 FILES: dict[str, tuple[str, str]] = {
     "0 bytes": ("", "the file has 0 bytes"),
     "comments": ("# nothing\n", "the file has comments only"),
-    "no numbers": ("depth,force\n1.0,x\n", 'force = "x" is not a number'),
+    "no numbers": ("depth,force\n1.0,x\n", "line 2: force is not a number; write one"),
     "loading only": ("depth,force\n" + "".join(f"{i},{i}\n" for i in range(50)), "the loop has no unloading"),
     "few": ("depth,force\n0,1\n1,2\n0,1\n", "3 points cannot give 6 numbers (E_star, work_of_adhesion, wavelength, A"),
     "all nan": ("depth,force\nnan,1\nnan,2\n", "no row has numbers in all of its columns"),
@@ -262,7 +262,9 @@ def test_a_column_of_branches_and_one_of_cycles_are_read(folder: Path) -> None:
     assert study.loop.unloading.tolist() == back.tolist()
     assert study.loop.cycles == 2
     (folder / "force_curve.csv").write_text("depth,force,branch\n" + rows[0].replace("loading,1", "up") + "\n")
-    with pytest.raises(gr.StudyError, match='branch = "up"; choose from "loading", "unloading"'):
+    with pytest.raises(
+        gr.StudyError, match='line 2: branch is not one of its words; choose from "loading", "unloading", "approach"'
+    ):
         gr.load("fit.toml", set={"data.branch": "branch"})
 
 

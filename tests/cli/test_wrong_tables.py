@@ -1,0 +1,313 @@
+"""Wrong tables: in each reader one sentence with file, line, column and remedy, and nothing of a file that is none."""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import Result
+
+import gradhesion as gr
+from gradhesion.cli.picture.measured import read_points
+
+Call = Callable[..., Result]
+
+STUDIES = {
+    "points": 'outputs = ["pull_off_force"]\n[parameters]\npoints = "table.csv"\nk = 0.0\nnu = 0.3\nlambda_over_R = 0.1\n',
+    "fit": """kind = "fit"
+[data]
+file = "table.csv"
+indentation = { column = "depth", unit = "nm" }
+load = { column = "force", unit = "nN" }
+[parameters]
+k = 0.0
+nu = 0.3
+A = 0.0
+[physical]
+R = "5 um"
+E_star = { start = "1 MPa", stop = "100 MPa" }
+work_of_adhesion = "30 mJ/m^2"
+""",
+    "profile": """outputs = ["pull_off_force"]
+[parameters]
+k = 0.0
+nu = 0.3
+[physical]
+E_star = "50 MPa"
+work_of_adhesion = "50 mJ/m^2"
+a_max = "1.5 um"
+[profile]
+file = "table.csv"
+terms = 1
+""",
+}
+"""For each reader of a study a study, whose table has the columns x and y."""
+HEADS = {
+    "points": ("modulus", "A", ""),
+    "fit": ("depth", "force", " [nm]"),
+    "profile": ("r", "height", " [nm]"),
+    "data": ("depth", "load", " [nm]"),
+}
+
+TABLES: dict[str, tuple[str, str]] = {
+    "short row": ("@x,@y\n1,2\n\n# more\n3\n", "line 5 has 1 value under 2 names; give each row one value per column"),
+    "decimal commas between commas": ("@x,@y\n1,5,2,3\n", "line 2 has 4 values under 2 names; if its numbers have decimal commas, write points"),
+    "decimal commas under unnamed columns": ("@x,@y,,\n1,5,2,3\n", "line 2 has 4 values under 2 names; if its numbers have decimal commas"),
+    "decimals or thousands": ("@x;@y\n1,234;2\n", 'line 2: @x = "1,234" may be a decimal or thousands'),
+    "commas and points": ("@x;@y\n1.5;2\n3;2,25\n", "line 3 has a comma and line 2 a point in a number; write points for the decimals"),
+    "points between thousands": ("@x;@y\n1.234,5;2\n", 'line 2: @x = "1.234,5" is not a number; write a point for the decimals and nothing between thousands'),
+    "spaces between thousands": ("@x\t@y\n2\t1 234\n", 'line 2: @y = "1 234" is not a number; write a point for the decimals and nothing between'),
+    "hexadecimal": ("@x,@y\n0x1F,2\n", 'line 2: @x = "0x1F" is not a number; write it in decimal digits'),
+    "exponent of Fortran": ("@x,@y\n1,1.5D-3\n", 'line 2: @y = "1.5D-3" is not a number; write its exponent with an e'),
+    "minus of a text": ("@x,@y\n1,\u22125\n", 'line 2: @y = "\u22125" is not a number; write a hyphen for the minus sign'),
+    "unit in a cell": ("@x,@y\n1,2 nN\n", 'line 2: @y = "2 nN" is not a number; write its unit in the header'),
+    "word": ("@x,@y\n1,lost\n", "line 2: @y is not a number; write one"),
+    "overflow": ("@x,@y\n1,-1e400\n", 'line 2: @y = "-1e400" is beyond 1.8e308, the largest number; write it in a larger unit'),
+    "digits of a program": ("@x,@y\n1_000,2\n", 'line 2: @x = "1_000" is not a number; write a point'),
+    "Windows text": ("@x,@y,\u00b5\n1,2,3\n", "the file is not text in UTF-8; save it as UTF-8, in a spreadsheet as CSV UTF-8"),
+    "cut UTF-16": ("@x,@y\n1,2\n", "the file is not text in UTF-8; save it"),
+    "binary": ("\x7fELF\0\0\1", "the file is not text; name a table of numbers in CSV or NetCDF"),
+    "workbook": ("PK\x03\x04\x14\0", "the file is an archive (ZIP, or a workbook), not a table; name a table"),
+    "header alone": ("@x,@y\n# none\n", "the header on line 1 has no row of numbers below it; add one"),
+    "no header": ("1,2\n3,4\n", "line 1 has numbers where the names of the columns are expected; add a header line"),
+    "one name twice": ("@x,@y,@x\n1,2,3\n", 'columns 1 and 3 of the header on line 1 have one name, "@x"; rename one'),
+    "long cell": ('@x,@y\n1,"' + 140_000 * "9" + '"\n', "line 2 has a cell of more than 131,072 characters; shorten it"),
+    "long line": ("@x,@y\n1," + 10**6 * "x" + "\n", "line 2: @y is not a number; write one"),
+    "row of units and no more": ("@x,@y\n" * 2, "line 2: @x is not a number; write one"),
+}  # fmt: skip
+"""Texts with @x and @y in the place of the columns that a reader wants, and what is said."""
+
+ENCODINGS = {"Windows text": "cp1252", "cut UTF-16": "utf-16"}
+
+OWN: dict[str, tuple[str, str, str]] = {
+    "fit: unit of the study": ("fit", "depth [um],force\n1,2\n", 'the unit of the column "depth" is "nm" in the study and "um" in the header of the file; correct one'),
+    "fit: no unit": ("fit", "depth (raw),force\n1,2\n", 'the unit of the column "depth" is "nm" in the study and "raw" in the header'),
+    "fit: units in a row": ("fit", "depth,force\nnm,uN\n1,2\n", 'the unit of the column "force" is "nN" in the study and "uN" in the header'),
+    "fit: no column": ("fit", "dept,force\n1,2\n", 'the file has no column "depth"; did you mean "dept"?'),
+    "points: empty cell": ("points", "modulus,A\n1,0.1\n500,\n", "line 3: A is missing (NaN); give it, or remove the row"),
+    "points: error of a spreadsheet": ("points", "modulus,A\n1,#N/A\n", "line 2: A is missing (NaN); give it, or remove the row"),
+    "points: unit of a ratio": ("points", "modulus [MPa],A\n1,0.1\n", 'its column modulus has the unit "MPa" and is a ratio'),
+    "points: index": ("points", ",modulus,A\n0,500,0.1\n", "column 1 of the header on line 1 has no name; name it or remove it"),
+    "profile: no unit": ("profile", "r [um],height [V]\n1,2\n", "the unit of height [V] is not a length"),
+    "profile: no rows": ("profile", "r [um],height [nm]\n1,\n,2\n", "no row has two numbers; name a file with r and height in each row"),
+    "profile: one column": ("profile", "r [um]\n1\n", 'there is no column "height", and a profile has r and height'),
+    "data: no unit": ("data", "depth [nm],load\n1,2\n", "the column load has no unit, and the curves have; write it after the name"),
+    "data: one column": ("data", "depth [nm]\n1\n", "the file has depth alone; name them in the header"),
+    "data: no rows": ("data", "depth [nm],load [nN]\n1,\n,2\n", "no row has numbers in all of depth, load; add some"),
+}  # fmt: skip
+"""Wrong for one reader."""
+
+
+def told(reader: str, folder: Path, gradhesion: Call) -> str:
+    """Say what a reader says to the wrong table in a folder."""
+    if reader == "data":
+        with pytest.raises(gr.DatasetError) as caught:
+            read_points(folder / "table.csv", si=True)
+        (sentence,) = caught.value.mistakes
+        beginning = f"--data {folder / 'table.csv'}: "
+    else:
+        study = folder / f"{reader}.toml"
+        study.write_text(STUDIES[reader])
+        result = gradhesion("validate", study)
+        assert result.exit_code == 2
+        sentences = result.stderr.splitlines()
+        assert len(sentences) == 1, sentences
+        sentence, beginning = sentences[0], f"{study}:"
+        assert '"table.csv": ' in sentence or " = {" in sentence
+    assert sentence.startswith(beginning)
+    assert "\n" not in sentence
+    return sentence.replace(str(folder), "")
+
+
+@pytest.mark.parametrize("reader", HEADS)
+@pytest.mark.parametrize("name", TABLES)
+def test_a_wrong_table_is_one_sentence(name: str, reader: str, gradhesion: Call, tmp_path: Path) -> None:
+    text, words = TABLES[name]
+    x, y, unit = HEADS[reader]
+    text = text.replace("@x", x + unit).replace("@y", y + unit.replace("m", "N" if y in ("force", "load") else "m"))
+    content = text.encode(ENCODINGS.get(name, "utf-8"))
+    (tmp_path / "table.csv").write_bytes(content[:-1] if name == "cut UTF-16" else content)
+    assert words.replace("@x", x).replace("@y", y) in told(reader, tmp_path, gradhesion)
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_what_is_wrong_for_one_reader_is_one_sentence(name: str, gradhesion: Call, tmp_path: Path) -> None:
+    reader, text, words = OWN[name]
+    (tmp_path / "table.csv").write_text(text)
+    assert words in told(reader, tmp_path, gradhesion)
+
+
+@pytest.mark.parametrize("reader", HEADS)
+def test_what_is_no_file_is_one_sentence(reader: str, gradhesion: Call, tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    path.mkdir()
+    assert "the file cannot be read (it is a directory); name a table" in told(reader, tmp_path, gradhesion)
+    path.rmdir()
+    os.mkfifo(path)
+    assert "the file cannot be read (it is no regular file); name a table" in told(reader, tmp_path, gradhesion)
+    path.unlink()
+    path.symlink_to(path)
+    assert "the file cannot be read (" in told(reader, tmp_path, gradhesion)
+
+
+SECRETS = {
+    "shadow": "root:$y$j9T$Qe1mXk:19579:0:99999:7:::\ndaemon:*:19579:0:99999:7:::\n",
+    "key": "-----BEGIN OPENSSH PRIVATE KEY-----\nb3BlbnNzaC1rZXktdjEAAAAA\nAAAABG5vbmU=\n-----END OPENSSH PRIVATE KEY-----\n",
+    "environment": "TOKEN=ghp_16C7e42F292c\nPORT=8080\n",
+    "passwords": "alice,hunter2,555\nbob,swordfish,5551234\n",
+    "one a line": "hunter2\nswordfish\n",
+    "below a header": "modulus,A,depth [nm],force [nN],load [nN],r [nm],height [nm]\nhunter2,hunter2,hunter2,hunter2,hunter2,hunter2,hunter2\n",
+    "twice in a header": "hunter2,hunter2\nswordfish,2\n",
+}
+
+
+@pytest.mark.parametrize("reader", HEADS)
+@pytest.mark.parametrize("name", SECRETS)
+def test_no_message_has_a_line_of_a_file_that_is_no_table(
+    name: str, reader: str, gradhesion: Call, tmp_path: Path
+) -> None:
+    (tmp_path / "table.csv").write_text(SECRETS[name])
+    sentence = told(reader, tmp_path, gradhesion)
+    for secret in (
+        "root",
+        "j9T",
+        "daemon",
+        "BEGIN",
+        "b3Bl",
+        "ghp_",
+        "TOKEN",
+        "8080",
+        "alice",
+        "hunter2",
+        "swordfish",
+        "555",
+    ):
+        assert secret not in sentence
+
+
+def test_nor_has_that_of_a_study_that_is_none(gradhesion: Call, tmp_path: Path) -> None:
+    for name, text in SECRETS.items():
+        (tmp_path / name).write_text(text)
+        result = gradhesion("validate", tmp_path / name)
+        assert result.exit_code == 2
+        assert all(line not in result.stderr for line in text.splitlines())
+
+
+RADII = {
+    "decimal comma": ('["0,1"]', 'states.contact_radius_over_R[0] = "0,1": a contact radius a/R is a number above 0, and finite; write'),
+    "unit": ('["0.1 um"]', '[0] = "0.1 um": a contact radius a/R is a number above 0'),
+    "zero": ("[0.1, 0]", "[1] = 0: a contact radius a/R is a number above 0"),
+    "negative": ("[-0.1]", "[0] = -0.1: a contact radius a/R is a number above 0"),
+    "nan": ("[nan]", "[0] = nan: a contact radius a/R is a number above 0"),
+    "infinite": ("[inf]", "[0] = inf: a contact radius a/R is a number above 0, and finite"),
+    "overflow": ("[1e400]", "[0] = inf: a contact radius a/R"),
+    "underflow": ("[1e-400]", "[0] = 0.0: a contact radius a/R"),
+    "long integer": ("[" + 400 * "1" + "]", "[0] = an integer of more than 40 digits: a contact radius a/R"),
+    "flag": ("[true]", "[0] = true: a contact radius a/R is a number"),
+    "date": ("[1979-05-27]", "[0] = 1979-05-27: a contact radius a/R is a number"),
+    "nested": ("[[0.1]]", "[0] = [0.1]: a contact radius a/R is a number"),
+    "table within": ("[{ a = 0.1 }]", "[0] = { a = 0.1 }: a contact radius a/R is a number"),
+    "empty": ("[]", "= []: the list is empty; write for example"),
+    "one number": ("0.1", "= 0.1: this must be a list of numbers in brackets; write for example"),
+    "range": ("{ start = 0.1, stop = 0.2, num = 3 }", "this must be a list of numbers in brackets; write"),
+    "file": ('"radii.csv"', '= "radii.csv": this must be a list of numbers in brackets; write'),
+    "many": ("[" + ", ".join(f"{0.1 + i / 1e4}" for i in range(101)) + "]", "a study draws 100 states at most; leave some out"),
+    "twice": ("[0.1, 0.10]", "[1] = 0.1: this radius is given twice; remove one of the two"),
+    "beyond the rim": ("[0.5]", "[0] = 0.5: a contact is no wider than its punch, a_max_over_R = 0.45; use"),
+    "no separator": ("[0.1 0.2]", "not valid TOML, unclosed array"),
+    "hexadecimal": ("[0x1p-3]", "not valid TOML"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", RADII)
+def test_wrong_radii_of_states_are_one_sentence(name: str, gradhesion: Call, tmp_path: Path) -> None:
+    radii, words = RADII[name]
+    (tmp_path / "s.toml").write_text(
+        'kind = "curve"\noutputs = ["pressure"]\n[parameters]\nk = 0.1\nnu = 0.3\nmodulus = 500.0\nc0_over_R = 0.01\n'
+        f"lambda_over_R = 0.2\nA = 0.05\na_max_over_R = 0.45\n[states]\ncontact_radius_over_R = {radii}\n"
+    )
+    result = gradhesion("validate", tmp_path / "s.toml")
+    assert result.exit_code == 2
+    assert result.stderr.startswith(f"{tmp_path / 's.toml'}:12: ")
+    assert len(result.stderr.splitlines()) == 1
+    assert words in result.stderr
+
+
+CYCLES: dict[str, tuple[str, str]] = {
+    "fraction": ("0.6", 'line 2: cycle = "0.6" is not a whole number; write one'),
+    "infinite": ("inf", 'line 2: cycle = "inf" is not a whole number; write one'),
+    "beyond all bounds": ("1e99999999999999999999", "is not a whole number; write one"),
+    "word": ("first", "line 2: cycle is not a number; write one"),
+}
+BRANCHES: dict[str, tuple[str, str]] = {
+    "misspelt": ("unloadng", 'line 2: branch is not one of its words; did you mean "unloading"?'),
+    "third": ("2", 'line 2: branch = "2" is not one of its words; choose from "loading"'),
+    "half": ("0.5", 'line 2: branch = "0.5" is not one of its words'),
+}
+
+
+@pytest.mark.parametrize(
+    ("column", "name"), [("cycle", name) for name in CYCLES] + [("branch", name) for name in BRANCHES]
+)
+def test_wrong_cycles_and_branches_are_one_sentence(column: str, name: str, gradhesion: Call, tmp_path: Path) -> None:
+    cell, words = {"cycle": CYCLES, "branch": BRANCHES}[column][name]
+    (tmp_path / "table.csv").write_text(f"depth,force,{column}\n1,2,{cell}\n")
+    (tmp_path / "fit.toml").write_text(STUDIES["fit"].replace("[parameters]", f'{column} = "{column}"\n[parameters]'))
+    result = gradhesion("validate", tmp_path / "fit.toml")
+    assert result.exit_code == 2
+    assert len(result.stderr.splitlines()) == 1
+    assert words in result.stderr
+
+
+def loop(tmp_path: Path, text: str, **more: Any) -> Any:
+    """The loop of a fit with such a table."""
+    (tmp_path / "table.csv").write_text(text)
+    data = "".join(f'{key} = "{value}"\n' for key, value in more.items())
+    (tmp_path / "fit.toml").write_text(STUDIES["fit"].replace("[parameters]", data + "[parameters]"))
+    return gr.load(tmp_path / "fit.toml").loop
+
+
+@pytest.mark.parametrize(
+    ("numbers", "kept"),
+    [
+        ((3000000001, 5000000002), (3000000001, 5000000002)),
+        ((9007199254740993, 9007199254740992), (9007199254740993, 9007199254740992)),
+        ((-5, "2.0"), (-5, 2)),
+        ((10**30, 10**30 - 1), (2, 1)),
+    ],
+)
+def test_cycles_are_whole_numbers_of_any_size(numbers: tuple[Any, Any], kept: tuple[int, int], tmp_path: Path) -> None:
+    ways = [(0, 1), (1, 3), (2, 2), (1, 1)]
+    rows = "".join(f"{depth},{force},{number}\n" for number in numbers for depth, force in ways)
+    found = loop(tmp_path, "depth,force,cycle\n" + rows, cycle="cycle")
+    assert found.cycles == 2
+    assert found.cycle.tolist() == [number for number in kept for _ in ways]
+    assert found.unloading.tolist() == 2 * [False, False, False, True]
+
+
+@pytest.mark.parametrize(
+    "words", [("loading", "Unloading"), ("approach", "retract"), ("0", "1"), ("0.0", "1.0"), ("false", "TRUE")]
+)
+def test_branches_are_words_or_0_and_1(words: tuple[str, str], tmp_path: Path) -> None:
+    rows = "".join(f"{i},{i},{words[i % 2]}\n" for i in range(8))
+    found = loop(tmp_path, "depth,force,branch\n" + rows, branch="branch")
+    assert found.unloading.tolist() == 4 * [False, True]
+
+
+@pytest.mark.parametrize(
+    "header", ["depth [nm],force [nN]", "depth (nanometer),force [nanonewton]", "depth,force\nnm,nN"]
+)
+def test_a_unit_that_stands_twice_may_be_the_same(header: str, tmp_path: Path) -> None:
+    rows = "".join(f"{depth},{force}\n" for depth, force in [(0, 1), (1, 2), (2, 3), (1, 2)])
+    found = loop(tmp_path, f"{header}\n{rows}")
+    assert found.depth.tolist() == [0.0, 1e-9, 2e-9, 1e-9]
+
+
+def test_a_file_of_a_study_may_be_anywhere(gradhesion: Call, tmp_path: Path) -> None:
+    (tmp_path / "outside.csv").write_text("modulus,A\n500,0.1\n")
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "link.csv").symlink_to(tmp_path / "outside.csv")
+    for name in ("../outside.csv", tmp_path / "outside.csv", "link.csv"):
+        (tmp_path / "in" / "s.toml").write_text(STUDIES["points"].replace("table.csv", str(name)))
+        assert gradhesion("validate", tmp_path / "in" / "s.toml").exit_code == 0
