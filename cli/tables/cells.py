@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 
-_NUMBER: Final = re.compile(r"[+-]?(?:(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?|inf(?:inity)?|nan)", re.ASCII | re.IGNORECASE)
+_NUMBER: Final = re.compile(
+    r"[+-]?(?:(?:\d+(?:\.\d*)?|\.\d+)(?:e[+-]?\d+)?|inf(?:inity)?|nan)", re.ASCII | re.IGNORECASE
+)
 """A number as files have it: what Python reads besides (`1_000`, digits of other scripts) is a mistake there."""
 _MISTYPED: Final = re.compile(
     r"[-+\u2212]?[.,]?\d[\d.,' \u00a0\u202f_]*(?:[edED][-+\u2212]?\d{1,4}|\s?[^\W\d_]{1,3}|\s?%|x[\da-fA-F]{1,8})?"
@@ -117,7 +119,7 @@ class WholeNumbers:
 
     def numbers(self, codes: NDArray[np.float64]) -> NDArray[np.int64]:
         """Give the numbers that were kept, or their ranks from 1 if one of them has more than 64 bits; 0 for NaN."""
-        fit = all(abs(own) < 2**63 for own in self.kept)
+        fit = all(-(2**63) <= own < 2**63 for own in self.kept)
         ranks = {own: rank for rank, own in enumerate(sorted(self.kept), 1)}
         table = np.array([*((int(own) if fit else ranks[own]) for own in self.kept), 0], np.int64)
         return table[np.where(np.isnan(codes), -1, codes).astype(np.intp)]

@@ -11,8 +11,9 @@ class ColumnsError(ValueError):
     """
     A file has no columns of numbers: the message says why, and what to do, without the name of the file.
 
-    It never has a line of a file that is no table (the file may be a key, or a list of passwords, named by mistake): of
-    the header only names that the study or the program knows, of the cells only what looks like a mistyped number.
+    It never has a line of a file that is no table (the file may be a key, or a list of passwords, named by mistake). Of
+    the header it has only names that the study or the program knows, of the cells only what looks like a mistyped
+    number; all names and units of a file may be repeated only when it has been read as a table of numbers.
     """
 
 

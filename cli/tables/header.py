@@ -16,6 +16,9 @@ from gradhesion.cli.terminal.wording import shown
 MOST_COLUMNS: Final = 1_000
 """More of them are hardly meant as a table."""
 
+LONGEST: Final = 2**15
+"""Characters of a header: above any that is meant as one."""
+
 _HEAD: Final = re.compile(r"\s*(.*?)\s*(?:[\[(]\s*([^\])]*?)\s*[\])])?\s*")
 """A name, and in brackets its unit."""
 _UNIT: Final = re.compile(r"[\[(]?\s*([^\W\d_][^\[\]()]{0,19}?|[%°\u2126-])\s*[\])]?")
@@ -109,11 +112,13 @@ def header_of(text: Text, wanted: Wanted) -> Header:
     """
     lines = text.lines()
     number, line = next(lines, (0, ""))
-    given = re.fullmatch(r"\s*sep=(.)\s*", line)  # as spreadsheets write it
+    given = re.fullmatch(r"sep=([;,|\t])\s*", line)  # as spreadsheets write it
     if given:
         number, line = next(lines, (0, ""))
     if not number:
         raise ColumnsError("the file has comments only; name a table with a header and a row of numbers")
+    if len(line) > LONGEST:
+        raise ColumnsError(f"line {number} is too long for a header, {len(line):,} characters; name a table of numbers")
     separator = given[1] if given else _separator(line)
     cells = cells_of(number, line, separator)
     if separator is None and len(cells) > 1 and any(cell[0] in "[(" for cell in cells):  # a unit after a space
@@ -213,10 +218,13 @@ def rows_of(text: Text, header: Header) -> Iterator[tuple[int, list[str]]]:
 
 
 def looks_like_a_table(text: Text, header: Header, rows: int = 100) -> bool:
-    """Tell whether the first rows are as long as the header, and two columns have numbers alone below a name."""
+    """Tell whether the first rows are as long as the header, and two columns have but numbers below a name."""
     try:
         first = [cells for _, cells in islice(rows_of(text, header), rows)]
     except ColumnsError:
         return False
-    columns = zip(header.names, zip(*first, strict=True), strict=True)
-    return sum(not is_number(name) and all(map(is_number, column)) for name, column in columns) > 1
+    found = 0
+    for name, column in zip(header.names, zip(*first, strict=True), strict=True):
+        cells = [cell.replace(",", ".") for cell in column if cell]
+        found += bool(cells) and not is_number(name) and all(map(is_number, cells))
+    return found > 1

@@ -126,6 +126,8 @@ MISTAKES = {
     b"A,k\n1,2\n\xff\xfe,3\n": "not text in UTF-8",
     b"\xff\xfeA": "not text in UTF-8",
     b"\x89HDF\r\n\x1a\nbroken": "cannot be read as NetCDF",
+    "A," + 2**15 * "[" + "\n1,2\n": "line 1 is too long for a header, 32,771 characters",
+    "A\n" + 10**5 * "9" + "x\n": "line 2: column 1 is not a number",
     ",".join(f"c{i}" for i in range(2000)) + "\n1\n": "2,000 columns",
 }
 

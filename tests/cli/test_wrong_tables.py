@@ -94,6 +94,7 @@ OWN: dict[str, tuple[str, str, str]] = {
     "profile: one column": ("profile", "r [um]\n1\n", 'there is no column "height", and a profile has r and height'),
     "data: no unit": ("data", "depth [nm],load\n1,2\n", "the column load has no unit, and the curves have; write it after the name"),
     "data: one column": ("data", "depth [nm]\n1\n", "the file has depth alone; name them in the header"),
+    "data: other names": ("data", "depht;laod\n1,5;2\n", 'the file has none of them; rename "depht" to "depth"'),
     "data: no rows": ("data", "depth [nm],load [nN]\n1,\n,2\n", "no row has numbers in all of depth, load; add some"),
 }  # fmt: skip
 """Wrong for one reader."""
@@ -275,6 +276,8 @@ def loop(tmp_path: Path, text: str, **more: Any) -> Any:
         ((9007199254740993, 9007199254740992), (9007199254740993, 9007199254740992)),
         ((-5, "2.0"), (-5, 2)),
         ((10**30, 10**30 - 1), (2, 1)),
+        (("1e9999999", -(2**63)), (2, 1)),
+        ((-(2**63), 2**63 - 1), (-(2**63), 2**63 - 1)),
     ],
 )
 def test_cycles_are_whole_numbers_of_any_size(numbers: tuple[Any, Any], kept: tuple[int, int], tmp_path: Path) -> None:
