@@ -115,7 +115,7 @@ class WholeNumbers:
             return math.nan
         if not whole:
             raise ValueError("is not a whole number; write one")
-        return self.kept.setdefault(own, len(self.kept))
+        return float(self.kept.setdefault(own, len(self.kept)))
 
     def numbers(self, codes: NDArray[np.float64]) -> NDArray[np.int64]:
         """Give the numbers that were kept, or their ranks from 1 if one of them has more than 64 bits; 0 for NaN."""
