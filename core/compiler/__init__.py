@@ -9,5 +9,6 @@ collecting  garbage is looked for seldom meanwhile
 keeping     where an entry is looked for before it is compiled
 ahead       code that came with the program
 cache       the folder of compiled code, and what has been compiled there
+owners      who can change what is kept there
 sources     digests of the sources
 """

@@ -4,8 +4,8 @@ Numba notices an edit in the file of a kernel, but not in the files of the kerne
 compiled code is therefore named after a digest of all sources of the core that have kernels and of where they stand
 (numba keeps code of one place for that place alone): an edit in any of them compiles all of it anew.
 
-The folder is the first of these that can be written: in `NUMBA_CACHE_DIR`, if that is set; in the user's cache; in the
-folder for temporary files, if nobody else can write there. Without any of them nothing is kept.
+The folder is the first of these that can be written, and that nobody else can change (owners.py): in `NUMBA_CACHE_DIR`,
+if that is set; in the user's cache; in the folder for temporary files. Without any of them nothing is kept.
 """
 
 import getpass
@@ -28,6 +28,7 @@ from llvmlite import binding
 
 from gradhesion.core.compiler.ahead import is_complete
 from gradhesion.core.compiler.linking import LAZY
+from gradhesion.core.compiler.owners import changeable, make_private
 from gradhesion.core.compiler.sources import COMPILED, CORE
 
 _NAME: Final = f"kernels-{hashlib.sha256(f'{CORE}{COMPILED}{LAZY}{numba.__version__}'.encode()).hexdigest()[:16]}"
@@ -49,21 +50,23 @@ class Place:
     folder
         The folder; None if nothing can be kept.
     why
-        "" for the usual folder, else one sentence: what could not be written, and what is used instead.
+        "" for the usual folder, else one sentence: what cannot be written, or who else can, and what is used instead.
     """
 
     folder: Path | None
     why: str = ""
 
 
-def _is_writable(folder: Path) -> bool:
-    """Make a folder, and try whether a file can be written there."""
+def _refused(folder: Path) -> str:
+    """Make a folder, and return why nothing is kept there: what cannot be written, or who else can; "" if it serves."""
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        tempfile.TemporaryFile(dir=folder).close()
+        make_private(folder)
+        others = changeable(folder)
+        if not others:
+            tempfile.TemporaryFile(dir=folder).close()
     except OSError:
-        return False
-    return True
+        return "cannot be written"
+    return f"is not used, since {others}" if others else ""
 
 
 def _private(folder: Path) -> bool:
@@ -92,27 +95,27 @@ def _temporary() -> Path:
 def choose(given: str) -> Place:
     """Return where kernels are kept, if `given` is what NUMBA_CACHE_DIR says ("" where it is not set)."""
     usual = Path(platformdirs.user_cache_dir("gradhesion"))
-    tried: list[str] = []
-    if given:
-        if _is_writable(Path(given) / _NAME):
-            return Place(Path(given) / _NAME)
-        tried.append(f"NUMBA_CACHE_DIR = {given}")
-    if _is_writable(usual / _NAME):
-        return Place(
-            usual / _NAME, f"{tried[0]} cannot be written; compiled kernels are kept in {usual}" if tried else ""
-        )
-    tried.append(str(usual))
-    because = f"{' and '.join(tried)} cannot be written"
+    names = {f"NUMBA_CACHE_DIR = {given}": Path(given)} if given else {}
+    refused: list[str] = []
+    for name, parent in (names | {str(usual): usual}).items():
+        folder = Path(os.path.realpath(parent)) / _NAME
+        why = _refused(folder)
+        if not why:
+            return Place(folder, f"{refused[0]}; compiled kernels are kept in {parent}" if refused else "")
+        refused.append(f"{name} {why}")
+    because = " and ".join(refused)
     try:
         temporary = _temporary()
     except OSError:  # no folder for temporary files
         temporary = None
-    if temporary and _private(temporary) and _is_writable(temporary / _NAME):
-        return Place(temporary / _NAME, f"{because}; compiled kernels are kept in {temporary}")
+    if temporary and _private(temporary):
+        folder = Path(os.path.realpath(temporary)) / _NAME
+        if not _refused(folder):
+            return Place(folder, f"{because}; compiled kernels are kept in {temporary}")
     return Place(
         None,
         f"{because}, and nothing is kept in the folder for temporary files either: every process compiles anew; "
-        "set NUMBA_CACHE_DIR to a folder that can be written",
+        "set NUMBA_CACHE_DIR to a folder that you can write and no other user can",
     )
 
 
@@ -133,7 +136,7 @@ def place() -> Place:
 
 
 CACHE_FOLDER: Final = place().folder or Path(platformdirs.user_cache_dir("gradhesion")) / _NAME
-"""The folder of `place`; where nothing can be kept, one that cannot be written."""
+"""The folder of `place`; where nothing can be kept, one that is not used."""
 
 
 def _last_use(folder: Path) -> float:

@@ -4,6 +4,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import update_wrapper
+from pathlib import Path
 from typing import Any, Final, TypeVar, cast
 
 import numba
@@ -129,7 +130,8 @@ def _kept(function: Function, options: dict[str, Any]) -> Function:
         except (OSError, RuntimeError):  # the folder has gone, or is full
             pass
         else:
-            return found
+            if Path(found.stats.cache_path).is_relative_to(folder):  # type: ignore[attr-defined] # else beside the source
+                return found
     compiled: Function = numba.njit(**options)(function)
     return compiled
 

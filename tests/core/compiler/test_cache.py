@@ -94,9 +94,9 @@ def test_without_any_folder(homes: Path) -> None:
     chosen = cache.choose(str(homes / "own"))
     assert chosen.folder is None
     assert chosen.why.startswith(
-        f"NUMBA_CACHE_DIR = {homes / 'own'} and {homes / 'home/gradhesion'} cannot be written,"
+        f"NUMBA_CACHE_DIR = {homes / 'own'} cannot be written and {homes / 'home/gradhesion'} cannot be written,"
     )
-    assert chosen.why.endswith("set NUMBA_CACHE_DIR to a folder that can be written")
+    assert chosen.why.endswith("set NUMBA_CACHE_DIR to a folder that you can write and no other user can")
 
 
 @pytest.mark.parametrize("given", [True, False])
