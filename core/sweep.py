@@ -182,6 +182,7 @@ def solve(
         asked: Any = {"threads": threads, "profile": profile, "loading": loading}
         return solve(scenes, wanted, check_contact=False, **asked)
 
+    passed: NDArray[np.bool_] = np.array(False)
     if turn is None:
         found = solved(parameters, outputs)
         if "turning_radius" in outputs:
@@ -192,11 +193,13 @@ def solve(
         arguments: dict[str, Any] = {"check_contact": check_contact and not set(outputs) <= set(PULL_OFF)}
         if alike is not None:
             radii, flags = turning_cosine(parameters, turn, threads, **arguments)
+            passed = np.full(radii.shape, False)  # displacement is prescribed: jumps leave it as it is
         else:
             from gradhesion.core.arrays.general_turning import turning_general  # noqa: PLC0415 (kernels of their own)
 
-            radii, flags = turning_general(parameters, turn, profile, loading, threads, **arguments)
-        found = turned_results(parameters, turn, outputs, radii, flags, solved, again)
+            radii, flags, passed = turning_general(parameters, turn, profile, loading, threads, **arguments)
+            passed &= loading != Loading()  # under displacement control it lands at the same depth, but for roundings
+        found = turned_results(parameters, turn, outputs, radii, flags, passed, solved, again)
         note_compiled(kind_of_turning(profile, loading))
     if not slopes:
         note_compiled(kind_of_map(outputs, solver, profile, loading))
@@ -209,6 +212,6 @@ def solve(
             found = solve(scenes, PULL_OFF, check_contact=False, threads=threads, profile=own, loading=loading)
             return found["pull_off_force"]
 
-        found |= sensitivities(parameters, asked, found, found[SLOPES], turn, force_of)
+        found |= sensitivities(parameters, asked, found, found[SLOPES], turn, passed, force_of)
         note_compiled(kind_of_sensitivities(profile, loading))
     return {name: found[name] for name in (*asked, "status")}

@@ -97,7 +97,7 @@ def optima_of(merit: Merit, merits: Array, margins: Array) -> Optima:
             best[cell], where[:, cell] = found[number], places[:, number]
     too_coarse = is_new(heights, where)
     if inputs == 1:
-        for cell, place, height in zip(*peaks_between(merit, heights, best), strict=True):
+        for cell, place, height in zip(*peaks_between(merit, heights, best, where[0]), strict=True):
             if height > best[cell] + CLOSE * abs(best[cell]):
                 best[cell], where[0, cell], too_coarse[cell] = height, place, True
     best = np.where(np.isfinite(best), best, np.nan)

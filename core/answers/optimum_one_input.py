@@ -89,30 +89,36 @@ def refine_one(merit: Merit, heights: Array, basins: tuple[NDArray[np.int64], ..
     return places[None], np.where((margins >= 0.0) & ~np.isnan(merits), merits, -np.inf)
 
 
-def peaks_between(merit: Merit, heights: Array, best: Array) -> tuple[NDArray[np.int64], Array, Array]:
-    """Look for peaks between two points of a sweep, where a line through the points beside them leads above the best.
+def peaks_between(merit: Merit, heights: Array, best: Array, where: Array) -> tuple[NDArray[np.int64], Array, Array]:
+    """Look for peaks between two points of a sweep that the sweep does not show, where they can be above the best.
+
+    `best` and `where` are the optima of the cells so far. Between two points the merit is trusted to rise above both by
+    no more than it changes between these, or between one of them and the next; and between two of the points that are
+    then looked at, the same.
 
     Returns
     -------
-    Cells, places and merits of the peaks that are higher, refined.
+    Cells, places and merits of such peaks, refined.
     """
-    with np.errstate(invalid="ignore"):  # beside what is not feasible
-        rise = np.diff(heights, axis=0, prepend=heights[:1], append=heights[-1:])
-        upwards = np.nan_to_num(np.maximum(rise[:-1], 0.0), posinf=0.0)
-        downwards = np.nan_to_num(np.maximum(-rise[1:], 0.0), posinf=0.0)
-        promised = np.maximum((heights + upwards)[:-1], (heights + downwards)[1:])
-    index, cells = np.nonzero((promised >= best) & np.isfinite(heights[:-1]) & np.isfinite(heights[1:]))
+    with np.errstate(invalid="ignore"):  # where nothing is feasible
+        reach = best + CLOSE * np.abs(best)
+    index, cells = np.nonzero(_promised(heights) > reach)
     spacing = 1.0 / (heights.shape[0] - 1)
     inner = np.linspace(0.0, 1.0, _BETWEEN + 2)
     places = spacing * (index + inner[:, None])
-    merits, margins = merit.values(places[None], cells)
-    merits = np.where((margins >= 0.0) & ~np.isnan(merits), merits, -np.inf)
-    highest = np.clip(np.argmax(merits, axis=0), 1, _BETWEEN)
-    every = np.arange(index.size)
-    higher = merits[highest, every] > best[cells] * (1.0 + np.sign(best[cells]) * CLOSE)
-    if not higher.any():
+    merits = np.empty(places.shape)
+    merits[0], merits[-1] = heights[index, cells], heights[index + 1, cells]
+    found, margins = merit.values(places[None, 1:-1], cells)
+    merits[1:-1] = np.where((margins >= 0.0) & ~np.isnan(found), found, -np.inf)
+    promised = _promised(merits)
+    peaks = (merits[1:-1] >= merits[:-2]) & (merits[1:-1] > merits[2:])
+    peaks &= np.maximum(promised[:-1], promised[1:]) > reach[cells]
+    peaks &= np.abs(places[1:-1] - where[cells]) > spacing / (_BETWEEN + 1)
+    point, which = np.nonzero(peaks)
+    if not point.size:
         return cells[:0], places[0, :0], merits[0, :0]
-    bracket = tuple((places[highest + side, every])[higher] for side in (-1, 0, 1))
+    bracket = tuple(places[point + side, which] for side in (0, 1, 2))
+    cells = cells[which]
 
     def depth(at: Any, cell: Any) -> Any:
         """Return what is to be least."""
@@ -121,10 +127,22 @@ def peaks_between(merit: Merit, heights: Array, best: Array) -> tuple[NDArray[np
 
     with np.errstate(all="ignore"):
         tolerances = {"xatol": WIDTH, "xrtol": 0.0, "fatol": 0.0, "frtol": 0.0}
-        found = find_minimum(depth, bracket, args=(cells[higher].astype(float),), tolerances=tolerances)
-    refined = np.where(np.isfinite(found.f_x), found.x, bracket[1])
-    refined, _ = to_stationary(merit, refined, cells[higher])
-    return cells[higher], refined, -depth(refined, cells[higher].astype(float))
+        minimum = find_minimum(depth, bracket, args=(cells.astype(float),), tolerances=tolerances)
+    refined = np.where(np.isfinite(minimum.f_x), minimum.x, bracket[1])
+    refined, _ = to_stationary(merit, refined, cells)
+    return cells, refined, -depth(refined, cells.astype(float))
+
+
+def _promised(heights: Array) -> Array:
+    """Return for each interval of the first axis how high a peak within may be; -inf beside what is not feasible."""
+    with np.errstate(invalid="ignore"):
+        steps = np.abs(np.diff(heights, axis=0))
+    steps[~np.isfinite(steps)] = 0.0
+    steepest = steps.copy()
+    steepest[1:] = np.maximum(steepest[1:], steps[:-1])
+    steepest[:-1] = np.maximum(steepest[:-1], steps[1:])
+    lowest = np.minimum(heights[:-1], heights[1:])
+    return np.where(np.isfinite(lowest), np.maximum(heights[:-1], heights[1:]) + steepest, -np.inf)
 
 
 def _edges(merit: Merit, inside: Array, outside: Array, cells: NDArray[np.int64]) -> Array:

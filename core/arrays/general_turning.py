@@ -24,8 +24,8 @@ def turning_general(
     threads: int | None,
     *,
     check_contact: bool = True,
-) -> tuple[NDArray[np.float64], NDArray[np.int8]]:
-    """Return where the cycles turn, and what `status` has to say of that.
+) -> tuple[NDArray[np.float64], NDArray[np.int8], NDArray[np.bool_]]:
+    """Return where the cycles turn, what `status` has to say of that, and whether a jump has passed the target.
 
     Parameters
     ----------
@@ -37,7 +37,8 @@ def turning_general(
     -------
     The radius a/R at which unloading starts, 0 where no contact is made, NaN where there is no value; and the bits
     close_to_a_jump (a step is within 4e-12 of the target's terms), loading_contact_not_one_disc (of the contact that
-    turns) and no_value. Both have the broadcast shape.
+    turns) and no_value. Where a jump has passed the depth or load, the cycle turns beyond it, where the jump ends. All
+    have the broadcast shape.
     """
     scenes = prepared(parameters, loading, (*PARAMETERS[-1:], turn))
     assert scenes.target is not None  # noqa: S101 -- it was asked for
@@ -45,14 +46,16 @@ def turning_general(
     n, series = in_own_wavelength(profile)
     wavelength, amplitude = scenes.wavelength / n, n * scenes.amplitude if series.size else 0.0 * scenes.amplitude
     radii = np.empty((scenes.k.size, rims.shape[1]))
-    flags = np.zeros(radii.shape, dtype=np.int8)
+    flags, passed = np.zeros(radii.shape, dtype=np.int8), np.zeros(radii.shape, dtype=np.bool_)
 
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
         table, cosine_bins = tables_of(exponent, series, interpolated=interpolated)
         depth_factor = depth_factor_of(exponent, profile.exponent)
         arrays = (scenes.stretch, wavelength, amplitude, scenes.compliance, rims, targets)
         modes = (turn == "load_max", check_contact)
-        turn_scenes(table, cosine_bins, series, profile.exponent, depth_factor, index, *arrays, *modes, radii, flags)
+        turn_scenes(
+            table, cosine_bins, series, profile.exponent, depth_factor, index, *arrays, *modes, radii, flags, passed
+        )
 
     run_by_exponent(scenes.k, work, threads, rims.shape[1])
-    return radii.reshape(scenes.shape), flags.reshape(scenes.shape)
+    return radii.reshape(scenes.shape), flags.reshape(scenes.shape), passed.reshape(scenes.shape)

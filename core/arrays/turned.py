@@ -34,6 +34,7 @@ def turned_results(
     outputs: Sequence[str],
     radii: NDArray[np.float64],
     flags: NDArray[np.int8],
+    passed: NDArray[np.bool_],
     solve: Solver,
     smooth: Callable[[Mapping[str, ArrayLike], Sequence[str]], Results],
 ) -> Results:
@@ -45,6 +46,8 @@ def turned_results(
         As those of `solve` in core/sweep.py; `turn` is the one of `TURNS` that `parameters` has.
     radii, flags
         Where unloading starts, and what the status has to say of it; of the broadcast shape (turning_cosine).
+    passed
+        Whether a jump has passed the depth or load, under a load or by a machine (turning_general).
     solve
         What solves scenes up to their rims.
     smooth
@@ -66,9 +69,7 @@ def turned_results(
     found = solve(scenes | {"a_max_over_R": np.where(away, limits, radii)}, wanted, turned=True)
     none = ((found["status"] | flags) & NO_VALUE) != 0
     if turn == "indentation_max_over_R" and "delta_max" in found:
-        # under a load or by a machine a jump may have passed the depth
-        held = np.isclose(found["delta_max"], targets, rtol=1e-10, atol=1e-14)
-        found["delta_max"] = np.where(short & ~none & held, targets, found["delta_max"])
+        found["delta_max"] = np.where(short & ~none & ~passed, targets, found["delta_max"])
     for name in (name for name in wanted if away.any() and name not in _OF_THE_CURVE):
         empty = targets if name == "delta_max" else _NOTHING.get(name, 0)
         found[name] = np.where(away, empty, found[name]).astype(found[name].dtype)

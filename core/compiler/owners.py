@@ -50,7 +50,7 @@ def changeable(folder: Path) -> str:
     if sys.platform == "win32":
         return ""
     # without rights of root, in a container, what belongs to the system belongs to somebody else
-    user, system, closed = os.getuid(), {0, os.stat("/").st_uid}, False
+    user, system, closed = os.getuid(), {0, Path(folder.anchor).stat().st_uid}, False
     for above in reversed(folder.parents):
         found = above.stat()
         if found.st_uid not in {user, *system}:

@@ -27,8 +27,6 @@ NEEDED: Final = {
 }
 """The results that a sensitivity starts from; the first is the value itself."""
 MACHINE: Final = "machine_stiffness"
-_HELD: Final = 1e-10
-"""How near the greatest depth is to the one to turn at, where no jump has passed that."""
 _STEP: Final = 2e-3
 _FORWARD: Final = (-25.0 / 12.0, 4.0, -3.0, 4.0 / 3.0, -0.25)
 """Of a force that is met where a jump lands beyond the turn: the one case that is left to differences, good to 1e-9."""
@@ -93,7 +91,7 @@ def _move_with_turn(
     turn: str,
     target: NDArray[np.float64],
     moves: NDArray[np.bool_],
-    solved: Mapping[str, NDArray[Any]],
+    passed: NDArray[np.bool_],
     reduced: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Let the place where a cycle turns move with the parameters, for forces that are met there.
@@ -103,9 +101,7 @@ def _move_with_turn(
     The sensitivity of the force to where the cycle turns, and where nothing is known yet: where a jump has passed what
     the cycle turns at. `reduced` is changed in place.
     """
-    held = np.full(moves.shape, False)
-    if turn == "indentation_max_over_R":
-        held = moves & np.isclose(solved["delta_max"], target, rtol=_HELD, atol=_HELD * _HELD)
+    held = moves & ~passed if turn == "indentation_max_over_R" else np.full(moves.shape, False)
     force, depth = reduced[0], reduced[2]
     with np.errstate(all="ignore"):
         by_place = np.where(held, force[BY_RIM], 0.0)
@@ -145,6 +141,7 @@ def sensitivities(
     solved: Mapping[str, NDArray[Any]],
     reduced: NDArray[np.float64],
     turn: str | None,
+    passed: NDArray[np.bool_],
     force_of: Callable[[Mapping[str, ArrayLike]], NDArray[np.float64]],
 ) -> dict[str, NDArray[np.float64]]:
     """Return the sensitivities that are asked for.
@@ -159,6 +156,8 @@ def sensitivities(
         The sensitivities to the numbers of a scene (`solve_general` of arrays/general.py).
     turn
         The one of `TURNS` that the cycles turn at, None for the rim.
+    passed
+        Whether a jump has passed what they turn at, so that they turn where it ends.
     force_of
         What gives the pull-off force of other scenes that turn as these do.
 
@@ -184,7 +183,7 @@ def sensitivities(
         if turn is not None and part == 0:
             target = np.broadcast_to(np.asarray(parameters[turn], dtype=float), shape)
             met = moves & (radii > 0.0) & ((solved["status"] & PULL_OFF_AT_RIM) != 0)
-            to_turn, unknown = _move_with_turn(turn, target, met, solved, reduced)
+            to_turn, unknown = _move_with_turn(turn, target, met, passed, reduced)
         one = by_parameters(scenes, slopes, reduced[part], values)
         if turn is not None:
             to_turn = np.where(values > 0.0, to_turn, np.nan)

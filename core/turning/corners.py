@@ -25,8 +25,9 @@ LANDING, FOLD, OPEN = map(constant, range(3))
 """Where a jump lands, a fold of the measured or of the prescribed coordinate, and the end of what is known."""
 ROWS: Final = 4
 
-Found: TypeAlias = tuple[bool, float, bool]
-"""Whether the target is reached, at which x, and whether a step of that place is near."""
+Found: TypeAlias = tuple[bool, float, bool, bool]
+"""Whether the target is reached, at which x, whether a step of that place is near, and whether a jump to there has
+passed the target."""
 
 
 @kernel()
@@ -113,7 +114,7 @@ def first_reached(
         if value < target:
             continue
         if kind == LANDING:
-            return True, corners[PLACE, i], close
+            return True, corners[PLACE, i], close, True
         low, high = corners[PLACE, i - 1], corners[PLACE, i]
-        return True, find_level(basis, measured, target, (low, corners[VALUE, i - 1], high, value), whole), close
-    return False, math.inf, close
+        return True, find_level(basis, measured, target, (low, corners[VALUE, i - 1], high, value), whole), close, False
+    return False, math.inf, close, False

@@ -72,6 +72,7 @@ def _turn_walked(
     chosen: Any,
     places: Any,
     flags: Any,
+    passed: Any,
 ) -> bool:
     """Find the places x where the chosen scenes of a curve turn, on one trace; return whether it could be walked.
 
@@ -91,13 +92,13 @@ def _turn_walked(
         for i in range(rims.size):
             if not chosen[i]:
                 continue
-            found, x, close = first_reached(basis, curve, by_load, corners, number, targets[i], 0.0)
+            found, x, close, jumped = first_reached(basis, curve, by_load, corners, number, targets[i], 0.0)
             if not found and furthest < rims[i]:
                 reaches[i] *= _LONGER
                 left = True
                 continue
             chosen[i] = False
-            places[i] = min(x, rims[i])
+            places[i], passed[i] = min(x, rims[i]), jumped
             if not x < rims[i]:
                 level = coordinate(basis, curve, rims[i]) if rims[i] < math.inf else math.inf
                 close = close or rim_is_close(basis, curve, count, trace, rims[i], level)
@@ -120,31 +121,31 @@ def _turn_one_far(
     rim: float,
     target: float,
     surely: float,
-) -> tuple[bool, float, int]:
-    """Find where one scene of a long curve turns; return whether that could be done, x, and its flags."""
+) -> tuple[bool, float, int, bool]:
+    """Find where one scene of a long curve turns; return whether that could be done, x, its flags, and `passed`."""
     first, last = bounds
     for _ in range(_TRIALS):
         furthest = min(rim, surely)
         middle = middle_of(basis, curve, first, min(furthest, last), 0.0)
         if middle[0] != REGULAR:
-            return False, rim, 0
+            return False, rim, 0, False
         done, here, whole = turn_far(basis, curve, (by_load, target), first, middle, furthest)
         if not done:
-            return False, rim, 0
-        found, x, close = here
+            return False, rim, 0, False
+        found, x, close, jumped = here
         flags = CLOSE_TO_A_JUMP if close else 0
         if found and whole + x < rim:
             if check:
                 empty = np.empty((1, 0))
                 if not _is_one_disc(basis, curve, NONE, empty, whole + x, rim):
                     flags |= LOADING_NOT_ONE_DISC
-            return True, whole + x, flags
+            return True, whole + x, flags, jumped
         if furthest >= rim:
             if rim < math.inf and is_at_a_fold(basis, curve, rim, 0.0):
                 flags |= CLOSE_TO_A_JUMP
-            return True, rim, flags
+            return True, rim, flags, False
         surely *= _LONGER
-    return False, rim, 0
+    return False, rim, 0, False
 
 
 @kernel()
@@ -159,6 +160,7 @@ def _turn_curve(
     targets: Any,
     radii: Any,
     flags: Any,
+    passed: Any,
 ) -> None:
     """Find where the cycles of a curve turn; targets are in `unit`."""
     table, _, series = basis
@@ -191,17 +193,17 @@ def _turn_curve(
         if series.shape[0] > 0 and LONGEST_WALK < waves < math.inf:
             middle = middle_of(basis, curve, first, min(edges[i], reaches[i], last), 0.0)
             if middle[0] == REGULAR:
-                done, x, found = _turn_one_far(
+                done, x, found, jumped = _turn_one_far(
                     basis, curve, by_load, check, (first, last), edges[i], target, reaches[i]
                 )
                 if done:
-                    places[i] = x
+                    places[i], passed[i] = x, jumped
                     flags[i] |= found
                     continue
             alone[i] = True
             bounds = (first, middle[1] if middle[0] == FEW else last)
             if (middle[0] == FEW or waves * highest < MOST_CELLS) and _turn_walked(
-                basis, curve, by_load, check, bounds, edges, reduced, reaches, alone, places, flags
+                basis, curve, by_load, check, bounds, edges, reduced, reaches, alone, places, flags, passed
             ):
                 continue
             alone[i] = False
@@ -209,12 +211,15 @@ def _turn_curve(
         elif waves * highest < MOST_CELLS:
             chosen[i] = together = True
     if together and not _turn_walked(
-        basis, curve, by_load, check, (first, last), edges, reduced, reaches, chosen, places, flags
+        basis, curve, by_load, check, (first, last), edges, reduced, reaches, chosen, places, flags, passed
     ):
         for i in range(count):  # too many folds up to the furthest of them
             if chosen[i]:
                 alone[i], reaches[i] = True, reach(basis, measured, reduced[i])
-                _turn_walked(basis, curve, by_load, check, (first, last), edges, reduced, reaches, alone, places, flags)
+                bounds = (first, last)
+                _turn_walked(
+                    basis, curve, by_load, check, bounds, edges, reduced, reaches, alone, places, flags, passed
+                )
                 alone[i] = False
     for i in range(count):
         if math.isnan(places[i]):
@@ -241,6 +246,7 @@ def turn_scenes(
     check: bool,
     radii: Any,
     flags: Any,
+    passed: Any,
 ) -> None:
     """Find where the cycles of the curves `index` of one gradient exponent turn.
 
@@ -252,8 +258,9 @@ def turn_scenes(
         What the cycles turn at, of the shape of the rims: depths in R, or loads in 1.5 pi R dgamma.
     by_load, check
         Whether they are loads; whether the contact that turns is tested for being one disc.
-    radii, flags
-        The results, of the shape (curves, rims): a/R, 0 without contact, NaN without a value; and bits of the status.
+    radii, flags, passed
+        The results, of the shape (curves, rims): a/R, 0 without contact, NaN without a value; bits of the status; and
+        whether a jump has passed the target, so that the cycle turns beyond it.
     """
     smooth = np.zeros((0, 3))
     for j in range(index.size):
@@ -270,4 +277,5 @@ def turn_scenes(
             continue
         if by_load:
             unit = force_unit(table.k, length, unit)
-        _turn_curve(basis, curve, unit, wavelength[i], by_load, check, rims[row], targets[row], radii[i], flags[i])
+        found = (radii[i], flags[i], passed[i])
+        _turn_curve(basis, curve, unit, wavelength[i], by_load, check, rims[row], targets[row], *found)

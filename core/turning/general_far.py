@@ -37,12 +37,12 @@ def _turn_on_piece(
         begin = find_level(basis, curve, level, ends(rows, branch), whole)
         piece = (begin, rows[END, branch], rows[END, branch] != end)
         corners, number = append_corners(basis, curve, by_load, piece, search, corners, NONE)
-        found, x, near = first_reached(basis, curve, by_load, corners, number, target, whole)
+        found, x, near, passed = first_reached(basis, curve, by_load, corners, number, target, whole)
         close = close or near
         level = rows[END_DEPTH, branch]
         if found:
-            return (True, x, close), level
-    return (False, math.inf, close), level
+            return (True, x, close, passed), level
+    return (False, math.inf, close, False), level
 
 
 @kernel()
@@ -64,17 +64,17 @@ def _first_of_waves(
 
     What it reaches on a wave rises with the wave.
     """
-    found, x, close = _turn_on_wave(basis, curve, way, cut, high, work, zeros)
+    found, x, close, passed = _turn_on_wave(basis, curve, way, cut, high, work, zeros)
     if not found:
-        return (found, x, close), high
+        return (found, x, close, passed), high
     while high - low > 1.0:
         middle = np.floor(0.5 * (low + high))
-        here, place, near = _turn_on_wave(basis, curve, way, cut, middle, work, zeros)
+        here, place, near, jumped = _turn_on_wave(basis, curve, way, cut, middle, work, zeros)
         if here:
-            high, x, close = middle, place, near
+            high, x, close, passed = middle, place, near, jumped
         else:
             low, close = middle, close or near
-    return (found, x, close), high
+    return (found, x, close, passed), high
 
 
 @kernel()
@@ -102,7 +102,7 @@ def turn_far(
     by_load, target = way
     _, until, cut, _, begin, end, _ = middle
     search, zeros = room(), np.empty(MOST_FOLDS)
-    nothing = (False, math.inf, False)
+    nothing = (False, math.inf, False, False)
     count, rises, _ = folds_before(basis, curve, first, middle, search, zeros)
     if count < 0:
         return False, nothing, 0.0
@@ -110,9 +110,9 @@ def turn_far(
     branches = fill_branches(basis, curve, zeros, count, rises, begin + cut, near, 0.0)
     now = load_up(basis, curve, branches, near, math.inf, NO)
     corners, number = corners_of(basis, curve, by_load, branches, near, math.inf, (search, zeros, 0.0))
-    found, x, close = first_reached(basis, curve, by_load, corners, number, target, 0.0)
+    found, x, close, passed = first_reached(basis, curve, by_load, corners, number, target, 0.0)
     if found:
-        return True, (found, x, close), 0.0
+        return True, (found, x, close, passed), 0.0
     level = near[END_DEPTH, now] if now >= 0 else 0.0
     work = room_for_waves(series)
     rows = work[2][0]
@@ -126,13 +126,13 @@ def turn_far(
         here, level = _turn_on_piece(basis, curve, way, count, rows, level, math.inf, (search, zeros, wave))
         close = close or here[2]
         if here[0]:
-            return True, (YES, here[1], close), wave
+            return True, (YES, here[1], close, here[3]), wave
         far = last_of_climb(basis, curve, cut, places, wave, UP, work)
         if far != wave:
             here, there = _first_of_waves(basis, curve, way, cut, wave, far, work, zeros)
             close = close or here[2]
             if here[0]:
-                return True, (YES, here[1], close), there
+                return True, (YES, here[1], close, here[3]), there
             best = highest_end(rows, branches_of_wave(basis, curve, far, cut, work, rows))
             level = rows[END_DEPTH, best]
         wave = far + 1.0
@@ -144,4 +144,4 @@ def turn_far(
     outer = np.empty((ROWS, count // 2 + 2))
     branches = fill_branches(basis, curve, zeros, count, rises, x, outer, whole)
     here, _ = _turn_on_piece(basis, curve, way, branches, outer, level, x, (search, zeros, whole))
-    return True, (here[0], here[1], close or here[2]), whole
+    return True, (here[0], here[1], close or here[2], here[3]), whole

@@ -65,6 +65,18 @@ def test_a_basin_that_only_the_finer_sweep_shows() -> None:
     assert found.places[0] == pytest.approx([0.9, at], abs=1e-3)
 
 
+def test_a_peak_between_two_points_beside_which_nothing_rises_towards_it() -> None:
+    """The merit falls steeply to the one point, and rises beyond the other."""
+    axis, own = axis_of(20), np.array([-9.0, -8.0, 0.0, -5.0, -4.5, -4.0, -6.0])
+    heights = np.concatenate([own, np.full(axis.size - own.size, -10.0)])
+    middle, width = axis[3:5].mean(), 0.3 * axis[1]
+    hidden = Known(lambda x, _: np.maximum(np.interp(x, axis, heights), 0.3 - 10.0 * np.abs(x - middle) / width))
+    found = optima(hidden, 1, 1, 20)
+    assert found.places[0, 0] == pytest.approx(middle, abs=2e-12)
+    assert found.merits[0] == pytest.approx(0.3, rel=1e-9)
+    assert found.too_coarse.all()
+
+
 @pytest.mark.parametrize("edge", [0.777, 0.25])
 def test_an_optimum_at_the_edge_of_what_is_feasible(edge: float) -> None:
     """Told by a margin that only says yes or no; the peak is beyond it, or within."""

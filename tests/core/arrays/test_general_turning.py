@@ -66,7 +66,7 @@ def _numbers(scene: dict[str, Any], profile: Profile, loading: Loading) -> tuple
 
 
 def _turn(scene: dict[str, Any], turn: str, values: Any, profile: Profile, loading: Loading) -> tuple[Any, Any]:
-    return turning_general(scene | {turn: values}, turn, profile, loading, 1)
+    return turning_general(scene | {turn: values}, turn, profile, loading, 1)[:2]
 
 
 @pytest.mark.parametrize("turn", TURNS)
@@ -233,17 +233,32 @@ def test_far_turns_are_those_of_a_walk(
     reached = 0
     for share in (1e-6, 1e-3, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.999):
         target = share * top
-        found, x, _ = first_reached(basis, curve, by_load, corners, number, target, 0.0)
+        found, x, _, passed = first_reached(basis, curve, by_load, corners, number, target, 0.0)
         assert found
         done, far, whole = turn_far(basis, curve, (by_load, target), first, middle, rim)
         assert done
         assert far[0]
+        assert far[3] == passed
         assert whole + far[1] == pytest.approx(x, rel=1e-11)
         reached += whole > 0.0
     assert reached > 2
     done, far, _ = turn_far(basis, curve, (by_load, 1.001 * top), first, middle, rim)
     assert done
     assert not far[0]
+
+
+@pytest.mark.parametrize("target", [1e-19, 1e-15])
+def test_a_depth_that_the_first_jump_passes_is_not_that_of_the_cycle_however_small_both_are(target: float) -> None:
+    """Under a load the contact jumps to a depth of its own; on a stiff half-space both are far below 1e-14."""
+    punch = dict(k=0.3, nu=0.3, modulus=1e24, c0_over_R=0.01, lambda_over_R=0.1, A=0.02)
+    load = Loading(control="load")
+    scene = punch | {"a_max_over_R": 1.0, "indentation_max_over_R": target}
+    turned = solve(scene, ["delta_max", "turning_radius"], loading=load)
+    rim = solve(punch | {"a_max_over_R": turned["turning_radius"]}, ["delta_max"], loading=load)
+    assert turned["delta_max"] == pytest.approx(rim["delta_max"], rel=1e-12, abs=0.0)
+    assert turned["delta_max"] > 1.5 * target
+    beyond = solve(scene | {"indentation_max_over_R": 3e-15}, ["delta_max"], loading=load)
+    assert beyond["delta_max"] == 3e-15, "no jump passes that one"
 
 
 def test_the_drawn_path_ends_there() -> None:
