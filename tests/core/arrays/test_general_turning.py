@@ -250,7 +250,7 @@ def test_far_turns_are_those_of_a_walk(
 @pytest.mark.parametrize("target", [1e-19, 1e-15])
 def test_a_depth_that_the_first_jump_passes_is_not_that_of_the_cycle_however_small_both_are(target: float) -> None:
     """Under a load the contact jumps to a depth of its own; on a stiff half-space both are far below 1e-14."""
-    punch = dict(k=0.3, nu=0.3, modulus=1e24, c0_over_R=0.01, lambda_over_R=0.1, A=0.02)
+    punch = {"k": 0.3, "nu": 0.3, "modulus": 1e24, "c0_over_R": 0.01, "lambda_over_R": 0.1, "A": 0.02}
     load = Loading(control="load")
     scene = punch | {"a_max_over_R": 1.0, "indentation_max_over_R": target}
     turned = solve(scene, ["delta_max", "turning_radius"], loading=load)

@@ -9,6 +9,8 @@ import pytest
 from numpy.typing import NDArray
 
 from gradhesion.core import PARAMETERS, SENSITIVITIES, Harmonic, Profile, solve
+from gradhesion.core.problem.status import PULL_OFF_AT_RIM
+from gradhesion.core.sensitivities.sensitivity import sensitivities
 
 REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "sensitivities.json").read_text())
 VALUES = ("pull_off_force", "dissipated_energy")
@@ -140,6 +142,20 @@ def test_cycles_that_turn(turn: str, random_scenes: Scenes, differences: Differe
             assert error[same].max() < ROUNDING, (value, name)
     if turn == "indentation_max_over_R":
         assert np.any(found[SENSITIVITIES[0]][:, 7] != 0.0)  # some forces are met where the cycle turns
+
+
+def test_the_force_at_a_turn_moves_with_the_depth_unless_a_jump_has_passed_that(scene: dict[str, float]) -> None:
+    """Two cycles whose greatest depths both are far below 1e-14; the solver says which one a jump has taken there."""
+    scenes = {name: np.full(2, value) for name, value in scene.items()} | {"indentation_max_over_R": np.full(2, 1e-19)}
+    solved = {"pull_off_force": np.ones(2), "delta_max": np.array([1e-19, 1e-15]), "turning_radius": np.full(2, 1e-3)}
+    solved["status"] = np.full(2, PULL_OFF_AT_RIM)
+    asked, passed = [SENSITIVITIES[0]], np.array([False, True])
+    reduced = np.ones((3, 6, 2))
+    reduced[0] = 1e19
+    found = sensitivities(
+        scenes, asked, solved, reduced, "indentation_max_over_R", passed, lambda other: np.ones_like(other["A"])
+    )
+    assert found[SENSITIVITIES[0]][:, 7] == pytest.approx([1.0, 0.0], abs=1e-12)
 
 
 def test_no_contact_has_no_sensitivity(scene: dict[str, float]) -> None:
