@@ -1,16 +1,19 @@
 """The dataset of scenes whose parameters are arrays over named dimensions: as that of a study, over any dimensions."""
 
 from collections.abc import Mapping
+from functools import cache
 from typing import Any
 
 import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.dataset import attributes, variables
+from gradhesion.cli.dataset.dataset import attributes, variables, with_steep_contact
+from gradhesion.cli.dataset.model_range import slope_told
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import PHYSICAL_PARAMETER, REALISATION, SI, SOLVER, UNITS, labels_of
+from gradhesion.cli.names import PHYSICAL_PARAMETER, REALISATION, SI, SOLVER, STEEP, UNITS, labels_of
 from gradhesion.cli.study.study import Study
+from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.given import physical_of, solved_by
 from gradhesion.core import PARAMETERS
 from gradhesion.core.variables.reduced import parameters_from, scales_in_si, sources_of
@@ -39,6 +42,7 @@ def solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarr
     arrays = {name: _along(dims, array) for name, array in parameters.items()}
     scenes = arrays if arrays.keys() >= {*PARAMETERS} else parameters_from(arrays)
     found = _outputs(study, scenes, threads)
+    steep = found.pop(STEEP, np.zeros(1, np.int8))
     if study.in_si:
         scales = scales_in_si(arrays["R"], arrays["work_of_adhesion"])
         if study.spectrum is not None:
@@ -76,8 +80,16 @@ def solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarr
     about = attributes(study, "computed in memory")
     if not study.text:
         del about["study"], about["study_sha256"]
-    dataset = xarray.decode_cf(xarray.Dataset(made, attrs=about))
+    dataset = with_steep_contact(xarray.decode_cf(xarray.Dataset(made, attrs=about)), study, steep)
+    _say_once(tuple(slope_told(dataset)))
     return dataset.assign_coords(_other_coordinates(parameters, dataset))
+
+
+@cache
+def _say_once(sentences: tuple[str, ...]) -> None:
+    """Say what a call has to report; in a loop that is the same many times, and is said once."""
+    for sentence in sentences:
+        messages.say("caution", f"gr.solve: {sentence}")
 
 
 def dims_of(parameters: Arrays) -> tuple[str, ...]:
@@ -106,7 +118,7 @@ def _sizes(parameters: Arrays, dims: tuple[str, ...]) -> dict[str, int]:
 def _outputs(study: Study, scenes: Mapping[str, NDArray[np.float64]], threads: int | None) -> dict[str, NDArray[Any]]:
     """Solve the scenes, by one solver or by each of several."""
     settings: dict[str, Any] = {"check_contact": study.method.check_contact, "threads": threads}
-    settings |= {"loading": study.loading}
+    settings |= {"loading": study.loading, "watch": study.may_reach(scenes["a_max_over_R"])}
     solvers = study.method.solver
     asked = (solvers,) if isinstance(solvers, str) else solvers
     *_, profiles = study.apart(tuple(slice(0, size) for size in study.shape))

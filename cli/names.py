@@ -49,6 +49,7 @@ OUTPUTS: Final = {
     "wave_tabor_parameter": "Tabor parameter of the crests of the waviness",
     "wave_slope": "steepest slope of the waviness",
     "johnson_alpha": "Johnson's parameter alpha = 1/(sqrt(pi) chi) of the waviness",
+    "contact_slope": "slope (a/R)^(m-1) of the punch at the largest contact radius a that the other outputs depend on",
     "pull_off_force_sensitivity": "sensitivity of the pull-off force F to each parameter p: d ln F/d ln p (k, nu: /dp)",
     "dissipated_energy_sensitivity": "sensitivity of the energy H to each parameter p: d ln H/d ln p (k, nu: /dp)",
 }
@@ -91,9 +92,9 @@ SPREAD: Final = {
 SPREADABLE: Final = tuple(
     name
     for name in OUTPUTS
-    if name not in SENSITIVITIES and not name.endswith(("_jumps", "_error")) and name != "energy_residual"
+    if name not in (*SENSITIVITIES, "energy_residual", "contact_slope") and not name.endswith(("_jumps", "_error"))
 )
-"""The outputs that have a spread: values of a scene, which no count is, nor what is known of an error."""
+"""The outputs that have a spread: values of a scene, which no count is, nor what is known of an error or of others."""
 
 OF_LINEAR: Final = tuple(name.removesuffix("_sensitivity") for name in SENSITIVITIES)
 """The outputs whose standard deviation is known by sensitivities."""
@@ -282,8 +283,18 @@ FLAGS: Final = {
     "linear_deviation_off": "a linear standard deviation is off: a kink is near",
     "resolution_too_coarse": "a sweep finer than the resolution finds another optimum",
     "nothing_feasible": "no point of the sweep meets what is required",
+    "no_contact": "the cycle turns before first contact",
 }
 """Every flag of `status`, in words."""
+
+CONTACT_SLOPE: Final = "contact_slope"
+"""The output that says how far the contact reaches on the punch."""
+
+STEEP: Final = "steep_contact"
+"""The coordinate that marks the scenes whose contact reaches a slope of the punch that is not small, if any does."""
+
+STEEP_CONTACT: Final = "whether the contact reaches a slope of the punch above 1"
+"""Its `long_name`."""
 
 SOLVERS: Final = "how the scenes are solved"
 """The `long_name` of `solver`."""
@@ -311,6 +322,7 @@ SYMBOLS: Final[dict[str, str]] = {
     "wave_tabor_parameter": r"Tabor parameter of crests $\mu_w$",
     "wave_slope": "steepest slope of the waves",
     "johnson_alpha": r"Johnson's $\alpha$",
+    "contact_slope": r"contact slope $(a/R)^{m-1}$",
     "pull_off_force_si": "pull-off force $F$",
     "pull_off_radius_si": "radius at pull-off $a$",
     "dissipated_energy_si": "dissipated energy $H$",

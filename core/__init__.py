@@ -14,7 +14,7 @@ Arrays of the kernels, by the names that they have throughout:
     targets     as `rims`              depths in R or loads in 1.5 pi R dgamma at which cycles turn (turning/cosine.py)
     index       (scenes of a task,)    numbers of the curves of one exponent, out of all
     stiffness, stretch, wavelength, amplitude, compliance    (curves,)    M, s, lambda/R, A, and K/S of each curve
-    slots       (RESULTS + 2,)         the row of `out` for each result, -1 for what nobody asked for (results.py)
+    slots       (RESULTS + 3,)         the row of `out` for each result, -1 for what nobody asked for (results.py)
     out         (results, curves, rims), status of the same curves and rims: what is returned
     work, values, scratch              room, so that kernels allocate nothing in their loops
 """

@@ -12,11 +12,23 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.arrays.cosine import SLOPES, solve_cosine, turning_cosine
+from gradhesion.core.arrays.reach import radius_of, slope_at
 from gradhesion.core.arrays.turned import Results, turned_results
 from gradhesion.core.compiler.cache import note_compiled
 from gradhesion.core.kinds import kind_of_map, kind_of_sensitivities, kind_of_turning
 from gradhesion.core.problem.control import BY_DISPLACEMENT, Loading
-from gradhesion.core.problem.names import OUTPUTS, PARAMETERS, PULL_OFF, REPORTS, RESULTS, SENSITIVITIES, SOLVERS, TURNS
+from gradhesion.core.problem.names import (
+    CONTACT_SLOPE,
+    OUTPUTS,
+    PARAMETERS,
+    PULL_OFF,
+    REACH,
+    REPORTS,
+    RESULTS,
+    SENSITIVITIES,
+    SOLVERS,
+    TURNS,
+)
 from gradhesion.core.problem.profile import WAVY, Profile
 from gradhesion.core.problem.shape import equivalent_wave
 from gradhesion.core.problem.status import NO_VALUE
@@ -29,7 +41,7 @@ def _checked(
     """Refuse what cannot be solved; return the name of what the cycles turn at, None if that is the rim."""
     reports = [name for name in outputs if name in REPORTS]
     slopes = [name for name in outputs if name in SENSITIVITIES]
-    unknown = [name for name in outputs if name not in (*OUTPUTS, *reports, *slopes)]
+    unknown = [name for name in outputs if name not in (*OUTPUTS, REACH, *reports, *slopes)]
     missing = [name for name in PARAMETERS if name not in parameters]
     if unknown or missing or solver not in SOLVERS:
         raise ValueError(f"unknown outputs {unknown}, missing parameters {missing}, solver {solver!r}")
@@ -145,6 +157,14 @@ def solve(
     """
     profile = WAVY if profile is None else profile
     loading = BY_DISPLACEMENT if loading is None else loading
+    if CONTACT_SLOPE in outputs:
+        known: Any = {"solver": solver, "check_contact": check_contact, "threads": threads}
+        known |= {"profile": profile, "loading": loading}
+        others = [name for name in outputs if name != CONTACT_SLOPE]
+        radius = radius_of(others, parameters)
+        found = solve(parameters, [*others, radius], **known)
+        slope = {CONTACT_SLOPE: slope_at(found, radius, parameters, profile)}
+        return {name: (found | slope)[name] for name in (*outputs, "status")}
     turn = _checked(parameters, outputs, solver, profile, loading)
     asked = outputs
     outputs = wanted_for(outputs, turned=turn is not None)
@@ -167,7 +187,7 @@ def solve(
             return solve_cosine(scenes, wanted, solver, threads, **checks)
         from gradhesion.core.arrays.general import solve_general  # noqa: PLC0415 (kernels of their own)
 
-        results = [name for name in wanted if name in RESULTS]
+        results = [name for name in wanted if name in (*RESULTS, REACH)]
         reports = [name for name in wanted if name in REPORTS]
         results += [NEEDED[name] for name in reports if name in NEEDED]
         found = solve_general(scenes, results, profile, loading, threads, **checks)

@@ -1,6 +1,7 @@
 """What a user should know of a dataset that is written: cells whose answers may not hold, as a share of all."""
 
 from collections.abc import Iterator, Mapping
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,6 +9,10 @@ from numpy.typing import NDArray
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.answers.flags import ANSWER_FLAGS
+from gradhesion.core.arrays.reach import SMALL
+
+CONE: Final = "the punch is a cone of slope 1, which is not small, at every contact radius: in all of {}"
+"""What is said once of a study of a cone."""
 
 
 def flagged_in(status: NDArray[np.integer]) -> dict[str, int]:
@@ -15,8 +20,9 @@ def flagged_in(status: NDArray[np.integer]) -> dict[str, int]:
     return {name: int(np.count_nonzero(status.astype(np.int16) & bit)) for name, bit in ANSWER_FLAGS.items()}
 
 
-def cautions(study: Study, flagged: Mapping[str, int]) -> Iterator[str]:
-    """Say of each flag in what share of the cells it is set, and what to do."""
+def cautions(study: Study, flagged: Mapping[str, int], steep: int = 0) -> Iterator[str]:
+    """Say of each flag in what share of the cells it is set, and what to do; and how many contacts are `steep`."""
+    yield from _of_slope(study, steep)
     coarse, nothing = flagged.get("resolution_too_coarse", 0), flagged.get("nothing_feasible", 0)
     if coarse:
         share = f"{coarse:,} of {counted(study.scenes, 'scene')}"
@@ -42,3 +48,15 @@ def cautions(study: Study, flagged: Mapping[str, int]) -> Iterator[str]:
                 f"the linear standard deviation is off in {share}: a kink lies within the spread of the inputs, or the "
                 "value bends; draw samples there, with samples = 1024 under [uncertainty]"
             )
+
+
+def _of_slope(study: Study, steep: int) -> Iterator[str]:
+    """Say how many scenes reach a slope of the punch that is not small, in one line."""
+    if study.is_cone:
+        yield CONE.format(counted(study.scenes, "scene"))
+    elif steep:
+        share = f"{steep:,} of {counted(study.scenes, 'scene')} ({100 * steep / study.scenes:.2g} %)"
+        yield (
+            f"contact reaches slopes of the punch above {SMALL:g} (a > R) in {share}, which are not small; bound it "
+            "with a_max_over_R or indentation_max_over_R"
+        )

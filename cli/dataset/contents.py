@@ -143,6 +143,7 @@ class _OfFronts(_OfOptima):
         longest = max(values[study.variables[0]].shape[-1] for _, values in every)
         whole: dict[str, NDArray[Any]] = {name: np.full((*study.shape, longest), np.nan) for name in study.variables}
         whole["status"] = np.zeros(study.shape, np.int16)
+        whole[names.STEEP] = np.zeros(study.shape, np.int8)
         for block, values in every:
             for name, part in values.items():
                 whole[name][curves.within(name, block, part)] = part

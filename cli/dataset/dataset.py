@@ -7,6 +7,7 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gradhesion.cli import names
 from gradhesion.cli.dataset.cautions import cautions, flagged_in
@@ -22,6 +23,7 @@ from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.kernels import kinds_of
 from gradhesion.core import FLAGS
 from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
+from gradhesion.core.problem.status import OF_EVERY_MAP
 
 if TYPE_CHECKING:
     import xarray
@@ -52,7 +54,8 @@ def _output(study: Study, name: str) -> Variable:
 
 def _status(study: Study) -> Variable:
     """Describe the status of the scenes."""
-    flags, dtype = (ALL_FLAGS, "i2") if study.has_answers else (FLAGS, "i1")
+    own = FLAGS if study.turns_at_a_depth else OF_EVERY_MAP
+    flags, dtype = ALL_FLAGS if study.has_answers else own, study.status_type
     attributes = {
         "units": "1",
         "long_name": names.STATUS,
@@ -60,6 +63,22 @@ def _status(study: Study) -> Variable:
         "flag_meanings": " ".join(flags),
     }
     return Variable(dimensions=tuple(study.sizes), dtype=dtype, attributes=attributes)
+
+
+def steep_contact(study: Study) -> Variable:
+    """Describe the coordinate that marks the scenes whose contact reaches a slope that is not small."""
+    attributes = {
+        "units": "1",
+        "long_name": names.STEEP_CONTACT,
+        "flag_values": np.array([0, 1], dtype="i1"),
+        "flag_meanings": "shallow steep",
+    }
+    return Variable(dimensions=tuple(study.sizes), dtype="i1", attributes=attributes)
+
+
+def marks_steep_contact(study: Study) -> bool:
+    """Report whether the dataset of a study has that coordinate where it marks any scene: not beside the slope."""
+    return names.CONTACT_SLOPE not in study.variables
 
 
 def attributes(study: Study, history: str) -> dict[str, Any]:
@@ -127,7 +146,8 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
     described = variables(study)
     kind = CONTENTS[study.sort.name]
     found = kind.joined(study, kind.parts(study, threads))
-    for sentence in cautions(study, flagged_in(found["status"])):
+    steep = found.pop(names.STEEP, np.zeros(1, np.int8))
+    for sentence in cautions(study, flagged_in(found["status"]), int(np.count_nonzero(steep))):
         messages.say("caution", f"{study.name}: {sentence}")
     made = {}
     for name, variable in described.items():
@@ -138,4 +158,12 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
         blank = {} if variable.blank is None else {"_FillValue": values.dtype.type(variable.blank)}
         made[name] = xarray.Variable(variable.dimensions, values, variable.attributes | blank)
     coded = xarray.Dataset(made, attrs=attributes(study, "computed in memory"))
-    return xarray.decode_cf(coded)
+    return with_steep_contact(xarray.decode_cf(coded), study, steep)
+
+
+def with_steep_contact(dataset: "xarray.Dataset", study: Study, steep: NDArray[np.int8]) -> "xarray.Dataset":
+    """Mark the scenes of a dataset in memory whose contact reaches a slope that is not small, if any does."""
+    if not steep.any() or not marks_steep_contact(study):
+        return dataset
+    mark = (dataset["status"].dims, steep, steep_contact(study).attributes)
+    return dataset.assign_coords({names.STEEP: mark})

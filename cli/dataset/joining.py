@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.engines import Work
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.names import STEEP
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
@@ -106,9 +107,11 @@ class Joined:
             here = np.flatnonzero(own[0] == number)
             if here.size == 0:
                 continue
+            source = source.reset_coords(STEEP) if STEEP in source.coords else source
             whole = source if self.axis in source.dims else source.expand_dims(self.axis)
-            part = whole[list(filled)].isel({**cut, self.axis: own[1, here]}).transpose(*dimensions, ...)
-            for name, values in filled.items():
+            known = [name for name in filled if name in whole.variables]  # no scene is marked without marks
+            part = whole[known].isel({**cut, self.axis: own[1, here]}).transpose(*dimensions, ...)
+            for name, values in ((name, filled[name]) for name in known):
                 np.moveaxis(values, along, 0)[here] = np.moveaxis(part[name].values, along, 0)
         return filled
 

@@ -1,6 +1,6 @@
 """Where scenes leave the range of the model: validity numbers beyond their limits."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Final
 
@@ -8,7 +8,12 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
+from gradhesion.cli.dataset.reader import tiling_of
 from gradhesion.cli.keys import ADHESION_RANGE
+from gradhesion.cli.names import CONTACT_SLOPE, STEEP
+from gradhesion.cli.study.tiling import Block
+from gradhesion.cli.terminal.amounts import counted
+from gradhesion.core.arrays.reach import SMALL, is_steep
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,7 +27,7 @@ class Limit:
 
 SHORT_RANGED: Final = 5.0
 """The Tabor parameter from which on JKR holds (Johnson & Greenwood 1997)."""
-STEEP: Final = 0.5
+STEEPEST: Final = 0.5
 """A slope that is no longer small: a linear half-space errs by about its square."""
 ONE_DISC: Final = 2.0 / np.sqrt(np.pi)
 """Johnson's alpha at chi = 1/2, up to which short waves keep the contact one disc (docs/theory.md, section 12)."""
@@ -39,8 +44,8 @@ LIMITS: Final = {
         words="the attraction is too long-ranged for the crests",
     ),
     "wave_slope": Limit(
-        beyond=lambda values: values > STEEP,
-        condition=f"above {STEEP:g}",
+        beyond=lambda values: values > STEEPEST,
+        condition=f"above {STEEPEST:g}",
         words="slopes are not small, as a linear half-space needs",
     ),
     "johnson_alpha": Limit(
@@ -48,8 +53,25 @@ LIMITS: Final = {
         condition="below 1.13 (chi above 1/2)",
         words="contact on loading may not be one disc",
     ),
+    CONTACT_SLOPE: Limit(
+        beyond=is_steep,
+        condition=f"above {SMALL:g} (a > R)",
+        words="contact reaches slopes that are not small",
+    ),
 }
 """By the validity number."""
+
+
+def beyond_by(number: str, dataset: xarray.Dataset, block: Block = ()) -> xarray.DataArray | None:
+    """Report which scenes of a dataset, or a block of them, a validity number puts beyond its limit; None: unknown.
+
+    The slope of the contact is known of every scene: what is not marked is within its limit.
+    """
+    if number in dataset.data_vars:
+        return is_beyond(dataset[number][block])
+    if number == CONTACT_SLOPE and STEEP in dataset.coords:
+        return dataset[STEEP][block] > 0
+    return None
 
 
 def is_beyond(part: xarray.DataArray) -> xarray.DataArray:
@@ -59,3 +81,23 @@ def is_beyond(part: xarray.DataArray) -> xarray.DataArray:
     if name == "wave_tabor_parameter":  # waves shallower than the range are not felt
         beyond = beyond & (part["A"] * part["lambda_over_R"] > part[ADHESION_RANGE])
     return beyond
+
+
+def is_cone(dataset: xarray.Dataset) -> bool:
+    """Report whether the punch of a dataset is a cone, whose slope is 1 at every radius."""
+    return str(dataset.attrs.get("profile", "")).partition(" ")[0] == "r"
+
+
+def steep_scenes(dataset: xarray.Dataset) -> int:
+    """Count the scenes whose contact reaches a slope of the punch that is not small."""
+    blocks = (beyond_by(CONTACT_SLOPE, dataset, block) for block in tiling_of(dataset["status"]))
+    return sum(int(beyond.sum()) for beyond in blocks if beyond is not None)
+
+
+def slope_told(dataset: xarray.Dataset) -> Iterator[str]:
+    """Say in one line how many scenes reach slopes of the punch that are not small, if any does."""
+    if is_cone(dataset):
+        yield f"a cone of slope 1: slopes are not small in any of {counted(dataset['status'].size, 'scene')}"
+    elif steep := steep_scenes(dataset):
+        share = f"{steep:,} of {counted(dataset['status'].size, 'scene')}"
+        yield f"{share}: {LIMITS[CONTACT_SLOPE].words} (a > R)"

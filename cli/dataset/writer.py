@@ -12,19 +12,21 @@ from typing import Any, Final, NoReturn
 
 import netCDF4
 import numpy as np
+from numpy.typing import NDArray
 
 from gradhesion.cli.dataset import dataset
 from gradhesion.cli.dataset.cautions import cautions, flagged_in
 from gradhesion.cli.dataset.contents import CONTENTS
+from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.disk import refuse_beside, refuse_existing, refuse_unnamed, settled, to_disk, writing
 from gradhesion.cli.engines import Engine, Work
 from gradhesion.cli.engines.threads import Threads
 from gradhesion.cli.errors import OutputError, ScenesFailedError
-from gradhesion.cli.names import RAGGED, STATE
+from gradhesion.cli.names import RAGGED, STATE, STEEP
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.study.tiling import Tiling, size_of
+from gradhesion.cli.study.tiling import Block, Tiling, size_of
 from gradhesion.cli.terminal.amounts import counted, two_in_words
-from gradhesion.cli.work.curves import within
+from gradhesion.cli.work.curves import is_ragged, within
 from gradhesion.cli.work.folder import Folder, claimed, folder_of, identity
 from gradhesion.cli.work.manifest import adopt, manifest_of
 from gradhesion.cli.work.parts import types_of
@@ -144,6 +146,7 @@ def _merge(
     keeper = Keeper(folder.path / "state.json", scenes=study.scenes, blocks=count)
     raised: dict[int, str] = {}
     flagged = Counter[str]()
+    steep = 0
     with writing(path):
         file = netCDF4.Dataset(folder.merged, "w", format="NETCDF4")
     try:
@@ -153,7 +156,10 @@ def _merge(
         for number, solved in results:
             with writing(path):
                 for name, part in solved.values.items():
-                    file[name][within(name, solved.block, part, begun) or ...] = part
+                    if name == STEEP:
+                        steep += _mark(file, study, solved.block, part)
+                    else:
+                        file[name][within(name, solved.block, part, begun) or ...] = part
             begun += sum(int(solved.values[one].item()) for one in RAGGED.values() if one in solved.values)
             if solved.error:
                 raised[number] = _sentence(study, number, solved)
@@ -178,7 +184,7 @@ def _merge(
         reused=state.blocks_reused,
         computed=state.blocks_done - state.blocks_reused,
         raised=tuple(raised[number] for number in sorted(raised)),
-        cautions=tuple(cautions(study, flagged)),
+        cautions=tuple(cautions(study, flagged, steep)),
     )
 
 
@@ -261,6 +267,24 @@ def _finished(folder: Folder, target: Path, study: Study) -> Written | None:
     return None
 
 
+def _mark(file: netCDF4.Dataset, study: Study, block: Block, steep: NDArray[np.int8]) -> int:
+    """Mark scenes whose contact reaches a slope that is not small; the first of them makes the coordinate."""
+    count = int(np.count_nonzero(steep))
+    if not dataset.marks_steep_contact(study):
+        return count
+    if count and STEEP not in file.variables:
+        variable = _create(file, study, STEEP, dataset.steep_contact(study))
+        for before in Tiling(variable.shape, study.chunk):
+            variable[before or ...] = 0
+        for name in (*study.variables, "status"):
+            if not is_ragged(name):
+                known = getattr(file[name], "coordinates", "")
+                file[name].coordinates = f"{known} {STEEP}".strip()
+    if STEEP in file.variables:
+        file[STEEP][block or ...] = steep
+    return count
+
+
 def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
     """Write all of a dataset but the values of its outputs."""
     filled = CONTENTS[study.sort.name].filled
@@ -275,25 +299,31 @@ def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
     if STATE in described_all:
         file.createDimension(STATE, np.size(np.asarray(described_all[STATE].values)))
     for name, described in described_all.items():
-        settings: dict[str, Any] = {}
-        if described.dimensions and described.dtype != "str":
-            for dimension in described.dimensions:
-                if dimension not in file.dimensions:
-                    file.createDimension(dimension, None)  # it grows with the longest curve
-            settings |= {"compression": "zlib", "complevel": 1, "shuffle": True}
-            settings["chunksizes"] = _chunks(tuple(file.dimensions[one] for one in described.dimensions), study.cells)
-        if described.blank is not None:
-            settings["fill_value"] = described.blank
-        dtype = str if described.dtype == "str" else described.dtype
-        variable = file.createVariable(name, dtype, described.dimensions, **settings)
-        if filled and "chunksizes" in settings:
-            variable.set_var_chunk_cache(CACHE)
-        variable.setncatts(described.attributes)
+        variable = _create(file, study, name, described)
         if described.values is not None:
             variable[...] = described.values
         elif described.made:
             for block in Tiling(variable.shape, study.chunk):
                 variable[block or ...] = described.made(block)
+
+
+def _create(file: netCDF4.Dataset, study: Study, name: str, described: Variable) -> netCDF4.Variable[Any]:
+    """Create a variable, without its values."""
+    settings: dict[str, Any] = {}
+    if described.dimensions and described.dtype != "str":
+        for dimension in described.dimensions:
+            if dimension not in file.dimensions:
+                file.createDimension(dimension, None)  # it grows with the longest curve
+        settings |= {"compression": "zlib", "complevel": 1, "shuffle": True}
+        settings["chunksizes"] = _chunks(tuple(file.dimensions[one] for one in described.dimensions), study.cells)
+    if described.blank is not None:
+        settings["fill_value"] = described.blank
+    dtype = str if described.dtype == "str" else described.dtype
+    variable = file.createVariable(name, dtype, described.dimensions, **settings)
+    if CONTENTS[study.sort.name].filled and "chunksizes" in settings:
+        variable.set_var_chunk_cache(CACHE)
+    variable.setncatts(described.attributes)
+    return variable
 
 
 def _chunks(dimensions: tuple[netCDF4.Dimension, ...], cells: int) -> tuple[int, ...]:

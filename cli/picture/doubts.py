@@ -69,7 +69,7 @@ END: Final = Doubt(bit=0, words="extreme at an end of its axis: it may lie beyon
 BEYOND: Final = {
     name: Doubt(bit=0, words=limit.words, hatch=hatch, mark=mark, size=6.0)
     for (name, limit), (hatch, mark) in zip(
-        LIMITS.items(), (("oo", "P"), ("OO", "X"), ("++", "*"), ("..", "h")), strict=True
+        LIMITS.items(), (("oo", "P"), ("OO", "X"), ("++", "*"), ("..", "h"), ("**", "8")), strict=True
     )
 }
 """How scenes are shown that leave the range of the model, by the validity number that says so."""

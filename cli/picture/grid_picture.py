@@ -13,7 +13,7 @@ from matplotlib.contour import QuadContourSet
 from matplotlib.figure import SubFigure
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.model_range import is_beyond
+from gradhesion.cli.dataset.model_range import beyond_by, slope_told
 from gradhesion.cli.dataset.reader import is_turned
 from gradhesion.cli.dataset.reductions import Taken
 from gradhesion.cli.dataset.selection import Selection
@@ -136,9 +136,9 @@ def _beyond(dataset: xarray.Dataset, cut: xarray.DataArray, name: str) -> list[t
     """
     marks = []
     for number, doubt in BEYOND.items():
-        if number not in dataset or (name in BEYOND and number != name):
+        beyond = None if name in BEYOND and number != name else beyond_by(number, dataset)
+        if beyond is None:
             continue
-        beyond = is_beyond(dataset[number].load())
         beyond = beyond.any([axis for axis in beyond.dims if axis not in cut.dims])
         if bool((beyond & cut.notnull()).any()):
             marks.append((doubt, (beyond & cut.notnull()).transpose(*cut.dims)))
@@ -260,4 +260,4 @@ def _caption(
     for axis in (plan.x, plan.second):
         if axis and axis in items and axis not in (plan.columns, plan.rows):
             written.append(f"{len(items[axis]):,} of {dataset.sizes[axis]:,} values of {SYMBOLS[axis]}")
-    return written
+    return [*written, *slope_told(dataset)]

@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.cli.keys import INPUTS, Path
-from gradhesion.cli.names import OF_LINEAR, OUTPUTS, SENSITIVITIES, SI, SPREADABLE, UNITS
+from gradhesion.cli.names import CONTACT_SLOPE, OF_LINEAR, OUTPUTS, SENSITIVITIES, SI, SPREADABLE, UNITS
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.form import OptimumTable, Range
 from gradhesion.cli.study.mistakes import Checked, Mistake
@@ -197,7 +197,11 @@ def _mistakes_of_goals(checked: Checked) -> Iterator[Mistake]:
         yield Mistake((KIND, "maximise"), None, sentence)
     if len(goals) > 2:
         yield Mistake((KIND, goals[2][0]), written[goals[2][0]], "at most two goals are possible; remove the others")
-    known = [*SPREADABLE, *(name + SI for name in SPREADABLE if name in UNITS and "physical" in checked.data)]
+    known = [
+        *SPREADABLE,
+        CONTACT_SLOPE,
+        *(name + SI for name in SPREADABLE if name in UNITS and "physical" in checked.data),
+    ]
     names = [name for _, name in goals]
     for i, (key, name) in enumerate(goals):
         path: Path = (KIND, key)

@@ -33,6 +33,7 @@ from gradhesion.cli.study.search import Search
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
 from gradhesion.cli.study.uncertainty import Uncertainty
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
+from gradhesion.core.arrays.reach import depends_on_contact
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import PARAMETERS, RANGE, SENSITIVITIES
 from gradhesion.core.problem.profile import Profile
@@ -152,6 +153,33 @@ class Study:
     def has_answers(self) -> bool:
         """Whether `status` has flags beside those of a scene."""
         return bool(self.uncertainty or self.search)
+
+    @property
+    def turns_at_a_depth(self) -> bool:
+        """Whether its cycles turn at a depth, which may be below first contact."""
+        return self.turn == TURNS[0]
+
+    @property
+    def status_type(self) -> str:
+        """The type of `status`: as many bits as its flags need."""
+        return "i2" if self.has_answers or self.turns_at_a_depth else "i1"
+
+    @property
+    def watches_slope(self) -> bool:
+        """Whether a contact may reach radii at which the punch is no longer shallow (core/arrays/reach.py)."""
+        given = self.parameters
+        if "a_max" in given and "R" in given:
+            return self.may_reach(np.max(given["a_max"]) / np.min(given["R"]))
+        return self.kind != "curve" and self.may_reach(given.get("a_max_over_R", math.inf))
+
+    def may_reach(self, rims: Values) -> bool:
+        """Report whether a contact within one of these rims a_max/R may be steep, and anything depends on it."""
+        return not self.is_cone and bool(np.max(rims) > 1.0) and depends_on_contact(self.solved)
+
+    @property
+    def is_cone(self) -> bool:
+        """Whether its punch is a cone, whose slope is 1 at every radius."""
+        return self.profile.exponent == 1.0
 
     @property
     def sort(self) -> Kind:

@@ -4,18 +4,21 @@ from collections.abc import Iterator
 
 import xarray
 
-from gradhesion.cli.dataset.model_range import LIMITS, is_beyond
+from gradhesion.cli.dataset.model_range import LIMITS, beyond_by, is_cone
 from gradhesion.cli.dataset.reader import tiling_of
+from gradhesion.cli.names import CONTACT_SLOPE
 from gradhesion.cli.terminal.amounts import counted
 
 
 def validity_told(dataset: xarray.Dataset) -> Iterator[str]:
-    """Tell how many scenes leave the range of the model, by each number that the dataset has."""
+    """Tell how many scenes leave the range of the model, by each number that is known."""
+    scenes = dataset["status"].size
     for name, limit in LIMITS.items():
-        if name not in dataset:
-            continue
-        count = sum(int(is_beyond(dataset[name][block]).sum()) for block in tiling_of(dataset[name]))
+        blocks = (beyond_by(name, dataset, block) for block in tiling_of(dataset["status"]))
+        count = sum(int(beyond.sum()) for beyond in blocks if beyond is not None)
+        condition = f"{limit.condition}: {limit.words}"
+        if name == CONTACT_SLOPE and is_cone(dataset):
+            count, condition = scenes, "1 at every radius: slopes of a cone are not small"
         if count:
-            scenes = dataset[name].size
             share = f"{count:,} of {counted(scenes, 'scene')} ({100 * count / scenes:.2g} %)"
-            yield f"  {name:<30} {share:<26} {limit.condition}: {limit.words}"
+            yield f"  {name:<30} {share:<26} {condition}"

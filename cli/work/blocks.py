@@ -26,7 +26,7 @@ def solve_block(study: Study, block: Block, threads: int | None) -> dict[str, ND
 
         return solve_uncertain(study, block, threads)
     several, axes, _ = study.apart(block)
-    return solve_given(study, study.parameters_of(axes), several, block, threads)
+    return solve_given(study, study.parameters_of(axes), several, block, threads, watch=study.watches_slope)
 
 
 def solved(study: Study, threads: int | None = None) -> Iterator[tuple[Block, dict[str, NDArray[Any]]]]:

@@ -9,16 +9,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion import core
-from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, RAGGED, SI, STATE_CURVES, UNITS
+from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, RAGGED, SI, STATE_CURVES, STEEP, UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work.blocks import awaited
 from gradhesion.cli.work.given import scales_of, scenes_of
 from gradhesion.core.arrays.processors import processors
+from gradhesion.core.arrays.reach import is_steep, slopes_of
 from gradhesion.core.problem.status import NO_VALUE
 
 AHEAD: Final = 2
 """Scenes drawn ahead a thread."""
+
+_CONTACT_RADII: Final = tuple(
+    name for own in CURVES.values() for name, about in own.items() if about.startswith("contact radius")
+)
+"""The variables with the radii of contact that are drawn."""
 
 Drawing = tuple[Block, dict[str, NDArray[Any]]]
 
@@ -96,8 +102,16 @@ def _draw(study: Study, block: Block) -> Drawing:
             parts[name] = values.reshape(*front, *values.shape)
     scales = scales_of(study, block)
     parts |= {name + SI: parts[name] * scales[UNITS[name]].item() for name in study.in_si}
-    parts["status"] = np.full(front, status, dtype=np.int8)
+    parts["status"] = np.full(front, status, dtype=study.status_type)
+    parts[STEEP] = np.full(front, _is_steep(study, found), dtype=np.int8)
     return block, parts
+
+
+def _is_steep(study: Study, found: Mapping[str, NDArray[Any]]) -> bool:
+    """Report whether the contact that is drawn reaches a slope of the punch that is not small."""
+    radii = [found[name] for name in _CONTACT_RADII if name in found] + [np.array(study.states)]
+    drawn = slopes_of(np.concatenate([np.ravel(one) for one in radii]), study.profile)
+    return not study.is_cone and bool(is_steep(drawn).any())
 
 
 def _of_states(study: Study, scene: Mapping[str, float], curves: Sequence[str]) -> tuple[dict[str, NDArray[Any]], int]:
@@ -115,7 +129,8 @@ def _of_states(study: Study, scene: Mapping[str, float], curves: Sequence[str]) 
 
 def gathered(study: Study, drawings: Sequence[Drawing]) -> dict[str, NDArray[Any]]:
     """Put the drawings of a study together, padded to the longest curves."""
-    filled: dict[str, NDArray[Any]] = {"status": np.empty(study.shape, np.int8)}
+    filled: dict[str, NDArray[Any]] = {"status": np.empty(study.shape, study.status_type)}
+    filled[STEEP] = np.zeros(study.shape, np.int8)
     for name in study.variables:
         parts_of = [parts[name] for _, parts in drawings]
         if is_ragged(name):

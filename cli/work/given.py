@@ -35,6 +35,8 @@ def solve_given(
     several: Block,
     block: Block,
     threads: int | None,
+    *,
+    watch: bool = False,
 ) -> dict[str, NDArray[Any]]:
     """
     Solve scenes that are given as those of a study are, for its outputs.
@@ -45,13 +47,15 @@ def solve_given(
         What the study gives; the arrays broadcast to the scenes.
     several, block
         Which of its solvers, and the block whose punches these are.
+    watch
+        Whether the slopes that contacts reach are looked at (work/scenes.py).
 
     Returns
     -------
     The outputs, those in SI units and by quantities with units, and `status`: along the solvers, if there are several,
     the scenes, and random punches.
     """
-    found = _solved(study, scenes_from(given), several, block, threads)
+    found = _solved(study, scenes_from(given), several, block, threads=threads, watch=watch)
     scales = scales_from(study, given)
     if study.spectrum is not None:
         scales = {unit: scale[..., None] for unit, scale in scales.items()}
@@ -100,12 +104,11 @@ def scales_from(study: Study, given: Mapping[str, NDArray[np.float64]]) -> dict[
 
 
 def _solved(
-    study: Study, scenes: Mapping[str, NDArray[np.float64]], several: Block, block: Block, threads: int | None
+    study: Study, scenes: Mapping[str, NDArray[np.float64]], several: Block, block: Block, **how: Any
 ) -> dict[str, NDArray[Any]]:
     """Solve scenes for the outputs of a study, and `status`."""
     solvers = study.method.solver
-    settings: dict[str, Any] = {"check_contact": study.method.check_contact, "threads": threads}
-    settings |= {"loading": study.loading}
+    settings: dict[str, Any] = {"check_contact": study.method.check_contact, "loading": study.loading, **how}
     _, _, profiles = study.apart(block)
     asked = (solvers,) if isinstance(solvers, str) else solvers[several[0]]
     return solved_by(scenes, study, asked, profiles, **settings)

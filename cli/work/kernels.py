@@ -30,6 +30,7 @@ from gradhesion.core import (
     kind_of_turning,
     place,
 )
+from gradhesion.core.problem.names import CONTACT_SLOPE
 
 PAUSE: Final = 0.2
 """Seconds between two looks at what another process compiles."""
@@ -48,7 +49,7 @@ def kinds_of(study: Study) -> tuple[str, ...]:
         return (*turning, kind_of_curves(study.profile, study.loading))
     solvers = study.method.solver
     solvers = (solvers,) if isinstance(solvers, str) else solvers
-    outputs = [name for name in study.solved if name not in VALIDITY]
+    outputs = [name for name in study.solved if name not in (*VALIDITY, CONTACT_SLOPE)]
     slopes = (kind_of_sensitivities(study.profile, study.loading),) if {*outputs} & {*SENSITIVITIES} else ()
     kinds = dict.fromkeys(kind_of_map(outputs, solver, study.profile, study.loading) for solver in solvers)
     smooth = ("smooth",) if {*kinds} & _WITH_SMOOTH and not slopes and _smooth_scenes(study) >= MANY_SMOOTH else ()

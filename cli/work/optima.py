@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import BEST, ON_BOUND, PARAMETER, SI
+from gradhesion.cli.names import BEST, ON_BOUND, PARAMETER, SI, STEEP
 from gradhesion.cli.study.search import Search
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.cli.study.tiling import Block, shape_of
@@ -57,10 +57,12 @@ class _Cells:
             found[one.name] = np.where(place == 1.0, one.high, inner)
         return found
 
-    def solve(self, given: Arrays, outputs: tuple[str, ...], *, study: Study | None = None) -> Arrays:
+    def solve(
+        self, given: Arrays, outputs: tuple[str, ...], *, study: Study | None = None, watch: bool = False
+    ) -> Arrays:
         """Solve scenes."""
         plain = replace(study or self.plain, outputs=outputs)
-        return solve_given(plain, given, (), self.block, self.threads)
+        return solve_given(plain, given, (), self.block, self.threads, watch=watch)
 
     def values(
         self, places: NDArray[np.float64], cells: NDArray[np.int64]
@@ -107,7 +109,8 @@ def best_of_block(study: Study, block: Block, threads: int | None) -> Arrays:
     places = found.places
     values = _reported(cells, places, np.arange(count))
     status = _status_of(values, found, merits)
-    shaped = {name: own.reshape((*shape, *own.shape[1:])) for name, own in values.items() if name in study.variables}
+    known = (*study.variables, *((STEEP,) if study.watches_slope else ()))
+    shaped = {name: own.reshape((*shape, *own.shape[1:])) for name, own in values.items() if name in known}
     return shaped | {ON_BOUND: _bounds_met(places).reshape(shape), "status": status.reshape(shape)}
 
 
@@ -138,6 +141,8 @@ def fronts_of_block(study: Study, block: Block, threads: int | None) -> Arrays:
     first = _status_of({"status": np.bitwise_or.reduce(_known(found), axis=-1)}, ends[0], swept[0][0])
     second = _status_of({"status": np.zeros(count, np.int16)}, ends[1], swept[1][0])
     shaped = {name: own.reshape((*shape, longest)) for name, own in found.items() if name in study.variables}
+    if study.watches_slope:
+        shaped[STEEP] = found[STEEP].max(axis=-1).reshape(shape)
     return shaped | {"status": (first | second).reshape(shape)}
 
 
@@ -163,14 +168,16 @@ def _reported(cells: _Cells, places: NDArray[np.float64], numbers: NDArray[np.in
     slopes = (study.search.slope,) if study.has_slopes else ()
     whole = replace(cells.plain, method=study.method)
     # the outputs of the search as well, so that status says of loading what it said there
-    found = cells.solve(given, tuple(dict.fromkeys((*study.search.solved, *slopes))), study=whole)
+    asked = tuple(dict.fromkeys((*study.search.solved, *slopes)))
+    found = cells.solve(given, asked, study=whole, watch=study.watches_slope)
     status = found["status"]
+    steep = {STEEP: np.broadcast_to(found.pop(STEEP), status.shape)} if study.watches_slope else {}
     values = {
         BEST + name: np.broadcast_to(own, (*status.shape, *own.shape[status.ndim :])) for name, own in found.items()
     }
     inputs = {BEST + one.name: np.broadcast_to(given[one.name], status.shape) for one in study.search.inputs}
     inputs = {name: np.where(np.isnan(places[0]), np.nan, own) for name, own in inputs.items()}
-    return values | inputs | {"status": status}
+    return values | inputs | steep | {"status": status}
 
 
 def _status_of(values: Arrays, found: Optima, merits: NDArray[np.float64]) -> NDArray[np.int16]:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.disk import write_whole
 from gradhesion.cli.files import read_at_most
-from gradhesion.cli.names import ON_BOUND
+from gradhesion.cli.names import ON_BOUND, STEEP
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
 from gradhesion.core import SOURCES
@@ -70,7 +70,8 @@ def types_of(study: Study) -> dict[str, np.dtype[Any]]:
     """Give the types of the results of a map, in the order of a part."""
     types = {name: "<i4" if name.endswith("_jumps") else "<f8" for name in study.variables}
     types |= {ON_BOUND: "|i1"} if ON_BOUND in types else {}
-    return {name: np.dtype(kind) for name, kind in (types | {"status": "<i2" if study.has_answers else "|i1"}).items()}
+    types |= {STEEP: "|i1"} if study.watches_slope else {}
+    return {name: np.dtype(kind) for name, kind in (types | {"status": f"<{study.status_type}"}).items()}
 
 
 def bytes_of(study: Study, block: Block) -> int:

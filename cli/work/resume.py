@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.cli.names import ON_BOUND
+from gradhesion.cli.names import ON_BOUND, STEEP
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of, size_of
 from gradhesion.cli.work.blocks import solve_block
@@ -61,8 +61,9 @@ def attempted(study: Study, block: Block, threads: int | None) -> tuple[Results,
 def blank(study: Study, block: Block) -> Results:
     """Make the values of a block that has none."""
     shape = shape_of(block)
+    marks = (ON_BOUND, STEEP)
     values = {
-        name: np.full(study.shape_of(name, shape), np.nan if kind.kind == "f" else 0 if name == ON_BOUND else -1, kind)
+        name: np.full(study.shape_of(name, shape), np.nan if kind.kind == "f" else 0 if name in marks else -1, kind)
         for name, kind in types_of(study).items()
         if name != "status"
     }

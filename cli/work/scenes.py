@@ -7,18 +7,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion import core
+from gradhesion.cli.names import STEEP
 from gradhesion.core import SENSITIVITIES, VALIDITY
+from gradhesion.core.arrays.reach import is_steep
+from gradhesion.core.problem.names import CONTACT_SLOPE
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.status import NO_VALUE
 
 
 def solve(
-    scenes: Mapping[str, NDArray[np.float64]], outputs: Sequence[str], *, profile: Profile, **settings: Any
+    scenes: Mapping[str, NDArray[np.float64]],
+    outputs: Sequence[str],
+    *,
+    profile: Profile,
+    watch: bool = False,
+    **settings: Any,
 ) -> dict[str, NDArray[Any]]:
     """
     Solve scenes as `gradhesion.core.solve` does, for the outputs of `gradhesion.core.validity` as well.
 
-    All have the shape of all parameters together; where a scene has no value, none has.
+    All have the shape of all parameters together; where a scene has no value, none has. With `watch` comes `STEEP`:
+    1 where the contact reaches a slope of the punch that is not small.
 
     >>> ball = dict(k=0.0, nu=0.3, modulus=500.0, c0_over_R=1.0, lambda_over_R=0.1, A=0.01, a_max_over_R=1.0)
     >>> found = solve(ball, ["wave_slope", "pull_off_force"], profile=Profile())
@@ -26,7 +35,13 @@ def solve(
     (['wave_slope', 'pull_off_force', 'status'], 0.0628)
     """
     known = [name for name in outputs if name in VALIDITY]
-    solved = core.solve(scenes, [name for name in outputs if name not in known], profile=profile, **settings)
+    asked = [name for name in outputs if name not in known]
+    more = [CONTACT_SLOPE] if watch and CONTACT_SLOPE not in asked else []
+    solved = core.solve(scenes, [*asked, *more], profile=profile, **settings)
+    if watch:
+        solved[STEEP] = is_steep(solved[CONTACT_SLOPE]).astype(np.int8)
+    if more:
+        del solved[CONTACT_SLOPE]
     if not known:
         return solved
     from gradhesion.core.closed.applicability import validity  # noqa: PLC0415 (300 ms for SciPy)
@@ -39,4 +54,4 @@ def solve(
     }
     failed = (whole["status"] & NO_VALUE) != 0
     whole |= {name: np.where(failed, np.nan, whole[name]) for name in known}
-    return {name: whole[name] for name in (*outputs, "status")}
+    return {name: whole[name] for name in (*outputs, *((STEEP,) if watch else ()), "status")}

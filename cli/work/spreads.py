@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import PARAMETER, SI, SPREADABLE
+from gradhesion.cli.names import PARAMETER, SI, SPREADABLE, STEEP
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, shape_of
 from gradhesion.cli.study.uncertainty import Uncertainty
@@ -44,9 +44,10 @@ class _Centre:
     threads: int | None
     spreads: Mapping[str, Spread]
 
-    def solve(self, given: Arrays, outputs: tuple[str, ...]) -> Arrays:
+    def solve(self, given: Arrays, outputs: tuple[str, ...], *, watch: bool = False) -> Arrays:
         """Solve scenes that are given as these are, for other outputs."""
-        return solve_given(replace(self.study, outputs=outputs), given, self.several, self.block, self.threads)
+        study = replace(self.study, outputs=outputs)
+        return solve_given(study, given, self.several, self.block, self.threads, watch=watch)
 
     def aligned(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Give an input the dimensions of results: random punches are their last."""
@@ -65,7 +66,8 @@ def solve_uncertain(study: Study, block: Block, threads: int | None) -> Arrays:
         spreads={name: Spread(**asdict(one)) for name, one in study.uncertainty.deviations},
     )
     more = tuple(f"{name}_sensitivity" for name in study.linear)
-    found = centre.solve(centre.given, tuple(dict.fromkeys((*study.outputs, *more))))
+    watch = study.watches_slope
+    found = centre.solve(centre.given, tuple(dict.fromkeys((*study.outputs, *more))), watch=watch)
     linear = {name: values for one in study.linear for name, values in _linear(centre, one, found).items()}
     made = {_named(name, "std"): _deviation(centre, linear[name]) for name in linear}
     if study.uncertainty.samples:
@@ -77,7 +79,7 @@ def solve_uncertain(study: Study, block: Block, threads: int | None) -> Arrays:
     failed = (found["status"] & NO_VALUE) != 0
     flagged = np.any(off, axis=0) & ~failed if off else np.zeros_like(failed)
     status = found["status"].astype(np.int16) | np.where(flagged, LINEAR_DEVIATION_OFF, 0).astype(np.int16)
-    plain = {name: found[name] for name in centre.study.variables}
+    plain = {name: found[name] for name in (*centre.study.variables, *((STEEP,) if watch else ()))}
     return plain | {name: np.where(failed, np.nan, made[name]) for name in study.spreads} | {"status": status}
 
 

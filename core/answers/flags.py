@@ -20,5 +20,5 @@ ANSWER_FLAGS: Final = {
 }
 """Name of every flag of answers, with its bit."""
 
-FLAGS: Final = OF_SCENES | ANSWER_FLAGS
-"""Name of every flag of a dataset, with its bit; those of a scene first."""
+FLAGS: Final = dict(sorted((OF_SCENES | ANSWER_FLAGS).items(), key=lambda flag: flag[1]))
+"""Name of every flag of a dataset, with its bit, in the order of the bits."""

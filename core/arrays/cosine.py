@@ -21,8 +21,8 @@ from gradhesion.core.curve.branches import ROWS
 from gradhesion.core.kinds import MANY_SMOOTH
 from gradhesion.core.path.cosine import is_endless_wave
 from gradhesion.core.problem.material import fill_stiffness
-from gradhesion.core.problem.names import PARAMETERS, PULL_OFF, REPORTS, RESULTS
-from gradhesion.core.problem.results import typed
+from gradhesion.core.problem.names import PARAMETERS, PULL_OFF, REPORTS
+from gradhesion.core.problem.results import slots_of, typed
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene.cosine_report import NEEDED, report_curves
 from gradhesion.core.scene.smooth import ROWS as SMOOTH_ROWS
@@ -104,9 +104,7 @@ def solve_cosine(
     some_without = bool(without_rim.any())
     if some_without:
         rims[without_rim] = math.inf
-    slots = np.array(
-        [*(rows.index(name) if name in rows else -1 for name in RESULTS), int(check_contact) - 1, int(turned)]
-    )
+    slots = slots_of(rows, check_contact=check_contact, turned=turned)
     slots_of_reports = np.array([rows.index(name) if name in reports else -1 for name in REPORTS])
     out = np.empty((len(rows), *curves.size))
     status = np.zeros(curves.size, dtype=np.int8)

@@ -12,9 +12,9 @@ from gradhesion.core.arrays.cosine import SLOPES
 from gradhesion.core.arrays.prepared import prepared, run_by_exponent
 from gradhesion.core.arrays.tables import changes_of, tables_of
 from gradhesion.core.problem.control import Loading
-from gradhesion.core.problem.names import PULL_OFF, RESULTS
+from gradhesion.core.problem.names import PULL_OFF
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.results import typed
+from gradhesion.core.problem.results import slots_of, typed
 from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
 from gradhesion.core.scene.general import solve_pull_offs, solve_scenes
 from gradhesion.core.sensitivities.cosine_slopes import COUNT
@@ -42,8 +42,7 @@ def solve_general(
     """
     scenes = prepared(parameters, loading)
     rows = list(dict.fromkeys(outputs))
-    places = [rows.index(name) if name in rows else -1 for name in RESULTS]
-    slots = np.array([*places, int(check_contact) - 1, int(turned)])
+    slots = slots_of(rows, check_contact=check_contact, turned=turned)
     out = np.full((len(rows), scenes.k.size, scenes.rim.shape[1]), np.nan)
     status = np.zeros(out.shape[1:], dtype=np.int8)
     n, series = in_own_wavelength(profile)

@@ -10,7 +10,8 @@ from typing import Any, Final, Protocol, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.problem.status import JUMP_IN_TO_RIM, NO_VALUE
+from gradhesion.core.problem.names import TURNS
+from gradhesion.core.problem.status import JUMP_IN_TO_RIM, NO_CONTACT, NO_VALUE
 
 Results: TypeAlias = dict[str, NDArray[Any]]
 _GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
@@ -55,8 +56,9 @@ def turned_results(
 
     Returns
     -------
-    All `outputs` and `status`. Without contact (radius 0) force, energies and counts are 0, `delta_max` is the depth at
-    which the cycle turns, radii and the depth of the jump-out are NaN. The gains are those over the smooth punch that
+    All `outputs` and `status`, of 16 bits where cycles turn at a depth. Without contact (radius 0, no_contact) force,
+    energies and counts are 0, `delta_max` is the depth at which the cycle turns, radii and the depth of the jump-out
+    are NaN. The gains are those over the smooth punch that
     turns at the same depth or load.
     """
     limits = np.broadcast_to(np.asarray(parameters["a_max_over_R"], dtype=float), radii.shape)
@@ -78,8 +80,9 @@ def turned_results(
         plain = smooth(even, [_GAINS[name] for name in gains])
         with np.errstate(all="ignore"):
             found |= {name: found[_GAINS[name]] / plain[_GAINS[name]] for name in gains}
-    status = np.where(away, 0, np.where(short, found["status"] & ~JUMP_IN_TO_RIM, found["status"])) | flags
+    status = np.where(short, found["status"] & ~JUMP_IN_TO_RIM, found["status"])
+    status = np.where(none & ~away, NO_VALUE, np.where(away, NO_CONTACT, status) | flags)
     return found | {
-        "status": np.where(none & ~away, NO_VALUE, status).astype(np.int8),
+        "status": status.astype(np.int16 if turn == TURNS[0] else np.int8),
         "turning_radius": np.where(none & ~away, np.nan, radii),
     }

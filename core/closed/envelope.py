@@ -27,7 +27,7 @@ from typing import Any
 
 from gradhesion.core.closed.smooth import FORCE_SCALE, smooth_length
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.problem.results import put_all
+from gradhesion.core.problem.results import OUTERMOST, put, put_all
 from gradhesion.core.struve.circle import TWO_PI
 
 
@@ -117,3 +117,6 @@ def solve_curve(
     for rim in range(rims.size):
         values = solve_rim(table.k, stretch, table.amplitude * gain, mean_height, rims[rim])
         put_all(out, slots, rim, values)
+        chi = table.amplitude * gain
+        z_in = 2.0 ** (2.0 / (3.0 + table.k)) if chi == 0.0 else math.inf  # with waves hysteresis has no end
+        put(out, slots, OUTERMOST, rim, z_in * smooth_length(table.k, stretch))

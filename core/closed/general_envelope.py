@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core.closed.crest import swings
 from gradhesion.core.equations.envelopes import waviness_strength
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.problem.names import RESULTS
+from gradhesion.core.problem.names import REACH, RESULTS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.results import INTEGERS
 from gradhesion.core.problem.shape import rows_of
@@ -122,10 +122,11 @@ def solve_envelope(
             mean + unit * last,
             area * loaded,
             area * unloaded,
+            np.where(up + down == 0.0, z_in * length, np.where(valid, np.inf, np.nan)),  # with waves there is no end
         )
     found: dict[str, NDArray[Any]] = {}
     for name in outputs:
-        value: NDArray[Any] = values[RESULTS.index(name)]
+        value: NDArray[Any] = values[(*RESULTS, REACH).index(name)]
         if name in INTEGERS:
             value = np.where(np.isnan(value), -1.0, value).astype(np.int32)
         found[name] = value.reshape(shape)

@@ -92,8 +92,10 @@ def climb(
         if top < math.inf and end != sure and is_near(basis, curve, top, level, end, whole):
             close = True
         if top > level:
-            if losses:
+            if losses or end == math.inf:
                 x = find_level(basis, curve, level, ends(trace, branch), whole)
+                end = x if end == math.inf else end  # nothing leaves it: where loading has arrived
+            if losses:
                 loss += _leap(basis, curve, state, x, whole)
                 _note_leap(notes, state, x, whole, NO)
             state = (loss, jumps + 1.0, top, whole, end, close)

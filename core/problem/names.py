@@ -18,6 +18,10 @@ RESULTS: Final = (
 """The results of a cycle that the kernels compute, in the order of their rows (problem/results.py)."""
 OUTPUTS: Final = (*RESULTS, "turning_radius")
 """All results of a scene: those of its cycle, and where it turns."""
+REACH: Final = "reach"
+"""The largest end of a jump of an unbounded punch, a/R: a result that `contact_slope` is made of (arrays/reach.py)."""
+CONTACT_SLOPE: Final = "contact_slope"
+"""The slope (a/R)^(m-1) of the punch at the largest radius on which the other outputs depend (arrays/reach.py)."""
 TURNS: Final = ("indentation_max_over_R", "load_max")
 """Where the cycle turns before the rim, at most one of them: a depth in R, or a load in 1.5 pi R dgamma."""
 PULL_OFF: Final = ("pull_off_force", "pull_off_radius")

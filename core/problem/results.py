@@ -3,12 +3,14 @@
 Results go to `out[slots[row], rim]`, where `slots` holds -1 for what nobody asked for.
 """
 
+from collections.abc import Sequence
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.compiler.jit import constant, kernel
+from gradhesion.core.problem.names import REACH, RESULTS
 
 INTEGERS: Final = ("loading_jumps", "unloading_jumps")
 """Those that count."""
@@ -18,6 +20,14 @@ CONTACT = 9
 """One more slot, not -1 if `status` reports where loading does not keep the contact one disc."""
 TURNED = 10
 """And another one, 1 if the rims are turning points (turning/cosine.py): places that loading surely reaches."""
+OUTERMOST = 11
+"""The last one: the row of the largest end of a jump, REACH of names.py, stored of rims at infinity only."""
+
+
+def slots_of(rows: Sequence[str], *, check_contact: bool, turned: bool) -> NDArray[np.int64]:
+    """Return the slots for results that stand in these rows of `out`."""
+    places = [rows.index(name) if name in rows else -1 for name in (*RESULTS, REACH)]
+    return np.array([*places[:-1], int(check_contact) - 1, int(turned), places[-1]])
 
 
 def typed(name: str, values: NDArray[np.float64]) -> NDArray[Any]:
@@ -42,7 +52,8 @@ def wants_losses(slots: Any) -> bool:
 @kernel()
 def wants_cycle(slots: Any) -> bool:
     """Return whether anything is asked for that needs the jumps."""
-    return wants_losses(slots) or slots[LOADING] >= 0 or slots[UNLOADING] >= 0 or slots[LAST] >= 0
+    counts = slots[LOADING] >= 0 or slots[UNLOADING] >= 0
+    return wants_losses(slots) or counts or slots[LAST] >= 0 or slots[OUTERMOST] >= 0
 
 
 @kernel()

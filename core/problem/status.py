@@ -19,6 +19,9 @@ TOLERANCE_NOT_MET: Final = 32
 """The energy is not as accurate as promised: its estimated error, if requested, is above 1e-9 of its terms."""
 NO_VALUE: Final = 64
 """A parameter is not a number or outside its range, or the scene cannot be resolved: the values are NaN."""
+NO_CONTACT: Final = 1024
+"""The depth at which the cycle turns is below first contact: force, energies and jumps are 0, radii NaN. In studies
+that turn at a depth only, whose `status` is int16."""
 
 FLAGS: Final = {
     "loading_contact_not_one_disc": LOADING_NOT_ONE_DISC,
@@ -28,8 +31,11 @@ FLAGS: Final = {
     "close_to_a_jump": CLOSE_TO_A_JUMP,
     "tolerance_not_met": TOLERANCE_NOT_MET,
     "no_value": NO_VALUE,
+    "no_contact": NO_CONTACT,
 }
 """Name of every flag, with its bit; not every solver sets every one."""
+OF_EVERY_MAP: Final = {name: bit for name, bit in FLAGS.items() if bit < 2**7}
+"""Those that a status of 8 bits has room for: all but of studies that turn at a depth."""
 
 DOUBTFUL: Final = LOADING_NOT_ONE_DISC | UNLOADING_NOT_ONE_DISC | TOLERANCE_NOT_MET
 """The bits of a scene whose values are there and may not hold."""

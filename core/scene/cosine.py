@@ -32,6 +32,7 @@ from gradhesion.core.problem.results import (
     LAST,
     LOADED,
     LOADING,
+    OUTERMOST,
     RADIUS,
     UNLOADED,
     UNLOADING,
@@ -86,6 +87,7 @@ def _solve_smooth(k: float, stretch: float, rims: Any, slots: Any, out: Any, sta
             square = min(rim * rim, jump_out)
             root = power(math.sqrt(square), 0.5 * (1.0 - k))
             put(out, slots, LAST, i, smooth.smooth_last(k, stretch, square, root))
+            put(out, slots, OUTERMOST, i, math.sqrt(jump_in))
         if wants_folds(slots):
             put(out, slots, DEEPEST, i, smooth.smooth_deepest(k, abscissa, rim))
             if smooth.jumps_in_to_rim(abscissa):

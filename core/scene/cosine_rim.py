@@ -5,6 +5,7 @@ from typing import Any
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact.cosine_disc import disc_limits, is_one_disc
+from gradhesion.core.curve.branches import ARRIVAL
 from gradhesion.core.curve.cosine import Curve, depth
 from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
 from gradhesion.core.path.ties import first_close_pair, is_close_to_a_jump
@@ -16,6 +17,7 @@ from gradhesion.core.problem.results import (
     LAST,
     LOADED,
     LOADING,
+    OUTERMOST,
     TURNED,
     UNLOADED,
     UNLOADING,
@@ -26,6 +28,7 @@ from gradhesion.core.problem.results import (
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.sensitivities.cosine_slopes import put_energy
 from gradhesion.core.sensitivities.path_slopes import fill_loading, slopes_for
+from gradhesion.core.struve.circle import TWO_PI
 
 
 @kernel()
@@ -70,7 +73,7 @@ def _cycle_at_rim(
     i: int,
 ) -> None:
     """Read the cycle of one rim off a trace, and what there is to report."""
-    _, depth_scale = scales
+    energy_scale, depth_scale = scales
     losses = wants_losses(slots)
     inner, outer, tangency = limits
     rim_depth = depth(table, curve, x) if x < math.inf else math.inf
@@ -80,6 +83,8 @@ def _cycle_at_rim(
         put_cycle(slots, scales, loading, (unloaded, unloading_jumps), last, out, status, i)
         if is_close_to_a_jump(table, curve, count, trace, tangency, x, rim_depth, slots[TURNED] > 0):
             status[i] |= CLOSE_TO_A_JUMP
+        if x == math.inf:  # the last branch has no end, and loading arrives on it
+            put(out, slots, OUTERMOST, i, math.sqrt(TWO_PI * energy_scale) * trace[ARRIVAL, count - 1])
     put(out, slots, DEEPEST, i, depth_scale * highest_depth(count, trace, x, rim_depth))
     if jumps_in_to(count, trace, x):
         status[i] |= JUMP_IN_TO_RIM

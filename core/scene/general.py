@@ -13,6 +13,7 @@ import numpy as np
 from gradhesion.core.compiler.jit import NONE, kernel
 from gradhesion.core.contact.general_disc import disc_limits, is_one_disc
 from gradhesion.core.curve.arches import is_one_cosine
+from gradhesion.core.curve.branches import ARRIVAL
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Curve, coordinate, curve_of, state
@@ -34,6 +35,7 @@ from gradhesion.core.problem.results import (
     LAST,
     LOADED,
     LOADING,
+    OUTERMOST,
     RADIUS,
     TURNED,
     UNLOADED,
@@ -182,6 +184,8 @@ def _walked(
         close = is_close_to_a_jump(basis, curve, count, trace, tangency, x, level, turned)
         flags = (close, is_one_disc(basis, curve, limits, x))
         _put_cycle(basis, curve, length, unit, (x, 0.0), loading, unloading, flags, slots, out, status, i)
+        if x == math.inf:  # the last branch has no end, and loading arrives on it
+            put(out, slots, OUTERMOST, i, TWO_PI * length * trace[ARRIVAL, count - 1])
         if len(own) > 0:
             put_energy(basis, curve, own, count, trace, slopes, x, loading[0] + unloading[0], i)
     return True
@@ -216,6 +220,8 @@ def _strode(
         _, _, _, depth, _ = state(basis, curve, left, whole)
     up, down = (loading[0], loading[1], loading[2]), (unloading[0], unloading[1], depth)
     _put_cycle(basis, curve, length, unit, (x, waves), up, down, (close, one_disc), slots, out, status, i)
+    if x == math.inf:
+        put(out, slots, OUTERMOST, i, TWO_PI * length * (loading[3] + loading[4]))
     if len(own) > 0:
         put_noted(basis, curve, own, middle[2], notes, x, waves, loading[0] + unloading[0], i)
     return True

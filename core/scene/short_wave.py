@@ -10,7 +10,17 @@ import numpy as np
 
 from gradhesion.core.closed import envelope
 from gradhesion.core.compiler.jit import YES, kernel
-from gradhesion.core.curve.branches import END, END_DEPTH, HIGHEST, ROWS, START, START_DEPTH, UNKNOWN, UNLOADING_JUMPS
+from gradhesion.core.curve.branches import (
+    ARRIVAL,
+    END,
+    END_DEPTH,
+    HIGHEST,
+    ROWS,
+    START,
+    START_DEPTH,
+    UNKNOWN,
+    UNLOADING_JUMPS,
+)
 from gradhesion.core.curve.cosine import curve_of, force_unit
 from gradhesion.core.curve.short_wave import (
     FURTHEST,
@@ -24,7 +34,7 @@ from gradhesion.core.curve.short_wave import (
 )
 from gradhesion.core.path.loading import highest_depth, load_up, loading_to
 from gradhesion.core.path.unloading import unloading_from
-from gradhesion.core.problem.results import put_all, wants_folds, wants_force
+from gradhesion.core.problem.results import OUTERMOST, put, put_all, wants_folds, wants_force
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
 
@@ -125,3 +135,5 @@ def solve_curve(
             energy_scale * loss_back,
         )
         put_all(out, slots, i, values)
+        if folds:
+            put(out, slots, OUTERMOST, i, trace[ARRIVAL, count - 1] * length if count > 0 else math.nan)

@@ -18,6 +18,7 @@ from gradhesion.core.problem.results import (
     LAST,
     LOADED,
     LOADING,
+    OUTERMOST,
     RADIUS,
     UNLOADED,
     UNLOADING,
@@ -28,12 +29,12 @@ from gradhesion.core.problem.results import (
 )
 from gradhesion.core.problem.status import JUMP_IN_TO_RIM, NO_VALUE, PULL_OFF_AT_RIM
 
-ROWS: Final = 18
+ROWS: Final = 19
 SCENES: Final = 256
 """Scenes of a block: what is used of it stays in the nearest cache."""
 _RESULTS: Final = 9
-_K, _STRETCH, _IN, _OUT, _RIM, _X, _BASE, _EXPONENT, _FLAGS = map(constant, range(_RESULTS, ROWS))
-"""The rows: k, s, a_2^2, a_4^2, the rim, X there, x and p of a power x^p, and flags."""
+_K, _STRETCH, _IN, _OUT, _RIM, _X, _BASE, _EXPONENT, _FLAGS, _REACH = map(constant, range(_RESULTS, ROWS))
+"""The rows: k, s, a_2^2, a_4^2, the rim, X there, x and p of a power x^p, flags, and a_2."""
 
 
 @kernel()
@@ -177,6 +178,9 @@ def _solve_block(count: int, block: Any, slots: Any, far: bool) -> None:
             block[LOADING, e], block[UNLOADING, e] = 1.0, smooth.smooth_jumps_out(block[_K, e])
     if slots[LAST] >= 0:
         _find_last(count, block)
+    if slots[OUTERMOST] >= 0:
+        for e in range(count):
+            block[_REACH, e] = math.sqrt(block[_IN, e])
     if slots[DEEPEST] >= 0:
         for e in range(count):
             block[DEEPEST, e] = smooth.smooth_deepest(block[_K, e], block[_X, e], block[_RIM, e])
@@ -205,6 +209,9 @@ def _solve_run(
             value = scenes[result, 0]
             for i in range(number, end):
                 out[slots[result], curve, i] = value
+    if slots[OUTERMOST] >= 0:
+        for i in range(number, end):
+            out[slots[OUTERMOST], curve, i] = scenes[_REACH, 0]
     flags = scenes[_FLAGS, 0]
     for i in range(number, end):
         status[curve, i] = flags
@@ -263,6 +270,8 @@ def solve_smooth(
             for row in range(_RESULTS):
                 if slots[row] >= 0:
                     _store(some, first, count, scenes[row], out[slots[row]])
+            if slots[OUTERMOST] >= 0:
+                _store(some, first, count, scenes[_REACH], out[slots[OUTERMOST]])
             _store(some, first, count, scenes[_FLAGS], status)
             first += count
         _refuse(some, curves, out, status)
