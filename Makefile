@@ -61,7 +61,7 @@ outputs/maps.nc: configs/maps.toml $(sources) .venv/installed
 	.venv/bin/gradhesion run configs/maps.toml -o $@ --overwrite
 
 outputs/maps.png: outputs/maps.nc
-	.venv/bin/gradhesion plot $< -o $@ --at c0_over_R=0.01 --at A=0.05 --at a_max_over_R=inf --width page --no-title --overwrite
+	.venv/bin/gradhesion plot $< -o $@ --at c0_over_R=0.01 --at A=0.05 --at a_max_over_R=0.3 --width page --no-title --overwrite
 
 # The study of a picture: its own, as configs/fig4a.toml, or one of several panels, as configs/fig3.toml for fig3a.
 dataset = outputs/figures/$(notdir $(basename $(or $(wildcard configs/$(1).toml),$(foreach panel,a b c,$(wildcard configs/$(1:%$(panel)=%).toml))))).nc

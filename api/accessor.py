@@ -6,6 +6,7 @@ import numpy as np
 import xarray
 
 from gradhesion.cli.dataset.doubtful import doubts_of
+from gradhesion.cli.dataset.model_range import LIMITS, beyond_by, is_cone
 from gradhesion.cli.dataset.reader import check_ours, is_turned
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.terminal.wording import did_you_mean
@@ -87,6 +88,31 @@ class Accessor:
         if flag not in FLAGS:
             raise DatasetError(f"{flag}: not a flag of status; {did_you_mean(flag, list(FLAGS))}")
         return (self._dataset["status"].astype(np.int16) & FLAGS[flag]) != 0
+
+    def outside(self, number: str = "contact_slope") -> xarray.DataArray:
+        """
+        Report which scenes leave the range of the model, by a validity number.
+
+        Parameters
+        ----------
+        number
+            "contact_slope", which is known of every dataset, or a validity number that is a variable of this one.
+
+        Returns
+        -------
+        Booleans over the dimensions of the number, for `where`: `dataset.where(~dataset.gr.outside())`.
+
+        Raises
+        ------
+        DatasetError
+            The number is not known of this dataset.
+        """
+        beyond = beyond_by(number, self._dataset) if number in LIMITS else None
+        if beyond is None and number != "contact_slope":
+            raise DatasetError(f"{number}: not known of this dataset; add it to the outputs of the study")
+        if beyond is None:
+            beyond = xarray.full_like(self._dataset["status"], is_cone(self._dataset), dtype=bool)
+        return beyond
 
     def plot(self, variables: Any = None, **choices: Any) -> Any:
         """Draw the dataset, as `gradhesion.plot(dataset, variables, ...)`; the axes of its panels are returned."""

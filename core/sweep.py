@@ -112,7 +112,8 @@ def solve(
         load, whose own rounding is that of the load (NaN beyond 2,000 waves); roughness_parameter chi = r/s;
         saturation_radius in R, beyond which there is no fold; adhesion_gain and energy_gain over the smooth punch of
         the same material and rim; and pull_off_force_sensitivity and dissipated_energy_sensitivity, d ln(value)/d ln p
-        of every parameter, for k and nu d ln(value)/dp.
+        of every parameter, for k and nu d ln(value)/dp. And contact_slope, (a/R)^(m-1) at the largest radius on which
+        the other outputs depend (arrays/reach.py); of an unbounded punch to about 1e-12, by the asymptotic solver 1e-6.
     solver
         One of `SOLVERS`.
     check_contact
@@ -131,9 +132,9 @@ def solve(
     Returns
     -------
     An array of the broadcast shape for each output (float64; int32 for jumps, 2^31 - 1 for more) and `status` (int8,
-    bits of status.FLAGS). Sensitivities have a last axis more: the parameters in the order of `PARAMETERS`,
-    machine_stiffness and the one of `TURNS` if they are given. A scene outside the ranges has NaN (-1 jumps) and the
-    bit no_value; delta_max of an unbounded punch is inf.
+    int16 where cycles turn at a depth; bits of status.FLAGS). Sensitivities have a last axis more: the parameters in
+    the order of `PARAMETERS`, machine_stiffness and the one of `TURNS` if they are given. A scene outside the ranges
+    has NaN (-1 jumps) and the bit no_value; delta_max of an unbounded punch is inf.
 
     Raises
     ------

@@ -132,6 +132,7 @@ def run(
 
 def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> None:
     """Fit a loop and write what was found."""
+    from gradhesion.cli.dataset.cautions import cautions_of_fit
     from gradhesion.cli.dataset.fit import write_fit
     from gradhesion.cli.disk import refuse_existing
     from gradhesion.cli.work.compiling import prepare
@@ -153,6 +154,8 @@ def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> 
             f"{bytes_in_words(path.stat().st_size)}: {values}",
             seconds=seconds,
         )
+        for sentence in cautions_of_fit(study, found):
+            messages.say("caution", f"{path}: {sentence}")
     if doubts := doubts_of(found):
         raise FitDoubtfulError([f"{path}: {sentence}" for sentence in doubts])
 

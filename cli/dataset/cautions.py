@@ -1,7 +1,7 @@
 """What a user should know of a dataset that is written: cells whose answers may not hold, as a share of all."""
 
 from collections.abc import Iterator, Mapping
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,9 +9,13 @@ from numpy.typing import NDArray
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.answers.flags import ANSWER_FLAGS
-from gradhesion.core.arrays.reach import SMALL
+from gradhesion.core.arrays.reach import SMALL, depends_on_contact, is_steep, slopes_of
 
-CONE: Final = "the punch is a cone of slope 1, which is not small, at every contact radius: in all of {}"
+if TYPE_CHECKING:
+    from gradhesion.cli.study.fit_study import FitStudy
+    from gradhesion.core.answers.loop_fit import FittedLoop
+
+CONE: Final = "the punch is a cone of slope 1, which is not small, at every contact radius of {}"
 """What is said once of a study of a cone."""
 
 
@@ -50,12 +54,23 @@ def cautions(study: Study, flagged: Mapping[str, int], steep: int = 0) -> Iterat
             )
 
 
+def cautions_of_fit(study: "FitStudy", found: "FittedLoop") -> Iterator[str]:
+    """Say that a fitted cycle reaches slopes of the punch that are not small."""
+    if study.profile.exponent == 1.0:
+        yield CONE.format("the loop")
+    elif is_steep(slopes_of(np.array(found.turning_radius), study.profile)):
+        yield (
+            f"contact reaches a = {found.turning_radius:.3g} R, where the punch has a slope above {SMALL:g}, which is "
+            "not small: the fitted values may be off"
+        )
+
+
 def _of_slope(study: Study, steep: int) -> Iterator[str]:
     """Say how many scenes reach a slope of the punch that is not small, in one line."""
-    if study.is_cone:
-        yield CONE.format(counted(study.scenes, "scene"))
+    share = f"{steep:,} of {counted(study.scenes, 'scene')} ({100 * steep / study.scenes:.2g} %)"
+    if study.is_cone and depends_on_contact(study.solved):
+        yield CONE.format(f"all of {counted(study.scenes, 'scene')}")
     elif steep:
-        share = f"{steep:,} of {counted(study.scenes, 'scene')} ({100 * steep / study.scenes:.2g} %)"
         yield (
             f"contact reaches slopes of the punch above {SMALL:g} (a > R) in {share}, which are not small; bound it "
             "with a_max_over_R or indentation_max_over_R"

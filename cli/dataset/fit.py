@@ -15,7 +15,8 @@ from gradhesion.cli.study.shape_words import shape_in_words
 from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.fitting import fitted, kinds_of_fit, loading_of
 from gradhesion.core.answers.loop_fit import FittedLoop
-from gradhesion.core.problem.status import FLAGS
+from gradhesion.core.arrays.reach import is_steep, slopes_of
+from gradhesion.core.problem.status import OF_EVERY_MAP
 
 if TYPE_CHECKING:
     import xarray
@@ -95,6 +96,8 @@ def dataset_of(study: FitStudy, found: FittedLoop, history: str) -> "xarray.Data
         name: xarray.Variable(dims, values, {"long_name": long.get(name, "")} | told)
         for name, (dims, values, told) in rows.items()
     }
+    if is_steep(slopes_of(np.array(found.turning_radius), study.profile)):
+        made[names.STEEP] = xarray.Variable((), np.int8(1), {"units": "1", "long_name": names.STEEP_CONTACT})
     made["status"] = xarray.Variable((), np.int8(found.status), _of_status())
     fixed = {
         name: xarray.Variable((), study.fixed[name], {"units": key.unit, "long_name": key.about})
@@ -118,7 +121,8 @@ def dataset_of(study: FitStudy, found: FittedLoop, history: str) -> "xarray.Data
         "noise_is": "given" if study.noise_is_given else "estimated from differences of neighbours",
         "intervals": "profile likelihoods" if study.intervals == "profile" else "linear",
     }
-    return xarray.Dataset(made, coordinates | fixed, origin(study, history, own_attributes))
+    marks = {name: made.pop(name) for name in (names.STEEP,) if name in made}
+    return xarray.Dataset(made, coordinates | fixed | marks, origin(study, history, own_attributes))
 
 
 def _narrow(cycle: NDArray[np.int64]) -> NDArray[np.int32] | NDArray[np.int64]:
@@ -131,6 +135,6 @@ def _of_status() -> dict[str, Any]:
     return {
         "units": "1",
         "long_name": "flags of the fitted cycle (0: nothing to report)",
-        "flag_masks": np.array(list(FLAGS.values()), dtype=np.int8),
-        "flag_meanings": " ".join(FLAGS),
+        "flag_masks": np.array(list(OF_EVERY_MAP.values()), dtype=np.int8),
+        "flag_meanings": " ".join(OF_EVERY_MAP),
     }

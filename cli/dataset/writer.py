@@ -307,7 +307,7 @@ def _define(file: netCDF4.Dataset, study: Study, history: str) -> None:
                 variable[block or ...] = described.made(block)
 
 
-def _create(file: netCDF4.Dataset, study: Study, name: str, described: Variable) -> netCDF4.Variable[Any]:
+def _create(file: netCDF4.Dataset, study: Study, name: str, described: Variable) -> "netCDF4.Variable[Any]":
     """Create a variable, without its values."""
     settings: dict[str, Any] = {}
     if described.dimensions and described.dtype != "str":

@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 import xarray
 
+from gradhesion.cli.dataset.model_range import slope_told
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import FLAGS as WORDS
 from gradhesion.cli.names import PARAMETER, PARAMETER_UNITS
@@ -74,6 +75,7 @@ def _quality(dataset: xarray.Dataset) -> Iterator[str]:
         for j, other in enumerate(names[:i]):
             if abs(correlation[i, j]) > TOGETHER:
                 yield f"correlation of {other} and {one}: {correlation[i, j]:.3f}"
+    yield from (f"outside the range of the model: {line}" for line in slope_told(dataset))
     status = int(dataset["status"])
     for name, bit in FLAGS.items():
         if status & bit:

@@ -85,6 +85,8 @@ class FittedLoop:
     unloading: _Array
     converged: bool
     status: int
+    turning_radius: float = math.nan
+    """The radius a/R at which the fitted cycle turns."""
 
 
 class CannotTellApartError(ValueError):
@@ -275,4 +277,5 @@ def _described(misfit: Misfit, done: Any, intervals: str) -> FittedLoop:
         unloading=path.places[path.turn :],
         converged=bool(done.status > 0),
         status=misfit.model.status(done.x),
+        turning_radius=float(path.radius[path.turn] / misfit.model.given(misfit.model.values(done.x))["R"]),
     )

@@ -13,7 +13,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import click
-import numpy as np
 import pytest
 import xarray
 from click.testing import Result
@@ -214,7 +213,7 @@ def test_the_maps_are_a_real_study_over_all_five_axes() -> None:
     assert study.scenes >= 100_000
     assert list(study.sizes) == ["k", "c0_over_R", "lambda_over_R", "A", "a_max_over_R"]
     assert min(study.shape) >= 4
-    assert np.isinf(np.max(study.parameters["a_max_over_R"]))
+    assert not study.watches_slope, "all contacts stay where the punch is shallow"
 
 
 PACKAGES = {"api": "gradhesion"}
