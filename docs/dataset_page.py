@@ -19,7 +19,7 @@ from gradhesion.core.problem import status as status_module
 MODULES: Final = (status_module, flags_module)
 """Where flags are defined: those of a scene, and those of answers."""
 
-NO_FLAGS: Final = ("FLAGS", "DOUBTFUL", "FAILED", "ANSWER_FLAGS")
+NO_FLAGS: Final = ("FLAGS", "OF_EVERY_MAP", "DOUBTFUL", "FAILED", "ANSWER_FLAGS")
 """What `core.problem.status` defines beside its flags."""
 
 ATTRIBUTES: Final = {
@@ -110,7 +110,8 @@ def _sections() -> Iterator[str]:
     yield (
         f"Every dataset has `status`, {names.STATUS}. Each bit is a flag. A scene with {_named(FAILED)} has failed. "
         f"Its values are doubtful with {_named(DOUBTFUL)}. The approximate solvers set `no_value` only. The flags "
-        "after it occur with uncertain inputs and optima; `status` is int16 there."
+        "after it occur with uncertain inputs and optima, the last one where cycles turn at a depth; `status` is int16 "
+        f"there. A map or curve study has the coordinate `{names.STEEP}`, {names.STEEP_CONTACT}, if it is for any scene."
     )
     yield table(("flag", "bit", "in words", "of a scene"), _flags())
     yield "## Global attributes"

@@ -10,9 +10,11 @@ import subprocess
 import sys
 import tomllib
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import click
+import numpy as np
 import pytest
 import xarray
 from click.testing import Result
@@ -214,6 +216,54 @@ def test_the_maps_are_a_real_study_over_all_five_axes() -> None:
     assert list(study.sizes) == ["k", "c0_over_R", "lambda_over_R", "A", "a_max_over_R"]
     assert min(study.shape) >= 4
     assert not study.watches_slope, "all contacts stay where the punch is shallow"
+
+
+def test_the_picture_of_the_readme_compares_like_with_like() -> None:
+    """All its punches are pressed to one contact radius, which short waves reach before their hysteresis saturates."""
+    from gradhesion.core import solve
+
+    parameters = tomllib.loads((ROOT / "configs" / "maps.toml").read_text())["parameters"]
+    own = {name: parameters[name] for name in ("nu", "modulus")} | {"c0_over_R": 0.01, "A": 0.05}
+    assert "--at c0_over_R=0.01 --at A=0.05 --at a_max_over_R=0.3 " in (ROOT / "Makefile").read_text()
+    assert "of punches that all end at a = 0.3 R" in README
+    scene = own | {"k": np.linspace(0.0, 0.9, 28)[:, None], "lambda_over_R": [0.05, 0.1, 1 / 3, 0.5]}
+    found = solve(scene | {"a_max_over_R": 0.3})
+    smooth = solve(scene | {"a_max_over_R": 0.3, "k": 0.0, "A": 0.0})["pull_off_force"][0]
+    force, energy = (found[name] for name in ("pull_off_force", "dissipated_energy"))
+    assert 4.5 < force[:, 2].max() / smooth < 5.5, "five times, at a third"
+    assert 0.2 < force[:, 3].min() / smooth < 0.3, "a quarter, at a half"
+    assert (energy[-1, :2] < energy[0, :2] / 3.0).all()
+    unbounded = solve(scene | {"a_max_over_R": np.inf}, ["dissipated_energy", "contact_slope"])["contact_slope"]
+    assert (unbounded[0, 0], unbounded[-1, 0]) == pytest.approx((4.9, 0.34), rel=0.03), "which is why"
+    assert unbounded[:, 0].min() > 0.3
+
+
+SHIPPED_BEYOND = {"fig4a": "unbounded", "cone": "cone"}
+"""The studies that leave small slopes, and the word of their comment that says so."""
+
+
+def test_shipped_studies_stay_where_slopes_are_small_or_say_why_not() -> None:
+    from gradhesion.cli.study.fit_study import FitStudy
+    from gradhesion.cli.study.reading import load_any
+    from gradhesion.cli.work.given import scenes_of
+    from gradhesion.core import VALIDITY, solve
+
+    for path in sorted((ROOT / "configs").glob("*.toml")):
+        study = load_any(path, ())
+        if isinstance(study, FitStudy) or study.kind == "curve" or study.search:
+            continue
+        if path.stem in SHIPPED_BEYOND:
+            assert study.watches_slope or study.is_cone
+            assert SHIPPED_BEYOND[path.stem] in path.read_text()
+        elif study.watches_slope:
+            few = {
+                name: values if isinstance(values, float) else values[np.unique([0, values.size // 2, values.size - 1])]
+                for name, values in study.parameters.items()
+            }
+            given = replace(study, parameters=few)
+            scenes = scenes_of(given, given.apart(tuple(slice(0, size) for size in given.shape))[1])
+            asked = [*(name for name in study.outputs if name not in VALIDITY), "contact_slope"]
+            assert np.nanmax(solve(scenes, asked, profile=study.profile, loading=study.loading)["contact_slope"]) <= 1.0
 
 
 PACKAGES = {"api": "gradhesion"}
