@@ -49,7 +49,7 @@ OUTPUTS: Final = {
     "wave_tabor_parameter": "Tabor parameter of the crests of the waviness",
     "wave_slope": "steepest slope of the waviness",
     "johnson_alpha": "Johnson's parameter alpha = 1/(sqrt(pi) chi) of the waviness",
-    "contact_slope": "slope (a/R)^(m-1) of the punch at the largest contact radius a that the other outputs depend on",
+    "contact_slope": "slope of the punch at the largest contact radius that the other outputs depend on",
     "pull_off_force_sensitivity": "sensitivity of the pull-off force F to each parameter p: d ln F/d ln p (k, nu: /dp)",
     "dissipated_energy_sensitivity": "sensitivity of the energy H to each parameter p: d ln H/d ln p (k, nu: /dp)",
 }

@@ -111,7 +111,8 @@ def _sections() -> Iterator[str]:
         f"Every dataset has `status`, {names.STATUS}. Each bit is a flag. A scene with {_named(FAILED)} has failed. "
         f"Its values are doubtful with {_named(DOUBTFUL)}. The approximate solvers set `no_value` only. The flags "
         "after it occur with uncertain inputs and optima, the last one where cycles turn at a depth; `status` is int16 "
-        f"there. A map or curve study has the coordinate `{names.STEEP}`, {names.STEEP_CONTACT}, if it is for any scene."
+        f"there. A map or a curve study has the coordinate `{names.STEEP}`, {names.STEEP_CONTACT}, where it is for any "
+        "scene."
     )
     yield table(("flag", "bit", "in words", "of a scene"), _flags())
     yield "## Global attributes"

@@ -59,9 +59,9 @@ def test_an_unbounded_punch_reaches_where_its_last_jump_ends(
     assert found == pytest.approx(furthest(scene, profile, loading) ** (profile.exponent - 1.0), rel=1e-12)
 
 
-@pytest.mark.parametrize(("wavelength", "profile"), [(1e-3, Profile()), (1e-6, Profile()), (1e-4, SERIES)])
+@pytest.mark.parametrize(("wavelength", "profile"), [(1e-3, Profile()), (1e-4, Profile()), (1e-4, SERIES)])
 def test_of_long_curves_it_is_next_to_the_last_fold(wavelength: float, profile: Profile) -> None:
-    scene = ENDLESS | {"lambda_over_R": wavelength}
+    scene = ENDLESS | {"lambda_over_R": wavelength, "A": 0.01}
     outputs = ["dissipated_energy", "saturation_radius"]
     found = solve(scene, [*outputs, "contact_slope"], profile=profile)
     radius = float(found["contact_slope"]) ** (1.0 / (profile.exponent - 1.0))
