@@ -64,7 +64,7 @@ def data() -> dict[str, Any]:
             "c0_over_R": 0.013,
             "lambda_over_R": {"start": 0.11, "stop": 0.47, "num": 3, "spacing": "log"},
             "A": [0.0, 0.023],
-            "a_max_over_R": [1.7, float("inf")],
+            "a_max_over_R": [0.7, float("inf")],
         },
     }
 

@@ -11,7 +11,7 @@ import xarray
 
 import gradhesion as gr
 from gradhesion.cli.study import study_from
-from gradhesion.core import FLAGS
+from gradhesion.core.problem.status import OF_EVERY_MAP
 
 PUNCH: dict[str, Any] = {"k": 0.31, "nu": 0.27, "modulus": 430.0, "c0_over_R": 0.013, "lambda_over_R": 0.17, "A": 0.023, "a_max_over_R": 1.7}  # fmt: skip
 AFM: dict[str, Any] = {"k": 0.3, "nu": 0.3, "A": 0.02, "R": "1 um", "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2"}
@@ -32,7 +32,7 @@ def test_smooth_punches_have_the_force_that_is_known() -> None:
     found = gr.solve(PUNCH | {"A": 0.0, "a_max_over_R": math.inf, "k": [0.0, 0.25, 0.9]}, "pull_off_force")
     np.testing.assert_allclose(found["pull_off_force"], (3 + found["k"]) / 3, rtol=1e-14)
     assert found["pull_off_force"].attrs["long_name"] == gr.OUTPUTS["pull_off_force"]
-    assert found["status"].attrs["flag_meanings"].split() == list(FLAGS)
+    assert found["status"].attrs["flag_meanings"].split() == list(OF_EVERY_MAP)
     assert found.attrs["title"] == "pull_off_force"
 
 

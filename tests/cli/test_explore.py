@@ -132,7 +132,7 @@ def test_variables_without_any_value_are_said(gradhesion: Call, dataset_file: Pa
 
 
 def test_nothing_to_explore_is_said(gradhesion: Call, dataset_file: Path) -> None:
-    at = [f"--at={place}" for place in ("k=0", "lambda_over_R=0.11", "A=0", "a_max_over_R=1.7")]
+    at = [f"--at={place}" for place in ("k=0", "lambda_over_R=0.11", "A=0", "a_max_over_R=0.7")]
     result = gradhesion("explore", dataset_file, *at)
     assert result.exit_code == 2
     assert "nothing varies, so there is nothing to explore" in result.stderr

@@ -25,7 +25,7 @@ def test_it_tells_axes_fixed_values_extremes_status_and_origin(gradhesion: Call,
     for words in (
         "A small study",
         "24 scenes",
-        "axes k 0, 0.31 lambda_over_R 0.11, 0.227376, 0.47 A 0, 0.023 a_max_over_R 1.7, inf",
+        "axes k 0, 0.31 lambda_over_R 0.11, 0.227376, 0.47 A 0, 0.023 a_max_over_R 0.7, inf",
         "fixed nu 0.27 modulus 430 c0_over_R 0.013",
         "pull_off_force: pull-off force F/(1.5 pi R dgamma) min ",
         "status: 24 of 24 scenes (100.0%) have values",
@@ -52,7 +52,7 @@ def test_extremes_are_found_across_blocks(
         values[1, 2, 0, 1], values[0, 1, 1, 0], values[0, 0, 0, 0] = 9.0, -2.0, np.nan
         file["pull_off_force"][:] = values
     told = gradhesion("info", dataset_file).stdout
-    assert "min       -2           at k = 0, lambda_over_R = 0.227376, A = 0.023, a_max_over_R = 1.7" in told
+    assert "min       -2           at k = 0, lambda_over_R = 0.227376, A = 0.023, a_max_over_R = 0.7" in told
     assert "max       9            at k = 0.31, lambda_over_R = 0.47, A = 0, a_max_over_R = inf" in told
 
 
@@ -60,7 +60,7 @@ def test_every_flag_that_occurs_is_told_with_its_count_and_share_in_words(
     gradhesion: Call, dataset_file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from gradhesion.cli import names
-    from gradhesion.core import FLAGS
+    from gradhesion.core.problem.status import OF_EVERY_MAP as FLAGS
 
     status = np.zeros(24, dtype=np.int8)
     for number, bit in enumerate(FLAGS.values()):

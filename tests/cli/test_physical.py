@@ -18,7 +18,7 @@ from gradhesion.cli.errors import DatasetError, StudyError
 from gradhesion.cli.explorer import choice
 from gradhesion.cli.explorer.data import study_data
 from gradhesion.cli.explorer.lines import lines_of
-from gradhesion.cli.names import CURVES, OUTPUTS, SI, SYMBOLS, UNITS
+from gradhesion.cli.names import CONTACT_SLOPE, CURVES, OUTPUTS, SI, SYMBOLS, UNITS
 from gradhesion.cli.picture.curve_picture import drawn_curves
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.core import SENSITIVITIES, VALIDITY
@@ -30,7 +30,11 @@ SCALES = {
     "lens": (0.013, 7e5, 0.027, {"R": "13 mm", "E_star": "0.7 MPa", "work_of_adhesion": "27 mN/m"}),
     "metres": (1.7, 3e4, 0.1, {"R": "1.7 m", "E_star": "30 kPa", "work_of_adhesion": "100 erg/cm^2"}),
 }
-ALL = [name for name in OUTPUTS if not name.endswith("_residual") and name not in (*VALIDITY, *SENSITIVITIES)]
+ALL = [
+    name
+    for name in OUTPUTS
+    if not name.endswith("_residual") and name not in (*VALIDITY, CONTACT_SLOPE, *SENSITIVITIES)
+]
 
 
 def lengths(R: float) -> dict[str, Any]:
@@ -234,7 +238,7 @@ def test_a_page_of_curves_in_units_has_rows_of_them(curves_in_units: xarray.Data
 
 def test_every_output_over_something_has_its_unit_and_every_variable_its_symbol() -> None:
     plain = {"loading_jumps", "unloading_jumps", "roughness_parameter", "adhesion_gain", "energy_gain"}
-    assert {*OUTPUTS} - {*UNITS} == {*plain, *VALIDITY, *SENSITIVITIES}
+    assert {*OUTPUTS} - {*UNITS} == {*plain, *VALIDITY, CONTACT_SLOPE, *SENSITIVITIES}
     assert {name + SI for name in OUTPUTS if name in UNITS} <= {*SYMBOLS}
     for own in CURVES.values():
         for name in own:

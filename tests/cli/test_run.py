@@ -22,8 +22,9 @@ from gradhesion.cli.keys import PARAMETERS
 from gradhesion.cli.names import OUTPUTS
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.study.rules import EXACT_ONLY
-from gradhesion.core import FAILED, FLAGS
+from gradhesion.core import FAILED
 from gradhesion.core import solve as real_solve
+from gradhesion.core.problem.status import OF_EVERY_MAP
 
 Call = Callable[..., Result]
 
@@ -40,7 +41,7 @@ def test_the_names_are_those_of_the_core() -> None:
     from gradhesion import core
 
     assert tuple(PARAMETERS) == tuple(core.PARAMETERS)
-    assert tuple(OUTPUTS) == (*core.OUTPUTS, *core.REPORTS, *core.VALIDITY, *core.SENSITIVITIES)
+    assert tuple(OUTPUTS) == (*core.OUTPUTS, *core.REPORTS, *core.VALIDITY, "contact_slope", *core.SENSITIVITIES)
     assert (*core.REPORTS, *core.SENSITIVITIES) == EXACT_ONLY
 
 
@@ -70,9 +71,9 @@ def test_the_dataset_keeps_its_contract(dataset_file: Path, study_file: Path) ->
                 filters = variable.filters()
                 assert (filters["zlib"], filters["complevel"], filters["shuffle"]) == (True, 1, True)
         status = file["status"]
-        assert np.atleast_1d(status.flag_masks).tolist() == list(FLAGS.values())
+        assert np.atleast_1d(status.flag_masks).tolist() == list(OF_EVERY_MAP.values())
         assert status.flag_masks.dtype == np.int8
-        assert status.flag_meanings.split() == list(FLAGS)
+        assert status.flag_meanings.split() == list(OF_EVERY_MAP)
         study = load_study(study_file)
         assert file.Conventions == "CF-1.11"
         assert file.title == "A small study"

@@ -187,7 +187,7 @@ def test_spread_keeps_what_is_there(data: dict[str, Any]) -> None:
     assert spread(plain) is plain
 
 
-@pytest.mark.parametrize("options", [["--at", "a_max_over_R=1.7"], ["--at", "k=0.31", "--at", "A=0.023"]])
+@pytest.mark.parametrize("options", [["--at", "a_max_over_R=0.7"], ["--at", "k=0.31", "--at", "A=0.023"]])
 def test_plot_draws_the_strongest_and_each(gradhesion: Call, file: Path, tmp_path: Path, options: list[str]) -> None:
     picture = tmp_path / "picture.svg"
     result = gradhesion("plot", file, "--variable", FORCE, "-o", picture, *options)

@@ -63,7 +63,7 @@ def test_one_changed_value_is_found_and_named_first(output: str, gradhesion: Cal
     result = gradhesion("verify", dataset_file, *ALL)
     assert result.exit_code == 3
     assert rows(result)[0][0] == output
-    assert " ".join(rows(result)[0][4:]) == "k = 0.31, lambda_over_R = 0.47, A = 0.023, a_max_over_R = 1.7"
+    assert " ".join(rows(result)[0][4:]) == "k = 0.31, lambda_over_R = 0.47, A = 0.023, a_max_over_R = 0.7"
     assert "1 of 240 values deviate by more than their stated errors" in result.stderr
     assert result.stderr.startswith(f"{dataset_file}: ")
 

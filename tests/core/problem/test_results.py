@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core.problem import results
-from gradhesion.core.problem.names import RESULTS
+from gradhesion.core.problem.names import REACH, RESULTS
 from gradhesion.core.problem.results import INTEGERS, put, put_all, wants_cycle, wants_folds, wants_force, wants_losses
 
 ROWS = {
@@ -24,7 +24,7 @@ ROWS = {
 
 
 def slots_of(*names: str) -> np.ndarray:
-    return np.array([*(names.index(name) if name in names else -1 for name in RESULTS), 0, 0])
+    return results.slots_of(names, check_contact=True, turned=False)
 
 
 def test_each_name_has_its_row() -> None:
@@ -58,3 +58,8 @@ def test_what_is_needed_follows_from_what_is_asked() -> None:
         jumps = losses | names & {"loading_jumps", "unloading_jumps", "delta_jump_out"}
         assert wants_cycle(slots) == bool(jumps)
         assert wants_folds(slots) == bool(jumps or "delta_max" in names)
+    reach = slots_of(REACH)
+    assert (reach[results.CONTACT], reach[results.TURNED], reach[results.OUTERMOST]) == (0, 0, 0)
+    assert wants_cycle(reach)
+    assert not wants_losses(reach)
+    assert not wants_force(reach)

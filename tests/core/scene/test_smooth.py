@@ -142,7 +142,7 @@ def test_material_and_rim_act_through_powers_that_are_right() -> None:
 def test_kernel_takes_a_part_of_the_curves() -> None:
     k, material = np.full(9, 0.3), np.full(9, 40.0)
     out, status = np.full((len(RESULTS), 9, 2), -7.0), np.full((9, 2), -1, dtype=np.int8)
-    slots, index = np.array([*range(len(RESULTS)), -1, 0]), np.array([1, 8])
+    slots, index = np.array([*range(len(RESULTS)), -1, 0, -1]), np.array([1, 8])
     block = np.empty((2, ROWS, 4))
     solve_smooth(index, k, material, np.ones(9), np.zeros(9), np.array([[0.3, 0.5]]), slots, out, status, block)
     others: NDArray[np.bool_] = ~np.isin(np.arange(9), index)

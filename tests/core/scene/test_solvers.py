@@ -28,7 +28,7 @@ def run(loop: Any, rims: np.ndarray, curves: int = 3) -> tuple[np.ndarray, np.nd
         np.full((curves, rims.shape[1]), NO_VALUE, np.int8),
     )
     stiffness, wavelength, amplitude = np.linspace(70, 90, curves), np.full(curves, 0.1), np.full(curves, 0.01)
-    index, slots = np.array([0, curves - 1]), np.arange(len(OUTPUTS) + 1)
+    index, slots = np.array([0, curves - 1]), np.array([*range(len(OUTPUTS) + 1), -1])
     tables, which = np.array([table_of(0.2)]), np.zeros(2, dtype=np.int64)
     scratch = np.empty((ROWS, 192))
     loop(tables, which, index, stiffness, wavelength, amplitude, rims, slots, out, status, scratch, ())
