@@ -80,7 +80,7 @@ def turned_results(
         plain = smooth(even, [_GAINS[name] for name in gains])
         with np.errstate(all="ignore"):
             found |= {name: found[_GAINS[name]] / plain[_GAINS[name]] for name in gains}
-    status = np.where(short, found["status"] & ~JUMP_IN_TO_RIM, found["status"])
+    status = np.where(short, found["status"] & ~JUMP_IN_TO_RIM, found["status"]).astype(np.int16)
     status = np.where(none & ~away, NO_VALUE, np.where(away, NO_CONTACT, status) | flags)
     return found | {
         "status": status.astype(np.int16 if turn == TURNS[0] else np.int8),
