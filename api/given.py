@@ -13,12 +13,13 @@ from gradhesion.cli.errors import StudyError
 from gradhesion.cli.keys import INPUTS, PHYSICAL, SETTINGS
 from gradhesion.cli.names import OUTPUTS, PARAMETER, PHYSICAL_PARAMETER, SCENE, SOLVER
 from gradhesion.cli.study.axes import Values, mistakes_of_grid
+from gradhesion.cli.study.foreign import as_written
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core.problem.profile import Profile
-from gradhesion.values import array_of, numbers_of, of_xarray
+from gradhesion.values import array_of, numbers_of
 from gradhesion.wording import without_tables
 
 ARGUMENTS: Final = (
@@ -161,7 +162,12 @@ def given_in(
         The arguments that stand for keys of a study: outputs, profile, control, solver, check_contact, title, kind.
     """
     given = Given(caller=caller, settings=_settings(settings))
-    table = {} if parameters is None else of_xarray(parameters)
+    table = {} if parameters is None else parameters
+    if hasattr(table, "columns") and hasattr(table, "to_xarray"):  # pandas
+        given.unread |= {*map(str, table.columns[table.columns.duplicated()])}
+        for name in sorted(given.unread):
+            given.refuse(name, "the table has more than one column of this name; keep one of them")
+        table = {name: table[name] for name in table.columns if str(name) not in given.unread}
     if not isinstance(table, Mapping):
         given.refuse("parameters", f"a mapping from names to values is expected, not a {type(table).__name__}")
         table = {}
@@ -184,7 +190,7 @@ def _take(given: Given, name: str, value: Any) -> None:
     elif name not in INPUTS and near is None:
         given.refuse(name, f"unknown parameter; {did_you_mean(name, list(INPUTS))}")
     elif name not in INPUTS or isinstance(value, str | Mapping) or value is None:
-        given.fixed[name] = value if isinstance(value, Mapping) else np.asarray(value).tolist()
+        given.fixed[name] = as_written(value, bare=name not in PHYSICAL)
     else:
         _take_values(given, name, value)
 
@@ -199,7 +205,7 @@ def _take_values(given: Given, name: str, value: Any) -> None:
         given.unread.add(name)
         return
     if numbers is None or array.size == 0:
-        given.fixed[name] = array.values.tolist()
+        given.fixed[name] = as_written(array.values)
     elif array.ndim == 0:
         given.fixed[name] = float(numbers)
     else:
@@ -252,11 +258,9 @@ def _settings(settings: Mapping[str, Any]) -> dict[str, Any]:
     if isinstance(profile := found.get("profile"), Profile):
         waves = [{"n": wave.n, "cos": wave.cos, "sin": wave.sin} for wave in profile.harmonics]
         found["profile"] = {"exponent": profile.exponent, "harmonics": waves}
-    radii = found.get("contact_radius_over_R")
-    if isinstance(radii, Iterable) and not isinstance(radii, str):
-        found["contact_radius_over_R"] = np.asarray(radii).tolist()
-    elif radii is not None:
-        found["contact_radius_over_R"] = [radii]
+    if "contact_radius_over_R" in found:
+        radii = as_written(found["contact_radius_over_R"])
+        found["contact_radius_over_R"] = radii if isinstance(radii, list) else [radii]
     homes = {"control": "loading", "solver": "method", "check_contact": "method", "contact_radius_over_R": "states"}
     for key, table in homes.items():
         if key in found:

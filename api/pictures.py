@@ -23,6 +23,7 @@ from gradhesion.cli.picture.fit_picture import drawn_fit
 from gradhesion.cli.picture.looks import Looks, looks_of
 from gradhesion.cli.picture.picture import drawn
 from gradhesion.cli.picture.pictured import styled
+from gradhesion.cli.study.foreign import as_written
 from gradhesion.datasets import Data, data_of
 from gradhesion.wording import in_python
 
@@ -241,4 +242,4 @@ def _listed(names: Sequence[str] | str | None) -> list[str]:
 
 def _wishes(wishes: Mapping[str, Any] | None) -> list[str]:
     """Write wishes as a command takes them."""
-    return [f"{axis}={value}" for axis, value in (wishes or {}).items()]
+    return [f"{axis}={as_written(value)}" for axis, value in (wishes or {}).items()]

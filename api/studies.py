@@ -5,13 +5,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import xarray
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.installation import checked
 from gradhesion.cli.study.fit_study import FitStudy
+from gradhesion.cli.study.foreign import as_written
 from gradhesion.cli.study.reading import any_from, load_any
 from gradhesion.cli.study.study import Study
 from gradhesion.wording import in_python
@@ -54,7 +54,8 @@ def load(
     with in_python():
         if isinstance(study, Mapping):
             return any_from(_changed(study, changes))
-        return load_any(study, [f"{key}={_toml(value)}" for key, value in changes.items()])
+        written = {key: as_written(value, tuple(key.split("."))) for key, value in changes.items()}
+        return load_any(study, [f"{key}={_toml(value)}" for key, value in written.items()])
 
 
 def run(
@@ -127,8 +128,6 @@ def _changed(study: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, 
 
 def _toml(value: Any) -> str:
     """Write a value as TOML."""
-    if isinstance(value, np.ndarray | np.generic):
-        value = value.tolist()
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):

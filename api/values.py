@@ -1,4 +1,4 @@
-"""One value of a call as numbers over named dimensions: of lists, numpy, xarray and pandas, with or without units."""
+"""One value of a call as numbers over named dimensions: of lists, arrays and quantities, with or without units."""
 
 from typing import Any
 
@@ -7,12 +7,8 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.keys import INPUTS, PHYSICAL
-from gradhesion.cli.study.quantities import si_value
-
-
-def of_xarray(value: Any) -> Any:
-    """Give what pandas has as what xarray has, over the dimension of its index; everything else stays as it is."""
-    return value.to_xarray() if hasattr(value, "to_xarray") else value
+from gradhesion.cli.study.foreign import apart, as_written, filled
+from gradhesion.cli.study.quantities import in_si, si_value
 
 
 def array_of(name: str, value: Any) -> xarray.DataArray:
@@ -29,16 +25,21 @@ def array_of(name: str, value: Any) -> xarray.DataArray:
     >>> array_of("A", [0.1, 0.2]).dims, array_of("A", 0.1).dims
     (('A',), ())
     """
-    value = of_xarray(value)
+    if isinstance(value, list | tuple):  # of quantities, of which numpy would drop the units
+        value = as_written(value, bare=name not in PHYSICAL)
+    numbers, unit = apart(value)
+    attributes = {"units": unit} if unit else {}
+    if hasattr(value, "to_xarray"):  # pandas
+        value = (value.astype(float) if numbers is not value else value).to_xarray().assign_attrs(attributes)
     if isinstance(value, xarray.DataArray):
-        several = [dim for dim in value.dims if dim in value.indexes and value.indexes[dim].nlevels > 1]
-        return value.reset_index(several) if several else value
-    if np.ma.isMaskedArray(value):
-        value = np.ma.filled(value.astype(float), np.nan)  # which is out of range
+        several = [dim for dim in value.dims if dim in value.xindexes and value.xindexes.is_multi(dim)]
+        return _plain(name, value.reset_index(several) if several else value)
     try:
-        values = np.asarray(value)
+        values = filled(numbers)
     except ValueError:
         raise ValueError("rows of different lengths; give a number or one list of them") from None
+    if values.dtype.kind in "mM":  # of which a bare one would become an integer
+        values = np.asarray(as_written(values))
     if values.ndim > 1:
         shape = " x ".join(map(str, values.shape))
         names = ", ".join(f'"{letter}"' for letter in "xyzuvw"[: values.ndim])
@@ -46,19 +47,37 @@ def array_of(name: str, value: Any) -> xarray.DataArray:
             f"an array of {shape} values without names for its dimensions; write for example "
             f"xarray.DataArray({name}, dims=[{names}]), and arrays with equal names go together"
         )
-    return xarray.DataArray(values, dims=(name,)[: values.ndim])
+    return _plain(name, xarray.DataArray(values, dims=(name,)[: values.ndim], attrs=attributes))
+
+
+def _plain(name: str, array: xarray.DataArray) -> xarray.DataArray:
+    """Give an array whose quantities, in itself and in its coordinates, are numbers with the attribute `units`."""
+    coordinates = {key: (one, *apart(one.variable.data)) for key, one in array.coords.items()}
+    plain = {
+        key: (one.dims, np.asarray(numbers), one.attrs | {"units": unit})
+        for key, (one, numbers, unit) in coordinates.items()
+        if unit
+    }
+    if plain:
+        array = array.drop_indexes([key for key in plain if key in array.xindexes]).assign_coords(plain)
+    numbers, unit = apart(array.data)
+    if unit:
+        return array.copy(data=filled(numbers)).assign_attrs(units=unit)
+    if array.dtype == object:  # an array of quantities, each with its own unit
+        return array.copy(data=np.asarray(as_written(array.values, bare=name not in PHYSICAL)))
+    return array
 
 
 def numbers_of(name: str, array: xarray.DataArray) -> NDArray[np.float64] | None:
     """
     Give the values of a parameter as plain numbers, those of quantities in SI units; None if they are neither.
 
-    Strings have their units with them, an array may have them as its attribute `units`.
+    Strings have their units with them, an array may have them as its attribute `units`; numbers without are in SI.
 
     Raises
     ------
     ValueError
-        The attribute `units` is not of what is expected.
+        The unit is not known, or has another dimension.
 
     Examples
     --------
@@ -73,13 +92,7 @@ def numbers_of(name: str, array: xarray.DataArray) -> NDArray[np.float64] | None
             return np.array([si_value(value, name) for value in values.ravel().tolist()]).reshape(values.shape)
         except ValueError:
             return None  # a study says why, item by item
-    numbers = np.asarray(values, dtype=np.float64) + 0.0  # no negative zeros
-    units = str(array.attrs.get("units", ""))
-    if units in ("", INPUTS[name].unit):
-        return numbers
-    if name not in PHYSICAL:
-        raise ValueError(f'its attribute units = "{units}", where a number without a unit is expected; convert it')
-    try:
-        return numbers * si_value(f"1 {units}", name)
-    except ValueError as error:
-        raise ValueError(f'its attribute units = "{units}": {error}') from None
+    unit = str(array.attrs.get("units", ""))
+    if unit in ("", INPUTS[name].unit):
+        return np.asarray(values, dtype=np.float64) + 0.0  # no negative zeros
+    return in_si(values, unit, name)

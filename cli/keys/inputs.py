@@ -91,7 +91,7 @@ _ALL_INPUTS: Final = (
         r"$E^{\ast}$",
     ),
     _quantity("E", "modulus", "Pa", "Young's modulus E0 at the depth c0", '"46 kPa"', "$E_0$", instead_of="E_star"),
-    _quantity("work_of_adhesion", "modulus", "J m-2", "work of adhesion dgamma", '"20 mJ/m^2"', r"$\Delta\gamma$"),
+    _quantity("work_of_adhesion", "modulus", "J/m^2", "work of adhesion dgamma", '"20 mJ/m^2"', r"$\Delta\gamma$"),
     _parameter(
         "modulus",
         "reduced modulus E* R/dgamma, with E* = E0/(1 - nu^2)",
@@ -142,7 +142,7 @@ _ALL_INPUTS: Final = (
         role="the amplitude",
         bounds=NOT_NEGATIVE,
     ),
-    _quantity(SPRING, MACHINE, "N m-1", "spring constant S of the loading machine", '"0.2 N/m"', "$S$"),
+    _quantity(SPRING, MACHINE, "N/m", "spring constant S of the loading machine", '"0.2 N/m"', "$S$"),
     Key(
         name=MACHINE,
         about="stiffness S/(E* R) of the loading machine",

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import IDLE, SYMBOLS, unit_of
 
-UNIT_SYMBOLS: Final = {"m": "m", "Pa": "Pa", "J m-2": "J/m$^2$", "N": "N", "J": "J", "N m-1": "N/m"}
+UNIT_SYMBOLS: Final = {"m": "m", "Pa": "Pa", "J/m^2": "J/m$^2$", "N": "N", "J": "J", "N/m": "N/m"}
 """Units as a picture writes them."""
 
 PREFIXES: Final = {-18: "a", -15: "f", -12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from gradhesion.cli.keys import INPUTS, keys_of
-from gradhesion.cli.study.quantities import si_value
+from gradhesion.cli.study.quantities import ratio_sentence, si_value
 from gradhesion.cli.terminal.wording import did_you_mean, shown
 
 _PERCENTAGE: Final = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*%\s*")
@@ -68,7 +68,7 @@ def _number(value: object, name: str) -> float:
         return si_value(value, name)
     if isinstance(value, int | float) and not isinstance(value, bool):
         return float(value)
-    raise ValueError(f"not a deviation; {_forms(name)}")
+    raise ValueError((isinstance(value, str) and ratio_sentence(value, name)) or f"not a deviation; {_forms(name)}")
 
 
 def _uniform(value: Mapping[Any, Any], name: str) -> Deviation:

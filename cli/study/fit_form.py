@@ -8,7 +8,7 @@ from pydantic import BeforeValidator, Field, StringConstraints, WithJsonSchema, 
 
 from gradhesion.cli.keys import ADHESION_RANGE, INPUTS, INTERACTION, KEYS, MACHINE, Key
 from gradhesion.cli.study.form import ProfileTable, Table
-from gradhesion.cli.study.quantities import si_value
+from gradhesion.cli.study.quantities import ratio_sentence, si_value
 from gradhesion.cli.terminal.wording import did_you_mean, example
 
 DATA: Final = "data"
@@ -39,6 +39,8 @@ def _number(value: object, key: Key) -> float:
     """Read a number or a quantity, within the bounds of its key."""
     if key.table == "physical":
         return si_value(value, key.name)
+    if isinstance(value, str) and (sentence := ratio_sentence(value, key.name)):
+        raise ValueError(sentence)
     if not isinstance(value, int | float) or isinstance(value, bool):
         what = "a number, or a range { start, stop } that is searched"
         raise ValueError(f"this must be {what}; {_example(key)}")  # noqa: TRY004 (pydantic hears no other)

@@ -68,6 +68,6 @@ def unit_of_parameter(name: str) -> str:
     Give the unit in SI of what is fitted.
 
     >>> [unit_of_parameter(name) for name in ("E_star", "A", "load_offset", "spring_constant")]
-    ['Pa', '1', 'N', 'N m-1']
+    ['Pa', '1', 'N', 'N/m']
     """
     return {OFFSETS[0]: "m", OFFSETS[1]: "N"}.get(name) or INPUTS[name].unit

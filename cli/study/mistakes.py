@@ -11,6 +11,7 @@ from pydantic_core import ErrorDetails
 from gradhesion.cli.keys import FILE_KEYS, INPUTS, Path, keys_of
 from gradhesion.cli.study.form import MOST_REALISATIONS, MOST_RESOLUTION, MOST_STATES, MOST_WAVES, Form
 from gradhesion.cli.study.places import dotted
+from gradhesion.cli.study.quantities import ratio_sentence
 from gradhesion.cli.terminal.wording import did_you_mean, example, nearest
 from gradhesion.core.problem.profile import MOST_HARMONICS
 
@@ -174,6 +175,8 @@ def _sentence(detail: ErrorDetails, path: Path) -> str:
         and last not in ("num", "spacing")
     ):
         return _parameter_sentence(kind, value, path)
+    if path[:2] == ("states", "contact_radius_over_R") and len(path) > 2:
+        return f"a contact radius is a number above 0, over R and without a unit; {example(path)}"
     if kind == "missing":
         return f"this key is required; {example(path)}"
     if kind == "too_short":
@@ -200,6 +203,8 @@ def _parameter_sentence(kind: str, value: object, path: Path) -> str:
     if kind == "too_short":
         return "an axis needs at least one value; put values into the list, or write a single number to fix it"
     allowed = INPUTS[name].allowed
+    if isinstance(value, str) and (sentence := ratio_sentence(value, name)):
+        return sentence
     if kind == "float_type" and not (isinstance(value, int) and not isinstance(value, bool)):
         forms = "" if len(path) > 2 else ", a list of numbers or a range table"
         return f"this must be a number{forms}, with {allowed}; {example(path[:2])}"

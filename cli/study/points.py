@@ -17,7 +17,7 @@ from gradhesion.cli.names import OUTPUTS, SI
 from gradhesion.cli.study import places
 from gradhesion.cli.study.axes import MOST_VALUES, Values
 from gradhesion.cli.study.mistakes import Mistake
-from gradhesion.cli.study.quantities import si_value
+from gradhesion.cli.study.quantities import in_si
 from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
@@ -136,12 +136,11 @@ def points_of(
     for name, values in found.values.items():
         if name not in INPUTS:
             continue
-        own = list(_mistakes_of_column(name, values, found))
-        mistakes += [Mistake(KEY, written, sentence) for sentence in own]
-        if own:
+        try:
+            columns[name] = _column(name, values, found)
+        except ColumnsError as error:
+            mistakes.append(Mistake(KEY, written, str(error)))
             wrong.append(name)
-        else:
-            columns[name] = values * _factor(name, found) + 0.0  # no negative zeros
     return Points(
         written=written,
         file=file,
@@ -167,21 +166,24 @@ def _mistakes(data: Mapping[str, Any], found: Columns) -> Iterator[str]:
         yield f"the file has {found.rows:,} rows, and {MOST_VALUES:,} are read at most; split it"
 
 
-def _mistakes_of_column(name: str, values: NDArray[np.float64], found: Columns) -> Iterator[str]:
-    """Check the unit of a column, and that its values are in range."""
+def _column(name: str, given: NDArray[np.float64], found: Columns) -> NDArray[np.float64]:
+    """
+    Give a column in the unit of its key.
+
+    Raises
+    ------
+    ColumnsError
+        It has no unit, or one of another dimension; or its values are out of range.
+    """
     key, unit = INPUTS[name], found.units.get(name, "")
     if key.table == "physical" and not unit:
-        yield f"its column {name} has no unit; write it after the name in brackets, as {name} [{key.unit}]"
-        return
-    if key.table != "physical" and unit:
-        yield f"its column {name} has the unit {shown(unit)} and is a ratio; write the name alone"
-        return
-    if key.table == "physical":
-        try:
-            si_value(f"1 {unit}", name)
-        except ValueError as error:
-            yield f"its column {name} [{unit}]: {error}"
-            return
+        raise ColumnsError(
+            f"its column {name} has no unit; write it after the name in brackets, as {name} [{key.unit}]"
+        )
+    try:
+        values = in_si(given, unit or key.unit, name)
+    except ValueError as error:
+        raise ColumnsError(f"its column {name} [{unit}]: {error}") from None
     tests: dict[str, Callable[[Any, Any], Any]] = {"ge": np.less, "gt": np.less_equal, "le": np.greater}
     bad = np.isnan(values) if key.infinite else ~np.isfinite(values)
     for bound, value in key.bounds.items():
@@ -191,12 +193,8 @@ def _mistakes_of_column(name: str, values: NDArray[np.float64], found: Columns) 
     rows = np.flatnonzero(bad)
     if rows.size:
         more = f", and {rows.size - 1:,} more rows are as well" if rows.size > 1 else ""
-        value = float(values[rows[0]])
+        value = float(given[rows[0]])
         what = "is missing (NaN)" if np.isnan(value) else f"= {value!r} is out of range"
         remedy = "give it, or remove the row" if np.isnan(value) else f"choose a value with {key.allowed}"
-        yield f"{found.place(int(rows[0]))}: {name} {what}{more}; {remedy}"
-
-
-def _factor(name: str, found: Columns) -> float:
-    """Tell what the values of a column are multiplied by."""
-    return si_value(f"1 {found.units[name]}", name) if INPUTS[name].table == "physical" else 1.0
+        raise ColumnsError(f"{found.place(int(rows[0]))}: {name} {what}{more}; {remedy}")
+    return values

@@ -11,7 +11,10 @@ from functools import cache
 from tokenize import TokenError
 from typing import TYPE_CHECKING, Any, Final
 
-from gradhesion.cli.keys import KEYS
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli.keys import KEYS, PHYSICAL
 from gradhesion.cli.terminal.wording import example
 
 if TYPE_CHECKING:
@@ -22,13 +25,14 @@ LONGEST: Final = 60
 
 _QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,4})?|[+-]?inf|nan)\s*\*?\s*(.*)")
 _POWER: Final = re.compile(r"([^\W\d_])([+-]?\d)")
-"""A power as UDUNITS writes it, `m-2`."""
+"""A power as UDUNITS and astropy write it, `m-2`."""
 WORDS: Final = {
-    "m": "a length",
-    "Pa": "a pressure",
-    "J m-2": "an energy per area",
-    "N m-1": "a force per length",
-    "N": "a force",
+    "1": "a number without a unit",
+    "m": "a length (m)",
+    "Pa": "a pressure (Pa)",
+    "J/m^2": "an energy per area (J/m^2)",
+    "N/m": "a force per length (N/m)",
+    "N": "a force (N)",
 }
 """What is expected of a quantity, by its unit in SI."""
 _NO_UNIT: Final = (
@@ -43,6 +47,10 @@ _NO_UNIT: Final = (
     ValueError,
 )
 """What pint raises where it is given no unit."""
+_EXACT: Final = 10.0 ** np.arange(23)
+"""The powers of ten that are doubles."""
+_DIGITS: Final = 15
+"""Decimals of so many digits are each the only one of their double."""
 
 
 def si_value(value: object, name: str) -> float:
@@ -61,25 +69,102 @@ def si_value(value: object, name: str) -> float:
     text = str(value) if isinstance(value, str | float) else ""
     parts = _QUANTITY.fullmatch(text.strip()) if len(text) <= LONGEST else None
     number, written = parts.groups() if parts else ("", "")
-    factor = _factor(written, key.unit) if written else Decimal(1)
     if isinstance(value, int | float) and not isinstance(value, bool) and "inf" not in number:
-        problem = "a number without a unit"
+        problem = WORDS["1"]
     elif not parts:
         problem = "not a number with its unit, in quotes"
-    elif not written:
-        problem = "" if "inf" in number else "a number without a unit"
-    elif factor is None:
-        problem = f'the unit "{written}" is not known'
     else:
-        problem = "" if factor else f'"{written}" is not a unit of this quantity'
-    if problem or not factor:
-        raise ValueError(f"{problem}; {WORDS[key.unit]} is expected; {example(('physical', name))}")
-    result = float(Decimal(number) * factor) + 0.0
+        problem = WORDS["1"] if not written and "inf" not in number else ""
+    if problem:
+        raise ValueError(f"{problem}; {_expected(name)}")
+    result = float(Decimal(number) * (factor_of(written, name) if written else 1)) + 0.0
     inside = result > 0.0 or result == key.bounds.get("ge") or not key.bounds
     if not inside or (math.isinf(result) and not key.infinite) or math.isnan(result):
         allowed = f"{WORDS[key.unit]} with {key.allowed}" if key.bounds else f"{WORDS[key.unit]} that is finite"
         raise ValueError(f"out of range; choose {allowed}")
     return result
+
+
+def in_si(numbers: NDArray[Any], written: str, name: str) -> NDArray[np.float64]:
+    """
+    Give numbers in some unit in that of a key in a dataset, of which a ratio has none; their range is not checked.
+
+    Raises
+    ------
+    ValueError
+        The unit is not known, or has another dimension; the message says what to write.
+
+    >>> in_si(np.array([1.0, 25.0]), "um", "R"), in_si(np.array(5.0), "percent", "A")
+    (array([1.0e-06, 2.5e-05]), array(0.05))
+    """
+    same = written == KEYS[name].unit  # without asking pint
+    return np.asarray(numbers, dtype=np.float64) + 0.0 if same else scaled(numbers, factor_of(written, name))
+
+
+def factor_of(written: str, name: str) -> Decimal:
+    """
+    Report how many of the unit of a key another unit is.
+
+    Raises
+    ------
+    ValueError
+        It is not known, or has another dimension; the message says what to write.
+    """
+    factor = factor_between(written, KEYS[name].unit)
+    if not factor:
+        unknown = factor is None
+        problem = f'the unit "{written}" is not known' if unknown else f'"{written}" is not a unit of this quantity'
+        raise ValueError(f"{problem}; {_expected(name)}")
+    return factor
+
+
+def scaled(numbers: NDArray[Any], factor: Decimal) -> NDArray[np.float64]:
+    """
+    Multiply numbers, as the shortest decimals that they are, by a factor; each product is rounded once.
+
+    So that 25 um is 2.5e-05 m, which the product of 25.0 and 1e-06 is not.
+    """
+    given = np.asarray(numbers, dtype=np.float64)
+    values = given.ravel()
+    results, left = np.empty_like(values), np.isfinite(values)
+    _, digits, power = factor.normalize().as_tuple()
+    if digits != (1,) or not isinstance(power, int):
+        results = np.array([float(Decimal(repr(value)) * factor) for value in values.tolist()])
+        return results.reshape(given.shape) + 0.0  # no negative zeros
+    for places in range(min(_DIGITS, 22 + power) + 1):  # of decimals, as long as each step is exact
+        whole = np.rint(np.where(left, values, 0.0) * _EXACT[places])
+        found = left & (whole / _EXACT[places] == values) & (np.abs(whole) < 10.0**_DIGITS)
+        up = power - places
+        if up <= 22:
+            results[found] = whole[found] * _EXACT[up] if up >= 0 else whole[found] / _EXACT[-up]
+            left &= ~found
+        if not left.any():
+            break
+    rest = left | ~np.isfinite(values)
+    results[rest] = [_shifted(value, power) for value in values[rest].tolist()]
+    return results.reshape(given.shape) + 0.0
+
+
+def _shifted(value: float, power: int) -> float:
+    """Multiply a number by a power of ten, in its text."""
+    digits, _, own = repr(value).partition("e")
+    return float(f"{digits}e{int(own or 0) + power}") if math.isfinite(value) else value
+
+
+def ratio_sentence(text: str, name: str) -> str:
+    """Say that a quantity stands where a ratio is expected; nothing if the text is no quantity."""
+    parts = _QUANTITY.fullmatch(text.strip()) if len(text) <= LONGEST else None
+    if not parts or not parts[2]:
+        return ""
+    return f'"{parts[2]}" is not a unit of this quantity; {_expected(name)}'
+
+
+def _expected(name: str) -> str:
+    """Say what is expected of a key, and under which other one a quantity would stand."""
+    key = KEYS[name]
+    sentence = f"{WORDS[key.unit]} is expected; {example((key.table, name))}"
+    others = [one for one in PHYSICAL.values() if key.unit == "1" and one.gives == name]
+    return f"{sentence}, or give {others[0].name} in {others[0].unit}" if len(others) == 1 else sentence
 
 
 @cache
@@ -91,15 +176,22 @@ def _registry() -> "UnitRegistry[Any]":
 
 
 @cache
-def _factor(written: str, unit: str) -> Decimal | None:
-    """Report how many of the SI unit a unit is: None if it is not known, 0 if it is one of something else."""
+def factor_between(written: str, unit: str) -> Decimal | None:
+    """
+    Report how many of one unit another is: None if it is not known, 0 if it is one of something else.
+
+    >>> [str(factor_between(*units)) for units in (("um", "m"), ("mJ m-2", "kg/s^2"), ("%", "1"), ("N", "m"))]
+    ['0.000001', '0.001', '0.01', '0']
+    """
     registry = _registry()
-    wanted = registry.parse_units(_POWER.sub(r"\1^\2", unit))
     for text in (written, _POWER.sub(r"\1^\2", written)):
         try:
-            meant = registry.parse_units(text)
+            wanted = registry.parse_units(_POWER.sub(r"\1^\2", unit))
+            meant = registry.parse_units("" if text == "-" else text)
             if meant.dimensionality != wanted.dimensionality:
                 return Decimal(0)
+            if registry.Quantity(Decimal(0), meant).to(wanted).magnitude:  # decibels, which are no multiples
+                return None
             return Decimal(registry.Quantity(Decimal(1), meant).to(wanted).magnitude)
         except _NO_UNIT:
             continue

@@ -12,6 +12,7 @@ from gradhesion.cli.errors import StudyError
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.study import places
 from gradhesion.cli.study.fit_study import FitStudy
+from gradhesion.cli.study.foreign import as_written
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.mistakes import Mistake, checked
 from gradhesion.cli.study.points import points_of
@@ -108,7 +109,7 @@ def _source(data: Mapping[str, Any], name: str, folder: str | Path) -> Source:
             f"{name}: not a study, tables or lists are nested more than {places.DEEPEST} deep; remove some levels"
         )
     home = Path(folder).absolute()
-    return Source(name=name, data=_plain(data), text="", place=lambda _: name, folder=home)
+    return Source(name=name, data=as_written(data), text="", place=lambda _: name, folder=home)
 
 
 def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = None) -> Study:
@@ -181,12 +182,3 @@ def _line(sentence: str) -> tuple[str, int]:
     """Sort sentences by the line that they name."""
     at = re.match(r"(.*?):(\d+):", sentence)
     return (at[1], int(at[2])) if at else ("", 0)
-
-
-def _plain(value: Any) -> Any:
-    """Turn the arrays, tuples and numpy numbers of a mapping made in Python into what TOML would give."""
-    if isinstance(value, Mapping):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, np.ndarray | np.generic):
-        return value.tolist()
-    return [_plain(item) for item in value] if isinstance(value, list | tuple) else value

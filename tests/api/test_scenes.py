@@ -74,9 +74,9 @@ def test_units_are_strings_or_numbers_in_si_or_attributes() -> None:
     assert attributes["pull_off_force_si"][0].item() == pytest.approx(force, rel=1e-12)
     assert attributes["wavelength"].attrs["units"] == "m"
     refused = mistakes_of(AFM | {"wavelength": wavelength.assign_attrs(units="N")})
-    assert 'wavelength: its attribute units = "N": "N" is not a unit of this quantity; a length is expected' in refused
+    assert 'wavelength: "N" is not a unit of this quantity; a length (m) is expected' in refused
     refused = mistakes_of(AFM | {"A": wavelength})
-    assert 'A: its attribute units = "nm", where a number without a unit is expected' in refused
+    assert 'A: "nm" is not a unit of this quantity; a number without a unit is expected' in refused
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,10 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import pint
+import pint_xarray  # noqa: F401 (registers the accessor)
 import pytest
+import xarray
 
 from gradhesion.cli.dataset.fit import write_fit
 from gradhesion.cli.dataset.writer import write
@@ -23,7 +26,7 @@ CHANGES: dict[str, dict[str, Any]] = {
     "points": {"layout": "points", "parameters": {"k": [0.1, 0.2], "lambda_over_R": 0.2, "A": [0.01, 0.02], "a_max_over_R": 1.0}},
     "curve": {"kind": "curve", "outputs": ["equilibrium", "path"]},
     "jumps": {"kind": "curve", "outputs": ["jumps"], "profile": SHAPE, "loading": {"control": "machine", "machine_stiffness": [1.0, 9.0]}},
-    "physical": {"parameters": {"k": 0.3, "nu": 0.3, "A": [0.0, 0.01]}, "physical": UNITS | {"wavelength": ["50 nm", "90 nm"]}},
+    "physical": {"parameters": {"k": 0.3, "nu": 0.3, "A": [0.0, 0.01]}, "physical": UNITS | {"wavelength": ["50 nm", "90 nm"], "spring_constant": "2 N/m"}, "loading": {"control": "machine"}},
 }  # fmt: skip
 
 
@@ -45,6 +48,19 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     assert isinstance(fit, FitStudy)
     write_fit(fit, fitted(fit), paths["fit"], history="made by a test", overwrite=False)
     return paths
+
+
+@pytest.mark.parametrize("kind", [*CHANGES, "fit"])
+def test_pint_knows_every_unit(kind: str, files: dict[str, Path]) -> None:
+    with xarray.open_dataset(files[kind]) as dataset:
+        quantified = dataset.pint.quantify()
+        units = {name: variable.attrs.get("units", "") for name, variable in dataset.variables.items()}
+        for name, unit in units.items():
+            assert not unit or quantified[name].pint.units == pint.Unit(unit)
+        for unit in dataset["parameter_units"].values if kind == "fit" else ():
+            assert pint.Unit(unit)
+    if kind == "physical":
+        assert (units["work_of_adhesion"], units["spring_constant"]) == ("J/m^2", "N/m")
 
 
 def checker(*files: Path) -> subprocess.CompletedProcess[str]:

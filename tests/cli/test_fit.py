@@ -25,7 +25,7 @@ TRUE = {
     "load_offset": 1e-8,
 }
 """What configs/force_curve.csv was made with."""
-UNITS = ("Pa", "J m-2", "m", "1", "m", "N")
+UNITS = ("Pa", "J/m^2", "m", "1", "m", "N")
 
 
 @pytest.fixture
@@ -161,7 +161,7 @@ WRONG: dict[str, tuple[str, str]] = {
     "falling": ('physical.E_star={ start = "2 MPa", stop = "1 MPa" }', "is above its start"),
     "from 0": ("parameters.A={ start = 0.0, stop = 0.1 }", "begin the range above 0"),
     "out of range": ("parameters.nu=0.7", "choose a value with -1 < nu <= 0.5"),
-    "another unit": ('physical.R="5 s"', "a length is expected"),
+    "another unit": ('physical.R="5 s"', "a length (m) is expected"),
     "noise": ('fit.noise={ load = "1 nm", indentation = "1 nm" }', "noise has the standard deviations of load and"),
     "half the noise": ('fit.noise={ load = "1 nN" }', "noise has the standard deviations of load and"),
     "unknown": ("fit.ofsets=true", 'did you mean "offsets"?'),

@@ -13,6 +13,7 @@ import pytest
 import xarray
 from click.testing import Result
 
+import gradhesion as gr
 from gradhesion.cli.dataset.writer import write
 from gradhesion.cli.study.reading import study_from
 
@@ -54,6 +55,30 @@ def test_values_of_an_axis_are_joined_in_their_order(
         np.testing.assert_array_equal(again.parameters["A"], [0.0, 0.01, 0.02, 0.023, 0.05])
     told = gradhesion("info", tmp_path / "joined.nc")
     assert told.exit_code == 0
+
+
+def test_units_as_they_were_written_before_go_with_those_of_today(
+    gradhesion: Call, written: Callable[..., Path], tmp_path: Path
+) -> None:
+    physical = {"R": "1 um", "E_star": "1 GPa", "c0": "10 nm", "wavelength": "50 nm"}
+    files = [tmp_path / f"{work}.nc" for work in ("20", "50", "both")]
+    for file, work in zip(files, ("20 mJ m-2", "50 mJ/m^2", ["20 mJ m-2", "50 mJ/m^2"]), strict=True):
+        keys = {"outputs": ["pull_off_force"], "parameters": {"k": [0.0, 0.3], "nu": 0.3, "A": 0.01}}
+        write(study_from(keys | {"physical": physical | {"work_of_adhesion": work}}), file, history="")
+    with netCDF4.Dataset(files[0], "a") as old:
+        old["work_of_adhesion"].units = "J m-2"
+    assert gradhesion("merge", *files[:2], "-o", tmp_path / "joined.nc").exit_code == 0
+    same_values(tmp_path / "joined.nc", files[2])
+    told = gradhesion("info", files[0])
+    assert (told.exit_code, "0.02 J m-2" in told.stdout) == (0, True), told.stdout
+    with gr.open(files[0]) as old:
+        again = gr.solve(
+            old.coords.to_dataset()[
+                ["k", "nu", "A", "R", "E_star", "c0", "wavelength", "work_of_adhesion"]
+            ].reset_coords(),
+            "pull_off_force",
+        )
+        assert again["pull_off_force"].equals(old["pull_off_force"])
 
 
 def test_fixed_values_become_an_axis_and_solvers_stay(

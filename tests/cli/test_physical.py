@@ -104,7 +104,7 @@ def test_axes_have_units_and_ratios_follow(physical: dict[str, Any]) -> None:
     assert units == {
         "R": "m",
         "E_star": "Pa",
-        "work_of_adhesion": "J m-2",
+        "work_of_adhesion": "J/m^2",
         "c0": "m",
         "wavelength": "m",
         "a_max": "m",
@@ -261,9 +261,9 @@ MISTAKES = {
     "wavelength both ways": ("parameters.lambda_over_R=0.1", "give wavelength under [physical], or remove [physical]"),
     "wavelength twice": ("parameters.lambda_over_L=0.1", "wavelength gives the wavelength already"),
     "amplitude twice": ("physical.amplitude='1 nm'", "A gives the amplitude already"),
-    "unit": ("physical.R='1 kg'", 'physical.R = "1 kg": "kg" is not a unit of this quantity; a length is expected; write for example R = "1 mm"'),
-    "unit in a list": ("physical.R=['1 m', '1']", 'physical.R[1] = "1": a number without a unit; a length is expected'),
-    "unit in a range": ("physical.R={start='1 m', stop=2, num=3}", "physical.R.stop = 2: a number without a unit; a length is expected; write for example R"),
+    "unit": ("physical.R='1 kg'", 'physical.R = "1 kg": "kg" is not a unit of this quantity; a length (m) is expected; write for example R = "1 mm"'),
+    "unit in a list": ("physical.R=['1 m', '1']", 'physical.R[1] = "1": a number without a unit; a length (m) is expected'),
+    "unit in a range": ("physical.R={start='1 m', stop=2, num=3}", "physical.R.stop = 2: a number without a unit; a length (m) is expected; write for example R"),
     "range": ("physical.R={start='1 m', stop='2 m', num=0}", "physical.R.num = 0: num is the number of values"),
     "range to inf": ("physical.a_max={start='1 m', stop=inf, num=3}", "physical.a_max.stop = inf: a range must end at finite values"),
     "one place": ("physical.R={start='1 m', stop='1 m', num=3}", 'the value "1 m" repeats; write ["1 m"] or another stop'),
@@ -311,7 +311,7 @@ def test_a_machine_has_its_spring_constant_in_newtons_per_metre() -> None:
         study_from(table | {"physical": written | lengths(R) | {"spring_constant": ["0.2 N/m", "41 kN/km"]}})
     )
     ratios = [constant / (E_star * R) for constant in constants]
-    assert with_units["spring_constant"].attrs["units"] == "N m-1"
+    assert with_units["spring_constant"].attrs["units"] == "N/m"
     assert with_units["dissipated_energy"].dims == ("spring_constant", "a_max")
     np.testing.assert_allclose(with_units["machine_stiffness"].values, ratios, rtol=2 * EPS)
     plain = compute(
@@ -344,7 +344,7 @@ def test_a_machine_has_its_spring_constant_in_newtons_per_metre() -> None:
         (
             {"control": "machine"},
             {"spring_constant": "3 N"},
-            '"N" is not a unit of this quantity; a force per length is expected',
+            '"N" is not a unit of this quantity; a force per length (N/m) is expected',
         ),
         (
             {"control": "machine"},

@@ -113,17 +113,18 @@ def test_another_file_is_refused_with_exit_2(study: Path, gradhesion: Call, tmp_
 
 
 def test_units_are_those_of_the_header(study: Path, tmp_path: Path) -> None:
-    (tmp_path / "samples.csv").write_text("R [um],A\n5,0.0\n2.5,0.01\n")
+    (tmp_path / "samples.csv").write_text("R [um],A [%]\n25,0.0\n2.5,1\n")
     study.write_text(
         'outputs = ["pull_off_force"]\n[parameters]\npoints = "samples.csv"\nk = 0.0\nnu = 0.3\n'
         '[physical]\nE_star = "1 GPa"\nwork_of_adhesion = "50 mJ/m^2"\nwavelength = "0.1 um"\n'
     )
     dataset = compute(load_study(study))
-    np.testing.assert_allclose(dataset["R"], [5e-6, 2.5e-6], rtol=4e-16)
-    assert dataset["pull_off_force_si"][0].item() == pytest.approx(1.5 * np.pi * 5e-6 * 0.05, rel=1e-14)
+    np.testing.assert_array_equal(dataset["R"], [25e-6, 2.5e-6])
+    np.testing.assert_array_equal(dataset["A"], [0.0, 0.01])
+    assert dataset["pull_off_force_si"][0].item() == pytest.approx(1.5 * np.pi * 25e-6 * 0.05, rel=1e-14)
     for header, words in {
         "R,A": "has no unit; write it after",
-        "R [um],A [m]": "a ratio",
+        "R [um],A [m]": '"m" is not a unit of this quantity; a number without a unit is expected',
         "R [N],A": "not a unit of this quantity",
     }.items():
         (tmp_path / "samples.csv").write_text(f"{header}\n5,0.0\n")

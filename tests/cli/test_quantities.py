@@ -11,7 +11,13 @@ from gradhesion.cli.study.form import Range
 from gradhesion.cli.study.mistakes import checked
 from gradhesion.cli.study.quantities import si_value
 
-UNITS = {"m": "length", "Pa": "pressure", "J m-2": "energy per area", "N m-1": "force per length", "N": "force"}
+UNITS = {
+    "m": "a length (m)",
+    "Pa": "a pressure (Pa)",
+    "J/m^2": "an energy per area (J/m^2)",
+    "N/m": "a force per length (N/m)",
+    "N": "a force (N)",
+}
 
 
 @pytest.mark.parametrize(

@@ -126,7 +126,7 @@ def test_commands(gradhesion: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPa
         ),
         (
             {"outputs": OUTPUTS, "parameters": {"k": 0, "nu": 0.3, "A": 0.1}, "physical": PROBE | {"preload": "3 nm"}},
-            ['physical.preload = "3 nm": "nm" is not a unit of this quantity; a force is expected'],
+            ['physical.preload = "3 nm": "nm" is not a unit of this quantity; a force (N) is expected'],
         ),
         (
             {

@@ -1,0 +1,405 @@
+"""A quantity means the same whatever package it is of and wherever it stands, or is refused with its unit and the one wanted."""
+
+import math
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pint
+import pint_xarray  # noqa: F401 (registers the accessor)
+import pytest
+import xarray
+from numpy.typing import NDArray
+
+import gradhesion as gr
+from gradhesion.given import given_in
+
+ureg = pint.UnitRegistry()
+um = ureg.um
+other = pint.UnitRegistry(non_int_type=Decimal)
+own = pint.UnitRegistry()
+own.define("pixel_of_mine = 5 um")
+own.define("micron = 2 um")  # which is 1 um elsewhere
+own.define("apple = [fruit]")
+
+BULK = {"nu": 0.5, "E": "2 MPa", "work_of_adhesion": "50 mJ/m^2", "k": 0.0}
+WAVY = BULK | {"R": "25 um", "wavelength": "1 um", "A": 0.05}
+
+
+class Astropy(np.ndarray):  # type: ignore[type-arg]
+    """What astropy gives: an array with a unit, of which numpy keeps the numbers."""
+
+    unit: Any
+    value: Any
+    si: Any
+
+
+class Unit:
+    """A unit of the other packages: a number times it is a quantity."""
+
+    def __init__(self, text: str, factor: float, base: str) -> None:
+        self.text, self.factor, self.base = text, factor, base
+
+    def __str__(self) -> str:
+        return self.text
+
+    def quantity(self, numbers: Any) -> Any:
+        """Make a quantity."""
+        made = np.asarray(numbers, dtype=float).view(Astropy)
+        made.unit, made.value = self, np.asarray(numbers, dtype=float)
+        made.si = SimpleNamespace(value=made.value * self.factor, unit=self.base)
+        return made
+
+    __rmul__ = quantity
+
+
+AU_UM = Unit("um", 1e-6, "m")
+
+
+class Unyt(np.ndarray):  # type: ignore[type-arg]
+    """What unyt gives."""
+
+    units: Any
+    value: Any
+
+    def in_mks(self) -> Any:
+        """Convert it."""
+        return SimpleNamespace(value=self.value * self.units.factor, units=self.units.base)
+
+
+class UnytUnit(Unit):
+    """A unit of unyt."""
+
+    def quantity(self, numbers: Any) -> Any:
+        """Make a quantity."""
+        made = np.asarray(numbers, dtype=float).view(Unyt)
+        made.units, made.value = self, np.asarray(numbers, dtype=float)
+        return made
+
+    __rmul__ = quantity
+
+
+class PintColumn(pd.Series):  # type: ignore[type-arg]
+    """A column of pandas as pint-pandas makes it."""
+
+    @property
+    def array(self) -> Any:
+        """What holds its values."""
+        return SimpleNamespace(quantity=ureg.Quantity(np.asarray(self.values), "um"))
+
+
+def netcdf_variable() -> Any:
+    """Give a variable of a file that is open."""
+    import netCDF4
+
+    file = netCDF4.Dataset("units", "w", diskless=True)
+    file.createDimension("n", 2)
+    variable = file.createVariable("R", "f8", ("n",))
+    variable[:], variable.units = [25.0, 50.0], "um"
+    return variable
+
+
+def quantified(name: str = "R") -> xarray.DataArray:
+    """Give an axis that pint-xarray has given its unit, in its index as well."""
+    dataset = xarray.Dataset(coords={name: (name, [25.0, 50.0], {"units": "um"})})
+    return dataset.pint.quantify()[name]
+
+
+def metres(value: Any, name: str = "R") -> tuple[NDArray[np.float64], tuple[str, ...]]:
+    """Give what a call makes of a value, with its dimensions."""
+    given = given_in("gr.solve", BULK | {"A": 0.0}, {name: value}, {"outputs": "pull_off_force"})
+    array = given.parameters(given.study())[name]
+    return array.values, tuple(map(str, array.dims))
+
+
+ONE = {
+    "pint": 25 * um,
+    "0-d": ureg.Quantity(np.array(25.0), "um"),
+    "numpy": np.float32(25.0) * um,
+    "another registry": other.Quantity("25 um"),
+    "decimal": ureg.Quantity(Decimal("0.025"), "mm"),
+    "fraction": ureg.Quantity(Fraction(1, 40), "mm"),
+    "a unit of its own": 5 * own.pixel_of_mine,
+    "a unit that it means otherwise": 12.5 * own.micron,
+    "a unit of many": ureg.Quantity(25.0, "um * kilogram * millimeter / gram / meter"),
+    "in an array of xarray": xarray.DataArray(ureg.Quantity(np.array(25.0), "um")),
+    "attribute": xarray.DataArray(25.0, attrs={"units": "um"}),
+    "astropy": AU_UM.quantity(25.0),
+    "unyt": UnytUnit("μm", 1e-6, "m").quantity(25.0),
+    "a unit that only astropy knows": Unit("Angstrom", 1.0000000000000002e-10, "m").quantity(250_000.0),
+    "number": 25e-6,
+}
+
+
+@pytest.mark.parametrize("case", ONE)
+def test_one_quantity_is_what_its_text_is(case: str) -> None:
+    values, dims = metres(ONE[case])
+    assert (values.item(), dims) == (25e-6, ())
+
+
+TWO: dict[str, tuple[Any, str]] = {
+    "pint": (np.array([25.0, 50.0]) * um, "R"),
+    "list": ([25 * um, 0.05 * ureg.mm], "R"),
+    "list of registries": ([25 * um, other.Quantity("50 um")], "R"),
+    "quantities and texts": ((25 * um, "50 um"), "R"),
+    "objects": (np.array([25 * um, 50 * um], dtype=object), "R"),
+    "arrays in a list": ([xarray.DataArray(25.0, attrs={"units": "um"}), "50 um"], "R"),
+    "xarray": (xarray.DataArray([25, 50] * um, dims="x"), "x"),
+    "xarray of objects": (xarray.DataArray(np.array([25 * um, 50 * um], dtype=object), dims="x"), "x"),
+    "pint-xarray": (quantified(), "R"),
+    "pint-xarray, along another": (
+        xarray.DataArray([25.0, 50.0], dims="t", coords={"t": quantified("t")}, attrs={"units": "um"}),
+        "t",
+    ),
+    "attribute": (xarray.DataArray([25, 50], dims="x", attrs={"units": "um"}), "x"),
+    "pandas": (pd.Series([25 * um, 50 * um]), "index"),
+    "pint-pandas": (PintColumn([25.0, 50.0]), "index"),
+    "netCDF4": (netcdf_variable(), "R"),
+    "astropy": (AU_UM.quantity([25.0, 50.0]), "R"),
+    "list of astropy": ([AU_UM.quantity(25.0), AU_UM.quantity(50.0)], "R"),
+    "unyt": (UnytUnit("μm", 1e-6, "m").quantity([25.0, 50.0]), "R"),
+}
+
+
+@pytest.mark.parametrize("case", TWO)
+def test_several_quantities_are_what_their_texts_are(case: str) -> None:
+    value, dim = TWO[case]
+    values, dims = metres(value)
+    assert (values.tolist(), dims) == ([25e-6, 50e-6], (dim,))
+
+
+def test_an_attribute_of_pandas_is_a_unit() -> None:
+    column = pd.Series([25.0, 50.0])
+    column.attrs["units"] = "um"
+    assert metres(column)[0].tolist() == [25e-6, 50e-6]
+
+
+def test_a_coordinate_that_comes_along_keeps_its_unit() -> None:
+    time = xarray.DataArray([1.0, 2.0] * ureg.second, dims="R")
+    array = xarray.DataArray([25.0, 50.0] * um, dims="R", coords={"time": time})
+    given = given_in("gr.solve", BULK | {"A": 0.0}, {"R": array}, {"outputs": "pull_off_force"})
+    found = given.arrays["R"].coords["time"]
+    assert (type(found.data), found.attrs["units"]) == (np.ndarray, "second")
+
+
+def test_without_end_and_without_value() -> None:
+    given = given_in(
+        "gr.solve", BULK | {"A": 0.0, "R": 25 * um}, {"a_max": [1.0, math.inf] * um}, {"outputs": "pull_off_force"}
+    )
+    assert given.arrays["a_max"].values.tolist() == [1e-6, math.inf]
+    for wrong in (
+        math.inf * um,
+        math.nan * um,
+        [math.nan, 1.0] * um,
+        -1 * um,
+        ureg.Quantity(np.ma.array([1.0, 2.0], mask=[1, 0]), "um"),
+    ):
+        with pytest.raises(gr.StudyError, match=r"R(\[0\])? = .*: out of range; choose a length \(m\) with R > 0"):
+            metres(wrong)
+
+
+@pytest.mark.parametrize(
+    ("value", "numbers"),
+    [
+        (5 * ureg.percent, 0.05), (ureg.Quantity(0.05, ""), 0.05), ([5 * ureg.percent, 0.1], [0.05, 0.1]), (50 * um / ureg.mm, 0.05),
+        ([5.0, 10.0] * ureg.percent, [0.05, 0.1]), (xarray.DataArray(5, attrs={"units": "%"}), 0.05), (xarray.DataArray(0.05, attrs={"units": "1"}), 0.05),
+        (Unit("%", 0.01, "").quantity(5.0), 0.05), ({"start": 0.0, "stop": 5 * ureg.percent, "num": 2}, [0.0, 0.05]),
+    ],
+)  # fmt: skip
+def test_a_ratio_may_have_a_unit_without_dimension(value: Any, numbers: Any) -> None:
+    given = given_in("gr.solve", WAVY, {"A": value}, {"outputs": "pull_off_force"})
+    assert given.parameters(given.study())["A"].values.tolist() == numbers
+
+
+NOT_A_LENGTH = {
+    "kilogram": 25 * ureg.kg,
+    "joule": [1.0, 2.0] * ureg.J,
+    "terahertz": 25 * ureg.THz,
+    "dimensionless": ureg.Quantity(5e-6, ""),
+    "percent": [5 * ureg.percent],
+    "degree_Celsius": ureg.Quantity(25.0, "degC"),
+    "kg": Unit("kg", 1.0, "kg").quantity(25.0),
+    "gram": xarray.DataArray([25.0] * ureg.g, dims="x"),
+    "s": xarray.DataArray(25.0, attrs={"units": "s"}),
+    "1": xarray.DataArray(25.0, attrs={"units": "1"}),
+    "nanoseconds": np.timedelta64(5, "ns"),
+    "generic time units": np.timedelta64(5),
+    "apple": 5 * own.apple,
+    "second": {"start": 1 * ureg.s, "stop": 2 * ureg.s, "num": 3},
+}
+
+
+@pytest.mark.parametrize("unit", NOT_A_LENGTH)
+def test_another_dimension_is_refused_with_both_units(unit: str) -> None:
+    with pytest.raises(gr.StudyError) as refused:
+        metres(NOT_A_LENGTH[unit])
+    for sentence in refused.value.mistakes:
+        assert sentence.startswith("gr.solve: R")
+        assert f'"{unit}"' in sentence
+        assert 'a length (m) is expected; write for example R = "1 mm"' in sentence or "stop" in sentence
+    assert len(refused.value.mistakes) == (2 if unit == "second" else 1)
+
+
+@pytest.mark.parametrize(
+    "value", [5 * um, [5.0] * um, [5 * um], "5 um", xarray.DataArray(5.0, attrs={"units": "um"}), {"start": 0.0, "stop": 5 * um, "num": 2}]
+)  # fmt: skip
+def test_a_ratio_with_a_dimension_is_refused_with_the_key_that_has_one(value: Any) -> None:
+    with pytest.raises(gr.StudyError) as refused:
+        given_in("gr.solve", WAVY, {"A": value}, {"outputs": "pull_off_force"}).study()
+    (sentence,) = refused.value.mistakes
+    assert sentence.startswith("gr.solve: A")
+    assert (
+        " is not a unit of this quantity; a number without a unit is expected; write for example A = 0.1, or give amplitude in m"
+        in sentence
+    )
+
+
+def test_a_decibel_is_no_multiple_of_a_number() -> None:
+    with pytest.raises(gr.StudyError, match='A: the unit "decibel" is not known; a number without a unit is expected'):
+        given_in("gr.solve", WAVY, {"A": ureg.Quantity(3.0, "dB")}, {"outputs": "pull_off_force"}).study()
+
+
+def test_a_table_of_pandas_names_its_columns_once() -> None:
+    table = pd.DataFrame([[1e-6, 2e-6, 0.0]], columns=["R", "R", "A"])
+    with pytest.raises(gr.StudyError) as refused:
+        given_in("gr.solve", table, BULK, {"outputs": "pull_off_force"}).study()
+    assert refused.value.mistakes == ("gr.solve: R: the table has more than one column of this name; keep one of them",)
+
+
+def test_radii_of_states_are_ratios() -> None:
+    for radii in (50 * ureg.percent, [50 * ureg.percent], xarray.DataArray([50.0], dims="x", attrs={"units": "%"})):
+        given = given_in(
+            "gr.curves", WAVY, {}, {"kind": "curve", "outputs": "pressure", "contact_radius_over_R": radii}
+        )
+        assert given.study().states == (0.5,)
+    for radius in (5 * um, [5 * um], -1.0):
+        with pytest.raises(
+            gr.StudyError,
+            match=r"contact_radius_over_R\[0\] = .*: a contact radius is a number above 0, over R and without a unit",
+        ):
+            given_in(
+                "gr.curves", WAVY, {}, {"kind": "curve", "outputs": "pressure", "contact_radius_over_R": radius}
+            ).study()
+
+
+def test_amplitudes_of_a_profile_are_ratios() -> None:
+    for profile in (
+        {"harmonics": [{"n": 1, "cos": 50 * ureg.percent}]},
+        gr.Profile(harmonics=(gr.Harmonic(n=1, cos=50 * ureg.percent),)),
+    ):
+        given = given_in("gr.solve", WAVY, {}, {"outputs": "pull_off_force", "profile": profile})
+        assert given.study().profile.harmonics[0].cos == 0.5
+    with pytest.raises(gr.StudyError, match='cos = "1 micrometer": this must be a number'):
+        given_in(
+            "gr.solve", WAVY, {}, {"outputs": "pull_off_force", "profile": {"harmonics": [{"n": 1, "cos": um * 1}]}}
+        ).study()
+
+
+STUDY: dict[str, Any] = {
+    "outputs": ["pull_off_force"],
+    "parameters": {"k": 0.0, "nu": 0.5, "A": 0.05},
+    "physical": {"E": 2 * ureg.MPa, "work_of_adhesion": 50 * ureg.mJ / ureg.m**2, "wavelength": 1 * um, "R": [25 * um, "50 um"]},
+}  # fmt: skip
+
+
+def test_a_study_takes_them_as_a_call_does() -> None:
+    study = gr.load(STUDY)
+    assert isinstance(study, gr.Study)
+    assert study.parameters["R"].tolist() == [25e-6, 50e-6]  # type: ignore[union-attr]
+    assert study.parameters["work_of_adhesion"] == 0.05
+    for value in (
+        [25.0, 50.0] * um, xarray.DataArray([25.0, 50.0], dims="x", attrs={"units": "um"}), quantified(), pd.Series([25 * um, 50 * um]),
+        {"start": 25 * um, "stop": 0.05 * ureg.mm, "num": 2}, AU_UM.quantity([25.0, 50.0]),
+    ):  # fmt: skip
+        changed = gr.load(STUDY, set={"physical.R": value})
+        assert isinstance(changed, gr.Study)
+        assert changed.parameters["R"].tolist() == [25e-6, 50e-6]  # type: ignore[union-attr]
+    with pytest.raises(
+        gr.StudyError, match=r'physical.R = "25 kilogram": "kilogram" is not a unit .* a length \(m\) is expected'
+    ):
+        gr.load(STUDY, set={"physical.R": 25 * ureg.kg})
+    with pytest.raises(
+        gr.StudyError, match=r"physical.R = 2.5e-05: a number without a unit; a length \(m\) is expected"
+    ):
+        gr.load(STUDY, set={"physical.R": 25e-6})
+
+
+def test_a_study_in_a_file_takes_them(tmp_path: Path) -> None:
+    file = tmp_path / "study.toml"
+    file.write_text(gr.load(STUDY).text)
+    for value in (75 * um, xarray.DataArray(75.0, attrs={"units": "um"}), "75 um"):
+        study = gr.load(file, set={"physical.R": value, "parameters.A": 10 * ureg.percent})
+        assert isinstance(study, gr.Study)
+        assert (study.parameters["R"], study.parameters["A"]) == (75e-6, 0.1)
+    with pytest.raises(gr.StudyError, match='"kilogram" is not a unit of this quantity'):
+        gr.load(file, set={"physical.R": 25 * ureg.kg})
+
+
+def test_uncertainties_are_quantities_or_shares() -> None:
+    table = {
+        "R": 2 * um,
+        "wavelength": 5 * ureg.percent,
+        "A": {"low": 4 * ureg.percent, "high": 0.06},
+        "E": {"low": 1 * ureg.MPa, "high": "3 MPa"},
+    }
+    study = gr.load(STUDY | {"uncertainty": table})
+    assert isinstance(study, gr.Study)
+    found = dict(study.uncertainty.deviations)
+    assert (found["R"].deviation, found["R"].relative) == (2e-6, False)
+    assert (found["wavelength"].deviation, found["wavelength"].relative) == (0.05, True)
+    assert (found["A"].low, found["A"].high) == (0.04, 0.06)
+    assert (found["E"].low, found["E"].high) == (1e6, 3e6)
+    for name, unit, wanted in (("R", "kilogram", "a length (m)"), ("A", "meter", "a number without a unit")):
+        with pytest.raises(gr.StudyError) as refused:
+            gr.load(STUDY | {"uncertainty": {name: 1 * ureg.Unit(unit)}})
+        (sentence,) = refused.value.mistakes
+        assert (
+            f'uncertainty.{name} = "1 {unit}": "{unit}" is not a unit of this quantity; {wanted} is expected'
+            in sentence
+        )
+
+
+def test_a_fit_takes_them_in_ranges_and_noise(tmp_path: Path) -> None:
+    depth = [*range(-2, 9), *range(7, -6, -1)]
+    rows = "\n".join(f"{one},{one * abs(one) ** 0.5}" for one in depth)
+    (tmp_path / "loop.csv").write_text("depth,force\n" + rows + "\n")
+    study = {
+        "kind": "fit",
+        "data": {"file": str(tmp_path / "loop.csv"), "indentation": {"column": "depth", "unit": "nm"}, "load": {"column": "force", "unit": "nN"}},
+        "parameters": {"k": 0.0, "nu": 0.5, "A": 0.0},
+        "physical": {"R": 1 * um, "E_star": {"start": 0.1 * ureg.GPa, "stop": "10 GPa"}, "work_of_adhesion": {"start": 5 * ureg.mJ / ureg.m**2, "stop": 0.2 * ureg.N / ureg.m}},
+        "fit": {"noise": {"load": 0.5 * ureg.nN, "indentation": 0.1 * ureg.nm}},
+    }  # fmt: skip
+    read: Any = gr.load(study)
+    assert (read.fixed["R"], read.free["E_star"], read.free["work_of_adhesion"]) == (1e-6, (1e8, 1e10), (0.005, 0.2))
+    assert read.noise == (1e-10, 5e-10)
+    for key, value in (
+        ("physical.E_star.start", 1 * ureg.kg),
+        ("fit.noise.load", 1 * ureg.kg),
+        ("physical.R", 1 * ureg.kg),
+    ):
+        with pytest.raises(gr.StudyError, match='"kilogram" is not a unit of this quantity'):
+            gr.load(study, set={key: value})
+    with pytest.raises(
+        gr.StudyError,
+        match=r'parameters.A = "1 micrometer": "micrometer" is not a unit of this quantity; a number without',
+    ):
+        gr.load(study, set={"parameters.A": 1 * um})
+
+
+def test_what_was_quantified_is_given_again() -> None:
+    dataset = gr.solve(BULK | {"A": 0.0}, "pull_off_force", R=[25.0, 50.0] * um)
+    units = dataset.pint.quantify()
+    assert units["work_of_adhesion"].data.to("mJ/m^2").magnitude == pytest.approx(50.0)
+    assert units["pull_off_force_si"].data.check("[force]")
+    again = gr.solve(
+        BULK | {"A": 0.0, "work_of_adhesion": units["work_of_adhesion"], "E": units["E"]},
+        "pull_off_force",
+        R=units["R"],
+    )
+    assert again["pull_off_force_si"].equals(dataset["pull_off_force_si"])
+    assert dataset["pull_off_force_si"].sel(R=25e-6).item() == pytest.approx(1.5 * math.pi * 25e-6 * 0.05, rel=1e-12)
