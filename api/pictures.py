@@ -93,7 +93,8 @@ def plot(
     variables
         Variables to draw, by name; force and energy if None.
     at
-        Axes fixed at the value nearest to this one: {"A": 0.02, "R": "2 um", "solver": "exact"}.
+        Axes fixed at the value nearest to this one: {"A": 0.02, "R": "2 um", "solver": "exact"}; quantities as in
+        `solve`.
     over
         Axes reduced by "max", "min" or "mean", or to the place of an extreme by "argmax" or "argmin": {"k": "max"}.
     interpolate

@@ -41,15 +41,16 @@ def solve(
         The parameters of a study by name, in a mapping, as keywords, or both (a keyword overrides the mapping, as in
         `dict(parameters, **more)`): k in [0, 1], nu in (-1, 0.5], the positive ratios modulus E*
         R/dgamma, c0_over_R (not needed if k = 0) and lambda_over_R (not needed if A = 0), A >= 0, and a_max_over_R >
-        0, inf by default; their reduced forms (chi, lambda_over_L, ...); quantities with units, such as R = "1 um" (a
-        plain number is in SI units: R = 1e-6); and machine_stiffness S/(E* R), or spring_constant, with control
-        "machine". Each of them is
+        0, inf by default; their reduced forms (chi, lambda_over_L, ...); quantities with units, such as R = "1 um" or
+        one of pint, astropy or unyt (a plain number is in SI units: R = 1e-6); and machine_stiffness S/(E* R), or
+        spring_constant, with control "machine". Each of them is
 
-        - a number (or a quantity with its unit): the same in all scenes;
+        - a number (or a quantity with its unit; of a ratio one without dimension, as percent): the same in all scenes;
         - a list, a plain array of one dimension, or a range {"start": .., "stop": .., "num": .., "spacing": "log"}: an
           axis of the name of the parameter, as in a study. Two lists make a grid, whatever their lengths;
         - an xarray.DataArray: arrays broadcast by the names of their dimensions, so that A and k over the same
-          dimension vary together. One over a single dimension of its own name is an axis;
+          dimension vary together. One over a single dimension of its own name is an axis. Its unit is that of
+          pint-xarray or its attribute `units`; without either it is in SI units;
         - a column of pandas: an array over the dimension of its index. A DataFrame has one scene per row.
 
         A plain array of two or more dimensions is refused: their names are missing.
@@ -79,8 +80,8 @@ def solve(
     Raises
     ------
     StudyError
-        Parameters, outputs or settings are unknown, missing or out of range, or dimensions do not go together; the
-        error has all mistakes.
+        Parameters, outputs or settings are unknown, missing or out of range, a unit is not that of a parameter, or
+        dimensions do not go together; the error has all mistakes.
 
     Notes
     -----
@@ -138,7 +139,8 @@ def curves(
     outputs
         Names out of `CURVES`, such as "path", or single variables of theirs, such as "path_load".
     contact_radius_over_R
-        For "pressure" and "surface": the radii of states of equilibrium; None for turning point, pull-off and jump-out.
+        For "pressure" and "surface": the radii of states of equilibrium, ratios; None for turning point, pull-off and
+        jump-out.
     profile, control, threads, title
         As in `solve`.
 

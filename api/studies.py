@@ -28,9 +28,10 @@ def load(
     Parameters
     ----------
     study
-        The path of a study in TOML, or a mapping with its keys; lists may be arrays.
+        The path of a study in TOML, or a mapping with its keys; lists may be arrays, and strings with units quantities
+        of pint, astropy or unyt, or arrays with the attribute `units`. As in a file, a plain number is no quantity.
     set
-        Keys to set, by their dotted paths: {"parameters.A": 0.02, "physical.R": "1 um"}.
+        Keys to set, by their dotted paths: {"parameters.A": 0.02, "physical.R": "1 um"}; values as in a mapping.
 
     Returns
     -------
