@@ -162,7 +162,7 @@ def given_in(
         The arguments that stand for keys of a study: outputs, profile, control, solver, check_contact, title, kind.
     """
     given = Given(caller=caller, settings=_settings(settings))
-    table = {} if parameters is None else parameters
+    table: Any = {} if parameters is None else parameters
     if hasattr(table, "columns") and hasattr(table, "to_xarray"):  # pandas
         given.unread |= {*map(str, table.columns[table.columns.duplicated()])}
         for name in sorted(given.unread):
