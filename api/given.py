@@ -15,7 +15,7 @@ from gradhesion.cli.names import OUTPUTS, PARAMETER, PHYSICAL_PARAMETER, SCENE, 
 from gradhesion.cli.study.axes import Values, mistakes_of_grid
 from gradhesion.cli.study.foreign import as_written
 from gradhesion.cli.study.kinds import KINDS
-from gradhesion.cli.study.reading import study_from
+from gradhesion.cli.study.reading import study_from, text_of
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core.problem.profile import Profile
@@ -94,23 +94,32 @@ class Given:
             raise StudyError(self.mistakes)
         return study
 
-    def parameters(self, study: Study) -> dict[str, xarray.DataArray]:
-        """Give every parameter of the checked study over its dimensions; of points all of them over all points."""
-        found = {name: self.arrays.get(name, _named(name, values)) for name, values in study.parameters.items()}
-        return {
-            name: array.broadcast_like(next(iter(self.arrays.values()))) if self.is_points else array
-            for name, array in found.items()
-        }
+    def parameters(self, study: Study) -> dict[str, float | xarray.DataArray]:
+        """
+        Give every parameter of the checked study: a number, or an array over its dimensions.
 
-    def text(self) -> str:
-        """Write the study in TOML that gives just these scenes; nothing where there is none, or none that is short."""
+        Of points all of them are arrays over all points.
+        """
+        found = {
+            name: self.arrays[name] if name in self.arrays else _named(name, values)
+            for name, values in study.parameters.items()
+        }
+        if not self.is_points:
+            return found
+        points = next(iter(self.arrays.values()))
+        return {name: xarray.DataArray(value).broadcast_like(points) for name, value in found.items()}
+
+    def text(self, study: Study) -> str:
+        """Write the checked study in TOML that gives just these scenes; nothing if there is none that is short."""
+        if not self.arrays:
+            return study.text
         values = [array.values for array in self.arrays.values()]
         ordered = self.is_points or (
             self.is_grid and all(np.all(np.diff(axis) > 0) or np.all(np.diff(axis) < 0) for axis in values)
         )
         if not ordered or sum(axis.size for axis in values) > MOST_LISTED:
             return ""
-        return study_from(self.whole()).text
+        return text_of(self.whole(), study)
 
     def whole(self) -> dict[str, Any]:
         """Give all of it as the keys of a study; every array is an axis, or all are lists of points."""
@@ -191,6 +200,8 @@ def _take(given: Given, name: str, value: Any) -> None:
         given.refuse(name, f"unknown parameter; {did_you_mean(name, list(INPUTS))}")
     elif name not in INPUTS or isinstance(value, str | Mapping) or value is None:
         given.fixed[name] = as_written(value, bare=name not in PHYSICAL)
+    elif isinstance(value, float):
+        given.fixed[name] = float(value) + 0.0  # no negative zero; what most calls give needs no array
     else:
         _take_values(given, name, value)
 
@@ -268,11 +279,9 @@ def _settings(settings: Mapping[str, Any]) -> dict[str, Any]:
     return found
 
 
-def _named(name: str, values: Values) -> xarray.DataArray:
-    """Give a parameter of a study its dimension."""
-    if isinstance(values, float):
-        return xarray.DataArray(values)
-    return xarray.DataArray(values, dims=(name,), coords={name: values})
+def _named(name: str, values: Values) -> float | xarray.DataArray:
+    """Give the axis of a study its dimension."""
+    return values if isinstance(values, float) else xarray.DataArray(values, dims=(name,), coords={name: values})
 
 
 def _ends(array: xarray.DataArray) -> list[int]:

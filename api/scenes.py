@@ -85,8 +85,9 @@ def solve(
 
     Notes
     -----
-    A call costs some milliseconds more than `gradhesion.core.solve`, which takes and returns plain arrays that
-    broadcast by position; use that one inside a loop. Accuracy and equations are the same, and are given there.
+    A call of one scene takes two to three times as long as `gradhesion.core.solve`, which takes and returns plain
+    arrays that broadcast by position; use that one inside a loop. Accuracy and equations are the same, and are given
+    there.
 
     Examples
     --------
@@ -114,7 +115,7 @@ def solve(
     given.check_threads(threads)
     study = given.study()
     prepare(kinds_of(study))
-    return solved(replace(study, text=given.text()), given.parameters(study), threads)
+    return solved(replace(study, text=given.text(study)), given.parameters(study), threads)
 
 
 def curves(

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.dataset import attributes, variables, with_steep_contact
 from gradhesion.cli.dataset.model_range import slope_told
+from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import PHYSICAL_PARAMETER, REALISATION, SI, SOLVER, STEEP, UNITS, labels_of
 from gradhesion.cli.study.study import Study
@@ -18,7 +19,8 @@ from gradhesion.cli.work.given import physical_of, solved_by
 from gradhesion.core import PARAMETERS
 from gradhesion.core.variables.reduced import parameters_from, scales_in_si, sources_of
 
-Arrays = Mapping[str, xarray.DataArray]
+Arrays = Mapping[str, float | xarray.DataArray]
+"""By name; a number is the same in all scenes."""
 
 
 def solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarray.Dataset:
@@ -38,8 +40,8 @@ def solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarr
     -------
     The dataset that `gradhesion.cli.dataset.compute` gives of a grid or of points, if the dimensions are theirs.
     """
-    dims = dims_of(parameters)
-    arrays = {name: _along(dims, array) for name, array in parameters.items()}
+    sizes = sizes_of(parameters)
+    arrays = {name: _along(sizes, value) for name, value in parameters.items()}
     scenes = arrays if arrays.keys() >= {*PARAMETERS} else parameters_from(arrays)
     found = _outputs(study, scenes, threads)
     steep = found.pop(STEEP, np.zeros(1, np.int8))
@@ -51,38 +53,38 @@ def solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarr
     if PHYSICAL_PARAMETER in study.labels:
         found |= physical_of(study, arrays, found)
     described = variables(study)
-    apart = (*dims, *study.labels, SOLVER, REALISATION)
-    beside = " ".join(name for name in described if name not in found and name not in apart)
+    apart = {*sizes, *study.labels, SOLVER, REALISATION}
+    beside = [name for name in described if name not in found and name not in apart]
     made = {}
     for name, variable in described.items():
-        own, values = dims, found.get(name)
-        given = {**variable.attributes}
-        given.pop("coordinates", None)
+        own, values = variable.dimensions, found.get(name)
         if values is not None:
             own = (
                 *(one for one in (SOLVER,) if one in described),
-                *dims,
+                *sizes,
                 *(one for one in (REALISATION,) if one in described),
                 *(one for one in (labels_of(name),) if one),
             )
-            given |= {"coordinates": beside} if beside else {}
-        elif name in parameters:
-            own = tuple(dim for dim in dims if dim in parameters[name].dims)
-            values = parameters[name].transpose(*own).values
+        elif name in arrays:
+            own = tuple(dim for dim in sizes if dim in _dims(parameters[name]))
+            values = arrays[name].reshape([sizes[dim] for dim in own])
         elif name in scenes:
             sources = [parameters[source] for source in sources_of(name, parameters)]
-            own = tuple(dim for dim in dims if any(dim in source.dims for source in sources))
-            values = scenes[name].reshape([size for dim, size in _sizes(parameters, dims).items() if dim in own])
+            own = tuple(dim for dim in sizes if any(dim in _dims(source) for source in sources))
+            values = scenes[name].reshape([sizes[dim] for dim in own])
         else:
-            own, values = variable.dimensions, variable.values
-        blank = {} if variable.blank is None else {"_FillValue": np.asarray(values).dtype.type(variable.blank)}
-        made[name] = xarray.Variable(own, values, given | blank)
+            values = variable.values
+        made[name] = _as_read(variable, own, np.asarray(values), beside if name in found else [])
     about = attributes(study, "computed in memory")
     if not study.text:
         del about["study"], about["study_sha256"]
-    dataset = with_steep_contact(xarray.decode_cf(xarray.Dataset(made, attrs=about)), study, steep)
+    # Twice as fast as xarray.Dataset(made).set_coords(beside), and the same.
+    dataset = xarray.Coordinates(made).to_dataset().reset_coords([name for name in described if name in found])
+    dataset.attrs = about
+    dataset = with_steep_contact(dataset, study, steep)
     _say_once(tuple(slope_told(dataset)))
-    return dataset.assign_coords(_other_coordinates(parameters, dataset))
+    others = _other_coordinates(parameters, dataset)
+    return dataset.assign_coords(others) if others else dataset
 
 
 @cache
@@ -92,27 +94,39 @@ def _say_once(sentences: tuple[str, ...]) -> None:
         messages.say("caution", f"gr.solve: {sentence}")
 
 
-def dims_of(parameters: Arrays) -> tuple[str, ...]:
+def _as_read(variable: Variable, dims: tuple[str, ...], values: NDArray[Any], beside: list[str]) -> xarray.Variable:
+    """Give a variable as xarray reads it from a file, by CF: what is said of its cells stands in `encoding`."""
+    plain = {key: value for key, value in variable.attributes.items() if key != "coordinates"}
+    encoding: dict[str, Any] = {} if variable.blank is None else {"_FillValue": values.dtype.type(variable.blank)}
+    encoding |= {"coordinates": " ".join(beside)} if beside else {}
+    return xarray.Variable(dims, values, plain, encoding | {"dtype": values.dtype})
+
+
+def sizes_of(parameters: Arrays) -> dict[str, int]:
     """
-    Name the dimensions of parameters: those of other names as they are met, then the axes as a study orders them.
+    List the dimensions of parameters: those of other names as they are met, then the axes as a study orders them.
 
     >>> A, k = xarray.DataArray([[0.1], [0.2]], dims=["nu", "x"]), xarray.DataArray([0.0, 0.5], dims="k")
-    >>> dims_of({"A": A, "k": k})
-    ('x', 'k', 'nu')
+    >>> sizes_of({"A": A, "k": k, "modulus": 500.0})
+    {'x': 1, 'k': 2, 'nu': 2}
     """
-    met = dict.fromkeys(str(dim) for array in parameters.values() for dim in array.dims)
-    return (*(dim for dim in met if dim not in INPUTS), *(key for key in INPUTS if key in met))
+    arrays = (array for array in parameters.values() if isinstance(array, xarray.DataArray))
+    met = {str(dim): size for array in arrays for dim, size in array.sizes.items()}
+    others = {dim: size for dim, size in met.items() if dim not in INPUTS}
+    return others | {key: met[key] for key in INPUTS if key in met}
 
 
-def _along(dims: tuple[str, ...], array: xarray.DataArray) -> NDArray[np.float64]:
-    """Give the values of an array with an axis for every dimension, of length 1 where it does not vary."""
-    values = array.transpose(*(dim for dim in dims if dim in array.dims)).values
-    return np.asarray(values).reshape([array.sizes.get(dim, 1) for dim in dims])
+def _dims(value: float | xarray.DataArray) -> tuple[Any, ...]:
+    """Name the dimensions of a parameter."""
+    return () if isinstance(value, float) else value.dims
 
 
-def _sizes(parameters: Arrays, dims: tuple[str, ...]) -> dict[str, int]:
-    """Give the length of every dimension."""
-    return {dim: next(array.sizes[dim] for array in parameters.values() if dim in array.dims) for dim in dims}
+def _along(sizes: Mapping[str, int], value: float | xarray.DataArray) -> NDArray[np.float64]:
+    """Give a parameter with an axis for every dimension, of length 1 where it does not vary."""
+    if isinstance(value, float):
+        return np.full((1,) * len(sizes), value)
+    values = value.transpose(*(dim for dim in sizes if dim in value.dims)).values
+    return np.asarray(values).reshape([value.sizes.get(dim, 1) for dim in sizes])
 
 
 def _outputs(study: Study, scenes: Mapping[str, NDArray[np.float64]], threads: int | None) -> dict[str, NDArray[Any]]:
@@ -128,7 +142,7 @@ def _outputs(study: Study, scenes: Mapping[str, NDArray[np.float64]], threads: i
 def _other_coordinates(parameters: Arrays, dataset: xarray.Dataset) -> dict[str, xarray.DataArray]:
     """Find the coordinates that came with the parameters and are not theirs."""
     found: dict[str, xarray.DataArray] = {}
-    for array in parameters.values():
+    for array in (array for array in parameters.values() if isinstance(array, xarray.DataArray)):
         for name, coordinate in array.coords.items():
             if name not in dataset.variables:
                 found.setdefault(str(name), coordinate.reset_coords(drop=True))

@@ -12,6 +12,7 @@ from benchmarks import (
     error,
     functions,
     loop_fits,
+    one_scene,
     plan,
     scale,
     scenes,
@@ -114,6 +115,11 @@ Turning points are `indentation_max_over_R`. Aim: 1.5 times.
 To all parameters, k among them, beside the values; processor time. Aim: twice at most with the values.
 
 {sensitivities.costs_table(100 if quick else 1000)}"""
+    yield f"""### One scene in Python
+
+Force and energy of one scene, processor time: plain arrays, and a dataset with its study. Aim: 3 times at most.
+
+{one_scene.calls_table()}"""
     yield f"""### Fits of measured loops
 
 Six unknowns, {loop_fits.POINTS:,} points, one thread. Aim: 2 s.

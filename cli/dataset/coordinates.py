@@ -45,7 +45,10 @@ def coordinates(study: Study) -> dict[str, Variable]:
         values = np.array(own_labels, dtype=object)
         told = {"long_name": "parameter of the sensitivity"}
         described[name] = Variable(dimensions=(name,), dtype="str", attributes=told, values=values)
+    made_ones = study.made
     for name, key in INPUTS.items():
+        if name not in study.parameters and name not in made_ones:
+            continue
         attributes = {"units": key.unit, "long_name": key.about}
         if name in study.left_out:
             attributes["comment"] = f"{names.IDLE} where {ABSENT[name][1]}; the study leaves it out"
@@ -60,7 +63,7 @@ def coordinates(study: Study) -> dict[str, Variable]:
             else:
                 own = (name,) if name in axes else ()
             described[name] = Variable(dimensions=own, dtype="f8", attributes=attributes, values=values)
-        elif name in study.made:
+        else:
             own = following(study, name)
             made = partial(_made, study, name, own)
             blank = np.nan if REDUCED.keys() & study.parameters.keys() else None  # where there is no a_2

@@ -3,6 +3,7 @@
 import platform
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import cache
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
@@ -96,15 +97,27 @@ def origin(study: Study | FitStudy, history: str, own: Mapping[str, Any]) -> dic
     return {
         "Conventions": "CF-1.11",
         "title": study.title,
-        "source": f"gradhesion {version('gradhesion')}",
+        "source": _source(),
         "history": history,
         "references": names.REFERENCES,
         **own,
         "study": study.text,
         "study_sha256": study.sha256,
-        "python_version": platform.python_version(),
-        **{f"{package}_version": version(package) for package in ("numpy", "numba", "scipy")},
+        **_versions(),
     }
+
+
+@cache
+def _source() -> str:
+    """Name this program and its version, which is read once: that takes a millisecond."""
+    return f"gradhesion {version('gradhesion')}"
+
+
+@cache
+def _versions() -> Mapping[str, str]:
+    """List the versions of what the values come from, which are read once."""
+    packages = {f"{package}_version": version(package) for package in ("numpy", "numba", "scipy")}
+    return {"python_version": platform.python_version(), **packages}
 
 
 def _of_fit(study: Study) -> dict[str, Any]:

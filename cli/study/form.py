@@ -7,6 +7,7 @@ from. Its findings become sentences in `gradhesion.cli.study.mistakes`. What two
 
 import math
 from collections.abc import Mapping
+from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, Union
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, WithJsonSchema, create_model
@@ -305,7 +306,7 @@ class Form(Table):
     ]
     method: Annotated[MethodTable, Field(description=KEYS["method"].about, default_factory=MethodTable)]
 
-    @property
+    @cached_property
     def entries(self) -> dict[str, Entry]:
         """What is given for the inputs, in the order of a dataset's dimensions."""
         tables = {"parameters": self.parameters, "physical": self.physical, "loading": self.loading}

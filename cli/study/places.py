@@ -32,7 +32,9 @@ def is_deep(data: Any) -> bool:
     for _ in range(DEEPEST):
         nested = (one.values() if isinstance(one, Mapping) else one for one in level if isinstance(one, Mapping | list))
         level = [item for items in nested for item in items if isinstance(item, Mapping | list)]
-    return bool(level)
+        if not level:
+            return False
+    return True
 
 
 def is_deep_text(text: str) -> bool:

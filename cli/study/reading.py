@@ -74,6 +74,11 @@ def study_from(
     return _study(_source(data, name, folder), columns)
 
 
+def text_of(data: Mapping[str, Any], study: Study) -> str:
+    """Write keys as TOML that are known to be those of a valid study, one with the files of this one."""
+    return toml_of(study.measured.stored(_plain(data), "")[0])
+
+
 def load_any(path: str | Path, overrides: Iterable[str] = ()) -> Study | FitStudy:
     """Read a study of scenes, or one of a fit, from a file; as `load_study`."""
     source = read_source(Path(path), overrides)

@@ -13,12 +13,19 @@ from gradhesion.cli.terminal.wording import example, line_of
 ABSENT: Final = {"c0_over_R": ("k", "k = 0"), "lambda_over_R": ("A", "A = 0")}
 """The parameters without effect where another is zero: that other one, and the condition in words."""
 
+_ROLES: Final = tuple(key for key in INPUTS.values() if key.role)
+_OTHERS: Final[dict[str, list[Path]]] = {
+    role.name: [(key.table, key.name) for key in INPUTS.values() if key.gives == role.name and not key.is_parameter]
+    for role in _ROLES
+}
+"""The other keys that give a parameter."""
+
 
 def mistakes_of_roles(checked: Checked, sound: Mapping[str, Values]) -> Iterator[Mistake]:
     """Check that exactly one key gives each parameter that more than one can give."""
     if ("parameters",) in checked.wrong and "parameters" not in checked.data:
         return
-    for role in (key for key in INPUTS.values() if key.role):
+    for role in _ROLES:
         if role.name == "modulus" and has_units(checked):
             yield from _mistakes_of_modulus(checked)
         else:
@@ -73,9 +80,7 @@ def _mistakes_of_modulus(checked: Checked) -> Iterator[Mistake]:
 def _mistakes_of_role(role: Key, checked: Checked, sound: Mapping[str, Values]) -> Iterator[Mistake]:
     """Check that one key gives a parameter, unless it may be left out."""
     plain: Path = ("parameters", role.name)
-    keys = [key for key in INPUTS.values() if key.gives == role.name and not key.is_parameter]
-    tied: list[Path] = [(key.table, key.name) for key in keys if key.table == "parameters"]
-    united: list[Path] = [(key.table, key.name) for key in keys if key.table == "physical"]
+    tied, united = ([path for path in _OTHERS[role.name] if path[0] == table] for table in ("parameters", "physical"))
     if has_units(checked) and role.name != "A":
         if is_given(checked, plain):
             yield mixed(plain, checked, [str(path[1]) for path in united])

@@ -115,7 +115,7 @@ class Study:
         own = self.uncertainty.spreads(self.outputs, exact=self.method.solver == "exact")
         return (*own, *(name + SI for name in own if name in UNITS and "R" in self.parameters))
 
-    @property
+    @cached_property
     def variables(self) -> tuple[str, ...]:
         """The names of all variables of its dataset but `status`."""
         if self.search:
@@ -186,7 +186,7 @@ class Study:
         """What studies like it have in common."""
         return PARETO if self.search.is_front else KINDS[self.kind]
 
-    @property
+    @cached_property
     def labels(self) -> dict[str, tuple[str, ...]]:
         """What its sensitivities are to, by the dimension along which they stand; nothing if it has none."""
         asked = {labels_of(name) for name in self.variables} - {""}
@@ -200,7 +200,7 @@ class Study:
         )
         return {name: own for name, own in ((PARAMETER, keys), (PHYSICAL_PARAMETER, units)) if name in asked}
 
-    @property
+    @cached_property
     def made(self) -> tuple[str, ...]:
         """The parameters that are not given, but follow from what is."""
         wanted = {INPUTS[name].gives for name in self.parameters} - self.parameters.keys()
@@ -217,14 +217,14 @@ class Study:
         """The parameter at which its cycles turn before the rim; empty if they turn there."""
         return next((INPUTS[name].gives for name in self.given if INPUTS[name].gives in TURNS), "")
 
-    @property
+    @cached_property
     def sizes(self) -> dict[str, int]:
         """The dimensions of its dataset, with their lengths: that of several solvers, its axes, and realisations."""
         solvers = self.method.solver
         several = {} if isinstance(solvers, str) else {SOLVER: len(solvers)}
         return several | self.axes | ({} if self.spectrum is None else {REALISATION: self.spectrum.realisations})
 
-    @property
+    @cached_property
     def axes(self) -> dict[str, int]:
         """The dimensions along which its parameters vary, with their lengths."""
         axes = {name: values.size for name, values in self.parameters.items() if isinstance(values, np.ndarray)}

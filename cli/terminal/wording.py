@@ -32,6 +32,8 @@ def nearest(word: str, known: Sequence[str]) -> str | None:
     >>> nearest("energy", known), nearest("energy_gian", known)
     ('dissipated_energy', 'energy_gain')
     """
+    if word in known:
+        return word
     lower = {name.lower(): name for name in known}
     slips = difflib.get_close_matches(word.lower(), lower, n=1, cutoff=SLIP)
     parts = [name for name in lower if f"_{word.lower()}_" in f"_{name}_"] if word else []

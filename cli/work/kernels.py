@@ -52,7 +52,8 @@ def kinds_of(study: Study) -> tuple[str, ...]:
     outputs = [name for name in study.solved if name not in (*VALIDITY, CONTACT_SLOPE)]
     slopes = (kind_of_sensitivities(study.profile, study.loading),) if {*outputs} & {*SENSITIVITIES} else ()
     kinds = dict.fromkeys(kind_of_map(outputs, solver, study.profile, study.loading) for solver in solvers)
-    smooth = ("smooth",) if {*kinds} & _WITH_SMOOTH and not slopes and _smooth_scenes(study) >= MANY_SMOOTH else ()
+    many = study.scenes >= MANY_SMOOTH and _smooth_scenes(study) >= MANY_SMOOTH
+    smooth = ("smooth",) if many and {*kinds} & _WITH_SMOOTH and not slopes else ()
     return (*kinds, *smooth, *turning, *slopes)
 
 

@@ -1,5 +1,7 @@
 """The dataset of named dimensions is that of a study where the dimensions are a study's, and as many scenes elsewhere."""
 
+import difflib
+import importlib.metadata
 import math
 import tomllib
 from typing import Any
@@ -10,9 +12,9 @@ import xarray
 
 import gradhesion as gr
 from gradhesion import core
-from gradhesion.cli.dataset import compute
-from gradhesion.cli.study import study_from
-from gradhesion.solved import dims_of
+from gradhesion.cli.dataset import compute, dataset
+from gradhesion.cli.study import form, study_from
+from gradhesion.solved import sizes_of
 
 PUNCH: dict[str, Any] = {
     "k": 0.31,
@@ -109,10 +111,33 @@ def test_what_follows_from_others_stands_over_their_dimensions() -> None:
 
 def test_dimensions_come_in_order() -> None:
     over = {"a_max_over_R": ("a_max_over_R",), "A": ("x", "y"), "k": ("k", "x")}
-    assert dims_of({name: xarray.DataArray(np.zeros((2,) * len(dims)), dims=dims) for name, dims in over.items()}) == (
-        "x", "y", "k", "a_max_over_R",
-    )  # fmt: skip
-    assert dims_of({"k": xarray.DataArray(0.0)}) == ()
+    arrays = {name: xarray.DataArray(np.zeros((2,) * len(dims)), dims=dims) for name, dims in over.items()}
+    assert [*sizes_of(arrays).items()] == [("x", 2), ("y", 2), ("k", 2), ("a_max_over_R", 2)]
+    assert sizes_of({"k": 0.0}) == {}
+
+
+def test_a_call_does_nothing_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a call of one scene costs beside its solution is its check, once, and a dataset."""
+    first = gr.solve(PUNCH)
+    checks, model = [], form.Form.model_validate
+
+    def validate(data: Any) -> Any:
+        checks.append(data)
+        return model(data)
+
+    def never(*_: Any, **__: Any) -> None:
+        raise AssertionError("read again")
+
+    monkeypatch.setattr(form.Form, "model_validate", validate)
+    for owner, name in (
+        (importlib.metadata, "version"),
+        (dataset, "version"),
+        (xarray, "decode_cf"),
+        (difflib, "get_close_matches"),
+    ):
+        monkeypatch.setattr(owner, name, never)
+    xarray.testing.assert_identical(gr.solve(PUNCH), first)
+    assert len(checks) == 1
 
 
 def test_the_values_do_not_depend_on_threads() -> None:
