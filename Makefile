@@ -48,16 +48,17 @@ clean: ## remove the virtual environment and what was built (outputs stay)
 unexport PYTHONDONTWRITEBYTECODE
 install = .venv/bin/python -m pip install --quiet --no-compile --disable-pip-version-check -c constraints.txt
 
-.venv/installed: pyproject.toml constraints.txt
+.venv/installed: pyproject.toml constraints.txt | build/types/gradhesion
 	$(PYTHON) -m venv .venv
 	$(install) -e .
+	echo $(CURDIR)/build/types > "$$(echo .venv/lib/python*/site-packages)/gradhesion.pth" # mypy and pyright follow no import hook
 	touch $@
 
 .venv/complete: .venv/installed
 	$(install) -e '.[docs,test]'
 	touch $@
 
-outputs/maps.nc: configs/maps.toml $(sources) .venv/installed
+outputs/maps.nc: configs/maps.toml $(sources) .venv/installed | build/types/gradhesion
 	.venv/bin/gradhesion run configs/maps.toml -o $@ --overwrite
 
 outputs/maps.png: outputs/maps.nc
@@ -66,7 +67,7 @@ outputs/maps.png: outputs/maps.nc
 # The study of a picture: its own, as configs/fig4a.toml, or one of several panels, as configs/fig3.toml for fig3a.
 dataset = outputs/figures/$(notdir $(basename $(or $(wildcard configs/$(1).toml),$(foreach panel,a b c,$(wildcard configs/$(1:%$(panel)=%).toml))))).nc
 
-outputs/figures/%.nc: configs/%.toml $(sources) .venv/installed
+outputs/figures/%.nc: configs/%.toml $(sources) .venv/installed | build/types/gradhesion
 	.venv/bin/gradhesion run $< -o $@ --overwrite --quiet
 
 .SECONDEXPANSION:
@@ -81,7 +82,7 @@ docs/figures/paper/%.svg: $$(call dataset,$$*) $(drawing)
 
 .PRECIOUS: outputs/figures/%.nc
 
-# What mypy reads: the package as it is installed, by links. Files that come or go change the date of api/.
+# The package by links to the sources, which tools and Python read. Files that come or go change the date of api/.
 build/types/gradhesion: api
 	rm -rf $@
 	mkdir -p $@

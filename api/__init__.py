@@ -101,7 +101,9 @@ def __getattr__(name: str) -> Any:
         if home is None:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         from gradhesion.cli.installation import checked
+        from gradhesion.cli.terminal.room import refuse_without_threads
 
+        refuse_without_threads()
         with checked():
             value = getattr(importlib.import_module(f"{__name__}.{home}"), _OWN_NAMES.get(name, name))
     globals()[name] = value
@@ -109,8 +111,8 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    """List the public names, imported or not."""
-    return sorted({*globals(), *__all__})
+    """List the public names, imported or not, and no others."""
+    return sorted(__all__)
 
 
 if hasattr(sys.modules.get("xarray"), "register_dataset_accessor"):

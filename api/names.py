@@ -1,8 +1,40 @@
 """The parameters of a scene, with what they are; outputs and curves are in `gradhesion.cli.names`."""
 
-from typing import Final
+from typing import Any, Final, TypedDict
 
 from gradhesion.cli import keys
 
 PARAMETERS: Final = {name: key.about for name, key in keys.PARAMETERS.items()}
 """Every parameter of a scene, in the order of a dataset's dimensions, with its `long_name`."""
+
+
+class Given(TypedDict, total=False):
+    """The keywords by which `gradhesion.solve` and `gradhesion.curves` take parameters, for editors to complete."""
+
+    k: Any
+    nu: Any
+    R: Any
+    E_star: Any
+    E: Any
+    work_of_adhesion: Any
+    modulus: Any
+    c0: Any
+    c0_over_R: Any
+    wavelength: Any
+    lambda_over_L: Any
+    lambda_over_R: Any
+    amplitude: Any
+    chi: Any
+    A: Any
+    spring_constant: Any
+    machine_stiffness: Any
+    a_max: Any
+    a_max_over_L: Any
+    a_max_over_a2: Any
+    a_max_over_R: Any
+    indentation_max: Any
+    indentation_max_over_R: Any
+    preload: Any
+    load_max: Any
+    adhesion_range: Any
+    adhesion_range_over_R: Any

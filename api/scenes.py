@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any, Final
+from typing import Any, Final, Unpack
 
 import numpy as np
 import xarray
@@ -15,6 +15,7 @@ from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.kernels import kinds_of
 from gradhesion.core.problem.profile import Profile
 from gradhesion.given import given_in
+from gradhesion.names import Given
 from gradhesion.solved import solved
 
 FORCE_AND_ENERGY: Final = ("pull_off_force", "dissipated_energy")
@@ -30,7 +31,7 @@ def solve(
     check_contact: bool | None = None,
     threads: int | None = None,
     title: str | None = None,
-    **more: Any,
+    **more: Unpack[Given],
 ) -> xarray.Dataset:
     """
     Solve scenes: every combination of axes, or arrays over named dimensions.
@@ -127,7 +128,7 @@ def curves(
     contact_radius_over_R: Sequence[float] | float | None = None,
     threads: int | None = None,
     title: str | None = None,
-    **more: Any,
+    **more: Unpack[Given],
 ) -> xarray.Dataset:
     """
     Draw the curves of scenes: contact radius, depth and load at points that adapt to them.

@@ -27,7 +27,7 @@ from gradhesion.cli.errors import GradhesionError, OutputError
 from gradhesion.cli.installation import misfit
 from gradhesion.cli.terminal import interrupts, messages
 from gradhesion.cli.terminal.output import complain, open_streams
-from gradhesion.cli.terminal.room import refuse_without_room
+from gradhesion.cli.terminal.room import refuse_without_room, refuse_without_threads
 
 INTERRUPTED = 130
 UNHEARD = 141
@@ -70,6 +70,7 @@ class Commands(click.Group):
         name, command, rest = super().resolve_command(context, args)
         if name is not None and not {"-h", "--help"} & {*rest}:
             refuse_without_room(name)
+            refuse_without_threads()
         return name, command, rest
 
     def list_commands(self, _context: click.Context) -> list[str]:

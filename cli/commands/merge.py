@@ -9,6 +9,7 @@ import click
 from gradhesion.cli.commands.examples import example
 from gradhesion.cli.commands.plan import chunk_option
 from gradhesion.cli.commands.run import finish, history_now
+from gradhesion.cli.commands.written import dataset_to_write
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.files import is_file
 from gradhesion.cli.terminal import messages
@@ -18,7 +19,13 @@ from gradhesion.cli.terminal.progress import progress
 
 @click.command(epilog=example("merge big.nc", "merge first.nc second.nc -o all.nc"))
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
-@click.option("-o", "--output", type=click.Path(path_type=Path), help="Dataset to write, if several are joined.")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    callback=dataset_to_write,
+    help="Dataset to write, if several are joined.",
+)
 @click.option("--overwrite", is_flag=True, help="Replace an existing dataset.")
 @chunk_option
 @click.option("--quiet", is_flag=True, help="Print errors only.")

@@ -12,6 +12,7 @@ import click
 
 from gradhesion.cli.commands.examples import example
 from gradhesion.cli.commands.plan import chunk_option, show_fit_plan, show_plan
+from gradhesion.cli.commands.written import dataset_to_write
 from gradhesion.cli.errors import FitDoubtfulError, ScenesFailedError
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
@@ -38,7 +39,13 @@ def _shard(_context: click.Context, _option: click.Parameter, value: str | None)
 
 @click.command(epilog=example("run study.toml", "run study.toml -o wavier.nc --set parameters.A=0.05"))
 @click.argument("study", type=click.Path(path_type=Path))
-@click.option("-o", "--output", type=click.Path(path_type=Path), help="Dataset to write [outputs/<study name>.nc].")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    callback=dataset_to_write,
+    help="Dataset to write [outputs/<study name>.nc].",
+)
 @click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="Override a key of the study; repeatable.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing dataset.")
 @click.option("--fresh", is_flag=True, help="Discard the finished parts of an earlier run.")

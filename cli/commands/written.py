@@ -1,10 +1,32 @@
-"""What a command says when it has written a file."""
+"""What a command says of a file that it is to write, or has written."""
 
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Final
 
+import click
+
+from gradhesion.cli.errors import StudyError
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import bytes_in_words
+
+ENDINGS: Final = (".nc", ".nc4", ".cdf", ".netcdf")
+"""Of the names of datasets."""
+
+
+def dataset_to_write(_context: click.Context, _option: click.Parameter, path: Path | None) -> Path | None:
+    """
+    Check the name of a dataset: another ending, or none, promises another kind of file.
+
+    Raises
+    ------
+    StudyError
+        It is not that of a dataset.
+    """
+    if path is None or path.suffix.lower() in ENDINGS or (path.exists() and not path.is_file()):
+        return path
+    name = path.with_suffix(".nc") if path.suffix[1:].isalpha() else f"{path}.nc"
+    raise StudyError(f"-o {path}: a dataset is a file of NetCDF, and its name ends in .nc; write -o {name}")
 
 
 def say_written(path: Path, notes: Iterable[str] = ()) -> None:

@@ -12,7 +12,7 @@ from gradhesion.cli.keys import FILE_KEYS, INPUTS, Path, keys_of
 from gradhesion.cli.study.form import MOST_REALISATIONS, MOST_RESOLUTION, MOST_STATES, MOST_WAVES, Form
 from gradhesion.cli.study.places import dotted
 from gradhesion.cli.study.quantities import ratio_sentence
-from gradhesion.cli.terminal.wording import did_you_mean, example, nearest
+from gradhesion.cli.terminal.wording import MEANT, did_you_mean, example, nearest
 from gradhesion.core.problem.profile import MOST_HARMONICS
 
 _OF_INPUTS: Final = ("parameters", "physical", "loading")
@@ -145,9 +145,17 @@ def _unknown_key(path: Path) -> tuple[Path, str]:
         if other != table and key in keys:
             home = f"under [{dotted(other)}]" if other else "at the top, before the first [table]"
             return (*other, key), f"this key belongs {home}; move it there"
+    if inner == "range" and known == keys_of("range") and key in ("step", "by", "increment", "delta"):
+        sentence = "a range has no step; give the number of its values in its place, for example num = 11"
+        return (*table, "num"), f'{sentence}, evenly spaced unless spacing = "log"'
     if not table and key in OF_A_FIT:
         return path, 'this table belongs to a fit; write kind = "fit" at the top, or remove it'
     near = nearest(key, known)
+    meant = nearest(key, tuple(INPUTS)) if table in (("parameters",), ("physical",)) else None
+    if meant and key.lower() in MEANT.get(meant, ()) and INPUTS[meant].table != table[0] and near != meant:
+        home = INPUTS[meant].table
+        if near is None or key.lower() not in MEANT.get(near, ()):
+            return (home, meant), f'unknown key; did you mean "{meant}", under [{home}]?'
     return (*table, near or ""), f"unknown key; {did_you_mean(key, known)}"
 
 
@@ -210,7 +218,8 @@ def _parameter_sentence(kind: str, value: object, path: Path) -> str:
         return f"this must be a number{forms}, with {allowed}; {example(path[:2])}"
     if last in ("start", "stop") and isinstance(value, float) and math.isinf(value):
         return "a range must end at finite values; write a list where inf is one of the values"
-    return f"out of range; choose a value with {allowed}"
+    unpressed = "; a cycle that turns at no depth has indentation_max_over_R = 0.0" if name == "load_max" else ""
+    return f"out of range; choose a value with {allowed}{unpressed}"
 
 
 def _file_sentence(kind: str, path: Path) -> str:

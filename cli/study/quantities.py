@@ -24,6 +24,7 @@ LONGEST: Final = 60
 """Characters of a quantity: above any that is meant as one."""
 
 _QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,4})?|[+-]?inf|nan)\s*\*?\s*(.*)")
+_COMMA: Final = re.compile(r"([+-]?\d+),(\d+)")
 _POWER: Final = re.compile(r"([^\W\d_])([+-]?\d)")
 """A power as UDUNITS and astropy write it, `m-2`."""
 WORDS: Final = {
@@ -69,8 +70,11 @@ def si_value(value: object, name: str) -> float:
     text = str(value) if isinstance(value, str | float) else ""
     parts = _QUANTITY.fullmatch(text.strip()) if len(text) <= LONGEST else None
     number, written = parts.groups() if parts else ("", "")
+    comma = _COMMA.match(text.strip())
     if isinstance(value, int | float) and not isinstance(value, bool) and "inf" not in number:
         problem = WORDS["1"]
+    elif comma:
+        problem = f"a decimal comma; write a point, {comma[1]}.{comma[2]}"
     elif not parts:
         problem = "not a number with its unit, in quotes"
     else:
@@ -81,7 +85,8 @@ def si_value(value: object, name: str) -> float:
     inside = result > 0.0 or result == key.bounds.get("ge") or not key.bounds
     if not inside or (math.isinf(result) and not key.infinite) or math.isnan(result):
         allowed = f"{WORDS[key.unit]} with {key.allowed}" if key.bounds else f"{WORDS[key.unit]} that is finite"
-        raise ValueError(f"out of range; choose {allowed}")
+        unpressed = '; a cycle that turns at no depth has indentation_max = "0 nm"' if name == "preload" else ""
+        raise ValueError(f"out of range; choose {allowed}{unpressed}")
     return result
 
 

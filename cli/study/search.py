@@ -189,7 +189,7 @@ def _table(checked: Checked) -> OptimumTable:
 def _mistakes_of_goals(checked: Checked) -> Iterator[Mistake]:
     """Check that one goal or two are named, each an output with one value a scene."""
     table, written = _table(checked), checked.data[KIND]
-    if checked.wrong & {(KIND, "maximise"), (KIND, "minimise")}:
+    if (checked.wrong | checked.meant) & {(KIND, "maximise"), (KIND, "minimise")}:
         return
     goals = [(key, name) for key in ("maximise", "minimise") for name in table.goals(key)]
     if not goals:

@@ -138,6 +138,14 @@ _HOMES: Final = {name: key.table for name, key in KEYS.items() if key.table in _
 """The table of each key that is not at the top."""
 
 
+def _is_list(value: str) -> bool:
+    """Report whether a value would be a list, in brackets."""
+    try:
+        return "," in value and len(tomllib.loads(f"value = [{value}]")) == 1
+    except (ValueError, RecursionError):
+        return False
+
+
 def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[keys.Path, str], list[str]]:
     """Set keys by their dotted paths in place; report which text set each, and what was wrong."""
     sources: dict[keys.Path, str] = {}
@@ -162,7 +170,11 @@ def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[keys
             mistakes.append(f"--set {shown}: nested more than {places.DEEPEST} deep, as no study is; remove levels")
             continue
         if parsed.keys() != {"value"}:
-            quoted = json.dumps(value.strip(), ensure_ascii=False)
+            quoted = f"[{value.strip()}]" if _is_list(value) else json.dumps(value.strip(), ensure_ascii=False)
+            if _is_list(value):
+                sentence = "several values stand in brackets, without spaces or in quotes"
+                mistakes.append(f"--set {override}: the value is not TOML; {sentence}, as in --set '{key}={quoted}'")
+                continue
             mistakes.append(f"--set {override}: the value is not TOML; quote strings, as in --set '{key}={quoted}'")
             continue
         table: Any = data

@@ -84,7 +84,8 @@ def mistakes_of_uncertainty(checked: Checked, sound: Mapping[str, Values]) -> It
 
 def _sentence_of_absent(name: str, known: list[str]) -> str:
     """Say that an input is uncertain that the study does not give."""
-    near = nearest(name, known)
+    kin = (one for one in known if INPUTS[one].gives == INPUTS[name].gives)
+    near = next(kin, None) or nearest(name, known)
     remedy = f'use "{near}"' if near else f"name one that it gives, {', '.join(known)}"
     return f"the study gives no {name} to be uncertain; {remedy}, or remove this key"
 

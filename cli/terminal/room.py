@@ -1,8 +1,9 @@
-"""The address space that a shell allows (`ulimit -v`): where it is too small, libraries end the process at once."""
+"""What the environment of a command allows it; libraries end the process, or fail, where that is too little."""
 
+import os
 from typing import Final
 
-from gradhesion.cli.errors import OutputError
+from gradhesion.cli.errors import CompilerError, OutputError
 from gradhesion.cli.terminal.amounts import bytes_in_words
 
 SOLVING: Final = 1.5e9
@@ -30,6 +31,20 @@ def refuse_without_room(command: str) -> None:
             f"the shell allows {bytes_in_words(allowed)} of address space, and `gradhesion {command}` needs "
             f"{bytes_in_words(needed)}; raise the limit, as with `ulimit -v unlimited`"
         )
+
+
+def refuse_without_threads() -> None:
+    """
+    Make sure that the compiler may have a thread: numba fails at its import otherwise.
+
+    Raises
+    ------
+    CompilerError
+        The environment says that it may not.
+    """
+    number = os.environ.get("NUMBA_NUM_THREADS", "").strip()
+    if number.removeprefix("-").isdecimal() and int(number) < 1:
+        raise CompilerError(f"NUMBA_NUM_THREADS = {number}: the number of threads is 1 or more; raise it, or unset it")
 
 
 def _allowed() -> float:

@@ -10,6 +10,33 @@ from gradhesion.cli.keys import KEYS, Path
 SLIP: Final = 0.8
 """How like each other two words are, from 0 to 1, of which one is the other with a letter or two wrong."""
 
+MEANT: Final[Mapping[str, tuple[str, ...]]] = {
+    "work_of_adhesion": (
+        "gamma", "dgamma", "delta_gamma", "deltagamma", "w", "w_adh", "adhesion", "adhesion_energy", "surface_energy",
+    ),
+    "nu": ("poisson", "poisson_ratio", "poissons_ratio", "v"),
+    "E_star": ("e*", "estar", "e_eff", "reduced_modulus", "effective_modulus", "plane_strain_modulus"),
+    "E": ("young", "youngs_modulus", "young_modulus", "elastic_modulus", "e0"),
+    "R": ("radius", "tip_radius", "curvature_radius", "r0"),
+    "wavelength": ("lambda", "lam", "period"),
+    "lambda_over_R": ("wavelength_over_r", "lam_over_r", "lambda", "lam", "wavelength"),
+    "amplitude": ("height", "wave_height"),
+    "A": ("amplitude_over_wavelength", "amplitude_over_lambda", "a_over_lambda", "amplitude"),
+    "k": ("exponent", "gradient", "gradient_exponent"),
+    "c0": ("gradient_depth", "characteristic_depth"),
+    "spring_constant": ("stiffness", "spring", "spring_stiffness", "cantilever_stiffness"),
+    "machine_stiffness": ("stiffness", "machine"),
+    "preload": ("load", "maximum_load", "max_load", "setpoint"),
+    "indentation_max": ("depth", "indentation", "max_indentation", "max_depth"),
+    "a_max": ("contact_radius", "max_radius"),
+    "adhesion_range": ("z0", "range", "interaction_range"),
+    "num": ("count", "n", "number", "points", "n_points", "steps", "size"),
+    "spacing": ("scale", "space"),
+    "start": ("from", "min", "low", "begin", "first"),
+    "stop": ("to", "max", "high", "end", "last"),
+}  # fmt: skip
+"""What else keys are called, in small letters."""
+
 
 def did_you_mean(word: str, known: Sequence[str]) -> str:
     """
@@ -31,13 +58,17 @@ def nearest(word: str, known: Sequence[str]) -> str | None:
     >>> known = ["dissipated_energy", "energy_gain"]
     >>> nearest("energy", known), nearest("energy_gian", known)
     ('dissipated_energy', 'energy_gain')
+    >>> nearest("gamma", ["a_max", "work_of_adhesion"])
+    'work_of_adhesion'
     """
     if word in known:
         return word
     lower = {name.lower(): name for name in known}
-    slips = difflib.get_close_matches(word.lower(), lower, n=1, cutoff=SLIP)
+    called = {other: name for name, others in MEANT.items() if name in known for other in others if other not in lower}
+    for name in difflib.get_close_matches(word.lower(), [*called, *lower], n=1, cutoff=SLIP):
+        return (called | lower)[name]
     parts = [name for name in lower if f"_{word.lower()}_" in f"_{name}_"] if word else []
-    near = [*slips, *parts, *difflib.get_close_matches(word.lower(), lower, n=1, cutoff=0.6)]
+    near = [*parts, *difflib.get_close_matches(word.lower(), lower, n=1, cutoff=0.6)]
     return lower[near[0]] if near else None
 
 

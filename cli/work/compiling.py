@@ -4,6 +4,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from typing import Final
 
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.kernels import compile_kinds, missing_of, refuse_without_compiler
@@ -24,6 +25,9 @@ WORDS = {
 }
 """The kinds of work, in words."""
 
+SECONDS: Final = 0.15
+"""Processor time to compile a kernel, about: 40 s for the 275 of cycles and energies."""
+
 
 def prepare(kinds: Sequence[str], *, quiet: bool = False) -> None:
     """
@@ -38,7 +42,8 @@ def prepare(kinds: Sequence[str], *, quiet: bool = False) -> None:
     say_why()
     total = sum(KERNELS[kind] for kind in missing)
     what = _in_words(missing)
-    messages.say("compile", f"compiling about {total} kernels for {what}, once per version and kind of work")
+    work = f"about {total} kernels, {SECONDS * total:.0f} CPU seconds of one core, " if total else ""
+    messages.say("compile", f"compiling {work}for {what}, once per version and kind of work")
     start = time.monotonic()
     with _shown(total, quiet=quiet) as done:
         compile_kinds(kinds, done)

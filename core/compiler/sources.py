@@ -4,7 +4,8 @@ import hashlib
 from pathlib import Path
 from typing import Final
 
-CORE: Final = Path(__file__).parents[1]
+CORE: Final = Path(__file__).resolve().parents[1]
+"""Where it stands, the same by whatever link: compiled code belongs to one place."""
 
 
 WITHOUT_KERNELS: Final = ("answers", "arrays", "equations", "variables")
