@@ -76,7 +76,7 @@ def study_from(
 
 def text_of(data: Mapping[str, Any], study: Study) -> str:
     """Write keys as TOML that are known to be those of a valid study, one with the files of this one."""
-    return toml_of(study.measured.stored(_plain(data), "")[0])
+    return toml_of(study.measured.stored(as_written(data), "")[0])
 
 
 def load_any(path: str | Path, overrides: Iterable[str] = ()) -> Study | FitStudy:
