@@ -99,8 +99,8 @@ def in_si(numbers: NDArray[Any], written: str, name: str) -> NDArray[np.float64]
     ValueError
         The unit is not known, or has another dimension; the message says what to write.
 
-    >>> in_si(np.array([1.0, 25.0]), "um", "R"), in_si(np.array(5.0), "percent", "A")
-    (array([1.0e-06, 2.5e-05]), array(0.05))
+    >>> in_si(np.array([1.0, 25.0]), "um", "R"), in_si(np.array([5.0]), "percent", "A")
+    (array([1.0e-06, 2.5e-05]), array([0.05]))
     """
     same = written == KEYS[name].unit  # without asking pint
     return np.asarray(numbers, dtype=np.float64) + 0.0 if same else scaled(numbers, factor_of(written, name))
