@@ -64,12 +64,13 @@ def deviation_of(value: object, name: str) -> Deviation:
 
 def _number(value: object, name: str) -> float:
     """Read a number in the unit of an input."""
-    if INPUTS[name].table == "physical" and not isinstance(value, int | float):
-        return si_value(value, name)
-    if INPUTS[name].table == "physical" and not isinstance(value, bool):
+    with_unit = INPUTS[name].table == "physical"
+    if with_unit and isinstance(value, int | float) and not isinstance(value, bool):
         percentage = f"{100 * value:.4g}" if 0.0 < value <= 1.0 else "10"
         own = f'{name} = "{percentage} %"'
         raise ValueError(f"a number without a unit; write {own} of the value, or a standard deviation with its unit")
+    if with_unit:
+        return si_value(value, name)
     if isinstance(value, int | float) and not isinstance(value, bool):
         return float(value)
     raise ValueError((isinstance(value, str) and ratio_sentence(value, name)) or f"not a deviation; {_forms(name)}")
