@@ -86,7 +86,7 @@ def solve(
 
     Notes
     -----
-    A call of one scene takes two to three times as long as `gradhesion.core.solve`, which takes and returns plain
+    A call of one scene costs about a millisecond more than `gradhesion.core.solve`, which takes and returns plain
     arrays that broadcast by position; use that one inside a loop. Accuracy and equations are the same, and are given
     there.
 

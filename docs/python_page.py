@@ -4,6 +4,7 @@ import importlib
 import inspect
 import re
 from collections.abc import Iterator
+from functools import cached_property
 from typing import Any, Final
 
 import gradhesion
@@ -109,13 +110,15 @@ def _of(module: str, name: str, thing: Any) -> Iterator[str]:
         yield f"```text\n{_signature(called, thing)}\n```"
     yield from _described(thing)
     for member, value in vars(thing).items():
-        function = value.fget if isinstance(value, property) else getattr(value, "__func__", value)
+        attribute = isinstance(value, property | cached_property)
+        own = {property: "fget", cached_property: "func"}.get(type(value), "__func__")
+        function = getattr(value, own, value)
         if member.startswith("_") or not (inspect.isfunction(function) and function.__doc__):
             continue
         if member not in MEMBERS.get(thing.__name__, (member,)):
             continue
         yield f"#### {called}.{member}"
-        if not isinstance(value, property):
+        if not attribute:
             yield f"```text\n{_signature(f'{called}.{member}', function)}\n```"
         yield from _described(function)
 
