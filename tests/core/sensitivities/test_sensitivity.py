@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -147,8 +148,8 @@ def test_cycles_that_turn(turn: str, random_scenes: Scenes, differences: Differe
 def test_the_force_at_a_turn_moves_with_the_depth_unless_a_jump_has_passed_that(scene: dict[str, float]) -> None:
     """Two cycles whose greatest depths both are far below 1e-14; the solver says which one a jump has taken there."""
     scenes = {name: np.full(2, value) for name, value in scene.items()} | {"indentation_max_over_R": np.full(2, 1e-19)}
-    solved = {"pull_off_force": np.ones(2), "delta_max": np.array([1e-19, 1e-15]), "turning_radius": np.full(2, 1e-3)}
-    solved["status"] = np.full(2, PULL_OFF_AT_RIM)
+    solved: dict[str, NDArray[Any]] = {"pull_off_force": np.ones(2), "turning_radius": np.full(2, 1e-3)}
+    solved |= {"delta_max": np.array([1e-19, 1e-15]), "status": np.full(2, PULL_OFF_AT_RIM)}
     asked, passed = [SENSITIVITIES[0]], np.array([False, True])
     reduced = np.ones((3, 6, 2))
     reduced[0] = 1e19
