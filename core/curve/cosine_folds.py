@@ -55,6 +55,9 @@ def find_zero(
         step = -d * (square - 0.5 * d * d2) / (d1 * (square - d * d2) + d * d * d3 / 6.0)
         new = x + step / TWO_PI
         small = abs(step) * (abs(d2) + abs(d1)) < last_step * abs(d1) * min(1.0, TWO_PI * x)
+        # Where level/z^n outweighs all else in D, inside the first fold, D D'' is (3+k)/(1+k) times D'^2, and where it
+        # passes 2 the step of the fourth order vanishes without a zero: Newton's does not.
+        small &= abs(d) * (abs(d2) + abs(d1)) < 2.0 * last_step * square * min(1.0, TWO_PI * x)
         if small and low <= new <= high:
             return new, depth + step * (d + step * (0.5 * d1 + step * (d2 / 6.0 + step * d3 / 24.0)))
         if not low < new < high:

@@ -224,3 +224,16 @@ def test_smooth_curve_has_one_fold(table_of: Callable[[float], Any]) -> None:
 def test_depth_of_a_fold_is_that_of_the_curve(table_of: Callable[[float], Any]) -> None:
     for place, bottom, _ in _folds(table_of(0.29), (0.01, 0.9, 0.0), 0.355):
         assert math.isclose(bottom, depth(table_of(0.29), (0.01, 0.9, 0.0), place), rel_tol=1e-14, abs_tol=1e-14)
+
+
+@pytest.mark.parametrize(("k", "b", "g"), [(0.0, 0.237, 0.112), (0.29, 0.575, 0.3645), (0.64, 0.655, 0.454)])
+def test_the_first_fold_is_found_from_any_guess(k: float, b: float, g: float, table_of: Callable[[float], Any]) -> None:
+    """From one in some thousands the step of the fourth order vanishes, at places where D D'' = 2 D'^2."""
+    table, curve, level = table_of(k), (b, g, 0.0), 0.5 * (1.0 - k)
+    survey = survey_arch(table, curve, level, 0)
+    kind, low, _, high = survey
+    assert kind == 1
+    guesses = np.linspace(low, high, 20_002)[1:-1]
+    places, depths = np.array([fold_of_arch(table, curve, level, 0, survey, True, guess) for guess in guesses]).T
+    np.testing.assert_allclose(places, np.median(places), rtol=1e-9)
+    np.testing.assert_allclose(depths, np.median(depths), rtol=1e-12)
