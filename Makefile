@@ -86,7 +86,7 @@ docs/figures/paper/%.svg: $$(call dataset,$$*) $(drawing)
 build/types/gradhesion: api
 	rm -rf $@
 	mkdir -p $@
-	ln -s $(addprefix ../../../,cli configs core twin $(wildcard api/*.py) api/py.typed) $@
+	ln -s $(addprefix ../../../,cli configs core twin $(filter-out api/__pycache__,$(wildcard api/*))) $@
 
 build/tested: $(checked) .venv/complete | build/types/gradhesion
 	.venv/bin/ruff check
