@@ -20,5 +20,5 @@ def validity_told(dataset: xarray.Dataset) -> Iterator[str]:
         if name == CONTACT_SLOPE and is_cone(dataset):
             count, condition = scenes, "1 at every radius: slopes of a cone are not small"
         if count:
-            share = f"{count:,} of {counted(scenes, 'scene')} ({100 * count / scenes:.2g} %)"
+            share = f"{count:,} of {counted(scenes, 'scene')} ({100 * count / scenes:.3g} %)"
             yield f"  {name:<30} {share:<26} {condition}"

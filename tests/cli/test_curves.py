@@ -75,7 +75,7 @@ def test_the_dataset_keeps_its_contract(dataset_file: Path) -> None:
                 blank = variable.getncattr("_FillValue")
                 assert blank == -1 if name in INTEGERS else np.isnan(blank)
                 assert (variable.units, variable.long_name) == ("1", long_name)
-                assert variable.coordinates == "k nu modulus c0_over_R lambda_over_R"
+                assert variable.coordinates == "k nu modulus c0_over_R lambda_over_R steep_contact"
                 assert variable.ancillary_variables == "status"
                 filters = variable.filters()
                 assert (filters["zlib"], filters["complevel"], filters["shuffle"]) == (True, 1, True)

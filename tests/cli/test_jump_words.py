@@ -50,7 +50,7 @@ def test_they_are_a_ragged_array(dataset_file: Callable[..., Path]) -> None:
         count = file["jump_count"]
         assert count.dimensions == ("A", "a_max_over_R")
         assert (count.dtype, count.sample_dimension) == (np.dtype("i4"), "jump")
-        assert count.coordinates == "k nu modulus c0_over_R lambda_over_R"
+        assert count.coordinates == "k nu modulus c0_over_R lambda_over_R steep_contact"
         assert file.dimensions["jump"].size == count[:].sum()
         for name in VARIABLES:
             variable = file[name]

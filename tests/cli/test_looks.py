@@ -37,7 +37,7 @@ def grid() -> xarray.Dataset:
         "c0_over_R": 0.013,
         "lambda_over_R": {"start": 0.1, "stop": 1.0, "num": 40},
         "A": [0.0, 0.02],
-        "a_max_over_R": 1.7,
+        "a_max_over_R": 0.7,
     }
     study = {"title": "A small study", "outputs": ["pull_off_force", "dissipated_energy"], "parameters": parameters}
     dataset = compute(study_from(study), threads=1)

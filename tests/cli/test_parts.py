@@ -19,7 +19,7 @@ from gradhesion.cli.terminal.amounts import counted
 from gradhesion.cli.work.folder import claimed, folder_of
 from gradhesion.cli.work.parts import PartError, key_of, read_part, write_part
 from gradhesion.cli.work.resume import blank
-from gradhesion.core import solve as real_solve
+from gradhesion.cli.work.scenes import solve as real_solve
 
 Call = Callable[..., Result]
 

@@ -349,7 +349,7 @@ def test_a_machine_has_its_spring_constant_in_newtons_per_metre() -> None:
         (
             {"control": "machine"},
             {"spring_constant": "0 N/m"},
-            "out of range; choose a force per length with spring_constant > 0",
+            "out of range; choose a force per length (N/m) with spring_constant > 0",
         ),
     ],
 )
