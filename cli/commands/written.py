@@ -23,7 +23,12 @@ def dataset_to_write(_context: click.Context, _option: click.Parameter, path: Pa
     StudyError
         It is not that of a dataset.
     """
-    if path is None or path.suffix.lower() in ENDINGS or (path.exists() and not path.is_file()):
+    if path is None or path.suffix.lower() in ENDINGS:
+        return path
+    try:
+        if path.exists() and not path.is_file():
+            return path
+    except OSError:  # no such name can be: whoever writes there says why
         return path
     name = path.with_suffix(".nc") if path.suffix[1:].isalpha() else f"{path}.nc"
     raise StudyError(f"-o {path}: a dataset is a file of NetCDF, and its name ends in .nc; write -o {name}")

@@ -22,8 +22,8 @@ from gradhesion.cli.keys import PARAMETERS
 from gradhesion.cli.names import OUTPUTS
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.study.rules import EXACT_ONLY
+from gradhesion.cli.work.scenes import solve as real_solve
 from gradhesion.core import FAILED
-from gradhesion.core import solve as real_solve
 from gradhesion.core.problem.status import OF_EVERY_MAP
 
 Call = Callable[..., Result]
@@ -183,7 +183,9 @@ def test_a_first_run_says_that_it_compiles(
     quiet = gradhesion("run", study_file, "-o", tmp_path / "quiet.nc", "--quiet").stderr.splitlines()
     lines = gradhesion("run", study_file, "-o", tmp_path / "x.nc").stderr.splitlines()
     assert quiet == lines[:1]
-    assert re.fullmatch(r"compiling about \d+ kernels for .*, once per version and kind of work", lines[0])
+    assert re.fullmatch(
+        r"compiling about \d+ kernels, \d+ CPU seconds of one core, for .*, once per version and kind of work", lines[0]
+    )
     assert lines[1].startswith("compiled in ")
     assert gradhesion("plan", study_file).stderr.splitlines()[0] == lines[0]
 

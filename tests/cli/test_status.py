@@ -13,8 +13,8 @@ from click.testing import Result
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.work.folder import claimed, folder_of
 from gradhesion.cli.work.manifest import adopt
+from gradhesion.cli.work.scenes import solve as real_solve
 from gradhesion.cli.work.state import Keeper
-from gradhesion.core import solve as real_solve
 
 Call = Callable[..., Result]
 

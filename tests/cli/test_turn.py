@@ -134,7 +134,7 @@ def test_commands(gradhesion: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPa
                 "parameters": {"k": 0, "nu": 0.3, "A": 0.1},
                 "physical": PROBE | {"indentation_max": "inf"},
             },
-            ["physical.indentation_max = ", "choose a length that is finite"],
+            ["physical.indentation_max = ", "choose a length (m) that is finite"],
         ),
     ],
 )

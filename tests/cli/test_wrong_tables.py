@@ -87,7 +87,7 @@ OWN: dict[str, tuple[str, str, str]] = {
     "fit: no column": ("fit", "dept,force\n1,2\n", 'the file has no column "depth"; did you mean "dept"?'),
     "points: empty cell": ("points", "modulus,A\n1,0.1\n500,\n", "line 3: A is missing (NaN); give it, or remove the row"),
     "points: error of a spreadsheet": ("points", "modulus,A\n1,#N/A\n", "line 2: A is missing (NaN); give it, or remove the row"),
-    "points: unit of a ratio": ("points", "modulus [MPa],A\n1,0.1\n", 'its column modulus has the unit "MPa" and is a ratio'),
+    "points: unit of a ratio": ("points", "modulus [MPa],A\n1,0.1\n", 'its column modulus [MPa]: "MPa" is not a unit of this quantity; a number without a unit is expected'),
     "points: index": ("points", ",modulus,A\n0,500,0.1\n", "column 1 of the header on line 1 has no name; name it or remove it"),
     "profile: no unit": ("profile", "r [um],height [V]\n1,2\n", "the unit of height [V] is not a length"),
     "profile: no rows": ("profile", "r [um],height [nm]\n1,\n,2\n", "no row has two numbers; name a file with r and height in each row"),

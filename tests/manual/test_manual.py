@@ -31,7 +31,7 @@ RUN = ("bash", "console", "python", "sh", "toml")
 NOT_RUN = {
     "README.md": {"sets up an environment of its own"},
     "docs/cluster.md": {"needs several machines", "tests/repository/test_cluster.py runs the scripts"},
-    "docs/installation.md": {"installs", "compiles for a minute"},
+    "docs/installation.md": {"installs", "compiles for a minute or more"},
     "docs/pictures.md": {"for start-up files of shells"},
     "docs/tutorial.md": {"installs"},
 }

@@ -14,6 +14,7 @@ from gradhesion.core.problem.status import (
     CLOSE_TO_A_JUMP,
     JUMP_IN_TO_RIM,
     LOADING_NOT_ONE_DISC,
+    NO_CONTACT,
     NO_VALUE,
     PULL_OFF_AT_RIM,
 )
@@ -131,7 +132,7 @@ def test_no_contact() -> None:
     for name in ("pull_off_radius", "delta_jump_out", "adhesion_gain"):
         assert np.isnan(found[name]).all()
     assert found["delta_max"].tolist() == [-0.5, -1e-3]
-    assert found["status"].tolist() == [0, 0]
+    assert found["status"].tolist() == [NO_CONTACT, NO_CONTACT]
     assert np.all(found["roughness_parameter"] > 0.0), "which belongs to the curve"
     both = solve(FREE | {DEPTH: [-1e-16, 0.0]}, ["turning_radius"])
     assert np.all(both["status"] == CLOSE_TO_A_JUMP)
