@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.terminal.amounts import counted
+from gradhesion.cli.terminal.amounts import counted, percent
 from gradhesion.core.answers.flags import ANSWER_FLAGS
 from gradhesion.core.arrays.reach import SMALL, depends_on_contact, is_steep, slopes_of
 
@@ -67,7 +67,7 @@ def cautions_of_fit(study: "FitStudy", found: "FittedLoop") -> Iterator[str]:
 
 def _of_slope(study: Study, steep: int) -> Iterator[str]:
     """Say how many scenes reach a slope of the punch that is not small, in one line."""
-    share = f"{steep:,} of {counted(study.scenes, 'scene')} ({100 * steep / study.scenes:.3g} %)"
+    share = f"{steep:,} of {counted(study.scenes, 'scene')} ({percent(steep, study.scenes)})"
     if study.is_cone and depends_on_contact(study.solved):
         yield CONE.format(f"all of {counted(study.scenes, 'scene')}")
     elif steep:

@@ -31,3 +31,14 @@ def two_in_words(one: float, other: float) -> tuple[str, str]:
     """
     pairs = ((bytes_in_words(one, digits), bytes_in_words(other, digits)) for digits in range(1, 12))
     return next((pair for pair in pairs if pair[0] != pair[1]), (bytes_in_words(one), bytes_in_words(other)))
+
+
+def percent(count: int, whole: int) -> str:
+    """
+    Give a share with two digits.
+
+    >>> percent(1, 6), percent(6, 6), percent(1, 3000)
+    ('17 %', '100 %', '0.033 %')
+    """
+    share = 100.0 * count / whole
+    return f"{share:.2g} %" if share < 99.5 else f"{share:.0f} %"

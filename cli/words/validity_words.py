@@ -7,7 +7,7 @@ import xarray
 from gradhesion.cli.dataset.model_range import LIMITS, beyond_by, is_cone
 from gradhesion.cli.dataset.reader import tiling_of
 from gradhesion.cli.names import CONTACT_SLOPE
-from gradhesion.cli.terminal.amounts import counted
+from gradhesion.cli.terminal.amounts import counted, percent
 
 
 def validity_told(dataset: xarray.Dataset) -> Iterator[str]:
@@ -20,5 +20,5 @@ def validity_told(dataset: xarray.Dataset) -> Iterator[str]:
         if name == CONTACT_SLOPE and is_cone(dataset):
             count, condition = scenes, "1 at every radius: slopes of a cone are not small"
         if count:
-            share = f"{count:,} of {counted(scenes, 'scene')} ({100 * count / scenes:.3g} %)"
+            share = f"{count:,} of {counted(scenes, 'scene')} ({percent(count, scenes)})"
             yield f"  {name:<30} {share:<26} {condition}"
