@@ -208,7 +208,7 @@ def test_a_part_gives_back_every_bit(data: dict[str, Any], tmp_path: Path) -> No
     values["pull_off_force"].view("u8").flat[:2] = [0x7FF8_0000_0000_0123, 0x8000_0000_0000_0000]  # a NaN, and -0
     write_part(tmp_path / "part", key_of(study, block), values, study)
     found = read_part(tmp_path / "part", key_of(study, block), study, block)
-    assert list(found) == [*study.outputs, "status"]
+    assert list(found) == [*study.outputs, "steep_contact", "status"]
     assert all(found[name].tobytes() == values[name].tobytes() for name in values)
     assert all(found[name].dtype == values[name].dtype for name in values)
 
