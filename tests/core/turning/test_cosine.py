@@ -135,7 +135,7 @@ def test_no_contact() -> None:
     assert found["status"].tolist() == [NO_CONTACT, NO_CONTACT]
     assert np.all(found["roughness_parameter"] > 0.0), "which belongs to the curve"
     both = solve(FREE | {DEPTH: [-1e-16, 0.0]}, ["turning_radius"])
-    assert np.all(both["status"] == CLOSE_TO_A_JUMP)
+    assert both["status"].tolist() == [NO_CONTACT | CLOSE_TO_A_JUMP, CLOSE_TO_A_JUMP]
     assert both["turning_radius"][0] == 0.0 < both["turning_radius"][1], "at the depth 0 it jumps into contact"
 
 
