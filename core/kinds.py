@@ -66,7 +66,7 @@ KINDS: Final = tuple(NEEDS)
 """All kinds, each after those that it needs."""
 KERNELS: Final[dict[str, int]] = {
     "tables": 52,
-    "force": 55,
+    "force": 54,
     "energy": 223,
     "smooth": 36,
     "reports": 16,

@@ -20,7 +20,7 @@ CONTACT = 9
 """One more slot, not -1 if `status` reports where loading does not keep the contact one disc."""
 TURNED = 10
 """And another one, 1 if the rims are turning points (turning/cosine.py): places that loading surely reaches."""
-OUTERMOST = 11
+OUTERMOST = constant(11)
 """The last one: the row of the largest end of a jump, REACH of names.py, stored of rims at infinity only."""
 
 
