@@ -6,7 +6,7 @@ Arrays of the kernels, by the names that they have throughout:
 
     table       the functions of one gradient exponent, a record (struve/layout.py); with others a `basis`
     series      (harmonics, 3)         n, cos and sin of each harmonic, in units of A (curve/general.py)
-    curve       a tuple of numbers     of one cosine, of any profile and control, or of a short wave (path/passage.py)
+    curve       a NamedTuple           of one cosine, of any profile and control, or of a short wave (face.py)
     trace       (ROWS, branches)       the branches of a curve and the cycle on them, one row a quantity (branches.py)
     long        a tuple of two arrays  what all rims of a long curve share: numbers, and `sums` (path/cosine_long.py)
     sums        (2, panels, columns)   sums over waves up to any of them, outwards and inwards (waves/cosine_running.py)

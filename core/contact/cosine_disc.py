@@ -31,7 +31,7 @@ from gradhesion.core.curve.branches import (
     VALUES,
     WORK,
 )
-from gradhesion.core.curve.cosine import Curve, depth
+from gradhesion.core.curve.cosine import Cosine, depth
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.fractional import NODES, interpolated
 from gradhesion.core.struve.power import amplitude_power
@@ -102,7 +102,7 @@ def _least_between_nodes(openings: Any, at: int) -> float:
 
 
 @kernel()
-def _search(table: Any, curve: Curve, edge: Edge, low: float, high: float) -> float:
+def _search(table: Any, curve: Cosine, edge: Edge, low: float, high: float) -> float:
     """Return the least opening between two radii, or the first negative one that is met (golden section)."""
     inner, outer = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
     first, second = opening(table, curve, edge, inner), opening(table, curve, edge, outer)
@@ -122,7 +122,7 @@ def _search(table: Any, curve: Curve, edge: Edge, low: float, high: float) -> fl
 
 @kernel()
 def _least_in_window(
-    table: Any, curve: Curve, edge: Edge, low: float, high: float, heights: Any, openings: Any
+    table: Any, curve: Cosine, edge: Edge, low: float, high: float, heights: Any, openings: Any
 ) -> float:
     """Return the least opening between two radii, given that there is none below 0 up to `low`.
 
@@ -174,7 +174,7 @@ def next_window(low: float, high: float, heights: Any) -> float:
 
 
 @kernel()
-def least_opening(table: Any, curve: Curve, start: float, end: float, heights: Any, openings: Any) -> float:
+def least_opening(table: Any, curve: Cosine, start: float, end: float, heights: Any, openings: Any) -> float:
     """Return about the least opening at the radii up to `end` around the contact that ends its branch at `start`.
 
     The sign is that of the least gap. Above 0 the value is a lower bound, or good to some hundredths; below 0 it is the
@@ -197,14 +197,14 @@ def least_opening(table: Any, curve: Curve, start: float, end: float, heights: A
 
 
 @kernel(entry=True)
-def _least_of_wave(table: Any, curve: Curve, wave: float, heights: Any, openings: Any) -> float:
+def _least_of_wave(table: Any, curve: Cosine, wave: float, heights: Any, openings: Any) -> float:
     """Return the least opening outside the end of a wave's branch; `wave` is any real number."""
     shifted, x = end_of_wave(table, curve, wave)
     return least_opening(table, shifted, x, x + 1.0, heights, openings)
 
 
 @kernel(entry=True)
-def _least_of_run(table: Any, curve: Curve, first: float, last: float, heights: Any, openings: Any) -> float:
+def _least_of_run(table: Any, curve: Cosine, first: float, last: float, heights: Any, openings: Any) -> float:
     """Return the least opening outside the ends of regular waves: a smooth function of the wave, sampled."""
     first = max(first, 1.0)
     ratio = power(last / first, 1.0 / (_SAMPLES - 1.0))
@@ -237,7 +237,7 @@ def _least_of_run(table: Any, curve: Curve, first: float, last: float, heights: 
 
 @kernel()
 def limits_from(
-    table: Any, curve: Curve, first: int, last: int, now: int, count: int, trace: Any, furthest: float
+    table: Any, curve: Cosine, first: int, last: int, now: int, count: int, trace: Any, furthest: float
 ) -> tuple[float, float]:
     """Return what `disc_limits` does, from jumps that land on the branches `first` to `last`, `count` for the rim.
 
@@ -275,7 +275,7 @@ def limits_from(
 
 
 @kernel()
-def disc_limits(table: Any, curve: Curve, count: int, trace: Any, furthest: float) -> tuple[float, float]:
+def disc_limits(table: Any, curve: Cosine, count: int, trace: Any, furthest: float) -> tuple[float, float]:
     """Return the radius up to which loading keeps the contact one disc, and that from which on it does not.
 
     They are those of the first jump that does not, as far as `furthest`; for a rim between the two `is_one_disc` looks
@@ -297,7 +297,7 @@ def disc_limits(table: Any, curve: Curve, count: int, trace: Any, furthest: floa
 
 
 @kernel()
-def note_run(table: Any, curve: Curve, last: float, trace: Any) -> None:
+def note_run(table: Any, curve: Cosine, last: float, trace: Any) -> None:
     """Note whether the contact is one disc on the waves of a gap, where that serves all rims.
 
     It does if the first of them is none, and if all up to wave `last` surely are.
@@ -315,7 +315,7 @@ def note_run(table: Any, curve: Curve, last: float, trace: Any) -> None:
 
 
 @kernel()
-def is_one_disc(table: Any, curve: Curve, limits: tuple[float, float], rim: float, trace: Any) -> bool:
+def is_one_disc(table: Any, curve: Cosine, limits: tuple[float, float], rim: float, trace: Any) -> bool:
     """Return whether loading keeps the contact one disc up to a rim, from the limits of its curve."""
     low, high = limits
     if rim <= low or rim >= high:

@@ -15,7 +15,7 @@ import math
 from typing import Any, Final, TypeAlias
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.cosine import Curve, wave
+from gradhesion.core.curve.cosine import Cosine, wave
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.fractional import NODES, WEIGHTS
 from gradhesion.core.struve.lanes import LANES, Lanes, eight, load, root_of, store
@@ -34,7 +34,7 @@ _NEAR: Final = 0.75
 
 
 @kernel(contract=True)
-def edge_at(table: Any, curve: Curve, x: float) -> Edge:
+def edge_at(table: Any, curve: Cosine, x: float) -> Edge:
     """Return the edge of a contact of radius x."""
     _, _, lag = curve
     z, power, s0, _, _, _, _ = wave(table, lag, x)
@@ -42,7 +42,7 @@ def edge_at(table: Any, curve: Curve, x: float) -> Edge:
 
 
 @kernel(contract=True)
-def _excess(curve: Curve, edge: Edge, x: float, z: float, power: float, s0: float) -> float:
+def _excess(curve: Cosine, edge: Edge, x: float, z: float, power: float, s0: float) -> float:
     """Return F where z^(-n) and S0 are known, at one place or at eight (struve/lanes.py)."""
     b, g, _ = curve
     x1, z1, wave1, stretch1 = edge
@@ -53,7 +53,7 @@ def _excess(curve: Curve, edge: Edge, x: float, z: float, power: float, s0: floa
 
 
 @kernel(contract=True)
-def height(table: Any, curve: Curve, edge: Edge, x: float) -> float:
+def height(table: Any, curve: Cosine, edge: Edge, x: float) -> float:
     """Return F at the radius x: by how much depth_H exceeds the depth of the contact, weighted."""
     _, _, lag = curve
     z, power, s0, _, _, _, _ = wave(table, lag, x)
@@ -61,7 +61,7 @@ def height(table: Any, curve: Curve, edge: Edge, x: float) -> float:
 
 
 @kernel(contract=True)
-def _heights(table: Any, curve: Curve, edge: Edge, x: Lanes) -> Lanes:
+def _heights(table: Any, curve: Cosine, edge: Edge, x: Lanes) -> Lanes:
     """Return F at eight radii, the innermost first."""
     _, _, lag = curve
     z = TWO_PI * x
@@ -70,7 +70,7 @@ def _heights(table: Any, curve: Curve, edge: Edge, x: Lanes) -> Lanes:
 
 
 @kernel(contract=True)
-def opening(table: Any, curve: Curve, edge: Edge, r: float) -> float:
+def opening(table: Any, curve: Cosine, edge: Edge, r: float) -> float:
     """Return the opening at the radius r > a.
 
     Panels go inwards from r: the first with the weights of fractional.py, which take the singular factor into
@@ -103,7 +103,7 @@ def opening(table: Any, curve: Curve, edge: Edge, r: float) -> float:
 
 @kernel(contract=True)
 def openings_between(
-    table: Any, curve: Curve, edge: Edge, low: float, high: float, heights: Any, openings: Any
+    table: Any, curve: Cosine, edge: Edge, low: float, high: float, heights: Any, openings: Any
 ) -> None:
     """Fill F at the nodes of low .. high, and what F contributes from there to the opening, at the nodes and at `high`.
 
@@ -127,7 +127,7 @@ def openings_between(
 
 
 @kernel(contract=True)
-def trough_gap(table: Any, curve: Curve, edge: Edge, r: float) -> float:
+def trough_gap(table: Any, curve: Cosine, edge: Edge, r: float) -> float:
     """Return the gap in units of the depth at a trough of the profile, r a whole number, far outside the contact.
 
     The integral from 0 to r is the profile itself, (1+k) b z^2/4 at a trough; what lies within the contact is left:

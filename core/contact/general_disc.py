@@ -26,7 +26,7 @@ from gradhesion.core.contact.general_gap import (
 )
 from gradhesion.core.contact.touch import touches_at_centre
 from gradhesion.core.curve.branches import ARRIVAL, END, ends
-from gradhesion.core.curve.general import Basis, Curve, coordinate
+from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, find_level
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.fractional import NODES
@@ -44,7 +44,7 @@ _STEPS: Final = 30
 
 
 @kernel()
-def _search(basis: Basis, curve: Curve, edge: Edge, low: float, high: float) -> float:
+def _search(basis: Basis, curve: Series, edge: Edge, low: float, high: float) -> float:
     """Return the least opening between two radii, or the first negative one that is met (golden section)."""
     inner, outer = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
     first, second = opening(basis, curve, edge, inner), opening(basis, curve, edge, outer)
@@ -89,7 +89,7 @@ def _is_low(openings: Any, i: int, clear: float) -> bool:
 
 @kernel()
 def _least_in_window(
-    basis: Basis, curve: Curve, edge: Edge, low: float, high: float, heights: Any, openings: Any
+    basis: Basis, curve: Series, edge: Edge, low: float, high: float, heights: Any, openings: Any
 ) -> float:
     """Return the least opening between two radii, given that there is none below 0 up to `low`.
 
@@ -140,7 +140,7 @@ def _least_in_window(
 
 
 @kernel()
-def least_opening(basis: Basis, curve: Curve, start: float, end: float) -> float:
+def least_opening(basis: Basis, curve: Series, start: float, end: float) -> float:
     """Return about the least opening at the radii up to `end` around the contact of radius `start` > 0.
 
     The sign is that of the least gap. Above 0 the value is a lower bound, or good to some hundredths; below 0 it is the
@@ -166,7 +166,7 @@ def least_opening(basis: Basis, curve: Curve, start: float, end: float) -> float
 
 
 @kernel()
-def is_surely_open(basis: Basis, curve: Curve, left: float, fall: float) -> bool:
+def is_surely_open(basis: Basis, curve: Series, left: float, fall: float) -> bool:
     """Return whether a jump leaves one disc because the coordinate falls by no more than `fall` over it."""
     table, _, _ = basis
     _, _, _, alpha, beta = curve
@@ -176,7 +176,7 @@ def is_surely_open(basis: Basis, curve: Curve, left: float, fall: float) -> bool
 
 
 @kernel()
-def jump_is_one_disc(basis: Basis, curve: Curve, left: float, end: float) -> bool:
+def jump_is_one_disc(basis: Basis, curve: Series, left: float, end: float) -> bool:
     """Return whether the gap of the contact that a jump of loading leaves is nowhere negative at the radii it passes.
 
     Parameters
@@ -193,7 +193,7 @@ def jump_is_one_disc(basis: Basis, curve: Curve, left: float, end: float) -> boo
 
 @kernel()
 def climb_is_one_disc(
-    basis: Basis, curve: Curve, count: int, trace: Any, rim: float, left: float, level: float, whole: float
+    basis: Basis, curve: Series, count: int, trace: Any, rim: float, left: float, level: float, whole: float
 ) -> bool:
     """Return whether loading over the branches of a trace, and on to the rim, keeps the contact one disc.
 
@@ -220,7 +220,7 @@ def climb_is_one_disc(
 
 
 @kernel()
-def disc_limits(basis: Basis, curve: Curve, count: int, trace: Any, furthest: float) -> tuple[float, float]:
+def disc_limits(basis: Basis, curve: Series, count: int, trace: Any, furthest: float) -> tuple[float, float]:
     """Return the place up to which loading keeps the contact one disc, and that from which on it does not.
 
     They are those of the first jump that does not, as far as `furthest`; for a rim between the two `is_one_disc` looks
@@ -247,7 +247,7 @@ def disc_limits(basis: Basis, curve: Curve, count: int, trace: Any, furthest: fl
 
 
 @kernel()
-def is_one_disc(basis: Basis, curve: Curve, limits: tuple[float, float], rim: float) -> bool:
+def is_one_disc(basis: Basis, curve: Series, limits: tuple[float, float], rim: float) -> bool:
     """Return whether loading keeps the contact one disc up to a rim, from the limits of its curve."""
     low, high = limits
     if rim <= low or rim >= high:

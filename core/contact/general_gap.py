@@ -14,7 +14,7 @@ from typing import Any, Final, TypeAlias
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact.touch import profile_at
-from gradhesion.core.curve.general import Basis, Curve
+from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.fractional import NODES, WEIGHTS
 from gradhesion.core.struve.power import amplitude_power
@@ -55,7 +55,7 @@ def growth_of_a_panel(m: float) -> float:
 
 
 @kernel(contract=True)
-def edge_at(basis: Basis, curve: Curve, x: float) -> Edge:
+def edge_at(basis: Basis, curve: Series, x: float) -> Edge:
     """Return the edge of a contact of radius x > 0."""
     table, cosine_bins, series = basis
     B, m, g, _, _ = curve
@@ -65,7 +65,7 @@ def edge_at(basis: Basis, curve: Curve, x: float) -> Edge:
 
 
 @kernel(contract=True)
-def _excess(basis: Basis, curve: Curve, edge: Edge, x: float) -> float:
+def _excess(basis: Basis, curve: Series, edge: Edge, x: float) -> float:
     """Return by how much depth_H at the radius x exceeds the depth of the contact."""
     table, cosine_bins, series = basis
     _, m, g, _, _ = curve
@@ -76,7 +76,7 @@ def _excess(basis: Basis, curve: Curve, edge: Edge, x: float) -> float:
 
 
 @kernel(contract=True)
-def height(basis: Basis, curve: Curve, edge: Edge, x: float) -> float:
+def height(basis: Basis, curve: Series, edge: Edge, x: float) -> float:
     """Return F at the radius x."""
     table, _, _ = basis
     _, _, _, stretch1 = edge
@@ -86,7 +86,7 @@ def height(basis: Basis, curve: Curve, edge: Edge, x: float) -> float:
 
 
 @kernel(contract=True)
-def opening_far(basis: Basis, curve: Curve, edge: Edge, r: float) -> float:
+def opening_far(basis: Basis, curve: Series, edge: Edge, r: float) -> float:
     """Return the opening at a radius far outside, for k < 1.
 
     gap = f(r) - depth + (2/pi) cos(k pi/2) int_0^a s^k (depth - depth_H) (r^2 - s^2)^(-(1+k)/2) ds
@@ -115,7 +115,7 @@ def opening_far(basis: Basis, curve: Curve, edge: Edge, r: float) -> float:
 
 
 @kernel(contract=True)
-def opening_near(basis: Basis, curve: Curve, edge: Edge, r: float) -> float:
+def opening_near(basis: Basis, curve: Series, edge: Edge, r: float) -> float:
     """Return the opening at the radius r > a from the depths between the two.
 
     Panels go inwards from r: the first with the weights of struve/fractional.py, which take the singular factor into
@@ -150,7 +150,7 @@ def opening_near(basis: Basis, curve: Curve, edge: Edge, r: float) -> float:
 
 
 @kernel()
-def opening(basis: Basis, curve: Curve, edge: Edge, r: float) -> float:
+def opening(basis: Basis, curve: Series, edge: Edge, r: float) -> float:
     """Return the opening at the radius r > a, by the shorter of the two integrals."""
     table, _, _ = basis
     a, _, _, _ = edge
@@ -161,7 +161,7 @@ def opening(basis: Basis, curve: Curve, edge: Edge, r: float) -> float:
 
 @kernel(contract=True)
 def openings_between(
-    basis: Basis, curve: Curve, edge: Edge, low: float, high: float, heights: Any, openings: Any
+    basis: Basis, curve: Series, edge: Edge, low: float, high: float, heights: Any, openings: Any
 ) -> None:
     """Fill F at the nodes of low .. high, and what F contributes from there to the opening, at the nodes and at `high`.
 

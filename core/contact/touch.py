@@ -11,7 +11,7 @@ import math
 from typing import Any, Final
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.general import Basis, Curve
+from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.struve.circle import TWO_PI
 
 _EPS: Final = 2.0**-52
@@ -42,7 +42,7 @@ def _waves(series: Any, x: float) -> float:
 
 
 @kernel()
-def profile_at(basis: Basis, curve: Curve, x: float) -> float:
+def profile_at(basis: Basis, curve: Series, x: float) -> float:
     """Return f at x."""
     table, _, series = basis
     B, m, g, _, _ = curve
@@ -50,7 +50,7 @@ def profile_at(basis: Basis, curve: Curve, x: float) -> float:
 
 
 @kernel()
-def touches_at_centre(basis: Basis, curve: Curve, end: float) -> bool:
+def touches_at_centre(basis: Basis, curve: Series, end: float) -> bool:
     """Return whether the profile is nowhere below 0 up to the radius x = `end`.
 
     A step h is safe if the chord of the waves and the tangent of the power, which is convex, together exceed what the

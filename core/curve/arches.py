@@ -14,10 +14,9 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core.compiler.jit import NO, NONE, kernel
-from gradhesion.core.curve.cosine import Curve as OneWave
-from gradhesion.core.curve.cosine import slope, slopes
+from gradhesion.core.curve.cosine import Cosine, slope, slopes
 from gradhesion.core.curve.cosine_folds import CLOSE, fold_of_arch, survey_arch
-from gradhesion.core.curve.general import Basis, Curve, level_at
+from gradhesion.core.curve.general import Basis, Series, level_at
 from gradhesion.core.curve.general import slope as general_slope
 from gradhesion.core.curve.general_folds import find_folds, refine
 from gradhesion.core.struve.arches import inner_edge, summit
@@ -41,14 +40,14 @@ def is_one_cosine(series: Any, m: float) -> bool:
 
 
 @kernel()
-def one_cosine(series: Any, curve: Curve) -> OneWave:
+def one_cosine(series: Any, curve: Series) -> Cosine:
     """Return the same curve in the form of core/curve/cosine.py."""
     B, _, g, _, _ = curve
-    return 2.0 * B, g * series[0, 1], 0.0
+    return Cosine(2.0 * B, g * series[0, 1], 0.0)
 
 
 @kernel()
-def _level(table: Any, curve: Curve, x: float) -> float:
+def _level(table: Any, curve: Series, x: float) -> float:
     """Return q at x."""
     _, _, _, alpha, beta = curve
     if x == 0.0:
@@ -58,7 +57,7 @@ def _level(table: Any, curve: Curve, x: float) -> float:
 
 
 @kernel()
-def _fastest(k: float, curve: Curve, low: float, high: float) -> float:
+def _fastest(k: float, curve: Series, low: float, high: float) -> float:
     """Return a bound of dq/d(ln z) = (1+k)^2 alpha t/(alpha + t)^2 between two places: it is largest at t = alpha."""
     _, _, _, alpha, beta = curve
     inner, outer = beta * (TWO_PI * low) ** (1.0 + k), beta * (TWO_PI * high) ** (1.0 + k)
@@ -67,7 +66,7 @@ def _fastest(k: float, curve: Curve, low: float, high: float) -> float:
 
 
 @kernel()
-def _line(table: Any, own: OneWave, x: float) -> tuple[float, float, float]:
+def _line(table: Any, own: Cosine, x: float) -> tuple[float, float, float]:
     """Return X, G and dG/dX at x."""
     n = 0.5 * (1.0 + table.k)
     z = TWO_PI * x
@@ -77,7 +76,7 @@ def _line(table: Any, own: OneWave, x: float) -> tuple[float, float, float]:
 
 
 @kernel()
-def _on_piece(table: Any, curve: Curve, own: OneWave, concave: bool, low: float, high: float) -> int:
+def _on_piece(table: Any, curve: Series, own: Cosine, concave: bool, low: float, high: float) -> int:
     """Return how often G - q goes through zero between two places of an arch: 1, 0, or -1 if that is not sure.
 
     It goes through it once where it is monotone and of different signs, and never where bounds say so.
@@ -106,7 +105,7 @@ def _on_piece(table: Any, curve: Curve, own: OneWave, concave: bool, low: float,
 
 @kernel()
 def _on_pieces(
-    basis: Basis, curve: Curve, own: OneWave, i: int, low: float, high: float, work: Any, zeros: Any
+    basis: Basis, curve: Series, own: Cosine, i: int, low: float, high: float, work: Any, zeros: Any
 ) -> tuple[int, float]:
     """Put the folds on a part of arch i into `zeros`, piece by piece; return their number and the nearest miss."""
     table, _, _ = basis
@@ -148,7 +147,7 @@ def _continued(zeros: Any, count: int) -> float:
 
 
 @kernel(contract=True)
-def _slopes_of_machine(table: Any, curve: Curve, own: OneWave, x: float) -> tuple[float, float, float]:
+def _slopes_of_machine(table: Any, curve: Series, own: Cosine, x: float) -> tuple[float, float, float]:
     """Return D and its first two derivatives with respect to z at x > 0: those at a fixed q, and what q adds."""
     _, _, _, alpha, beta = curve
     k = table.k
@@ -165,7 +164,7 @@ def _slopes_of_machine(table: Any, curve: Curve, own: OneWave, x: float) -> tupl
 
 @kernel()
 def _fold_of_machine(
-    table: Any, curve: Curve, own: OneWave, guess: float, low: float, high: float, rising: bool
+    table: Any, curve: Series, own: Cosine, guess: float, low: float, high: float, rising: bool
 ) -> tuple[float, float]:
     """Do what `refine` of curve/general_folds.py does for one cosine by a machine (Halley, kept in the bracket)."""
     x = guess if low < guess < high else 0.5 * (low + high)
@@ -193,7 +192,7 @@ def _fold_of_machine(
 
 @kernel()
 def _on_arch_of_machine(
-    basis: Basis, curve: Curve, own: OneWave, i: int, first: float, zeros: Any, count: int
+    basis: Basis, curve: Series, own: Cosine, i: int, first: float, zeros: Any, count: int
 ) -> tuple[int, float]:
     """Append the folds of an arch by a machine; return their number, -1 if that is not sure, and the nearest miss."""
     table, _, _ = basis
@@ -247,7 +246,7 @@ def _on_arch_of_machine(
 
 @kernel()
 def folds_by_arches(
-    basis: Basis, curve: Curve, first: float, last: float, work: Any, zeros: Any
+    basis: Basis, curve: Series, first: float, last: float, work: Any, zeros: Any
 ) -> tuple[int, bool, float]:
     """Do what `find_folds` (curve/general_folds.py) does for one cosine on a paraboloid."""
     table, _, series = basis
@@ -294,7 +293,7 @@ def folds_by_arches(
 
 @kernel()
 def folds_between(
-    basis: Basis, curve: Curve, first: float, last: float, work: Any, zeros: Any
+    basis: Basis, curve: Series, first: float, last: float, work: Any, zeros: Any
 ) -> tuple[int, bool, float]:
     """Do what `find_folds` (curve/general_folds.py) does, by arches where that is known to miss none."""
     _, _, series = basis

@@ -14,7 +14,7 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import NO, NONE, YES, constant, kernel
 from gradhesion.core.curve.at_once import find_zeros, guess_zeros
-from gradhesion.core.curve.cosine import Curve, depth, slope
+from gradhesion.core.curve.cosine import Cosine, depth, slope
 from gradhesion.core.curve.cosine_folds import (
     CLOSE,
     LAST_STEP_OF_DEPTH,
@@ -78,7 +78,7 @@ def ends(trace: Any, branch: int) -> tuple[float, float, float, float]:
 
 
 @kernel()
-def find_depth(table: Any, curve: Curve, target: float, branch: tuple[float, float, float, float]) -> float:
+def find_depth(table: Any, curve: Cosine, target: float, branch: tuple[float, float, float, float]) -> float:
     """Return where a branch meets a depth between those of its two ends (Householder, kept in the bracket)."""
     level = 0.5 * (1.0 - table.k)
     low, low_depth, high, high_depth = branch
@@ -137,7 +137,7 @@ def room_for(trace: Any, columns: float) -> Any:
 
 @kernel()
 def _put_waiting(
-    table: Any, curve: Curve, furthest: float, trace: Any, count: int, waiting: Waiting
+    table: Any, curve: Cosine, furthest: float, trace: Any, count: int, waiting: Waiting
 ) -> tuple[int, bool]:
     """Put the folds that wait into the trace; return the number of branches, and whether the last is beyond reach."""
     level = 0.5 * (1.0 - table.k)
@@ -168,7 +168,9 @@ def _put_waiting(
 
 
 @kernel()
-def append_branches(table: Any, curve: Curve, first: int, final: float, furthest: float, trace: Any, count: int) -> int:
+def append_branches(
+    table: Any, curve: Cosine, first: int, final: float, furthest: float, trace: Any, count: int
+) -> int:
     """Append the branches that start on arch `first` or later and within `furthest`; return the new count.
 
     The last branch is complete: it ends at its true fold, or at infinity where no arch up to `final` ends it. Folds

@@ -19,7 +19,7 @@ A third number is zero for every real curve: the *lag*, in turns, by which the w
 punch. With it the wave number becomes continuous (waves/cosine.py).
 """
 
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI
@@ -28,12 +28,17 @@ from gradhesion.core.struve.layout import SWITCH
 from gradhesion.core.struve.pair import pair_above, pair_below
 from gradhesion.core.struve.power import amplitude_power, amplitude_powers
 
-Curve: TypeAlias = tuple[float, float, float]
-"""Bend, gain and lag."""
+
+class Cosine(NamedTuple):
+    """One cosine on a paraboloid under displacement control: b, g, and the lag."""
+
+    bend: float
+    gain: float
+    lag: float
 
 
 @kernel()
-def curve_of(k: float, stretch: float, wavelength: float, mean_height: float) -> tuple[Curve, float, float]:
+def curve_of(k: float, stretch: float, wavelength: float, mean_height: float) -> tuple[Cosine, float, float]:
     """Return the curve of a scene, l, and the unit of depth s l^c; lengths are in R.
 
     Parameters
@@ -43,7 +48,7 @@ def curve_of(k: float, stretch: float, wavelength: float, mean_height: float) ->
     """
     length = wavelength / TWO_PI
     unit = stretch * length ** (0.5 * (1.0 - k))
-    return (2.0 * length * length / ((1.0 + k) * unit), mean_height / unit, 0.0), length, unit
+    return Cosine(2.0 * length * length / ((1.0 + k) * unit), mean_height / unit, 0.0), length, unit
 
 
 @kernel()
@@ -67,7 +72,7 @@ def wave(table: Any, lag: float, x: float) -> tuple[float, float, float, float, 
 
 
 @kernel(contract=True)
-def depth(table: Any, curve: Curve, x: float) -> float:
+def depth(table: Any, curve: Cosine, x: float) -> float:
     """Return the reduced depth at x > 0."""
     b, g, lag = curve
     z, power, s0, _, _, _, _ = wave(table, lag, x)
@@ -75,7 +80,7 @@ def depth(table: Any, curve: Curve, x: float) -> float:
 
 
 @kernel(contract=True)
-def load(table: Any, curve: Curve, x: float) -> float:
+def load(table: Any, curve: Cosine, x: float) -> float:
     """Return the reduced load at x > 0."""
     b, g, lag = curve
     z, power, s0, s1, _, _, _ = wave(table, lag, x)
@@ -83,7 +88,7 @@ def load(table: Any, curve: Curve, x: float) -> float:
 
 
 @kernel(contract=True)
-def slope(table: Any, curve: Curve, level: float, x: float) -> tuple[float, float, float, float]:
+def slope(table: Any, curve: Cosine, level: float, x: float) -> tuple[float, float, float, float]:
     """Return D, its first two derivatives with respect to z, and the depth, at x > 0."""
     b, g, lag = curve
     n = 0.5 * (1.0 + table.k)
@@ -95,7 +100,7 @@ def slope(table: Any, curve: Curve, level: float, x: float) -> tuple[float, floa
 
 @kernel(contract=True)
 def _slopes_of(
-    k: float, curve: Curve, level: float, z: float, power: float, pair: tuple[float, float, float, float]
+    k: float, curve: Cosine, level: float, z: float, power: float, pair: tuple[float, float, float, float]
 ) -> tuple[float, float, float, float, float]:
     """Return what `slopes` does, from z^(-n) and the pair; z is a number or eight (struve/lanes.py)."""
     b, g, _ = curve
@@ -115,7 +120,7 @@ def _slopes_of(
 
 
 @kernel(contract=True)
-def slopes(table: Any, curve: Curve, level: float, x: float) -> tuple[float, float, float, float, float]:
+def slopes(table: Any, curve: Cosine, level: float, x: float) -> tuple[float, float, float, float, float]:
     """Return D, its first three derivatives with respect to z, and the depth, at x > 0."""
     _, _, lag = curve
     z = TWO_PI * x
@@ -125,7 +130,7 @@ def slopes(table: Any, curve: Curve, level: float, x: float) -> tuple[float, flo
 
 
 @kernel(contract=True)
-def slopes_at_once(table: Any, curve: Curve, level: float, x: Lanes) -> tuple[Lanes, Lanes, Lanes, Lanes, Lanes]:
+def slopes_at_once(table: Any, curve: Cosine, level: float, x: Lanes) -> tuple[Lanes, Lanes, Lanes, Lanes, Lanes]:
     """Return what `slopes` does at eight places beyond z = 40."""
     _, _, lag = curve
     z = TWO_PI * x
@@ -134,7 +139,7 @@ def slopes_at_once(table: Any, curve: Curve, level: float, x: Lanes) -> tuple[La
 
 
 @kernel()
-def depth_size(table: Any, curve: Curve, x: float) -> float:
+def depth_size(table: Any, curve: Cosine, x: float) -> float:
     """Return the size of the terms of the reduced depth at x; 1 where x is 0 or NaN."""
     b, g, _ = curve
     z = TWO_PI * x
@@ -144,7 +149,7 @@ def depth_size(table: Any, curve: Curve, x: float) -> float:
 
 
 @kernel()
-def most_depth_size(table: Any, curve: Curve, x: float) -> float:
+def most_depth_size(table: Any, curve: Cosine, x: float) -> float:
     """Return a bound of `depth_size` at x >= 0 that needs no power: z^c <= 1 + z/2 for c <= 1/2."""
     b, g, _ = curve
     z = TWO_PI * x

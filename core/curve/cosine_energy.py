@@ -23,7 +23,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.cosine import Curve, wave
+from gradhesion.core.curve.cosine import Cosine, wave
 from gradhesion.core.curve.cosine_jump import ENOUGH, REACH, beyond_at_once, energy_between, gauss_rule
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.lanes import LANES, Lanes, chosen, load, size_of, sum_of
@@ -54,7 +54,7 @@ _SMALL_LAG: Final = 0.1
 
 
 @kernel(contract=True)
-def _panel_below(table: Any, curve: Curve, start: float, left: Any, begin: float, width: float) -> float:
+def _panel_below(table: Any, curve: Cosine, start: float, left: Any, begin: float, width: float) -> float:
     """Integrate z (1 - rho^2) over one panel of the x axis, per unit of x, eight nodes at a time."""
     b, g, lag = curve
     z1, wave1, stretch1 = left
@@ -73,7 +73,7 @@ def _panel_below(table: Any, curve: Curve, start: float, left: Any, begin: float
 
 @kernel(contract=True)
 def panel_above(
-    table: Any, curve: Curve, whole: float, start: float, left: Any, begin: float, width: float, work: Any
+    table: Any, curve: Cosine, whole: float, start: float, left: Any, begin: float, width: float, work: Any
 ) -> float:
     """Do the same where all z >= 40: pair.py's expansion, written so that all nodes are worked on at once.
 
@@ -126,7 +126,7 @@ def panel_above(
 
 
 @kernel(contract=True)
-def energy_from_zero(table: Any, curve: Curve, x: float, depth: float) -> float:
+def energy_from_zero(table: Any, curve: Cosine, x: float, depth: float) -> float:
     """Return e for a jump at the given depth from zero contact to x; the way back has the other sign."""
     b, g, lag = curve
     k = table.k
@@ -140,7 +140,7 @@ def energy_from_zero(table: Any, curve: Curve, x: float, depth: float) -> float:
 
 
 @kernel(contract=True)
-def energy_by_panels(table: Any, curve: Curve, start: float, end: float, work: Any) -> float:
+def energy_by_panels(table: Any, curve: Cosine, start: float, end: float, work: Any) -> float:
     """Return what `jump_energy` does, by quadrature: slower, but good to the last digits of the smallest loss."""
     b, g, lag = curve
     z1, power, s0, _, _, _, _ = wave(table, lag, start)
@@ -171,7 +171,7 @@ def energy_by_panels(table: Any, curve: Curve, start: float, end: float, work: A
 
 
 @kernel()
-def jump_energy(table: Any, curve: Curve, start: float, end: float, work: Any) -> float:
+def jump_energy(table: Any, curve: Cosine, start: float, end: float, work: Any) -> float:
     """Return e for a jump that leaves the curve at x = start and ends at x = end; `work` has room for 16 floats."""
     if start == end:
         return 0.0
@@ -183,7 +183,7 @@ def jump_energy(table: Any, curve: Curve, start: float, end: float, work: Any) -
 
 
 @kernel(contract=True)
-def energies_at_once(table: Any, curve: Curve, start: Lanes, end: Lanes) -> Lanes:
+def energies_at_once(table: Any, curve: Cosine, start: Lanes, end: Lanes) -> Lanes:
     """Return what `jump_energy` does for eight jumps with both ends beyond z = 40, NaN where that takes longer."""
     energy, size = beyond_at_once(table, curve, start, end)
     energy = chosen(ENOUGH * size, size_of(energy), energy, math.nan)

@@ -13,21 +13,30 @@ so that every control has the folds D = 0 of its own level q (docs/theory.md, se
 """
 
 import math
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import sums
 
-Curve: TypeAlias = tuple[float, float, float, float, float]
-"""B, m, g, alpha, beta."""
+
+class Series(NamedTuple):
+    """Any profile under any control: B, m, g, and the shares alpha of the depth and beta of the load."""
+
+    bend: float
+    exponent: float
+    gain: float
+    alpha: float
+    beta: float
+
+
 Basis: TypeAlias = tuple[Any, Any, Any]
 """The table of the exponent, the flat array of struve/series_table.py, and the rows (n, cos, sin)."""
 
 
 @kernel(contract=True)
-def state(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[float, float, float, float, float]:
+def state(basis: Basis, curve: Series, x: float, whole: float = 0.0) -> tuple[float, float, float, float, float]:
     """Return z, z^c, z^(1+k), depth and load at whole + x > 0."""
     table, cosine_bins, series = basis
     B, m, g, _, _ = curve
@@ -42,7 +51,7 @@ def state(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[flo
 
 
 @kernel(contract=True)
-def coordinate(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> float:
+def coordinate(basis: Basis, curve: Series, x: float, whole: float = 0.0) -> float:
     """Return Y at whole + x > 0."""
     _, _, _, alpha, beta = curve
     _, _, _, depth, load = state(basis, curve, x, whole)
@@ -68,7 +77,7 @@ def _level(k: float, alpha: float, beta: float, power: float, z: float) -> tuple
 
 
 @kernel(contract=True)
-def slope(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[float, float, float]:
+def slope(basis: Basis, curve: Series, x: float, whole: float = 0.0) -> tuple[float, float, float]:
     """Return D, dD/dz, and dY/dz at whole + x > 0."""
     table, cosine_bins, series = basis
     B, m, g, alpha, beta = curve
@@ -83,7 +92,7 @@ def slope(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[flo
 
 
 @kernel(contract=True)
-def rise(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[float, float, float]:
+def rise(basis: Basis, curve: Series, x: float, whole: float = 0.0) -> tuple[float, float, float]:
     """Return Y and its first two derivatives with respect to z at whole + x > 0."""
     table, cosine_bins, series = basis
     B, m, g, alpha, beta = curve
@@ -103,7 +112,7 @@ def rise(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> tuple[floa
 
 
 @kernel(contract=True)
-def size(basis: Basis, curve: Curve, x: float, whole: float = 0.0) -> float:
+def size(basis: Basis, curve: Series, x: float, whole: float = 0.0) -> float:
     """Return the size of the terms of Y at whole + x > 0."""
     table, _, series = basis
     B, m, g, alpha, beta = curve
@@ -127,7 +136,7 @@ def curve_of(
     wavelength: float,
     amplitude: float,
     compliance: float,
-) -> tuple[Curve, float, float]:
+) -> tuple[Series, float, float]:
     """Return the curve, l, and the unit of depth; lengths are in R.
 
     Parameters
@@ -148,4 +157,8 @@ def curve_of(
     unit = stretch * length**c
     share = compliance * length ** (1.0 + k)
     alpha, beta = (0.0, 1.0) if share == math.inf else (1.0 / (1.0 + share), share / (1.0 + share))
-    return (depth_factor * length**exponent / unit, exponent, amplitude * wavelength / unit, alpha, beta), length, unit
+    return (
+        Series(depth_factor * length**exponent / unit, exponent, amplitude * wavelength / unit, alpha, beta),
+        length,
+        unit,
+    )

@@ -5,7 +5,7 @@ from typing import Any, Final
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import END, END_DEPTH, START, START_DEPTH
-from gradhesion.core.curve.general import Basis, Curve, coordinate, rise
+from gradhesion.core.curve.general import Basis, Series, coordinate, rise
 from gradhesion.core.struve.circle import TWO_PI
 
 START_LEVEL: Final = START_DEPTH
@@ -21,7 +21,7 @@ _SURE: Final = 1e-6
 
 @kernel()
 def fill_branches(
-    basis: Basis, curve: Curve, zeros: Any, count: int, rises: bool, rim: float, trace: Any, whole: float = 0.0
+    basis: Basis, curve: Series, zeros: Any, count: int, rises: bool, rim: float, trace: Any, whole: float = 0.0
 ) -> int:
     """Fill the trace from the folds within the rim; return the number of branches. All stand `whole` waves out.
 
@@ -48,7 +48,7 @@ def fill_branches(
 
 @kernel()
 def find_level(
-    basis: Basis, curve: Curve, target: float, branch: tuple[float, float, float, float], whole: float = 0.0
+    basis: Basis, curve: Series, target: float, branch: tuple[float, float, float, float], whole: float = 0.0
 ) -> float:
     """Return where a branch meets a coordinate between those of its ends (Halley, kept in the bracket).
 

@@ -10,7 +10,7 @@ import math
 from typing import Any, Final, TypeAlias
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.general import Basis, Curve, slope
+from gradhesion.core.curve.general import Basis, Series, slope
 from gradhesion.core.curve.panels import (
     INNER_PLACES,
     INNER_SHARES,
@@ -37,7 +37,7 @@ _SURE: Final = 1e-8
 
 
 @kernel()
-def place_left(basis: Basis, curve: Curve, x: float, whole: float, above: float = 0.0) -> Left:
+def place_left(basis: Basis, curve: Series, x: float, whole: float, above: float = 0.0) -> Left:
     """Return a place that a jump leaves, or one at which the coordinate is above that of the jump."""
     table, cosine_bins, series = basis
     B, m, g, _, _ = curve
@@ -49,7 +49,7 @@ def place_left(basis: Basis, curve: Curve, x: float, whole: float, above: float 
 
 
 @kernel(contract=True)
-def _rise(basis: Basis, curve: Curve, left: Left, x: float, whole: float) -> float:
+def _rise(basis: Basis, curve: Series, left: Left, x: float, whole: float) -> float:
     """Return [Y(z) - Y_j]/((alpha + beta z^(1+k)) z^c); each term's difference first, however large the terms are."""
     table, cosine_bins, series = basis
     _, m, g, alpha, beta = curve
@@ -78,7 +78,7 @@ def _rise(basis: Basis, curve: Curve, left: Left, x: float, whole: float) -> flo
 
 
 @kernel()
-def find_landing(basis: Basis, curve: Curve, left: Left, low: float, high: float, whole: float) -> float:
+def find_landing(basis: Basis, curve: Series, left: Left, low: float, high: float, whole: float) -> float:
     """Return where the branch from whole + low to whole + high meets the coordinate of the place `left`.
 
     Newton's method for the difference of the two, kept in the bracket: the coordinates themselves are larger than what
@@ -107,7 +107,7 @@ def find_landing(basis: Basis, curve: Curve, left: Left, low: float, high: float
 
 
 @kernel()
-def drop(basis: Basis, curve: Curve, left: Left, low: float, high: float, whole: float) -> float:
+def drop(basis: Basis, curve: Series, left: Left, low: float, high: float, whole: float) -> float:
     """Return int x (1 - rho^2) dx from whole + low to whole + high, at the coordinate of the place `left`."""
     shortest = highest_harmonic(basis[2])
     total = 0.0
@@ -124,7 +124,7 @@ def drop(basis: Basis, curve: Curve, left: Left, low: float, high: float, whole:
 
 
 @kernel()
-def jump_energy(basis: Basis, curve: Curve, start: float, end: float, whole: float = 0.0) -> float:
+def jump_energy(basis: Basis, curve: Series, start: float, end: float, whole: float = 0.0) -> float:
     """Return e of a jump from x = start > 0 on the curve to x = end > 0, both beyond `whole` waves."""
     left = place_left(basis, curve, start, whole)
     total = drop(basis, curve, left, min(start, end), max(start, end), whole)
@@ -132,7 +132,7 @@ def jump_energy(basis: Basis, curve: Curve, start: float, end: float, whole: flo
 
 
 @kernel(contract=True)
-def _balance(basis: Basis, curve: Curve, x: float) -> tuple[float, float]:
+def _balance(basis: Basis, curve: Series, x: float) -> tuple[float, float]:
     """Return Y on the curve at a radius, and (alpha + beta z^(1+k)) z^c: rho is 1 + (Y - Y_j) over that."""
     table, cosine_bins, series = basis
     B, m, g, alpha, beta = curve
@@ -146,7 +146,7 @@ def _balance(basis: Basis, curve: Curve, x: float) -> tuple[float, float]:
 
 
 @kernel(contract=True)
-def _from_zero(basis: Basis, curve: Curve, x: float, level: float) -> float:
+def _from_zero(basis: Basis, curve: Series, x: float, level: float) -> float:
     """Return x (1 - rho^2) at a radius of a jump from or to zero contact."""
     value, scale = _balance(basis, curve, x)
     u = (value - level) / scale
@@ -154,7 +154,7 @@ def _from_zero(basis: Basis, curve: Curve, x: float, level: float) -> float:
 
 
 @kernel()
-def energy_from_zero(basis: Basis, curve: Curve, x: float, level: float) -> float:
+def energy_from_zero(basis: Basis, curve: Series, x: float, level: float) -> float:
     """Return e of a jump at Y = level from zero contact to x; the way back has the other sign."""
     table, _, series = basis
     _, _, _, alpha, beta = curve
@@ -175,7 +175,7 @@ def energy_from_zero(basis: Basis, curve: Curve, x: float, level: float) -> floa
 
 
 @kernel(contract=True)
-def _parts(basis: Basis, curve: Curve, x: float) -> tuple[float, float, float]:
+def _parts(basis: Basis, curve: Series, x: float) -> tuple[float, float, float]:
     """Return x (1 - rho^2) at a radius of a jump from or to zero contact as a polynomial of the coordinate Y_j."""
     value, scale = _balance(basis, curve, x)
     share = 1.0 / scale
@@ -185,7 +185,7 @@ def _parts(basis: Basis, curve: Curve, x: float) -> tuple[float, float, float]:
 
 @kernel()
 def _with_panel(
-    basis: Basis, curve: Curve, low: float, high: float, shortest: float, total: tuple[float, float, float]
+    basis: Basis, curve: Series, low: float, high: float, shortest: float, total: tuple[float, float, float]
 ) -> tuple[float, float, float]:
     """Return integrals of `_parts` with those over a panel away from zero, which may be the part of one."""
     first, second, third = 0.0, 0.0, 0.0
@@ -200,7 +200,7 @@ def _with_panel(
 
 
 @kernel()
-def _innermost_parts(basis: Basis, curve: Curve, high: float) -> tuple[float, float, float]:
+def _innermost_parts(basis: Basis, curve: Series, high: float) -> tuple[float, float, float]:
     """Return integrals of `_parts` over the panel from zero contact on."""
     first, second, third = 0.0, 0.0, 0.0
     for i in range(INNER_PLACES.size):
@@ -213,7 +213,7 @@ def _innermost_parts(basis: Basis, curve: Curve, high: float) -> tuple[float, fl
 
 @kernel()
 def energies_in(
-    basis: Basis, curve: Curve, x: float, first_level: float, other_level: float, stations: Any
+    basis: Basis, curve: Series, x: float, first_level: float, other_level: float, stations: Any
 ) -> tuple[float, float]:
     """Return e of the jumps at two coordinates from zero contact to x, as `energy_from_zero`.
 

@@ -8,7 +8,7 @@ import numpy as np
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cells import DEGREE, MOST, NODES, NOISE, PLACES, STACK, isolate
 from gradhesion.core.curve.cosine_folds import CLOSE
-from gradhesion.core.curve.general import Basis, Curve, level_at, slope
+from gradhesion.core.curve.general import Basis, Series, level_at, slope
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import highest_harmonic
@@ -43,7 +43,7 @@ def cell_width(series: Any, x: float) -> float:
 
 @kernel()
 def refine(
-    basis: Basis, curve: Curve, guess: float, low: float, high: float, rising: bool, whole: float
+    basis: Basis, curve: Series, guess: float, low: float, high: float, rising: bool, whole: float
 ) -> tuple[float, float]:
     """Return where D goes through zero between two radii of different signs, and dD/dz there or nearby.
 
@@ -75,7 +75,7 @@ def refine(
 
 
 @kernel(entry=True)
-def _extremum(basis: Basis, curve: Curve, low: float, high: float, whole: float) -> float:
+def _extremum(basis: Basis, curve: Series, low: float, high: float, whole: float) -> float:
     """Return where D has its extremum between two close radii (regula falsi of its slope, then bisection)."""
     _, first, _ = slope(basis, curve, low, whole)
     for _ in range(_STEPS):
@@ -92,7 +92,7 @@ def _extremum(basis: Basis, curve: Curve, low: float, high: float, whole: float)
 
 @kernel()
 def folds_of_cell(
-    basis: Basis, curve: Curve, low: float, high: float, at_low: float, work: Any, zeros: Any, whole: float = 0.0
+    basis: Basis, curve: Series, low: float, high: float, at_low: float, work: Any, zeros: Any, whole: float = 0.0
 ) -> tuple[int, float, float]:
     """Put the zeros of D in a cell into `zeros`, in order; return their number, D at the far end, and the nearest miss.
 
@@ -145,7 +145,7 @@ def folds_of_cell(
 
 
 @kernel(entry=True)
-def _terms(basis: Basis, curve: Curve, x: float, whole: float) -> float:
+def _terms(basis: Basis, curve: Series, x: float, whole: float) -> float:
     """Return the size of the terms of D."""
     table, _, _ = basis
     B, m, _, alpha, beta = curve
@@ -156,7 +156,7 @@ def _terms(basis: Basis, curve: Curve, x: float, whole: float) -> float:
 
 @kernel()
 def find_folds(
-    basis: Basis, curve: Curve, first: float, last: float, work: Any, zeros: Any, whole: float = 0.0
+    basis: Basis, curve: Series, first: float, last: float, work: Any, zeros: Any, whole: float = 0.0
 ) -> tuple[int, bool, float]:
     """Put all zeros of D between two radii, `whole` waves further out, into `zeros`, in order.
 

@@ -17,11 +17,11 @@ from gradhesion.core.curve.arches import one_cosine
 from gradhesion.core.curve.cosine import wave
 from gradhesion.core.curve.cosine_energy import energy_from_zero
 from gradhesion.core.curve.cosine_jump import ENOUGH, energy_between
-from gradhesion.core.curve.general import Basis, Curve
+from gradhesion.core.curve.general import Basis, Series
 
 
 @kernel(contract=True)
-def jump_of_one_cosine(basis: Basis, curve: Curve, start: float, end: float) -> tuple[bool, float]:
+def jump_of_one_cosine(basis: Basis, curve: Series, start: float, end: float) -> tuple[bool, float]:
     """Return whether the formula serves, and e of a jump from x = start > 0 on the curve to x = end > 0."""
     table, _, series = basis
     _, _, _, alpha, beta = curve
@@ -42,7 +42,7 @@ def jump_of_one_cosine(basis: Basis, curve: Curve, start: float, end: float) -> 
 
 
 @kernel(contract=True)
-def jump_of_one_cosine_from_zero(basis: Basis, curve: Curve, x: float, level: float) -> tuple[bool, float]:
+def jump_of_one_cosine_from_zero(basis: Basis, curve: Series, x: float, level: float) -> tuple[bool, float]:
     """Return whether the formula serves, and e of a jump at Y = level from zero contact to x > 0."""
     table, _, series = basis
     _, _, _, alpha, beta = curve

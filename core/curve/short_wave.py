@@ -18,7 +18,7 @@ most. Half wave i has theta between (i-1) pi and i pi: cos theta rises if i is e
 """
 
 import math
-from typing import TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,8 +26,17 @@ from gradhesion.core.closed.envelope import envelope_force
 from gradhesion.core.closed.smooth import FORCE_SCALE
 from gradhesion.core.compiler.jit import kernel
 
-Wave: TypeAlias = tuple[float, float, float, float, float]
-"""k, b, chi, g and phi."""
+
+class ShortWave(NamedTuple):
+    """The leading form of a short wave under displacement control: k, b, chi, g and phi; its places are z, not x."""
+
+    k: float
+    bend: float
+    chi: float
+    gain: float
+    phase: float
+
+
 MOST_HALVES = 2**18
 """Half waves that are walked at most: the energy of more, which is that of the envelopes to 1e-5, has no value."""
 FURTHEST = 1e12
@@ -36,14 +45,14 @@ _STEPS = 100
 
 
 @kernel()
-def depth(wave: Wave, z: float) -> float:
+def depth(wave: ShortWave, z: float) -> float:
     """Return the reduced depth."""
     k, b, chi, g, phi = wave
     return 0.5 * b * z * z + g - z ** (0.5 * (1.0 - k)) * (1.0 - chi * math.sin(z - phi))
 
 
 @kernel()
-def load(wave: Wave, z: float) -> float:
+def load(wave: ShortWave, z: float) -> float:
     """Return the reduced load."""
     k, b, chi, _, phi = wave
     abscissa = z ** (0.5 * (3.0 + k))
@@ -51,14 +60,14 @@ def load(wave: Wave, z: float) -> float:
 
 
 @kernel()
-def _slow_part(wave: Wave, level: float, z: float) -> float:
+def _slow_part(wave: ShortWave, level: float, z: float) -> float:
     """Return u."""
     k, b, _, _, _ = wave
     return (level - b * z ** (0.5 * (3.0 + k))) / math.hypot(z, level)
 
 
 @kernel()
-def _fold_function(wave: Wave, level: float, z: float) -> tuple[float, float]:
+def _fold_function(wave: ShortWave, level: float, z: float) -> tuple[float, float]:
     """Return F and its slope at z > 0."""
     k, b, chi, _, phi = wave
     square = z * z + level * level
@@ -71,25 +80,24 @@ def _fold_function(wave: Wave, level: float, z: float) -> tuple[float, float]:
 
 
 @kernel()
-def depth_slope(wave: Wave, z: float) -> float:
+def depth_slope(wave: ShortWave, z: float) -> float:
     """Return d depth/dz."""
-    k = wave[0]
+    k = wave.k
     level = 0.5 * (1.0 - k)
     value, _ = _fold_function(wave, level, z)
     return value * math.hypot(z, level) / z ** (0.5 * (1.0 + k))
 
 
 @kernel()
-def half_at(wave: Wave, level: float, z: float) -> float:
+def half_at(wave: ShortWave, level: float, z: float) -> float:
     """Return the half wave in which z lies."""
-    phi = wave[4]
-    return max(0.0, np.floor((z - phi - math.atan2(level, z)) / math.pi) + 1.0)
+    return max(0.0, np.floor((z - wave.phase - math.atan2(level, z)) / math.pi) + 1.0)
 
 
 @kernel()
-def outer_edge(wave: Wave, level: float, i: float) -> float:
+def outer_edge(wave: ShortWave, level: float, i: float) -> float:
     """Return where half wave i ends: z - atan(level/z) = phi + i pi (Newton)."""
-    place = wave[4] + i * math.pi
+    place = wave.phase + i * math.pi
     if i < 0.0:
         return 0.0
     z = place + math.atan2(level, place + 0.5)
@@ -99,7 +107,7 @@ def outer_edge(wave: Wave, level: float, i: float) -> float:
 
 
 @kernel()
-def window_end(wave: Wave, level: float, target: float) -> float:
+def window_end(wave: ShortWave, level: float, target: float) -> float:
     """Return about where u falls to a target."""
     low, high = 0.0, 1.0
     while _slow_part(wave, level, high) > target and high < FURTHEST:
@@ -114,7 +122,7 @@ def window_end(wave: Wave, level: float, target: float) -> float:
 
 
 @kernel()
-def _find_zero(wave: Wave, level: float, low: float, high: float, rising: bool) -> float:
+def _find_zero(wave: ShortWave, level: float, low: float, high: float, rising: bool) -> float:
     """Return the zero of F between low and high (Newton, kept in the bracket)."""
     _, _, chi, _, phi = wave
     middle = 0.5 * (low + high)
@@ -141,7 +149,7 @@ def _find_zero(wave: Wave, level: float, low: float, high: float, rising: bool) 
 
 
 @kernel()
-def _find_extremum(wave: Wave, level: float, low: float, high: float) -> float:
+def _find_extremum(wave: ShortWave, level: float, low: float, high: float) -> float:
     """Return where the slope of F changes sign (halving)."""
     _, first = _fold_function(wave, level, low)
     for _ in range(50):
@@ -155,7 +163,7 @@ def _find_extremum(wave: Wave, level: float, low: float, high: float) -> float:
 
 
 @kernel()
-def folds_of_half(wave: Wave, level: float, i: float) -> tuple[int, float, float, bool]:
+def folds_of_half(wave: ShortWave, level: float, i: float) -> tuple[int, float, float, bool]:
     """Return the number of zeros of F in half wave i, where they are, and if F rises through the first."""
     low, high = outer_edge(wave, level, i - 1.0), outer_edge(wave, level, i)
     first = -level  # the sign of F towards z = 0; at k = 1, level 0, it rises from zero
@@ -178,7 +186,7 @@ def folds_of_half(wave: Wave, level: float, i: float) -> tuple[int, float, float
 
 
 @kernel()
-def _floor(wave: Wave, z: float) -> float:
+def _floor(wave: ShortWave, z: float) -> float:
     """Return the parabola that touches the load from below."""
     k, b, chi, _, _ = wave
     abscissa = z ** (0.5 * (3.0 + k))
@@ -186,7 +194,7 @@ def _floor(wave: Wave, z: float) -> float:
 
 
 @kernel()
-def lowest_load(wave: Wave, z_rim: float) -> tuple[float, float]:
+def lowest_load(wave: ShortWave, z_rim: float) -> tuple[float, float]:
     """Return the lowest reduced load over (0, z_rim] and the z where it is met; far out, those of the envelope."""
     k, b, chi, _, _ = wave
     level = 0.5 * (3.0 + k)
@@ -216,7 +224,7 @@ def lowest_load(wave: Wave, z_rim: float) -> tuple[float, float]:
 
 
 @kernel()
-def find_depth(wave: Wave, target: float, low: float, high: float) -> float:
+def find_depth(wave: ShortWave, target: float, low: float, high: float) -> float:
     """Return where the branch between low and high meets a depth, low if it is nowhere so deep."""
     if depth(wave, low) >= target:
         return low

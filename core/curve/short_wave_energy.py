@@ -15,7 +15,7 @@ import math
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.short_wave import Wave
+from gradhesion.core.curve.short_wave import ShortWave
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _PANEL = 7.8
@@ -29,7 +29,7 @@ _MANY = 512.0
 
 
 @kernel()
-def _integrand(wave: Wave, target: float, z: float) -> float:
+def _integrand(wave: ShortWave, target: float, z: float) -> float:
     """Return z (1 - rho^2)."""
     k, b, chi, g, phi = wave
     rho = (0.5 * b * z * z + g - target) / z ** (0.5 * (1.0 - k)) + chi * math.sin(z - phi)
@@ -37,7 +37,7 @@ def _integrand(wave: Wave, target: float, z: float) -> float:
 
 
 @kernel()
-def _by_panels(wave: Wave, target: float, low: float, high: float) -> float:
+def _by_panels(wave: ShortWave, target: float, low: float, high: float) -> float:
     """Integrate by Gauss's rule."""
     panels = int((high - low) / _PANEL) + 1
     half = 0.5 * (high - low) / panels
@@ -50,7 +50,7 @@ def _by_panels(wave: Wave, target: float, low: float, high: float) -> float:
 
 
 @kernel()
-def _near_zero(wave: Wave, target: float, low: float, high: float) -> float:
+def _near_zero(wave: ShortWave, target: float, low: float, high: float) -> float:
     """Integrate by Gauss's rule in t = z^(1/4)."""
     start, end = low**0.25, high**0.25
     total = 0.0
@@ -75,7 +75,7 @@ def _power_times_sine(power: float, phi: float, z: float) -> float:
 
 
 @kernel()
-def _antiderivative(wave: Wave, target: float, z: float) -> float:
+def _antiderivative(wave: ShortWave, target: float, z: float) -> float:
     """Return the integral in closed form for z >= 40."""
     k, b, chi, g, phi = wave
     n = 0.5 * (1.0 + k)
@@ -89,7 +89,7 @@ def _antiderivative(wave: Wave, target: float, z: float) -> float:
 
 
 @kernel()
-def loss_of_jump(wave: Wave, target: float, start: float, end: float) -> float:
+def loss_of_jump(wave: ShortWave, target: float, start: float, end: float) -> float:
     """Return e for a jump at the depth `target` from z = start to z = end, either of which may be 0."""
     low, high = min(start, end), max(start, end)
     total = 0.0

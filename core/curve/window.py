@@ -13,7 +13,7 @@ import math
 from typing import Any
 
 from gradhesion.core.compiler.jit import NO, YES, kernel
-from gradhesion.core.curve.general import Basis, Curve
+from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.struve.cosine_bins import integral_at_zero
 
 _EXCESS = 0.35
@@ -51,7 +51,7 @@ def _surely_falls(level: float, push: float, s: float, n: float, bounds: Any, z:
 
 
 @kernel()
-def first_fold_bound(basis: Basis, curve: Curve) -> float:
+def first_fold_bound(basis: Basis, curve: Series) -> float:
     """Return z before which the coordinate surely falls; where it need not, a z far below all others."""
     table, _, series = basis
     B, m, g, alpha, _ = curve
@@ -85,7 +85,7 @@ def first_fold_bound(basis: Basis, curve: Curve) -> float:
 
 
 @kernel()
-def last_fold_bound(basis: Basis, curve: Curve) -> float:
+def last_fold_bound(basis: Basis, curve: Series) -> float:
     """Return z beyond which the coordinate surely rises; inf where folds need not end."""
     table, _, series = basis
     B, m, g, _, beta = curve

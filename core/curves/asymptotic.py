@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.core.curve.short_wave import ShortWave
 from gradhesion.core.curves.equilibrium import draw_through
 from gradhesion.core.curves.forms import SHORT
 from gradhesion.core.curves.knots import folds_of_wave
@@ -34,8 +35,8 @@ def draw_asymptotic(subject: Subject) -> dict[str, NDArray[np.float64]] | None:
     else:
         form = wavy_form(subject.table, subject.stretch, subject.wavelength, subject.mean_height)
         bend, gain, _, _, _ = form.numbers
-        wave = (k, bend, subject.chi, gain, float(subject.table["phase"]))
-        form = Form(SHORT, subject.table, wave, subject.wavelength / TWO_PI, form.depth_scale, form.load_scale)
+        wave = ShortWave(k, bend, subject.chi, gain, float(subject.table["phase"]))
+        form = Form(SHORT, subject.table, tuple(wave), subject.wavelength / TWO_PI, form.depth_scale, form.load_scale)
         end = subject.end / form.radius_scale
         few, folds = folds_of_wave(wave, 0.5 * (1.0 - k), end)
         few_too, load_folds = folds_of_wave(wave, 0.5 * (3.0 + k), end)

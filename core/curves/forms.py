@@ -73,10 +73,11 @@ def _general_ripple(basis: Any, numbers: Any, x: float) -> tuple[float, float, f
 
 def general_numbers(k: float, curve: Numbers, amplitude: float, series: NDArray[np.float64]) -> tuple[float, ...]:
     """Return the numbers of the general form; `amplitude` is that of S0 (struve/table.py)."""
+    _, _, gain, _, _ = curve
     n = series[:, 0]
     heights = np.hypot(series[:, 1], series[:, 2]) * n ** (0.5 * (1.0 - k))
     half_wave = 0.5 / float(n.max()) if n.size else math.inf
-    return (*curve, half_wave, amplitude * curve[2] * float(heights.sum()))
+    return (*curve, half_wave, amplitude * gain * float(heights.sum()))
 
 
 @kernel()

@@ -16,7 +16,7 @@ from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.arches import folds_between
 from gradhesion.core.curve.branches import ARRIVAL, END, START
 from gradhesion.core.curve.cosine import force_unit
-from gradhesion.core.curve.general import Basis, curve_of
+from gradhesion.core.curve.general import Basis, Series, curve_of
 from gradhesion.core.curve.general_folds import room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.curves.equilibrium import draw_through
@@ -35,33 +35,34 @@ MOST_FOLDS: Final = 20_000
 """Folds of a curve that is drawn."""
 
 
-def _bounds(basis: Basis, numbers: Numbers) -> tuple[float, float]:
+def _bounds(basis: Basis, curve: Series) -> tuple[float, float]:
     """Return the places between which folds stand."""
-    return first_fold_bound(basis, numbers) / TWO_PI, last_fold_bound(basis, numbers) / TWO_PI
+    return first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
 
 
-def _turns(basis: Basis, numbers: Numbers, furthest: float) -> NDArray[np.float64] | None:
+def _turns(basis: Basis, curve: Series, furthest: float) -> NDArray[np.float64] | None:
     """Return all folds of the coordinate up to a place; None if too many."""
-    first, end = _bounds(basis, numbers)
+    first, end = _bounds(basis, curve)
     zeros = np.empty(MOST_FOLDS)
     count, last = 0, min(furthest, end)
     if first < last < math.inf:
-        count, _, _ = folds_between(basis, numbers, first, last, room(), zeros)
+        count, _, _ = folds_between(basis, curve, first, last, room(), zeros)
     return None if count < 0 or last == math.inf else zeros[:count]
 
 
 def _trace(
-    basis: Basis, numbers: Numbers, furthest: float
+    basis: Basis, curve: Series, furthest: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | tuple[None, NDArray[np.float64]]:
     """Return the branches with what path/general.py notes of them, and the other extrema of depth and load.
 
     The rim is no end of a branch.
     """
-    coordinates = (1.0, 0.0), (0.0, 1.0), numbers[3:5]
-    turns = [each for ends in coordinates if (each := _turns(basis, (*numbers[:3], *ends), furthest)) is not None]
+    coordinates = (1.0, 0.0), (0.0, 1.0), (curve.alpha, curve.beta)
+    measured = [curve._replace(alpha=alpha, beta=beta) for alpha, beta in coordinates]
+    turns = [each for one in measured if (each := _turns(basis, one, furthest)) is not None]
     if len(turns) < len(coordinates):
         return None, np.empty(0)
-    count, trace, _ = walk(basis, numbers, *_bounds(basis, numbers), furthest, False)
+    count, trace, _ = walk(basis, curve, *_bounds(basis, curve), furthest, False)
     trace = np.ascontiguousarray(trace[:, :count])
     trace[END, trace[END] == furthest] = math.inf
     others = np.setdiff1d(np.concatenate(turns[:2]), trace[[START, END]])
@@ -111,7 +112,7 @@ def subject_of(scene: Mapping[str, float], profile: Profile, loading: Loading) -
     basis: Any = (table, cosine_bins, series)
     depth_factor = depth_factor_of(k, profile.exponent)
     curve, length, unit = curve_of(k, profile.exponent, depth_factor, stretch, wavelength, amplitude, compliance)
-    if not (0.0 < curve[0] < math.inf and curve[2] < math.inf):
+    if not (0.0 < curve.bend < math.inf and curve.gain < math.inf):
         return None
     form = _form(basis, curve, wavelength, unit, force_unit(k, length, unit))
     trace, turns = _trace(basis, curve, rim / wavelength)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, START_DEPTH
+from gradhesion.core.curve.general import Series
 from gradhesion.core.curve.general_energy import energy_from_zero, jump_energy
 from gradhesion.core.curves.forms import point
 from gradhesion.core.curves.path import BRANCH, DEPTH, JOINED, JUMP, LOAD, PLACE, UNLOADING, draw_corners
@@ -27,7 +28,7 @@ class _Walk:
     def __init__(self, subject: Subject) -> None:
         self.form = subject.exact
         self.turns = subject.load_folds
-        self.curve = self.form.numbers[:5]
+        self.curve = Series(*self.form.numbers[:5])
         _, _, _, self.alpha, self.beta = self.curve
         self.corners: list[tuple[float, ...]] = []
 
@@ -120,7 +121,7 @@ def list_jumps(subject: Subject) -> dict[str, NDArray[Any]]:
     """
     form = subject.exact
     rim = subject.end / form.radius_scale
-    curve = form.numbers[:5]
+    curve = Series(*form.numbers[:5])
     _, _, _, alpha, beta = curve
     corners = find_corners(subject)
     after = np.flatnonzero((corners[JUMP] > 0.0) & ((corners[PLACE] > 0.0) | (alpha > 0.0)))

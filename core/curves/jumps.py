@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gradhesion.core.closed.smooth import smooth_energy_from_zero
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import ROWS, WORK
-from gradhesion.core.curve.cosine import Curve
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
 from gradhesion.core.curves.forms import EXACT, Numbers
 from gradhesion.core.curves.path import DEPTH, JUMP, LOAD, PLACE, UNLOADING, find_corners
@@ -26,7 +26,7 @@ def fill_energies(kind: int, table: Any, numbers: Numbers, before: Any, after: A
 
     A smooth punch (kind PLAIN) jumps from zero contact and to zero contact only.
     """
-    curve: Curve = (numbers[0], numbers[1], 0.0)
+    curve = Cosine(numbers[0], numbers[1], 0.0)
     work = np.empty((ROWS, 16))[WORK]
     for i in range(before.size):
         place = max(before[i], after[i])

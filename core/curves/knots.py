@@ -7,9 +7,9 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import END, START
-from gradhesion.core.curve.cosine import Curve, slope
+from gradhesion.core.curve.cosine import Cosine, slope
 from gradhesion.core.curve.cosine_folds import first_arch, fold_of_arch, last_arch, survey_arch
-from gradhesion.core.curve.short_wave import Wave, folds_of_half, half_at, window_end
+from gradhesion.core.curve.short_wave import ShortWave, folds_of_half, half_at, window_end
 from gradhesion.core.path.cosine import COUNTABLE, MOST_ARCHES
 from gradhesion.core.struve.circle import TWO_PI
 
@@ -18,7 +18,7 @@ MOST_FOLDS: Final = 100_000
 
 
 @kernel()
-def polished(table: Any, curve: Curve, level: float, x: float) -> float:
+def polished(table: Any, curve: Cosine, level: float, x: float) -> float:
     """Return a zero of D to rounding from one of some twelve digits (two steps of Newton's)."""
     for _ in range(2):
         d, d1, _, _ = slope(table, curve, level, x)
@@ -30,7 +30,7 @@ def polished(table: Any, curve: Curve, level: float, x: float) -> float:
 
 
 @kernel()
-def landed(table: Any, curve: Curve, target: float, x: float) -> float:
+def landed(table: Any, curve: Cosine, target: float, x: float) -> float:
     """Return where a branch meets a depth to rounding from a place of some nine digits (two steps of Newton's)."""
     for _ in range(2):
         d, _, _, depth = slope(table, curve, 0.5 * (1.0 - table.k), x)
@@ -42,7 +42,7 @@ def landed(table: Any, curve: Curve, target: float, x: float) -> float:
 
 
 @kernel()
-def folds_too_often(table: Any, curve: Curve, furthest: float) -> bool:
+def folds_too_often(table: Any, curve: Cosine, furthest: float) -> bool:
     """Return whether depth or load may have more than `MOST_FOLDS` extrema up to a place, or any without a phase."""
     for level in (0.5 * (1.0 - table.k), 0.5 * (3.0 + table.k)):
         first, last = first_arch(table, curve, level), min(last_arch(table, curve, level), 2.0 * furthest)
@@ -52,7 +52,7 @@ def folds_too_often(table: Any, curve: Curve, furthest: float) -> bool:
 
 
 @kernel()
-def polish_branches(table: Any, curve: Curve, count: int, trace: Any) -> None:
+def polish_branches(table: Any, curve: Cosine, count: int, trace: Any) -> None:
     """Move the ends of the branches of a trace to where the slope is zero to rounding."""
     level = 0.5 * (1.0 - table.k)
     for row in (START, END):
@@ -62,7 +62,7 @@ def polish_branches(table: Any, curve: Curve, count: int, trace: Any) -> None:
 
 
 @kernel()
-def folds_of_load(table: Any, curve: Curve, furthest: float) -> Any:
+def folds_of_load(table: Any, curve: Cosine, furthest: float) -> Any:
     """Return where the load of an exact curve is extremal, from inside outwards, up to a place."""
     level = 0.5 * (3.0 + table.k)
     first, final = first_arch(table, curve, level), last_arch(table, curve, level)
@@ -88,9 +88,9 @@ def folds_of_load(table: Any, curve: Curve, furthest: float) -> Any:
 
 
 @kernel()
-def folds_of_wave(wave: Wave, level: float, furthest: float) -> tuple[bool, Any]:
+def folds_of_wave(wave: ShortWave, level: float, furthest: float) -> tuple[bool, Any]:
     """Return whether there are few enough folds of the asymptotic form up to a place, and where they are."""
-    chi = wave[2]
+    chi = wave.chi
     begin = 0.0 if chi >= 1.0 else window_end(wave, level, chi)
     end = min(furthest, window_end(wave, level, -chi))
     i = max(0.0, half_at(wave, level, begin) - 2.0)

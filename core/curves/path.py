@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gradhesion.core.compiler.jit import NO, NONE, YES, kernel
 from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, START_DEPTH
-from gradhesion.core.curve.cosine import Curve
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curves.equilibrium import scales_of
 from gradhesion.core.curves.forms import EXACT, Numbers, pinned_load, point
 from gradhesion.core.curves.knots import landed
@@ -72,7 +72,7 @@ def _land(
 ) -> int:
     """Append the place of a branch to which the path jumps at the depth of the last corner."""
     level = corners[DEPTH, count - 1]
-    place = landed(table, (numbers[0], numbers[1], 0.0), level, guess) if kind == EXACT else guess
+    place = landed(table, Cosine(numbers[0], numbers[1], 0.0), level, guess) if kind == EXACT else guess
     _, load = point(kind, table, numbers, place)
     return _put(corners, count, place, level, load, (NO, branch, YES, unloading))
 
@@ -83,7 +83,7 @@ def find_corners(kind: int, table: Any, numbers: Numbers, trace: Any, load_folds
 
     Unless the rim is `pinned`, the end of a drawn range stands in for it: loading arrives there along the last branch.
     """
-    curve: Curve = (numbers[0], numbers[1], 0.0)
+    curve = Cosine(numbers[0], numbers[1], 0.0)
     branches = trace.shape[1]
     while branches > 0 and trace[START, branches - 1] > rim:
         branches -= 1

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gradhesion.core.arrays.tables import table_of
 from gradhesion.core.closed import smooth
 from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, ROWS, START, START_DEPTH, UNKNOWN, UNLOADING_JUMPS
-from gradhesion.core.curve.cosine import curve_of, force_unit
+from gradhesion.core.curve.cosine import Cosine, curve_of, force_unit
 from gradhesion.core.curves import knots
 from gradhesion.core.curves.forms import EXACT, PLAIN, Numbers
 from gradhesion.core.path.cosine import extent, is_endless_wave, is_smooth, walk
@@ -107,7 +107,7 @@ def _smooth_trace(k: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 def _wavy_trace(form: Form, arches: tuple[float, float], furthest: float) -> tuple[NDArray[np.float64], Any]:
     """Return the branches of a wavy punch up to a place, and where its load is extremal."""
-    curve = (form.numbers[0], form.numbers[1], 0.0)
+    curve = Cosine(form.numbers[0], form.numbers[1], 0.0)
     count, trace = walk(form.table, curve, arches, furthest, np.empty((ROWS, 64)), False)
     knots.polish_branches(form.table, curve, count, trace)
     return np.ascontiguousarray(trace[:, :count]), knots.folds_of_load(form.table, curve, furthest)
@@ -140,9 +140,9 @@ def subject_of(scene: Mapping[str, float]) -> Subject | None:
     if amplitude > 0.0:
         wavy = wavy_form(table, stretch, wavelength, amplitude * wavelength)
         chi = float(table["amplitude"]) * wavy.numbers[1]
-        curve = (wavy.numbers[0], wavy.numbers[1], 0.0)
+        curve = Cosine(wavy.numbers[0], wavy.numbers[1], 0.0)
         if not is_endless_wave(wavelength, amplitude):
-            if not (0.0 < curve[0] < math.inf and chi < math.inf and min(rim, least) > _SMALLEST * wavelength):
+            if not (0.0 < curve.bend < math.inf and chi < math.inf and min(rim, least) > _SMALLEST * wavelength):
                 return None
             arches = extent(table, curve)
             if not is_smooth(arches):

@@ -14,7 +14,7 @@ from gradhesion.core.curve.branches import (
     append_branches,
     room_for,
 )
-from gradhesion.core.curve.cosine import Curve
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_folds import first_arch, last_arch
 from gradhesion.core.path.loading import load_up
 from gradhesion.core.path.ties import note_loading
@@ -36,7 +36,7 @@ _NEGLIGIBLE: Final = 2.0**-56
 
 
 @kernel()
-def extent(table: Any, curve: Curve) -> tuple[float, float]:
+def extent(table: Any, curve: Cosine) -> tuple[float, float]:
     """Return the first and the last arch on which the curve can fold."""
     level = 0.5 * (1.0 - table.k)
     return min(_FURTHEST, first_arch(table, curve, level)), min(_FURTHEST, last_arch(table, curve, level))
@@ -68,7 +68,7 @@ def is_smooth(arches: tuple[float, float]) -> bool:
 
 @kernel()
 def walk(
-    table: Any, curve: Curve, arches: tuple[float, float], furthest: float, trace: Any, losses: bool
+    table: Any, curve: Cosine, arches: tuple[float, float], furthest: float, trace: Any, losses: bool
 ) -> tuple[int, Any]:
     """Walk a curve of moderate length outwards to `furthest`; return the number of its branches and the trace."""
     first, final = arches

@@ -44,7 +44,7 @@ from gradhesion.core.curve.branches import (
     find_depth,
     room_for,
 )
-from gradhesion.core.curve.cosine import Curve
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
 from gradhesion.core.path.cosine import MOST_ARCHES
 from gradhesion.core.path.loading import arrive, climb, load_up
@@ -84,7 +84,7 @@ _SHARED: Final = 16
 
 
 @kernel()
-def is_told(table: Any, curve: Curve, arch: float) -> bool:
+def is_told(table: Any, curve: Cosine, arch: float) -> bool:
     """Return whether a float tells places on an arch well enough to walk there.
 
     A fold that is off by e has a depth that is off by e^2/2 of the wave; neighbours differ by 2 pi b z^n/(g C) of it.
@@ -104,7 +104,7 @@ def wave_of(table: Any, start: float) -> float:
 
 @kernel()
 def first_wave_above(
-    table: Any, curve: Curve, low: float, high: float, level: float
+    table: Any, curve: Cosine, low: float, high: float, level: float
 ) -> tuple[float, float, float, float, float]:
     """Return the first wave after `low`, which ends below a depth, that ends above it; `high` does.
 
@@ -141,7 +141,7 @@ def first_wave_above(
 
 
 @kernel()
-def _lowest_wave(table: Any, curve: Curve, low: float, high: float) -> tuple[float, bool]:
+def _lowest_wave(table: Any, curve: Cosine, low: float, high: float) -> tuple[float, bool]:
     """Return the wave between two others whose branch starts lowest, and whether a neighbour hardly starts higher.
 
     The starts fall up to it and rise from it on.
@@ -172,7 +172,7 @@ def _lowest_wave(table: Any, curve: Curve, low: float, high: float) -> tuple[flo
 
 @kernel()
 def begin_long(
-    table: Any, curve: Curve, arches: tuple[float, float], trace: Any, losses: bool, reach: float
+    table: Any, curve: Cosine, arches: tuple[float, float], trace: Any, losses: bool, reach: float
 ) -> tuple[Any, tuple[Any, Any, Any]]:
     """Walk the first waves of a long curve; return the trace, and what all rims share: numbers (above), sums, room."""
     first, final = arches
@@ -199,7 +199,7 @@ def ends_folds(table: Any, arches: tuple[float, float], rim: float) -> bool:
 @kernel()
 def sum_of_gap(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     sums: Any,
     first: float,
     last: float,
@@ -218,7 +218,7 @@ def sum_of_gap(
 
 @kernel()
 def entry(
-    table: Any, curve: Curve, after: float, long: Any, trace: Any, losses: bool
+    table: Any, curve: Cosine, after: float, long: Any, trace: Any, losses: bool
 ) -> tuple[float, float, float, float]:
     """Return the first wave of the gap that loading stands on, where, and what it has lost and jumped by then.
 
@@ -250,7 +250,7 @@ def entry(
 @kernel()
 def _load_through(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     count: int,
     after: float,
     final: float,
@@ -280,7 +280,7 @@ def _load_through(
 
 
 @kernel()
-def leave_lowest(table: Any, curve: Curve, long: Any, final: float, trace: Any, losses: bool) -> None:
+def leave_lowest(table: Any, curve: Cosine, long: Any, final: float, trace: Any, losses: bool) -> None:
     """Find the wave of the gap that starts lowest, and what unloading loses from there on, if that is not known yet."""
     shared, _, _ = long
     if not math.isnan(shared[LOWEST]):
@@ -318,7 +318,7 @@ def leave_lowest(table: Any, curve: Curve, long: Any, final: float, trace: Any, 
 
 @kernel()
 def _unload_through(
-    table: Any, curve: Curve, after: float, final: float, long: Any, trace: Any, running: bool, losses: bool
+    table: Any, curve: Cosine, after: float, final: float, long: Any, trace: Any, running: bool, losses: bool
 ) -> None:
     """Give the first branch after the gap what unloading loses from there, if it goes on into the gap."""
     shared, sums, room = long
@@ -334,7 +334,7 @@ def _unload_through(
 
 
 @kernel()
-def _nominal_branch(table: Any, curve: Curve, rim: float, final: float, trace: Any, near: int) -> float:
+def _nominal_branch(table: Any, curve: Cosine, rim: float, final: float, trace: Any, near: int) -> float:
     """Put the branch of a rim whose phase no float tells into the trace, by the envelopes; return its wave.
 
     Beyond the end of the folds at wave `final` it is the last one, which has no end.
@@ -354,7 +354,7 @@ def _nominal_branch(table: Any, curve: Curve, rim: float, final: float, trace: A
 @kernel()
 def stride(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     arches: tuple[float, float],
     rim: float,
     trace: Any,
@@ -394,7 +394,7 @@ def stride(
 
 
 @kernel()
-def open_gap(table: Any, curve: Curve, place: float, trace: Any, long: Any) -> bool:
+def open_gap(table: Any, curve: Cosine, place: float, trace: Any, long: Any) -> bool:
     """Let the gap end at a wave beyond a place, with no branch beyond it; return whether loading goes through the gap.
 
     That is enough for a cycle that surely turns before the place.

@@ -13,7 +13,7 @@ from typing import Any, Final, TypeAlias
 from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.at_once import find_depths
 from gradhesion.core.curve.branches import END_DEPTH, LOADING_IS_CLOSE, WORK
-from gradhesion.core.curve.cosine import Curve, slopes_at_once
+from gradhesion.core.curve.cosine import Cosine, slopes_at_once
 from gradhesion.core.curve.cosine_energy import energies_at_once, jump_energy
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.path.cosine_long import (
@@ -45,7 +45,7 @@ FURTHEST: Final = 1.0e9
 
 
 @kernel(contract=True)
-def stand_at_once(table: Any, curve: Curve, rims: Lanes, losses: bool) -> Stands:
+def stand_at_once(table: Any, curve: Cosine, rims: Lanes, losses: bool) -> Stands:
     """Return how eight rims stand among regular waves."""
     turns = rims - table.phase / TWO_PI
     value, rate, _, _, here = slopes_at_once(table, curve, 0.5 * (1.0 - table.k), rims)
@@ -73,7 +73,7 @@ def stand_at_once(table: Any, curve: Curve, rims: Lanes, losses: bool) -> Stands
 @kernel()
 def cycle_among(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     stands: Stands,
     lane: int,
     rim: float,
@@ -117,7 +117,7 @@ def cycle_among(
 
 @kernel()
 def is_close_among(
-    table: Any, curve: Curve, stands: Stands, lane: int, rim: float, long: Any, trace: Any, turned: bool
+    table: Any, curve: Cosine, stands: Stands, lane: int, rim: float, long: Any, trace: Any, turned: bool
 ) -> bool:
     """Return what `is_close_to_a_jump` (path/ties.py) does for one of the rims that stand among regular waves."""
     shared, _, _ = long

@@ -1,8 +1,8 @@
 """The branches of a general curve with the cycle on them: where loading arrives, where unloading goes, what they lose.
 
 The records are those of one cosine (core/curve/branches.py), and the same kernels fill and read them
-(core/path/loading.py, core/path/unloading.py, by way of core/path/passage.py). They serve all rims of a curve: loading
-does not depend on the rim until it gets there, and unloading does not depend on where it came from.
+(core/path/loading.py, core/path/unloading.py), which ask what core/face.py declares. They serve all rims of a curve:
+loading does not depend on the rim until it gets there, and unloading does not depend on where it came from.
 """
 
 import math
@@ -13,7 +13,7 @@ import numpy as np
 from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.arches import folds_between
 from gradhesion.core.curve.branches import ROWS, UNKNOWN, UNLOADING_JUMPS
-from gradhesion.core.curve.general import Basis, Curve, state
+from gradhesion.core.curve.general import Basis, Series, state
 from gradhesion.core.curve.general_branches import fill_branches
 from gradhesion.core.curve.general_folds import MOST_FOLDS, room
 from gradhesion.core.path.general_ties import first_close_pair
@@ -26,7 +26,7 @@ _WORK: Final = 8
 
 @kernel()
 def walk(
-    basis: Basis, curve: Curve, first: float, last: float, furthest: float, losses: bool
+    basis: Basis, curve: Series, first: float, last: float, furthest: float, losses: bool
 ) -> tuple[int, Any, float]:
     """Follow loading up to x = `furthest`, fold by fold: they stand between the places `first` and `last`.
 
@@ -51,7 +51,7 @@ def walk(
 
 
 @kernel()
-def depth_at_full_contact(basis: Basis, curve: Curve, rim: float, level: float, whole: float) -> float:
+def depth_at_full_contact(basis: Basis, curve: Series, rim: float, level: float, whole: float) -> float:
     """Return the depth at which loading ends: pinned at the rim, at the coordinate `level` or that of the rim."""
     _, _, _, alpha, beta = curve
     _, _, front, depth, load = state(basis, curve, rim, whole)

@@ -14,7 +14,7 @@ from gradhesion.core.compiler.jit import NO, constant, kernel
 from gradhesion.core.contact.general_disc import climb_is_one_disc
 from gradhesion.core.curve.arches import folds_between
 from gradhesion.core.curve.branches import END, START
-from gradhesion.core.curve.general import Basis, Curve
+from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, fill_branches
 from gradhesion.core.curve.general_folds import MOST_FOLDS, find_folds, room
 from gradhesion.core.path.general_ties import first_close_pair, is_at_a_fold
@@ -75,7 +75,7 @@ def places_between(low: float, high: float) -> Any:
 
 
 @kernel()
-def _change(basis: Basis, curve: Curve, cut: float, low: float, high: float) -> float:
+def _change(basis: Basis, curve: Series, cut: float, low: float, high: float) -> float:
     """Return the last whole wave that begins as `low` does, with a fall or not, where `high` does not."""
     first = falls_at_cut(basis, curve, cut, low)
     while high - low > 1.0:
@@ -89,7 +89,7 @@ def _change(basis: Basis, curve: Curve, cut: float, low: float, high: float) -> 
 
 @kernel()
 def regular_waves(
-    basis: Basis, curve: Curve, cut: float, first: float, last: float
+    basis: Basis, curve: Series, cut: float, first: float, last: float
 ) -> tuple[float, float, float, bool]:
     """Return which waves of a long curve are to be summed, folds standing between the places `first` and `last` only.
 
@@ -124,7 +124,7 @@ def regular_waves(
 
 
 @kernel()
-def _highest(basis: Basis, curve: Curve, cut: float, wave: float, work: Any) -> float:
+def _highest(basis: Basis, curve: Series, cut: float, wave: float, work: Any) -> float:
     """Return the highest end of a branch of a wave, -inf without any."""
     rows = work[2][0]
     best = highest_end(rows, branches_of_wave(basis, curve, wave, cut, work, rows))
@@ -132,7 +132,7 @@ def _highest(basis: Basis, curve: Curve, cut: float, wave: float, work: Any) -> 
 
 
 @kernel()
-def _lowest(basis: Basis, curve: Curve, cut: float, wave: float, work: Any) -> float:
+def _lowest(basis: Basis, curve: Series, cut: float, wave: float, work: Any) -> float:
     """Return the lowest start of a branch of a wave, inf without any."""
     rows = work[2][0]
     best = lowest_start(rows, branches_of_wave(basis, curve, wave, cut, work, rows))
@@ -140,7 +140,7 @@ def _lowest(basis: Basis, curve: Curve, cut: float, wave: float, work: Any) -> f
 
 
 @kernel()
-def _goes_on(basis: Basis, curve: Curve, cut: float, wave: float, kind: int, work: Any) -> bool:
+def _goes_on(basis: Basis, curve: Series, cut: float, wave: float, kind: int, work: Any) -> bool:
     """Return whether loading goes up from a wave to the next one, or unloading down from the next one to it."""
     if kind == UP:
         return _highest(basis, curve, cut, wave + 1.0, work) > _highest(basis, curve, cut, wave, work)
@@ -148,7 +148,7 @@ def _goes_on(basis: Basis, curve: Curve, cut: float, wave: float, kind: int, wor
 
 
 @kernel()
-def _reaches(basis: Basis, curve: Curve, cut: float, wave: float, kind: int, level: float, work: Any) -> bool:
+def _reaches(basis: Basis, curve: Series, cut: float, wave: float, kind: int, level: float, work: Any) -> bool:
     """Return whether a wave ends above a level, or starts below it."""
     if kind == UP:
         return _highest(basis, curve, cut, wave, work) > level
@@ -157,7 +157,7 @@ def _reaches(basis: Basis, curve: Curve, cut: float, wave: float, kind: int, lev
 
 @kernel()
 def first_that_reaches(
-    basis: Basis, curve: Curve, cut: float, places: Any, now: float, kind: int, level: float, work: Any
+    basis: Basis, curve: Series, cut: float, places: Any, now: float, kind: int, level: float, work: Any
 ) -> float:
     """Return the first wave from `now` on, in the order of `places`, that reaches a level; NaN if none does."""
     if _reaches(basis, curve, cut, now, kind, level, work):
@@ -180,7 +180,7 @@ def first_that_reaches(
 
 
 @kernel()
-def last_of_climb(basis: Basis, curve: Curve, cut: float, places: Any, now: float, kind: int, work: Any) -> float:
+def last_of_climb(basis: Basis, curve: Series, cut: float, places: Any, now: float, kind: int, work: Any) -> float:
     """Return the wave up to which loading or unloading goes from wave to wave."""
     sign = 1.0 if kind == UP else -1.0
     step = 0.0 if kind == UP else -1.0
@@ -208,7 +208,7 @@ def last_of_climb(basis: Basis, curve: Curve, cut: float, places: Any, now: floa
 
 
 @kernel()
-def _waves_are_one_disc(basis: Basis, curve: Curve, cut: float, first: float, last: float, work: Any) -> bool:
+def _waves_are_one_disc(basis: Basis, curve: Series, cut: float, first: float, last: float, work: Any) -> bool:
     """Return whether loading keeps the contact one disc on some of the waves `first` to `last`."""
     _, _, rows = work
     for i in range(_TESTED):
@@ -225,7 +225,7 @@ def _waves_are_one_disc(basis: Basis, curve: Curve, cut: float, first: float, la
 @kernel()
 def go_through(
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     cut: float,
     begin: float,
     end: float,
@@ -282,7 +282,7 @@ def go_through(
 
 
 @kernel()
-def middle_of(basis: Basis, curve: Curve, first: float, last: float, apart: float) -> Middle:
+def middle_of(basis: Basis, curve: Series, first: float, last: float, apart: float) -> Middle:
     """Return what of a long curve, whose folds stand between `first` and `last` only, is to be summed.
 
     The sums begin and end `apart` waves further in than they could.
@@ -303,7 +303,7 @@ def middle_of(basis: Basis, curve: Curve, first: float, last: float, apart: floa
 
 @kernel()
 def folds_before(
-    basis: Basis, curve: Curve, first: float, middle: Middle, search: Any, zeros: Any
+    basis: Basis, curve: Series, first: float, middle: Middle, search: Any, zeros: Any
 ) -> tuple[int, bool, float]:
     """Put the folds before the regular waves into `zeros`; return what find_folds does, -1 where they do not fit."""
     _, _, cut, again, begin, _, _ = middle
@@ -321,7 +321,7 @@ def folds_before(
 @kernel()
 def stride(
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     first: float,
     middle: Middle,
     rim: float,

@@ -5,13 +5,13 @@ from typing import Any
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine_folds import CLOSE
-from gradhesion.core.curve.general import Basis, Curve, size, slope
+from gradhesion.core.curve.general import Basis, Series, size, slope
 from gradhesion.core.path.ties import PAIR
 from gradhesion.core.struve.circle import TWO_PI
 
 
 @kernel()
-def is_near(basis: Basis, curve: Curve, first: float, other: float, x: float, whole: float) -> bool:
+def is_near(basis: Basis, curve: Series, first: float, other: float, x: float, whole: float) -> bool:
     """Return whether two coordinates differ by less than CLOSE of their terms at whole + x."""
     return abs(first - other) <= CLOSE * size(basis, curve, x, whole)
 
@@ -27,7 +27,7 @@ def first_close_pair(zeros: Any, count: int, whole: float) -> float:
 
 
 @kernel()
-def is_at_a_fold(basis: Basis, curve: Curve, x: float, whole: float) -> bool:
+def is_at_a_fold(basis: Basis, curve: Series, x: float, whole: float) -> bool:
     """Return whether whole + x is a fold, as far as anybody can tell: by a step of Newton's method."""
     value, rate, _ = slope(basis, curve, x, whole)
     return abs(value) <= 2.0 * CLOSE * TWO_PI * (whole + x) * abs(rate)

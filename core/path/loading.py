@@ -1,12 +1,12 @@
 """Loading: up a branch to its end, then outwards at that depth to the next branch that reaches higher.
 
-The curve is any of path/passage.py; "depth" stands for what is prescribed.
+The curve is any of core/face.py; "depth" stands for what is prescribed.
 """
 
 import math
 from typing import Any
 
-from gradhesion.core.compiler.jit import YES, kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import (
     ARRIVAL,
     END,
@@ -19,8 +19,7 @@ from gradhesion.core.curve.branches import (
     WORK,
     branch_within,
 )
-from gradhesion.core.path.jumps import add, finish, nobody
-from gradhesion.core.path.passage import loss_between, loss_from_zero
+from gradhesion.core.face import find_place, loss_between, loss_from_zero
 
 
 @kernel()
@@ -43,23 +42,20 @@ def climb(table: Any, curve: Any, now: int, count: int, trace: Any, furthest: fl
 
     now = -1 stands for no contact: the first jump is that from zero contact, at the depth 0.
     """
-    first, waiting = now, nobody()
+    loss, jumps = (trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]) if now >= 0 else (0.0, 0.0)
     while True:
         left, level = (trace[END, now], trace[END_DEPTH, now]) if now >= 0 else (0.0, 0.0)
         higher = next_higher(trace, now + 1, count, level)
         if left >= furthest or higher == count or trace[START, higher] > furthest:
-            break
-        trace[ARRIVAL, higher] = trace[START, higher]
-        waiting = add(table, curve, trace, waiting, now, higher, YES, losses)
+            return now
+        x = find_place(table, curve, level, trace, higher)
+        if losses and now < 0:
+            loss += loss_from_zero(table, curve, x)
+        elif losses:
+            loss += loss_between(table, curve, left, x, trace[WORK])
+        jumps += 1.0
+        arrive(trace, higher, x, loss, jumps)
         now = higher
-    finish(table, curve, trace, waiting, YES, losses)
-    loss, jumps = (trace[LOADING_LOSS, first], trace[LOADING_JUMPS, first]) if first >= 0 else (0.0, 0.0)
-    for branch in range(first + 1, now + 1):
-        if trace[ARRIVAL, branch] < math.inf:
-            loss += trace[LOADING_LOSS, branch]
-            jumps += 1.0
-            trace[LOADING_LOSS, branch], trace[LOADING_JUMPS, branch] = loss, jumps
-    return now
 
 
 @kernel()

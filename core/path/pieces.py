@@ -15,7 +15,7 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import NO, YES, constant, kernel
 from gradhesion.core.curve.branches import END, START, ends
-from gradhesion.core.curve.general import Basis, Curve, coordinate
+from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, find_level
 from gradhesion.core.path.general_ties import is_near
 from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
@@ -61,7 +61,7 @@ def _note_leap(notes: Any, state: State, x: float, whole: float, cut: bool) -> N
 
 
 @kernel()
-def _leap(basis: Basis, curve: Curve, state: State, x: float, whole: float) -> float:
+def _leap(basis: Basis, curve: Series, state: State, x: float, whole: float) -> float:
     """Return e of the jump outwards from a state to whole + x."""
     _, _, level, waves, left, _ = state
     if waves + left == 0.0:
@@ -72,7 +72,7 @@ def _leap(basis: Basis, curve: Curve, state: State, x: float, whole: float) -> f
 @kernel()
 def climb(
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     count: int,
     trace: Any,
     state: State,
@@ -105,7 +105,7 @@ def climb(
 
 
 @kernel()
-def reach_rim(basis: Basis, curve: Curve, rim: float, state: State, losses: bool, whole: float, notes: Any) -> State:
+def reach_rim(basis: Basis, curve: Series, rim: float, state: State, losses: bool, whole: float, notes: Any) -> State:
     """Follow loading from its last branch to the rim."""
     loss, jumps, level, waves, left, close = state
     if (waves - whole) + left < rim < math.inf:
@@ -117,7 +117,7 @@ def reach_rim(basis: Basis, curve: Curve, rim: float, state: State, losses: bool
 
 
 @kernel()
-def leave_rim(basis: Basis, curve: Curve, count: int, trace: Any, rim: float, whole: float) -> tuple[int, State]:
+def leave_rim(basis: Basis, curve: Series, count: int, trace: Any, rim: float, whole: float) -> tuple[int, State]:
     """Return the branches of a trace inside of where unloading is when it has left the rim, and its state."""
     if count > 0 and trace[END, count - 1] == rim:
         return count - 1, (0.0, 0.0, trace[START_LEVEL, count - 1], whole, trace[START, count - 1], NO)
@@ -126,7 +126,7 @@ def leave_rim(basis: Basis, curve: Curve, count: int, trace: Any, rim: float, wh
 
 @kernel()
 def descend(
-    basis: Basis, curve: Curve, count: int, trace: Any, state: State, losses: bool, whole: float, notes: Any
+    basis: Basis, curve: Series, count: int, trace: Any, state: State, losses: bool, whole: float, notes: Any
 ) -> State:
     """Follow unloading from a state inwards over the first `count` branches of a trace, `whole` waves out."""
     for branch in range(count - 1, -1, -1):
@@ -146,7 +146,7 @@ def descend(
 
 
 @kernel()
-def leave(basis: Basis, curve: Curve, state: State, losses: bool, notes: Any) -> State:
+def leave(basis: Basis, curve: Series, state: State, losses: bool, notes: Any) -> State:
     """Follow unloading from the last branch to zero contact."""
     loss, jumps, level, waves, left, close = state
     if waves + left > 0.0:

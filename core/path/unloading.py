@@ -2,16 +2,17 @@
 
 Where unloading goes from the start of a branch does not depend on where it came from, so that the branch on which it
 lands next, the place there, and the loss from the start to the end of contact are kept with the branch. The loop
-integral and the drawn path read them. The curve is any of path/passage.py; "depth" stands for what is prescribed, but
+integral and the drawn path read them. The curve is any of core/face.py; "depth" stands for what is prescribed, but
 in the depth at which contact ends.
 """
 
 from typing import Any
 
-from gradhesion.core.compiler.jit import NO, kernel
+from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import (
     CALLER,
     END,
+    LANDING,
     LAST_DEPTH,
     NEXT,
     START,
@@ -21,8 +22,7 @@ from gradhesion.core.curve.branches import (
     WORK,
     branch_within,
 )
-from gradhesion.core.path.jumps import add, finish, nobody
-from gradhesion.core.path.passage import depth_at, find_place, loss_between, loss_to_zero
+from gradhesion.core.face import depth_at, find_place, loss_between, loss_to_zero
 
 
 @kernel()
@@ -42,7 +42,7 @@ def next_lower(trace: Any, branch: int, level: float) -> int:
 @kernel()
 def descend(table: Any, curve: Any, trace: Any, branch: int, losses: bool) -> None:
     """Complete where unloading goes from the start of a branch on, and what it loses, for all that it visits."""
-    now, waiting = branch, nobody()
+    now = branch
     while trace[UNLOADING_JUMPS, now] < 0.0:  # inwards to where it is known, or to the end of contact
         start, level = trace[START, now], trace[START_DEPTH, now]
         lower = next_lower(trace, now - 1, level)
@@ -53,10 +53,11 @@ def descend(table: Any, curve: Any, trace: Any, branch: int, losses: bool) -> No
             loss = loss_to_zero(table, curve, start, level) if losses else 0.0
             leave(trace, now, loss, 1.0, depth_at(table, curve, start, level))
         else:
-            waiting = add(table, curve, trace, waiting, now, lower, NO, losses)
+            landing = find_place(table, curve, level, trace, lower)
+            loss = loss_between(table, curve, start, landing, trace[WORK]) if losses else 0.0
+            trace[LANDING, now], trace[UNLOADING_LOSS, now] = landing, loss
             trace[CALLER, lower] = now
             now = lower
-    finish(table, curve, trace, waiting, NO, losses)
     while now != branch:  # and back
         outer = int(trace[CALLER, now])
         loss = trace[UNLOADING_LOSS, now] + trace[UNLOADING_LOSS, outer]

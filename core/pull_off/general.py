@@ -21,7 +21,7 @@ import numpy as np
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.arches import is_one_cosine, one_cosine
 from gradhesion.core.curve.cells import MOST
-from gradhesion.core.curve.general import Basis, Curve, coordinate, slope, state
+from gradhesion.core.curve.general import Basis, Series, coordinate, slope, state
 from gradhesion.core.curve.general_folds import MOST_CELLS, cell_width, folds_of_cell
 from gradhesion.core.pull_off import cosine as pull_off
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
@@ -127,7 +127,7 @@ def _floor(bend: float, power: float, k: float, chi: float, low: float, high: fl
 
 
 @kernel()
-def load_at_rim(basis: Basis, curve: Curve, x: float, x_low: float) -> float:
+def load_at_rim(basis: Basis, curve: Series, x: float, x_low: float) -> float:
     """Return the load at x + x_low, where x_low is the rounding error of x."""
     _, _, _, _, load = state(basis, curve, x, 0.0)
     _, _, rate = slope(basis, curve, x, 0.0)
@@ -137,7 +137,7 @@ def load_at_rim(basis: Basis, curve: Curve, x: float, x_low: float) -> float:
 @kernel()
 def _better(
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     low: float,
     high: float,
     work: Any,
@@ -159,7 +159,7 @@ def _better(
 @kernel()
 def _in_question(
     terms: Terms,
-    curve: Curve,
+    curve: Series,
     k: float,
     start: float,
     rim: float,
@@ -188,7 +188,7 @@ def _in_question(
 
 @kernel()
 def _lowest_far(
-    basis: Basis, curve: Curve, terms: Any, start: float, x_rim: float, x_rim_low: float, best: Lowest, search: Any
+    basis: Basis, curve: Series, terms: Any, start: float, x_rim: float, x_rim_low: float, best: Lowest, search: Any
 ) -> tuple[bool, Lowest]:
     """Do what `lowest_load` does where it is one of many waves; tell whether it is."""
     table, _, series = basis
@@ -221,7 +221,7 @@ def _lowest_far(
 
 @kernel()
 def lowest_load(
-    basis: Basis, curve: Curve, x_rim: float, x_rim_low: float, work: Any, deepest: float
+    basis: Basis, curve: Series, x_rim: float, x_rim_low: float, work: Any, deepest: float
 ) -> tuple[float, float, float]:
     """Return the lowest reduced load over (0, x_rim], the x where it is met, and the second lowest trough (or 0).
 
@@ -234,7 +234,7 @@ def lowest_load(
         return pull_off.lowest_load(table, one_cosine(series, curve), x_rim, x_rim_low)
     k = table.k
     c = 0.5 * (1.0 - k)
-    controlled = (B, m, g, 0.0, 1.0)
+    controlled = Series(B, m, g, 0.0, 1.0)
     terms = chi_terms(table, series, g, deepest)
     bend, power = B * m / (1.0 + k + m), m - c
     e = 0.5 * (3.0 + k)
@@ -298,7 +298,7 @@ def innermost(terms: Terms, k: float, z: float) -> float:
 
 
 @kernel()
-def floor_of_cell(terms: Terms, curve: Curve, k: float, low: float, high: float) -> float:
+def floor_of_cell(terms: Terms, curve: Series, k: float, low: float, high: float) -> float:
     """Return a bound below the load between two z."""
     B, m, _, _, _ = curve
     c = 0.5 * (1.0 - k)

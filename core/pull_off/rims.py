@@ -13,7 +13,7 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.arches import is_one_cosine
 from gradhesion.core.curve.cells import MOST
 from gradhesion.core.curve.cosine_folds import CLOSE
-from gradhesion.core.curve.general import Basis, Curve, coordinate, slope
+from gradhesion.core.curve.general import Basis, Series, coordinate, slope
 from gradhesion.core.curve.general_folds import cell_width, folds_of_cell
 from gradhesion.core.pull_off.general import (
     INWARDS,
@@ -35,7 +35,7 @@ _UNKNOWN: Final = -1
 
 
 @kernel()
-def _fill_cell(basis: Basis, curve: Curve, low: float, high: float, work: Any, zeros: Any, troughs: Any) -> int:
+def _fill_cell(basis: Basis, curve: Series, low: float, high: float, work: Any, zeros: Any, troughs: Any) -> int:
     """Put place and load of the troughs of a cell into `troughs`; return their number."""
     at_low, _, _ = slope(basis, curve, low)
     found, _, _ = folds_of_cell(basis, curve, low, high, at_low, work, zeros, 0.0)
@@ -50,7 +50,7 @@ def _fill_cell(basis: Basis, curve: Curve, low: float, high: float, work: Any, z
 
 @kernel()
 def _inwards(
-    basis: Basis, curve: Curve, terms: Terms, rim: float, best: Lowest, cells: Any, work: Any
+    basis: Basis, curve: Series, terms: Terms, rim: float, best: Lowest, cells: Any, work: Any
 ) -> tuple[bool, Lowest]:
     """Return the lowest load within a rim; whether the cells reach that far in."""
     ends, counts, troughs, zeros = cells
@@ -84,7 +84,7 @@ def _cells_from(basis: Basis, high: float) -> Any:
 
 
 @kernel()
-def lowest_loads(basis: Basis, curve: Curve, rims: Any, rims_low: Any, work: Any, deepest: float, found: Any) -> None:
+def lowest_loads(basis: Basis, curve: Series, rims: Any, rims_low: Any, work: Any, deepest: float, found: Any) -> None:
     """Put what `lowest_load` (pull_off/general.py) returns for each rim x + its rounding error into a row of `found`.
 
     Rims that are not above 0 are left out.
@@ -112,7 +112,7 @@ def lowest_loads(basis: Basis, curve: Curve, rims: Any, rims_low: Any, work: Any
             left += 1
     together = left > _FEW and not is_one_cosine(series, m) and inner / cell_width(series, inner) < 0.5 * _MOST_CELLS
     if together:
-        controlled = (B, m, g, 0.0, 1.0)
+        controlled = Series(B, m, g, 0.0, 1.0)
         terms = chi_terms(table, series, g, deepest)
         ends = _cells_from(basis, inner)
         counts, troughs = np.full(ends.size, _UNKNOWN), np.empty((ends.size, 4, 2))

@@ -13,7 +13,7 @@ from typing import Any
 from gradhesion.core.closed import smooth
 from gradhesion.core.closed.power import power
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.cosine import Curve, curve_of, force_unit
+from gradhesion.core.curve.cosine import Cosine, curve_of, force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.path.cosine import (
     LARGEST,
@@ -96,7 +96,7 @@ def _solve_smooth(k: float, stretch: float, rims: Any, slots: Any, out: Any, sta
 
 @kernel()
 def _solve_force(
-    table: Any, curve: Curve, scale: float, wavelength: float, rims: Any, slots: Any, out: Any, status: Any
+    table: Any, curve: Cosine, scale: float, wavelength: float, rims: Any, slots: Any, out: Any, status: Any
 ) -> None:
     """Find the pull-off of a wavy punch for all its rims; that without a rim serves all rims beyond its place."""
     free_load, free_x, free_second = 0.0, math.inf, 0.0
@@ -119,7 +119,7 @@ def _solve_force(
 @kernel()
 def _solve_cycle(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     arches: tuple[float, float],
     scales: Any,
     wavelength: float,
@@ -183,7 +183,7 @@ def solve_pull_off(
         _solve_smooth(k, stretch, rims, slots, out, status)
         return
     curve, length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
-    if not (0.0 < curve[0] < LARGEST and curve[1] < LARGEST):
+    if not (0.0 < curve.bend < LARGEST and curve.gain < LARGEST):
         out[:, :] = math.nan
         status[:] = NO_VALUE
         return
@@ -217,7 +217,7 @@ def solve_curve(
             put_smooth(table, stretch, rims, slots, out, status, sense, scratch)
         return
     curve, length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
-    if not (0.0 < curve[0] < LARGEST and curve[1] < LARGEST):  # powers of them would overflow
+    if not (0.0 < curve.bend < LARGEST and curve.gain < LARGEST):  # powers of them would overflow
         out[:, :] = math.nan
         status[:] = NO_VALUE
         return

@@ -8,7 +8,7 @@ import numpy as np
 from gradhesion.core.compiler.jit import NO, NONE, kernel
 from gradhesion.core.contact.cosine_disc import ALWAYS_ONE, is_one_disc, limits_from, note_run
 from gradhesion.core.curve.branches import GAP, NOWHERE, RUN, RUN_FIRST, RUN_LAST, RUN_LEAST
-from gradhesion.core.curve.cosine import Curve
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.path.cosine import is_long, is_unresolved
 from gradhesion.core.path.cosine_long import (
     DISC_INNER,
@@ -39,7 +39,7 @@ from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, next_lane
 
 @kernel()
 def _limits_of_beginning(
-    table: Any, curve: Curve, first: float, last: float, trace: Any, long: Any, final: float
+    table: Any, curve: Cosine, first: float, last: float, trace: Any, long: Any, final: float
 ) -> tuple[float, float]:
     """Return the radii between which loading of the beginning ceases to keep the contact one disc, looked at once.
 
@@ -60,7 +60,7 @@ def _limits_of_beginning(
 
 @kernel()
 def _limits_beyond(
-    table: Any, curve: Curve, count: int, trace: Any, long: Any, rim: float, final: float, slots: Any
+    table: Any, curve: Cosine, count: int, trace: Any, long: Any, rim: float, final: float, slots: Any
 ) -> tuple[float, float, float]:
     """Return what `limits_of` does for one rim; the beginning and the waves of the gap are looked at once."""
     tangency = first_close_pair(count, trace)
@@ -79,7 +79,7 @@ def _limits_beyond(
 @kernel()
 def _follow(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     arches: tuple[float, float],
     scales: Any,
     x: float,
@@ -102,7 +102,7 @@ def _follow(
 
 @kernel()
 def _is_one_disc_among(
-    table: Any, curve: Curve, arches: tuple[float, float], x: float, first: float, trace: Any, long: Any, slots: Any
+    table: Any, curve: Cosine, arches: tuple[float, float], x: float, first: float, trace: Any, long: Any, slots: Any
 ) -> bool:
     """Return whether loading keeps the contact one disc up to a rim among the waves that it enters with `first`."""
     _, g, _ = curve
@@ -121,7 +121,7 @@ def _is_one_disc_among(
 @kernel()
 def _follow_eight(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     arches: tuple[float, float],
     scales: Any,
     waiting: tuple[int, Lanes, Lanes],
@@ -160,7 +160,7 @@ def _follow_eight(
 @kernel()
 def solve_long(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     arches: tuple[float, float],
     scales: Any,
     wavelength: float,

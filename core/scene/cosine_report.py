@@ -21,7 +21,7 @@ import numpy as np
 from gradhesion.core.closed import smooth
 from gradhesion.core.compiler.jit import NO, YES, constant, kernel
 from gradhesion.core.curve.branches import ARRIVAL, END, START
-from gradhesion.core.curve.cosine import Curve, curve_of, depth, force_unit, wave
+from gradhesion.core.curve.cosine import Cosine, curve_of, depth, force_unit, wave
 from gradhesion.core.curve.cosine_folds import fold_of_arch, survey_arch
 from gradhesion.core.path.cosine import MOST_ARCHES, extent, is_endless_wave, is_long, is_smooth, walk
 from gradhesion.core.path.cosine_long import begin_long, is_told, stride
@@ -63,7 +63,7 @@ _ARCHES_BACK: Final = 8
 
 
 @kernel()
-def _force_terms(table: Any, curve: Curve, x: float) -> float:
+def _force_terms(table: Any, curve: Cosine, x: float) -> float:
     """Return the size of the terms of the load at x."""
     b, g, lag = curve
     z, power, _, _, _, _, _ = wave(table, lag, x)
@@ -72,7 +72,7 @@ def _force_terms(table: Any, curve: Curve, x: float) -> float:
 
 
 @kernel()
-def last_fold(table: Any, curve: Curve, arches: tuple[float, float]) -> float:
+def last_fold(table: Any, curve: Cosine, arches: tuple[float, float]) -> float:
     """Return x of the outermost fold of a curve, 0 if it has none."""
     first, final = arches
     level = 0.5 * (1.0 - table.k)
@@ -100,7 +100,7 @@ def _outermost(count: int, trace: Any, rim: float) -> float:
 
 
 @kernel()
-def _energies_at(table: Any, curve: Curve, count: int, trace: Any, rim: float) -> tuple[float, float]:
+def _energies_at(table: Any, curve: Cosine, count: int, trace: Any, rim: float) -> tuple[float, float]:
     """Return the reduced energies of loading up to the rim and of unloading."""
     rim_depth = depth(table, curve, rim) if rim < math.inf else math.inf
     loading, _ = loading_to(table, curve, count, trace, rim, YES)
@@ -109,7 +109,7 @@ def _energies_at(table: Any, curve: Curve, count: int, trace: Any, rim: float) -
 
 
 @kernel()
-def _wave_terms(table: Any, curve: Curve, arch: float) -> float:
+def _wave_terms(table: Any, curve: Cosine, arch: float) -> float:
     """Return what a wave on an arch may lose on both ways, of which rounding may put one too many within the rim."""
     _, g, _ = curve
     chi = g * table.amplitude
@@ -117,7 +117,7 @@ def _wave_terms(table: Any, curve: Curve, arch: float) -> float:
 
 
 @kernel()
-def _energy_terms(table: Any, curve: Curve, count: int, trace: Any, rim: float) -> float:
+def _energy_terms(table: Any, curve: Cosine, count: int, trace: Any, rim: float) -> float:
     """Return the size of the terms of the reduced energy."""
     _, g, _ = curve
     return (TWO_PI * _outermost(count, trace, rim) * (1.0 + g * table.amplitude)) ** 2
@@ -126,7 +126,7 @@ def _energy_terms(table: Any, curve: Curve, count: int, trace: Any, rim: float) 
 @kernel()
 def _report_energy(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     arches: tuple[float, float],
     scale: float,
     x: float,
@@ -218,7 +218,7 @@ def _report_curve(
     if endless or is_smooth(arches):
         _report_smooth(k, stretch, rims, slots, out)
         for i in range(rims.size):
-            put(out, slots, ROUGHNESS, i, curve[1] * table.amplitude if amplitude > 0.0 else 0.0)
+            put(out, slots, ROUGHNESS, i, curve.gain * table.amplitude if amplitude > 0.0 else 0.0)
         return
     _report_gains(k, stretch, rims, results, slots, out)
     force_scale = force_unit(k, length, depth_scale)
@@ -226,7 +226,7 @@ def _report_curve(
     for i in range(rims.size):
         if status[i] & NO_VALUE:
             continue
-        put(out, slots, ROUGHNESS, i, curve[1] * table.amplitude)
+        put(out, slots, ROUGHNESS, i, curve.gain * table.amplitude)
         put(out, slots, SATURATION, i, saturation)
         if slots[FORCE_ERROR] >= 0:
             x = out[results[RADIUS], i] / wavelength

@@ -6,7 +6,7 @@ from typing import Any
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact.cosine_disc import disc_limits, is_one_disc
 from gradhesion.core.curve.branches import ARRIVAL
-from gradhesion.core.curve.cosine import Curve, depth
+from gradhesion.core.curve.cosine import Cosine, depth
 from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
 from gradhesion.core.path.ties import first_close_pair, is_close_to_a_jump
 from gradhesion.core.path.unloading import unloading_from
@@ -61,7 +61,7 @@ def put_cycle(
 @kernel()
 def _cycle_at_rim(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     scales: Any,
     count: int,
     trace: Any,
@@ -94,7 +94,7 @@ def _cycle_at_rim(
 
 @kernel()
 def limits_of(
-    table: Any, curve: Curve, count: int, trace: Any, furthest: float, slots: Any
+    table: Any, curve: Cosine, count: int, trace: Any, furthest: float, slots: Any
 ) -> tuple[float, float, float]:
     """Return the radii between which loading ceases to keep the contact one disc, if that is asked for.
 
@@ -108,7 +108,7 @@ def limits_of(
 
 
 @kernel()
-def slopes_of(table: Any, curve: Curve, sense: Any, around: Any, count: int, trace: Any, final: float) -> Any:
+def slopes_of(table: Any, curve: Cosine, sense: Any, around: Any, count: int, trace: Any, final: float) -> Any:
     """Return the slopes that go with a trace, those of loading filled in, if they are asked for."""
     slopes = slopes_for(trace)
     if sense[4]:
@@ -119,7 +119,7 @@ def slopes_of(table: Any, curve: Curve, sense: Any, around: Any, count: int, tra
 @kernel()
 def read_rim(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     scales: Any,
     count: int,
     trace: Any,

@@ -16,14 +16,14 @@ from gradhesion.core.curve.arches import is_one_cosine
 from gradhesion.core.curve.branches import ARRIVAL
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
-from gradhesion.core.curve.general import Basis, Curve, coordinate, curve_of, state
+from gradhesion.core.curve.general import Basis, Series, coordinate, curve_of, state
 from gradhesion.core.curve.general_energy import energies_in
 from gradhesion.core.curve.general_folds import MOST_CELLS, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
+from gradhesion.core.face import depth_at
 from gradhesion.core.path.general import depth_at_full_contact, walk
 from gradhesion.core.path.general_long import FEW, LONGEST_WALK, REGULAR, Middle, middle_of, stride
 from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
-from gradhesion.core.path.passage import depth_at
 from gradhesion.core.path.pieces import notes_for
 from gradhesion.core.path.ties import is_close_to_a_jump
 from gradhesion.core.path.unloading import jumps_out_from, unloading_from
@@ -83,7 +83,7 @@ def _refuse(slots: Any, out: Any, status: Any, i: int) -> None:
 @kernel()
 def _put_cycle(
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     length: float,
     unit: float,
     place: tuple[float, float],
@@ -135,7 +135,7 @@ def _put_cycle(
 @kernel()
 def _walked(
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     length: float,
     unit: float,
     first: float,
@@ -165,9 +165,9 @@ def _walked(
             continue
         x = rims[i]
         level = coordinate(basis, curve, x) if x < math.inf else math.inf
-        shared = losses and x <= LONG and not is_one_cosine(basis[2], curve[1])
+        shared = losses and x <= LONG and not is_one_cosine(basis[2], curve.exponent)
         jumps_in = shared and jumps_in_to(count, trace, x)
-        jumps_out = shared and curve[3] > 0.0 and jumps_out_from(count, trace, x, level)
+        jumps_out = shared and curve.alpha > 0.0 and jumps_out_from(count, trace, x, level)
         inwards, outwards = 0.0, 0.0
         if jumps_in or jumps_out:
             levels = (0.0 if jumps_in else level, level if jumps_out else 0.0)
@@ -194,7 +194,7 @@ def _walked(
 @kernel()
 def _strode(
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     length: float,
     unit: float,
     first: float,
@@ -230,7 +230,7 @@ def _strode(
 @kernel()
 def _cycles(
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     length: float,
     unit: float,
     wavelength: float,
@@ -290,7 +290,7 @@ def _cycles(
 @kernel()
 def _pull_offs(
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     scales: tuple[float, float],
     rims: Any,
     slots: Any,
@@ -359,7 +359,7 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
             curve, length, unit = curve_of(
                 table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
             )
-            valid = valid and 0.0 < curve[0] < math.inf and 0.0 <= curve[2] < math.inf
+            valid = valid and 0.0 < curve.bend < math.inf and 0.0 <= curve.gain < math.inf
             for rim in range(own.size):
                 if not (valid and own[rim] > 0.0):
                     _refuse(slots, results, flags, rim)

@@ -20,7 +20,7 @@ import numpy as np
 from gradhesion.core.compiler.jit import NO, NONE, YES, kernel
 from gradhesion.core.curve.branches import ARRIVAL, END, LANDING, NEXT, START
 from gradhesion.core.curve.cosine_energy import NODES, WEIGHTS
-from gradhesion.core.curve.general import Basis, Curve, coordinate, curve_of, slope, state
+from gradhesion.core.curve.general import Basis, Series, coordinate, curve_of, slope, state
 from gradhesion.core.curve.general_folds import MOST_CELLS, cell_width, folds_of_cell, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.path.general import walk
@@ -65,7 +65,7 @@ def _crests(table: Any, series: Any, gain: float) -> float:
 
 
 @kernel()
-def _force_terms(basis: Basis, curve: Curve, x: float) -> float:
+def _force_terms(basis: Basis, curve: Series, x: float) -> float:
     """Return the size of the terms of the load at x."""
     table, cosine_bins, series = basis
     B, m, g, _, _ = curve
@@ -82,7 +82,7 @@ def _force_terms(basis: Basis, curve: Curve, x: float) -> float:
 
 
 @kernel()
-def _work(basis: Basis, curve: Curve, low: float, high: float) -> float:
+def _work(basis: Basis, curve: Series, low: float, high: float) -> float:
     """Return the integral of the load over the coordinate along a branch, from its inner end to its outer one."""
     _, _, series = basis
     shortest = 0.0
@@ -104,7 +104,7 @@ def _work(basis: Basis, curve: Curve, low: float, high: float) -> float:
 
 
 @kernel()
-def loop(basis: Basis, curve: Curve, count: int, trace: Any, rim: float) -> tuple[float, float]:
+def loop(basis: Basis, curve: Series, count: int, trace: Any, rim: float) -> tuple[float, float]:
     """Return the loop integral of the load over the coordinate, and the outermost radius that a jump passes.
 
     The trace is that of path/general.py, walked as far as the rim at least.
@@ -140,7 +140,7 @@ def loop(basis: Basis, curve: Curve, count: int, trace: Any, rim: float) -> tupl
 
 
 @kernel()
-def outermost_fold(basis: Basis, curve: Curve) -> float:
+def outermost_fold(basis: Basis, curve: Series) -> float:
     """Return x of the last fold of a curve, 0 if it has none, inf if folds need not end; NaN if it is not found."""
     table, _, series = basis
     first, high = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
@@ -164,7 +164,7 @@ def outermost_fold(basis: Basis, curve: Curve) -> float:
 
 
 @kernel()
-def _last_left(basis: Basis, curve: Curve, count: int, trace: Any, rim: float) -> float:
+def _last_left(basis: Basis, curve: Series, count: int, trace: Any, rim: float) -> float:
     """Return the place that unloading leaves last."""
     level = coordinate(basis, curve, rim) if rim < math.inf else math.inf
     now, _ = leave_rim(basis, curve, count, trace, rim, level)
@@ -177,7 +177,7 @@ def _last_left(basis: Basis, curve: Curve, count: int, trace: Any, rim: float) -
 
 
 @kernel()
-def _spring(basis: Basis, curve: Curve, place: float) -> float:
+def _spring(basis: Basis, curve: Series, place: float) -> float:
     """Return by what the energy is multiplied in its error, which is mostly that of a spring if that is soft.
 
     Its energy is the square of the load at the place that unloading leaves last: as well known as that, twice.
@@ -191,7 +191,7 @@ def _spring(basis: Basis, curve: Curve, place: float) -> float:
 
 @kernel()
 def _other_sum(
-    basis: Basis, curve: Curve, first: float, last: float, rim: float, rim_low: float
+    basis: Basis, curve: Series, first: float, last: float, rim: float, rim_low: float
 ) -> tuple[float, float]:
     """Return the energy of a long curve over 2 pi l^2 dgamma by other sums, and the place that unloading leaves last.
 
@@ -216,7 +216,7 @@ def _other_sum(
 
 @kernel()
 def _energy_reports(
-    basis: Basis, curve: Curve, rim: float, rim_low: float, energy: float
+    basis: Basis, curve: Series, rim: float, rim_low: float, energy: float
 ) -> tuple[float, float, float]:
     """Return the size of the terms of the energy, its error but rounding, and its loop integral, over 2 pi l^2 dgamma.
 

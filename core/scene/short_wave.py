@@ -1,6 +1,6 @@
 """The leading asymptotic form of a short wave: a cycle of loading and unloading, and all results of a curve.
 
-The path is that of path/loading.py and path/unloading.py, by way of path/passage.py; each wave is walked.
+The path is that of path/loading.py and path/unloading.py, which ask what core/face.py declares; each wave is walked.
 """
 
 import math
@@ -25,7 +25,7 @@ from gradhesion.core.curve.cosine import curve_of, force_unit
 from gradhesion.core.curve.short_wave import (
     FURTHEST,
     MOST_HALVES,
-    Wave,
+    ShortWave,
     depth,
     folds_of_half,
     half_at,
@@ -43,7 +43,7 @@ NOTHING: Final = ()
 
 
 @kernel()
-def trace_branches(wave: Wave, furthest: float) -> tuple[int, Any]:
+def trace_branches(wave: ShortWave, furthest: float) -> tuple[int, Any]:
     """Return the rising branches that begin within `furthest`, their number first: -1 if there are too many."""
     k, _, chi, _, _ = wave
     level = 0.5 * (1.0 - k)
@@ -78,9 +78,9 @@ def trace_branches(wave: Wave, furthest: float) -> tuple[int, Any]:
 
 
 @kernel()
-def _follow(wave: Wave, count: int, trace: Any, furthest: float) -> None:
+def _follow(wave: ShortWave, count: int, trace: Any, furthest: float) -> None:
     """Fill the records of the cycle on the branches."""
-    load_up(NOTHING, (wave,), count, trace, furthest, YES)
+    load_up(NOTHING, wave, count, trace, furthest, YES)
     highest = 0.0
     for branch in range(count):
         highest = max(highest, trace[END_DEPTH, branch])
@@ -97,7 +97,7 @@ def solve_curve(
         return
     k = table.k
     (bend, gain, _), length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
-    wave = (k, bend, table.amplitude * gain, gain, table.phase)
+    wave = ShortWave(k, bend, table.amplitude * gain, gain, table.phase)
     force_scale = force_unit(k, length, depth_scale)
     energy_scale = TWO_PI * length * length
     force, folds = wants_force(slots), wants_folds(slots)
@@ -116,8 +116,8 @@ def solve_curve(
             _follow(wave, max(0, count), trace, z_rim)
         if folds and count >= 0:
             rim_depth = depth(wave, z_rim) if z_rim < math.inf else math.inf
-            loss, loading = loading_to(NOTHING, (wave,), count, trace, z_rim, YES)
-            loss_back, unloading, last = unloading_from(NOTHING, (wave,), count, trace, z_rim, rim_depth, YES)
+            loss, loading = loading_to(NOTHING, wave, count, trace, z_rim, YES)
+            loss_back, unloading, last = unloading_from(NOTHING, wave, count, trace, z_rim, rim_depth, YES)
             deepest = highest_depth(count, trace, z_rim, rim_depth)
             if loss + loss_back < 0.0:  # no cycle gains energy: the contact is no larger than a wave, out of range here
                 loss = loss_back = loading = unloading = deepest = last = math.nan

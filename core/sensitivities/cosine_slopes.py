@@ -32,7 +32,7 @@ from gradhesion.core.curve.branches import (
     UNKNOWN,
     UNLOADING_JUMPS,
 )
-from gradhesion.core.curve.cosine import Curve, curve_of, depth, load, slope, wave
+from gradhesion.core.curve.cosine import Cosine, curve_of, depth, load, slope, wave
 from gradhesion.core.problem.results import ENERGY as ENERGY_ROW
 from gradhesion.core.problem.results import RADIUS
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
@@ -50,7 +50,7 @@ FORCE, ENERGY, DEPTH = 0, 1, 2
 
 
 @kernel()
-def _put(found: Any, k: float, curve: Curve, unit: float, half: float, by: Any, value: float, i: int) -> None:
+def _put(found: Any, k: float, curve: Cosine, unit: float, half: float, by: Any, value: float, i: int) -> None:
     """Store the sensitivities of a value from its slopes by b, g, x and k; `unit` is its power of lambda."""
     b, g, _ = curve
     c = 0.5 * (1.0 - k)
@@ -67,18 +67,18 @@ def _put(found: Any, k: float, curve: Curve, unit: float, half: float, by: Any, 
 
 
 @kernel()
-def _lowest_load_at(table: Any, curve: Curve, x: float) -> float:
+def _lowest_load_at(table: Any, curve: Cosine, x: float) -> float:
     """Return the load at x, beyond all phases that of the lowest trough there (pull_off/cosine.py)."""
     z = TWO_PI * x
     if z <= PHASELESS:
         return load(table, curve, x)
     abscissa = z / amplitude_power(table, z)
-    lowest: float = abscissa * (curve[0] * abscissa / (3.0 + table.k) - 1.0 - curve[1] * table.amplitude)
+    lowest: float = abscissa * (curve.bend * abscissa / (3.0 + table.k) - 1.0 - curve.gain * table.amplitude)
     return lowest
 
 
 @kernel()
-def _force_slopes(table: Any, curve: Curve, near: Any, units: Any, x: float, at_rim: bool, by: Any) -> float:
+def _force_slopes(table: Any, curve: Cosine, near: Any, units: Any, x: float, at_rim: bool, by: Any) -> float:
     """Put the slopes of the reduced force by b, g, ln x and k into `by`; return the force."""
     tables, curves, weights = near
     b, g, _ = curve
@@ -96,13 +96,13 @@ def _force_slopes(table: Any, curve: Curve, near: Any, units: Any, x: float, at_
             by[2] = -abscissa * (b * abscissa - 0.5 * (3.0 + k) * (1.0 + g * table.amplitude))
     by[3] = 0.0
     for j in range(weights.size):
-        other = (curves[j, 0], curves[j, 1], 0.0)
+        other = Cosine(curves[j, 0], curves[j, 1], 0.0)
         by[3] -= weights[j] * units[j] * _lowest_load_at(tables[j], other, x)
     return force
 
 
 @kernel()
-def _put_depth(table: Any, curve: Curve, near: Any, units: Any, unit: float, x: float, found: Any, i: int) -> None:
+def _put_depth(table: Any, curve: Cosine, near: Any, units: Any, unit: float, x: float, found: Any, i: int) -> None:
     """Store the slopes of the depth at a rim: where the cycle turns at a depth, they say how the place moves."""
     tables, curves, weights = near
     b, g, _ = curve
@@ -117,12 +117,12 @@ def _put_depth(table: Any, curve: Curve, near: Any, units: Any, unit: float, x: 
     found[BY_RIM, i] = unit * z * d
     total = 0.0
     for j in range(weights.size):
-        total += weights[j] * units[j] * depth(tables[j], (curves[j, 0], curves[j, 1], 0.0), x)
+        total += weights[j] * units[j] * depth(tables[j], Cosine(curves[j, 0], curves[j, 1], 0.0), x)
     found[BY_EXPONENT, i] = total
 
 
 @kernel()
-def smooth_trace(table: Any, curve: Curve, trace: Any) -> int:
+def smooth_trace(table: Any, curve: Cosine, trace: Any) -> int:
     """Put the one branch of a smooth punch of b = 1 into the trace; return the number of branches."""
     _, z_in, z_out, _ = smooth.smooth_places(table.k)
     trace[RUN, GAP] = math.inf
@@ -178,7 +178,7 @@ def beside(table: Any, sense: Any, stretch: float, wavelength: float, amplitude:
 @kernel()
 def put_forces(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     beside: Any,
     unit: float,
     wavelength: float,
@@ -209,7 +209,7 @@ def put_forces(
 @kernel()
 def put_energy(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     beside: Any,
     scale: float,
     count: int,

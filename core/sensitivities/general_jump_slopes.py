@@ -16,7 +16,7 @@ import math
 from typing import Any, Final, TypeAlias
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.general import Basis, Curve, coordinate, state
+from gradhesion.core.curve.general import Basis, Series, coordinate, state
 from gradhesion.core.curve.general_energy import Left, place_left
 from gradhesion.core.curve.panels import (
     INNER_PLACES,
@@ -45,7 +45,7 @@ NOTHING: Final = (0.0, 0.0, 0.0, 0.0)
 
 @kernel(contract=True)
 def _terms(
-    basis: Basis, curve: Curve, change: Change, x: float, whole: float
+    basis: Basis, curve: Series, change: Change, x: float, whole: float
 ) -> tuple[float, float, float, float, float, float, float, float]:
     """Return z^c, beta z^(1+k), ln z, the waves of depth and load, B z^m, and how depth and load change with k.
 
@@ -67,7 +67,7 @@ def _terms(
 
 
 @kernel(contract=True)
-def parts_of(basis: Basis, curve: Curve, change: Change, x: float, whole: float) -> Parts:
+def parts_of(basis: Basis, curve: Series, change: Change, x: float, whole: float) -> Parts:
     """Return the parts of the coordinate at whole + x > 0."""
     _, m, _, alpha, _ = curve
     stretch, front, _, wave0, wave1, bend, by_depth, by_load = _terms(basis, curve, change, x, whole)
@@ -82,7 +82,7 @@ def parts_of(basis: Basis, curve: Curve, change: Change, x: float, whole: float)
 
 @kernel(contract=True)
 def _slopes_of_rise(
-    basis: Basis, curve: Curve, change: Change, left: Left, more: Parts, held: float, x: float, whole: float
+    basis: Basis, curve: Series, change: Change, left: Left, more: Parts, held: float, x: float, whole: float
 ) -> tuple[float, float, float, float, float, float]:
     """Return u and its slopes by ln B, ln g, the share, k and Y_j.
 
@@ -120,7 +120,7 @@ def _slopes_of_rise(
 @kernel(contract=True)
 def drop_slopes(
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     change: Change,
     jump: Jump,
     low: float,
@@ -156,7 +156,7 @@ def drop_slopes(
 
 @kernel(contract=True)
 def _slopes_from_zero(
-    basis: Basis, curve: Curve, change: Change, parts: Parts, x: float, level: float, weight: float, total: Any
+    basis: Basis, curve: Series, change: Change, parts: Parts, x: float, level: float, weight: float, total: Any
 ) -> None:
     """Add the slopes at one radius of a jump from or to zero contact."""
     _, m, _, alpha, _ = curve
@@ -177,7 +177,7 @@ def _slopes_from_zero(
 
 @kernel()
 def add_from_zero(
-    basis: Basis, curve: Curve, change: Change, parts: Parts, x: float, level: float, sign: float, total: Any
+    basis: Basis, curve: Series, change: Change, parts: Parts, x: float, level: float, sign: float, total: Any
 ) -> None:
     """Add `sign` times the slopes of a jump at Y = level from zero contact to x; those of the level are `parts`.
 
@@ -200,7 +200,7 @@ def add_from_zero(
 
 
 @kernel()
-def jump_from(basis: Basis, curve: Curve, change: Change, start: float, whole: float) -> Jump:
+def jump_from(basis: Basis, curve: Series, change: Change, start: float, whole: float) -> Jump:
     """Return the jump that leaves the curve at whole + start."""
     _, _, _, held = parts_of(basis, curve, change, start, whole)
     return place_left(basis, curve, start, whole, 0.0), NOTHING, held
@@ -208,7 +208,7 @@ def jump_from(basis: Basis, curve: Curve, change: Change, start: float, whole: f
 
 @kernel()
 def add_drop(
-    basis: Basis, curve: Curve, change: Change, start: float, waves: float, end: float, sign: float, total: Any
+    basis: Basis, curve: Series, change: Change, start: float, waves: float, end: float, sign: float, total: Any
 ) -> None:
     """Add `sign` times the slopes of a jump between waves + start, which it leaves, and waves + end."""
     jump = jump_from(basis, curve, change, start, waves)
@@ -216,7 +216,7 @@ def add_drop(
 
 
 @kernel()
-def rise_to(basis: Basis, curve: Curve, change: Change, start: float, waves: float, end: float) -> float:
+def rise_to(basis: Basis, curve: Series, change: Change, start: float, waves: float, end: float) -> float:
     """Return u = rho - 1 at waves + end of a jump that leaves the curve at waves + start."""
     left, more, held = jump_from(basis, curve, change, start, waves)
     u, _, _, _, _, _ = _slopes_of_rise(basis, curve, change, left, more, held, end, waves)
@@ -224,7 +224,7 @@ def rise_to(basis: Basis, curve: Curve, change: Change, start: float, waves: flo
 
 
 @kernel()
-def rim_slope_of(basis: Basis, curve: Curve, level: float, x: float, whole: float = 0.0) -> float:
+def rim_slope_of(basis: Basis, curve: Series, level: float, x: float, whole: float = 0.0) -> float:
     """Return z^2 (1 - rho^2), the slope by ln x of the energy of a jump at Y = level that ends at x, on no branch."""
     _, _, _, alpha, beta = curve
     z, stretch, front, _, _ = state(basis, curve, x, whole)

@@ -18,7 +18,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.general import Basis, Curve, coordinate, slope, state
+from gradhesion.core.curve.general import Basis, Series, coordinate, slope, state
 from gradhesion.core.path.pieces import NOTED_DOWN, NOTED_JUMP, NOTED_OUT, NOTED_UP
 from gradhesion.core.problem.results import RADIUS
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
@@ -105,12 +105,12 @@ def _put(own: Any, row: int, unit: float, half: float, unit_by_k: float, by: Any
 
 
 @kernel()
-def _put_depth(basis: Basis, curve: Curve, own: Any, unit: float, x: float, i: int) -> None:
+def _put_depth(basis: Basis, curve: Series, own: Any, unit: float, x: float, i: int) -> None:
     """Store the slopes of the depth at a rim, in R: where cycles turn at a depth, they say how the place moves."""
     change, (k, m), changes, _, found, _, _ = own
     B, _, g, _, _ = curve
     c = 0.5 * (1.0 - k)
-    held = (B, m, g, 1.0, 0.0)
+    held = Series(B, m, g, 1.0, 0.0)
     z, _, _, depth, _ = state(basis, curve, x)
     bend, gain, _, by_k = parts_of(basis, held, change, x, 0.0)
     steepness, _, _ = slope(basis, held, x)
@@ -125,7 +125,7 @@ def _put_depth(basis: Basis, curve: Curve, own: Any, unit: float, x: float, i: i
 @kernel()
 def put_rest(
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     own: Any,
     unit: float,
     wavelength: float,
@@ -141,7 +141,7 @@ def put_rest(
     """
     change, (k, _), changes, size, found, (force_too, _, turned), wavy = own
     B, m, g, _, _ = curve
-    pulled = (B, m, g, 0.0, 1.0)
+    pulled = Series(B, m, g, 0.0, 1.0)
     by = np.zeros(5)
     for i in range(rims.size):
         if status[i] & NO_VALUE or not force_too:
@@ -174,7 +174,7 @@ def _put_total(own: Any, total: Any, by_rim: float, energy: float, i: int) -> No
 
 
 @kernel()
-def slopes_of(basis: Basis, curve: Curve, own: Any, count: int, trace: Any) -> Any:
+def slopes_of(basis: Basis, curve: Series, own: Any, count: int, trace: Any) -> Any:
     """Return the slopes that go with a trace, those of loading filled in, if they are asked for."""
     slopes = slopes_for(trace)
     if senses_energy(own):
@@ -184,7 +184,7 @@ def slopes_of(basis: Basis, curve: Curve, own: Any, count: int, trace: Any) -> A
 
 @kernel()
 def put_energy(
-    basis: Basis, curve: Curve, own: Any, count: int, trace: Any, slopes: Any, x: float, energy: float, i: int
+    basis: Basis, curve: Series, own: Any, count: int, trace: Any, slopes: Any, x: float, energy: float, i: int
 ) -> None:
     """Store the sensitivities of the reduced energy of a rim, read off the trace that the energy was read off."""
     if not senses_energy(own):
@@ -197,7 +197,7 @@ def put_energy(
 
 @kernel()
 def put_noted(
-    basis: Basis, curve: Curve, own: Any, cut: float, notes: Any, x: float, whole: float, energy: float, i: int
+    basis: Basis, curve: Series, own: Any, cut: float, notes: Any, x: float, whole: float, energy: float, i: int
 ) -> None:
     """Store the sensitivities of the reduced energy of a long cycle from the notes of its jumps (path/pieces.py)."""
     if not senses_energy(own):

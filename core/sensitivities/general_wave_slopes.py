@@ -11,7 +11,7 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.branches import END, START
-from gradhesion.core.curve.general import Basis, Curve, coordinate
+from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL
 from gradhesion.core.curve.general_energy import find_landing, place_left
 from gradhesion.core.sensitivities.general_jump_slopes import (
@@ -58,7 +58,7 @@ _TOP: Final = 64
 def slopes_of_step(
     kind: int,
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     change: Change,
     cut: float,
     jump: Jump,
@@ -103,7 +103,7 @@ def slopes_of_step(
 def _integrals_of_run(
     kind: int,
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     change: Change,
     cut: float,
     jump: Jump,
@@ -180,7 +180,7 @@ def _integrals_of_run(
 def _add_ends(
     kind: int,
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     change: Change,
     cut: float,
     jump: Jump,
@@ -210,7 +210,7 @@ def _add_ends(
 def add_waves(
     kind: int,
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     change: Change,
     cut: float,
     jump: Jump,
@@ -264,7 +264,7 @@ def add_waves(
 @kernel()
 def _add_passage(
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     change: Change,
     jump: Jump,
     low: float,
@@ -285,7 +285,7 @@ def _add_passage(
 
 
 @kernel()
-def add_jump(basis: Basis, curve: Curve, change: Change, start: float, end: float, whole: float, total: Any) -> None:
+def add_jump(basis: Basis, curve: Series, change: Change, start: float, end: float, whole: float, total: Any) -> None:
     """Add the slopes of a jump that leaves the curve at whole + start and ends at whole + end > 0."""
     _, _, series = basis
     sign = 1.0 if end > start else -1.0
@@ -302,7 +302,7 @@ def add_jump(basis: Basis, curve: Curve, change: Change, start: float, end: floa
 
 @kernel()
 def add_jump_from_zero(
-    basis: Basis, curve: Curve, change: Change, x: float, whole: float, inwards: bool, total: Any
+    basis: Basis, curve: Series, change: Change, x: float, whole: float, inwards: bool, total: Any
 ) -> None:
     """Add the slopes of the jump-out from whole + x (inwards), 0 under a dead load, or of the jump-in that ends there.
 

@@ -17,7 +17,7 @@ that depth alone; of a general curve (sensitivities/general_jump_slopes.py) also
 from typing import Any, Final
 
 from gradhesion.core.compiler.jit import YES, kernel
-from gradhesion.core.curve.cosine import Curve, depth, wave
+from gradhesion.core.curve.cosine import Cosine, depth, wave
 from gradhesion.core.curve.cosine_energy import (
     LONG,
     NODES,
@@ -41,7 +41,7 @@ _POWER_TERMS: Final = 12
 
 @kernel(contract=True)
 def _panel_below(
-    table: Any, curve: Curve, start: float, left: Any, begin: float, width: float, nodes: Any, weights: Any
+    table: Any, curve: Cosine, start: float, left: Any, begin: float, width: float, nodes: Any, weights: Any
 ) -> tuple[float, float, float]:
     """Integrate -2 z rho d rho over one panel of the x axis, per unit of x, by b, g and the depth."""
     b, g, lag = curve
@@ -60,7 +60,7 @@ def _panel_below(
 
 @kernel(contract=True)
 def panel_slopes_above(
-    table: Any, curve: Curve, whole: float, start: float, left: Any, begin: float, width: float, work: Any
+    table: Any, curve: Cosine, whole: float, start: float, left: Any, begin: float, width: float, work: Any
 ) -> tuple[float, float, float]:
     """Do the same where all z >= 40, at places `whole` + x, as `panel_above` of curve/cosine_energy.py."""
     b, g, _ = curve
@@ -104,7 +104,7 @@ def panel_slopes_above(
 
 
 @kernel(contract=True)
-def _slopes_from_zero(table: Any, curve: Curve, x: float, depth: float) -> tuple[float, float, float]:
+def _slopes_from_zero(table: Any, curve: Cosine, x: float, depth: float) -> tuple[float, float, float]:
     """Return the slopes of `energy_from_zero` by b and g at a fixed depth, and by the depth."""
     b, g, lag = curve
     k = table.k
@@ -124,20 +124,20 @@ def energies_nearby(near: Any, start: float, end: float, work: Any) -> float:
     tables, curves, weights = near
     total = 0.0
     for j in range(weights.size):
-        curve = (curves[j, 0], curves[j, 1], 0.0)
+        curve = Cosine(curves[j, 0], curves[j, 1], 0.0)
         total += weights[j] * jump_energy(tables[j], curve, start, end, work)
     return total
 
 
 @kernel()
-def add_slopes_to_zero(table: Any, curve: Curve, near: Any, x: float, inwards: bool, total: Any) -> None:
+def add_slopes_to_zero(table: Any, curve: Cosine, near: Any, x: float, inwards: bool, total: Any) -> None:
     """Add the slopes of the jump-out from x at the depth there (inwards), or of the jump-in to x at the depth 0."""
     tables, curves, weights = near
     level = depth(table, curve, x) if inwards else 0.0
     by_bend, by_gain, by_depth = _slopes_from_zero(table, curve, x, level)
     sign = 1.0
     if inwards:
-        z, _, s0, _, _, _, _ = wave(table, curve[2], x)
+        z, _, s0, _, _, _, _ = wave(table, curve.lag, x)
         by_bend += by_depth * 0.5 * z * z
         by_gain += by_depth * z * s0
         sign = -1.0
@@ -145,13 +145,13 @@ def add_slopes_to_zero(table: Any, curve: Curve, near: Any, x: float, inwards: b
     total[GAIN] += sign * by_gain
     total[DEPTH] += sign * by_depth
     for j in range(weights.size):
-        other = (curves[j, 0], curves[j, 1], 0.0)
+        other = Cosine(curves[j, 0], curves[j, 1], 0.0)
         level = depth(tables[j], other, x) if inwards else 0.0
         total[EXPONENT] += sign * weights[j] * energy_from_zero(tables[j], other, x, level)
 
 
 @kernel(contract=True)
-def add_slopes(table: Any, curve: Curve, near: Any, start: float, end: float, work: Any, total: Any) -> None:
+def add_slopes(table: Any, curve: Cosine, near: Any, start: float, end: float, work: Any, total: Any) -> None:
     """Add the slopes of a jump that leaves the curve at x = start and ends at x = end; `work` holds 48 floats."""
     b, g, lag = curve
     if end == 0.0:  # k = 1: the contact shrinks to a point
@@ -194,7 +194,7 @@ def add_slopes(table: Any, curve: Curve, near: Any, start: float, end: float, wo
 
 
 @kernel()
-def rim_slope(table: Any, curve: Curve, level: float, x: float) -> float:
+def rim_slope(table: Any, curve: Cosine, level: float, x: float) -> float:
     """Return z (1 - rho^2) z, the slope by ln x of the energy of a jump at a depth that ends at x, on no branch."""
     b, g, lag = curve
     z, power, s0, _, _, _, _ = wave(table, lag, x)

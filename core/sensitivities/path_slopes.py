@@ -4,7 +4,7 @@ Slopes are kept with the branches, as a trace keeps losses: those of loading up 
 those of unloading from the start of a branch to the end of contact. So all rims of a curve share them. One row more
 than the slopes tells whether those of unloading are there.
 
-The curve is one of one cosine, or a general one, as in path/passage.py; only a trace of the former may have a gap.
+The curve is any whose kind answers about its sensitivities (core/face.py).
 """
 
 import math
@@ -13,12 +13,10 @@ from typing import Any
 import numpy as np
 
 from gradhesion.core.compiler.jit import NO, YES, kernel
-from gradhesion.core.curve import general
 from gradhesion.core.curve.branches import (
     ARRIVAL,
     END,
     END_DEPTH,
-    GAP,
     LANDING,
     NEXT,
     NOWHERE,
@@ -31,17 +29,21 @@ from gradhesion.core.curve.branches import (
     RUN_LOWEST,
     START,
     UNLOADING_JUMPS,
-    ends,
-    find_depth,
 )
-from gradhesion.core.curve.cosine import Curve, slope
+from gradhesion.core.face import (
+    add_slopes,
+    add_slopes_of_waves,
+    add_slopes_to_zero,
+    find_place,
+    gap_in,
+    rim_slope,
+    start_of_wave,
+    steepness_at,
+)
 from gradhesion.core.path.unloading import descend, leave_rim, next_lower
-from gradhesion.core.sensitivities.general_jump_slopes import rim_slope_of
-from gradhesion.core.sensitivities.general_wave_slopes import add_jump, add_jump_from_zero
-from gradhesion.core.sensitivities.jump_slopes import DEPTH, SLOPES, add_slopes, add_slopes_to_zero, rim_slope
-from gradhesion.core.sensitivities.wave_slopes import ROOM, add_slopes_of_waves
+from gradhesion.core.sensitivities.jump_slopes import DEPTH, SLOPES
+from gradhesion.core.sensitivities.wave_slopes import ROOM
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.waves.cosine import branch_of_wave
 
 LOADED, UNLOADED, KNOWN = 0, SLOPES, 2 * SLOPES
 ROWS = 2 * SLOPES + 1
@@ -57,39 +59,12 @@ def slopes_for(trace: Any) -> Any:
 
 
 @kernel()
-def _between(table: Any, curve: Any, near: Any, start: float, end: float, work: Any, total: Any) -> None:
-    """Add a jump that leaves the curve at `start` and ends at `end`."""
-    if len(curve) == 3:
-        add_slopes(table, curve, near, start, end, work, total)
-    else:
-        add_jump(table, curve, near, start, end, 0.0, total)
-
-
-@kernel()
-def _zero(table: Any, curve: Any, near: Any, x: float, inwards: bool, total: Any) -> None:
-    """Add the jump-out from x (inwards), or the jump-in to x."""
-    if len(curve) == 3:
-        add_slopes_to_zero(table, curve, near, x, inwards, total)
-    else:
-        add_jump_from_zero(table, curve, near, x, 0.0, inwards, total)
-
-
-@kernel()
 def _enter(table: Any, curve: Any, near: Any, now: int, left: float, x: float, work: Any, total: Any) -> None:
     """Add a jump of loading, from zero contact if it is on no branch yet."""
     if now < 0:
-        _zero(table, curve, near, x, NO, total)
+        add_slopes_to_zero(table, curve, near, x, NO, total)
     else:
-        _between(table, curve, near, left, x, work, total)
-
-
-@kernel()
-def _gap(curve: Any, trace: Any) -> float:
-    """Return the branch before which a trace has a gap, inf without one."""
-    if len(curve) == 3:
-        gap: float = trace[RUN, GAP]
-        return gap
-    return math.inf
+        add_slopes(table, curve, near, left, x, work, total)
 
 
 @kernel()
@@ -101,8 +76,8 @@ def _enter_through(
     if trace[RUN, RUN_LAST] >= trace[RUN, RUN_FIRST]:
         if trace[RUN, RUN_LANDING] > 0.0:
             _enter(table, curve, near, now, left, trace[RUN, RUN_LANDING], work, total)
-        first, last = trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST]
-        add_slopes_of_waves(table, curve, near, first, last, YES, final, work, total)
+        waves = trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST]
+        add_slopes_of_waves(table, curve, near, waves, YES, final, work, total)
     else:
         _enter(table, curve, near, now, left, arrival, work, total)
 
@@ -112,14 +87,13 @@ def fill_loading(table: Any, curve: Any, near: Any, count: int, trace: Any, fina
     """Put the slopes of loading to where it arrives on each branch into their rows."""
     work, total = slopes[ROWS], slopes[ROWS + 1, :SLOPES]
     total[:] = 0.0
-    now, gap = NOWHERE, _gap(curve, trace)
+    now, gap = NOWHERE, gap_in(curve, trace)
     for branch in range(count):
         if trace[ARRIVAL, branch] == math.inf:
             continue
         left = trace[END, now] if now >= 0 else 0.0
         if now < gap and branch == gap:
-            if len(curve) == 3:
-                _enter_through(table, curve, near, now, left, trace[ARRIVAL, branch], trace, final, slopes)
+            _enter_through(table, curve, near, now, left, trace[ARRIVAL, branch], trace, final, slopes)
         else:
             _enter(table, curve, near, now, left, trace[ARRIVAL, branch], work, total)
         slopes[LOADED : LOADED + SLOPES, branch] = total
@@ -140,9 +114,7 @@ def add_loading(
     if left >= rim:
         return 0.0
     _enter(table, curve, near, now, left, rim, slopes[ROWS], total)
-    if len(curve) == 3:
-        return rim_slope(table, curve, level, rim)
-    return rim_slope_of(table, curve, level, rim)
+    return float(rim_slope(table, curve, level, rim))
 
 
 @kernel()
@@ -153,16 +125,16 @@ def _leave(table: Any, curve: Any, near: Any, trace: Any, now: int, slopes: Any)
     if trace[START, now] > 0.0:
         lower = int(trace[NEXT, now])
         if lower < 0:
-            _zero(table, curve, near, trace[START, now], YES, total)
+            add_slopes_to_zero(table, curve, near, trace[START, now], YES, total)
         else:
-            _between(table, curve, near, trace[START, now], trace[LANDING, now], work, total)
+            add_slopes(table, curve, near, trace[START, now], trace[LANDING, now], work, total)
             total += slopes[UNLOADED : UNLOADED + SLOPES, lower]
     slopes[UNLOADED : UNLOADED + SLOPES, now] = total
     slopes[KNOWN, now] = 1.0
 
 
 @kernel()
-def _leave_through(table: Any, curve: Curve, near: Any, trace: Any, gap: int, final: float, slopes: Any) -> None:
+def _leave_through(table: Any, curve: Any, near: Any, trace: Any, gap: int, final: float, slopes: Any) -> None:
     """Do the same for the first branch after a gap, from which unloading goes on into the gap."""
     before, after, lowest = trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER], trace[RUN, RUN_LOWEST]
     total, work = slopes[ROWS + 1, :SLOPES], slopes[ROWS]
@@ -170,38 +142,27 @@ def _leave_through(table: Any, curve: Curve, near: Any, trace: Any, gap: int, fi
         total[:] = slopes[UNLOADED : UNLOADED + SLOPES, gap - 1]
     else:
         total[:] = 0.0
-        start, level, _, _ = branch_of_wave(table, curve, lowest)
+        start, level = start_of_wave(table, curve, lowest)
         lower = next_lower(trace, gap - 1, level)
         if lower >= 0:
-            landing = find_depth(table, curve, level, ends(trace, lower))
+            landing = find_place(table, curve, level, trace, lower)
             add_slopes(table, curve, near, start, landing, work, total)
             total += slopes[UNLOADED : UNLOADED + SLOPES, lower]
         else:
             add_slopes_to_zero(table, curve, near, start, YES, total)
-    add_slopes_of_waves(table, curve, near, lowest + 1.0, after, NO, final, work, total)
+    add_slopes_of_waves(table, curve, near, (lowest + 1.0, after), NO, final, work, total)
     slopes[UNLOADED : UNLOADED + SLOPES, gap] = total
     slopes[KNOWN, gap] = 1.0
 
 
 @kernel()
-def _steepness(table: Any, curve: Any, x: float) -> float:
-    """Return the slope of what is prescribed by z."""
-    if len(curve) == 3:
-        steepness, _, _, _ = slope(table, curve, 0.5 * (1.0 - table.k), x)
-        return float(steepness)
-    _, _, rate = general.slope(table, curve, x)
-    return float(rate)
-
-
-@kernel()
 def fill_unloading(table: Any, curve: Any, near: Any, count: int, trace: Any, final: float, slopes: Any) -> None:
     """Put the slopes of unloading from the start of each branch that it has visited into their rows."""
-    gap = _gap(curve, trace)
+    gap = gap_in(curve, trace)
     for branch in range(count):
         if trace[UNLOADING_JUMPS, branch] >= 0.0 and slopes[KNOWN, branch] == 0.0:
             if branch == gap and trace[RUN, RUN_LOWEST] != trace[RUN, RUN_AFTER]:
-                if len(curve) == 3:
-                    _leave_through(table, curve, near, trace, branch, final, slopes)
+                _leave_through(table, curve, near, trace, branch, final, slopes)
             else:
                 _leave(table, curve, near, trace, branch, slopes)
 
@@ -229,13 +190,13 @@ def add_unloading(
         return 0.0
     before = total[DEPTH]
     if now < 0:
-        _zero(table, curve, near, rim, YES, total)
+        add_slopes_to_zero(table, curve, near, rim, YES, total)
     else:
-        _between(table, curve, near, rim, landing, slopes[ROWS], total)
+        add_slopes(table, curve, near, rim, landing, slopes[ROWS], total)
     by_depth = total[DEPTH] - before
     if now >= 0:
         total += slopes[UNLOADED : UNLOADED + SLOPES, now]
-    return float(by_depth * _steepness(table, curve, rim) * TWO_PI * rim)
+    return float(by_depth * steepness_at(table, curve, rim) * TWO_PI * rim)
 
 
 @kernel()

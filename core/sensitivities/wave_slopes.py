@@ -8,7 +8,7 @@ import math
 from typing import Any, Final
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.cosine import Curve
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import LONG, NODES, SHORT_NODES, SHORT_WEIGHTS, WEIGHTS, panel_above
 from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, EXPONENT, GAIN, SLOPES, panel_slopes_above
 from gradhesion.core.struve.circle import TWO_PI
@@ -37,7 +37,7 @@ ROOM: Final = 112
 
 
 @kernel()
-def slopes_of_wave(table: Any, curve: Curve, near: Any, wave: float, outwards: bool, work: Any, found: Any) -> None:
+def slopes_of_wave(table: Any, curve: Cosine, near: Any, wave: float, outwards: bool, work: Any, found: Any) -> None:
     """Put the slopes of the jump from a wave to the next one, as waves/cosine.py finds it, into `found`."""
     tables, curves, weights = near
     whole = wave - 2.0
@@ -57,7 +57,7 @@ def slopes_of_wave(table: Any, curve: Curve, near: Any, wave: float, outwards: b
         found[GAIN] += sign * gain
         found[DEPTH] += sign * level
     for j in range(weights.size):
-        other = (curves[j, 0], curves[j, 1], 0.0)
+        other = Cosine(curves[j, 0], curves[j, 1], 0.0)
         _, _, _, z, height, stretch = _slope(tables[j], other, whole, start)
         left = (z, height, stretch)
         for i in range(panels):
@@ -67,7 +67,7 @@ def slopes_of_wave(table: Any, curve: Curve, near: Any, wave: float, outwards: b
 
 @kernel()
 def _add_outer_part(
-    table: Any, curve: Curve, near: Any, begin: float, end: float, outer: float, outwards: bool, work: Any, total: Any
+    table: Any, curve: Cosine, near: Any, begin: float, end: float, outer: float, outwards: bool, work: Any, total: Any
 ) -> None:
     """Add the integral in y."""
     found = work[_SAMPLES + 2 * _EDGE * SLOPES : _SAMPLES + (2 * _EDGE + 1) * SLOPES]
@@ -82,7 +82,7 @@ def _add_outer_part(
 
 @kernel()
 def _add_inner_part(
-    table: Any, curve: Curve, near: Any, begin: float, end: float, inner: float, outwards: bool, work: Any, total: Any
+    table: Any, curve: Cosine, near: Any, begin: float, end: float, inner: float, outwards: bool, work: Any, total: Any
 ) -> None:
     """Add the integral in v."""
     found = work[_SAMPLES + 2 * _EDGE * SLOPES : _SAMPLES + (2 * _EDGE + 1) * SLOPES]
@@ -96,7 +96,7 @@ def _add_inner_part(
 
 @kernel()
 def _add_integral(
-    table: Any, curve: Curve, near: Any, begin: float, end: float, points: Any, outwards: bool, work: Any, total: Any
+    table: Any, curve: Cosine, near: Any, begin: float, end: float, points: Any, outwards: bool, work: Any, total: Any
 ) -> None:
     """Add the integral over the index of the wave."""
     inner, outer = points
@@ -112,9 +112,17 @@ def _add_integral(
 
 @kernel()
 def add_slopes_of_waves(
-    table: Any, curve: Curve, near: Any, first: float, last: float, outwards: bool, final: float, work: Any, total: Any
+    table: Any,
+    curve: Cosine,
+    near: Any,
+    waves: tuple[float, float],
+    outwards: bool,
+    final: float,
+    work: Any,
+    total: Any,
 ) -> None:
-    """Add the slopes of what the jumps from the waves `first` to `last` lose, as `sum_of_waves` of cosine_sum.py."""
+    """Add the slopes of what the jumps from the first to the last of some waves lose, as `sum_of_waves` does."""
+    first, last = waves
     found = work[_SAMPLES + 2 * _EDGE * SLOPES : _SAMPLES + (2 * _EDGE + 1) * SLOPES]
     points = branch_points(table, curve, final, outwards)
     if last - first > _EVEN:

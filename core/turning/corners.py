@@ -13,7 +13,7 @@ from gradhesion.core.compiler.jit import NO, NONE, constant, kernel
 from gradhesion.core.curve.arches import folds_between
 from gradhesion.core.curve.branches import ARRIVAL, END
 from gradhesion.core.curve.cosine_folds import CLOSE
-from gradhesion.core.curve.general import Basis, Curve, coordinate, size
+from gradhesion.core.curve.general import Basis, Series, coordinate, size
 from gradhesion.core.curve.general_branches import find_level
 from gradhesion.core.curve.general_folds import find_folds
 from gradhesion.core.curve.window import last_fold_bound
@@ -31,14 +31,16 @@ passed the target."""
 
 
 @kernel()
-def measured_by(curve: Curve, by_load: bool) -> Curve:
+def measured_by(curve: Series, by_load: bool) -> Series:
     """Return the curve whose coordinate is the load, or the depth."""
     B, m, g, _, _ = curve
-    return (B, m, g, 0.0, 1.0) if by_load else (B, m, g, 1.0, 0.0)
+    return Series(B, m, g, 0.0, 1.0) if by_load else Series(B, m, g, 1.0, 0.0)
 
 
 @kernel()
-def _put(basis: Basis, measured: Curve, corners: Any, count: int, x: float, kind: int, whole: float) -> tuple[Any, int]:
+def _put(
+    basis: Basis, measured: Series, corners: Any, count: int, x: float, kind: int, whole: float
+) -> tuple[Any, int]:
     """Append a corner; return the corners, moved where there was no room, and their number."""
     if count == corners.shape[1]:
         more = np.empty((ROWS, 2 * count))
@@ -51,7 +53,7 @@ def _put(basis: Basis, measured: Curve, corners: Any, count: int, x: float, kind
 
 @kernel()
 def append_corners(
-    basis: Basis, curve: Curve, by_load: bool, way: tuple[float, float, bool], room: Any, corners: Any, count: int
+    basis: Basis, curve: Series, by_load: bool, way: tuple[float, float, bool], room: Any, corners: Any, count: int
 ) -> tuple[Any, int]:
     """Append the corners of what loading passes of one branch.
 
@@ -88,7 +90,7 @@ def append_corners(
 
 @kernel()
 def corners_of(
-    basis: Basis, curve: Curve, by_load: bool, branches: int, trace: Any, furthest: float, room: Any
+    basis: Basis, curve: Series, by_load: bool, branches: int, trace: Any, furthest: float, room: Any
 ) -> tuple[Any, int]:
     """Return the corners of all that loading visits up to x = `furthest`, and their number."""
     corners, count = np.empty((ROWS, 2 * branches + 16)), NONE
@@ -102,7 +104,7 @@ def corners_of(
 
 @kernel()
 def first_reached(
-    basis: Basis, curve: Curve, by_load: bool, corners: Any, count: int, target: float, whole: float
+    basis: Basis, curve: Series, by_load: bool, corners: Any, count: int, target: float, whole: float
 ) -> Found:
     """Return where loading first reaches a target on the way through some corners."""
     measured = measured_by(curve, by_load)

@@ -14,7 +14,7 @@ from gradhesion.core.closed import smooth
 from gradhesion.core.compiler.jit import NO, NONE, ONE, YES, kernel
 from gradhesion.core.contact.cosine_disc import ALWAYS_ONE, least_opening
 from gradhesion.core.curve.branches import END, END_DEPTH, GAP, RUN, START, START_DEPTH, VALUES, WORK, ends, find_depth
-from gradhesion.core.curve.cosine import Curve, curve_of, depth, force_unit
+from gradhesion.core.curve.cosine import Cosine, curve_of, depth, force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.path.cosine import (
     LARGEST,
@@ -61,7 +61,7 @@ def _is_vague(table: Any, arches: tuple[float, float], reach: float) -> bool:
 
 
 @kernel()
-def _is_one_disc(table: Any, curve: Curve, count: int, trace: Any, long: bool, x: float, rim: float) -> bool:
+def _is_one_disc(table: Any, curve: Cosine, count: int, trace: Any, long: bool, x: float, rim: float) -> bool:
     """Return whether the contact that turns at x is one disc, out to the rim of the punch."""
     _, g, _ = curve
     if g * table.amplitude <= ALWAYS_ONE:
@@ -132,7 +132,7 @@ def _has_value(rim: float, target: float, by_load: bool) -> bool:
 @kernel()
 def _turn_rim(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     count: int,
     trace: Any,
     peaks: Any,
@@ -169,7 +169,7 @@ def _turn_rim(
 @kernel()
 def _turn_long(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     arches: tuple[float, float],
     inner: float,
     reach: float,
@@ -193,7 +193,7 @@ def _turn_long(
 @kernel()
 def _turn_eight(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     arches: tuple[float, float],
     wavelength: float,
     waiting: tuple[int, Lanes, Lanes],
@@ -244,7 +244,7 @@ def _turn_eight(
 @kernel()
 def _turn_curve(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     arches: tuple[float, float],
     scales: tuple[float, float],
     rims: Any,
@@ -357,7 +357,7 @@ def turn_curves(
         curve, length, unit = curve_of(k, stretch, wavelength[i], amplitude[i] * wavelength[i])
         arches = (0.0, 0.0)
         if not plain:
-            if not (0.0 < curve[0] < LARGEST and curve[1] < LARGEST):
+            if not (0.0 < curve.bend < LARGEST and curve.gain < LARGEST):
                 radii[i, :], flags[i, :] = math.nan, NO_VALUE
                 continue
             arches = extent(table, curve)

@@ -10,7 +10,7 @@ import math
 from typing import Any, Final
 
 from gradhesion.core.compiler.jit import YES, kernel
-from gradhesion.core.curve.cosine import Curve
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.path.cosine import LARGEST
 from gradhesion.core.struve.circle import TWO_PI
 
@@ -54,7 +54,7 @@ def reach(k: float, b: float, pull: float, target: float, by_load: bool, outward
 
 
 @kernel()
-def reach_outwards(table: Any, curve: Curve, target: float, by_load: bool) -> float:
+def reach_outwards(table: Any, curve: Cosine, target: float, by_load: bool) -> float:
     """Return x beyond which the depth (or the load) exceeds a target."""
     b, g, _ = curve
     chi = g * table.amplitude

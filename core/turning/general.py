@@ -10,7 +10,7 @@ from gradhesion.core.contact.general_disc import is_surely_open, least_opening
 from gradhesion.core.curve.branches import END_DEPTH, START, START_DEPTH, ends
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
-from gradhesion.core.curve.general import Basis, Curve, coordinate, curve_of
+from gradhesion.core.curve.general import Basis, Series, coordinate, curve_of
 from gradhesion.core.curve.general_branches import find_level
 from gradhesion.core.curve.general_folds import MOST_CELLS, MOST_FOLDS, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
@@ -31,14 +31,14 @@ _LONGER: Final = 1.5
 
 
 @kernel()
-def _is_first_contact(k: float, curve: Curve, target: float) -> bool:
+def _is_first_contact(k: float, curve: Series, target: float) -> bool:
     """Return whether a depth is that of the first contact, 0, as far as anybody can tell: against that of the punch."""
     B, m, _, _, _ = curve
     return abs(target) <= CLOSE * B ** (-0.5 * (1.0 - k) / (m - 0.5 * (1.0 - k)))
 
 
 @kernel()
-def _is_one_disc(basis: Basis, curve: Curve, count: int, trace: Any, x: float, rim: float) -> bool:
+def _is_one_disc(basis: Basis, curve: Series, count: int, trace: Any, x: float, rim: float) -> bool:
     """Return whether the contact that turns at x is one disc, out to the rim of the punch."""
     level = coordinate(basis, curve, x)
     lowest, end = math.inf, math.inf
@@ -62,7 +62,7 @@ def _is_one_disc(basis: Basis, curve: Curve, count: int, trace: Any, x: float, r
 @kernel()
 def _turn_walked(
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     by_load: bool,
     check: bool,
     bounds: tuple[float, float],
@@ -114,7 +114,7 @@ def _turn_walked(
 @kernel()
 def _turn_one_far(
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     by_load: bool,
     check: bool,
     bounds: tuple[float, float],
@@ -151,7 +151,7 @@ def _turn_one_far(
 @kernel()
 def _turn_curve(
     basis: Basis,
-    curve: Curve,
+    curve: Series,
     unit: float,
     wavelength: float,
     by_load: bool,
@@ -168,7 +168,7 @@ def _turn_curve(
     count = rims.size
     highest = highest_harmonic(series)
     first, last = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
-    measured = (B, m, g, 0.0, 1.0) if by_load else (B, m, g, 1.0, 0.0)
+    measured = Series(B, m, g, 0.0, 1.0) if by_load else Series(B, m, g, 1.0, 0.0)
     edges, reduced, reaches, places = np.empty(count), np.empty(count), np.empty(count), np.empty(count)
     chosen, alone = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
     together, bound = False, 0.0
@@ -272,7 +272,7 @@ def turn_scenes(
         curve, length, unit = curve_of(
             table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
         )
-        if not (valid and 0.0 < curve[0] < math.inf and 0.0 <= curve[2] < math.inf):
+        if not (valid and 0.0 < curve.bend < math.inf and 0.0 <= curve.gain < math.inf):
             radii[i, :], flags[i, :] = math.nan, NO_VALUE
             continue
         if by_load:

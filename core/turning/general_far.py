@@ -7,7 +7,7 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import NO, NONE, YES, kernel
 from gradhesion.core.curve.branches import END, END_DEPTH, ROWS, ends
-from gradhesion.core.curve.general import Basis, Curve
+from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.curve.general_branches import fill_branches, find_level
 from gradhesion.core.curve.general_folds import MOST_FOLDS, find_folds, room
 from gradhesion.core.path.general_long import Middle, first_that_reaches, folds_before, last_of_climb, places_between
@@ -22,7 +22,7 @@ Way: TypeAlias = tuple[bool, float]
 
 @kernel()
 def _turn_on_piece(
-    basis: Basis, curve: Curve, way: Way, count: int, rows: Any, level: float, end: float, search: Any
+    basis: Basis, curve: Series, way: Way, count: int, rows: Any, level: float, end: float, search: Any
 ) -> tuple[Found, float]:
     """Follow loading from a coordinate over some branches; return where it reaches the target, and its last coordinate.
 
@@ -46,7 +46,7 @@ def _turn_on_piece(
 
 
 @kernel()
-def _turn_on_wave(basis: Basis, curve: Curve, way: Way, cut: float, wave: float, work: Any, zeros: Any) -> Found:
+def _turn_on_wave(basis: Basis, curve: Series, way: Way, cut: float, wave: float, work: Any, zeros: Any) -> Found:
     """Return where loading, come from the wave before, reaches the target on a wave."""
     _, _, rows = work
     before = highest_end(rows[0], branches_of_wave(basis, curve, wave - 1.0, cut, work, rows[0]))
@@ -58,7 +58,7 @@ def _turn_on_wave(basis: Basis, curve: Curve, way: Way, cut: float, wave: float,
 
 @kernel()
 def _first_of_waves(
-    basis: Basis, curve: Curve, way: Way, cut: float, low: float, high: float, work: Any, zeros: Any
+    basis: Basis, curve: Series, way: Way, cut: float, low: float, high: float, work: Any, zeros: Any
 ) -> tuple[Found, float]:
     """Return where loading reaches the target on its way from wave to wave, after `low`, up to `high`, and on which.
 
@@ -79,7 +79,7 @@ def _first_of_waves(
 
 @kernel()
 def turn_far(
-    basis: Basis, curve: Curve, way: Way, first: float, middle: Middle, furthest: float
+    basis: Basis, curve: Series, way: Way, first: float, middle: Middle, furthest: float
 ) -> tuple[bool, Found, float]:
     """Return where loading reaches a target on a long curve up to x = `furthest`.
 

@@ -4,7 +4,7 @@ import math
 from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.general import Basis, Curve
+from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.struve.circle import TWO_PI
 
 _WAVES: Final = 1.06
@@ -14,7 +14,7 @@ _HALVINGS: Final = 8
 
 
 @kernel()
-def _envelope(curve: Curve, k: float, pull: float, height: float, z: float) -> float:
+def _envelope(curve: Series, k: float, pull: float, height: float, z: float) -> float:
     """Return about the least that Y can be at z."""
     B, m, _, alpha, beta = curve
     power, front = z ** (0.5 * (1.0 - k)), z ** (1.0 + k)
@@ -24,7 +24,7 @@ def _envelope(curve: Curve, k: float, pull: float, height: float, z: float) -> f
 
 
 @kernel()
-def reach(basis: Basis, curve: Curve, target: float) -> float:
+def reach(basis: Basis, curve: Series, target: float) -> float:
     """Return x from which on the coordinate of a curve exceeds a target, inf if that is beyond all counting.
 
     It is too large by some percent, and not rigorous near zero contact, where the waves have not their far form.

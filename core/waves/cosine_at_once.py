@@ -15,7 +15,7 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.at_once import find_zeros, guess_zeros
-from gradhesion.core.curve.cosine import Curve
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import unit_rule
 from gradhesion.core.curve.cosine_folds import half_wave
 from gradhesion.core.curve.cosine_jump import beyond_from, inverse_stretch
@@ -70,14 +70,14 @@ def _powers_at(table: Any, middle: Middle, x: Lanes) -> tuple[Lanes, Lanes]:
 
 
 @kernel(contract=True, inline=True)
-def _slope(table: Any, curve: Curve, middle: Middle, x: Lanes) -> tuple[Lanes, Lanes, Lanes, Lanes, Lanes, Lanes]:
+def _slope(table: Any, curve: Cosine, middle: Middle, x: Lanes) -> tuple[Lanes, Lanes, Lanes, Lanes, Lanes, Lanes]:
     """Return D at the level of the depth, its first two derivatives, z, z S0 and z^c."""
     z, power = _powers_at(table, middle, x)
     return slope_of(table, curve, x, z, power)
 
 
 @kernel(contract=True, inline=True)
-def _rise(table: Any, curve: Curve, left: Left, step: Lanes, z: Lanes, wave: Lanes) -> Lanes:
+def _rise(table: Any, curve: Cosine, left: Left, step: Lanes, z: Lanes, wave: Lanes) -> Lanes:
     """Return the depth less that of the place that is left, `step` waves further in; `wave` is z S0 here."""
     b, g, _ = curve
     z1, wave1, stretch1 = left
@@ -86,7 +86,7 @@ def _rise(table: Any, curve: Curve, left: Left, step: Lanes, z: Lanes, wave: Lan
 
 
 @kernel(contract=True)
-def _guess(table: Any, curve: Curve, middle: Middle, centre: float, side: float) -> Lanes:
+def _guess(table: Any, curve: Cosine, middle: Middle, centre: float, side: float) -> Lanes:
     """Return about where the branches around a centre end (side = 1) or start (-1), as `_fold` of waves/cosine.py."""
     b, g, _ = curve
     k = table.k
@@ -102,7 +102,7 @@ def _guess(table: Any, curve: Curve, middle: Middle, centre: float, side: float)
 
 @kernel(contract=True)
 def _find_folds(
-    table: Any, curve: Curve, middle: Middle, low: float, high: float, x: Lanes
+    table: Any, curve: Cosine, middle: Middle, low: float, high: float, x: Lanes
 ) -> tuple[Lanes, Lanes, Left, Lanes]:
     """Return the folds between two places (NaN if they take longer), from guesses x.
 
@@ -124,7 +124,7 @@ def _find_folds(
 
 @kernel(contract=True)
 def _land(
-    table: Any, curve: Curve, middle: Middle, start: tuple[Lanes, Lanes, Left, Lanes], centre: float, side: float
+    table: Any, curve: Cosine, middle: Middle, start: tuple[Lanes, Lanes, Left, Lanes], centre: float, side: float
 ) -> Lanes:
     """Return where the branches around a centre meet the depth of the folds that are left, NaN where that takes longer.
 
@@ -167,7 +167,7 @@ def _land(
 @kernel(contract=True)
 def _by_nodes(
     table: Any,
-    curve: Curve,
+    curve: Cosine,
     middle: Middle,
     start: tuple[Lanes, Lanes, Left, Lanes],
     landing: Lanes,
@@ -207,7 +207,7 @@ def _by_nodes(
 
 
 @kernel(contract=True)
-def folds_at_once(table: Any, curve: Curve, waves: Lanes, signs: Lanes) -> tuple[Lanes, Lanes]:
+def folds_at_once(table: Any, curve: Cosine, waves: Lanes, signs: Lanes) -> tuple[Lanes, Lanes]:
     """Return the places in waves where branches start (sign 1) or end (-1), and the depths there.
 
     They are those of `fold_of_wave`, for waves whose phase a float tells with their place; NaN where that takes longer.
@@ -218,7 +218,7 @@ def folds_at_once(table: Any, curve: Curve, waves: Lanes, signs: Lanes) -> tuple
 
 
 @kernel(contract=True)
-def jumps_at_once(table: Any, curve: Curve, waves: Lanes, outwards: bool) -> Lanes:
+def jumps_at_once(table: Any, curve: Cosine, waves: Lanes, outwards: bool) -> Lanes:
     """Return what the jumps of eight waves to the next ones lose, NaN where that takes longer.
 
     Outwards each leaves the end of its wave's branch, inwards the start. Waves are real numbers from FIRST on.
@@ -244,7 +244,7 @@ def jumps_at_once(table: Any, curve: Curve, waves: Lanes, outwards: bool) -> Lan
 
 
 @kernel()
-def jumps_of_batch(table: Any, curve: Curve, outwards: bool, room: Any) -> None:
+def jumps_of_batch(table: Any, curve: Cosine, outwards: bool, room: Any) -> None:
     """Put what the jumps of a batch of waves to their next ones lose into its room."""
     for first in range(0, BATCH, LANES):
         store(room, LOSSES + first, jumps_at_once(table, curve, load(room, WAVES + first), outwards))
@@ -254,7 +254,7 @@ def jumps_of_batch(table: Any, curve: Curve, outwards: bool, room: Any) -> None:
 
 
 @kernel()
-def jumps_in_a_row(table: Any, curve: Curve, first: float, last: float, outwards: bool, room: Any) -> None:
+def jumps_in_a_row(table: Any, curve: Cosine, first: float, last: float, outwards: bool, room: Any) -> None:
     """Do the same for the waves from `first` on; where `last` comes before the end of the batch, it fills the rest."""
     for i in range(BATCH):
         room[WAVES + i] = min(first + i, last)

@@ -20,7 +20,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.cosine import Curve
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.struve.chebyshev import chebyshev_fit
 from gradhesion.core.struve.lanes import chosen, lane_of, load, root_of
 from gradhesion.core.waves.cosine_at_once import BATCH, LOSSES, WAVES, jumps_in_a_row, jumps_of_batch
@@ -72,7 +72,7 @@ def room_for_sums() -> Any:
 
 
 @kernel()
-def begin_sums(table: Any, curve: Curve, sums: Any, first: float, outwards: bool, final: float) -> None:
+def begin_sums(table: Any, curve: Cosine, sums: Any, first: float, outwards: bool, final: float) -> None:
     """Lay the panels of the sums that begin with the jump of wave `first`; `sums` are those of one direction.
 
     There are none where the first wave stands well within the inner branch point (with k next to 1 and waves that are
@@ -145,7 +145,7 @@ def _up_to(head: Any, panel: Any, wave: float) -> float:
 
 
 @kernel()
-def _fill(table: Any, curve: Curve, head: Any, panel: Any, outwards: bool, room: Any) -> None:
+def _fill(table: Any, curve: Cosine, head: Any, panel: Any, outwards: bool, room: Any) -> None:
     """Put the coefficients of the loss and of its integral into a panel."""
     low, high = _variable(head, panel, panel[BEGIN]), _variable(head, panel, panel[END])
     panel[LOW], panel[HIGH] = low, high
@@ -172,7 +172,7 @@ def _fill(table: Any, curve: Curve, head: Any, panel: Any, outwards: bool, room:
 
 
 @kernel()
-def _first_waves(table: Any, curve: Curve, head: Any, count: int, outwards: bool, room: Any) -> float:
+def _first_waves(table: Any, curve: Cosine, head: Any, count: int, outwards: bool, room: Any) -> float:
     """Return the sum over some of the first waves; all of them are found at once."""
     if head[KNOWN] == 0.0 and count > 0:
         first, known = head[FIRST], head[SINGLE]
@@ -188,7 +188,7 @@ def _first_waves(table: Any, curve: Curve, head: Any, count: int, outwards: bool
 
 
 @kernel()
-def sum_up_to(table: Any, curve: Curve, sums: Any, last: float, outwards: bool, final: float, room: Any) -> float:
+def sum_up_to(table: Any, curve: Cosine, sums: Any, last: float, outwards: bool, final: float, room: Any) -> float:
     """Return the sum of what the jumps from the first wave to wave `last` lose.
 
     `last` stands eight waves or more before the outer branch point; `sums` is what `begin_sums` has begun for the

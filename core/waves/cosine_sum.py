@@ -22,7 +22,7 @@ import math
 from typing import Any, Final
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.cosine import Curve
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import NODES, WEIGHTS
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.waves.cosine_at_once import BATCH, LOSSES, WAVES, jumps_in_a_row, jumps_of_batch
@@ -65,7 +65,7 @@ def limit_terms(values: Any) -> float:
 
 
 @kernel()
-def branch_points(table: Any, curve: Curve, final: float, outwards: bool) -> tuple[float, float]:
+def branch_points(table: Any, curve: Cosine, final: float, outwards: bool) -> tuple[float, float]:
     """Return the real indices of waves at which what a jump loses is not smooth, the inner and the outer one.
 
     `final` is the last arch on which the curve can fold, a bound that is one arch and a half too far
@@ -98,7 +98,7 @@ def inner_limits(begin: float, end: float, inner: float) -> tuple[float, float]:
 
 
 @kernel()
-def _outer_part(table: Any, curve: Curve, begin: float, end: float, outer: float, outwards: bool, room: Any) -> float:
+def _outer_part(table: Any, curve: Cosine, begin: float, end: float, outer: float, outwards: bool, room: Any) -> float:
     """Return the integral in y."""
     outer = min(max(outer, end), _REMOTE * end)  # so that 1 - y^2 keeps its digits
     low, width = outer_limits(begin, end, outer)
@@ -114,7 +114,7 @@ def _outer_part(table: Any, curve: Curve, begin: float, end: float, outer: float
 
 
 @kernel()
-def _inner_part(table: Any, curve: Curve, begin: float, end: float, inner: float, outwards: bool, room: Any) -> float:
+def _inner_part(table: Any, curve: Cosine, begin: float, end: float, inner: float, outwards: bool, room: Any) -> float:
     """Return the integral in v."""
     inner = min(inner, begin)
     low, width = inner_limits(begin, end, inner)
@@ -130,7 +130,7 @@ def _inner_part(table: Any, curve: Curve, begin: float, end: float, inner: float
 
 @kernel()
 def _integral(
-    table: Any, curve: Curve, begin: float, end: float, points: tuple[float, float], outwards: bool, room: Any
+    table: Any, curve: Cosine, begin: float, end: float, points: tuple[float, float], outwards: bool, room: Any
 ) -> float:
     """Return the integral of what a jump loses over the index of its wave."""
     inner, outer = points
@@ -146,7 +146,9 @@ def _integral(
 
 
 @kernel()
-def sum_of_waves(table: Any, curve: Curve, first: float, last: float, outwards: bool, final: float, room: Any) -> float:
+def sum_of_waves(
+    table: Any, curve: Cosine, first: float, last: float, outwards: bool, final: float, room: Any
+) -> float:
     """Return the sum of what the jumps from the waves `first` to `last` lose.
 
     Outwards each goes from the end of a wave's branch to the next wave, inwards from its start to the one before.

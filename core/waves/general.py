@@ -20,7 +20,7 @@ import numpy as np
 from gradhesion.core.compiler.jit import NO, YES, constant, kernel
 from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curve.cells import MOST
-from gradhesion.core.curve.general import Basis, Curve, coordinate, slope
+from gradhesion.core.curve.general import Basis, Series, coordinate, slope
 from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL
 from gradhesion.core.curve.general_energy import Left, drop, find_landing, place_left
 from gradhesion.core.curve.general_folds import folds_of_cell, refine, room
@@ -85,14 +85,14 @@ def room_for_waves(series: Any) -> Any:
 
 
 @kernel()
-def falls_at_cut(basis: Basis, curve: Curve, cut: float, wave: float) -> bool:
+def falls_at_cut(basis: Basis, curve: Series, cut: float, wave: float) -> bool:
     """Return whether a wave begins with a fall."""
     value, _, _ = slope(basis, curve, cut, wave)
     return value < 0.0
 
 
 @kernel()
-def _branch_of_one_harmonic(basis: Basis, curve: Curve, wave: float, low: float, at_low: float, rows: Any) -> int:
+def _branch_of_one_harmonic(basis: Basis, curve: Series, wave: float, low: float, at_low: float, rows: Any) -> int:
     """Do what `branches_of_wave` does for one harmonic: D has one crest a wave, and rises and falls monotonously.
 
     Of what else is in D the rise over a wave is a part 3/z, at most, of what the waves themselves rise, or no fold is
@@ -130,7 +130,7 @@ def _between(trough: float, crest: float, below: float, above: float) -> float:
 
 
 @kernel()
-def branches_of_wave(basis: Basis, curve: Curve, wave: float, low: float, work: Any, rows: Any) -> int:
+def branches_of_wave(basis: Basis, curve: Series, wave: float, low: float, work: Any, rows: Any) -> int:
     """Put the branches between wave + low and wave + low + 1 into `rows`; return their number, -1 if one is cut."""
     _, _, series = basis
     search, zeros, _ = work
@@ -178,7 +178,7 @@ def lowest_start(rows: Any, count: int) -> int:
 
 
 @kernel()
-def _step_up(basis: Basis, curve: Curve, cut: float, wave: float, work: Any, losses: bool) -> Step:
+def _step_up(basis: Basis, curve: Series, cut: float, wave: float, work: Any, losses: bool) -> Step:
     """Load from the highest end of the wave before to that of a wave."""
     _, _, rows = work
     before = wave - 1.0
@@ -202,7 +202,7 @@ def _step_up(basis: Basis, curve: Curve, cut: float, wave: float, work: Any, los
 
 
 @kernel()
-def _step_down(basis: Basis, curve: Curve, cut: float, wave: float, work: Any, losses: bool) -> Step:
+def _step_down(basis: Basis, curve: Series, cut: float, wave: float, work: Any, losses: bool) -> Step:
     """Unload from the lowest start of a wave to that of the wave before."""
     _, _, rows = work
     before = wave - 1.0
@@ -227,7 +227,7 @@ def _step_down(basis: Basis, curve: Curve, cut: float, wave: float, work: Any, l
 
 @kernel()
 def step_of_wave(
-    kind: int, basis: Basis, curve: Curve, cut: float, left: Left, wave: float, work: Any, losses: bool
+    kind: int, basis: Basis, curve: Series, cut: float, left: Left, wave: float, work: Any, losses: bool
 ) -> Step:
     """Return what a wave adds: to loading or unloading, or to a jump outwards from `left` that passes it."""
     if kind == UP:

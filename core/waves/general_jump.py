@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 
 from gradhesion.core.compiler.jit import YES, kernel
-from gradhesion.core.curve.general import Basis, Curve, coordinate
+from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.curve.general_energy import Left, drop, energy_from_zero, jump_energy, place_left
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.waves.general import PASSING, room_for_waves
@@ -18,7 +18,7 @@ _INNER: Final = 16.0
 
 
 @kernel()
-def _pass(basis: Basis, curve: Curve, left: Left, low: float, high: float, whole: float) -> float:
+def _pass(basis: Basis, curve: Series, left: Left, low: float, high: float, whole: float) -> float:
     """Return e outwards from whole + low >= _INNER to whole + high at the coordinate of the place `left`."""
     _, _, series = basis
     begin, end = np.ceil(whole + low), np.floor(whole + high) - 1.0
@@ -30,7 +30,7 @@ def _pass(basis: Basis, curve: Curve, left: Left, low: float, high: float, whole
 
 
 @kernel()
-def jump_between(basis: Basis, curve: Curve, start: float, end: float, whole: float) -> float:
+def jump_between(basis: Basis, curve: Series, start: float, end: float, whole: float) -> float:
     """Return e of a jump from whole + start on the curve to whole + end, both beyond zero contact."""
     _, _, series = basis
     if abs(end - start) <= LONG or series.shape[0] == 0:
@@ -46,7 +46,7 @@ def jump_between(basis: Basis, curve: Curve, start: float, end: float, whole: fl
 
 
 @kernel()
-def jump_from_zero(basis: Basis, curve: Curve, x: float, level: float, whole: float) -> float:
+def jump_from_zero(basis: Basis, curve: Series, x: float, level: float, whole: float) -> float:
     """Return e of a jump at Y = level from zero contact to whole + x.
 
     Unless it ends at the rim, where contact may be pinned, the level is that of the curve there.

@@ -20,7 +20,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core.compiler.jit import NO, kernel
-from gradhesion.core.curve.general import Basis, Curve
+from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.curve.general_energy import Left
 from gradhesion.core.waves.cosine_sum import limit_terms
 from gradhesion.core.waves.general import step_of_wave
@@ -76,7 +76,7 @@ def _wave_at(angle: float, low: float, span: float) -> float:
 
 @kernel()
 def _last_of_run(
-    kind: int, basis: Basis, curve: Curve, cut: float, left: Left, low: float, high: float, work: Any
+    kind: int, basis: Basis, curve: Series, cut: float, left: Left, low: float, high: float, work: Any
 ) -> tuple[float, int]:
     """Return the last wave from `low` on, before `high`, of the pattern that `low` has, and the steps it took."""
     _, _, pattern = step_of_wave(kind, basis, curve, cut, left, low, work, NO)
@@ -94,7 +94,7 @@ def _last_of_run(
 
 @kernel()
 def _integral_of_run(
-    kind: int, basis: Basis, curve: Curve, cut: float, left: Left, run: Any, scale: float, work: Any, losses: bool
+    kind: int, basis: Basis, curve: Series, cut: float, left: Left, run: Any, scale: float, work: Any, losses: bool
 ) -> Any:
     """Integrate over a run (first, last wave) without its ends, as long as it has one pattern.
 
@@ -159,7 +159,7 @@ def _integral_of_run(
 
 @kernel()
 def sum_of_waves(
-    kind: int, basis: Basis, curve: Curve, cut: float, left: Left, first: float, last: float, work: Any, losses: bool
+    kind: int, basis: Basis, curve: Series, cut: float, left: Left, first: float, last: float, work: Any, losses: bool
 ) -> tuple[float, float]:
     """Return what the waves `first` to `last` add, and the number of their jumps; NaN where they are not regular."""
     stack = np.empty((_ROOM, 2))

@@ -12,7 +12,7 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import START
-from gradhesion.core.curve.general import Basis, Curve
+from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.curve.general_branches import START_LEVEL
 from gradhesion.core.waves.general import branches_of_wave, lowest_start
 
@@ -24,7 +24,7 @@ Lowest = tuple[float, float, float]
 
 
 @kernel()
-def _trough(basis: Basis, curve: Curve, cut: float, wave: float, work: Any) -> float:
+def _trough(basis: Basis, curve: Series, cut: float, wave: float, work: Any) -> float:
     """Return the lowest trough of a wave, inf without any."""
     rows = work[2][0]
     best = lowest_start(rows, branches_of_wave(basis, curve, wave, cut, work, rows))
@@ -42,7 +42,7 @@ def lower(best: Lowest, value: float, place: float) -> Lowest:
 
 @kernel()
 def lowest_of_waves(
-    basis: Basis, curve: Curve, cut: float, low: float, high: float, best: Lowest, work: Any
+    basis: Basis, curve: Series, cut: float, low: float, high: float, best: Lowest, work: Any
 ) -> tuple[bool, Lowest]:
     """Return the lowest trough of the whole waves `low` to `high`, and whether each has one.
 

@@ -72,6 +72,5 @@ def test_a_force_compiles_what_a_force_needs(tmp_path: Path) -> None:
         "contact.cosine_disc.disc_limits",
     }
     assert not cycle & {*tables, *force}
-    assert (len(tables), len(force)) == (KERNELS["tables"], KERNELS["force"])
     assert len({*force}) == len(force), "no kernel for two types"
     assert compiled_by(tmp_path, "solve(SCENE, ['pull_off_radius'])") == [[]], "all of it is kept"

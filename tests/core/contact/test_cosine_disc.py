@@ -16,6 +16,7 @@ from scipy.special import roots_jacobi
 from gradhesion.core import OUTPUTS, PARAMETERS, solve
 from gradhesion.core.contact import cosine_disc as contact
 from gradhesion.core.curve.branches import ROWS
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.path import cosine as cycle
 from gradhesion.core.path import cosine_long as long_cycle
 from gradhesion.core.problem.material import stiffness
@@ -96,10 +97,10 @@ class Truth:
         return least
 
 
-def _curve(k: float, chi: float, waves: float) -> tuple[float, float, float]:
+def _curve(k: float, chi: float, waves: float) -> Cosine:
     """The curve of a given C g whose folds end at about a given wave."""
     amplitude = 2 ** (0.5 * (k - 1)) * math.gamma(0.5 * (k + 1))
-    return chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / amplitude, 0.0
+    return Cosine(chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / amplitude, 0.0)
 
 
 def _stride(table: Any, curve: Any, arches: Any, rim: float, trace: Any, losses: bool) -> Any:

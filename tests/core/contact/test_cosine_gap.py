@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core.contact.cosine_gap import edge_at, height, opening, openings_between, trough_gap
-from gradhesion.core.curve.cosine import depth
+from gradhesion.core.curve.cosine import Cosine, depth
 from gradhesion.core.struve.fractional import NODES
 
 EXPONENTS = [0.0, 0.3, 0.7, 0.95]
@@ -23,7 +23,7 @@ Pair = Callable[[float, float], tuple[mpmath.mpf, mpmath.mpf]]
 def _gap(table: Any, k: float, a: float, r: float) -> float:
     """The gap in units of the depth, from the opening."""
     c = 0.5 * (1.0 - k)
-    curve = (BEND, GAIN, 0.0)
+    curve = Cosine(BEND, GAIN, 0.0)
     z1, z = 2 * math.pi * a, 2 * math.pi * r
     share = math.sin(math.pi * c) / (math.pi * c) if c > 0 else 1.0
     return share * (z * z - z1 * z1) ** c / z1**c * float(opening(table, curve, edge_at(table, curve, a), r))
@@ -55,7 +55,7 @@ def test_second_route(k: float, a: float, r: float, table_of: Table, slow_pair: 
 @pytest.mark.parametrize("k", EXPONENTS)
 def test_trough(k: float, table_of: Table) -> None:
     """The same far outside, where the profile has a trough: two kernels of two routes."""
-    table, curve = table_of(k), (BEND, GAIN, 0.0)
+    table, curve = table_of(k), Cosine(BEND, GAIN, 0.0)
     for a, r in [(0.4, 9.0), (2.37, 17.0), (7.7, 40.0)]:
         expected = _gap(table, k, a, r)
         assert math.isclose(trough_gap(table, curve, edge_at(table, curve, a), r), expected, rel_tol=1e-8)
@@ -73,7 +73,7 @@ def test_at_k_1_it_is_local(a: float, r: float, table_of: Table) -> None:
 
 @pytest.mark.parametrize("k", [*EXPONENTS, 1.0])
 def test_at_the_edge_it_is_one(k: float, table_of: Table) -> None:
-    table, curve = table_of(k), (BEND, GAIN, 0.0)
+    table, curve = table_of(k), Cosine(BEND, GAIN, 0.0)
     for a in (0.4, 2.37, 31.1):
         edge = edge_at(table, curve, a)
         assert math.isclose(height(table, curve, edge, a), 1.0, rel_tol=1e-14)
@@ -84,7 +84,7 @@ def test_at_the_edge_it_is_one(k: float, table_of: Table) -> None:
 @pytest.mark.parametrize("a", [1.3, 6.7, 80.2])
 def test_windows(k: float, a: float, table_of: Table) -> None:
     """Seventeen openings at once, to what a polynomial over a wave leaves; a part of them from further out."""
-    table, curve = table_of(k), (BEND, GAIN, 0.0)
+    table, curve = table_of(k), Cosine(BEND, GAIN, 0.0)
     edge = edge_at(table, curve, a)
     heights, openings = np.empty(16), np.empty(17)
     for high in (a + 0.3, a + 1.1):
@@ -96,7 +96,7 @@ def test_windows(k: float, a: float, table_of: Table) -> None:
     # powers are good to two units either way, and the terms of a height are no larger than some of these
     assert abs(heights[3] - height(table, curve, edge, radii[3])) < 64 * EPS * np.abs(heights).max()
     # no curve at all leaves F = 1 - (1 - z^c/z_a^c): it falls, and averages of it from a + 0.4 on lie between
-    flat = (0.0, 0.0, 0.0)
+    flat = Cosine(0.0, 0.0, 0.0)
     edge = edge_at(table, flat, a)
     openings_between(table, flat, edge, a + 0.4, a + 0.8, heights, openings)
     assert (openings[:16] >= heights - 1e-12).all()
@@ -112,7 +112,7 @@ def test_a_monotonic_profile_is_not_sufficient(table_of: Table) -> None:
     stretch = math.sqrt(2 * math.pi / 1e7)
     length = wavelength / (2 * math.pi)
     scale = stretch * math.sqrt(length)
-    table, curve = table_of(0.0), (2 * length * length / scale, A * wavelength / scale, 0.0)
+    table, curve = table_of(0.0), Cosine(2 * length * length / scale, A * wavelength / scale, 0.0)
     edge = edge_at(table, curve, a / wavelength)
     z1, z = a / length, r / length
     gap = 2 / math.pi * math.sqrt((z * z - z1 * z1) / z1) * opening(table, curve, edge, r / wavelength) * scale

@@ -13,7 +13,7 @@ from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.contact.general_disc import disc_limits, is_surely_open, jump_is_one_disc, least_opening
 from gradhesion.core.contact.general_gap import edge_at, opening
 from gradhesion.core.curve.branches import END, END_DEPTH, START_DEPTH
-from gradhesion.core.curve.general import coordinate
+from gradhesion.core.curve.general import Series, coordinate
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.path.general import walk
 from gradhesion.core.problem.material import stiffness
@@ -55,7 +55,7 @@ def _draw(rng: Any, k: float) -> tuple[Any, Any, float]:
     waves = 2 * math.pi * 10 ** rng.uniform(0, 1.5)
     share = float(rng.choice([0.0, 1.0, rng.uniform(0.01, 0.9)]))
     bend = waves ** -(m - 1 + 0.5 * (1 + k)) * rng.uniform(0.5, 1.5)
-    return (bend, m, chi / _strength(k, rows), 1 - share, share), rows, rng.uniform(0.6, 3.6)
+    return Series(bend, m, chi / _strength(k, rows), 1 - share, share), rows, rng.uniform(0.6, 3.6)
 
 
 @pytest.mark.parametrize("k", EXPONENTS)
@@ -148,7 +148,7 @@ def test_long_jumps(k: float) -> None:
     for _ in range(40):
         rows = np.array([(1.0, rng.uniform(0.0, 0.5), 0.0), (12.0, rng.uniform(0.02, 0.1), 0.01)])
         basis = (*tables_of(k), rows)
-        curve = (10 ** rng.uniform(-6, -3), 2.0, rng.uniform(0.5, 1.7) / _strength(k, rows), 1.0, 0.0)
+        curve = Series(10 ** rng.uniform(-6, -3), 2.0, rng.uniform(0.5, 1.7) / _strength(k, rows), 1.0, 0.0)
         start, end = rng.uniform(0.2, 1.3), rng.uniform(1.5, 6.0)
         edge = edge_at(basis, curve, start)
         dense = min(opening(basis, curve, edge, r) for r in np.arange(start + 1e-3, end, 1 / 12 / 40))

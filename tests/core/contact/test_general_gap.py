@@ -19,6 +19,7 @@ from gradhesion.core.contact.general_gap import (
     openings_between,
     shortest_wave,
 )
+from gradhesion.core.curve.general import Series
 from gradhesion.core.problem.shape import rows_of
 from gradhesion.core.struve.fractional import NODES
 
@@ -30,7 +31,7 @@ EXPONENTS = [0.0, 0.3, 0.9]
 
 
 def _scene(k: float, m: float, rows: list[tuple[float, float, float]]) -> tuple[Any, Any]:
-    return (*tables_of(k), np.array(rows)), (BEND * (2 * math.pi) ** (2 - m), m, GAIN, 1.0, 0.0)
+    return (*tables_of(k), np.array(rows)), Series(BEND * (2 * math.pi) ** (2 - m), m, GAIN, 1.0, 0.0)
 
 
 def _second_route(k: float, curve: Any, rows: Any, a: float, r: float) -> mpmath.mpf:
@@ -88,7 +89,7 @@ def test_at_k_1_it_is_local(m: float, rows: Any) -> None:
 @pytest.mark.parametrize("k", [*EXPONENTS, 1.0])
 def test_one_cosine_is_that_of_its_own_kernel(k: float) -> None:
     basis, _ = _scene(k, 2.0, ONE)
-    curve, own = (BEND / 2, 2.0, GAIN, 1.0, 0.0), (BEND, GAIN, 0.0)
+    curve, own = Series(BEND / 2, 2.0, GAIN, 1.0, 0.0), (BEND, GAIN, 0.0)
     for a, r in [(0.4, 1.1), (0.9, 3.3), (2.37, 2.9), (7.7, 9.1)]:
         expected = gap.opening(basis[0], own, gap.edge_at(basis[0], own, a), r)
         assert math.isclose(opening(basis, curve, edge_at(basis, curve, a), r), expected, rel_tol=1e-11)
@@ -99,7 +100,7 @@ def test_one_cosine_is_that_of_its_own_kernel(k: float) -> None:
 def test_the_two_integrals_are_one(k: float, m: float) -> None:
     """From the contact outwards and over the contact; a power of 40 is steep, and gets panels of its own."""
     basis, _ = _scene(k, m, MIXED)
-    curve = (1e-6 / (2 * math.pi) ** m, m, GAIN, 1.0, 0.0)
+    curve = Series(1e-6 / (2 * math.pi) ** m, m, GAIN, 1.0, 0.0)
     for a, r in [(0.21, 0.45), (0.7, 1.5), (1.3, 2.9)]:
         edge = edge_at(basis, curve, a)
         size = max(abs(height(basis, curve, edge, x)) for x in np.linspace(a, r, 50))

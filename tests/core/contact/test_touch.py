@@ -9,6 +9,7 @@ from scipy.special import beta
 
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.contact.touch import front_at, profile_at, touches_at_centre
+from gradhesion.core.curve.general import Series
 from gradhesion.core.problem.shape import depth_factor_of
 
 
@@ -18,7 +19,7 @@ def _basis(k: float, rows: list[tuple[float, float, float]]) -> Any:
 
 def _power(k: float, m: float, factor: float) -> tuple[float, ...]:
     """The curve whose profile is factor (2 pi x)^m + waves of the amplitudes of the series."""
-    return factor * m * 0.5 * float(beta(0.5 * m, 0.5 * (1.0 + k))), m, 1.0, 1.0, 0.0
+    return Series(factor * m * 0.5 * float(beta(0.5 * m, 0.5 * (1.0 + k))), m, 1.0, 1.0, 0.0)
 
 
 @pytest.mark.parametrize("k", [0.0, 0.4, 1.0])

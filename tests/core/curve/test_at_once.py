@@ -10,7 +10,7 @@ import pytest
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.at_once import find_depths, find_zeros, guess_zeros
 from gradhesion.core.curve.branches import find_depth
-from gradhesion.core.curve.cosine import slope
+from gradhesion.core.curve.cosine import Cosine, slope
 from gradhesion.core.curve.cosine_folds import fold_of_arch, last_arch, survey_arch
 from gradhesion.core.struve.lanes import LANES, load, store
 
@@ -49,8 +49,8 @@ def _folds(table: Any, curve: Any, level: float) -> np.ndarray:
     return np.array(rows).T
 
 
-def _curve(table: Any, k: float, chi: float, waves: float) -> tuple[float, float, float]:
-    return chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / table["amplitude"], 0.0
+def _curve(table: Any, k: float, chi: float, waves: float) -> Cosine:
+    return Cosine(chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / table["amplitude"], 0.0)
 
 
 @pytest.mark.parametrize("k", EXPONENTS)

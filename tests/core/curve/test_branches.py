@@ -9,12 +9,18 @@ import pytest
 
 from gradhesion.core.curve import branches, cosine_folds
 from gradhesion.core.curve.branches import END, END_DEPTH, ROWS, START, START_DEPTH, append_branches, ends, find_depth
-from gradhesion.core.curve.cosine import depth, slope
+from gradhesion.core.curve.cosine import Cosine, depth, slope
 from gradhesion.core.curve.cosine_folds import first_arch, last_arch
 
 EPS = 2.0**-52
 EXPONENTS = [0.0, 0.29, 0.64, 1 - 1e-12, 1.0]
-CURVES = [(0.03, 0.31, 0.0), (0.9, 3.1, 0.0), (0.07, 0.4, 0.0), (2.7, 0.01, 0.0), (0.3, 8.0, 0.0)]
+CURVES = [
+    Cosine(0.03, 0.31, 0.0),
+    Cosine(0.9, 3.1, 0.0),
+    Cosine(0.07, 0.4, 0.0),
+    Cosine(2.7, 0.01, 0.0),
+    Cosine(0.3, 8.0, 0.0),
+]
 
 
 def _branches(table: Any, curve: Any, furthest: float = math.inf, first: int = 0) -> Any:
@@ -66,7 +72,7 @@ def test_an_early_end_cuts_no_branch(k: float, curve: Any, table_of: Callable[[f
 
 @pytest.mark.parametrize("k", EXPONENTS)
 def test_a_later_beginning_leaves_out_the_first(k: float, table_of: Callable[[float], Any]) -> None:
-    curve = (0.9 / 12.0 ** (1 + k), 0.9, 0.0)
+    curve = Cosine(0.9 / 12.0 ** (1 + k), 0.9, 0.0)
     everything = _branches(table_of(k), curve)
     late = _branches(table_of(k), curve, math.inf, 7)
     # the first of them are found from other guesses
@@ -108,12 +114,12 @@ def test_room(table_of: Callable[[float], Any]) -> None:
     assert branches.room_for(trace, 40.0) is not None
     assert branches.room_for(trace, 40.0).shape == (ROWS, 40)
     assert branches.room_for(trace, 41.5).shape[1] >= 41
-    assert first_arch(table_of(0.3), (0.3, 8.0, 0.0), 0.35) == 0
+    assert first_arch(table_of(0.3), Cosine(0.3, 8.0, 0.0), 0.35) == 0
 
 
 def test_depth_of_an_infinite_end_is_found_far_out(table_of: Callable[[float], Any]) -> None:
     for k in EXPONENTS:
-        curve = (0.3, 0.01, 0.0)
+        curve = Cosine(0.3, 0.01, 0.0)
         trace = _branches(table_of(k), curve)
         for target in (1.0, 1e4, 1e9):
             x = find_depth(table_of(k), curve, target, ends(trace, trace.shape[1] - 1))
@@ -125,5 +131,5 @@ def test_far_beyond_the_last_fold_the_waves_say_nothing(table_of: Callable[[floa
     b, g = 1e-32, 2e-19
     start = 3.53e10
     branch = (start, 0.5 * b * (2 * math.pi * start) ** 2 - 1.0, math.inf, math.inf)
-    x = find_depth(table_of(1.0), (b, g, 0.0), 0.0, branch)
+    x = find_depth(table_of(1.0), Cosine(b, g, 0.0), 0.0, branch)
     assert math.isclose(x, math.sqrt(2 / b) / (2 * math.pi), rel_tol=1e-9)

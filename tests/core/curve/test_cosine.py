@@ -7,12 +7,12 @@ from typing import Any
 import mpmath
 import pytest
 
-from gradhesion.core.curve.cosine import depth, load, slope, slopes, wave
+from gradhesion.core.curve.cosine import Cosine, depth, load, slope, slopes, wave
 from gradhesion.core.struve.circle import TWO_PI
 
 EPS = 2.0**-52
 Pair = Callable[..., tuple[mpmath.mpf, mpmath.mpf]]
-CURVES = [(0.013, 0.71, 0.0), (2.9, 0.33, 0.0), (1e-5, 1.9, 0.0), (0.4, 0.0, 0.0)]
+CURVES = [Cosine(0.013, 0.71, 0.0), Cosine(2.9, 0.33, 0.0), Cosine(1e-5, 1.9, 0.0), Cosine(0.4, 0.0, 0.0)]
 PLACES = [1e-9, 0.0031, 0.17, 1.0, 5.77, 6.41, 83.3]
 EXPONENTS = [0.0, 0.37, 0.5, 1 - 1e-12, 1.0]
 
@@ -113,7 +113,7 @@ def test_it_is_the_equilibrium_of_the_punch(k: float, table_of: Callable[[float]
     length = wavelength / (2 * mpmath.pi)
     s = mpmath.sqrt(2 ** (1 + kappa) * mpmath.pi * adhesion / stiffness)
     depth_scale = s * length ** ((1 - kappa) / 2)
-    curve = (
+    curve = Cosine(
         float(2 * length**2 / ((1 + kappa) * radius * depth_scale)),
         float(amplitude * wavelength / depth_scale),
         0.0,

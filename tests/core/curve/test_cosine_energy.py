@@ -8,14 +8,14 @@ import mpmath
 import numpy as np
 import pytest
 
-from gradhesion.core.curve.cosine import depth
+from gradhesion.core.curve.cosine import Cosine, depth
 from gradhesion.core.curve.cosine_energy import SHORT, energy_from_zero, jump_energy
 
 pytestmark = pytest.mark.slow
 
 EPS = 2.0**-52
 EXPONENTS = [0.0, 0.41, 1 - 1e-12, 1.0]
-CURVES = [(0.02, 0.9, 0.0), (1.7, 0.31, 0.0), (0.003, 2.2, 0.0)]
+CURVES = [Cosine(0.02, 0.9, 0.0), Cosine(1.7, 0.31, 0.0), Cosine(0.003, 2.2, 0.0)]
 Pair = Callable[..., tuple[mpmath.mpf, mpmath.mpf]]
 WORK = np.empty(64)
 
@@ -108,7 +108,7 @@ def test_panels_join(table_of: Callable[[float], Any]) -> None:
 def test_a_jump_outwards_may_gain(table_of: Callable[[float], Any]) -> None:
     """Weak adhesion: on the way outwards rho < -1, and the drop is negative; inwards it is a loss."""
     table = table_of(0.0)
-    curve = (1e-4, 6.0, 0.0)
+    curve = Cosine(1e-4, 6.0, 0.0)
     level = depth(table, curve, 2.4)
     values = [jump_energy(table, curve, 2.4, x, WORK) for x in np.linspace(2.5, 3.5, 11)]
     assert min(values) < 0.0

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gradhesion.core.curve.cosine import depth, slope
+from gradhesion.core.curve.cosine import Cosine, depth, slope
 from gradhesion.core.curve.cosine_folds import first_arch, fold_of_arch, last_arch, survey_arch
 from gradhesion.core.struve.arches import inner_edge
 from gradhesion.core.struve.table import struve_pair
@@ -44,14 +44,14 @@ def _tilt(k: float, curve: Any, level: float, x: NDArray[np.float64]) -> NDArray
     return value
 
 
-def _curves(seed: int, count: int, k: float) -> list[tuple[float, float, float]]:
+def _curves(seed: int, count: int, k: float) -> list[Cosine]:
     """Draw bends and gains whose folds end within some fifty waves."""
     rng = np.random.default_rng(seed)
     made = []
     while len(made) < count:
         b, g = 10.0 ** rng.uniform(-4, 1.5), 10.0 ** rng.uniform(-3, 1)
         if ((1.35 * g + 2) / b) ** (2 / (1 + k)) < 300:
-            made.append((b, g, 0.0))
+            made.append(Cosine(b, g, 0.0))
     return made
 
 
@@ -110,7 +110,7 @@ def test_folds_of_exponent_one_in_closed_form(table_of: Callable[[float], Any]) 
     """At k = 1, D = b z + g sin z: folds where sin z = -(b/g) z, two in each lower half wave that reaches there."""
     table = table_of(1.0)
     for ratio in [1e-2, 0.037, 0.1284, 0.2172, 0.2173, 0.5, 1.5]:
-        found = [TWO_PI * fold[0] for fold in _folds(table, (0.7 * ratio, 0.7, 0.0), 0.0)]
+        found = [TWO_PI * fold[0] for fold in _folds(table, Cosine(0.7 * ratio, 0.7, 0.0), 0.0)]
         exact = []
         half = 1
         while True:
@@ -161,7 +161,7 @@ def test_tangency(k: float, wave: int, step: float, table_of: Callable[[float], 
     level = 0.5 * (1 - k)
     bend, place = _tangent(k, level, wave, slow_pair)
     for sign in (-1, 1):
-        curve = (float(bend * (1 + sign * mpmath.mpf(step))), 1.0, 0.0)
+        curve = Cosine(float(bend * (1 + sign * mpmath.mpf(step))), 1.0, 0.0)
         pair = [fold for fold in _folds(table, curve, level) if abs(TWO_PI * fold[0] - place) < 1.0]
         assert len(pair) == (2 if sign < 0 else 0)
         if pair:
@@ -182,7 +182,7 @@ def test_tangency_within_rounding(k: float, table_of: Callable[[float], Any], sl
         value = np.nextafter(value, 0.0)
     for _ in range(16):
         value = np.nextafter(value, 1e9)
-        near = [f for f in _folds(table, (value, 1.0, 0.0), level) if abs(TWO_PI * f[0] - place) < 1.0]
+        near = [f for f in _folds(table, Cosine(value, 1.0, 0.0), level) if abs(TWO_PI * f[0] - place) < 1.0]
         assert len(near) in {0, 2}
 
 
@@ -190,7 +190,7 @@ def test_tangency_within_rounding(k: float, table_of: Callable[[float], Any], sl
 def test_no_fold_beyond_the_last_arch_or_before_the_first(k: float, table_of: Callable[[float], Any]) -> None:
     table = table_of(k)
     level = 0.5 * (1 - k)
-    for curve in [*_curves(23, 40, k), (1e-6, 2e-3, 0.0), (1e-7, 1e-3, 0.0)]:
+    for curve in [*_curves(23, 40, k), Cosine(1e-6, 2e-3, 0.0), Cosine(1e-7, 1e-3, 0.0)]:
         final = min(last_arch(table, curve, level), 4000.0)
         outside = inner_edge(table, int(final) + 1)[0] + np.arange(1, 4000) * 0.0125
         if final < 4000.0:
@@ -216,20 +216,20 @@ def test_smooth_curve_has_one_fold(table_of: Callable[[float], Any]) -> None:
     """A vanishing gain leaves the fold of the smooth punch, b z^((3+k)/2) = (1-k)/2."""
     for k in (0.0, 0.29, 0.64):
         for b in (1e-2, 0.3, 40.0):
-            folds = _folds(table_of(k), (b, 1e-300, 0.0), 0.5 * (1 - k))
+            folds = _folds(table_of(k), Cosine(b, 1e-300, 0.0), 0.5 * (1 - k))
             assert len(folds) == 1
             assert math.isclose(TWO_PI * folds[0][0], (0.5 * (1 - k) / b) ** (2 / (3 + k)), rel_tol=1e-12)
 
 
 def test_depth_of_a_fold_is_that_of_the_curve(table_of: Callable[[float], Any]) -> None:
-    for place, bottom, _ in _folds(table_of(0.29), (0.01, 0.9, 0.0), 0.355):
-        assert math.isclose(bottom, depth(table_of(0.29), (0.01, 0.9, 0.0), place), rel_tol=1e-14, abs_tol=1e-14)
+    for place, bottom, _ in _folds(table_of(0.29), Cosine(0.01, 0.9, 0.0), 0.355):
+        assert math.isclose(bottom, depth(table_of(0.29), Cosine(0.01, 0.9, 0.0), place), rel_tol=1e-14, abs_tol=1e-14)
 
 
 @pytest.mark.parametrize(("k", "b", "g"), [(0.0, 0.237, 0.112), (0.29, 0.575, 0.3645), (0.64, 0.655, 0.454)])
 def test_the_first_fold_is_found_from_any_guess(k: float, b: float, g: float, table_of: Callable[[float], Any]) -> None:
     """From one in some thousands the step of the fourth order vanishes, at places where D D'' = 2 D'^2."""
-    table, curve, level = table_of(k), (b, g, 0.0), 0.5 * (1.0 - k)
+    table, curve, level = table_of(k), Cosine(b, g, 0.0), 0.5 * (1.0 - k)
     survey = survey_arch(table, curve, level, 0)
     kind, low, _, high = survey
     assert kind == 1

@@ -7,7 +7,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from gradhesion.core.curve.cosine import depth
+from gradhesion.core.curve.cosine import Cosine, depth
 from gradhesion.core.curve.cosine_energy import energy_by_panels, energy_from_zero
 from gradhesion.core.curve.cosine_jump import energy_between
 from gradhesion.core.struve.circle import TWO_PI
@@ -32,9 +32,9 @@ def _exact(k: float, curve: tuple[float, float, float], start: float, end: float
     return mpmath.quad(lambda z: z * (1 - ((hertz(z) - level) / z**c) ** 2), mpmath.linspace(z1, z2, steps))
 
 
-def _curve(k: float, x: float, chi: float, share: float, amplitude: float) -> tuple[float, float, float]:
+def _curve(k: float, x: float, chi: float, share: float, amplitude: float) -> Cosine:
     """A curve whose folds end beyond x for a share below 1, of a chi."""
-    return share * chi * (TWO_PI * x) ** (-0.5 * (1.0 + k)), chi / amplitude, 0.0
+    return Cosine(share * chi * (TWO_PI * x) ** (-0.5 * (1.0 + k)), chi / amplitude, 0.0)
 
 
 def _of_nodes(start: float, end: float) -> float:
@@ -93,12 +93,12 @@ def test_long_ways_are_those_by_way_of_zero_contact(k: float, table_of: Callable
 
 def test_no_way_costs_nothing(table_of: Callable[[float], Any]) -> None:
     for x in (0.2, 5.0, 7.1, 300.0):
-        energy, size = energy_between(table_of(0.41), (0.003, 0.9, 0.0), x, x)
+        energy, size = energy_between(table_of(0.41), Cosine(0.003, 0.9, 0.0), x, x)
         assert abs(energy) <= 2 * EPS * size
 
 
 def test_no_size_is_known_of_too_long_a_jump(table_of: Callable[[float], Any]) -> None:
-    _, size = energy_between(table_of(0.41), (0.003, 0.9, 0.0), 7.0, 9.0)
+    _, size = energy_between(table_of(0.41), Cosine(0.003, 0.9, 0.0), 7.0, 9.0)
     assert size == np.inf
     _, size = energy_between(table_of(0.41), (0.003, 0.9, 0.2), 6.0, 6.2)
     assert size == np.inf

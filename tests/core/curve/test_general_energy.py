@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core.arrays.tables import tables_of
-from gradhesion.core.curve.general import coordinate
+from gradhesion.core.curve.general import Series, coordinate
 from gradhesion.core.curve.general_energy import energies_in, energy_from_zero
 from gradhesion.core.struve.circle import TWO_PI
 
@@ -38,7 +38,7 @@ def test_energy_from_zero(k: float) -> None:
         m = float(rng.choice([1.0, 1.5, 2.0, 3.0]))
         x = 10.0 ** rng.uniform(-1, 2) / TWO_PI
         bend = (TWO_PI * x) ** (0.5 * (1.0 - k) - m) * rng.uniform(0.3, 1.5)
-        curve = (bend, m, 0.0, 1.0 / (1.0 + share), share / (1.0 + share))
+        curve = Series(bend, m, 0.0, 1.0 / (1.0 + share), share / (1.0 + share))
         level = coordinate(basis, curve, x)
         with mpmath.workdps(30):
             end = TWO_PI * mpmath.mpf(x)
@@ -62,7 +62,7 @@ def test_energy_of_a_jump_between_any_rim_and_zero_contact(k: float, waves: str,
     """With stations it is that of panels from the rim inwards, whatever the stations hold already."""
     rng = np.random.default_rng(3)
     basis = (*tables_of(k), WAVES[waves])
-    curve = (0.02, 2.0, 0.3, 1.0 / (1.0 + share), share / (1.0 + share))
+    curve = Series(0.02, 2.0, 0.3, 1.0 / (1.0 + share), share / (1.0 + share))
     rims = rng.permutation(np.geomspace(1e-3, 20.0, 60))
     kept, few = (np.full((4, n), math.inf) for n in (64, 3))
     for x in rims.tolist():

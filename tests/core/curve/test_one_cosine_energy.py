@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core.arrays.tables import tables_of
-from gradhesion.core.curve.general import Basis, Curve, coordinate
+from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.curve.general_energy import energy_from_zero, jump_energy
 from gradhesion.core.curve.one_cosine_energy import jump_of_one_cosine, jump_of_one_cosine_from_zero
 from gradhesion.core.struve.circle import TWO_PI
@@ -23,13 +23,13 @@ def _basis(k: float) -> Basis:
     return (*tables_of(k, ONE_COSINE), ONE_COSINE)
 
 
-def _curve(basis: Basis, x: float, chi: float, bend: float, share: float) -> Curve:
+def _curve(basis: Basis, x: float, chi: float, bend: float, share: float) -> Series:
     """A curve whose paraboloid takes a share of the stretch at x; the machine's part is told at x too."""
     k = float(basis[0]["k"])
     z = TWO_PI * x
     beta = share / z ** (1.0 + k)
     alpha, beta = (0.0, 1.0) if share == math.inf else (1.0 / (1.0 + beta), beta / (1.0 + beta))
-    return bend * z ** (-0.5 * (3.0 + k)), 2.0, chi / float(basis[0]["amplitude"]), alpha, beta
+    return Series(bend * z ** (-0.5 * (3.0 + k)), 2.0, chi / float(basis[0]["amplitude"]), alpha, beta)
 
 
 @pytest.mark.parametrize("share", SHARES)

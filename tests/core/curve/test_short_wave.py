@@ -8,7 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from gradhesion.core.curve.short_wave import (
-    Wave,
+    ShortWave,
     depth,
     depth_slope,
     folds_of_half,
@@ -24,11 +24,11 @@ CURVES = [(0.4, 0.3), (0.03, 0.9), (0.02, 1.6), (0.005, 0.12), (1.3, 4.0)]
 """b and chi."""
 
 
-def wave_of(k: float, b: float, chi: float) -> Wave:
-    return (k, b, chi, 0.83 * chi, (1 + k) * math.pi / 4)
+def wave_of(k: float, b: float, chi: float) -> ShortWave:
+    return ShortWave(k, b, chi, 0.83 * chi, (1 + k) * math.pi / 4)
 
 
-def loads(wave: Wave, z: NDArray[np.float64]) -> NDArray[np.float64]:
+def loads(wave: ShortWave, z: NDArray[np.float64]) -> NDArray[np.float64]:
     k, b, chi, _, phi = wave
     values: NDArray[np.float64] = z ** ((3 + k) / 2) * (b * z ** ((3 + k) / 2) / (3 + k) - 1 + chi * np.sin(z - phi))
     return values

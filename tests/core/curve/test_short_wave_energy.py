@@ -5,7 +5,7 @@ import math
 import mpmath
 import pytest
 
-from gradhesion.core.curve.short_wave import Wave, depth
+from gradhesion.core.curve.short_wave import ShortWave, depth
 from gradhesion.core.curve.short_wave_energy import loss_of_jump
 
 pytestmark = pytest.mark.slow
@@ -13,11 +13,11 @@ pytestmark = pytest.mark.slow
 EPS = 2.0**-52
 
 
-def wave_of(k: float, b: float, chi: float) -> Wave:
-    return (k, b, chi, 0.83 * chi, (1 + k) * math.pi / 4)
+def wave_of(k: float, b: float, chi: float) -> ShortWave:
+    return ShortWave(k, b, chi, 0.83 * chi, (1 + k) * math.pi / 4)
 
 
-def loss(wave: Wave, target: float, start: float, end: float) -> tuple[float, float]:
+def loss(wave: ShortWave, target: float, start: float, end: float) -> tuple[float, float]:
     """Return e, and the integral of the size of its integrand's two terms."""
     k, b, chi, g, phi = map(mpmath.mpf, wave)
 

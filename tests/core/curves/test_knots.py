@@ -9,7 +9,8 @@ import pytest
 
 from gradhesion.core.curve import short_wave as asymptotic
 from gradhesion.core.curve.branches import END, START
-from gradhesion.core.curve.cosine import slope, wave
+from gradhesion.core.curve.cosine import Cosine, slope, wave
+from gradhesion.core.curve.short_wave import ShortWave
 from gradhesion.core.curves import knots
 from gradhesion.core.curves.subject import Subject, subject_of
 
@@ -24,7 +25,7 @@ def _subject(scene: dict[str, float]) -> Subject:
 
 
 def _sign_changes(form: Any, level: float, furthest: float) -> int:
-    curve = (form.numbers[0], form.numbers[1], 0.0)
+    curve = Cosine(form.numbers[0], form.numbers[1], 0.0)
     signs = [slope(form.table, curve, level, x)[0] > 0 for x in np.linspace(1e-3, furthest, 40_000)]
     return int(np.count_nonzero(np.diff(signs)))
 
@@ -71,16 +72,16 @@ def test_a_merging_pair_is_not_thrown_far(table_of: Callable[[float], Any]) -> N
     bend = -(v1 + n * v / z) / (1 + n)
     level = (bend * z + v) / power
     assert bend > 0 < level
-    d, d1, d2, _ = slope(table, (bend, 1.0, 0.0), level, x)
+    d, d1, d2, _ = slope(table, Cosine(bend, 1.0, 0.0), level, x)
     assert max(abs(d), abs(d1)) <= 20 * EPS < 1e-3 < abs(d2)
     for guess in (x, x * (1 + 1e-13), x * (1 - 1e-9)):
-        assert abs(knots.polished(table, (bend, 1.0, 0.0), level, guess) - x) <= 1e-6
+        assert abs(knots.polished(table, Cosine(bend, 1.0, 0.0), level, guess) - x) <= 1e-6
 
 
 def test_landed(scene: dict[str, float]) -> None:
     subject = _subject(scene)
     form = subject.exact
-    curve = (form.numbers[0], form.numbers[1], 0.0)
+    curve = Cosine(form.numbers[0], form.numbers[1], 0.0)
     trace = subject.trace
     assert trace is not None
     for branch in range(trace.shape[1] - 1):
@@ -92,14 +93,19 @@ def test_landed(scene: dict[str, float]) -> None:
 def test_too_many_folds(scene: dict[str, float]) -> None:
     """Two arches a wave: the limit is 50,000 waves."""
     form = _subject(scene).exact
-    curve = (1e-14, form.numbers[1], 0.0)
+    curve = Cosine(1e-14, form.numbers[1], 0.0)
     assert not knots.folds_too_often(form.table, curve, 49_900.0)
     assert knots.folds_too_often(form.table, curve, 50_100.0)
-    assert not knots.folds_too_often(form.table, (*form.numbers[:2], 0.0), math.inf)
+    assert not knots.folds_too_often(form.table, Cosine(*form.numbers[:2], 0.0), math.inf)
 
 
 @pytest.mark.parametrize(
-    "short", [(0.3, 0.02, 0.4, 0.5, 1.02), (0.0, 0.003, 1.6, 2.0, 0.785), (1.0, 0.01, 0.3, 0.3, 1.57)]
+    "short",
+    [
+        ShortWave(0.3, 0.02, 0.4, 0.5, 1.02),
+        ShortWave(0.0, 0.003, 1.6, 2.0, 0.785),
+        ShortWave(1.0, 0.01, 0.3, 0.3, 1.57),
+    ],
 )
 def test_folds_of_the_asymptotic_form(short: Any) -> None:
     k = short[0]
@@ -118,7 +124,7 @@ def test_folds_of_the_asymptotic_form(short: Any) -> None:
 
 
 def test_too_many_folds_of_the_asymptotic_form() -> None:
-    short = (0.3, 1e-9, 0.4, 0.5, 1.02)
+    short = ShortWave(0.3, 1e-9, 0.4, 0.5, 1.02)
     assert knots.folds_of_wave(short, 0.35, 1e5)[0]
     few, folds = knots.folds_of_wave(short, 0.35, 1e6)
     assert not few

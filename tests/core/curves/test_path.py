@@ -11,7 +11,7 @@ import pytest
 
 from gradhesion.core import solve
 from gradhesion.core.curve.branches import END, START
-from gradhesion.core.curve.cosine import slope
+from gradhesion.core.curve.cosine import Cosine, slope
 from gradhesion.core.curves.forms import PLAIN, fill_points
 from gradhesion.core.curves.path import draw_path
 from gradhesion.core.curves.subject import Form, Subject, subject_of
@@ -39,7 +39,7 @@ def _depth_slopes(form: Form, places: Any) -> Any:
         k, pull = b, g
         return places - pull * 0.5 * (1 - k) * places ** (-0.5 * (1 + k))
     level = 0.5 * (1 - float(form.table["k"]))
-    return 2 * math.pi * np.array([slope(form.table, (b, g, 0.0), level, x)[0] for x in places])
+    return 2 * math.pi * np.array([slope(form.table, Cosine(b, g, 0.0), level, x)[0] for x in places])
 
 
 def _loop(subject: Subject, path: dict[str, Any]) -> tuple[float, float]:

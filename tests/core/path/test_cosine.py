@@ -9,7 +9,7 @@ import pytest
 
 from gradhesion.core import OUTPUTS, solve
 from gradhesion.core.curve.branches import ROWS
-from gradhesion.core.curve.cosine import depth
+from gradhesion.core.curve.cosine import Cosine, depth
 from gradhesion.core.path import cosine as cycle
 from gradhesion.core.path.loading import loading_to
 from gradhesion.core.path.unloading import unloading_from
@@ -213,7 +213,7 @@ class TestAmplitude:
         for size in (step, 0.5 * step):
             # sin z + ratio z touches 0 from above in the second wave where tan z = z = 10.904121659428899
             ratio = -math.cos(10.904121659428899) * (1 - size)
-            curve = (0.9 * ratio, 0.9, 0.0)
+            curve = Cosine(0.9 * ratio, 0.9, 0.0)
             arches = cycle.extent(table, curve)
             results = []
             for rim in (1.25, 2.1):

@@ -10,7 +10,7 @@ import pytest
 from gradhesion.core import OUTPUTS, Loading, Profile, solve
 from gradhesion.core.arrays.general import solve_general
 from gradhesion.core.curve.branches import ROWS
-from gradhesion.core.curve.cosine import depth
+from gradhesion.core.curve.cosine import Cosine, depth
 from gradhesion.core.path import cosine as cycle
 from gradhesion.core.path import cosine_long as long_cycle
 from gradhesion.core.path.loading import loading_to
@@ -21,10 +21,10 @@ from gradhesion.core.waves.cosine_running import COUNT, SAMPLES
 EXPONENTS = [(0.0, 0.3), (0.31, 0.27), (0.7, 0.1), (0.97, 0.5), (1.0, 0.5)]
 
 
-def _curve(k: float, chi: float, waves: float) -> tuple[float, float, float]:
+def _curve(k: float, chi: float, waves: float) -> Cosine:
     """Give the curve of a given C g whose folds end at a given wave."""
     amplitude = 2 ** (0.5 * (k - 1)) * math.gamma(0.5 * (k + 1))
-    return chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / amplitude, 0.0
+    return Cosine(chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / amplitude, 0.0)
 
 
 def _read(table: Any, curve: Any, count: int, trace: Any, rim: float) -> tuple[float, float, float, float]:
@@ -102,7 +102,7 @@ def test_short_waves(k: float, nu: float, wavelength: float, table_of: Callable[
     values = solve(scene | {"a_max_over_R": rims}, OUTPUTS)
     length = wavelength / (2 * math.pi)
     scale = s * length ** (0.5 * (1 - k))
-    curve = (2 * length * length / ((1 + k) * scale), amplitude * wavelength / scale, 0.0)
+    curve = Cosine(2 * length * length / ((1 + k) * scale), amplitude * wavelength / scale, 0.0)
     table = table_of(k)
     arches = cycle.extent(table, curve)
     x = rims / wavelength

@@ -9,7 +9,7 @@ import pytest
 
 from gradhesion.core.closed import smooth
 from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, ROWS, START, START_DEPTH
-from gradhesion.core.curve.cosine import depth, load
+from gradhesion.core.curve.cosine import Cosine, depth, load
 from gradhesion.core.path import cosine as cycle
 from gradhesion.core.path.cosine_loop import loop_energy
 from gradhesion.core.path.loading import loading_to
@@ -48,7 +48,7 @@ def test_it_is_what_the_jumps_lose(k: float, table_of: Callable[[float], Any]) -
     several = 0
     for _ in range(150):
         gain, waves = 10 ** rng.uniform(-2, 0.4), 10 ** rng.uniform(0.2, 1.2)
-        curve = (gain / (2 * math.pi * waves) ** (0.5 * (1 + k)), gain, 0.0)
+        curve = Cosine(gain / (2 * math.pi * waves) ** (0.5 * (1 + k)), gain, 0.0)
         rim = 10 ** rng.uniform(-0.7, 1.2) if rng.uniform() < 0.8 else math.inf
         count, trace, rim_depth = _walked(table, curve, rim)
         lost, jumps = loading_to(table, curve, count, trace, rim, True)
@@ -66,21 +66,21 @@ def test_smooth(k: float, table_of: Callable[[float], Any]) -> None:
     table = table_of(k)
     for z_rim in (0.7, 1.9, 4.0, math.inf):
         rim = z_rim / (2 * math.pi)
-        count, trace, rim_depth = _walked(table, (1.0, 1e-300, 0.0), rim)
+        count, trace, rim_depth = _walked(table, Cosine(1.0, 1e-300, 0.0), rim)
         stretch = 2.0 / (1.0 + k)
         abscissa = smooth.smooth_abscissa(k, stretch, z_rim)
         loaded = smooth.smooth_loading(k, abscissa, z_rim, smooth.smooth_square(k, stretch, 2.0))
         last = smooth.smooth_square(k, stretch, smooth.abscissa_of_jump_out(k))
         expected = (loaded + smooth.smooth_unloading(k, abscissa, z_rim, last)) / (2.0 * math.pi)
         assert math.isclose(
-            loop_energy(table, (1.0, 1e-300, 0.0), count, trace, rim, rim_depth), expected, rel_tol=256 * EPS
+            loop_energy(table, Cosine(1.0, 1e-300, 0.0), count, trace, rim, rim_depth), expected, rel_tol=256 * EPS
         )
 
 
 def test_a_landing_that_is_off_does_not_matter(table_of: Callable[[float], Any]) -> None:
     """Places of landing come with half their digits; the integral must have all of them."""
     table = table_of(0.37)
-    curve = (0.05, 0.9, 0.0)
+    curve = Cosine(0.05, 0.9, 0.0)
     count, trace, rim_depth = _walked(table, curve, 6.2)
     exact = loop_energy(table, curve, count, trace, 6.2, rim_depth)
     trace[ARRIVAL, :count] = np.where(trace[ARRIVAL, :count] < math.inf, trace[ARRIVAL, :count] * (1 + 1e-7), math.inf)

@@ -9,7 +9,7 @@ import pytest
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import ROWS
-from gradhesion.core.curve.cosine import depth, slope
+from gradhesion.core.curve.cosine import Cosine, depth, slope
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.path import cosine as cycle
 from gradhesion.core.path.cosine_long import begin_long, ends_folds, stride
@@ -39,9 +39,9 @@ def follow_eight(table: Any, curve: Any, arches: Any, rims: Any, scratch: Any, o
         out[9, lane], out[10, lane] = lane_of(stands[ON_BRANCH], lane), lane_of(stands[IS_REACHED], lane)
 
 
-def _curve(table: Any, chi: float, waves: float) -> tuple[float, float, float]:
+def _curve(table: Any, chi: float, waves: float) -> Cosine:
     """Give the curve of a given C g whose folds end at a given wave."""
-    return chi / (2 * math.pi * waves) ** (0.5 * (1 + table["k"])), chi / table["amplitude"], 0.0
+    return Cosine(chi / (2 * math.pi * waves) ** (0.5 * (1 + table["k"])), chi / table["amplitude"], 0.0)
 
 
 def _eight(table: Any, curve: Any, arches: Any, rims: np.ndarray) -> np.ndarray:

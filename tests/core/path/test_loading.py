@@ -18,7 +18,7 @@ from gradhesion.core.curve.branches import (
     append_branches,
     room_for,
 )
-from gradhesion.core.curve.cosine import depth
+from gradhesion.core.curve.cosine import Cosine, depth
 from gradhesion.core.curve.cosine_folds import last_arch
 from gradhesion.core.path.loading import arrive, highest_depth, load_up, loading_to, next_higher
 from gradhesion.core.path.ties import note_loading
@@ -65,7 +65,9 @@ def test_arrive(kind: Callable[[Any], Any]) -> None:
 
 
 @pytest.mark.parametrize("k", [0.0, 0.29, 0.64, 1.0])
-@pytest.mark.parametrize("curve", [(0.03, 0.31, 0.0), (0.9, 3.1, 0.0), (0.07, 0.4, 0.0), (0.3, 8.0, 0.0)])
+@pytest.mark.parametrize(
+    "curve", [Cosine(0.03, 0.31, 0.0), Cosine(0.9, 3.1, 0.0), Cosine(0.07, 0.4, 0.0), Cosine(0.3, 8.0, 0.0)]
+)
 def test_it_follows_the_running_maximum(k: float, curve: Any, table_of: Callable[[float], Any]) -> None:
     """A jump is a stretch on which depth lies below its running maximum (from 0 on)."""
     table = table_of(k)
@@ -94,7 +96,7 @@ def test_it_follows_the_running_maximum(k: float, curve: Any, table_of: Callable
 
 def test_arrivals_rise(table_of: Callable[[float], Any]) -> None:
     table = table_of(0.29)
-    curve = (0.02, 1.1, 0.0)
+    curve = Cosine(0.02, 1.1, 0.0)
     trace = room_for(np.zeros((ROWS, 400)), last_arch(table, curve, 0.355) + 8)
     count = append_branches(table, curve, 0, last_arch(table, curve, 0.355), math.inf, trace, 0)
     last = load_up(table, curve, count, trace, math.inf, True)

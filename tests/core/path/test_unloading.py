@@ -19,12 +19,18 @@ from gradhesion.core.curve.branches import (
     append_branches,
     room_for,
 )
-from gradhesion.core.curve.cosine import depth
+from gradhesion.core.curve.cosine import Cosine, depth
 from gradhesion.core.curve.cosine_folds import last_arch
 from gradhesion.core.path.unloading import leave, leave_rim, next_lower, unloading_from
 
 KINDS = [lambda f: f, lambda f: f.py_func]
-CURVES = [(0.03, 0.31, 0.0), (0.9, 3.1, 0.0), (0.07, 0.4, 0.0), (0.3, 8.0, 0.0), (2.7, 0.01, 0.0)]
+CURVES = [
+    Cosine(0.03, 0.31, 0.0),
+    Cosine(0.9, 3.1, 0.0),
+    Cosine(0.07, 0.4, 0.0),
+    Cosine(0.3, 8.0, 0.0),
+    Cosine(2.7, 0.01, 0.0),
+]
 
 
 def _trace(table: Any, curve: Any) -> tuple[int, Any]:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gradhesion.core.curve.cosine import load, slope
+from gradhesion.core.curve.cosine import Cosine, load, slope
 from gradhesion.core.pull_off.cosine import load_at_rim, lowest_load
 from gradhesion.core.struve.table import struve_pair
 
@@ -26,13 +26,13 @@ def _loads(k: float, curve: Any, x: NDArray[np.float64]) -> NDArray[np.float64]:
     return values
 
 
-def _curves(seed: int, count: int, k: float) -> list[tuple[float, float, float]]:
+def _curves(seed: int, count: int, k: float) -> list[Cosine]:
     rng = np.random.default_rng(seed)
     made = []
     while len(made) < count:
         b, g = 10.0 ** rng.uniform(-4, 1.5), 10.0 ** rng.uniform(-3, 0.7)
         if (0.5 * (3 + k) * (1 + 1.8 * g) * 2 / b) ** (2 / (3 + k)) < 300:
-            made.append((b, g, 0.0))
+            made.append(Cosine(b, g, 0.0))
     return made
 
 
@@ -84,7 +84,7 @@ def test_no_load_lies_below_the_parabola(k: float, table_of: Callable[[float], A
 def test_rim_keeps_its_rounding_error(table_of: Callable[[float], Any]) -> None:
     """The rim a_max/lambda is rounded; the second part of it moves the load along its slope."""
     table = table_of(0.33)
-    curve = (0.0021, 0.8, 0.0)
+    curve = Cosine(0.0021, 0.8, 0.0)
     x, low = 17.3, 3e-9
     assert math.isclose(load_at_rim(table, curve, x, low), load(table, curve, x + low), rel_tol=1e-13)
     assert load_at_rim(table, curve, x, 0.0) == pytest.approx(load(table, curve, x), rel=4 * EPS)
@@ -94,7 +94,7 @@ def test_vanishing_waves_leave_the_smooth_punch(table_of: Callable[[float], Any]
     """The lowest Y (Y/(3+k) - 1)/b is -(3+k)/4b at Y = b z^((3+k)/2) = (3+k)/2."""
     for k in EXPONENTS:
         for b in (0.01, 3.3):
-            value, place, _ = lowest_load(table_of(k), (b, 1e-300, 0.0), math.inf, 0.0)
+            value, place, _ = lowest_load(table_of(k), Cosine(b, 1e-300, 0.0), math.inf, 0.0)
             assert math.isclose(value * b, -(3 + k) / 4, rel_tol=8 * EPS)
             assert math.isclose(b * (TWO_PI * place) ** (0.5 * (3 + k)), 0.5 * (3 + k), rel_tol=1e-11)
 
@@ -106,7 +106,7 @@ def test_short_waves_reach_the_envelope(table_of: Callable[[float], Any]) -> Non
         for g in (0.2, 1.1):
             chi = float(table["amplitude"]) * g
             for b in (1e-5, 1e-7):
-                value, place, _ = lowest_load(table, (b, g, 0.0), math.inf, 0.0)
+                value, place, _ = lowest_load(table, Cosine(b, g, 0.0), math.inf, 0.0)
                 limit = -(3 + k) / 4 * (1 + chi) ** 2
                 assert abs(value * b / limit - 1) < 3.0 / (TWO_PI * place)
                 assert value * b > limit * (1 + 3.0 / (TWO_PI * place) ** 2)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core.arrays.tables import changes_of, tables_of
-from gradhesion.core.curve.general import coordinate
+from gradhesion.core.curve.general import Series, coordinate
 from gradhesion.core.curve.general_energy import drop, energy_from_zero, jump_energy, place_left
 from gradhesion.core.sensitivities.general_jump_slopes import (
     NOTHING,
@@ -28,7 +28,7 @@ EPS = 2.0**-52
 
 def made(k: float, exponent: float, control: str) -> tuple[Any, Any, Any]:
     """Give the basis, a curve, and the change of the tables."""
-    return (*tables_of(k, PAIR), PAIR), (0.02, exponent, 0.4, *CONTROLS[control]), changes_of(k, PAIR)
+    return (*tables_of(k, PAIR), PAIR), Series(0.02, exponent, 0.4, *CONTROLS[control]), changes_of(k, PAIR)
 
 
 @pytest.mark.parametrize("k", [0.0, 0.37, 1.0])
@@ -43,7 +43,7 @@ def test_against_differences(k: float, exponent: float, control: str, start: flo
     add_drop(basis, curve, change, start, 0.0, end, sign, found)
 
     def energy(b: float = 1.0, gain: float = 1.0, share: float = 1.0) -> float:
-        return float(jump_energy(basis, (b * B, m, gain * g, alpha, share * beta), start, end, 0.0))
+        return float(jump_energy(basis, Series(b * B, m, gain * g, alpha, share * beta), start, end, 0.0))
 
     size = sum(abs(energy(*factors)) for factors in [(1, 1), (2, 1), (1, 2), (0, 1), (1, 0)])
     rounding = 1000 * EPS * size
@@ -77,7 +77,7 @@ def test_from_zero_contact(k: float, control: str, x: float, inwards: bool) -> N
     add_from_zero(basis, curve, change, parts, x, coordinate(basis, curve, x) if inwards else 0.0, 1.0, found)
 
     def energy(b: float = 1.0, gain: float = 1.0) -> float:
-        other = (b * B, m, gain * g, alpha, beta)
+        other = Series(b * B, m, gain * g, alpha, beta)
         return float(energy_from_zero(basis, other, x, coordinate(basis, other, x) if inwards else 0.0))
 
     size = sum(abs(energy(*factors)) for factors in [(1, 1), (2, 1), (1, 2), (0, 1), (1, 0)])

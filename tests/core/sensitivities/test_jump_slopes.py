@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core.curve.cosine import depth
+from gradhesion.core.curve.cosine import Cosine, depth
 from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
 from gradhesion.core.sensitivities.jump_slopes import (
     BEND,
@@ -20,7 +20,7 @@ from gradhesion.core.sensitivities.jump_slopes import (
 from gradhesion.core.sensitivities.neighbours import exponents_beside
 
 WORK = np.empty(48)
-CURVE = (0.02, 0.9, 0.0)
+CURVE = Cosine(0.02, 0.9, 0.0)
 JUMPS = [(0.02, 0.9), (0.3, 1.7), (6.2, 7.1), (7.1, 5.9), (9.3, 12.9), (31.3, 30.1), (3.0, 80.0), (90.0, 4.0)]
 
 
@@ -40,7 +40,7 @@ def test_against_the_polynomial(k: float, start: float, end: float, table_of: Ca
     add_slopes(table, CURVE, near, start, end, WORK, found)
 
     def energy(b: float, g: float) -> float:
-        return float(jump_energy(table, (b, g, 0.0), start, end, WORK))
+        return float(jump_energy(table, Cosine(b, g, 0.0), start, end, WORK))
 
     b, g, _ = CURVE
     whole = energy(b, g)
@@ -68,7 +68,7 @@ def test_to_and_from_zero(k: float, x: float, table_of: Callable[[float], Any]) 
         add_slopes_to_zero(table, CURVE, near, x, inwards, found)
 
         def energy(b: float, g: float, inwards: bool = inwards, more: float = 0.0) -> float:
-            curve = (b, g, 0.0)
+            curve = Cosine(b, g, 0.0)
             level = (float(depth(table, curve, x)) if inwards else 0.0) + more
             return float(energy_from_zero(table, curve, x, level)) * (-1.0 if inwards else 1.0)
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_folds import first_arch, last_arch
 from gradhesion.core.sensitivities.jump_slopes import BEND, GAIN, SLOPES
 from gradhesion.core.sensitivities.wave_slopes import ROOM, add_slopes_of_waves, slopes_of_wave
@@ -25,7 +26,7 @@ def test_a_sum_is_that_of_every_wave(k: float, chi: float, outwards: bool, table
     near = (np.array([table]), np.zeros((1, 2)), np.zeros(0))
     work, found = np.empty(ROOM), np.empty(SLOPES)
     for waves in (200.0, 1000.0):
-        curve = (chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / amplitude, 0.0)
+        curve = Cosine(chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / amplitude, 0.0)
         final = last_arch(table, curve, 0.5 * (1 - k))
         inner, outer = branch_points(table, curve, final, outwards)
         first = math.ceil(max(inner + 1.0, 0.5 * first_arch(table, curve, 0.5 * (1 - k)) + 16.0, 16.0))
@@ -38,6 +39,6 @@ def test_a_sum_is_that_of_every_wave(k: float, chi: float, outwards: bool, table
                 slopes_of_wave(table, curve, near, wave, outwards, work, found)
                 every += found
             total = np.zeros(SLOPES)
-            add_slopes_of_waves(table, curve, near, float(low), float(high), outwards, final, work, total)
+            add_slopes_of_waves(table, curve, near, (float(low), float(high)), outwards, final, work, total)
             for row in (BEND, GAIN):
                 assert total[row] == pytest.approx(every[row], rel=GOOD)

@@ -9,7 +9,7 @@ import pytest
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import END, END_DEPTH, ROWS, START, START_DEPTH
-from gradhesion.core.curve.cosine import depth
+from gradhesion.core.curve.cosine import Cosine, depth
 from gradhesion.core.path import cosine as cycle
 from gradhesion.core.struve.lanes import LANES, load, store
 from gradhesion.core.turning.cosine_at_once import turns_at_once
@@ -31,9 +31,9 @@ def _turn(table: Any, curve: Any, targets: np.ndarray) -> np.ndarray:
     return out
 
 
-def _curve(table: Any, chi: float, waves: float) -> tuple[float, float, float]:
+def _curve(table: Any, chi: float, waves: float) -> Cosine:
     """Give the curve of a given C g whose folds end at a given wave."""
-    return chi / (2 * math.pi * waves) ** (0.5 * (1 + table["k"])), chi / table["amplitude"], 0.0
+    return Cosine(chi / (2 * math.pi * waves) ** (0.5 * (1 + table["k"])), chi / table["amplitude"], 0.0)
 
 
 @pytest.mark.parametrize("k", [0.0, 0.37, 0.8, 1.0])

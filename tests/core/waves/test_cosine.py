@@ -9,8 +9,9 @@ import pytest
 
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.branches import END, END_DEPTH, ROWS, START, START_DEPTH, append_branches
-from gradhesion.core.curve.cosine import slope
+from gradhesion.core.curve.cosine import Cosine, slope
 from gradhesion.core.curve.cosine_folds import last_arch
+from gradhesion.core.curve.general import Series
 from gradhesion.core.waves.cosine import FAR, branch_of_wave, end_of_wave, jump_of_wave
 from gradhesion.core.waves.general import DOWN, UP, cut_of, room_for_waves, step_of_wave
 
@@ -19,10 +20,10 @@ EXPONENTS = [0.0, 0.37, 0.8, 1 - 1e-12, 1.0]
 WORK = np.zeros(22)
 
 
-def _curve(k: float, chi: float, waves: float) -> tuple[float, float, float]:
+def _curve(k: float, chi: float, waves: float) -> Cosine:
     """Give the curve of a given C g whose folds end at a given wave, about."""
     amplitude = 2 ** (0.5 * (k - 1)) * math.gamma(0.5 * (k + 1))
-    return chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / amplitude, 0.0
+    return Cosine(chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / amplitude, 0.0)
 
 
 @pytest.mark.parametrize("k", EXPONENTS)
@@ -66,7 +67,7 @@ def test_the_loss_is_that_of_any_profile(k: float, chi: float, waves: float, tab
     curve = _curve(k, chi, waves)
     rows = np.array([[1.0, 1.0, 0.0]])
     table, cosine_bins = tables_of(k)
-    basis, other = (table, cosine_bins, rows), (0.5 * curve[0], 2.0, curve[1], 1.0, 0.0)
+    basis, other = (table, cosine_bins, rows), Series(0.5 * curve[0], 2.0, curve[1], 1.0, 0.0)
     room, cut = room_for_waves(rows), cut_of(table, rows)
     nowhere = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     for part in (0.3, 0.9):
@@ -100,7 +101,7 @@ def test_landings_are_on_the_curve(table_of: Callable[[float], Any]) -> None:
 @pytest.mark.parametrize("wave", [3.0e6, 3.0e9])
 def test_neighbouring_waves_lose_evenly(k: float, wave: float, table_of: Callable[[float], Any]) -> None:
     """At three million waves the phase of a float is told to 10^-9; what a jump loses must not show it."""
-    curve = (0.4 / (2 * math.pi * wave) ** (0.5 * (1 + k)), 1.0, 0.0)
+    curve = Cosine(0.4 / (2 * math.pi * wave) ** (0.5 * (1 + k)), 1.0, 0.0)
     losses = [jump_of_wave(table_of(k), curve, wave + i, True, WORK)[1] for i in range(40)]
     noise = np.diff(losses, 3)
     assert np.abs(noise).max() <= 64 * EPS * abs(losses[0])

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_folds import first_arch, last_arch
 from gradhesion.core.waves.cosine import jump_of_wave
 from gradhesion.core.waves.cosine_at_once import (
@@ -24,10 +25,10 @@ EPS = 2.0**-52
 WORK, ROOM = np.zeros(22), room_for_batch()
 
 
-def _curve(k: float, chi: float, waves: float) -> tuple[float, float, float]:
+def _curve(k: float, chi: float, waves: float) -> Cosine:
     """Give a curve whose folds end at a given wave, about."""
     amplitude = 2 ** (0.5 * (k - 1)) * math.gamma(0.5 * (k + 1))
-    return chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / amplitude, 0.0
+    return Cosine(chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / amplitude, 0.0)
 
 
 def _losses(table: Any, curve: Any, waves: NDArray[np.float64], outwards: bool) -> NDArray[np.float64]:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_folds import first_arch, last_arch
 from gradhesion.core.waves.cosine import jump_of_wave
 from gradhesion.core.waves.cosine_at_once import room_for_batch
@@ -22,7 +23,7 @@ BEFORE_OUTER = 8.0
 def _run(k: float, chi: float, waves: float, outwards: bool, table: Any) -> tuple[Any, float, float, float]:
     """Give a curve whose folds end at a given wave, about, the first and the last wave of its sums, and its last arch."""
     amplitude = 2 ** (0.5 * (k - 1)) * math.gamma(0.5 * (k + 1))
-    curve = (chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / amplitude, 0.0)
+    curve = Cosine(chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / amplitude, 0.0)
     final = last_arch(table, curve, 0.5 * (1 - k))
     inner, outer = branch_points(table, curve, final, outwards)
     first = math.ceil(max(inner + 0.02, 0.5 * first_arch(table, curve, 0.5 * (1 - k)) + 16.0, 16.0))

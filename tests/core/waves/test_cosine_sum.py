@@ -10,6 +10,7 @@ import pytest
 from gradhesion.core import OUTPUTS, Loading, Profile, solve
 from gradhesion.core.arrays.general import solve_general
 from gradhesion.core.arrays.general_report import report_general
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_folds import first_arch, last_arch
 from gradhesion.core.equations import saturation
 from gradhesion.core.problem.material import stiffness
@@ -44,7 +45,7 @@ def test_a_sum_is_what_every_wave_loses(k: float, chi: float, outwards: bool, ta
     amplitude = 2 ** (0.5 * (k - 1)) * math.gamma(0.5 * (k + 1))
     runs = 0
     for waves in (200.0, 1000.0, 5000.0):
-        curve = (chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / amplitude, 0.0)
+        curve = Cosine(chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / amplitude, 0.0)
         final = last_arch(table, curve, 0.5 * (1 - k))
         inner, outer = branch_points(table, curve, final, outwards)
         first = math.ceil(max(inner + 1.0, 0.5 * first_arch(table, curve, 0.5 * (1 - k)) + 16.0, 16.0))
@@ -64,7 +65,7 @@ def test_a_short_sum_far_out(waves: float, table_of: Callable[[float], Any]) -> 
     """The length of a run must not be a difference of its places, which are 10^5 times as large."""
     table = table_of(0.5)
     amplitude = 2 ** (0.5 * (0.5 - 1)) * math.gamma(0.75)
-    curve = (0.3 / (2 * math.pi * 1e3 * waves) ** 0.75, 0.3 / amplitude, 0.0)
+    curve = Cosine(0.3 / (2 * math.pi * 1e3 * waves) ** 0.75, 0.3 / amplitude, 0.0)
     final = last_arch(table, curve, 0.25)
     for length in (60, 300):
         losses = [jump_of_wave(table, curve, waves + i, False, WORK)[1] for i in range(length)]

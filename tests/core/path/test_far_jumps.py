@@ -1,4 +1,4 @@
-"""Jumps of a path, eight at a time: where they land and what they lose against jumps taken one by one."""
+"""Jumps of a path beyond z = 40: where they land and what they lose against jumps found and integrated one by one."""
 
 import math
 from collections.abc import Callable
@@ -21,6 +21,7 @@ from gradhesion.core.curve.branches import (
     ends,
     find_depth,
 )
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import energy_by_panels, energy_from_zero
 from gradhesion.core.path import cosine as cycle
 from gradhesion.core.path.unloading import descend
@@ -33,7 +34,7 @@ EXPONENTS = [0.0, 0.37, 0.8]
 def test_places_and_losses(k: float, chi: float, waves: float, table_of: Callable[[float], Any]) -> None:
     """From zero contact to beyond z = 40, against places found and jumps integrated one by one."""
     table = table_of(k)
-    curve = (chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / table["amplitude"], 0.0)
+    curve = Cosine(chi / (2 * math.pi * waves) ** (0.5 * (1 + k)), chi / table["amplitude"], 0.0)
     count, trace = cycle.walk(table, curve, cycle.extent(table, curve), 30.0, np.empty((ROWS, 192)), True)
     work, before, loss, far = np.empty(16), -1, 0.0, 0
     for branch in np.flatnonzero(trace[ARRIVAL, :count] < math.inf):
@@ -63,7 +64,7 @@ def test_places_and_losses(k: float, chi: float, waves: float, table_of: Callabl
 def test_values_do_not_depend_on_the_reach(k: float, table_of: Callable[[float], Any]) -> None:
     """Jumps within a reach have the same bits with others beyond it."""
     table = table_of(k)
-    curve = (0.9 / (2 * math.pi * 40.0) ** (0.5 * (1 + k)), 0.9 / table["amplitude"], 0.0)
+    curve = Cosine(0.9 / (2 * math.pi * 40.0) ** (0.5 * (1 + k)), 0.9 / table["amplitude"], 0.0)
     arches = cycle.extent(table, curve)
     _, everything = cycle.walk(table, curve, arches, 35.0, np.empty((ROWS, 192)), True)
     for furthest in (6.9, 9.3, 14.2, 23.7):

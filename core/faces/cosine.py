@@ -1,0 +1,52 @@
+"""What one cosine on a paraboloid under displacement control answers (core/face.py)."""
+
+from typing import Any
+
+from gradhesion.core import face
+from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.curve.branches import ends, find_depth
+from gradhesion.core.curve.cosine import Cosine, depth_size, most_depth_size, slope
+from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
+
+
+@face.find_place.answers(Cosine)
+@kernel()
+def find_place(table: Any, curve: Cosine, level: float, trace: Any, branch: int) -> float:
+    """Answer by the slopes of the depth."""
+    return find_depth(table, curve, level, ends(trace, branch))
+
+
+face.loss_between.answers(Cosine)(jump_energy)
+
+
+@face.loss_from_zero.answers(Cosine)
+@kernel()
+def loss_from_zero(table: Any, curve: Cosine, x: float) -> float:
+    """Answer in closed form."""
+    return energy_from_zero(table, curve, x, 0.0)
+
+
+@face.loss_to_zero.answers(Cosine)
+@kernel()
+def loss_to_zero(table: Any, curve: Cosine, x: float, level: float) -> float:
+    """Answer in closed form."""
+    return -energy_from_zero(table, curve, x, level)
+
+
+@face.depth_at.answers(Cosine)
+@kernel()
+def depth_at(_table: Any, _curve: Cosine, _x: float, level: float) -> float:
+    """Answer that the coordinate is the depth."""
+    return level
+
+
+face.size_at.answers(Cosine)(depth_size)
+face.most_size_at.answers(Cosine)(most_depth_size)
+
+
+@face.fold_at.answers(Cosine)
+@kernel()
+def fold_at(table: Any, curve: Cosine, x: float) -> tuple[float, float]:
+    """Answer by the slopes of the depth."""
+    value, rate, _, _ = slope(table, curve, 0.5 * (1.0 - table.k), x)
+    return value, rate

@@ -1,0 +1,87 @@
+"""What any profile under any control answers (core/face.py)."""
+
+import math
+from typing import Any
+
+from gradhesion.core import face
+from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.curve.arches import is_one_cosine
+from gradhesion.core.curve.branches import ends
+from gradhesion.core.curve.general import Basis, Series, size, slope, state
+from gradhesion.core.curve.general_branches import find_level
+from gradhesion.core.curve.one_cosine_energy import jump_of_one_cosine, jump_of_one_cosine_from_zero
+from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
+
+
+@face.find_place.answers(Series)
+@kernel()
+def find_place(basis: Basis, curve: Series, level: float, trace: Any, branch: int) -> float:
+    """Answer by the slopes of the coordinate."""
+    return find_level(basis, curve, level, ends(trace, branch), 0.0)
+
+
+@face.loss_between.answers(Series)
+@kernel()
+def loss_between(basis: Basis, curve: Series, start: float, end: float, _work: Any) -> float:
+    """Answer in closed form for one cosine where that serves, else by quadrature."""
+    if is_one_cosine(basis[2], curve.exponent) and end > 0.0:
+        served, energy = jump_of_one_cosine(basis, curve, start, end)
+        if served:
+            return energy
+    return jump_between(basis, curve, start, end, 0.0)
+
+
+@kernel()
+def _from_zero(basis: Basis, curve: Series, x: float, level: float) -> float:
+    """Return the energy that the jump from zero contact to x loses at a level."""
+    if is_one_cosine(basis[2], curve.exponent):
+        served, energy = jump_of_one_cosine_from_zero(basis, curve, x, level)
+        if served:
+            return energy
+    return jump_from_zero(basis, curve, x, level, 0.0)
+
+
+@face.loss_from_zero.answers(Series)
+@kernel()
+def loss_from_zero(basis: Basis, curve: Series, x: float) -> float:
+    """Answer as `loss_between` does."""
+    return _from_zero(basis, curve, x, 0.0)
+
+
+@face.loss_to_zero.answers(Series)
+@kernel()
+def loss_to_zero(basis: Basis, curve: Series, x: float, level: float) -> float:
+    """Answer as `loss_between` does; nothing under a dead load."""
+    return 0.0 if curve.alpha == 0.0 else -_from_zero(basis, curve, x, level)
+
+
+@face.depth_at.answers(Series)
+@kernel()
+def depth_at(basis: Basis, curve: Series, x: float, _level: float) -> float:
+    """Answer with the depth of the contact, whatever is prescribed."""
+    if x == 0.0:  # k = 1: contact begins in a point
+        return -1.0
+    _, _, _, depth, _ = state(basis, curve, x, 0.0)
+    return depth
+
+
+@face.size_at.answers(Series)
+@kernel()
+def size_at(basis: Basis, curve: Series, x: float) -> float:
+    """Answer by the terms of depth and load."""
+    return size(basis, curve, x, 0.0)
+
+
+@face.most_size_at.answers(Series)
+@kernel()
+def most_size_at(_basis: Basis, _curve: Series, _x: float) -> float:
+    """Answer that no bound is known without a power."""
+    return math.inf
+
+
+@face.fold_at.answers(Series)
+@kernel()
+def fold_at(basis: Basis, curve: Series, x: float) -> tuple[float, float]:
+    """Answer by the slopes of the coordinate."""
+    value, rate, _ = slope(basis, curve, x, 0.0)
+    return value, rate

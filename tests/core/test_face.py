@@ -1,0 +1,294 @@
+"""The face that every kind of curve shows: each of its functions keeps its contract for each kind that answers it."""
+
+import inspect
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gradhesion.core import face
+from gradhesion.core.arrays.tables import changes_of, tables_of
+from gradhesion.core.compiler.dispatch import Face
+from gradhesion.core.curve import cosine, general, short_wave
+from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, ROWS, START, START_DEPTH
+from gradhesion.core.curve.cosine import Cosine
+from gradhesion.core.curve.cosine_folds import last_arch
+from gradhesion.core.curve.general import Series
+from gradhesion.core.curve.short_wave import ShortWave
+from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
+from gradhesion.core.path import cosine as cosine_path
+from gradhesion.core.path import general as general_path
+from gradhesion.core.scene.short_wave import trace_branches
+from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, GAIN, SLOPES
+from gradhesion.core.sensitivities.wave_slopes import ROOM
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.waves.cosine import branch_of_wave
+
+K, CHI, WAVES, FURTHEST = 0.37, 1.2, 12.0, 9.0
+ONE = np.array([[1.0, 1.0, 0.0]])
+TWO = np.array([[1.0, 1.0, 0.0], [2.0, 0.2, 0.15]])
+EXACT = {"size_at", "most_size_at", "fold_at"}
+OF_SLOPES = {"steepness_at", "rim_slope", "add_slopes", "add_slopes_to_zero", "gap_in", "start_of_wave"}
+OF_SLOPES |= {"add_slopes_of_waves"}
+DECLARED = {name: value for name, value in vars(face).items() if isinstance(value, Face)}
+
+
+@dataclass(frozen=True)
+class Case:
+    """A curve with its branches: `unit` is the length of a wave in its places, `near` what sensitivities need."""
+
+    table: Any
+    curve: Any
+    count: int
+    trace: Any
+    coordinate: Callable[[float], float]
+    unit: float = 1.0
+    near: Any = ()
+
+    def ask(self, name: str, *arguments: Any) -> Any:
+        """Call a function of the face."""
+        return DECLARED[name](self.table, self.curve, *arguments)
+
+    def to_zero(self, x: float, level: float) -> float:
+        """Give what the jump-out from x at a level loses; of a load, which bounds nothing, minus the jump-in's at 0."""
+        dead = isinstance(self.curve, Series) and self.curve.alpha == 0.0
+        return float(-self.ask("loss_from_zero", x) if dead else self.ask("loss_to_zero", x, level))
+
+
+def _cosine() -> Case:
+    table, _ = tables_of(K)
+    bend, gain = CHI / (TWO_PI * WAVES) ** (0.5 * (1 + K)), CHI / float(table["amplitude"])
+    curve = Cosine(bend, gain, 0.0)
+    arches = cosine_path.extent(table, curve)
+    count, trace = cosine_path.walk(table, curve, arches, FURTHEST, np.empty((ROWS, 192)), True)
+    near = (np.array([table]), np.zeros((1, 2)), np.zeros(0))
+    return Case(table, curve, count, trace, lambda x: float(cosine.depth(table, curve, x)), near=near)
+
+
+def _series(rows: Any, exponent: float, alpha: float, beta: float) -> Case:
+    basis, one = (*tables_of(K, rows), rows), _cosine().curve
+    curve = Series(0.5 * one.bend * (TWO_PI * 3) ** (2 - exponent), exponent, one.gain, alpha, beta)
+    first, last = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
+    count, trace, _ = general_path.walk(basis, curve, first, last, FURTHEST, True)
+    return Case(
+        basis, curve, count, trace, lambda x: float(general.coordinate(basis, curve, x)), near=changes_of(K, rows)
+    )
+
+
+def _short_wave() -> Case:
+    one = _cosine()
+    table = one.table
+    curve = ShortWave(K, one.curve.bend, CHI, one.curve.gain, float(table["phase"]))
+    count, trace = trace_branches(curve, TWO_PI * FURTHEST)
+    return Case((), curve, count, trace, lambda z: float(short_wave.depth(curve, z)), unit=TWO_PI)
+
+
+CASES = {
+    "cosine": _cosine,
+    "same cosine as a series": lambda: _series(ONE, 2.0, 1.0, 0.0),
+    "series": lambda: _series(TWO, 2.3, 1.0, 0.0),
+    "series by a machine": lambda: _series(TWO, 2.3, 0.7, 0.3),
+    "series under a load": lambda: _series(TWO, 2.3, 0.0, 1.0),
+    "short wave": _short_wave,
+}
+
+
+@pytest.fixture(scope="module", params=CASES)
+def case(request: pytest.FixtureRequest) -> Case:
+    """Give a curve of every kind."""
+    return CASES[request.param]()
+
+
+@pytest.fixture(scope="module", params=[name for name in CASES if name != "short wave"])
+def exact(request: pytest.FixtureRequest) -> Case:
+    """Give a curve of every kind that is exact."""
+    return CASES[request.param]()
+
+
+def jumps_of(case: Case) -> list[tuple[float, float]]:
+    """Give the ends of some jumps: from the end of a branch outwards, and from the start of one inwards."""
+    arrived = [branch for branch in range(case.count) if case.trace[START, branch] > 0.0]
+    inner, outer = arrived[1], arrived[-2]
+    return [
+        (case.trace[END, inner], case.trace[START, outer] + 0.1 * case.unit),
+        (case.trace[START, outer], case.trace[START, inner] + 0.1 * case.unit),
+    ]
+
+
+@pytest.mark.parametrize("name", DECLARED)
+def test_each_function_is_answered_by_each_kind(name: str) -> None:
+    """A short wave answers what a path asks: nothing else is computed of its leading form."""
+    kinds = {Cosine, Series} if name in EXACT | OF_SLOPES else {Cosine, Series, ShortWave}
+    assert {*DECLARED[name].answered()} == kinds
+    declared = [*inspect.signature(DECLARED[name]).parameters]
+    for kind in kinds:
+        answer = [*inspect.signature(DECLARED[name].answer_of(kind)).parameters]
+        assert len(answer) == len(declared)
+        assert answer.index("curve" if "curve" in answer else "_curve") == declared.index("curve")
+
+
+def test_a_place_is_where_the_branch_meets_the_level(case: Case) -> None:
+    for branch in range(case.count):
+        low, high = case.trace[START_DEPTH, branch], case.trace[END_DEPTH, branch]
+        high = high if math.isfinite(high) else low + 1.0
+        for share in (0.03, 0.5, 0.98):
+            level = low + share * (high - low)
+            x = case.ask("find_place", level, case.trace, branch)
+            assert case.trace[START, branch] <= x <= case.trace[END, branch]
+            assert abs(case.coordinate(x) - level) <= 1e-6 * (abs(high) + abs(low)) + 1e-9
+
+
+def test_a_jump_loses_the_difference_of_two_that_end_in_zero_contact(case: Case) -> None:
+    if isinstance(case.curve, Series) and case.curve.alpha == 0.0:
+        assert case.ask("loss_to_zero", 2.3, 0.1) == 0.0, "it has no bound"
+        return
+    for start, end in jumps_of(case):
+        level = case.coordinate(start)
+        out, other = case.to_zero(start, level), case.to_zero(end, level)
+        found = case.ask("loss_between", start, end, np.empty(16))
+        assert found == pytest.approx(out - other, abs=1e-9 * (abs(out) + abs(other)))
+        assert found != 0.0
+        assert case.ask("loss_from_zero", end) == pytest.approx(-case.to_zero(end, 0.0), rel=1e-12)
+
+
+def test_the_depth_is_the_coordinate_unless_a_load_has_a_share(case: Case) -> None:
+    for x in (0.4 * case.unit, 3.3 * case.unit):
+        level = case.coordinate(x)
+        depth = case.ask("depth_at", x, level)
+        if not isinstance(case.curve, Series):
+            assert depth == level
+            continue
+        by_depth = general.coordinate(case.table, case.curve._replace(alpha=1.0, beta=0.0), x)
+        assert depth == pytest.approx(by_depth, rel=1e-13)
+
+
+def test_loading_arrives_where_the_level_of_the_jump_is_met(exact: Case) -> None:
+    """What kernels of the path get from the face, compiled into them."""
+    arrived = [branch for branch in range(exact.count) if exact.trace[ARRIVAL, branch] < math.inf]
+    assert len(arrived) > 2
+    for before, after in pairwise(arrived):
+        x = exact.ask("find_place", exact.trace[END_DEPTH, before], exact.trace, after)
+        assert exact.trace[ARRIVAL, after] == x
+
+
+def test_sizes_bound_the_coordinate(exact: Case) -> None:
+    for x in (0.02, 0.7, 5.3, 800.1):
+        size = exact.ask("size_at", x)
+        assert abs(exact.coordinate(x)) <= size <= exact.ask("most_size_at", x)
+
+
+def test_folds_are_zeros_of_the_slope(exact: Case) -> None:
+    for branch in range(1, exact.count - 1):
+        for row in (START, END):
+            x = exact.trace[row, branch]
+            value, rate = exact.ask("fold_at", x)
+            assert abs(value) <= 1e-9 * abs(rate)
+            assert (rate > 0.0) == (row == START)
+            assert abs(exact.ask("steepness_at", x)) <= 1e-8
+    for x in (0.3, 4.4):
+        step = 1e-5
+        slope = (exact.coordinate(x + step) - exact.coordinate(x - step)) / (2.0 * TWO_PI * step)
+        assert exact.ask("steepness_at", x) == pytest.approx(slope, rel=1e-6, abs=1e-8)
+        (low, _), (high, _) = exact.ask("fold_at", x - step), exact.ask("fold_at", x + step)
+        assert exact.ask("fold_at", x)[1] == pytest.approx((high - low) / (2.0 * TWO_PI * step), rel=1e-6, abs=1e-8)
+
+
+def test_the_slope_at_a_rim_is_that_of_the_loss(exact: Case) -> None:
+    step = 1e-4
+    for x in (0.6, 3.7):
+        ends = [exact.ask("loss_from_zero", x * math.exp(i * step)) for i in (-2, -1, 1, 2)]
+        expected = np.dot([1, -8, 8, -1], ends) / (12 * step)
+        assert exact.ask("rim_slope", 0.0, x) == pytest.approx(expected, rel=1e-7)
+
+
+def test_slopes_are_those_of_the_losses(exact: Case) -> None:
+    """By bend and gain, in which a loss is a polynomial of degree 2; one cosine has its slope by b, a series by ln B."""
+    curve = exact.curve
+    units = (curve.bend, curve.gain) if isinstance(curve, Cosine) else (1.0, 1.0)
+
+    def other(share: float, gain: float) -> Case:
+        changed = curve._replace(bend=share * curve.bend, gain=gain * curve.gain)
+        return Case(exact.table, changed, 0, None, exact.coordinate)
+
+    for start, end in jumps_of(exact):
+        total = np.zeros(SLOPES)
+        exact.ask("add_slopes", exact.near, start, end, np.empty(ROOM), total)
+        for row, factors in ((BEND, (1, 0)), (GAIN, (0, 1))):
+            above, below = (
+                other(*(1.0 + sign * factor for factor in factors)).ask("loss_between", start, end, np.empty(16))
+                for sign in (0.5, -0.5)
+            )
+            assert units[row] * total[row] == pytest.approx(above - below, rel=1e-8, abs=1e-10)
+    total = np.zeros(SLOPES)
+    exact.ask("add_slopes_to_zero", exact.near, 2.3, False, total)
+    for row, factors in ((BEND, (1, 0)), (GAIN, (0, 1))):
+        above, below = (
+            other(*(1.0 + sign * factor for factor in factors)).ask("loss_from_zero", 2.3) for sign in (0.5, -0.5)
+        )
+        assert units[row] * total[row] == pytest.approx(above - below, rel=1e-8)
+
+
+def test_waves_that_were_not_walked() -> None:
+    """Their slopes are those of their jumps, one by one; a kind whose traces have no gap says so by NaN."""
+    one, series = _cosine(), _series(TWO, 2.3, 1.0, 0.0)
+    table, curve = one.table, one.curve._replace(bend=CHI / (TWO_PI * 500.0) ** (0.5 * (1 + K)))
+    wide = Case(table, curve, 0, None, one.coordinate, near=one.near)
+    final = last_arch(table, curve, 0.5 * (1.0 - K))
+    total, every = np.zeros(SLOPES), np.zeros(SLOPES)
+    wide.ask("add_slopes_of_waves", wide.near, (30.0, 32.0), True, final, np.empty(ROOM), total)
+    for wave in (30.0, 31.0, 32.0):
+        end, level = branch_of_wave(table, curve, wave)[2:]
+        _, _, high, high_level = branch_of_wave(table, curve, wave + 1.0)
+        start, start_level = wide.ask("start_of_wave", wave + 1.0)
+        assert (start, start_level) == branch_of_wave(table, curve, wave + 1.0)[:2]
+        trace = np.full((ROWS, 1), np.nan)
+        trace[[START, START_DEPTH, END, END_DEPTH], 0] = start, start_level, high, high_level
+        wide.ask("add_slopes", wide.near, end, wide.ask("find_place", level, trace, 0), np.empty(ROOM), every)
+    assert total[[BEND, GAIN, DEPTH]] == pytest.approx(every[[BEND, GAIN, DEPTH]], rel=1e-8)
+    assert face.gap_in(curve, one.trace) == math.inf, "all of it was walked"
+    assert face.gap_in(series.curve, series.trace) == math.inf
+    assert np.isnan(series.ask("start_of_wave", 30.0)).all()
+    total[:] = 0.0
+    series.ask("add_slopes_of_waves", series.near, (30.0, 32.0), True, final, np.empty(ROOM), total)
+    assert np.isnan(total).all()
+
+
+def test_two_kinds_that_describe_one_curve_answer_the_same() -> None:
+    one, series = _cosine(), _series(ONE, 2.0, 1.0, 0.0)
+    assert one.count == series.count
+    for branch in range(one.count - 1):
+        level = 0.5 * (one.trace[START_DEPTH, branch] + one.trace[END_DEPTH, branch])
+        places = [each.ask("find_place", level, each.trace, branch) for each in (one, series)]
+        assert places[0] == pytest.approx(places[1], abs=1e-6)
+    for name, arguments in {
+        "loss_between": (3.1, 5.2, np.empty(16)),
+        "loss_from_zero": (4.3,),
+        "loss_to_zero": (4.3, -0.2),
+        "depth_at": (2.2, one.coordinate(2.2)),
+        "size_at": (2.2,),
+        "fold_at": (2.2,),
+        "steepness_at": (2.2,),
+        "rim_slope": (0.3, 2.2),
+    }.items():
+        assert one.ask(name, *arguments) == pytest.approx(series.ask(name, *arguments), rel=1e-11), name
+
+
+def test_short_waves_come_to_the_exact_answers() -> None:
+    """By one order in lambda over the radius."""
+    short, one = _short_wave(), _cosine()
+    for z in (60.0, 600.0):
+        for name, arguments, exact in [
+            ("loss_from_zero", (z,), (z / TWO_PI,)),
+            ("loss_to_zero", (z, 0.4), (z / TWO_PI, 0.4)),
+        ]:
+            found, expected = short.ask(name, *arguments), one.ask(name, *exact)
+            assert found == pytest.approx(expected, rel=3.0 / z), name
+
+
+def test_a_curve_of_no_kind() -> None:
+    with pytest.raises(TypeError, match="find_place has no answer for a curve of the type tuple"):
+        face.find_place((), (0.1, 0.2, 0.0), 0.0, np.empty((ROWS, 1)), 0)
