@@ -35,7 +35,6 @@ _OF_SLOPES: Final = tuple(f"gradhesion.core.faces.{kind}_slopes" for kind in ("c
 @face(*_OF_PATHS)
 def find_place(table: Any, curve: Any, level: float, trace: Any, branch: int) -> float:
     """Return the place at which a branch meets a level: one between those of its two ends, on the rising curve."""
-    raise NotImplementedError
 
 
 @face(*_OF_PATHS)
@@ -44,25 +43,21 @@ def loss_between(table: Any, curve: Any, start: float, end: float, work: Any) ->
 
     `work` is room for 16 floats. The end may be 0 where k = 1: there the contact shrinks to a point.
     """
-    raise NotImplementedError
 
 
 @face(*_OF_PATHS)
 def loss_from_zero(table: Any, curve: Any, x: float) -> float:
     """Return the energy that the jump from zero contact to x > 0 loses, at the level 0."""
-    raise NotImplementedError
 
 
 @face(*_OF_PATHS)
 def loss_to_zero(table: Any, curve: Any, x: float, level: float) -> float:
     """Return the energy that the jump-out from x > 0 loses, at a level; 0 under a dead load: there it has no bound."""
-    raise NotImplementedError
 
 
 @face(*_OF_PATHS)
 def depth_at(table: Any, curve: Any, x: float, level: float) -> float:
     """Return the depth at x >= 0, a place where the coordinate is `level`, in units of s l^c."""
-    raise NotImplementedError
 
 
 # decisions that are close: all that is exact
@@ -71,19 +66,16 @@ def depth_at(table: Any, curve: Any, x: float, level: float) -> float:
 @face(*_OF_EXACT)
 def size_at(table: Any, curve: Any, x: float) -> float:
     """Return the size of the coordinate's terms at x > 0, the sum of their absolute values."""
-    raise NotImplementedError
 
 
 @face(*_OF_EXACT)
 def most_size_at(table: Any, curve: Any, x: float) -> float:
     """Return a bound of `size_at` that takes no power of x, inf if there is none."""
-    raise NotImplementedError
 
 
 @face(*_OF_EXACT)
 def fold_at(table: Any, curve: Any, x: float) -> tuple[float, float]:
     """Return D at x > 0, whose zeros are the folds of the coordinate, and dD/dz."""
-    raise NotImplementedError
 
 
 # sensitivities: all that is exact
@@ -92,37 +84,31 @@ def fold_at(table: Any, curve: Any, x: float) -> tuple[float, float]:
 @face(*_OF_SLOPES)
 def steepness_at(table: Any, curve: Any, x: float) -> float:
     """Return the slope of the coordinate at x > 0 by z."""
-    raise NotImplementedError
 
 
 @face(*_OF_SLOPES)
 def rim_slope(table: Any, curve: Any, level: float, x: float) -> float:
     """Return the slope by ln x of the energy of a jump at a level that ends at x > 0, on no branch."""
-    raise NotImplementedError
 
 
 @face(*_OF_SLOPES)
 def add_slopes(table: Any, curve: Any, near: Any, start: float, end: float, work: Any, total: Any) -> None:
     """Add the slopes of `loss_between`, of a jump whose ends are held; `work` is room for 48 floats."""
-    raise NotImplementedError
 
 
 @face(*_OF_SLOPES)
 def add_slopes_to_zero(table: Any, curve: Any, near: Any, x: float, inwards: bool, total: Any) -> None:
     """Add the slopes of `loss_to_zero` at the level of x > 0 (inwards), or those of `loss_from_zero`."""
-    raise NotImplementedError
 
 
 @face(*_OF_SLOPES)
 def gap_in(curve: Any, trace: Any) -> float:
     """Return the branch of a trace before which waves stand that were not walked, inf if there are none."""
-    raise NotImplementedError
 
 
 @face(*_OF_SLOPES)
 def start_of_wave(table: Any, curve: Any, wave: float) -> tuple[float, float]:
     """Return place and level of the start of the branch on a wave of a gap; NaN if a trace of this kind has none."""
-    raise NotImplementedError
 
 
 @face(*_OF_SLOPES)
@@ -134,4 +120,3 @@ def add_slopes_of_waves(
     `final` is the last arch on which the curve folds; `work` is room for 112 floats. Where a trace of this kind has no
     gap, NaN is added.
     """
-    raise NotImplementedError

@@ -34,6 +34,9 @@ class Face(Generic[Given, Result]):
         needs the face.
     """
 
+    __name__: str
+    __qualname__: str
+
     def __init__(self, declared: Callable[Given, Result], answered_in: tuple[str, ...]) -> None:
         update_wrapper(self, declared)
         self._at = [*inspect.signature(declared).parameters].index(_CHOOSING)

@@ -12,7 +12,6 @@ from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
 @face.find_place.answers(Cosine)
 @kernel()
 def find_place(table: Any, curve: Cosine, level: float, trace: Any, branch: int) -> float:
-    """Answer by the slopes of the depth."""
     return find_depth(table, curve, level, ends(trace, branch))
 
 
@@ -22,14 +21,12 @@ face.loss_between.answers(Cosine)(jump_energy)
 @face.loss_from_zero.answers(Cosine)
 @kernel()
 def loss_from_zero(table: Any, curve: Cosine, x: float) -> float:
-    """Answer in closed form."""
     return energy_from_zero(table, curve, x, 0.0)
 
 
 @face.loss_to_zero.answers(Cosine)
 @kernel()
 def loss_to_zero(table: Any, curve: Cosine, x: float, level: float) -> float:
-    """Answer in closed form."""
     return -energy_from_zero(table, curve, x, level)
 
 
@@ -47,6 +44,5 @@ face.most_size_at.answers(Cosine)(most_depth_size)
 @face.fold_at.answers(Cosine)
 @kernel()
 def fold_at(table: Any, curve: Cosine, x: float) -> tuple[float, float]:
-    """Answer by the slopes of the depth."""
     value, rate, _, _ = slope(table, curve, 0.5 * (1.0 - table.k), x)
     return value, rate

@@ -18,7 +18,6 @@ face.add_slopes_of_waves.answers(Cosine)(wave_slopes.add_slopes_of_waves)
 @face.steepness_at.answers(Cosine)
 @kernel()
 def steepness_at(table: Any, curve: Cosine, x: float) -> float:
-    """Answer with the slope of the depth."""
     steepness, _, _, _ = slope(table, curve, 0.5 * (1.0 - table.k), x)
     return steepness
 
@@ -26,7 +25,6 @@ def steepness_at(table: Any, curve: Cosine, x: float) -> float:
 @face.gap_in.answers(Cosine)
 @kernel()
 def gap_in(_curve: Cosine, trace: Any) -> float:
-    """Answer with what the trace says."""
     gap: float = trace[RUN, GAP]
     return gap
 

@@ -16,7 +16,6 @@ from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
 @face.find_place.answers(Series)
 @kernel()
 def find_place(basis: Basis, curve: Series, level: float, trace: Any, branch: int) -> float:
-    """Answer by the slopes of the coordinate."""
     return find_level(basis, curve, level, ends(trace, branch), 0.0)
 
 
@@ -44,7 +43,6 @@ def _from_zero(basis: Basis, curve: Series, x: float, level: float) -> float:
 @face.loss_from_zero.answers(Series)
 @kernel()
 def loss_from_zero(basis: Basis, curve: Series, x: float) -> float:
-    """Answer as `loss_between` does."""
     return _from_zero(basis, curve, x, 0.0)
 
 
@@ -68,7 +66,6 @@ def depth_at(basis: Basis, curve: Series, x: float, _level: float) -> float:
 @face.size_at.answers(Series)
 @kernel()
 def size_at(basis: Basis, curve: Series, x: float) -> float:
-    """Answer by the terms of depth and load."""
     return size(basis, curve, x, 0.0)
 
 
@@ -82,6 +79,5 @@ def most_size_at(_basis: Basis, _curve: Series, _x: float) -> float:
 @face.fold_at.answers(Series)
 @kernel()
 def fold_at(basis: Basis, curve: Series, x: float) -> tuple[float, float]:
-    """Answer by the slopes of the coordinate."""
     value, rate, _ = slope(basis, curve, x, 0.0)
     return value, rate

@@ -14,7 +14,6 @@ from gradhesion.core.sensitivities.general_wave_slopes import add_jump, add_jump
 @face.steepness_at.answers(Series)
 @kernel()
 def steepness_at(basis: Basis, curve: Series, x: float) -> float:
-    """Answer with the slope of the coordinate."""
     _, _, rate = general.slope(basis, curve, x)
     return rate
 

@@ -13,7 +13,6 @@ from gradhesion.core.curve.short_wave_energy import loss_of_jump
 @face.find_place.answers(ShortWave)
 @kernel()
 def find_place(_table: Any, curve: ShortWave, level: float, trace: Any, branch: int) -> float:
-    """Answer by the slope of the depth."""
     start, _, end, _ = ends(trace, branch)
     return short_wave.find_depth(curve, level, start, end)
 
@@ -28,14 +27,12 @@ def loss_between(_table: Any, curve: ShortWave, start: float, end: float, _work:
 @face.loss_from_zero.answers(ShortWave)
 @kernel()
 def loss_from_zero(_table: Any, curve: ShortWave, x: float) -> float:
-    """Answer at the depth 0."""
     return loss_of_jump(curve, 0.0, 0.0, x)
 
 
 @face.loss_to_zero.answers(ShortWave)
 @kernel()
 def loss_to_zero(_table: Any, curve: ShortWave, x: float, level: float) -> float:
-    """Answer at a depth."""
     return loss_of_jump(curve, level, x, 0.0)
 
 
