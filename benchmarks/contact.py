@@ -9,7 +9,7 @@ from benchmarks.clock import seconds_of, table
 from benchmarks.draw import mixture
 from gradhesion.core import solve
 from gradhesion.core.arrays.tables import table_of
-from gradhesion.core.contact import cosine_disc as contact
+from gradhesion.core.contact import disc as contact
 from gradhesion.core.curve.branches import ROWS
 from gradhesion.core.curve.cosine import curve_of
 from gradhesion.core.path.cosine import extent, is_long, walk
@@ -22,14 +22,14 @@ BOTH = ("pull_off_force", "dissipated_energy")
 def integrals(scenes: dict[str, Any]) -> float:
     """Return the share of scenes for which an integral of the gap is taken (the kernels run as plain Python)."""
     calls = [0]
-    compiled, limits = contact.least_opening, contact.limits_from
+    compiled, limits = contact.jump_is_one_disc, contact.limits_from
 
-    def counted(*arguments: Any) -> float:
-        calls[0] += 1
-        return float(compiled(*arguments))
+    def counted(*arguments: Any) -> bool:
+        calls[0] += arguments[2] > 0.0  # from zero contact nothing is integrated
+        return bool(compiled(*arguments))
 
     needed, number = 0, scenes["k"].size
-    contact.least_opening, contact.limits_from = counted, limits.py_func
+    contact.jump_is_one_disc, contact.limits_from = counted, limits.py_func
     try:
         for i in range(number):
             one = {name: float(np.broadcast_to(values, number)[i]) for name, values in scenes.items()}
@@ -46,7 +46,7 @@ def integrals(scenes: dict[str, Any]) -> float:
             contact.disc_limits.py_func(np.array(table_of(k)).view(np.recarray)[()], curve, count, trace, rim)
             needed += calls[0] > before
     finally:
-        contact.least_opening, contact.limits_from = compiled, limits
+        contact.jump_is_one_disc, contact.limits_from = compiled, limits
     return needed / number
 
 

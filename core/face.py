@@ -26,6 +26,7 @@ from gradhesion.core.compiler.dispatch import face
 
 _OF_PATHS: Final = tuple(f"gradhesion.core.faces.{kind}" for kind in ("cosine", "series", "short_wave"))
 _OF_EXACT: Final = _OF_PATHS[:2]
+_OF_CONTACT: Final = tuple(f"gradhesion.core.faces.{kind}_contact" for kind in ("cosine", "series"))
 _OF_SLOPES: Final = tuple(f"gradhesion.core.faces.{kind}_slopes" for kind in ("cosine", "series"))
 
 
@@ -60,6 +61,14 @@ def depth_at(table: Any, curve: Any, x: float, level: float) -> float:
     """Return the depth at x >= 0, a place where the coordinate is `level`, in units of s l^c."""
 
 
+# waves of a trace that were not walked, its gap: all that is exact
+
+
+@face(*_OF_EXACT)
+def gap_in(curve: Any, trace: Any) -> float:
+    """Return the branch of a trace before which waves stand that were not walked, inf if there are none."""
+
+
 # decisions that are close: all that is exact
 
 
@@ -76,6 +85,67 @@ def most_size_at(table: Any, curve: Any, x: float) -> float:
 @face(*_OF_EXACT)
 def fold_at(table: Any, curve: Any, x: float) -> tuple[float, float]:
     """Return D at x > 0, whose zeros are the folds of the coordinate, and dD/dz."""
+
+
+# the gap between the surfaces outside a contact: all that is exact
+
+
+@face(*_OF_CONTACT)
+def table_of(table: Any, curve: Any) -> Any:
+    """Return the table of the exponent, the record of struve/layout.py."""
+
+
+@face(*_OF_CONTACT)
+def coordinate_at(table: Any, curve: Any, x: float, whole: float) -> float:
+    """Return the coordinate at whole + x > 0; `whole` is a number of waves, 0 or beyond z = 40."""
+
+
+@face(*_OF_CONTACT)
+def surely_open(table: Any, curve: Any, x: float) -> float:
+    """Return by how much the coordinate may fall over a jump of loading that leaves x > 0 and surely one disc."""
+
+
+@face(*_OF_CONTACT)
+def is_always_one_disc(table: Any, curve: Any) -> bool:
+    """Return whether every contact on the curve is known to be one disc."""
+
+
+@face(*_OF_CONTACT)
+def touches_at_centre(table: Any, curve: Any, end: float) -> bool:
+    """Return whether the punch is nowhere, up to the radius `end`, lower than at its centre."""
+
+
+@face(*_OF_CONTACT)
+def waves_are_one_disc(table: Any, curve: Any, trace: Any) -> bool:
+    """Return whether the contact is one disc at the ends of the waves in the gap of a trace that loading passes."""
+
+
+@face(*_OF_CONTACT)
+def panels_of(table: Any, curve: Any) -> tuple[float, float]:
+    """Return the shortest wave in lambda, inf for none, and what radii of one panel may have for a ratio, inf for all.
+
+    In a panel of that ratio the power of the profile is a polynomial to 1e-12.
+    """
+
+
+@face(*_OF_CONTACT)
+def profile_at(table: Any, curve: Any, x: float) -> float:
+    """Return the height of the punch at x over that of its centre, in units of s l^c."""
+
+
+@face(*_OF_CONTACT)
+def edge_at(table: Any, curve: Any, x: float) -> Any:
+    """Return the edge (contact/gap.py) of a contact of radius x > 0 on the curve."""
+
+
+@face(*_OF_CONTACT)
+def excess_at(table: Any, curve: Any, edge: Any, x: float) -> tuple[float, float]:
+    """Return by how much depth_H at the radius x > 0 exceeds the depth of a contact, and z^c, in units of s l^c."""
+
+
+@face(*_OF_CONTACT)
+def fill_heights(table: Any, curve: Any, edge: Any, low: float, width: float, heights: Any) -> None:
+    """Fill F (contact/gap.py) at the 16 nodes of x^2 from low^2 to low^2 + width into `heights`, of shape (16,)."""
 
 
 # sensitivities: all that is exact
@@ -99,11 +169,6 @@ def add_slopes(table: Any, curve: Any, near: Any, start: float, end: float, work
 @face(*_OF_SLOPES)
 def add_slopes_to_zero(table: Any, curve: Any, near: Any, x: float, inwards: bool, total: Any) -> None:
     """Add the slopes of `loss_to_zero` at the level of x > 0 (inwards), or those of `loss_from_zero`."""
-
-
-@face(*_OF_SLOPES)
-def gap_in(curve: Any, trace: Any) -> float:
-    """Return the branch of a trace before which waves stand that were not walked, inf if there are none."""
 
 
 @face(*_OF_SLOPES)

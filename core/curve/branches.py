@@ -2,9 +2,9 @@
 
 They are kept in a *trace*, an array of one column a branch with the rows named here: the two folds that bound the
 branch, how loading arrives on it, where unloading goes from its start, and what it loses from there to the end of
-contact. Two rows more are room for the nodes of curve/cosine_energy.py and contact/cosine_gap.py and the waves of
-waves/cosine_sum.py, one tells of waves that are not walked, and the first column of the last one has the innermost
-place at which a pair of folds is about to be born (path/ties.py).
+contact. One row more is room for the nodes of curve/cosine_energy.py and the waves of waves/cosine_sum.py, one tells of
+waves that are not walked, and the first column of another one has the innermost place at which a pair of folds is about
+to be born (path/ties.py).
 """
 
 import math
@@ -33,18 +33,18 @@ ARRIVAL, LOADING_LOSS, LOADING_JUMPS = 4, 5, 6
 NEXT, LANDING = 7, 8
 """Where unloading goes from the start of a branch: the next branch that it visits, -1 for none, and where it lands."""
 UNLOADING_LOSS, UNLOADING_JUMPS, LAST_DEPTH, CALLER = 9, 10, 11, 12
-WORK, VALUES, RUN = 13, 14, 15
+WORK, RUN = 13, 14
 GAP, RUN_FIRST, RUN_LAST, RUN_LANDING = 0, 1, 2, 3
 RUN_BEFORE, RUN_AFTER, RUN_LOWEST, RUN_LEAST = 4, 5, 6, 7
 """What the row RUN holds: the first branch beyond waves that were not walked, the first and the last of these waves
 that loading leaves, and where it lands among them (0 if on the way from one wave to the next); the wave of the last
 branch before the gap, that of the first one after it, and the one of them or between that starts lowest; the least
-opening outside the ends of the waves of the gap (contact/cosine_gap.py), NaN if it is not known for all of them."""
-TANGENCY = 16
-HIGHEST, LOADING_IS_CLOSE, UNLOADING_IS_CLOSE = 17, 18, 19
+opening outside the ends of the waves of the gap (contact/waves.py), NaN if it is not known for all of them."""
+TANGENCY = 15
+HIGHEST, LOADING_IS_CLOSE, UNLOADING_IS_CLOSE = 16, 17, 18
 """The highest depth up to the end of a branch, 0 at least, whether a decision of loading was close up to there, and
 whether one of unloading is from the start of the branch on (path/ties.py)."""
-ROWS = 20
+ROWS = 19
 Waiting: TypeAlias = tuple[int, Lanes, Lanes, Lanes, Lanes]
 """How many folds wait; their arches, 1 where a branch starts and -1 where one ends, and the brackets."""
 NOWHERE: Final = constant(-1)

@@ -4,7 +4,7 @@ from typing import Any
 
 from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.branches import ends, find_depth
+from gradhesion.core.curve.branches import GAP, RUN, ends, find_depth
 from gradhesion.core.curve.cosine import Cosine, depth_size, most_depth_size, slope
 from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
 
@@ -46,3 +46,10 @@ face.most_size_at.answers(Cosine)(most_depth_size)
 def fold_at(table: Any, curve: Cosine, x: float) -> tuple[float, float]:
     value, rate, _, _ = slope(table, curve, 0.5 * (1.0 - table.k), x)
     return value, rate
+
+
+@face.gap_in.answers(Cosine)
+@kernel()
+def gap_in(_curve: Cosine, trace: Any) -> float:
+    gap: float = trace[RUN, GAP]
+    return gap

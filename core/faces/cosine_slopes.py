@@ -4,7 +4,6 @@ from typing import Any
 
 from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.branches import GAP, RUN
 from gradhesion.core.curve.cosine import Cosine, slope
 from gradhesion.core.sensitivities import jump_slopes, wave_slopes
 from gradhesion.core.waves.cosine import branch_of_wave
@@ -20,13 +19,6 @@ face.add_slopes_of_waves.answers(Cosine)(wave_slopes.add_slopes_of_waves)
 def steepness_at(table: Any, curve: Cosine, x: float) -> float:
     steepness, _, _, _ = slope(table, curve, 0.5 * (1.0 - table.k), x)
     return steepness
-
-
-@face.gap_in.answers(Cosine)
-@kernel()
-def gap_in(_curve: Cosine, trace: Any) -> float:
-    gap: float = trace[RUN, GAP]
-    return gap
 
 
 @face.start_of_wave.answers(Cosine)

@@ -81,3 +81,10 @@ def most_size_at(_basis: Basis, _curve: Series, _x: float) -> float:
 def fold_at(basis: Basis, curve: Series, x: float) -> tuple[float, float]:
     value, rate, _ = slope(basis, curve, x, 0.0)
     return value, rate
+
+
+@face.gap_in.answers(Series)
+@kernel()
+def gap_in(_curve: Series, _trace: Any) -> float:
+    """Answer that there is none: a long curve has notes instead (path/general_long.py)."""
+    return math.inf

@@ -39,13 +39,6 @@ def add_slopes_to_zero(basis: Basis, curve: Series, near: Change, x: float, inwa
     add_jump_from_zero(basis, curve, near, x, 0.0, inwards, total)
 
 
-@face.gap_in.answers(Series)
-@kernel()
-def gap_in(_curve: Series, _trace: Any) -> float:
-    """Answer that there is none: a long curve has notes instead (path/general_long.py)."""
-    return math.inf
-
-
 @face.start_of_wave.answers(Series)
 @kernel()
 def start_of_wave(_basis: Basis, _curve: Series, _wave: float) -> tuple[float, float]:

@@ -11,7 +11,7 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 
 from gradhesion.core.compiler.jit import NO, constant, kernel
-from gradhesion.core.contact.general_disc import climb_is_one_disc
+from gradhesion.core.contact.disc import climb_is_one_disc
 from gradhesion.core.curve.arches import folds_between
 from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curve.general import Basis, Series

@@ -3,8 +3,8 @@
 from typing import Final
 
 LOADING_NOT_ONE_DISC: Final = 1
-"""On loading the surfaces would overlap outside the contact, so that it is not one disc (contact/cosine_disc.py,
-contact/general_disc.py); or a punch of several waves touches elsewhere before its centre does. Reported if the loading
+"""On loading the surfaces would overlap outside the contact, so that it is not one disc
+(contact/disc.py); or a punch of several waves touches elsewhere before its centre does. Reported if the loading
 path is followed, that is, if an output other than those of the pull-off is requested."""
 UNLOADING_NOT_ONE_DISC: Final = 2
 """The same on unloading. It never occurs, for any profile and control (docs/theory.md, sections 12 and 15)."""

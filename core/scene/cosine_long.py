@@ -6,9 +6,11 @@ from typing import Any
 import numpy as np
 
 from gradhesion.core.compiler.jit import NO, NONE, kernel
-from gradhesion.core.contact.cosine_disc import ALWAYS_ONE, is_one_disc, limits_from, note_run
+from gradhesion.core.contact.disc import is_one_disc, limits_from
+from gradhesion.core.contact.waves import note_run
 from gradhesion.core.curve.branches import GAP, NOWHERE, RUN, RUN_FIRST, RUN_LAST, RUN_LEAST
 from gradhesion.core.curve.cosine import Cosine
+from gradhesion.core.face import is_always_one_disc
 from gradhesion.core.path.cosine import is_long, is_unresolved
 from gradhesion.core.path.cosine_long import (
     DISC_INNER,
@@ -64,8 +66,7 @@ def _limits_beyond(
 ) -> tuple[float, float, float]:
     """Return what `limits_of` does for one rim; the beginning and the waves of the gap are looked at once."""
     tangency = first_close_pair(count, trace)
-    _, g, _ = curve
-    if slots[CONTACT] < 0 or g * table.amplitude <= ALWAYS_ONE:
+    if slots[CONTACT] < 0 or is_always_one_disc(table, curve):
         return math.inf, math.inf, tangency
     first, last = trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST]
     inner, outer = _limits_of_beginning(table, curve, first, last, trace, long, final)
@@ -105,17 +106,16 @@ def _is_one_disc_among(
     table: Any, curve: Cosine, arches: tuple[float, float], x: float, first: float, trace: Any, long: Any, slots: Any
 ) -> bool:
     """Return whether loading keeps the contact one disc up to a rim among the waves that it enters with `first`."""
-    _, g, _ = curve
-    if slots[CONTACT] < 0 or g * table.amplitude <= ALWAYS_ONE:
+    if slots[CONTACT] < 0 or is_always_one_disc(table, curve):
         return True
     limits = _limits_of_beginning(table, curve, first, first, trace, long, arches[1])
     if limits[0] < math.inf:
-        return is_one_disc(table, curve, limits, x, trace)
+        return is_one_disc(table, curve, limits, x)
     if trace[RUN, RUN_LEAST] < 0.0:
         return False
     count = stride(table, curve, arches, x, trace, long, NO, 1.0)
     inner, outer, _ = _limits_beyond(table, curve, count, trace, long, x, arches[1], slots)
-    return is_one_disc(table, curve, (inner, outer), x, trace)
+    return is_one_disc(table, curve, (inner, outer), x)
 
 
 @kernel()

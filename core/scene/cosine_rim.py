@@ -4,7 +4,7 @@ import math
 from typing import Any
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.contact.cosine_disc import disc_limits, is_one_disc
+from gradhesion.core.contact.disc import disc_limits, is_one_disc
 from gradhesion.core.curve.branches import ARRIVAL
 from gradhesion.core.curve.cosine import Cosine, depth
 from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
@@ -88,7 +88,7 @@ def _cycle_at_rim(
     put(out, slots, DEEPEST, i, depth_scale * highest_depth(count, trace, x, rim_depth))
     if jumps_in_to(count, trace, x):
         status[i] |= JUMP_IN_TO_RIM
-    if not is_one_disc(table, curve, (inner, outer), x, trace):
+    if not is_one_disc(table, curve, (inner, outer), x):
         status[i] |= LOADING_NOT_ONE_DISC
 
 

@@ -11,7 +11,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core.compiler.jit import NONE, kernel
-from gradhesion.core.contact.general_disc import disc_limits, is_one_disc
+from gradhesion.core.contact.disc import disc_limits, is_one_disc
 from gradhesion.core.curve.arches import is_one_cosine
 from gradhesion.core.curve.branches import ARRIVAL
 from gradhesion.core.curve.cosine import force_unit

@@ -12,10 +12,11 @@ import numpy as np
 
 from gradhesion.core.closed import smooth
 from gradhesion.core.compiler.jit import NO, NONE, ONE, YES, kernel
-from gradhesion.core.contact.cosine_disc import ALWAYS_ONE, least_opening
-from gradhesion.core.curve.branches import END, END_DEPTH, GAP, RUN, START, START_DEPTH, VALUES, WORK, ends, find_depth
+from gradhesion.core.contact.least import least_opening
+from gradhesion.core.curve.branches import END, END_DEPTH, GAP, RUN, START, START_DEPTH, WORK, ends, find_depth
 from gradhesion.core.curve.cosine import Cosine, curve_of, depth, force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
+from gradhesion.core.face import is_always_one_disc
 from gradhesion.core.path.cosine import (
     LARGEST,
     MOST_ARCHES,
@@ -63,8 +64,7 @@ def _is_vague(table: Any, arches: tuple[float, float], reach: float) -> bool:
 @kernel()
 def _is_one_disc(table: Any, curve: Cosine, count: int, trace: Any, long: bool, x: float, rim: float) -> bool:
     """Return whether the contact that turns at x is one disc, out to the rim of the punch."""
-    _, g, _ = curve
-    if g * table.amplitude <= ALWAYS_ONE:
+    if is_always_one_disc(table, curve):
         return True
     level = depth(table, curve, x)
     now = count - 1
@@ -88,7 +88,7 @@ def _is_one_disc(table: Any, curve: Cosine, count: int, trace: Any, long: bool, 
                 break
     else:
         end = min(rim, x + _AROUND)
-    return not x < end or least_opening(table, curve, x, end, trace[WORK], trace[VALUES]) >= 0.0
+    return not x < end or least_opening(table, curve, x, end) >= 0.0
 
 
 @kernel()
@@ -144,7 +144,6 @@ def _turn_rim(
     """Return x where one scene turns, inf for the rim, and its flags; `scene` is rim, target and lambda/R."""
     rim, target, wavelength = scene
     by_load, check = modes
-    b, _, _ = curve
     if by_load:
         if long:
             x, close = turn_long_at_load(table, curve, count, trace, peaks, reach, target)
@@ -155,7 +154,7 @@ def _turn_rim(
             x, close = turn_long_at_depth(table, curve, count, trace, reach, target)
         else:
             x, close = turn_at_depth(table, curve, NONE, count, trace, reach, target)
-        close = close or _is_first_contact(table.k, b, target)
+        close = close or _is_first_contact(table.k, curve.bend, target)
     flags = 0
     if not (x < rim and x * wavelength < rim * wavelength):
         x = math.inf
@@ -208,7 +207,6 @@ def _turn_eight(
     """Turn the scenes of a long curve that wait at their depths: at once where these are those of regular waves."""
     count, indices, targets = waiting
     shared, _, _ = beginning
-    b, g, _ = curve
     now = int(shared[LAST_UP])
     left, level = (trace[END, now], trace[END_DEPTH, now]) if now >= 0 else (0.0, 0.0)
     places, waves, ends, tops, befores = turns_at_once(table, curve, targets)
@@ -233,11 +231,11 @@ def _turn_eight(
             continue
         radii[i] = min(rims[i], x * wavelength)
         apart = min(target - lane_of(befores, lane), lane_of(tops, lane) - target)
-        if is_within(table, curve, apart, end) or _is_first_contact(table.k, b, target):
+        if is_within(table, curve, apart, end) or _is_first_contact(table.k, curve.bend, target):
             flags[i] |= CLOSE_TO_A_JUMP
-        if modes[1] and g * table.amplitude > ALWAYS_ONE:
+        if modes[1] and not is_always_one_disc(table, curve):
             outer = min(rim, x + _AROUND)
-            if least_opening(table, curve, x, outer, trace[WORK], trace[VALUES]) < 0.0:
+            if least_opening(table, curve, x, outer) < 0.0:
                 flags[i] |= LOADING_NOT_ONE_DISC
 
 
@@ -265,7 +263,7 @@ def _turn_curve(
         if not _has_value(rims[i], target, by_load):
             radii[i], flags[i] = math.nan, NO_VALUE
         elif target < 0.0:  # the first contact is at the depth 0
-            radii[i], flags[i] = 0.0, CLOSE_TO_A_JUMP if _is_first_contact(table.k, b, target) else 0
+            radii[i], flags[i] = 0.0, CLOSE_TO_A_JUMP if _is_first_contact(table.k, curve.bend, target) else 0
         else:
             least, greatest = min(least, target), max(greatest, target)
     if greatest < least:

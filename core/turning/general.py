@@ -6,7 +6,8 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.core.compiler.jit import NO, NONE, kernel
-from gradhesion.core.contact.general_disc import is_surely_open, least_opening
+from gradhesion.core.contact.disc import is_surely_open
+from gradhesion.core.contact.least import least_opening
 from gradhesion.core.curve.branches import END_DEPTH, START, START_DEPTH, ends
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE

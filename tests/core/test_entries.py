@@ -107,9 +107,9 @@ def test_nobody_else_calls_one(path: str) -> None:
 
 
 def test_a_kernel_that_python_does_not_call_has_no_wrapper() -> None:
-    from gradhesion.core.contact import cosine_disc as contact
+    from gradhesion.core.curve import general_folds
     from gradhesion.core.scene import cosine as scene
 
     assert is_inner(scene._solve_force)
     assert not is_inner(scene.solve_curve)
-    assert not is_inner(contact._least_of_wave)  # entry=True
+    assert not is_inner(general_folds._extremum)  # entry=True

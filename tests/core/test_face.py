@@ -13,8 +13,9 @@ import pytest
 from gradhesion.core import face
 from gradhesion.core.arrays.tables import changes_of, tables_of
 from gradhesion.core.compiler.dispatch import Face
+from gradhesion.core.contact.gap import opening_far, opening_near
 from gradhesion.core.curve import cosine, general, short_wave
-from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, ROWS, START, START_DEPTH
+from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, ROWS, RUN, RUN_LEAST, START, START_DEPTH
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_folds import last_arch
 from gradhesion.core.curve.general import Series
@@ -26,14 +27,23 @@ from gradhesion.core.scene.short_wave import trace_branches
 from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, GAIN, SLOPES
 from gradhesion.core.sensitivities.wave_slopes import ROOM
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.fractional import NODES
 from gradhesion.core.waves.cosine import branch_of_wave
 
 K, CHI, WAVES, FURTHEST = 0.37, 1.2, 12.0, 9.0
 ONE = np.array([[1.0, 1.0, 0.0]])
 TWO = np.array([[1.0, 1.0, 0.0], [2.0, 0.2, 0.15]])
-EXACT = {"size_at", "most_size_at", "fold_at"}
-OF_SLOPES = {"steepness_at", "rim_slope", "add_slopes", "add_slopes_to_zero", "gap_in", "start_of_wave"}
-OF_SLOPES |= {"add_slopes_of_waves"}
+EXACT = {"gap_in", "size_at", "most_size_at", "fold_at"}
+OF_CONTACT = {
+    "table_of",
+    "coordinate_at",
+    "surely_open",
+    "is_always_one_disc",
+    "touches_at_centre",
+    "waves_are_one_disc",
+}
+OF_CONTACT |= {"panels_of", "profile_at", "edge_at", "excess_at", "fill_heights"}
+OF_SLOPES = {"steepness_at", "rim_slope", "add_slopes", "add_slopes_to_zero", "start_of_wave", "add_slopes_of_waves"}
 DECLARED = {name: value for name, value in vars(face).items() if isinstance(value, Face)}
 
 
@@ -122,7 +132,7 @@ def jumps_of(case: Case) -> list[tuple[float, float]]:
 @pytest.mark.parametrize("name", DECLARED)
 def test_each_function_is_answered_by_each_kind(name: str) -> None:
     """A short wave answers what a path asks: nothing else is computed of its leading form."""
-    kinds = {Cosine, Series} if name in EXACT | OF_SLOPES else {Cosine, Series, ShortWave}
+    kinds = {Cosine, Series} if name in EXACT | OF_CONTACT | OF_SLOPES else {Cosine, Series, ShortWave}
     assert {*DECLARED[name].answered()} == kinds
     declared = [*inspect.signature(DECLARED[name]).parameters]
     for kind in kinds:
@@ -232,6 +242,65 @@ def test_slopes_are_those_of_the_losses(exact: Case) -> None:
         assert units[row] * total[row] == pytest.approx(above - below, rel=1e-8)
 
 
+def test_the_edge_of_a_contact(exact: Case) -> None:
+    """Its parts add up to the depth, and depths exceed its own by those of the Hertzian profile."""
+    curve, alone = exact.curve, exact
+    if isinstance(curve, Series):
+        alone = Case(exact.table, curve._replace(alpha=1.0, beta=0.0), 0, None, exact.coordinate)
+    for x, other in ((0.4, 0.9), (3.3, 3.2), (3.3, 17.1)):
+        edge = exact.ask("edge_at", x)
+        depth, further = (float(alone.ask("coordinate_at", place, 0.0)) for place in (x, other))
+        assert edge.x == x
+        assert edge.stretch == pytest.approx((TWO_PI * x) ** (0.5 * (1.0 - K)), rel=1e-14)
+        assert edge.bend + edge.wave - edge.stretch == pytest.approx(depth, rel=1e-12, abs=1e-14)
+        excess, stretch = exact.ask("excess_at", edge, other)
+        assert stretch == pytest.approx((TWO_PI * other) ** (0.5 * (1.0 - K)), rel=1e-14)
+        assert excess == pytest.approx(further + stretch - depth, rel=1e-11, abs=1e-12)
+    heights = np.empty(16)
+    low, width = 3.5, 3.7**2 - 3.5**2
+    edge = exact.ask("edge_at", 3.3)
+    exact.ask("fill_heights", edge, low, width, heights)
+    for node, found in zip(NODES, heights, strict=True):
+        excess, stretch = exact.ask("excess_at", edge, math.sqrt(low * low + width * node))
+        assert found == pytest.approx(excess * edge.stretch / stretch**2, abs=1e-12 * np.abs(heights).max())
+
+
+def test_the_profile_is_that_of_the_depths(exact: Case) -> None:
+    """The gap is one integral of depths outside the contact, and the profile less one of those within."""
+    assert float(exact.ask("table_of")["k"]) == K
+    assert exact.ask("profile_at", 0.0) == 0.0
+    for a, r in ((0.3, 0.7), (1.3, 2.9)):
+        edge = exact.ask("edge_at", a)
+        near, far = (integral(exact.table, exact.curve, edge, r) for integral in (opening_near, opening_far))
+        assert near == pytest.approx(far, rel=1e-9)
+
+
+def test_what_is_known_of_the_contact_beforehand(exact: Case) -> None:
+    series = isinstance(exact.curve, Series)
+    short, growth = exact.ask("panels_of")
+    assert short == (1.0 / exact.table[2][:, 0].max() if series else 1.0)
+    assert growth > 1.0
+    for x in (0.7, 5.2):
+        stretch = (TWO_PI * x) ** (0.5 * (1.0 - K))
+        share = exact.curve.alpha + exact.curve.beta * (TWO_PI * x) ** (1.0 + K) if series else 1.0
+        assert exact.ask("surely_open", x) == pytest.approx(share * stretch, rel=1e-13)
+    for x, whole in ((0.7, 0.0), (0.2, 12.0)):
+        coordinate = exact.ask("coordinate_at", x, whole)
+        assert coordinate == pytest.approx(exact.coordinate(whole + x), rel=1e-11, abs=1e-12)
+    assert not exact.ask("is_always_one_disc")
+    assert exact.ask("touches_at_centre", 3.0)
+    noted = exact.trace.copy()
+    for least in (0.3, -0.1):
+        noted[RUN, RUN_LEAST] = least
+        assert exact.ask("waves_are_one_disc", noted) == (least > 0.0 or series)
+
+
+def test_a_punch_that_touches_elsewhere_first() -> None:
+    assert not _series(np.array([[1.0, -1.0, 0.0]]), 2.0, 1.0, 0.0).ask("touches_at_centre", 3.0)
+    weak = _cosine()
+    assert face.is_always_one_disc(weak.table, weak.curve._replace(gain=0.01))
+
+
 def test_waves_that_were_not_walked() -> None:
     """Their slopes are those of their jumps, one by one; a kind whose traces have no gap says so by NaN."""
     one, series = _cosine(), _series(TWO, 2.3, 1.0, 0.0)
@@ -273,6 +342,11 @@ def test_two_kinds_that_describe_one_curve_answer_the_same() -> None:
         "fold_at": (2.2,),
         "steepness_at": (2.2,),
         "rim_slope": (0.3, 2.2),
+        "coordinate_at": (0.2, 12.0),
+        "surely_open": (2.2,),
+        "profile_at": (2.3,),
+        "edge_at": (2.2,),
+        "excess_at": (one.ask("edge_at", 2.2), 2.6),
     }.items():
         assert one.ask(name, *arguments) == pytest.approx(series.ask(name, *arguments), rel=1e-11), name
 

@@ -69,7 +69,7 @@ def test_a_force_compiles_what_a_force_needs(tmp_path: Path) -> None:
         "path.cosine.walk",
         "path.cosine_long.stride",
         "curve.cosine_energy.jump_energy",
-        "contact.cosine_disc.disc_limits",
+        "contact.disc.disc_limits",
     }
     assert not cycle & {*tables, *force}
     assert len({*force}) == len(force), "no kernel for two types"

@@ -8,8 +8,9 @@ import mpmath
 import numpy as np
 import pytest
 
-from gradhesion.core.contact.cosine_gap import edge_at, height, opening, openings_between, trough_gap
+from gradhesion.core.contact.gap import height, opening, opening_far, opening_near, openings_between
 from gradhesion.core.curve.cosine import Cosine, depth
+from gradhesion.core.face import edge_at
 from gradhesion.core.struve.fractional import NODES
 
 EXPONENTS = [0.0, 0.3, 0.7, 0.95]
@@ -53,12 +54,13 @@ def test_second_route(k: float, a: float, r: float, table_of: Table, slow_pair: 
 
 
 @pytest.mark.parametrize("k", EXPONENTS)
-def test_trough(k: float, table_of: Table) -> None:
-    """The same far outside, where the profile has a trough: two kernels of two routes."""
+def test_the_two_integrals_are_one(k: float, table_of: Table) -> None:
+    """Far outside: from the contact outwards, and over the contact."""
     table, curve = table_of(k), Cosine(BEND, GAIN, 0.0)
     for a, r in [(0.4, 9.0), (2.37, 17.0), (7.7, 40.0)]:
-        expected = _gap(table, k, a, r)
-        assert math.isclose(trough_gap(table, curve, edge_at(table, curve, a), r), expected, rel_tol=1e-8)
+        edge = edge_at(table, curve, a)
+        near, far = (float(integral(table, curve, edge, r)) for integral in (opening_near, opening_far))
+        assert math.isclose(near, far, rel_tol=1e-8)
 
 
 @pytest.mark.parametrize(("a", "r"), CASES)

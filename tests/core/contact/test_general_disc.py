@@ -10,11 +10,13 @@ from scipy.special import gamma
 from gradhesion.core import Harmonic, Loading, Profile, solve
 from gradhesion.core.arrays.general import solve_general
 from gradhesion.core.arrays.tables import tables_of
-from gradhesion.core.contact.general_disc import disc_limits, is_surely_open, jump_is_one_disc, least_opening
-from gradhesion.core.contact.general_gap import edge_at, opening
+from gradhesion.core.contact.disc import disc_limits, is_surely_open, jump_is_one_disc
+from gradhesion.core.contact.gap import opening
+from gradhesion.core.contact.least import least_opening
 from gradhesion.core.curve.branches import END, END_DEPTH, START_DEPTH
 from gradhesion.core.curve.general import Series, coordinate
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
+from gradhesion.core.face import edge_at
 from gradhesion.core.path.general import walk
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC

@@ -9,17 +9,16 @@ import pytest
 
 from gradhesion.core import Profile
 from gradhesion.core.arrays.tables import tables_of
-from gradhesion.core.contact import cosine_gap as gap
-from gradhesion.core.contact.general_gap import (
-    edge_at,
+from gradhesion.core.contact.gap import (
     height,
     opening,
     opening_far,
     opening_near,
     openings_between,
-    shortest_wave,
 )
+from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.general import Series
+from gradhesion.core.face import edge_at, panels_of
 from gradhesion.core.problem.shape import rows_of
 from gradhesion.core.struve.fractional import NODES
 
@@ -87,11 +86,11 @@ def test_at_k_1_it_is_local(m: float, rows: Any) -> None:
 
 
 @pytest.mark.parametrize("k", [*EXPONENTS, 1.0])
-def test_one_cosine_is_that_of_its_own_kernel(k: float) -> None:
+def test_one_cosine_is_that_of_its_own_kind(k: float) -> None:
     basis, _ = _scene(k, 2.0, ONE)
-    curve, own = Series(BEND / 2, 2.0, GAIN, 1.0, 0.0), (BEND, GAIN, 0.0)
+    curve, own = Series(BEND / 2, 2.0, GAIN, 1.0, 0.0), Cosine(BEND, GAIN, 0.0)
     for a, r in [(0.4, 1.1), (0.9, 3.3), (2.37, 2.9), (7.7, 9.1)]:
-        expected = gap.opening(basis[0], own, gap.edge_at(basis[0], own, a), r)
+        expected = opening(basis[0], own, edge_at(basis[0], own, a), r)
         assert math.isclose(opening(basis, curve, edge_at(basis, curve, a), r), expected, rel_tol=1e-11)
 
 
@@ -123,7 +122,7 @@ def test_at_the_edge_it_is_one(k: float) -> None:
 def test_windows(k: float, a: float) -> None:
     """Seventeen openings at once, to what a polynomial over a shortest wave leaves."""
     basis, curve = _scene(k, 2.0, MIXED)
-    edge, high = edge_at(basis, curve, a), a + 1.1 * shortest_wave(basis[2])
+    edge, high = edge_at(basis, curve, a), a + 1.1 * panels_of(basis, curve)[0]
     heights, openings = np.empty(16), np.empty(17)
     openings_between(basis, curve, edge, a, high, heights, openings)
     radii = np.sqrt(a * a + (high * high - a * a) * np.array([*NODES, 1.0]))
@@ -132,5 +131,6 @@ def test_windows(k: float, a: float) -> None:
 
 
 def test_the_shortest_wave() -> None:
-    assert shortest_wave(np.array(MIXED)) == 1 / 3
-    assert shortest_wave(rows_of(Profile())[:0]) == math.inf
+    (table, bins, rows), curve = _scene(0.3, 2.0, MIXED)
+    assert panels_of((table, bins, rows), curve)[0] == 1 / 3
+    assert panels_of((table, bins, rows_of(Profile())[:0]), curve)[0] == math.inf

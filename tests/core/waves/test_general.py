@@ -10,7 +10,7 @@ from gradhesion.core import OUTPUTS, Harmonic, Loading, Profile, solve
 from gradhesion.core.arrays.general import solve_general
 from gradhesion.core.arrays.prepared import compliance_of
 from gradhesion.core.arrays.tables import tables_of
-from gradhesion.core.contact.general_disc import disc_limits
+from gradhesion.core.contact.disc import disc_limits
 from gradhesion.core.curve.branches import START_DEPTH
 from gradhesion.core.curve.general import coordinate, curve_of, state
 from gradhesion.core.curve.general_energy import drop, energy_from_zero, jump_energy, place_left
