@@ -76,7 +76,7 @@ class Face(Generic[Given, Result]):
         return self._answers[kind]
 
 
-class _Chosen(types.Callable, types.Dummy):  # type: ignore[misc] # numba has no types
+class _Chosen(types.Callable, types.Dummy):
     """The type of a face: that of the kernel that answers, once the arguments are known."""
 
     def __init__(self, face: Face[..., Any], at: int) -> None:
