@@ -1,6 +1,7 @@
 """What all formulae share: arrays of floats that are NaN out of range, and the unit of load."""
 
 import math
+from collections.abc import Callable
 from typing import Final, TypeAlias
 
 import numpy as np
@@ -34,3 +35,14 @@ def power_of(exponent: ArrayLike) -> Array:
     """Return the power m of a smooth profile as an array, NaN below 1."""
     m = np.asarray(exponent, dtype=float)
     return np.where(m >= 1.0, m, np.nan)
+
+
+def point_by_point(formula: Callable[..., float], *numbers: ArrayLike) -> Array:
+    """Return a formula of floats at every point of broadcast arrays, NaN where one of them is NaN."""
+    arrays = np.broadcast_arrays(*numbers)
+    out = np.full(arrays[0].shape, np.nan)
+    for place in np.ndindex(out.shape):
+        point = [float(array[place]) for array in arrays]
+        if not any(math.isnan(number) for number in point):
+            out[place] = formula(*point)
+    return out

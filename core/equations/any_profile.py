@@ -12,34 +12,26 @@ results are those of hertz.py. Lengths are in R, loads in 1.5 pi R dgamma, M in 
 
 import math
 from collections.abc import Callable
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gradhesion.core.equations import _abel, hertz, jkr
+from gradhesion.core.equations._arguments import Gradient, Radius, Stiffness, StiffnessOrInf, documented
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative
 
-Slope = Callable[[Array], ArrayLike]
-"""f'(r) of an array of r/R in (0, a/R)."""
+Slope = Annotated[
+    Callable[[Array], ArrayLike], "f'(r), a function of an array of r/R in (0, a/R); smooth there, and bounded at 0."
+]
+Shortest = Annotated[float, "The shortest wave of f'/R, if it has waves."]
 
 
-def hertz_indentation(k: ArrayLike, radius: ArrayLike, slope: Slope, shortest: float = math.inf) -> Array:
+@documented
+def hertz_indentation(k: Gradient, radius: Radius, slope: Slope, shortest: Shortest = math.inf) -> Array:
     """Return delta_H/R, the depth of contact over a disc without adhesion (3.9).
 
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    radius
-        a/R >= 0.
-    slope
-        f'(r), a function of an array of r/R; smooth for r > 0 and bounded at 0.
-    shortest
-        The shortest wave of f'/R, if it has waves.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges. Accurate to 1e-13 of a times the largest slope.
+    Accurate to 1e-13 of a times the largest slope.
 
     Examples
     --------
@@ -51,21 +43,9 @@ def hertz_indentation(k: ArrayLike, radius: ArrayLike, slope: Slope, shortest: f
     return _integrals(k, radius, slope, shortest)[0]
 
 
-def hertz_load(
-    k: ArrayLike, stiffness: ArrayLike, radius: ArrayLike, slope: Slope, shortest: float = math.inf
-) -> Array:
+@documented
+def hertz_load(k: Gradient, stiffness: Stiffness, radius: Radius, slope: Slope, shortest: Shortest = math.inf) -> Array:
     """Return P_H/(1.5 pi R dgamma), the load of contact over a disc without adhesion (3.10).
-
-    Parameters
-    ----------
-    k, radius, slope, shortest
-        As in `hertz_indentation`.
-    stiffness
-        M R^(1+k)/dgamma > 0, finite.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -77,21 +57,11 @@ def hertz_load(
     return hertz.disc_stiffness(k, stiffness, radius) * (depth - mean)
 
 
+@documented
 def indentation(
-    k: ArrayLike, stiffness: ArrayLike, radius: ArrayLike, slope: Slope, shortest: float = math.inf
+    k: Gradient, stiffness: StiffnessOrInf, radius: Radius, slope: Slope, shortest: Shortest = math.inf
 ) -> Array:
     """Return the depth delta/R in adhesive equilibrium (4.8), (5.1), (5.3).
-
-    Parameters
-    ----------
-    k, radius, slope, shortest
-        As in `hertz_indentation`.
-    stiffness
-        M R^(1+k)/dgamma > 0; inf is contact without adhesion.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -102,19 +72,9 @@ def indentation(
     return hertz_indentation(k, radius, slope, shortest) - jkr.adhesive_depth(k, stiffness, radius)
 
 
-def load(k: ArrayLike, stiffness: ArrayLike, radius: ArrayLike, slope: Slope, shortest: float = math.inf) -> Array:
+@documented
+def load(k: Gradient, stiffness: Stiffness, radius: Radius, slope: Slope, shortest: Shortest = math.inf) -> Array:
     """Return the load P/(1.5 pi R dgamma) in adhesive equilibrium (4.7), (5.2), (5.4).
-
-    Parameters
-    ----------
-    k, radius, slope, shortest
-        As in `hertz_indentation`.
-    stiffness
-        M R^(1+k)/dgamma > 0, finite.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------

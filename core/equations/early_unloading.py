@@ -11,48 +11,43 @@ leave out, raises depths by -lambda sum a_n. Lengths are in R, loads in 1.5 pi R
 Jin, Guo & Wan (2013).
 """
 
-from collections.abc import Sequence
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import gamma
 
 from gradhesion.core.equations import envelopes, hertz, jkr
+from gradhesion.core.equations._arguments import (
+    Cosines,
+    Depth,
+    Gradient,
+    LargestRadius,
+    MeanHeight,
+    Power,
+    Sines,
+    Stiffness,
+    StiffnessOrInf,
+    Wavelength,
+    documented,
+)
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive
 
+Alpha = Annotated[ArrayLike, "A value of zeta, between `envelopes.zeta_extrema`."]
 
+
+@documented
 def indentation(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    radius: ArrayLike,
-    alpha: ArrayLike,
-    wavelength: ArrayLike,
+    k: Gradient,
+    stiffness: StiffnessOrInf,
+    radius: LargestRadius,
+    alpha: Alpha,
+    wavelength: Wavelength,
     *,
-    exponent: ArrayLike = 2.0,
-    mean_height: ArrayLike = 0.0,
+    exponent: Power = 2.0,
+    mean_height: MeanHeight = 0.0,
 ) -> Array:
     """Return the depth delta/R at the radius a_am, for a value alpha of zeta (5.28).
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    stiffness
-        M R^(1+k)/dgamma > 0.
-    radius
-        a_am/R >= 0, the largest contact radius.
-    alpha
-        A number between `envelopes.zeta_extrema`.
-    wavelength
-        lambda/R > 0.
-    exponent
-        m >= 1; 2 is a paraboloid.
-    mean_height
-        -lambda sum a_n/R of the series, or 0 for the printed form.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -65,27 +60,17 @@ def indentation(
     return smooth + _swing(k, radius, wavelength) * np.asarray(alpha, dtype=float) + np.asarray(mean_height)
 
 
+@documented
 def load(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    radius: ArrayLike,
-    alpha: ArrayLike,
-    wavelength: ArrayLike,
+    k: Gradient,
+    stiffness: Stiffness,
+    radius: LargestRadius,
+    alpha: Alpha,
+    wavelength: Wavelength,
     *,
-    exponent: ArrayLike = 2.0,
+    exponent: Power = 2.0,
 ) -> Array:
     """Return the load P/(1.5 pi R dgamma) at the radius a_am, for a value alpha of zeta (5.29).
-
-    Parameters
-    ----------
-    k, radius, alpha, wavelength, exponent
-        As in `indentation`.
-    stiffness
-        M R^(1+k)/dgamma > 0, finite.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -100,27 +85,17 @@ def load(
     return smooth + hertz.disc_stiffness(k, stiffness, radius) * swing
 
 
+@documented
 def load_at_depth(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    radius: ArrayLike,
-    depth: ArrayLike,
+    k: Gradient,
+    stiffness: Stiffness,
+    radius: LargestRadius,
+    depth: Depth,
     *,
-    exponent: ArrayLike = 2.0,
-    mean_height: ArrayLike = 0.0,
+    exponent: Power = 2.0,
+    mean_height: MeanHeight = 0.0,
 ) -> Array:
     """Return the load P/(1.5 pi R dgamma) on the line of early unloading at a depth (5.30).
-
-    Parameters
-    ----------
-    k, stiffness, radius, exponent, mean_height
-        As in `indentation`; a finite stiffness.
-    depth
-        delta/R, any: from the greatest depth down over `drop`.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -137,25 +112,11 @@ def load_at_depth(
     return start + hertz.disc_stiffness(k, stiffness, radius) * lowered
 
 
-def drop(
-    k: ArrayLike,
-    radius: ArrayLike,
-    wavelength: ArrayLike,
-    cosines: Sequence[float],
-    sines: Sequence[float] = (),
-) -> Array:
+@documented
+def drop(k: Gradient, radius: LargestRadius, wavelength: Wavelength, cosines: Cosines, sines: Sines = ()) -> Array:
     """Return the depth over which the line of early unloading runs, over R (5.31).
 
-    Parameters
-    ----------
-    k, radius, wavelength
-        As in `indentation`.
-    cosines, sines
-        a_1, a_2, ... and b_1, b_2, ..., over the wavelength; [-A] is one cosine wave.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges. One cosine has 2 r a_am^((1-k)/2), which (5.33) should print.
+    One cosine has 2 r a_am^((1-k)/2), which (5.33) should print.
 
     Examples
     --------

@@ -11,27 +11,24 @@ with s and r of envelopes.py. The printed form leaves out lambda A. A paraboloid
 1.5 pi R dgamma. Source: Jin, Guo & Wan (2013) as corrected in docs/theory.md.
 """
 
+from typing import Annotated
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gradhesion.core.equations import hertz
+from gradhesion.core.equations._arguments import Depth, Gradient, LargestRadius, MeanHeight, Stiffness, documented
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative
 
+Adhesion = Annotated[ArrayLike, "s/R^((1+k)/2) > 0, as `envelopes.adhesion_strength`."]
+Waviness = Annotated[ArrayLike, "r/R^((1+k)/2) >= 0, as `envelopes.waviness_strength`."]
 
-def jump_in_radius(k: ArrayLike, adhesion: ArrayLike, waviness: ArrayLike) -> Array:
+
+@documented
+def jump_in_radius(k: Gradient, adhesion: Adhesion, waviness: Waviness) -> Array:
     """Return a_2/R, to which contact jumps when it begins (5.34).
 
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    adhesion, waviness
-        s and r over R^((1+k)/2), as envelopes.py gives them, 0 <= r < s.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges: for r >= s the loading envelope starts at a = 0 without
-    a jump.
+    NaN for r >= s: the loading envelope then starts at a = 0 without a jump.
 
     Examples
     --------
@@ -42,17 +39,11 @@ def jump_in_radius(k: ArrayLike, adhesion: ArrayLike, waviness: ArrayLike) -> Ar
     return ((1.0 + exponent) * np.where(rest > 0.0, rest, np.nan)) ** (2.0 / (3.0 + exponent))
 
 
-def jump_out_radius(k: ArrayLike, adhesion: ArrayLike, waviness: ArrayLike) -> Array:
+@documented
+def jump_out_radius(k: Gradient, adhesion: Adhesion, waviness: Waviness) -> Array:
     """Return a_4/R, from which contact jumps when it ends (5.35).
 
-    Parameters
-    ----------
-    k, adhesion, waviness
-        As in `jump_in_radius`, but for any r >= 0.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges, 0 at k = 1, where contact shrinks to a point.
+    It is 0 at k = 1, where contact shrinks to a point, and any r >= 0 is in range.
 
     Examples
     --------
@@ -63,27 +54,11 @@ def jump_out_radius(k: ArrayLike, adhesion: ArrayLike, waviness: ArrayLike) -> A
     return (0.25 * (1.0 - exponent) * (1.0 + exponent) * pull) ** (2.0 / (3.0 + exponent))
 
 
+@documented
 def early_unloading_load(
-    k: ArrayLike, stiffness: ArrayLike, radius: ArrayLike, depth: ArrayLike, mean_height: ArrayLike = 0.0
+    k: Gradient, stiffness: Stiffness, radius: LargestRadius, depth: Depth, mean_height: MeanHeight = 0.0
 ) -> Array:
     """Return P/(1.5 pi R dgamma) on the line of early unloading at the largest radius a_am (5.32).
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    stiffness
-        M R^(1+k)/dgamma > 0, finite.
-    radius
-        a_am/R >= 0.
-    depth
-        delta/R, any.
-    mean_height
-        lambda A/R of the wave, or 0 for the printed form.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -99,21 +74,9 @@ def early_unloading_load(
     return hertz.disc_stiffness(k, stiffness, radius) * (lowered - smooth)
 
 
-def early_unloading_depth(k: ArrayLike, radius: ArrayLike, waviness: ArrayLike) -> Array:
+@documented
+def early_unloading_depth(k: Gradient, radius: LargestRadius, waviness: Waviness) -> Array:
     """Return the depth over which the line of early unloading runs, 2 r a_am^((1-k)/2), over R.
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    radius
-        a_am/R >= 0.
-    waviness
-        r over R^((1+k)/2), >= 0.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------

@@ -19,30 +19,18 @@ R^2 dgamma. Source: Jin, Guo & Wan (2013) as corrected in docs/theory.md.
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.special import gamma
 
 from gradhesion.core.equations import effective, envelopes
+from gradhesion.core.equations._arguments import Amplitude, Gradient, LargestRadius, Stiffness, Wavelength, documented
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive
 
 
-def first_part(k: ArrayLike, stiffness: ArrayLike, wavelength: ArrayLike, amplitude: ArrayLike) -> Array:
+@documented
+def first_part(k: Gradient, stiffness: Stiffness, wavelength: Wavelength, amplitude: Amplitude) -> Array:
     """Return C1/(R^2 dgamma), the energy of a cycle along the effective path that turns at a_2.
 
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    stiffness
-        M R^(1+k)/dgamma > 0.
-    wavelength
-        lambda/R > 0.
-    amplitude
-        A, amplitude over wavelength, >= 0.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges and for r >= s.
+    NaN for r >= s.
 
     Examples
     --------
@@ -58,21 +46,13 @@ def first_part(k: ArrayLike, stiffness: ArrayLike, wavelength: ArrayLike, amplit
     return math.pi * (inner + (1.0 + x) ** 2 * _end_factor(exponent) * down**2)
 
 
+@documented
 def second_part(
-    k: ArrayLike, stiffness: ArrayLike, wavelength: ArrayLike, amplitude: ArrayLike, largest_radius: ArrayLike
+    k: Gradient, stiffness: Stiffness, wavelength: Wavelength, amplitude: Amplitude, largest_radius: LargestRadius
 ) -> Array:
     """Return C2/(R^2 dgamma), the energy of the band between the envelopes from a_2 to a_am.
 
-    Parameters
-    ----------
-    k, stiffness, wavelength, amplitude
-        As in `first_part`.
-    largest_radius
-        a_am/R >= a_2/R, finite: the largest contact radius of the cycle.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges, for r >= s and for a_am < a_2.
+    NaN for r >= s and for a_am < a_2.
 
     Examples
     --------
@@ -87,20 +67,13 @@ def second_part(
     return ratio * gamma(n) * root * np.where(area >= 0.0, area, np.nan)
 
 
+@documented
 def dissipated_energy(
-    k: ArrayLike, stiffness: ArrayLike, wavelength: ArrayLike, amplitude: ArrayLike, largest_radius: ArrayLike
+    k: Gradient, stiffness: Stiffness, wavelength: Wavelength, amplitude: Amplitude, largest_radius: LargestRadius
 ) -> Array:
     """Return H/(R^2 dgamma) = C1 + C2, exact for the effective path.
 
-    Parameters
-    ----------
-    k, stiffness, wavelength, amplitude, largest_radius
-        As in `second_part`.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges, for r >= s and for a_am < a_2 (`solve` with
-    solver="envelope" covers those as well).
+    NaN for r >= s and for a_am < a_2; `solve` with solver="envelope" covers those as well.
 
     Examples
     --------
@@ -111,17 +84,9 @@ def dissipated_energy(
     return first + second_part(k, stiffness, wavelength, amplitude, largest_radius)
 
 
-def smooth_coefficient(k: ArrayLike) -> Array:
+@documented
+def smooth_coefficient(k: Gradient) -> Array:
     """Return F0(k) of (5.43): a smooth punch loses F0 dgamma L^2 in a cycle.
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-
-    Returns
-    -------
-    Array of the shape of `k`; NaN outside the range.
 
     Examples
     --------
@@ -133,17 +98,9 @@ def smooth_coefficient(k: ArrayLike) -> Array:
     return math.pi * _area_of_jump_in(exponent) * (1.0 - 2.0 / (5.0 + exponent) + _end_factor(exponent) * q**power)
 
 
-def waviness_coefficient(k: ArrayLike) -> Array:
+@documented
+def waviness_coefficient(k: Gradient) -> Array:
     """Return F1(k) of (5.43): C1 gains F1 A lambda^((1+k)/2) dgamma R L^((1-k)/2) to first order in r.
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-
-    Returns
-    -------
-    Array of the shape of `k`; NaN outside the range.
 
     Examples
     --------
@@ -159,17 +116,11 @@ def waviness_coefficient(k: ArrayLike) -> Array:
     return math.pi * _area_of_jump_in(exponent) * rate * ratio
 
 
-def fitted_smooth_coefficient(k: ArrayLike) -> Array:
+@documented
+def fitted_smooth_coefficient(k: Gradient) -> Array:
     """Return the paper's polynomial for F0(k), 7.1 + 9.1 k - 1.4 k^2.
 
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-
-    Returns
-    -------
-    Array of the shape of `k`; NaN outside the range. Within 0.33 % of `smooth_coefficient`.
+    Within 0.33 % of `smooth_coefficient`.
 
     Examples
     --------
@@ -180,17 +131,11 @@ def fitted_smooth_coefficient(k: ArrayLike) -> Array:
     return 7.1 + 9.1 * exponent - 1.4 * exponent**2
 
 
-def fitted_waviness_coefficient(k: ArrayLike) -> Array:
+@documented
+def fitted_waviness_coefficient(k: Gradient) -> Array:
     """Return the paper's polynomial for F1(k), 29.6 - 23.6 k + 6.5 k^2.
 
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-
-    Returns
-    -------
-    Array of the shape of `k`; NaN outside the range. Within 0.53 % of `waviness_coefficient`.
+    Within 0.53 % of `waviness_coefficient`.
 
     Examples
     --------
@@ -201,21 +146,14 @@ def fitted_waviness_coefficient(k: ArrayLike) -> Array:
     return 29.6 - 23.6 * exponent + 6.5 * exponent**2
 
 
+@documented
 def fitted_energy(
-    k: ArrayLike, stiffness: ArrayLike, wavelength: ArrayLike, amplitude: ArrayLike, largest_radius: ArrayLike
+    k: Gradient, stiffness: Stiffness, wavelength: Wavelength, amplitude: Amplitude, largest_radius: LargestRadius
 ) -> Array:
     """Return H/(R^2 dgamma) by (5.43) with the paper's polynomials and the corrected exponents.
 
-    Parameters
-    ----------
-    k, stiffness, wavelength, amplitude, largest_radius
-        As in `second_part`.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges, for r >= s and for a_am < a_2. At
-    a_am = 2 a_2 it is above `dissipated_energy` by up to 0.3 %, 1.5 %, 7.5 % and 19 % for r/s = 0.03, 0.1, 0.3 and 0.5,
-    for every M.
+    NaN for r >= s and for a_am < a_2. At a_am = 2 a_2 it is above `dissipated_energy` by up to 0.3 %, 1.5 %, 7.5 % and
+    19 % for r/s = 0.03, 0.1, 0.3 and 0.5, for every M.
 
     Examples
     --------

@@ -13,13 +13,26 @@ force is (3+k)/3 (1+r/s)^2. The printed form leaves out lambda A, the mean heigh
 """
 
 import math
-from collections.abc import Sequence
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import gamma
 
 from gradhesion.core.equations import hertz
+from gradhesion.core.equations._arguments import (
+    Amplitude,
+    Cosines,
+    Gradient,
+    MeanHeight,
+    Power,
+    Radius,
+    Sines,
+    Stiffness,
+    StiffnessOrInf,
+    Wavelength,
+    documented,
+)
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
 from gradhesion.core.equations.general import harmonics
 
@@ -27,20 +40,13 @@ _SAMPLES = 64
 _NEWTON_STEPS = 6
 """From 1/128 of the shortest wave: its quadratic convergence is done after four."""
 
+Pull = Annotated[ArrayLike, "s - r for loading, s + r for unloading, over R^((1+k)/2)."]
+PositivePull = Annotated[ArrayLike, "s - r for loading, s + r for unloading, over R^((1+k)/2), > 0."]
 
-def adhesion_strength(k: ArrayLike, stiffness: ArrayLike) -> Array:
+
+@documented
+def adhesion_strength(k: Gradient, stiffness: StiffnessOrInf) -> Array:
     """Return s/R^((1+k)/2) = sqrt(2^(1+k) pi dgamma/M).
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    stiffness
-        M R^(1+k)/dgamma > 0.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -50,21 +56,9 @@ def adhesion_strength(k: ArrayLike, stiffness: ArrayLike) -> Array:
     return np.sqrt(2.0 ** (1.0 + exponent_of(k)) * math.pi / positive(stiffness))
 
 
-def waviness_strength(k: ArrayLike, wavelength: ArrayLike, amplitude: ArrayLike) -> Array:
+@documented
+def waviness_strength(k: Gradient, wavelength: Wavelength, amplitude: Amplitude) -> Array:
     """Return r/R^((1+k)/2) = pi^((1-k)/2) G((1+k)/2) A lambda^((1+k)/2) of one cosine wave.
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    wavelength
-        lambda/R > 0.
-    amplitude
-        A, amplitude over wavelength, >= 0.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -75,19 +69,9 @@ def waviness_strength(k: ArrayLike, wavelength: ArrayLike, amplitude: ArrayLike)
     return math.pi ** (1.0 - n) * gamma(n) * not_negative(amplitude) * positive(wavelength) ** n
 
 
-def series_strengths(
-    k: ArrayLike, wavelength: ArrayLike, cosines: Sequence[float], sines: Sequence[float] = ()
-) -> tuple[Array, Array]:
+@documented
+def series_strengths(k: Gradient, wavelength: Wavelength, cosines: Cosines, sines: Sines = ()) -> tuple[Array, Array]:
     """Return r/R^((1+k)/2) of a Fourier series, for loading and for unloading (5.21)-(5.25).
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    wavelength
-        lambda/R > 0.
-    cosines, sines
-        a_1, a_2, ... and b_1, b_2, ..., over the wavelength.
 
     Returns
     -------
@@ -106,15 +90,9 @@ def series_strengths(
     return size * highest, -size * lowest
 
 
-def zeta_extrema(k: ArrayLike, cosines: Sequence[float], sines: Sequence[float] = ()) -> tuple[Array, Array]:
+@documented
+def zeta_extrema(k: Gradient, cosines: Cosines, sines: Sines = ()) -> tuple[Array, Array]:
     """Return the true minimum and maximum of zeta (5.17) over its period.
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    cosines, sines
-        a_1, a_2, ... and b_1, b_2, ..., over the wavelength.
 
     Returns
     -------
@@ -154,23 +132,13 @@ def zeta_extrema(k: ArrayLike, cosines: Sequence[float], sines: Sequence[float] 
     return extreme[0], extreme[1]
 
 
-def power_pull_off(
-    k: ArrayLike, stiffness: ArrayLike, pull: ArrayLike, exponent: ArrayLike = 2.0
-) -> tuple[Array, Array]:
+@documented
+def power_pull_off(k: Gradient, stiffness: Stiffness, pull: PositivePull, exponent: Power = 2.0) -> tuple[Array, Array]:
     """Return the radius and the force of pull-off of an envelope of any power m.
 
     With G the factor of `hertz.power_indentation` and c = (1-k)/2,
 
         a^(m-c) = (3+k) (s+r)/(2 m G),   F = K (s+r) a^((3+k)/2) (m-c)/(1+k+m)
-
-    Parameters
-    ----------
-    k, exponent
-        As in `indentation`.
-    stiffness
-        M R^(1+k)/dgamma > 0, finite.
-    pull
-        s + r of the unloading envelope, over R^((1+k)/2), > 0.
 
     Returns
     -------
@@ -189,19 +157,13 @@ def power_pull_off(
     return radius, hertz.disc_stiffness(k, stiffness, radius) * hold * radius**c * (m - c) / (1.0 + gradient + m)
 
 
-def power_radii(k: ArrayLike, pull: ArrayLike, exponent: ArrayLike = 2.0) -> tuple[Array, Array]:
+@documented
+def power_radii(k: Gradient, pull: PositivePull, exponent: Power = 2.0) -> tuple[Array, Array]:
     """Return the radii of an envelope of any power m at the depth 0 and at its fold, (5.34) and (5.35).
 
         a_2^(m-c) = pull/G,   a_4^(m-c) = (1-k) pull/(2 m G)
 
     depths counted from the mean surface, with G the factor of `hertz.power_indentation` and c = (1-k)/2.
-
-    Parameters
-    ----------
-    k, exponent
-        As in `indentation`.
-    pull
-        s - r of the loading envelope for a_2, s + r of the unloading one for a_4, over R^((1+k)/2), > 0.
 
     Returns
     -------
@@ -218,20 +180,12 @@ def power_radii(k: ArrayLike, pull: ArrayLike, exponent: ArrayLike = 2.0) -> tup
     return ratio ** (1.0 / (m - c)), (c * ratio / m) ** (1.0 / (m - c))
 
 
-def pull_off_force(k: ArrayLike, ratio: ArrayLike) -> Array:
+@documented
+def pull_off_force(k: Gradient, ratio: Annotated[ArrayLike, "r/s >= 0."]) -> Array:
     """Return the pull-off force of the unloading envelope over 1.5 pi R dgamma, (3+k)/3 (1+r/s)^2.
 
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    ratio
-        r/s >= 0.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges. The exact force tends to it as lambda -> 0 at
-    fixed r/s, with an error of the order (lambda/a)^2, below it except for k near 1.
+    The exact force tends to it as lambda -> 0 at fixed r/s, with an error of the order (lambda/a)^2, below it except
+    for k near 1.
 
     Examples
     --------
@@ -241,31 +195,9 @@ def pull_off_force(k: ArrayLike, ratio: ArrayLike) -> Array:
     return (3.0 + exponent_of(k)) / 3.0 * (1.0 + not_negative(ratio)) ** 2
 
 
-def indentation(
-    k: ArrayLike,
-    radius: ArrayLike,
-    pull: ArrayLike,
-    mean_height: ArrayLike = 0.0,
-    exponent: ArrayLike = 2.0,
-) -> Array:
+@documented
+def indentation(k: Gradient, radius: Radius, pull: Pull, mean_height: MeanHeight = 0.0, exponent: Power = 2.0) -> Array:
     """Return the depth delta/R on an envelope (5.26).
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    radius
-        a/R >= 0.
-    pull
-        s - r for loading, s + r for unloading, over R^((1+k)/2); may be negative.
-    mean_height
-        lambda A/R of the wave, or 0 for the printed form.
-    exponent
-        m >= 1; 2 is a paraboloid.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -278,19 +210,9 @@ def indentation(
     return smooth + np.asarray(mean_height, dtype=float)
 
 
-def load(k: ArrayLike, stiffness: ArrayLike, radius: ArrayLike, pull: ArrayLike, exponent: ArrayLike = 2.0) -> Array:
+@documented
+def load(k: Gradient, stiffness: Stiffness, radius: Radius, pull: Pull, exponent: Power = 2.0) -> Array:
     """Return the load P/(1.5 pi R dgamma) on an envelope (5.27).
-
-    Parameters
-    ----------
-    k, radius, pull, exponent
-        As in `indentation`.
-    stiffness
-        M R^(1+k)/dgamma > 0, finite.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------

@@ -10,52 +10,45 @@ Source: Jin, Guo & Wan (2013), section 12 of docs/theory.md.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Final
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.special import roots_jacobi, roots_legendre
 
 from gradhesion.core.equations import general, hertz, profile
-from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
+from gradhesion.core.equations._arguments import (
+    Amplitude,
+    Cosines,
+    Depth,
+    Gradient,
+    Outside,
+    PositiveRadius,
+    Power,
+    Sines,
+    Wavelength,
+    documented,
+)
+from gradhesion.core.equations._domain import Array, exponent_of, not_negative, point_by_point, positive, power_of
 
 _NODES: Final = 24
 _LEGENDRE: Final = roots_legendre(_NODES)
 
 
+@documented
 def gap(
-    k: ArrayLike,
-    distance: ArrayLike,
-    radius: ArrayLike,
-    depth: ArrayLike,
-    wavelength: ArrayLike,
-    amplitude: ArrayLike,
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    distance: Outside,
+    radius: PositiveRadius,
+    depth: Depth,
+    wavelength: Wavelength,
+    amplitude: Amplitude,
+    exponent: Power = 2.0,
 ) -> Array:
     """Return gap/R at a distance r from the axis, around contact over a disc of radius a at a depth delta (2.2).
 
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    distance
-        r/R >= a/R.
-    radius
-        a/R > 0.
-    depth
-        delta/R, as `jkr.indentation` for equilibrium; any other depth is a disc held out of equilibrium.
-    wavelength
-        lambda/R > 0.
-    amplitude
-        A, amplitude over wavelength, >= 0.
-    exponent
-        m >= 1; 2 is a paraboloid.
-
-    Returns
-    -------
-    Array of the broadcast shape; negative where the surfaces would overlap, NaN outside the ranges. Accurate to
-    1e-12 of the largest delta_H between a and r (tests/core/equations/test_gap.py).
+    It is negative where the surfaces would overlap. Accurate to 1e-12 of the largest delta_H between a and r
+    (tests/core/equations/test_gap.py).
 
     Examples
     --------
@@ -66,43 +59,27 @@ def gap(
     >>> float(gap(0.0, 0.0811, 0.0511, depth, 0.1, 4.59 * 0.1 / (4 * np.pi**2)).round(6))
     -0.00026
     """
-    numbers = (
-        exponent_of(k),
-        positive(distance),
-        positive(radius),
-        np.asarray(depth, dtype=float),
-        positive(wavelength),
-        not_negative(amplitude),
-        power_of(exponent),
+
+    def at(k: float, r: float, a: float, level: float, length: float, size: float, m: float) -> float:
+        return _gap(k, r, a, length, lambda s: hertz.indentation(k, s, length, size, m) - level)
+
+    power, size = power_of(exponent), not_negative(amplitude)
+    return point_by_point(
+        at, exponent_of(k), positive(distance), positive(radius), depth, positive(wavelength), size, power
     )
-    arrays = np.broadcast_arrays(*numbers)
-    out = np.full(arrays[0].shape, np.nan)
-    for place in np.ndindex(out.shape):
-        point = [float(array[place]) for array in arrays]
-        if not any(math.isnan(number) for number in point) and point[1] >= point[2]:
-            out[place] = _gap_of_cosine(*point)
-    return out
 
 
+@documented
 def surface(
-    k: ArrayLike,
-    distance: ArrayLike,
-    radius: ArrayLike,
-    depth: ArrayLike,
-    wavelength: ArrayLike,
-    amplitude: ArrayLike,
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    distance: Outside,
+    radius: PositiveRadius,
+    depth: Depth,
+    wavelength: Wavelength,
+    amplitude: Amplitude,
+    exponent: Power = 2.0,
 ) -> Array:
     """Return u_z/R, how far the surface of the half-space is pressed in at a distance r >= a (3.5), (4.10).
-
-    Parameters
-    ----------
-    k, distance, radius, depth, wavelength, amplitude, exponent
-        As in `gap`.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -117,30 +94,18 @@ def surface(
     return opening + np.asarray(depth, dtype=float) - profile.height(distance, wavelength, amplitude, exponent)
 
 
+@documented
 def series_gap(
-    k: ArrayLike,
-    distance: ArrayLike,
-    radius: ArrayLike,
-    depth: ArrayLike,
-    wavelength: ArrayLike,
-    cosines: Sequence[float],
-    sines: Sequence[float] = (),
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    distance: Outside,
+    radius: PositiveRadius,
+    depth: Depth,
+    wavelength: Wavelength,
+    cosines: Cosines,
+    sines: Sines = (),
+    exponent: Power = 2.0,
 ) -> Array:
     """Return gap/R around a punch whose waviness is a Fourier series (2.2).
-
-    Parameters
-    ----------
-    k, distance, radius, depth, exponent
-        As in `gap`.
-    wavelength
-        lambda/R > 0, of the first harmonic.
-    cosines, sines
-        a_1, a_2, ... and b_1, b_2, ..., over the wavelength; [-A] is one cosine wave.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -148,51 +113,29 @@ def series_gap(
     >>> bool(abs(one - series) < 1e-14)
     True
     """
-    numbers = (
-        exponent_of(k),
-        positive(distance),
-        positive(radius),
-        np.asarray(depth, dtype=float),
-        positive(wavelength),
-        power_of(exponent),
-    )
-    arrays = np.broadcast_arrays(*numbers)
-    out = np.full(arrays[0].shape, np.nan)
     shortest = max(1, len(cosines), len(sines))
-    for place in np.ndindex(out.shape):
-        gradient, r, a, level, length, m = (float(array[place]) for array in arrays)
-        if math.isnan(gradient + r + a + level + length + m) or r < a:
-            continue
 
-        def opening(
-            s: Array, gradient: float = gradient, level: float = level, length: float = length, m: float = m
-        ) -> Array:
-            return general.hertz_indentation(gradient, s, length, cosines, sines, m) - level
+    def at(k: float, r: float, a: float, level: float, length: float, m: float) -> float:
+        return _gap(
+            k, r, a, length / shortest, lambda s: general.hertz_indentation(k, s, length, cosines, sines, m) - level
+        )
 
-        out[place] = _gap(gradient, r, a, length / shortest, opening)
-    return out
+    power = power_of(exponent)
+    return point_by_point(at, exponent_of(k), positive(distance), positive(radius), depth, positive(wavelength), power)
 
 
+@documented
 def series_surface(
-    k: ArrayLike,
-    distance: ArrayLike,
-    radius: ArrayLike,
-    depth: ArrayLike,
-    wavelength: ArrayLike,
-    cosines: Sequence[float],
-    sines: Sequence[float] = (),
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    distance: Outside,
+    radius: PositiveRadius,
+    depth: Depth,
+    wavelength: Wavelength,
+    cosines: Cosines,
+    sines: Sines = (),
+    exponent: Power = 2.0,
 ) -> Array:
     """Return u_z/R, how far the surface is pressed in outside a punch whose waviness is a Fourier series (4.3), (4.10).
-
-    Parameters
-    ----------
-    k, distance, radius, depth, wavelength, cosines, sines, exponent
-        As in `series_gap`.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -205,13 +148,10 @@ def series_surface(
     return opening + np.asarray(depth, dtype=float) - height
 
 
-def _gap_of_cosine(k: float, r: float, a: float, depth: float, wavelength: float, amplitude: float, m: float) -> float:
-    """Return the gap at one point around one cosine wave."""
-    return _gap(k, r, a, wavelength, lambda s: hertz.indentation(k, s, wavelength, amplitude, m) - depth)
-
-
 def _gap(k: float, r: float, a: float, shortest: float, opening: Callable[[Array], Array]) -> float:
-    """Return the gap at one point, from delta_H - delta."""
+    """Return the gap at one point r, from delta_H - delta; NaN for r < a."""
+    if r < a:
+        return math.nan
     if k == 1.0:  # the surface gives way where it is pressed alone: the integral's weight is all at r
         return float(opening(np.asarray(r)))
     if r == a:

@@ -10,11 +10,23 @@ cosines = [-A]. Lengths are in R, loads in 1.5 pi R dgamma, M in dgamma/R^(1+k).
 
 import math
 from collections.abc import Sequence
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gradhesion.core.equations import hertz, jkr
+from gradhesion.core.equations._arguments import (
+    Cosines,
+    Gradient,
+    Power,
+    Radius,
+    Sines,
+    Stiffness,
+    StiffnessOrInf,
+    Wavelength,
+    documented,
+)
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
 from gradhesion.core.equations.pair import cosine_integrals, sine_integrals
 
@@ -32,19 +44,9 @@ def harmonics(cosines: Sequence[float], sines: Sequence[float] = ()) -> list[tup
     return [(n, float(a_n), float(b_n)) for n, (a_n, b_n) in enumerate(pairs, start=1)]
 
 
-def waviness(xi: ArrayLike, cosines: Sequence[float], sines: Sequence[float] = ()) -> Array:
+@documented
+def waviness(xi: Annotated[ArrayLike, "r/lambda, any."], cosines: Cosines, sines: Sines = ()) -> Array:
     """Return f2(xi), the waviness over its wavelength; f2(0) = 0.
-
-    Parameters
-    ----------
-    xi
-        r/lambda, any.
-    cosines, sines
-        a_1, a_2, ... and b_1, b_2, ..., over the wavelength.
-
-    Returns
-    -------
-    Array of the shape of `xi`.
 
     Examples
     --------
@@ -58,32 +60,11 @@ def waviness(xi: ArrayLike, cosines: Sequence[float], sines: Sequence[float] = (
     return total
 
 
+@documented
 def hertz_indentation(
-    k: ArrayLike,
-    radius: ArrayLike,
-    wavelength: ArrayLike,
-    cosines: Sequence[float],
-    sines: Sequence[float] = (),
-    exponent: ArrayLike = 2.0,
+    k: Gradient, radius: Radius, wavelength: Wavelength, cosines: Cosines, sines: Sines = (), exponent: Power = 2.0
 ) -> Array:
     """Return delta_H/R, the depth of contact over a disc without adhesion (3.9).
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    radius
-        a/R >= 0.
-    wavelength
-        lambda/R > 0, of the first harmonic.
-    cosines, sines
-        a_1, a_2, ... and b_1, b_2, ..., over the wavelength.
-    exponent
-        m >= 1; 2 is a paraboloid.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -94,27 +75,17 @@ def hertz_indentation(
     return hertz.power_indentation(k, radius, exponent) + not_negative(radius) * wave
 
 
+@documented
 def hertz_load(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    radius: ArrayLike,
-    wavelength: ArrayLike,
-    cosines: Sequence[float],
-    sines: Sequence[float] = (),
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    stiffness: Stiffness,
+    radius: Radius,
+    wavelength: Wavelength,
+    cosines: Cosines,
+    sines: Sines = (),
+    exponent: Power = 2.0,
 ) -> Array:
     """Return P_H/(1.5 pi R dgamma), the load of contact over a disc without adhesion (3.10).
-
-    Parameters
-    ----------
-    k, radius, wavelength, cosines, sines, exponent
-        As in `hertz_indentation`.
-    stiffness
-        M R^(1+k)/dgamma > 0, finite.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -128,27 +99,17 @@ def hertz_load(
     return hertz.disc_stiffness(k, stiffness, radius) * (smooth + not_negative(radius) * (first - second))
 
 
+@documented
 def indentation(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    radius: ArrayLike,
-    wavelength: ArrayLike,
-    cosines: Sequence[float],
-    sines: Sequence[float] = (),
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    stiffness: StiffnessOrInf,
+    radius: Radius,
+    wavelength: Wavelength,
+    cosines: Cosines,
+    sines: Sines = (),
+    exponent: Power = 2.0,
 ) -> Array:
     """Return the depth delta/R in adhesive equilibrium (4.8), (5.8), (5.12)-(5.14).
-
-    Parameters
-    ----------
-    k, radius, wavelength, cosines, sines, exponent
-        As in `hertz_indentation`.
-    stiffness
-        M R^(1+k)/dgamma > 0; inf is contact without adhesion.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -159,27 +120,17 @@ def indentation(
     return hertzian - jkr.adhesive_depth(k, stiffness, radius)
 
 
+@documented
 def load(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    radius: ArrayLike,
-    wavelength: ArrayLike,
-    cosines: Sequence[float],
-    sines: Sequence[float] = (),
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    stiffness: Stiffness,
+    radius: Radius,
+    wavelength: Wavelength,
+    cosines: Cosines,
+    sines: Sines = (),
+    exponent: Power = 2.0,
 ) -> Array:
     """Return the load P/(1.5 pi R dgamma) in adhesive equilibrium (4.7), (5.9), (5.12)-(5.14).
-
-    Parameters
-    ----------
-    k, radius, wavelength, cosines, sines, exponent
-        As in `hertz_indentation`.
-    stiffness
-        M R^(1+k)/dgamma > 0, finite.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------

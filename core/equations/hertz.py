@@ -10,28 +10,16 @@ For f1 = r^m/(m R^(m-1)) both integrals are powers, (5.5) and (5.6) as corrected
 
 import math
 
-from numpy.typing import ArrayLike
 from scipy.special import gamma
 
+from gradhesion.core.equations._arguments import Amplitude, Gradient, Power, Radius, Stiffness, Wavelength, documented
 from gradhesion.core.equations._domain import LOAD_UNIT, Array, exponent_of, not_negative, positive, power_of
 from gradhesion.core.equations.pair import sine_integrals
 
 
-def disc_stiffness(k: ArrayLike, stiffness: ArrayLike, radius: ArrayLike) -> Array:
+@documented
+def disc_stiffness(k: Gradient, stiffness: Stiffness, radius: Radius) -> Array:
     """Return K a^(1+k), the load over the depth of a flat disc, in 1.5 pi R dgamma over R.
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    stiffness
-        M R^(1+k)/dgamma > 0 (core/problem/material.py).
-    radius
-        a/R >= 0.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -44,21 +32,9 @@ def disc_stiffness(k: ArrayLike, stiffness: ArrayLike, radius: ArrayLike) -> Arr
     return 2.0 ** (2.0 - n) * positive(stiffness) / n * not_negative(radius) ** n / LOAD_UNIT
 
 
-def power_indentation(k: ArrayLike, radius: ArrayLike, exponent: ArrayLike = 2.0) -> Array:
+@documented
+def power_indentation(k: Gradient, radius: Radius, exponent: Power = 2.0) -> Array:
     """Return delta_H/R of the smooth part (5.5): G(m/2) G((1+k)/2)/(2 G((1+k+m)/2)) a^m.
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    radius
-        a/R >= 0.
-    exponent
-        m >= 1; 2 is a paraboloid.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -71,17 +47,9 @@ def power_indentation(k: ArrayLike, radius: ArrayLike, exponent: ArrayLike = 2.0
     return 0.5 * gamma(0.5 * m) * gamma(0.5 * n) / gamma(0.5 * (n + m)) * not_negative(radius) ** m
 
 
-def power_moment(k: ArrayLike, radius: ArrayLike, exponent: ArrayLike = 2.0) -> Array:
+@documented
+def power_moment(k: Gradient, radius: Radius, exponent: Power = 2.0) -> Array:
     """Return I/R^(2+k) of the smooth part (5.6): G(m/2) G((3+k)/2)/(2 G((3+k+m)/2)) a^(1+k+m).
-
-    Parameters
-    ----------
-    k, radius, exponent
-        As in `power_indentation`.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -95,23 +63,9 @@ def power_moment(k: ArrayLike, radius: ArrayLike, exponent: ArrayLike = 2.0) -> 
     return factor * not_negative(radius) ** (n + m)
 
 
-def wave_indentation(k: ArrayLike, radius: ArrayLike, wavelength: ArrayLike, amplitude: ArrayLike) -> Array:
+@documented
+def wave_indentation(k: Gradient, radius: Radius, wavelength: Wavelength, amplitude: Amplitude) -> Array:
     """Return the part of delta_H/R that a cosine wave adds, 2 pi A a S0(2 pi a/lambda).
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    radius
-        a/R >= 0.
-    wavelength
-        lambda/R > 0.
-    amplitude
-        A, amplitude over wavelength, >= 0.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -125,17 +79,9 @@ def wave_indentation(k: ArrayLike, radius: ArrayLike, wavelength: ArrayLike, amp
     return 2.0 * math.pi * not_negative(amplitude) * a * s0
 
 
-def wave_moment(k: ArrayLike, radius: ArrayLike, wavelength: ArrayLike, amplitude: ArrayLike) -> Array:
+@documented
+def wave_moment(k: Gradient, radius: Radius, wavelength: Wavelength, amplitude: Amplitude) -> Array:
     """Return the part of I/R^(2+k) that a cosine wave adds, 2 pi A a^(2+k) S1(2 pi a/lambda).
-
-    Parameters
-    ----------
-    k, radius, wavelength, amplitude
-        As in `wave_indentation`.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -147,28 +93,13 @@ def wave_moment(k: ArrayLike, radius: ArrayLike, wavelength: ArrayLike, amplitud
     return 2.0 * math.pi * not_negative(amplitude) * a ** (2.0 + exponent_of(k)) * s1
 
 
+@documented
 def indentation(
-    k: ArrayLike, radius: ArrayLike, wavelength: ArrayLike, amplitude: ArrayLike, exponent: ArrayLike = 2.0
+    k: Gradient, radius: Radius, wavelength: Wavelength, amplitude: Amplitude, exponent: Power = 2.0
 ) -> Array:
     """Return delta_H/R, the depth of contact over a disc without adhesion (3.9).
 
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    radius
-        a/R >= 0.
-    wavelength
-        lambda/R > 0.
-    amplitude
-        A, amplitude over wavelength, >= 0.
-    exponent
-        m >= 1; 2 is a paraboloid.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges. Accurate to a few units in the last place of its largest
-    term.
+    Accurate to a few units in the last place of its largest term.
 
     Examples
     --------
@@ -178,26 +109,18 @@ def indentation(
     return power_indentation(k, radius, exponent) + wave_indentation(k, radius, wavelength, amplitude)
 
 
+@documented
 def load(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    radius: ArrayLike,
-    wavelength: ArrayLike,
-    amplitude: ArrayLike,
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    stiffness: Stiffness,
+    radius: Radius,
+    wavelength: Wavelength,
+    amplitude: Amplitude,
+    exponent: Power = 2.0,
 ) -> Array:
     """Return P_H/(1.5 pi R dgamma), the load of contact over a disc without adhesion (3.10).
 
-    Parameters
-    ----------
-    k, radius, wavelength, amplitude, exponent
-        As in `indentation`.
-    stiffness
-        M R^(1+k)/dgamma > 0 (core/problem/material.py).
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges. Zero at a = 0.
+    Zero at a = 0.
 
     Examples
     --------

@@ -11,28 +11,27 @@ Lengths are in R, loads in 1.5 pi R dgamma, M in dgamma/R^(1+k) (core/problem/ma
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from gradhesion.core.equations import hertz
+from gradhesion.core.equations._arguments import (
+    Amplitude,
+    Depth,
+    Gradient,
+    PositiveRadius,
+    Power,
+    Radius,
+    Stiffness,
+    StiffnessOrInf,
+    Wavelength,
+    documented,
+)
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
 from gradhesion.core.equations.pair import sine_integrals
 
 
-def adhesive_depth(k: ArrayLike, stiffness: ArrayLike, radius: ArrayLike) -> Array:
+@documented
+def adhesive_depth(k: Gradient, stiffness: StiffnessOrInf, radius: Radius) -> Array:
     """Return Delta/R, by which adhesion pulls the surface out at equilibrium.
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    stiffness
-        M R^(1+k)/dgamma > 0; inf is contact without adhesion.
-    radius
-        a/R >= 0.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -46,37 +45,17 @@ def adhesive_depth(k: ArrayLike, stiffness: ArrayLike, radius: ArrayLike) -> Arr
     return np.sqrt(square)
 
 
+@documented
 def energy_release_rate(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    radius: ArrayLike,
-    depth: ArrayLike,
-    wavelength: ArrayLike,
-    amplitude: ArrayLike,
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    stiffness: Stiffness,
+    radius: PositiveRadius,
+    depth: Depth,
+    wavelength: Wavelength,
+    amplitude: Amplitude,
+    exponent: Power = 2.0,
 ) -> Array:
     """Return G/dgamma at the edge of a disc of radius a when the punch is at any depth (4.4); 1 is equilibrium.
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    stiffness
-        M R^(1+k)/dgamma > 0.
-    radius
-        a/R > 0.
-    depth
-        delta/R, any; below delta_H the edge is pulled open, above it it is pressed shut.
-    wavelength
-        lambda/R > 0.
-    amplitude
-        A, amplitude over wavelength, >= 0.
-    exponent
-        m >= 1; 2 is a paraboloid.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -88,34 +67,16 @@ def energy_release_rate(
     return (opening / adhesive_depth(k, stiffness, positive(radius))) ** 2
 
 
+@documented
 def indentation(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    radius: ArrayLike,
-    wavelength: ArrayLike,
-    amplitude: ArrayLike,
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    stiffness: StiffnessOrInf,
+    radius: Radius,
+    wavelength: Wavelength,
+    amplitude: Amplitude,
+    exponent: Power = 2.0,
 ) -> Array:
     """Return the depth delta/R in equilibrium (4.8).
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    stiffness
-        M R^(1+k)/dgamma > 0; inf is contact without adhesion.
-    radius
-        a/R >= 0.
-    wavelength
-        lambda/R > 0.
-    amplitude
-        A, amplitude over wavelength, >= 0.
-    exponent
-        m >= 1; 2 is a paraboloid.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -126,26 +87,16 @@ def indentation(
     return hertzian - adhesive_depth(k, stiffness, radius)
 
 
+@documented
 def load(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    radius: ArrayLike,
-    wavelength: ArrayLike,
-    amplitude: ArrayLike,
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    stiffness: Stiffness,
+    radius: Radius,
+    wavelength: Wavelength,
+    amplitude: Amplitude,
+    exponent: Power = 2.0,
 ) -> Array:
     """Return the load P/(1.5 pi R dgamma) in equilibrium (4.7); negative where it pulls.
-
-    Parameters
-    ----------
-    k, radius, wavelength, amplitude, exponent
-        As in `indentation`.
-    stiffness
-        M R^(1+k)/dgamma > 0, finite.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -158,31 +109,19 @@ def load(
     return hertz.load(k, stiffness, radius, wavelength, amplitude, exponent) - pull
 
 
+@documented
 def load_at_depth(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    radius: ArrayLike,
-    depth: ArrayLike,
-    wavelength: ArrayLike,
-    amplitude: ArrayLike,
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    stiffness: Stiffness,
+    radius: Radius,
+    depth: Depth,
+    wavelength: Wavelength,
+    amplitude: Amplitude,
+    exponent: Power = 2.0,
 ) -> Array:
     """Return the load P/(1.5 pi R dgamma) on a disc of fixed radius at any depth, K [a^(1+k) delta - I].
 
-    This is contact pinned at the rim of a finite punch, and the state between two equilibria during a jump.
-
-    Parameters
-    ----------
-    k, radius, wavelength, amplitude, exponent
-        As in `indentation`.
-    stiffness
-        M R^(1+k)/dgamma > 0, finite.
-    depth
-        delta/R, any.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
+      This is contact pinned at the rim of a finite punch, and the state between two equilibria during a jump.
 
     Examples
     --------
@@ -196,29 +135,19 @@ def load_at_depth(
     return rest + hertz.disc_stiffness(k, stiffness, radius) * raised
 
 
+@documented
 def fold_number(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    radius: ArrayLike,
-    wavelength: ArrayLike,
-    amplitude: ArrayLike,
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    stiffness: StiffnessOrInf,
+    radius: PositiveRadius,
+    wavelength: Wavelength,
+    amplitude: Amplitude,
+    exponent: Power = 2.0,
 ) -> Array:
     """Return q = a delta_H'(a)/Delta(a), which decides stability.
 
-    Depth rises with the radius, and contact is stable under displacement control, where q > (1-k)/2; load rises, and
-    contact is stable under load control, where q > (3+k)/2.
-
-    Parameters
-    ----------
-    k, stiffness, wavelength, amplitude, exponent
-        As in `indentation`.
-    radius
-        a/R > 0.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
+      Depth rises with the radius, and contact is stable under displacement control, where q > (1-k)/2; load rises, and
+      contact is stable under load control, where q > (3+k)/2.
 
     Examples
     --------

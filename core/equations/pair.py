@@ -7,27 +7,24 @@ belongs to a sine and is a Bessel function. (5.7)-(5.14) of Jin, Guo & Wan (2013
 """
 
 import math
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import beta, gamma, jv
 
+from gradhesion.core.equations._arguments import Gradient, documented
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative
 from gradhesion.core.struve.table import struve_pair
 
 _LARGEST = 2.0**49
 """Turns beyond which a double holds no phase."""
+Turns = Annotated[ArrayLike, "Contact radius over wavelength, 0 <= x < 2**49."]
 
 
-def sine_integrals(k: ArrayLike, x: ArrayLike) -> Array:
+@documented
+def sine_integrals(k: Gradient, x: Turns) -> Array:
     """Return S0, S1, dS0/dz and dS1/dz at z = 2 pi x.
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    x
-        Contact radius over wavelength, 0 <= x < 2**49.
 
     Returns
     -------
@@ -51,17 +48,11 @@ def sine_integrals(k: ArrayLike, x: ArrayLike) -> Array:
     return out
 
 
-def cosine_integrals(k: ArrayLike, x: ArrayLike) -> Array:
+@documented
+def cosine_integrals(k: Gradient, x: Turns) -> Array:
     """Return C0 and C1 at z = 2 pi x.
 
-    C_j = sqrt(pi)/2 G(n+1/2) (2/z)^n J_n(z), n = k/2 + j.
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    x
-        Contact radius over wavelength, 0 <= x < 2**49.
+      C_j = sqrt(pi)/2 G(n+1/2) (2/z)^n J_n(z), n = k/2 + j.
 
     Returns
     -------

@@ -10,13 +10,24 @@ general.py; one cosine wave is cosines = [-A]. Source: Jin, Guo & Wan (2013) as 
 """
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gradhesion.core.equations import _abel, hertz
-from gradhesion.core.equations._domain import Array, exponent_of, not_negative, positive, power_of
+from gradhesion.core.equations._arguments import (
+    Cosines,
+    Depth,
+    Gradient,
+    Inside,
+    PositiveRadius,
+    Power,
+    Sines,
+    Stiffness,
+    Wavelength,
+    documented,
+)
+from gradhesion.core.equations._domain import Array, exponent_of, not_negative, point_by_point, positive, power_of
 from gradhesion.core.equations.general import harmonics, hertz_indentation
 from gradhesion.core.equations.pair import cosine_integrals, sine_integrals
 
@@ -39,28 +50,11 @@ def pressure_unit(radius_of_punch: ArrayLike, work_of_adhesion: ArrayLike) -> Ar
     return np.asarray(work_of_adhesion, dtype=float) / np.asarray(radius_of_punch, dtype=float)
 
 
-def flat_pressure(
-    k: ArrayLike, stiffness: ArrayLike, distance: ArrayLike, radius: ArrayLike, depth: ArrayLike
-) -> Array:
+@documented
+def flat_pressure(k: Gradient, stiffness: Stiffness, distance: Inside, radius: PositiveRadius, depth: Depth) -> Array:
     """Return p R/dgamma under a flat-ended cylinder, pressed in by a depth (3.1).
 
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    stiffness
-        M R^(1+k)/dgamma > 0, finite.
-    distance
-        r/R, 0 to a/R.
-    radius
-        a/R > 0, of the cylinder.
-    depth
-        delta/R, any.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges, infinite at r = a for k < 1. Accurate to a few units in the
-    last place, of r and a that are given.
+    Infinite at r = a for k < 1. Accurate to a few units in the last place, of r and a that are given.
 
     Examples
     --------
@@ -77,39 +71,21 @@ def flat_pressure(
         return np.where(pressed == 0.0, 0.0 * inside, _front(n - 1.0, positive(stiffness)) * pressed * root)
 
 
+@documented
 def hertz_pressure(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    distance: ArrayLike,
-    radius: ArrayLike,
-    wavelength: ArrayLike,
-    cosines: Sequence[float],
-    sines: Sequence[float] = (),
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    stiffness: Stiffness,
+    distance: Inside,
+    radius: PositiveRadius,
+    wavelength: Wavelength,
+    cosines: Cosines,
+    sines: Sines = (),
+    exponent: Power = 2.0,
 ) -> Array:
     """Return p_H R/dgamma of contact without adhesion over a disc of radius a (3.4).
 
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    stiffness
-        M R^(1+k)/dgamma > 0, finite.
-    distance
-        r/R, 0 to a/R.
-    radius
-        a/R > 0.
-    wavelength
-        lambda/R > 0, of the first harmonic.
-    cosines, sines
-        a_1, a_2, ... and b_1, b_2, ..., over the wavelength; [-A] is one cosine wave, [] none.
-    exponent
-        m >= 1; 2 is a paraboloid.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges, 0 at r = a. Accurate to 1e-12 of its largest value. At r = 0
-    it is infinite for k = 0 where the profile has a slope there (a cone, or a series of sines with sum n b_n not 0).
+    Zero at r = a. Accurate to 1e-12 of its largest value. At r = 0 it is infinite for k = 0 where the profile has a
+    slope there (a cone, or a series of sines with sum n b_n not 0).
 
     Examples
     --------
@@ -118,43 +94,31 @@ def hertz_pressure(
     >>> float((hertz_pressure(0.0, 500.0, 0.12, 0.13, 1.0, []) * np.pi).round(9))
     50.0
     """
-    n, r, a = 1.0 + exponent_of(k), not_negative(distance), positive(radius)
-    arrays = np.broadcast_arrays(n - 1.0, r, a, positive(wavelength), power_of(exponent), positive(stiffness))
-    out = np.full(arrays[0].shape, np.nan)
     waves = harmonics(cosines, sines)
-    for place in np.ndindex(out.shape):
-        gradient, at, edge, length, m, material = (float(array[place]) for array in arrays)
-        if not math.isnan(gradient + at + edge + length + m + material) and at <= edge:
-            value = _integral(gradient, at, edge, length, waves, m)
-            out[place] = float(_front(gradient, material)) * value
-    return out
+
+    def at(k: float, r: float, a: float, length: float, m: float, stiffness: float) -> float:
+        return float(_front(k, stiffness)) * _integral(k, r, a, length, waves, m) if r <= a else math.nan
+
+    r, a, material = not_negative(distance), positive(radius), positive(stiffness)
+    return point_by_point(at, exponent_of(k), r, a, positive(wavelength), power_of(exponent), material)
 
 
+@documented
 def pressure(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    distance: ArrayLike,
-    radius: ArrayLike,
-    depth: ArrayLike,
-    wavelength: ArrayLike,
-    cosines: Sequence[float],
-    sines: Sequence[float] = (),
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    stiffness: Stiffness,
+    distance: Inside,
+    radius: PositiveRadius,
+    depth: Depth,
+    wavelength: Wavelength,
+    cosines: Cosines,
+    sines: Sines = (),
+    exponent: Power = 2.0,
 ) -> Array:
     """Return p R/dgamma under a punch at any depth, over a disc of radius a (4.2); in equilibrium (4.9).
 
-    Parameters
-    ----------
-    k, stiffness, distance, radius, wavelength, cosines, sines, exponent
-        As in `hertz_pressure`.
-    depth
-        delta/R, any: `general.indentation` is equilibrium, `general.hertz_indentation` contact without adhesion.
-
-    Returns
-    -------
-    Array of the broadcast shape, positive in compression; NaN outside the ranges. For k < 1 it is minus infinity at
-    r = a where delta < delta_H, as in equilibrium, plus infinity where delta > delta_H. Accurate to 1e-12 of the
-    largest of both terms.
+    Positive in compression. For k < 1 it is minus infinity at r = a where delta < delta_H, as in equilibrium, plus
+    infinity where delta > delta_H. Accurate to 1e-12 of the largest of both terms.
 
     Examples
     --------
@@ -170,26 +134,16 @@ def pressure(
     return hertz_pressure(k, stiffness, distance, radius, wavelength, cosines, sines, exponent) + flat
 
 
+@documented
 def indentation_slope(
-    k: ArrayLike,
-    radius: ArrayLike,
-    wavelength: ArrayLike,
-    cosines: Sequence[float],
-    sines: Sequence[float] = (),
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    radius: PositiveRadius,
+    wavelength: Wavelength,
+    cosines: Cosines,
+    sines: Sines = (),
+    exponent: Power = 2.0,
 ) -> Array:
     """Return delta_H'(a), the slope of the depth of contact without adhesion over the contact radius.
-
-    Parameters
-    ----------
-    k, wavelength, cosines, sines, exponent
-        As in `hertz_pressure`.
-    radius
-        a/R > 0.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------

@@ -9,31 +9,17 @@ import math
 from typing import Final
 
 import numpy as np
-from numpy.typing import ArrayLike
 
+from gradhesion.core.equations._arguments import Amplitude, Distance, Power, Wavelength, documented
 from gradhesion.core.equations._domain import Array, not_negative, positive, power_of
 
 DEEPEST_SINC: Final = 0.21723362821122164
 """-min sin(y)/y, met at tan y = y, y = 4.4934094579090642 (a zero of the spherical Bessel function j_1)."""
 
 
-def height(radius: ArrayLike, wavelength: ArrayLike, amplitude: ArrayLike, exponent: ArrayLike = 2.0) -> Array:
+@documented
+def height(radius: Distance, wavelength: Wavelength, amplitude: Amplitude, exponent: Power = 2.0) -> Array:
     """Return the height f/R of the punch over its apex (2.1).
-
-    Parameters
-    ----------
-    radius
-        r/R >= 0.
-    wavelength
-        lambda/R > 0.
-    amplitude
-        A, amplitude over wavelength, >= 0.
-    exponent
-        m >= 1: 1 is a cone, 2 a paraboloid.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -45,17 +31,9 @@ def height(radius: ArrayLike, wavelength: ArrayLike, amplitude: ArrayLike, expon
     return r**m / m + 2.0 * not_negative(amplitude) * length * half_turn**2
 
 
-def slope(radius: ArrayLike, wavelength: ArrayLike, amplitude: ArrayLike, exponent: ArrayLike = 2.0) -> Array:
+@documented
+def slope(radius: Distance, wavelength: Wavelength, amplitude: Amplitude, exponent: Power = 2.0) -> Array:
     """Return f'(r), the slope of the punch.
-
-    Parameters
-    ----------
-    radius, wavelength, amplitude, exponent
-        As in `height`.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
@@ -66,20 +44,12 @@ def slope(radius: ArrayLike, wavelength: ArrayLike, amplitude: ArrayLike, expone
     return r ** (m - 1.0) + 2.0 * math.pi * not_negative(amplitude) * np.sin(2.0 * math.pi * r / length)
 
 
-def largest_monotonic_amplitude(wavelength: ArrayLike) -> Array:
+@documented
+def largest_monotonic_amplitude(wavelength: Wavelength) -> Array:
     """Return the largest A at which a wavy paraboloid without a rim still rises everywhere.
 
-    f' >= 0 for all r asks for A <= 4.6033 lambda/(4 pi^2 R), where 1/4.6033 = -min sin(y)/y. A monotonic profile is
-    the paper's condition for contact over one disc, after Guduru (2007). It is not sufficient: see gap.py.
-
-    Parameters
-    ----------
-    wavelength
-        lambda/R > 0.
-
-    Returns
-    -------
-    Array of the shape of `wavelength`; NaN outside the range.
+      f' >= 0 for all r asks for A <= 4.6033 lambda/(4 pi^2 R), where 1/4.6033 = -min sin(y)/y. A monotonic profile is
+      the paper's condition for contact over one disc, after Guduru (2007). It is not sufficient: see gap.py.
 
     Examples
     --------
@@ -89,15 +59,9 @@ def largest_monotonic_amplitude(wavelength: ArrayLike) -> Array:
     return positive(wavelength) / (4.0 * math.pi**2 * DEEPEST_SINC)
 
 
-def is_monotonic(wavelength: ArrayLike, amplitude: ArrayLike) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+@documented
+def is_monotonic(wavelength: Wavelength, amplitude: Amplitude) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
     """Return whether a wavy paraboloid without a rim rises everywhere.
-
-    Parameters
-    ----------
-    wavelength
-        lambda/R > 0.
-    amplitude
-        A, amplitude over wavelength, >= 0.
 
     Returns
     -------

@@ -20,35 +20,28 @@ of an unbounded punch is finite. Lengths are in R, energies in R^2 dgamma.
 """
 
 import math
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import roots_legendre
 
 from gradhesion.core.equations import effective, energy, envelopes
+from gradhesion.core.equations._arguments import Amplitude, Gradient, LargestRadius, Stiffness, Wavelength, documented
 from gradhesion.core.equations._domain import Array, exponent_of, not_negative
 
 _NODES, _WEIGHTS = roots_legendre(64)
 _HALVINGS: Final = 60
 
+SlopeRatio = Annotated[ArrayLike, "u >= 0, the slope of the smooth punch over the steepest slope of the wave."]
 
-def end_of_folds(k: ArrayLike, wavelength: ArrayLike, amplitude: ArrayLike) -> Array:
+
+@documented
+def end_of_folds(k: Gradient, wavelength: Wavelength, amplitude: Amplitude) -> Array:
     """Return a_e/R, the radius beyond which a short wave has no folds.
 
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    wavelength
-        lambda/R > 0.
-    amplitude
-        A, amplitude over wavelength, >= 0.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges. For A = 0.03 and lambda/R = 0.01 the last fold is 0.2 to 1.6 %
-    further out (k from 0 to 0.5); with waves as long as the contact it only tells the size.
+    For A = 0.03 and lambda/R = 0.01 the last fold is 0.2 to 1.6 % further out (k from 0 to 0.5); with waves as long as
+    the contact it only tells the size.
 
     Examples
     --------
@@ -60,17 +53,11 @@ def end_of_folds(k: ArrayLike, wavelength: ArrayLike, amplitude: ArrayLike) -> A
     return (2.0 * math.pi * n * unit) ** (1.0 / n)
 
 
-def share(ratio: ArrayLike) -> Array:
+@documented
+def share(ratio: SlopeRatio) -> Array:
     """Return W(u), the mean distance of loading from unloading over the distance of the envelopes.
 
-    Parameters
-    ----------
-    ratio
-        u >= 0, the slope of the smooth punch over the steepest slope of the wave.
-
-    Returns
-    -------
-    Array of the shape of `ratio`; 0 for u >= 1, NaN outside the range. Accurate to 1e-14.
+    Zero for u >= 1. Accurate to 1e-14.
 
     Examples
     --------
@@ -90,27 +77,13 @@ def share(ratio: ArrayLike) -> Array:
     return np.where(u < 1.0, area / (2.0 * math.pi), 0.0) + 0.0 * u
 
 
+@documented
 def dissipated_energy(
-    k: ArrayLike, stiffness: ArrayLike, wavelength: ArrayLike, amplitude: ArrayLike, largest_radius: ArrayLike
+    k: Gradient, stiffness: Stiffness, wavelength: Wavelength, amplitude: Amplitude, largest_radius: LargestRadius
 ) -> Array:
     """Return H/(R^2 dgamma) of short waves, with the saturation that C2 leaves out.
 
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    stiffness
-        M R^(1+k)/dgamma > 0.
-    wavelength
-        lambda/R > 0.
-    amplitude
-        A, amplitude over wavelength, >= 0.
-    largest_radius
-        a_am/R >= a_2/R, or inf: the saturated energy.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges, for r >= s and for a_am < a_2. For k = 0.2, A = 0.03 and
+    NaN for r >= s and for a_am < a_2; a_am may be inf, for the saturated energy. For k = 0.2, A = 0.03 and
     M R^(1+k)/dgamma = 1009 within 4 %, 0.9 % and 0.12 % of the exact energy at lambda/R = 0.01, 0.001 and 0.0001; it is
     not for waves that end, at a_e, near a_2 or before it.
 
@@ -135,17 +108,9 @@ def dissipated_energy(
     return energy.first_part(k, stiffness, wavelength, amplitude) + 4.0 * math.pi * r / s * end**2 * band
 
 
-def saturated_share(k: ArrayLike) -> Array:
+@documented
+def saturated_share(k: Gradient) -> Array:
     """Return w(k) = int W d(a^2)/a_e^2, so that an unbounded punch loses about C1 + 4 pi (r/s) dgamma w a_e^2.
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-
-    Returns
-    -------
-    Array of the shape of `k`; NaN outside the range.
 
     Examples
     --------

@@ -12,31 +12,31 @@ in zeta, so that nothing is claimed where the contact is no larger than a wave. 
 
 import math
 from collections.abc import Sequence
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import gamma
 
 from gradhesion.core.equations import hertz, jkr
+from gradhesion.core.equations._arguments import (
+    Cosines,
+    Gradient,
+    PositiveRadius,
+    Power,
+    Sines,
+    Stiffness,
+    StiffnessOrInf,
+    Wavelength,
+    documented,
+)
 from gradhesion.core.equations._domain import Array, exponent_of, positive
 from gradhesion.core.equations.general import harmonics
 
 
-def zeta(k: ArrayLike, xi: ArrayLike, cosines: Sequence[float], sines: Sequence[float] = ()) -> Array:
+@documented
+def zeta(k: Gradient, xi: Annotated[ArrayLike, "a/lambda, any."], cosines: Cosines, sines: Sines = ()) -> Array:
     """Return the function of period 1 to which all waviness reduces (5.17).
-
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    xi
-        a/lambda, any.
-    cosines, sines
-        a_1, a_2, ... and b_1, b_2, ..., over the wavelength; [-A] is one cosine wave.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN for k outside its range.
 
     Examples
     --------
@@ -52,39 +52,21 @@ def zeta(k: ArrayLike, xi: ArrayLike, cosines: Sequence[float], sines: Sequence[
     return total
 
 
+@documented
 def indentation(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    radius: ArrayLike,
-    wavelength: ArrayLike,
-    cosines: Sequence[float],
-    sines: Sequence[float] = (),
+    k: Gradient,
+    stiffness: StiffnessOrInf,
+    radius: PositiveRadius,
+    wavelength: Wavelength,
+    cosines: Cosines,
+    sines: Sines = (),
     *,
-    exponent: ArrayLike = 2.0,
-    mean_height: bool = True,
+    exponent: Power = 2.0,
+    mean_height: Annotated[bool, "Whether to add the mean height of the waves, -lambda sum a_n."] = True,
 ) -> Array:
     """Return the depth delta/R in equilibrium for waves far shorter than the contact.
 
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    stiffness
-        M R^(1+k)/dgamma > 0; inf is contact without adhesion.
-    radius
-        a/R > 0.
-    wavelength
-        lambda/R > 0.
-    cosines, sines
-        a_1, a_2, ... and b_1, b_2, ..., over the wavelength; [-A] is one cosine wave.
-    exponent
-        m >= 1; 2 is a paraboloid.
-    mean_height
-        Whether to add the mean height of the waviness, -lambda sum a_n, which the printed form leaves out.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges. Off by about lambda/a of its term in zeta (exact at k = 1).
+    Off by about lambda/a of its term in zeta (exact at k = 1).
 
     Examples
     --------
@@ -99,28 +81,20 @@ def indentation(
     return smooth + mean + _wave(k, radius, wavelength, cosines, sines)
 
 
+@documented
 def load(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    radius: ArrayLike,
-    wavelength: ArrayLike,
-    cosines: Sequence[float],
-    sines: Sequence[float] = (),
+    k: Gradient,
+    stiffness: Stiffness,
+    radius: PositiveRadius,
+    wavelength: Wavelength,
+    cosines: Cosines,
+    sines: Sines = (),
     *,
-    exponent: ArrayLike = 2.0,
+    exponent: Power = 2.0,
 ) -> Array:
     """Return the load P/(1.5 pi R dgamma) in equilibrium for waves far shorter than the contact.
 
-    Parameters
-    ----------
-    k, radius, wavelength, cosines, sines, exponent
-        As in `indentation`.
-    stiffness
-        M R^(1+k)/dgamma > 0, finite.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges. Off by about lambda/a of its term in zeta.
+    Off by about lambda/a of its term in zeta.
 
     Examples
     --------

@@ -16,41 +16,34 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gradhesion.core.equations import general, jkr
+from gradhesion.core.equations._arguments import (
+    Cosines,
+    Depth,
+    Gradient,
+    PositiveRadius,
+    Power,
+    Sines,
+    Stiffness,
+    Wavelength,
+    documented,
+)
 from gradhesion.core.equations._domain import Array, exponent_of, positive
 
 
+@documented
 def stress_intensity(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    radius: ArrayLike,
-    depth: ArrayLike,
-    wavelength: ArrayLike,
-    cosines: Sequence[float],
-    sines: Sequence[float] = (),
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    stiffness: Stiffness,
+    radius: PositiveRadius,
+    depth: Depth,
+    wavelength: Wavelength,
+    cosines: Cosines,
+    sines: Sines = (),
+    exponent: Power = 2.0,
 ) -> Array:
     """Return K_I R^((1+k)/2)/dgamma at the edge of a disc of radius a at any depth (4.5).
 
-    Parameters
-    ----------
-    k
-        Gradient exponent, 0 to 1.
-    stiffness
-        M R^(1+k)/dgamma > 0, finite.
-    radius
-        a/R > 0.
-    depth
-        delta/R, any.
-    wavelength
-        lambda/R > 0, of the first harmonic.
-    cosines, sines
-        a_1, a_2, ... and b_1, b_2, ..., over the wavelength; [-A] is one cosine wave.
-    exponent
-        m >= 1; 2 is a paraboloid.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges. In equilibrium -sqrt(2 M dgamma), whatever the punch.
+    In equilibrium -sqrt(2 M dgamma), whatever the punch.
 
     Examples
     --------
@@ -64,26 +57,18 @@ def stress_intensity(
     return -front * opening * (2.0 * a) ** (0.5 * n - 1.0)
 
 
+@documented
 def energy_release_rate(
-    k: ArrayLike,
-    stiffness: ArrayLike,
-    radius: ArrayLike,
-    depth: ArrayLike,
-    wavelength: ArrayLike,
-    cosines: Sequence[float],
-    sines: Sequence[float] = (),
-    exponent: ArrayLike = 2.0,
+    k: Gradient,
+    stiffness: Stiffness,
+    radius: PositiveRadius,
+    depth: Depth,
+    wavelength: Wavelength,
+    cosines: Cosines,
+    sines: Sines = (),
+    exponent: Power = 2.0,
 ) -> Array:
     """Return G/dgamma at the edge of a disc of radius a at any depth (4.4), for any series; 1 is equilibrium.
-
-    Parameters
-    ----------
-    k, stiffness, radius, depth, wavelength, cosines, sines, exponent
-        As in `stress_intensity`.
-
-    Returns
-    -------
-    Array of the broadcast shape; NaN outside the ranges.
 
     Examples
     --------
