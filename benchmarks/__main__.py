@@ -10,6 +10,7 @@ from benchmarks import (
     draw,
     engines,
     error,
+    expert,
     functions,
     loop_fits,
     one_scene,
@@ -51,6 +52,16 @@ with all its digits: that bounds the second ratio.
 {error.tables(*points)}
 ![Run time against error](figures/time_against_error.png)
 """
+    yield f"""## Against the script of an expert
+
+`benchmarks/expert_script.py` is what an expert would write: compiled by numba, one thread, polynomials of both
+functions for each k, folds found by a scan and Newton's steps, Gauss's rule over the jumps. For each error it is given
+the quickest setting whose worst scene of a call keeps that error (`benchmarks/expert.py`); a scan that is too coarse
+misses folds. Its tables, its compilation and the stiffness of its materials are not timed; calls of gradhesion are
+timed whole, with the test of whether contact is one disc. Processor time on one thread, us a scene. Aims: 2 times in
+calls of 200 scenes for the force and for the energy at 1e-6; 3 and 7.5 times in calls of 20,000.
+
+{expert.expert_table(repeat=3 if quick else 9)}"""
     yield f"""## The universal pair
 
 The four functions S0, S1, S0', S1' in a loop over an array, against S0 and S1 alone elsewhere. Aims: 10 ns below

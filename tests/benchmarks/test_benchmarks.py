@@ -46,3 +46,27 @@ def test_the_dense_grid_tends_to_the_exact_values(root: Path) -> None:
     for coarse, fine in zip(lines[::2], lines[1::2], strict=True):
         assert max(fine) < 1e-4
         assert max(fine) < max(coarse)
+
+
+def test_the_script_of_an_expert_tends_to_the_exact_values(root: Path) -> None:
+    code = """
+import numba, numpy as np
+from benchmarks.error import OUTPUTS, scenes_of_twin
+from gradhesion.core.problem.material import stiffness
+numba.config.DISABLE_JIT = True  # compiling takes longer
+from benchmarks.expert_script import LARGEST, Effort, solve, table_of
+numba.config.DISABLE_JIT = False
+for scene in scenes_of_twin(6):
+    k, M = scene["k"], stiffness(scene["k"], scene["nu"], scene["modulus"], scene["c0_over_R"])
+    row = np.array([[k, M, scene["lambda_over_R"], scene["A"], scene["a_max_over_R"]]])
+    if 2 * np.pi * row[0, 4] / row[0, 2] < LARGEST:
+        for output in OUTPUTS:
+            for effort in (Effort(8, 1e-1, 3), Effort(48, 1e-6, 12)):
+                value = solve(output, np.array([table_of(k)]), np.array([0]), row, effort)
+                print(value[0] / scene[output] - 1)
+"""
+    errors = [abs(float(line)) for line in python(root, "-c", code).splitlines()]
+    assert len(errors) >= 12
+    for coarse, fine in zip(errors[::2], errors[1::2], strict=True):
+        assert fine < 1e-9
+        assert fine <= coarse or coarse < 1e-12
