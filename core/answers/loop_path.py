@@ -18,7 +18,7 @@ from scipy.optimize import brentq
 
 from gradhesion.core.answers.loop_points import OFFSETS
 from gradhesion.core.curve.branches import ARRIVAL, END, START
-from gradhesion.core.curves import general, general_path, path
+from gradhesion.core.curves import general, path
 from gradhesion.core.curves.forms import GENERAL, point
 from gradhesion.core.curves.subject import Subject, subject_of
 from gradhesion.core.equations import hertz, jkr
@@ -207,7 +207,7 @@ class LoopModel:
         if subject is None or subject.trace is None:
             return None
         with np.errstate(all="ignore"):
-            found = (general_path if subject.exact.kind == GENERAL else path).draw_path(subject)
+            found = path.draw_path(subject)
         names = ("contact_radius", "indentation", "load", "jump", "unloading")
         a, depth, load, jump, unloading = (found[f"path_{name}"] for name in names)
         drawn = a, depth, load, jump > 0, unloading > 0

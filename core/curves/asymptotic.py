@@ -4,14 +4,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.curve.short_wave import ShortWave
-from gradhesion.core.curves.equilibrium import draw_through
+from gradhesion.core.curves.equilibrium import draw_named
 from gradhesion.core.curves.forms import SHORT
 from gradhesion.core.curves.knots import folds_of_wave
 from gradhesion.core.curves.smooth import smooth_places
 from gradhesion.core.curves.subject import Form, Subject, wavy_form
 from gradhesion.core.struve.circle import TWO_PI
-
-VARIABLES = ("asymptotic_contact_radius", "asymptotic_indentation", "asymptotic_load")
 
 
 def draw_asymptotic(subject: Subject) -> dict[str, NDArray[np.float64]] | None:
@@ -30,8 +28,7 @@ def draw_asymptotic(subject: Subject) -> dict[str, NDArray[np.float64]] | None:
     k = subject.k
     if subject.chi == 0.0:
         form: Form = subject.plain(1.0)
-        end = subject.end / form.radius_scale
-        points, _ = draw_through(form, smooth_places(k, (1.0,), end), end)
+        places = smooth_places(k, (1.0,), subject.end / form.radius_scale)
     else:
         form = wavy_form(subject.table, subject.stretch, subject.wavelength, subject.mean_height)
         bend, gain, _, _, _ = form.numbers
@@ -42,7 +39,5 @@ def draw_asymptotic(subject: Subject) -> dict[str, NDArray[np.float64]] | None:
         few_too, load_folds = folds_of_wave(wave, 0.5 * (3.0 + k), end)
         if not (few and few_too):
             return None
-        points, _ = draw_through(form, np.union1d(folds, load_folds), end)
-    radius, depth, load = form.scaled(points)
-    radius[-1] = subject.end
-    return dict(zip(VARIABLES, (radius, depth, load), strict=True))
+        places = np.union1d(folds, load_folds)
+    return draw_named(subject, form, places, "asymptotic")

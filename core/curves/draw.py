@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.curves import general, general_path
+from gradhesion.core.curves import general
 from gradhesion.core.curves.asymptotic import draw_asymptotic
 from gradhesion.core.curves.effective import draw_effective
 from gradhesion.core.curves.envelope import draw_envelope
@@ -44,13 +44,7 @@ _CLOSED: Final = {
     "smooth": draw_smooth,
 }
 
-_GENERAL: Final = {
-    "equilibrium": draw_equilibrium,
-    "path": general_path.draw_path,
-    "smooth": general.draw_smooth,
-    "jumps": general_path.list_jumps,
-}
-GENERAL_CURVES: Final = tuple(_GENERAL)
+GENERAL_CURVES: Final = ("equilibrium", "path", "smooth", "jumps")
 """The curves of any profile under any control; the others are closed forms of one cosine wave on a paraboloid."""
 
 
@@ -58,7 +52,7 @@ def _draw(subject: Subject | None, curve: str) -> dict[str, NDArray[Any]] | None
     """Return the variables of a curve, None where it has no value."""
     if subject is None or (curve in _EXACT and subject.trace is None):
         return None
-    of_curve = _GENERAL if subject.exact.kind == GENERAL else _EXACT | _CLOSED
+    of_curve = _EXACT | ({"smooth": general.draw_smooth} if subject.exact.kind == GENERAL else _CLOSED)
     with np.errstate(all="ignore"):
         variables = of_curve[curve](subject)
     if variables is None or not all(np.isfinite(values).all() for values in variables.values()):

@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.curves.equilibrium import scales_of
-from gradhesion.core.curves.forms import pinned_load, point
 from gradhesion.core.curves.sampling import sample
 from gradhesion.core.curves.smooth import smooth_places
 from gradhesion.core.curves.subject import Subject
@@ -61,20 +60,16 @@ def draw_effective(subject: Subject) -> dict[str, NDArray[Any]]:
     height = up.numbers[2]
     start, stop = (2.0 * max(0.0, 1.0 - chi)) ** power, min(turn, (0.5 * (1.0 - k) * (1.0 + chi)) ** power)
 
-    def way(form: Any, places: NDArray[np.float64]) -> NDArray[np.float64]:
-        values = [point(form.kind, form.table, form.numbers, place) for place in places]
-        return np.array([[place, *value] for place, value in zip(places, values, strict=True)]).T
-
-    last_depth, last_load = point(down.kind, down.table, down.numbers, turn)
+    _, last_depth, last_load = down.states(np.array([turn]))[:, 0]
     if start < turn:
         turns = smooth_places(k, (1.0 - chi,), turn)
-        loading = way(up, np.concatenate([[start], turns[turns > start], [turn]]))
+        loading = up.states(np.concatenate([[start], turns[turns > start], [turn]]))
         if start > 0.0:
             loading[1, 0] = height  # to rounding it is that already
-    else:  # the rim is reached by the jump-in
-        loading = np.array([[turn], [height], [pinned_load(down.kind, k, turn, last_depth, last_load, height)]])
+    else:  # the rim is reached by the jump-in, and contact there is a flat punch
+        loading = np.array([[turn], [height], [last_load + down.flat_stiffness(turn) * (height - last_depth)]])
     turns = smooth_places(k, (1.0 + chi,), turn)[::-1]
-    unloading = way(down, np.concatenate([[turn], turns[turns > stop], [stop] if stop < turn else []]))
+    unloading = down.states(np.concatenate([[turn], turns[turns > stop], [stop] if stop < turn else []]))
     before = np.array([[0.0, 0.0], [0.0, height], [0.0, 0.0]])[:, : 2 if start > 0.0 and height > 0.0 else 1]
     out = np.array([[0.0], [unloading[1, -1]], [0.0]])[:, : 1 if stop > 0.0 else 0]
     scales = scales_of(np.concatenate([before, loading, unloading, out], axis=1))

@@ -4,7 +4,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.curves.equilibrium import draw_through
-from gradhesion.core.curves.forms import fill_points
 from gradhesion.core.curves.smooth import smooth_places
 from gradhesion.core.curves.subject import Subject
 
@@ -30,9 +29,6 @@ def draw_envelope(subject: Subject) -> dict[str, NDArray[np.float64]]:
     variables = {"envelope_contact_radius": places * forms[0].radius_scale}
     variables["envelope_contact_radius"][-1] = subject.end
     for name, form in zip(("loading", "unloading"), forms, strict=True):
-        points = np.empty((3, places.size))
-        points[0] = places
-        fill_points(form.kind, form.table, form.numbers, points)
-        _, depth, load = form.scaled(points)
+        _, depth, load = form.scaled(form.states(places))
         variables |= {f"{name}_envelope_indentation": depth, f"{name}_envelope_load": load}
     return variables

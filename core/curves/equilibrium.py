@@ -7,20 +7,25 @@ from numpy.typing import NDArray
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import END, START
-from gradhesion.core.curves.forms import fill_points
 from gradhesion.core.curves.sampling import sample
 from gradhesion.core.curves.subject import Form, Subject
 
 
 def draw_through(form: Form, places: NDArray[np.float64], end: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Return points of a form, of shape (3, n), from zero contact through places in order to an end; their knots."""
-    knots = np.empty((3, places.size + 2))
-    knots[0, 0], knots[0, 1:-1], knots[0, -1] = 0.0, places, end
-    fill_points(form.kind, form.table, form.numbers, knots)
+    knots = form.states(np.concatenate([[0.0], places, [end]]))
     joined = np.ones(knots.shape[1], dtype=np.bool_)
     joined[0] = False
     points, owners = sample(form.kind, form.table, form.numbers, knots, joined, scales_of(knots))
     return points, owners
+
+
+def draw_named(subject: Subject, form: Form, places: NDArray[np.float64], name: str) -> dict[str, NDArray[np.float64]]:
+    """Return the variables `name_...`: radii, depths and loads of a form through places to the end of the range."""
+    points, _ = draw_through(form, places, subject.end / form.radius_scale)
+    radius, depth, load = form.scaled(points)
+    radius[-1] = subject.end
+    return {f"{name}_contact_radius": radius, f"{name}_indentation": depth, f"{name}_load": load}
 
 
 def scales_of(knots: NDArray[np.float64]) -> NDArray[np.float64]:

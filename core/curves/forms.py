@@ -109,16 +109,6 @@ def ripple(kind: int, table: Any, numbers: Any, place: float) -> tuple[float, fl
 
 
 @kernel()
-def pinned_load(kind: int, k: float, place: float, depth: float, load: float, other: float) -> float:
-    """Return the load at the depth `other` of a contact that is pinned where depth and load of equilibrium are known.
-
-    P - P0 = K a^(1+k) (delta - delta0): the punch is a flat one there.
-    """
-    z = TWO_PI * place if kind == EXACT else place
-    return load + z ** (1.0 + k) * (other - depth)
-
-
-@kernel()
 def fill_points(kind: int, table: Any, numbers: Numbers, knots: Any) -> None:
     """Put depth and load in the second and third row of `knots`, whose first row holds places."""
     for i in range(knots.shape[1]):

@@ -19,9 +19,8 @@ from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.general import Basis, Series, curve_of
 from gradhesion.core.curve.general_folds import room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
-from gradhesion.core.curves.equilibrium import draw_through
+from gradhesion.core.curves.equilibrium import draw_named
 from gradhesion.core.curves.forms import GENERAL, Numbers, general_numbers
-from gradhesion.core.curves.smooth import VARIABLES
 from gradhesion.core.curves.subject import BEYOND, BEYOND_SMOOTH, Form, Subject
 from gradhesion.core.path.general import walk
 from gradhesion.core.problem.control import Loading
@@ -133,7 +132,4 @@ def draw_smooth(subject: Subject) -> dict[str, NDArray[np.float64]]:
     form = _form(basis, (B, m, 0.0, alpha, beta), exact.radius_scale, exact.depth_scale, exact.load_scale)
     end = subject.end / form.radius_scale
     places = np.unique([smooth_place(form, level) / TWO_PI for level in (0.5 * (1.0 - k), m, 0.5 * (3.0 + k))])
-    points, _ = draw_through(form, places[(places > 0.0) & (places < end)], end)
-    radius, depth, load = form.scaled(points)
-    radius[-1] = subject.end
-    return dict(zip(VARIABLES, (radius, depth, load), strict=True))
+    return draw_named(subject, form, places[(places > 0.0) & (places < end)], "smooth")

@@ -1,7 +1,6 @@
-"""The jumps of a cycle under controlled displacement, one by one: where they happen, and what each of them costs.
+"""The jumps of a cycle, one by one: where they happen, and what each of them costs.
 
-They are the corners of the path (path.py) that are reached by a jump; their energies are those of
-curve/cosine_energy.py.
+They are the corners of the path (path.py) that are reached by a jump; their energies are those of core/face.py.
 """
 
 from typing import Any
@@ -12,33 +11,29 @@ from numpy.typing import NDArray
 from gradhesion.core.closed.smooth import smooth_energy_from_zero
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import ROWS, WORK
-from gradhesion.core.curve.cosine import Cosine
-from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
-from gradhesion.core.curves.forms import EXACT, Numbers
+from gradhesion.core.curves.forms import PLAIN
 from gradhesion.core.curves.path import DEPTH, JUMP, LOAD, PLACE, UNLOADING, find_corners
-from gradhesion.core.curves.subject import Subject
+from gradhesion.core.curves.subject import Form, Subject
+from gradhesion.core.face import loss_between, loss_from_zero, loss_to_zero
 from gradhesion.core.struve.circle import TWO_PI
 
 
 @kernel()
-def fill_energies(kind: int, table: Any, numbers: Numbers, before: Any, after: Any, depths: Any, energies: Any) -> None:
-    """Put what each jump loses from one place to another in `energies`, over 2 pi l^2 dgamma; one place may be 0.
+def lost(table: Any, curve: Any, start: float, end: float, level: float, work: Any) -> float:
+    """Return what a jump at a level loses from one place to another, over 2 pi l^2 dgamma; one of them may be 0."""
+    if start == 0.0:
+        return loss_from_zero(table, curve, end)
+    if end == 0.0:
+        return loss_to_zero(table, curve, start, level)
+    return loss_between(table, curve, start, end, work)
 
-    A smooth punch (kind PLAIN) jumps from zero contact and to zero contact only.
-    """
-    curve = Cosine(numbers[0], numbers[1], 0.0)
-    work = np.empty((ROWS, 16))[WORK]
-    for i in range(before.size):
-        place = max(before[i], after[i])
-        if kind != EXACT:
-            energies[i] = smooth_energy_from_zero(table.k, place, depths[i])
-        elif before[i] == 0.0 or after[i] == 0.0:
-            energies[i] = energy_from_zero(table, curve, place, depths[i])
-        else:
-            energies[i] = jump_energy(table, curve, before[i], after[i], work)
-            continue
-        if after[i] == 0.0:
-            energies[i] = -energies[i]
+
+def _lost_by(form: Form, start: float, end: float, level: float, work: Any) -> float:
+    """Return that of a form: a smooth punch jumps from zero contact and to zero contact only."""
+    if form.kind != PLAIN:
+        return lost(form.table, form.curve, start, end, level, work)
+    energy: float = smooth_energy_from_zero(form.table["k"], max(start, end), level)
+    return energy if start == 0.0 else -energy
 
 
 def list_jumps(subject: Subject) -> dict[str, NDArray[Any]]:
@@ -51,30 +46,32 @@ def list_jumps(subject: Subject) -> dict[str, NDArray[Any]]:
 
     Returns
     -------
-    The variables `jump_...` (draw.CURVES), one item a jump: its depth delta/R, the contact radii a/R between which it
-    happens (0: no contact), the energy that it dissipates over R^2 dgamma, the loads P/(1.5 pi R dgamma) before and
-    after, whether it is on unloading, and whether it starts or ends at the rim. An energy may be negative: a jump on
-    loading over a groove that adhesion does not close gains some, but the contact is no single disc then
-    (status.LOADING_NOT_ONE_DISC). An unbounded punch has all the jumps that there are.
+    The variables `jump_...` (draw.CURVES), one item a jump: the depth delta/R before it, the contact radii a/R between
+    which it happens (0: no contact), the energy that it dissipates over R^2 dgamma, the loads P/(1.5 pi R dgamma)
+    before and after, whether it is on unloading, and whether it starts or ends at the rim. An energy may be negative: a
+    jump on loading over a groove that adhesion does not close gains some, but the contact is no single disc then
+    (status.LOADING_NOT_ONE_DISC). An unbounded punch has all the jumps that there are. The jump-out under load control
+    has no bounded energy and is left out, as in `dissipated_energy`.
 
     Notes
     -----
     The energies sum up to the `dissipated_energy` of `solve`: to 1e-12, whether that walks every wave or sums over
     them.
     """
-    form, trace = subject.exact, subject.trace
-    assert trace is not None  # noqa: S101 (draw.py asks first)
+    form, corners = subject.exact, find_corners(subject)
     rim = subject.end / form.radius_scale
-    corners = find_corners(form.kind, form.table, form.numbers, trace, np.empty(0), rim, subject.bounded)
-    after = np.flatnonzero(corners[JUMP] > 0.0)
+    alpha, beta = form.coordinate
+    after = np.flatnonzero((corners[JUMP] > 0.0) & ((corners[PLACE] > 0.0) | (alpha > 0.0)))
     before = after - 1
-    left, reached, depths = corners[PLACE, before], corners[PLACE, after], corners[DEPTH, after]
-    energies = np.empty(after.size)
-    fill_energies(form.kind, form.table, form.numbers, left, reached, depths, energies)
-    length = form.radius_scale / (TWO_PI if form.kind == EXACT else 1.0)
+    left, reached = corners[PLACE, before], corners[PLACE, after]
+    levels = alpha * corners[DEPTH, before] + beta * corners[LOAD, before]
+    work = np.empty((ROWS, 16))[WORK]
+    jumps = zip(left.tolist(), reached.tolist(), levels.tolist(), strict=True)
+    energies = np.array([_lost_by(form, start, end, level, work) for start, end, level in jumps])
+    length = form.radius_scale / (1.0 if form.kind == PLAIN else TWO_PI)
     at_rim = ((left == rim) | (reached == rim)) & subject.bounded
     return {
-        "jump_indentation": depths * form.depth_scale,
+        "jump_indentation": corners[DEPTH, before] * form.depth_scale,
         "jump_radius_before": np.where(left == rim, subject.end, left * form.radius_scale),
         "jump_radius_after": np.where(reached == rim, subject.end, reached * form.radius_scale),
         "jump_energy": TWO_PI * length * length * energies,

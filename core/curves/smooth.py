@@ -5,10 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.curves.equilibrium import draw_through
+from gradhesion.core.curves.equilibrium import draw_named
 from gradhesion.core.curves.subject import Subject
-
-VARIABLES = ("smooth_contact_radius", "smooth_indentation", "smooth_load")
 
 
 def smooth_places(k: float, pulls: Sequence[float], end: float) -> NDArray[np.float64]:
@@ -35,8 +33,5 @@ def draw_smooth(subject: Subject) -> dict[str, NDArray[np.float64]]:
     The variables `smooth_...` (draw.CURVES).
     """
     form = subject.plain(1.0)
-    end = subject.end / form.radius_scale
-    points, _ = draw_through(form, smooth_places(subject.k, (1.0,), end), end)
-    radius, depth, load = form.scaled(points)
-    radius[-1] = subject.end
-    return dict(zip(VARIABLES, (radius, depth, load), strict=True))
+    places = smooth_places(subject.k, (1.0,), subject.end / form.radius_scale)
+    return draw_named(subject, form, places, "smooth")

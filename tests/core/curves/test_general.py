@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 from gradhesion.core import Harmonic, Loading, Profile, draw_curves, solve
-from gradhesion.core.curves import general, general_path
+from gradhesion.core.curves import general
 from gradhesion.core.curves.equilibrium import draw_equilibrium
+from gradhesion.core.curves.jumps import list_jumps
+from gradhesion.core.curves.path import draw_path
 from gradhesion.core.problem.status import NO_VALUE
 
 EPS = float(np.finfo(float).eps)
@@ -33,8 +35,8 @@ def test_the_default_is_drawn_as_by_its_own_curves(change: dict[str, float], rim
     subject = general.subject_of(scene, Profile(), Loading())
     assert subject is not None
     assert not status & NO_VALUE
-    drawn: dict[str, Any] = {**draw_equilibrium(subject), **general_path.draw_path(subject)}
-    drawn |= {**general.draw_smooth(subject), **general_path.list_jumps(subject)}
+    drawn: dict[str, Any] = {**draw_equilibrium(subject), **draw_path(subject)}
+    drawn |= {**general.draw_smooth(subject), **list_jumps(subject)}
     assert drawn.keys() == own.keys()
     for name, values in own.items():
         assert drawn[name].shape == values.shape, name

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from gradhesion.core import Harmonic, Loading, Profile, draw_curves, solve
-from gradhesion.core.curves import general, general_path
+from gradhesion.core.curves import general
+from gradhesion.core.curves.path import draw_path
 
 EPS = float(np.finfo(float).eps)
 UNIT = 1.5 * math.pi
@@ -103,7 +104,7 @@ def test_the_ends_of_stiffness_are_depth_and_load_control(control: str, stiffnes
 def test_chords_are_within_the_contract(worst_chord: Callable[..., float]) -> None:
     subject = general.subject_of(SCENE | {"machine_stiffness": 2.0}, ROUGH, Loading(control="machine"))
     assert subject is not None
-    path = {name.removeprefix("path_"): values for name, values in general_path.draw_path(subject).items()}
+    path = {name.removeprefix("path_"): values for name, values in draw_path(subject).items()}
     along = (path["jump"] == 0) & (np.append(0, np.diff(path["branch"])) == 0)
     along &= np.append(False, np.diff(path["contact_radius"]) != 0.0)
     points = path["contact_radius"], path["indentation"], path["load"]
