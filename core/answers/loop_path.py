@@ -19,7 +19,7 @@ from scipy.optimize import brentq
 from gradhesion.core.answers.loop_points import OFFSETS
 from gradhesion.core.curve.branches import ARRIVAL, END, START
 from gradhesion.core.curves import general, path
-from gradhesion.core.curves.forms import GENERAL, point
+from gradhesion.core.curves.forms import point
 from gradhesion.core.curves.subject import Subject, subject_of
 from gradhesion.core.equations import hertz, jkr
 from gradhesion.core.equations.pair import cosine_integrals, sine_integrals
