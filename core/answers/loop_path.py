@@ -207,7 +207,7 @@ class LoopModel:
         if subject is None or subject.trace is None:
             return None
         with np.errstate(all="ignore"):
-            found = path.draw_path(subject)
+            found: dict[str, Any] = path.draw_path(subject)
         names = ("contact_radius", "indentation", "load", "jump", "unloading")
         a, depth, load, jump, unloading = (found[f"path_{name}"] for name in names)
         drawn = a, depth, load, jump > 0, unloading > 0

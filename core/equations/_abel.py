@@ -6,6 +6,7 @@ points: below 1e-14 of the largest value for a wave that is half a panel long or
 """
 
 import math
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -68,8 +69,15 @@ def _legendre(edges: Array) -> tuple[Array, Array]:
     return (centre[:, None] + half[:, None] * nodes).ravel(), (half[:, None] * weights).ravel()
 
 
+@lru_cache(maxsize=64)
+def jacobi_rule(alpha: float, beta: float) -> tuple[Array, Array]:
+    """Return the rule on (-1, 1), kept: it takes as long as the panels of a point."""
+    nodes, weights = roots_jacobi(_NODES, alpha, beta)
+    return nodes, weights
+
+
 def _jacobi(low: float, high: float, power: float, *, upper: bool) -> tuple[Array, Array]:
     """Return the rule of int (high-s)^power g ds, or of int (s-low)^power g ds, on one panel."""
-    nodes, weights = roots_jacobi(_NODES, power, 0.0) if upper else roots_jacobi(_NODES, 0.0, power)
+    nodes, weights = jacobi_rule(power, 0.0) if upper else jacobi_rule(0.0, power)
     half = 0.5 * (high - low)
     return 0.5 * (high + low) + half * nodes, half ** (1.0 + power) * weights

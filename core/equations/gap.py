@@ -14,9 +14,9 @@ from collections.abc import Callable
 from typing import Final
 
 import numpy as np
-from scipy.special import roots_jacobi, roots_legendre
+from scipy.special import roots_legendre
 
-from gradhesion.core.equations import general, hertz, profile
+from gradhesion.core.equations import _abel, general, hertz, profile
 from gradhesion.core.equations._arguments import (
     Amplitude,
     Cosines,
@@ -162,7 +162,7 @@ def _gap(k: float, r: float, a: float, shortest: float, opening: Callable[[Array
     s = (centre[:-1, None] + half[:-1, None] * nodes).ravel()
     total = np.sum((half[:-1, None] * weights).ravel() * s**k * opening(s) * (r * r - s * s) ** (-0.5 * (1.0 + k)))
     # (r^2-s^2)^(-(1+k)/2) = (r+s)^... half^... (1-t)^..., with s = centre + half t
-    nodes, weights = roots_jacobi(_NODES, -0.5 * (1.0 + k), 0.0)
+    nodes, weights = _abel.jacobi_rule(-0.5 * (1.0 + k), 0.0)
     s = centre[-1] + half[-1] * nodes
     total += half[-1] ** (0.5 * (1.0 - k)) * np.sum(weights * s**k * opening(s) * (r + s) ** (-0.5 * (1.0 + k)))
     return float(2.0 / math.pi * math.cos(0.5 * math.pi * k) * total)
