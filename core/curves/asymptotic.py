@@ -33,7 +33,7 @@ def draw_asymptotic(subject: Subject) -> dict[str, NDArray[np.float64]] | None:
         form = wavy_form(subject.table, subject.stretch, subject.wavelength, subject.mean_height)
         bend, gain, _, _, _ = form.numbers
         wave = ShortWave(k, bend, subject.chi, gain, float(subject.table["phase"]))
-        form = Form(SHORT, subject.table, tuple(wave), subject.wavelength / TWO_PI, form.depth_scale, form.load_scale)
+        form = Form(SHORT, subject.table, wave[:], subject.wavelength / TWO_PI, form.depth_scale, form.load_scale)
         end = subject.end / form.radius_scale
         few, folds = folds_of_wave(wave, 0.5 * (1.0 - k), end)
         few_too, load_folds = folds_of_wave(wave, 0.5 * (3.0 + k), end)
