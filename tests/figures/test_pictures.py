@@ -35,10 +35,8 @@ def drawn(name: str, dataset: xarray.Dataset) -> Figure:
 @pytest.mark.parametrize("name", PICTURES)
 def test_every_picture_is_drawn_and_its_axes_are_named(name: str, computed: Compute, tmp_path: Path) -> None:
     dataset = computed(study_of(name))
-    files = [tmp_path / "a.png", tmp_path / "b.pdf", tmp_path / "c.png"]
-    draw(name, dataset, files, dpi=50)
-    assert files[1].read_bytes().startswith(b"%PDF")
-    assert files[0].read_bytes() == files[2].read_bytes()
+    draw(name, dataset, [tmp_path / "a.png"], dpi=50)
+    assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
     for axes in drawn(name, dataset).axes if name != "fig1" else ():  # a section has no axes
         assert "$" in axes.get_xlabel()
         assert "$" in axes.get_ylabel() or axes.get_ylabel() == "greatest force over the wavelength"
@@ -50,17 +48,21 @@ def test_every_study_has_a_picture_and_every_picture_a_study() -> None:
     assert len(STUDIES) == 22
 
 
-@pytest.mark.parametrize("name", PICTURES)
-def test_make_draws_every_picture_from_its_study(name: str) -> None:
-    made = subprocess.run(
-        ["make", "-nB", f"outputs/figures/{name}.pdf"], cwd=ROOT, capture_output=True, text=True, check=True
-    )
-    study = study_of(name)
-    assert f"run configs/{study}.toml -o outputs/figures/{study}.nc" in made.stdout
-    assert (
-        f"-m figures {name} outputs/figures/{study}.nc outputs/figures/{name}.png outputs/figures/{name}.pdf"
-        in made.stdout
-    )
+@pytest.mark.parametrize("name", ["fig4a", "fig8"])
+def test_a_picture_is_drawn_in_every_form_and_twice_the_same(name: str, computed: Compute, tmp_path: Path) -> None:
+    files = [tmp_path / "a.png", tmp_path / "b.pdf", tmp_path / "c.png"]
+    draw(name, computed(study_of(name)), files, dpi=50)
+    assert files[1].read_bytes().startswith(b"%PDF")
+    assert files[0].read_bytes() == files[2].read_bytes()
+
+
+def test_make_draws_every_picture_from_its_study() -> None:
+    targets = [f"outputs/figures/{name}.pdf" for name in PICTURES]
+    made = subprocess.run(["make", "-nB", *targets], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    for name in PICTURES:
+        study, path = study_of(name), f"outputs/figures/{name}"
+        assert f"run configs/{study}.toml -o outputs/figures/{study}.nc" in made
+        assert f"-m figures {name} outputs/figures/{study}.nc {path}.png {path}.pdf" in made
 
 
 def test_make_draws_all() -> None:

@@ -1,6 +1,7 @@
 """The moments of S0 against quadrature at 20 digits and against their differential equations."""
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Any
 
 import mpmath
@@ -33,8 +34,9 @@ def _exact(
     k: float, z: mpmath.mpf, pair: Callable[..., tuple[mpmath.mpf, mpmath.mpf]]
 ) -> tuple[mpmath.mpf, mpmath.mpf]:
     places = [mpmath.mpf(0), *[mpmath.mpf(3 * i) for i in range(1, 1 + int(z / 3))], z]
-    e2 = mpmath.quad(lambda y: y ** (k + 3) * pair(k, y)[0] if y else mpmath.mpf(0), places)
-    w = mpmath.quad(lambda y: y ** (k + 2) * pair(k, y)[0] ** 2 if y else mpmath.mpf(0), places)
+    s0 = lru_cache(maxsize=None)(lambda y: pair(k, y)[0])  # both integrals have the same nodes
+    e2 = mpmath.quad(lambda y: y ** (k + 3) * s0(y) if y else mpmath.mpf(0), places)
+    w = mpmath.quad(lambda y: y ** (k + 2) * s0(y) ** 2 if y else mpmath.mpf(0), places)
     return e2, w
 
 

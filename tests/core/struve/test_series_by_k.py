@@ -37,12 +37,12 @@ def test_of_one_cosine(k: float, x: float) -> None:
     def s0(exponent: mpmath.mpf) -> mpmath.mpf:
         return z / (1 + exponent) * mpmath.hyp1f2(1, mpmath.mpf(3) / 2, (3 + exponent) / 2, -z * z / 4)
 
-    def waves_of(exponent: mpmath.mpf) -> tuple[mpmath.mpf, mpmath.mpf]:
-        return s0(exponent), s0(exponent) - s0(exponent + 2)
-
-    slopes = [mpmath.diff(lambda one, i=i: waves_of(one)[i], k) for i in range(2)]
+    values, rates = (
+        [of(one) for one in (k, k + 2)] for of in (lambda one: s0(mpmath.mpf(one)), lambda one: mpmath.diff(s0, one))
+    )
+    exacts, slopes = ((first, first - second) for first, second in (values, rates))
     amplitude = min(1.0, (2 * math.pi * x) ** (-0.5 * (1 + k)))
-    for own, exact in zip(found[:2], waves_of(mpmath.mpf(k)), strict=True):
+    for own, exact in zip(found[:2], exacts, strict=True):
         assert abs(own - float(exact)) < 1e-14 * max(amplitude, abs(float(exact)))
     for own, slope in zip(found[2:], slopes, strict=True):
         assert abs(own - float(slope)) < left_out(x) * amplitude
