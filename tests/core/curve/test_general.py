@@ -33,15 +33,22 @@ def _wavy_slope(harmonics: tuple[Harmonic, ...], s: mpmath.mpf) -> mpmath.mpf:
     return total
 
 
-def _integral(k: float, m: float, harmonics: tuple[Harmonic, ...], a: float, j: int) -> mpmath.mpf:
-    """Return int_0^a f'(s) (a^2-s^2)^((k-1)/2 + j) ds, with s = a sin u."""
+@cache
+def _integral_of(k: float, shape: float | tuple[Harmonic, ...], a: float, j: int) -> mpmath.mpf:
+    """Return int_0^a f'(s) (a^2-s^2)^((k-1)/2 + j) ds of a power s^m/m or of waves, with s = a sin u."""
     power = mpmath.mpf(k) + 2 * j
 
     def integrand(u: mpmath.mpf) -> mpmath.mpf:
         s = a * mpmath.sin(u)
-        return (s ** (mpmath.mpf(m) - 1) + _wavy_slope(harmonics, s)) * mpmath.cos(u) ** power
+        slope_there = _wavy_slope(shape, s) if isinstance(shape, tuple) else s ** (mpmath.mpf(shape) - 1)
+        return slope_there * mpmath.cos(u) ** power
 
     return mpmath.mpf(a) ** power * mpmath.quad(integrand, mpmath.linspace(0, mpmath.pi / 2, 7))
+
+
+def _integral(k: float, m: float, harmonics: tuple[Harmonic, ...], a: float, j: int) -> mpmath.mpf:
+    """Return the integral of the whole profile: it is linear, and each part serves many profiles."""
+    return _integral_of(k, m, a, j) + _integral_of(k, harmonics, a, j)
 
 
 @pytest.mark.parametrize(
