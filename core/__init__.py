@@ -24,8 +24,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
     from gradhesion.core.closed.applicability import validity
-    from gradhesion.core.compiler.cache import CACHE_FOLDER, compiled_before, place
+    from gradhesion.core.compiler.cache import CACHE_FOLDER, place
     from gradhesion.core.compiler.jit import watch_compilation
+    from gradhesion.core.compiler.marks import compiled_before
     from gradhesion.core.compiler.sources import SOURCES
     from gradhesion.core.curves import draw_curves
     from gradhesion.core.kinds import (
@@ -96,7 +97,8 @@ __all__ = [
 
 _HOMES: Final = {
     "compiler.jit": ("watch_compilation",),
-    "compiler.cache": ("CACHE_FOLDER", "compiled_before", "place"),
+    "compiler.cache": ("CACHE_FOLDER", "place"),
+    "compiler.marks": ("compiled_before",),
     "curves": ("draw_curves",),
     "kinds": (
         "APART",

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core.arrays.cosine import SLOPES, solve_cosine, turning_cosine
 from gradhesion.core.arrays.reach import radius_of, slope_at
 from gradhesion.core.arrays.turned import Results, turned_results
-from gradhesion.core.compiler.cache import note_compiled
+from gradhesion.core.compiler.marks import note_compiled
 from gradhesion.core.kinds import kind_of_map, kind_of_sensitivities, kind_of_turning
 from gradhesion.core.problem.control import BY_DISPLACEMENT, Loading
 from gradhesion.core.problem.names import (

@@ -5,7 +5,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core.compiler.cache import note_compiled
+from gradhesion.core.compiler.marks import note_compiled
 from gradhesion.core.kinds import KINDS, MANY_SMOOTH
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness

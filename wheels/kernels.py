@@ -7,12 +7,13 @@ from gradhesion.cli.work.warming import warm
 from gradhesion.core import KINDS, compile_kind
 from gradhesion.core.arrays.processors import processors
 from gradhesion.core.compiler import ahead, keeping, linking
+from gradhesion.core.compiler.probe import LAZY
 from gradhesion.core.kinds import before
 
 
 def main(folder: Path, kinds: list[str]) -> None:
     """Compile side by side, then read all of it and write it down."""
-    if not linking.LAZY:
+    if not LAZY:
         raise SystemExit(
             "this numba links kernels in its ordinary way, whose code cannot be carried: see core/compiler/linking.py"
         )

@@ -8,7 +8,7 @@ from typing import Final
 from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.kernels import compile_kinds, missing_of
 from gradhesion.core import APART, KERNELS, NEEDS, compile_kind, watch_compilation
-from gradhesion.core.compiler.linking import LAZY
+from gradhesion.core.compiler.probe import LAZY
 from gradhesion.core.kinds import before
 
 _FAMILIES: Final = 2

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core.arrays.grouping import Grouped, Task, grouped
 from gradhesion.core.arrays.tables import neighbours_for, tables_for
 from gradhesion.core.arrays.tasks import run_one_by_one
-from gradhesion.core.compiler.cache import note_compiled
+from gradhesion.core.compiler.marks import note_compiled
 from gradhesion.core.curve.branches import ROWS
 from gradhesion.core.kinds import MANY_SMOOTH
 from gradhesion.core.path.cosine import is_endless_wave

@@ -28,7 +28,7 @@ import numba
 import numpy as np
 from llvmlite import binding
 
-from gradhesion.core.compiler import linking
+from gradhesion.core.compiler.cache import LINKING
 from gradhesion.core.compiler.sources import COMPILED, CORE
 
 PROCESSOR: Final = "x86-64-v3"
@@ -103,7 +103,7 @@ def fitting(folder: Path) -> tuple[Ahead | None, str]:
     The second is "" as well where there is no code, or where the environment asks for other code.
     """
     own = os.environ.get("GRADHESION_KERNELS") == "own" or any(f"NUMBA_{name}" in os.environ for name in OTHERS)
-    if own or not linking.LAZY or not folder.is_dir():
+    if own or LINKING == "ordinary" or not folder.is_dir():
         return None, ""
     try:
         manifest = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))

@@ -11,7 +11,9 @@ keeps the counting.
 from typing import Any, Final
 
 from numba.core import ir
+from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import FunctionPass, register_pass
+from numba.core.typed_passes import NopythonRewrites
 
 _BORROWING: Final = ("build_tuple", "cast", "exhaust_iter", "getattr", "getitem", "static_getitem")
 """Operations whose result, if it holds an array, holds one of their operands, or a view of it."""
@@ -63,3 +65,14 @@ class Borrow(FunctionPass):  # type: ignore[misc] # numba has no types
             state.targetctx.enable_nrt = False  # the context is this kernel's own copy
             return True
         return False
+
+
+class OrdinaryCompiler(CompilerBase):  # type: ignore[misc]
+    """Numba's compiler with all of its steps and this one, for kernels that are linked as numba does."""
+
+    def define_pipelines(self) -> list[Any]:
+        """Return the one pipeline."""
+        pipeline = DefaultPassBuilder.define_nopython_pipeline(self.state)
+        pipeline.add_pass_after(Borrow, NopythonRewrites)
+        pipeline.finalize()
+        return [pipeline]

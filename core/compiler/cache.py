@@ -1,4 +1,4 @@
-"""Where compiled kernels are kept, what has been compiled there, and the removal of what no version uses any more.
+"""Where compiled kernels are kept, and the removal of what no version uses any more.
 
 Numba notices an edit in the file of a kernel, but not in the files of the kernels that it calls. The folder of the
 compiled code is therefore named after a digest of all sources of the core that have kernels and of where they stand
@@ -26,15 +26,15 @@ import numba
 import platformdirs
 from llvmlite import binding
 
-from gradhesion.core.compiler.ahead import is_complete
-from gradhesion.core.compiler.linking import LAZY
 from gradhesion.core.compiler.owners import changeable, make_private
 from gradhesion.core.compiler.sources import COMPILED, CORE
 
-_NAME: Final = f"kernels-{hashlib.sha256(f'{CORE}{COMPILED}{LAZY}{numba.__version__}'.encode()).hexdigest()[:16]}"
+LINKING: Final = os.environ.get("GRADHESION_LINKING", "")
+"""How kernels are to be linked; "ordinary" for numba's own way (linking.py)."""
+_NAME: Final = f"kernels-{hashlib.sha256(f'{CORE}{COMPILED}{LINKING}{numba.__version__}'.encode()).hexdigest()[:16]}"
 _OURS: Final = re.compile(r"kernels-[0-9a-f]{16}")
-_KEPT: Final = re.compile(r".*\.(nbi|nbc)(\.tmp\..*)?|compiled-.*|lock")
-"""The files of such a folder: numba's index and code, finished or not, and the marks of what is compiled."""
+_KEPT: Final = re.compile(r".*\.(nbi|nbc)(\.tmp\..*)?|(compiled|linking)-.*|lock")
+"""The files of such a folder: numba's index and code, finished or not, and the marks of what is compiled, and how."""
 _UNUSED: Final = 30 * 86400.0
 """Seconds after which the folder of another version is removed."""
 _DAY: Final = 86400.0
@@ -181,34 +181,8 @@ def remove_unused(folder: Path, now: float | None = None) -> None:
 
 
 @lru_cache(maxsize=1)
-def _machine() -> str:
+def machine() -> str:
     """Return a digest of all that compiled code depends on beside the sources."""
     asked = (numba.config.CPU_NAME, numba.config.CPU_FEATURES)
     processor = (*asked, binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten())
     return hashlib.sha256(repr((sys.version, numba.__version__, processor)).encode()).hexdigest()[:16]
-
-
-def _mark(kind: str) -> Path | None:
-    folder = place().folder
-    return None if folder is None else folder / f"compiled-{kind}-{_machine()}"
-
-
-_here: Final[set[str]] = set()
-"""The kinds of work that this process has done, whose kernels are in memory."""
-
-
-def compiled_before(kind: str) -> bool:
-    """Return whether the kernels of a kind of work (one of `KINDS`) need no compiling; else the first call is slow."""
-    mark = _mark(kind)
-    return kind in _here or is_complete(kind) or (mark is not None and mark.exists())
-
-
-def note_compiled(kind: str) -> None:
-    """Keep that the kernels of a kind of work have been compiled, for this process and those after it."""
-    if kind in _here:
-        return
-    _here.add(kind)
-    mark = _mark(kind)
-    if mark is not None:
-        with suppress(OSError):
-            mark.touch()

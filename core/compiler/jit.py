@@ -12,7 +12,8 @@ import numpy as np
 from numba.core import event
 
 from gradhesion.core.compiler import cache, collecting, keeping, linking
-from gradhesion.core.compiler.pipeline import KernelCompiler
+from gradhesion.core.compiler.borrowed import OrdinaryCompiler
+from gradhesion.core.compiler.probe import LAZY
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -27,6 +28,10 @@ NO: Final = constant(False)
 NONE: Final = constant(0)
 """The number of what there is none of yet."""
 ONE: Final = constant(1)
+
+_Compiler: Any = OrdinaryCompiler
+if LAZY:
+    from gradhesion.core.compiler.pipeline import KernelCompiler as _Compiler
 
 _PACKAGE: Final = "gradhesion.core."
 _making: Final = threading.RLock()
@@ -106,14 +111,14 @@ def kernel(*, contract: bool = False, inline: bool = False, entry: bool = False)
     def decorate(function: Function) -> Function:
         options = {
             "nogil": True,
-            "pipeline_class": KernelCompiler,
+            "pipeline_class": _Compiler,
             "error_model": "numpy",
             "fastmath": {"contract"} if contract else False,
             "inline": "always" if inline else "never",
             "no_cfunc_wrapper": True,  # none is handed over as a function
             "no_cpython_wrapper": function.__name__.startswith("_") and not entry,
         }
-        if not linking.LAZY or inline:
+        if not LAZY or inline:
             return _kept(function, options)
         return cast("Function", Kernel(function, options))
 
@@ -158,7 +163,7 @@ class _Compilation(event.Listener):  # type: ignore[misc] # numba has no types
         function = dispatcher.py_func
         if function.__module__.startswith(_PACKAGE):
             for listener, kept in (*self.listeners,):
-                if not kept or linking.is_kept(dispatcher):
+                if not kept or not LAZY or linking.is_entry(dispatcher):
                     listener(f"{function.__module__.removeprefix(_PACKAGE)}.{function.__name__}")
 
 

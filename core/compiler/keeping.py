@@ -5,7 +5,7 @@ for compiling. It also keeps what only other compilations need: intermediate cod
 of which there are none, of every kernel below. Entries are linked into nothing (linking.py), so a third of the file is
 left, and that is read alone.
 
-This file, like linking.py, uses numba's private interfaces; where these are others, nothing of it is (`linking.LAZY`).
+This file, like linking.py, uses numba's private interfaces; where these are others, nothing of it is (probe.py).
 """
 
 import pickle

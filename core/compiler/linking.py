@@ -6,26 +6,20 @@ half the time, keeps one file for each entry instead of one for each kernel, and
 bit, and of 20,000 energies all but five, which differ in the last bit. In a sum of two products one is fused with the
 addition, and which one may depend on what else stands in a kernel (tests/core/compiler/test_linking.py).
 
-Numba has no option for it: the files of this folder use its private interfaces, of the versions in `KNOWN`. With
-another version, or with GRADHESION_LINKING=ordinary in the environment, `LAZY` is false: kernels are compiled and
-linked as numba does, and nothing of what pipeline.py, resolving.py and keeping.py change is changed.
+Numba has no option for it: the files of this folder use its private interfaces. Where a version of it has others
+(probe.py), or with GRADHESION_LINKING=ordinary in the environment, kernels are compiled and linked as numba does, and
+nothing of what pipeline.py, resolving.py and keeping.py change is changed.
 """
 
-import os
+from collections.abc import Callable
 from typing import Any, Final
 from weakref import WeakSet
 
-import numba
 from numba.core import event
 from numba.core.codegen import JITCodeLibrary
 from numba.core.registry import cpu_target
 
 from gradhesion.core.compiler.resolving import remember_calls
-
-KNOWN: Final = tuple((0, minor) for minor in range(62, 69))
-"""The versions of numba, major and minor number, whose interfaces are those that are used here."""
-LAZY: Final = numba.version_info.short in KNOWN and os.environ.get("GRADHESION_LINKING") != "ordinary"
-"""Whether kernels are linked so."""
 
 _entries: Final[WeakSet[Any]] = WeakSet()
 """What Python calls."""
@@ -89,10 +83,10 @@ def _all_below(libraries: list[Any]) -> list[Any]:
     return list(found)
 
 
-def _install() -> None:
-    """Have numba make its code so in this process."""
+def install() -> Callable[[], None]:
+    """Have numba make its code so in this process; return what has it make code its own way again."""
     codegen = cpu_target.target_context.codegen()
-    set_environment = codegen.set_env
+    make_library, set_environment = codegen._library_class, codegen.set_env  # noqa: SLF001
 
     def set_if_defined(name: str, environment: Any) -> None:
         """Set the environment of a kernel, unless it is intermediate code, which has none yet."""
@@ -101,8 +95,17 @@ def _install() -> None:
 
     codegen._library_class = _Library  # noqa: SLF001
     codegen.set_env = set_if_defined
-    event.register("numba:compile", _Stack())
-    remember_calls(_is_inside)
+    stack = _Stack()
+    event.register("numba:compile", stack)
+    forget_calls = remember_calls(_is_inside)
+
+    def undo() -> None:
+        codegen._library_class, codegen.set_env = make_library, set_environment  # noqa: SLF001
+        event.unregister("numba:compile", stack)
+        _compiling.clear()
+        forget_calls()
+
+    return undo
 
 
 def note_entry(dispatcher: Any) -> None:
@@ -115,10 +118,6 @@ def entries() -> list[Any]:
     return list(_entries)
 
 
-def is_kept(dispatcher: Any) -> bool:
-    """Report whether the machine code of a kernel is kept by itself, not in that of entries alone."""
-    return not LAZY or dispatcher in _entries
-
-
-if LAZY:
-    _install()
+def is_entry(dispatcher: Any) -> bool:
+    """Report whether Python calls a kernel."""
+    return dispatcher in _entries

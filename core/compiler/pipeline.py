@@ -7,13 +7,12 @@ where every variable lives. With those alone that change something, a kernel of 
 
 from typing import Any, Final
 
-from numba.core.compiler import CompilerBase, DefaultPassBuilder
+from numba.core.compiler import CompilerBase
 from numba.core.compiler_machinery import PassManager
 from numba.core.typed_passes import (
     IRLegalization,
     NativeLowering,
     NoPythonBackend,
-    NopythonRewrites,
     NopythonTypeInference,
     PreLowerStripPhis,
 )
@@ -29,7 +28,6 @@ from numba.core.untyped_passes import (
 )
 
 from gradhesion.core.compiler.borrowed import Borrow
-from gradhesion.core.compiler.linking import LAZY
 
 STEPS: Final = (
     TranslateByteCode,
@@ -51,16 +49,12 @@ STEPS: Final = (
 
 
 class KernelCompiler(CompilerBase):  # type: ignore[misc] # numba has no types
-    """Numba's compiler, of these steps; of all of numba's where kernels are linked as numba does."""
+    """Numba's compiler, of these steps."""
 
     def define_pipelines(self) -> list[Any]:
         """Return the one pipeline."""
-        if LAZY:
-            pipeline = PassManager("kernel")
-            for step in STEPS:
-                pipeline.add_pass(step, step.__name__)
-        else:
-            pipeline = DefaultPassBuilder.define_nopython_pipeline(self.state)
-            pipeline.add_pass_after(Borrow, NopythonRewrites)
+        pipeline = PassManager("kernel")
+        for step in STEPS:
+            pipeline.add_pass(step, step.__name__)
         pipeline.finalize()
         return [pipeline]

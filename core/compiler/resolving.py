@@ -11,8 +11,8 @@ from typing import Any
 from numba.core import types
 
 
-def remember_calls(is_ours: Callable[[], bool]) -> None:
-    """Have numba remember in this process, while what it compiles is ours."""
+def remember_calls(is_ours: Callable[[], bool]) -> Callable[[], None]:
+    """Have numba remember in this process, while what it compiles is ours; return what has it do so no longer."""
     resolve = types.Function.get_call_type
 
     def get_call_type(self: Any, context: Any, args: Any, kws: Any) -> Any:
@@ -25,3 +25,8 @@ def remember_calls(is_ours: Callable[[], bool]) -> None:
         return known[args]
 
     types.Function.get_call_type = get_call_type  # type: ignore[method-assign]
+
+    def forget() -> None:
+        types.Function.get_call_type = resolve  # type: ignore[method-assign]
+
+    return forget

@@ -10,9 +10,10 @@ from typing import Any
 import numba
 import pytest
 
-from gradhesion.core.compiler import ahead, cache, jit, keeping, linking
+from gradhesion.core.compiler import ahead, cache, jit, keeping, marks
+from gradhesion.core.compiler.probe import LAZY
 
-pytestmark = pytest.mark.skipif(not linking.LAZY, reason="numba of another version: code is never used")
+pytestmark = pytest.mark.skipif(not LAZY, reason="numba links in its own way: code is never used")
 
 
 def made() -> Any:
@@ -64,8 +65,8 @@ def test_what_is_missing_is_compiled() -> None:
 
 @pytest.mark.usefixtures("folder")
 def test_kinds_that_are_complete_are_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cache, "_here", set())
-    assert [cache.compiled_before(kind) for kind in ("tables", "force")] == [True, False]
+    monkeypatch.setattr(marks, "_here", set())
+    assert [marks.compiled_before(kind) for kind in ("tables", "force")] == [True, False]
     assert [ahead.is_complete(kind) for kind in ("tables", "force")] == [True, False]
 
 

@@ -176,27 +176,6 @@ def test_a_folder_that_does_not_exist(tmp_path: Path) -> None:
     cache.remove_unused(tmp_path / "nowhere" / "kernels-00000000000000ff", NOW)
 
 
-def test_kinds_are_kept_one_by_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cache, "place", lambda: cache.Place(tmp_path))
-    monkeypatch.setattr(cache, "_here", set())
-    cache.note_compiled("force")
-    assert [cache.compiled_before(kind) for kind in ("force", "energy")] == [True, False]
-    cache._here.clear()  # as in another process
-    assert [cache.compiled_before(kind) for kind in ("force", "energy")] == [True, False]
-    cache._machine.cache_clear()
-    monkeypatch.setattr(cache.numba, "__version__", "0.0")
-    assert not cache.compiled_before("force"), "another numba compiles anew"
-    cache._machine.cache_clear()
-
-
-def test_kinds_without_a_folder(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cache, "place", lambda: cache.Place(None))
-    monkeypatch.setattr(cache, "_here", set())
-    assert not cache.compiled_before("force")
-    cache.note_compiled("force")
-    assert cache.compiled_before("force")
-
-
 @pytest.mark.skipif(
     shutil.which("unshare") is None
     or subprocess.run(

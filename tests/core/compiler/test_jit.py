@@ -10,7 +10,8 @@ from pathlib import Path
 import numba
 import pytest
 
-from gradhesion.core.compiler import cache, jit, linking
+from gradhesion.core.compiler import cache, jit
+from gradhesion.core.compiler.probe import LAZY
 
 CORE = Path(jit.__file__).parents[1]
 
@@ -125,7 +126,7 @@ def test_a_process_that_compiles_clears_away_other_versions_once(folder: Path, m
     assert cleared == [folder]
 
 
-@pytest.mark.skipif(not linking.LAZY, reason="numba of another version: such a call ends the process")
+@pytest.mark.skipif(not LAZY, reason="numba links in its own way: such a call ends the process")
 def test_python_cannot_call_what_is_for_kernels_alone(folder: Path) -> None:
     def third(x: float) -> float:
         return x / 3.0
@@ -143,7 +144,7 @@ def test_python_cannot_call_what_is_for_kernels_alone(folder: Path) -> None:
     assert len(list(folder.rglob("*.nbc"))) == 1
 
 
-@pytest.mark.skipif(not linking.LAZY, reason="numba of another version: all is made at once")
+@pytest.mark.skipif(not LAZY, reason="numba links in its own way: all is made at once")
 @pytest.mark.usefixtures("folder")
 def test_threads_that_call_a_kernel_first_make_it_once() -> None:
     @jit.kernel()

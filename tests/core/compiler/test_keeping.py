@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core.compiler import ahead, cache, jit, keeping, linking
+from gradhesion.core.compiler import ahead, cache, jit, keeping
+from gradhesion.core.compiler.probe import LAZY
 
-pytestmark = pytest.mark.skipif(not linking.LAZY, reason="numba of another version: kernels are kept as it does")
+pytestmark = pytest.mark.skipif(not LAZY, reason="numba links in its own way: kernels are kept as it does")
 
 
 @pytest.fixture

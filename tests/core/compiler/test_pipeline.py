@@ -7,9 +7,10 @@ import pytest
 from numba.core.compiler import DefaultPassBuilder
 from numba.core.errors import NumbaError
 
-from gradhesion.core.compiler import cache, jit, linking
+from gradhesion.core.compiler import cache, jit
 from gradhesion.core.compiler.borrowed import Borrow
 from gradhesion.core.compiler.pipeline import STEPS, KernelCompiler
+from gradhesion.core.compiler.probe import LAZY
 
 
 @pytest.fixture(autouse=True)
@@ -38,7 +39,7 @@ def steps_of(compiler: Any) -> list[Any]:
     return found
 
 
-@pytest.mark.skipif(not linking.LAZY, reason="numba of another version: kernels take its own steps")
+@pytest.mark.skipif(not LAZY, reason="numba links in its own way: kernels take its own steps")
 def test_they_are_numbas_in_its_order() -> None:
     class Usual(KernelCompiler):  # type: ignore[misc]
         def define_pipelines(self) -> list[Any]:

@@ -9,9 +9,10 @@ import pytest
 from numba.core import types
 from numba.core.registry import cpu_target
 
-from gradhesion.core.compiler import cache, jit, linking
+from gradhesion.core.compiler import cache, jit
+from gradhesion.core.compiler.probe import LAZY
 
-pytestmark = pytest.mark.skipif(not linking.LAZY, reason="numba of another version: it remembers nothing")
+pytestmark = pytest.mark.skipif(not LAZY, reason="numba links in its own way: it remembers nothing")
 
 
 @pytest.fixture(autouse=True)
