@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import xarray
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
+from gradhesion.cli.dataset.own_units import in_own_units
 from gradhesion.cli.dataset.reader import check_ours, found, opened
 from gradhesion.cli.dataset.soundness import check_form
 from gradhesion.cli.errors import DatasetError, StudyError
@@ -95,7 +96,7 @@ def verify(dataset: Data, *, sample: int = 20, seed: int | None = None) -> "Reco
 
 def data_of(dataset: Data) -> AbstractContextManager[xarray.Dataset]:
     """
-    Open a dataset, if it is not open.
+    Open a dataset, if it is not open; one whose variables were given other units is taken in those of our files.
 
     Raises
     ------
@@ -104,7 +105,7 @@ def data_of(dataset: Data) -> AbstractContextManager[xarray.Dataset]:
     """
     if isinstance(dataset, xarray.Dataset):
         check_ours(dataset, "the dataset")
-        return nullcontext(dataset)
+        return nullcontext(in_own_units(dataset))
     if isinstance(dataset, str | Path):
         return opened(Path(dataset))
     raise DatasetError(
