@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from gradhesion.core.compiler.jit import YES, kernel
 from gradhesion.core.curve.cosine import Cosine, depth, slope
 from gradhesion.core.curve.cosine_folds import first_arch, fold_of_arch, last_arch, survey_arch
 from gradhesion.core.struve.arches import inner_edge
@@ -226,6 +227,16 @@ def test_depth_of_a_fold_is_that_of_the_curve(table_of: Callable[[float], Any]) 
         assert math.isclose(bottom, depth(table_of(0.29), Cosine(0.01, 0.9, 0.0), place), rel_tol=1e-14, abs_tol=1e-14)
 
 
+@kernel()
+def folds_from(table: Any, curve: Cosine, level: float, survey: Any, guesses: Any) -> Any:
+    """Return places and depths of the fold of the first arch, from each of some guesses."""
+    found = np.empty((2, guesses.size))
+    for i in range(guesses.size):
+        found[0, i], found[1, i] = fold_of_arch(table, curve, level, 0, survey, YES, guesses[i])
+    return found
+
+
+
 @pytest.mark.parametrize(("k", "b", "g"), [(0.0, 0.237, 0.112), (0.29, 0.575, 0.3645), (0.64, 0.655, 0.454)])
 def test_the_first_fold_is_found_from_any_guess(k: float, b: float, g: float, table_of: Callable[[float], Any]) -> None:
     """From one in some thousands the step of the fourth order vanishes, at places where D D'' = 2 D'^2."""
@@ -234,6 +245,6 @@ def test_the_first_fold_is_found_from_any_guess(k: float, b: float, g: float, ta
     kind, low, _, high = survey
     assert kind == 1
     guesses = np.linspace(low, high, 20_002)[1:-1]
-    places, depths = np.array([fold_of_arch(table, curve, level, 0, survey, True, guess) for guess in guesses]).T
+    places, depths = folds_from(table, curve, level, survey, guesses)
     np.testing.assert_allclose(places, np.median(places), rtol=1e-9)
     np.testing.assert_allclose(depths, np.median(depths), rtol=1e-12)
