@@ -163,7 +163,7 @@ def test_both_ways_give_the_same_values(tmp_path: Path) -> None:
 def test_the_environment_can_ask_for_the_ordinary_way(how: str, lazy: str) -> None:
     code = (
         "from gradhesion.core.compiler import linking, probe; from numba.core.registry import cpu_target; "
-        "print(LAZY, cpu_target.target_context.codegen()._library_class is linking._Library)"
+        "print(probe.LAZY, cpu_target.target_context.codegen()._library_class is linking._Library)"
     )
     environment = os.environ | {"GRADHESION_LINKING": how}
     done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
