@@ -104,7 +104,7 @@ build/lowest/tested build/before/tested: build/%/tested: $(sources) $(shell find
 	build/$*/.venv/bin/python -m pip install --quiet --disable-pip-version-check uv
 	grep -Ev '^(numba|llvmlite|numpy)==' constraints.txt > build/$*/others.txt
 	build/$*/.venv/bin/uv pip install --quiet --python build/$*/.venv/bin/python $(versions) -e '.[test]'
-	build/$*/.venv/bin/pytest -n auto --dist loadfile -m 'not slow' -W ignore::DeprecationWarning -W ignore::FutureWarning tests/api tests/cli tests/core
+	build/$*/.venv/bin/pytest -n auto --dist loadfile -m 'not slow' -W ignore::DeprecationWarning -W ignore::FutureWarning -W 'ignore:numpy.ndarray size changed:RuntimeWarning' tests/api tests/cli tests/core
 	touch $@
 
 .PHONY: docs lowest reference help maps figures docs-figures test stress faults adversary bench wheel clean

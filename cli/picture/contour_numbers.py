@@ -69,7 +69,7 @@ def number_contours(contours: Sequence[tuple[QuadContourSet, Unit]]) -> None:
                         best = rank, np.vstack([ends[1:2], corners])
             if best is not None:
                 x, y = transform.inverted().transform(best[1][0])
-                lines.clabel([level], manual=[(x, y)], fmt=unit.number, fontsize=SIZE, inline_spacing=SPACE)
+                lines.clabel(manual=[(x, y)], fmt=unit.number, fontsize=SIZE, inline_spacing=SPACE)
                 taken.append(best[1][1:])
 
 

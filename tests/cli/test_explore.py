@@ -10,6 +10,7 @@ from click.testing import Result
 from hypothesis import given
 from hypothesis import strategies as st
 
+import gradhesion as gr
 from gradhesion.cli.dataset.reader import opened
 from gradhesion.cli.explorer import choice
 from gradhesion.cli.explorer.data import rounded, study_data
@@ -49,7 +50,7 @@ def test_axes_rise_and_infinity_has_a_place(gradhesion: Call, study_file: Path, 
         assert axes["a_max_over_R"]["infinity"] == pytest.approx(np.log10(27.0))
         order = [axis["name"] for axis in study["axes"]]
         force = (
-            dataset["pull_off_force"]
+            gr.open(path)["pull_off_force"]
             .sel(k=0.1, a_max_over_R=np.inf, A=0.023)
             .isel(lambda_over_R=1, nu=0, missing_dims="ignore")
         )
@@ -85,7 +86,7 @@ def test_a_page_is_taken_at_values_of_axes(gradhesion: Call, dataset_file: Path)
         cut = choice.chosen(dataset, ["pull_off_force"], ["k=0.31", "a_max_over_R=inf"])
         assert set(cut.data_vars) == {"pull_off_force", "status"}
         assert float(cut["k"]) == 0.31
-        expected = dataset["pull_off_force"].sel(k=0.31, a_max_over_R=np.inf)
+        expected = gr.open(dataset_file)["pull_off_force"].sel(k=0.31, a_max_over_R=np.inf)
         assert np.array_equal(cut["pull_off_force"].values, expected.values)
 
 
