@@ -20,17 +20,19 @@ from gradhesion.core.compiler.marks import note_compiled
 from gradhesion.core.curve.branches import ROWS
 from gradhesion.core.kinds import MANY_SMOOTH
 from gradhesion.core.path.cosine import is_endless_wave
+from gradhesion.core.problem.curves import Curves
 from gradhesion.core.problem.material import fill_stiffness
 from gradhesion.core.problem.names import PARAMETERS, PULL_OFF, REPORTS
-from gradhesion.core.problem.results import slots_of, typed
+from gradhesion.core.problem.results import Results, slots_of, typed
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene.cosine_report import NEEDED, report_curves
 from gradhesion.core.scene.smooth import ROWS as SMOOTH_ROWS
 from gradhesion.core.scene.smooth import SCENES as SMOOTH_SCENES
 from gradhesion.core.scene.smooth import solve_smooth
 from gradhesion.core.scene.solvers import LOOPS, PULL_OFF_LOOP
-from gradhesion.core.sensitivities.cosine_slopes import COUNT
+from gradhesion.core.sensitivities.cosine_slopes import COUNT, Sense
 from gradhesion.core.turning.cosine import turn_curves
+from gradhesion.core.turning.turns import Turns
 
 SLOPES: Final = "slopes"
 """The name of the sensitivities to the numbers of a scene, from which those to its parameters are put together."""
@@ -65,6 +67,11 @@ def run_tasks(
         work(tables, task, stiffness)
 
     run_one_by_one(curves.tasks(**how), one, threads)
+
+
+def curves_of(curves: Grouped, task: Task, tables: NDArray[Any], stiffness: NDArray[np.float64]) -> Curves:
+    """Return the curves of a task as kernels read them."""
+    return Curves(tables, task.which, task.index, stiffness, curves.lambda_over_R, curves.A, curves.rims[0])
 
 
 def _smooth_and_others(curves: Grouped) -> tuple[NDArray[np.int64] | None, NDArray[np.int64] | None]:
@@ -108,25 +115,25 @@ def solve_cosine(
     slots_of_reports = np.array([rows.index(name) if name in reports else -1 for name in REPORTS])
     out = np.empty((len(rows), *curves.size))
     status = np.zeros(curves.size, dtype=np.int8)
+    results, of_reports = Results(slots, out, status), Results(slots_of_reports, out, status)
     only_force = solver == "exact" and slopes is None and set(outputs) <= set(PULL_OFF)
     solve_curves = PULL_OFF_LOOP if only_force else LOOPS[solver]
     sensed = np.full((3, COUNT, *curves.size), math.nan) if slopes else None
+    of_force, of_energy = slopes or (False, False)
 
     def work(tables: NDArray[Any], task: Task, stiffness: NDArray[np.float64]) -> None:
         scratch = np.empty((ROWS, BRANCHES))
-        curves_of = (tables, task.which, task.index, stiffness, curves.lambda_over_R, curves.A, rims)
-        sense = () if slopes is None else (*neighbours_for(task), sensed, *slopes, turned)
-        solve_curves(*curves_of, slots, out, status, scratch, sense)
+        own = curves_of(curves, task, tables, stiffness)
+        sense = () if sensed is None else Sense(*neighbours_for(task), sensed, of_force, of_energy, turned)
+        solve_curves(own, results, scratch, sense)
         if reports:
-            report_curves(*curves_of, slots, slots_of_reports, out, status, scratch)
+            report_curves(own, slots, of_reports, scratch)
 
     def work_on_smooth(tables: NDArray[Any], task: Task, stiffness: NDArray[np.float64]) -> None:
-        block = np.empty((2, SMOOTH_ROWS, SMOOTH_SCENES))
-        curves_of = (stiffness, curves.lambda_over_R, curves.A, rims)
-        solve_smooth(task.index, curves.k, *curves_of, slots, out, status, block)
+        own = curves_of(curves, task, tables, stiffness)
+        solve_smooth(curves.k, own, results, np.empty((2, SMOOTH_ROWS, SMOOTH_SCENES)))
         if reports:
-            scratch = np.empty((ROWS, BRANCHES))
-            report_curves(tables, task.which, task.index, *curves_of, slots, slots_of_reports, out, status, scratch)
+            report_curves(own, slots, of_reports, np.empty((ROWS, BRANCHES)))
 
     if slopes is not None:
         run_tasks(curves, threads, work, together=_SENSED)
@@ -166,11 +173,10 @@ def turning_cosine(
     rims, targets = curves.rims
     radii = np.empty(curves.size)
     flags = np.zeros(curves.size, dtype=np.int8)
+    turns = Turns(rims, targets, turn == "load_max", check_contact, radii, flags)
 
     def work(tables: NDArray[Any], task: Task, stiffness: NDArray[np.float64]) -> None:
-        scratch = np.empty((ROWS, BRANCHES))
-        curves_of = (tables, task.which, task.index, stiffness, curves.lambda_over_R, curves.A, rims, targets)
-        turn_curves(*curves_of, turn == "load_max", check_contact, radii, flags, scratch)
+        turn_curves(curves_of(curves, task, tables, stiffness), turns, np.empty((ROWS, BRANCHES)))
 
     run_tasks(curves, threads, work)
     return radii.reshape(curves.shape), flags.reshape(curves.shape)

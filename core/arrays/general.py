@@ -11,13 +11,16 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core.arrays.cosine import SLOPES
 from gradhesion.core.arrays.prepared import prepared, run_by_exponent
 from gradhesion.core.arrays.tables import changes_of, tables_of
+from gradhesion.core.curve.general import Basis
 from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.names import PULL_OFF
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.results import slots_of, typed
+from gradhesion.core.problem.results import Results, slots_of, typed
 from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
 from gradhesion.core.scene.general import solve_pull_offs, solve_scenes
 from gradhesion.core.sensitivities.cosine_slopes import COUNT
+from gradhesion.core.sensitivities.general_slopes import Sense
 from gradhesion.core.sensitivities.neighbours import exponents_beside
 
 
@@ -51,18 +54,20 @@ def solve_general(
     solve = solve_pull_offs if set(rows) <= set(PULL_OFF) and slopes is None else solve_scenes
     sensed = np.full((3, COUNT, *status.shape), np.nan) if slopes else None
 
-    def change(exponent: float) -> tuple[Any, ...]:
-        """Return what `of_scene` of sensitivities/general_slopes.py takes of neighbouring exponents."""
+    def sense_at(exponent: float) -> Any:
+        """Return what the sensitivities of the curves of one exponent need."""
+        if sensed is None or slopes is None:
+            return ()
         exponents, weights = exponents_beside(exponent)
         front_by_k = float(weights @ np.log([depth_factor_of(k, profile.exponent) for k in exponents]))
-        return *changes_of(exponent, series), front_by_k, (exponent, profile.exponent)
+        change = changes_of(exponent, series)
+        return Sense(change, front_by_k, exponent, profile.exponent, sensed, slopes[0], slopes[1], turned)
 
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
-        table, cosine_bins = tables_of(exponent, series, interpolated=interpolated and slopes is None)
-        depth_factor = depth_factor_of(exponent, profile.exponent)
-        arrays = (scenes.stretch, wavelength, amplitude, scenes.compliance, scenes.rim)
-        sense = () if slopes is None else (*change(exponent), sensed, *slopes, turned)
-        solve(table, cosine_bins, series, profile.exponent, depth_factor, index, *arrays, slots, out, status, sense)
+        basis = Basis(*tables_of(exponent, series, interpolated=interpolated and slopes is None), series)
+        shape = profile.exponent, depth_factor_of(exponent, profile.exponent)
+        curves = GeneralCurves(index, *shape, scenes.stretch, wavelength, amplitude, scenes.compliance, scenes.rim)
+        solve(basis, curves, Results(slots, out, status), sense_at(exponent))
 
     run_by_exponent(scenes.k, work, threads, scenes.rim.shape[1])
     result: dict[str, NDArray[Any]] = {}

@@ -12,11 +12,13 @@ from gradhesion.core.arrays.general import solve_general
 from gradhesion.core.arrays.prepared import prepared, run_by_exponent
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.closed.general_envelope import chis
+from gradhesion.core.curve.general import Basis
 from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
 from gradhesion.core.problem.status import NO_VALUE
-from gradhesion.core.scene.general_report import ROWS, report_scenes
+from gradhesion.core.scene.general_report import ROWS, Solved, report_scenes
 
 _GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
 
@@ -37,7 +39,7 @@ def report_general(
         scenes.of_each, (scenes.k, scenes.stretch, scenes.wavelength, scenes.amplitude, scenes.compliance)
     )
     amplitude = amplitude if series.size else 0.0 * amplitude
-    rim = np.array(np.broadcast_to(scenes.rim, (scenes.k.size, scenes.rim.shape[1])), order="C").ravel()
+    rim = np.array(np.broadcast_to(scenes.rim, (scenes.k.size, scenes.rim.shape[1])), order="C").reshape(-1, 1)
     out = np.full((len(ROWS), k.size), np.nan)
     wanted = np.array([name in reports for name in ROWS])
     none = np.full(k.size, np.nan)
@@ -46,10 +48,10 @@ def report_general(
     )
 
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
-        table, cosine_bins = tables_of(exponent, series, interpolated=interpolated)
-        depth_factor = depth_factor_of(exponent, profile.exponent)
-        arrays = (stretch, wavelength / n, n * amplitude, compliance, rim, radius, energy)
-        report_scenes(table, cosine_bins, series, profile.exponent, depth_factor, index, *arrays, wanted, out, status)
+        basis = Basis(*tables_of(exponent, series, interpolated=interpolated), series)
+        shape = profile.exponent, depth_factor_of(exponent, profile.exponent)
+        curves = GeneralCurves(index, *shape, stretch, wavelength / n, n * amplitude, compliance, rim)
+        report_scenes(basis, curves, Solved(radius, energy, status), wanted, out)
 
     if wanted.any():
         run_by_exponent(k, work, threads)

@@ -27,8 +27,9 @@ from typing import Any
 
 from gradhesion.core.closed.smooth import FORCE_SCALE, smooth_length
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.problem.results import OUTERMOST, put, put_all
+from gradhesion.core.problem.results import OUTERMOST, Results, put, put_all
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.types import Floats
 
 
 @kernel()
@@ -108,15 +109,15 @@ def solve_rim(
 
 @kernel(inline=True)
 def solve_curve(
-    table: Any, stretch: float, wavelength: float, amplitude: float, rims: Any, slots: Any, out: Any
+    table: Any, stretch: float, wavelength: float, amplitude: float, rims: Floats, results: Results
 ) -> None:
-    """Solve one curve for all its rims."""
+    """Solve one curve (s, lambda/R, A) for all its rims a_max/R, of shape (rims,)."""
     mean_height = amplitude * wavelength
     # A lambda/(s l^c) with l = lambda/2 pi is the gain of curve/cosine.py
     gain = mean_height / (stretch * (wavelength / TWO_PI) ** (0.5 * (1.0 - table.k)))
     for rim in range(rims.size):
         values = solve_rim(table.k, stretch, table.amplitude * gain, mean_height, rims[rim])
-        put_all(out, slots, rim, values)
+        put_all(results, rim, values)
         chi = table.amplitude * gain
         z_in = 2.0 ** (2.0 / (3.0 + table.k)) if chi == 0.0 else math.inf  # with waves hysteresis has no end
-        put(out, slots, OUTERMOST, rim, z_in * smooth_length(table.k, stretch))
+        put(results, OUTERMOST, rim, z_in * smooth_length(table.k, stretch))

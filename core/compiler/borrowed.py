@@ -10,7 +10,7 @@ keeps the counting.
 
 from typing import Any, Final
 
-from numba.core import ir
+from numba.core import ir, types
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import FunctionPass, register_pass
 from numba.core.typed_passes import NopythonRewrites
@@ -29,7 +29,11 @@ def _borrows(state: Any, value: Any) -> bool:
     """Return whether what is assigned, and counts references, belongs to somebody else."""
     if isinstance(value, (ir.Arg, ir.Var, ir.Global, ir.FreeVar, ir.Const)):
         return True
-    if not isinstance(value, ir.Expr) or value.op not in _BORROWING:
+    if not isinstance(value, ir.Expr):
+        return False
+    if value.op == "call":  # a record holds what it is made of
+        return isinstance(state.typemap[value.func.name], types.NamedTupleClass)
+    if value.op not in _BORROWING:
         return False
     # an array of indices takes a copy, a number or a slice takes a view
     index = getattr(value, "index", None) if value.op == "getitem" else None

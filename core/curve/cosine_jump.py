@@ -83,18 +83,19 @@ def _slow(
     z1: float,
     stretch: float,
     wave1: float,
-    dz: float,
-    ratio: float,
+    way: tuple[float, float],
     front: tuple[float, float],
     node: float,
 ) -> float:
     """Return the smooth part of the second form at a node from -1 to 1 of the way from z1 to z1 + dz.
 
-    z1^c and z S0 at z1 are given, and half of dz over the middle. It is rho_s - 1 that is computed: in 1 - rho_s it
-    would lose 1/chi. Powers are (1 + eta)^(-c), for a half panel eta = -ratio at z1. Ends and node are numbers, or one
-    of both is eight (struve/lanes.py).
+    z1^c and z S0 at z1 are given. The way is dz, and half of that over the middle; the front is what `inverse_stretch`
+    returns of the way back to z1, and 1 over 1 more than it. Powers are (1 + eta)^(-c), for a half panel eta = -ratio
+    at z1. It is rho_s - 1 that is computed: in 1 - rho_s it would lose 1/chi. Ends and node are numbers, or one of both
+    is eight (struve/lanes.py).
     """
     b, g, _ = curve
+    dz, ratio = way
     left, start = front
     strength = 0.5 * (g * table.amplitude) * (g * table.amplitude)
     series = table.inverse_stretch
@@ -145,7 +146,7 @@ def _beyond(table: Any, curve: Cosine, start: float, end: float) -> tuple[float,
     ratio = 0.5 * dz / (z1 + 0.5 * dz)
     left = inverse_stretch(table, -ratio)
     front = left, 1.0 / (1.0 + left)
-    smooth = sum_of(load(WEIGHTS, 0) * _slow(table, curve, z1, stretch, wave1, dz, ratio, front, load(NODES, 0)))
+    smooth = sum_of(load(WEIGHTS, 0) * _slow(table, curve, z1, stretch, wave1, (dz, ratio), front, load(NODES, 0)))
     return smooth * dz - g * (last - first), g * (abs(last) + abs(first))
 
 
@@ -161,7 +162,7 @@ def beyond_from(table: Any, curve: Cosine, start: End, end: End, dz: Lanes) -> t
     front = left, 1.0 / (1.0 + left)
     smooth = 0.0 * dz
     for i in range(NODES.size):
-        smooth = smooth + WEIGHTS[i] * _slow(table, curve, z1, stretch, wave1, dz, ratio, front, NODES[i])
+        smooth = smooth + WEIGHTS[i] * _slow(table, curve, z1, stretch, wave1, (dz, ratio), front, NODES[i])
     return smooth * dz - g * (last - first), g * (size_of(last) + size_of(first))
 
 

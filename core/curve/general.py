@@ -13,12 +13,13 @@ so that every control has the folds D = 0 of its own level q (docs/theory.md, se
 """
 
 import math
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import sums
+from gradhesion.core.types import Floats
 
 
 class Series(NamedTuple):
@@ -31,8 +32,17 @@ class Series(NamedTuple):
     beta: float
 
 
-Basis: TypeAlias = tuple[Any, Any, Any]
-"""The table of the exponent, the flat array of struve/series_table.py, and the rows (n, cos, sin)."""
+class Basis(NamedTuple):
+    """What a series is computed from.
+
+    table        the table of the exponent, a record of struve/layout.py
+    cosine_bins  the flat array of struve/series_table.py
+    series       the harmonics, rows (n, cos, sin), of shape (harmonics, 3)
+    """
+
+    table: Any
+    cosine_bins: Floats
+    series: Floats
 
 
 @kernel(contract=True)

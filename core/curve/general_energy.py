@@ -7,7 +7,7 @@ Gauss's rule in panels short against the shortest wave, and against the distance
 """
 
 import math
-from typing import Any, Final, TypeAlias
+from typing import Any, Final, NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series, slope
@@ -27,10 +27,26 @@ from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import highest_harmonic, sums
 
-Left: TypeAlias = tuple[float, float, float, float, float, float, float]
-"""A place on the curve that tells the coordinate of a jump: whole waves, x beyond them, there the waves of depth and of
-load, by how much the coordinate there exceeds that of the jump (0 where the jump leaves the curve there), and there
-B z^m and z^c."""
+
+class Left(NamedTuple):
+    """A place on the curve that tells the coordinate of a jump; depths in s l^c.
+
+    waves, x      whole waves, and x beyond them
+    wave0, wave1  the waves of depth and of load there, g z w0 and g z^(2+k) w1
+    above         by how much the coordinate there exceeds that of the jump, 0 where the jump leaves the curve there
+    bend          B z^m
+    stretch       z^c
+    """
+
+    waves: float
+    x: float
+    wave0: float
+    wave1: float
+    above: float
+    bend: float
+    stretch: float
+
+
 _STEPS: Final = 200
 _SURE: Final = 1e-8
 """Step of Newton's method, in waves, whose square is below rounding."""
@@ -45,7 +61,7 @@ def place_left(basis: Basis, curve: Series, x: float, whole: float, above: float
     w0, w1, _, _ = sums(table, cosine_bins, series, x, whole)
     power = amplitude_power(table, z)
     bend = B * z * z if m == 2.0 else B * z**m
-    return whole, x, g * z * w0, g * z * w1 / (power * power), above, bend, z * power
+    return Left(whole, x, g * z * w0, g * z * w1 / (power * power), above, bend, z * power)
 
 
 @kernel(contract=True)

@@ -9,9 +9,10 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curves.sampling import sample
 from gradhesion.core.curves.subject import Form, Subject
+from gradhesion.core.types import Floats, Integers
 
 
-def draw_through(form: Form, places: NDArray[np.float64], end: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def draw_through(form: Form, places: Floats, end: float) -> tuple[Floats, Integers]:
     """Return points of a form, of shape (3, n), from zero contact through places in order to an end; their knots."""
     knots = form.states(np.concatenate([[0.0], places, [end]]))
     joined = np.ones(knots.shape[1], dtype=np.bool_)
@@ -20,7 +21,7 @@ def draw_through(form: Form, places: NDArray[np.float64], end: float) -> tuple[N
     return points, owners
 
 
-def draw_named(subject: Subject, form: Form, places: NDArray[np.float64], name: str) -> dict[str, NDArray[np.float64]]:
+def draw_named(subject: Subject, form: Form, places: Floats, name: str) -> dict[str, Floats]:
     """Return the variables `name_...`: radii, depths and loads of a form through places to the end of the range."""
     points, _ = draw_through(form, places, subject.end / form.radius_scale)
     radius, depth, load = form.scaled(points)
@@ -28,7 +29,7 @@ def draw_named(subject: Subject, form: Form, places: NDArray[np.float64], name: 
     return {f"{name}_contact_radius": radius, f"{name}_indentation": depth, f"{name}_load": load}
 
 
-def scales_of(knots: NDArray[np.float64]) -> NDArray[np.float64]:
+def scales_of(knots: Floats) -> Floats:
     """Return one over the span of place, depth and load; the extremes are knots."""
     spans = np.ptp(knots, axis=1)
     return np.divide(1.0, spans, out=np.zeros(3), where=spans > 0.0)

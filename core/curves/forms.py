@@ -15,7 +15,6 @@ import math
 from typing import Any, Final, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve import short_wave as asymptotic
@@ -23,6 +22,7 @@ from gradhesion.core.curve.cosine import wave
 from gradhesion.core.curve.general import state
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.types import Floats
 
 Numbers: TypeAlias = tuple[float, float, float, float, float]
 
@@ -71,7 +71,7 @@ def _general_ripple(basis: Any, numbers: Any, x: float) -> tuple[float, float, f
     return numbers[5], numbers[6] * z * power, numbers[6] * z / power
 
 
-def general_numbers(k: float, curve: Numbers, amplitude: float, series: NDArray[np.float64]) -> tuple[float, ...]:
+def general_numbers(k: float, curve: Numbers, amplitude: float, series: Floats) -> tuple[float, ...]:
     """Return the numbers of the general form; `amplitude` is that of S0 (struve/table.py)."""
     _, _, gain, _, _ = curve
     n = series[:, 0]

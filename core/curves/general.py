@@ -108,7 +108,7 @@ def subject_of(scene: Mapping[str, float], profile: Profile, loading: Loading) -
     series = rows_of(profile)
     if not (amplitude > 0.0 and series.size):
         amplitude, series = 0.0, np.zeros((0, 3))
-    basis: Any = (table, cosine_bins, series)
+    basis = Basis(table, cosine_bins, series)
     depth_factor = depth_factor_of(k, profile.exponent)
     curve, length, unit = curve_of(k, profile.exponent, depth_factor, stretch, wavelength, amplitude, compliance)
     if not (0.0 < curve.bend < math.inf and curve.gain < math.inf):

@@ -10,7 +10,7 @@ What a rim gets does not depend on the other rims of its curve.
 """
 
 import math
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
@@ -52,9 +52,10 @@ from gradhesion.core.path.ties import first_close_pair, note_loading, note_loadi
 from gradhesion.core.path.unloading import descend, leave
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.types import Floats
 from gradhesion.core.waves.cosine import branch_of_wave, fold_of_wave, landing_of_wave
 from gradhesion.core.waves.cosine_at_once import room_for_batch
-from gradhesion.core.waves.cosine_running import COUNT, begin_sums, room_for_sums, sum_up_to
+from gradhesion.core.waves.cosine_running import begin_sums, room_for_sums, sum_up_to
 from gradhesion.core.waves.cosine_sum import sum_of_waves
 
 BEGINNING: Final = 9.0
@@ -71,16 +72,44 @@ _HALVINGS: Final = 200
 _NEWTON_STEPS: Final = 8
 _NEAR_WAVE: Final = 0.3
 """Last step of Newton's method, in z, in search of a wave."""
-NEAR, BEFORE, LAST_UP, FIRST_CLOSE, ENTRY, ENTRY_PLACE, ENTRY_LOSS, ENTRY_JUMPS = 0, 1, 2, 3, 4, 5, 6, 7
-LOWEST, LOWEST_LOSS, LOWEST_JUMPS, LOWEST_LAST = 8, 9, 10, 11
-DISC_INNER, DISC_OUTER, RUN_SEEN, LOWEST_BRANCH = 12, 13, 14, 15
-"""What all rims of a curve share: the number of branches of the beginning, the wave of the last one, the last one that
-loading arrives on, and where a pair of folds, or the way through the gap, is close; the wave of the gap that loading
-enters (NaN: not found yet), where, and what it has lost and jumped by then; the wave that starts lowest (NaN, too),
-what unloading loses from its start on, its jumps, and the depth at which contact ends; the radii between which loading
-of the beginning ceases to keep the contact one disc (NaN, too); whether the contact on the waves of the gap has been
-looked at (NaN: not); and the branch of the beginning on which unloading arrives from there, -1 for none."""
-_SHARED: Final = 16
+SHARED: Final = np.dtype(
+    [
+        ("near", "i8"),  # branches of the beginning
+        ("before", "f8"),  # the wave of the last of them
+        ("last_up", "i8"),  # the last branch of the beginning that loading arrives on, -1 for none
+        ("first_close", "f8"),  # x where a pair of folds, or the way through the gap, is close first; inf for nowhere
+        ("entry", "f8"),  # the wave of the gap that loading enters first, NaN as long as it is not found
+        ("entry_place", "f8"),  # x where it does
+        ("entry_loss", "f8"),  # what it has lost by then, in 2 pi l^2 dgamma
+        ("entry_jumps", "f8"),
+        ("lowest", "f8"),  # the wave that starts lowest, NaN as long as it is not found
+        ("lowest_loss", "f8"),  # what unloading loses from its start to the end of contact
+        ("lowest_jumps", "f8"),
+        ("lowest_last", "f8"),  # the depth at which contact ends
+        ("lowest_branch", "i8"),  # the branch of the beginning on which unloading arrives from there, -1 for none
+        ("disc_inner", "f8"),  # x between which loading of the beginning ceases to keep the contact one disc, NaN as
+        ("disc_outer", "f8"),  # long as it is not known
+        ("run_seen", "i8"),  # whether the contact on the waves of the gap has been examined
+    ]
+)
+"""What all rims of a long curve share, found when a rim first needs it."""
+
+
+class Long(NamedTuple):
+    """A long curve: what `begin_long` has made, and what serves all its rims.
+
+    arches    the first and the last arch on which the curve can fold
+    trace     the branches of the beginning, and from there on those of one rim; (ROWS, branches): curve/branches.py
+    shared    one record `SHARED`, of shape (1,)
+    sums      the sums over waves outwards and inwards, records of waves/cosine_running.py, of shape (2,)
+    room      room for a batch of waves (waves/cosine_at_once.py)
+    """
+
+    arches: tuple[float, float]
+    trace: Floats
+    shared: Any
+    sums: Any
+    room: Floats
 
 
 @kernel()
@@ -172,22 +201,29 @@ def _lowest_wave(table: Any, curve: Cosine, low: float, high: float) -> tuple[fl
 
 @kernel()
 def begin_long(
-    table: Any, curve: Cosine, arches: tuple[float, float], trace: Any, losses: bool, reach: float
-) -> tuple[Any, tuple[Any, Any, Any]]:
-    """Walk the first waves of a long curve; return the trace, and what all rims share: numbers (above), sums, room."""
+    table: Any, curve: Cosine, arches: tuple[float, float], trace: Floats, losses: bool, reach: float
+) -> Long:
+    """Walk the first waves of a long curve, `reach` times as many as `BEGINNING`, 1 or 2.
+
+    `arches` are the first and the last one that can fold, `trace` is room for branches, of shape (ROWS, branches); with
+    `losses` the energies of jumps are found.
+    """
     first, final = arches
     trace = room_for(trace, 4.0 * reach * (BEGINNING + NEAR_RIM))
-    shared = np.full(_SHARED, math.nan)
+    shares = np.empty(1, SHARED)
+    shared = shares[0]
+    shared.entry = shared.lowest = shared.disc_inner = math.nan
+    shared.run_seen = NONE
     trace[TANGENCY, 0], trace[RUN, RUN_LEAST] = math.inf, math.nan
     near, before = 0, 0.5 * first
     if first < MOST_ARCHES:
         beginning = (0.5 * first + reach * BEGINNING) + table.phase / TWO_PI
         near = append_branches(table, curve, int(first), final, beginning, trace, NONE)
         before = wave_of(table, trace[START, near - 1]) if near > 0 else before
-    shared[NEAR], shared[BEFORE], shared[FIRST_CLOSE] = near, before, first_close_pair(near, trace)
-    shared[LAST_UP] = load_up(table, curve, near, trace, math.inf, losses)
+    shared.near, shared.before, shared.first_close = near, before, first_close_pair(near, trace)
+    shared.last_up = load_up(table, curve, near, trace, math.inf, losses)
     note_loading(table, curve, near, trace, math.inf)
-    return trace, (shared, room_for_sums(), room_for_batch())
+    return Long(arches, trace, shares, room_for_sums(), room_for_batch())
 
 
 @kernel()
@@ -198,80 +234,69 @@ def ends_folds(table: Any, arches: tuple[float, float], rim: float) -> bool:
 
 @kernel()
 def sum_of_gap(
-    table: Any,
-    curve: Cosine,
-    sums: Any,
-    first: float,
-    last: float,
-    outwards: bool,
-    final: float,
-    running: bool,
-    room: Any,
+    table: Any, curve: Cosine, long: Long, first: float, last: float, outwards: bool, running: bool
 ) -> float:
-    """Return what the waves `first` to `last` of the gap lose, for one rim or from what serves all of them."""
+    """Return what the waves `first` to `last` of the gap lose, for one rim or from what serves all of them (running).
+
+    It is in 2 pi l^2 dgamma, of loading (outwards) or unloading.
+    """
+    final = long.arches[1]
     if not running:
-        return sum_of_waves(table, curve, first, last, outwards, final, room)
-    if sums[0, COUNT] < 0.0:
+        return sum_of_waves(table, curve, first, last, outwards, final, long.room)
+    sums = long.sums[0 if outwards else 1]
+    if sums.count < 0:
         begin_sums(table, curve, sums, first, outwards, final)
-    return sum_up_to(table, curve, sums, last, outwards, final, room)
+    return sum_up_to(table, curve, sums, last, outwards, final, long.room)
 
 
 @kernel()
-def entry(
-    table: Any, curve: Cosine, after: float, long: Any, trace: Any, losses: bool
-) -> tuple[float, float, float, float]:
-    """Return the first wave of the gap that loading stands on, where, and what it has lost and jumped by then.
+def entry(table: Any, curve: Cosine, after: float, long: Long, losses: bool) -> tuple[float, float, float, float]:
+    """Return the first wave of the gap that loading stands on, x there, and what it has lost and jumped by then.
 
     It comes from the last branch of the beginning (the place is 0 then), or by one long jump to the first wave that
-    ends above the depth, which `after` does.
+    ends above the depth, which the wave `after` does.
     """
-    shared, _, _ = long
-    now = int(shared[LAST_UP])
+    shared, trace = long.shared[0], long.trace
+    now = shared.last_up
     loss, jumps = (trace[LOADING_LOSS, now], trace[LOADING_JUMPS, now]) if now >= 0 else (0.0, 0.0)
-    if 0 <= now == int(shared[NEAR]) - 1:
-        return shared[BEFORE], 0.0, loss, jumps
-    if math.isnan(shared[ENTRY]):
+    if 0 <= now == shared.near - 1:
+        return shared.before, 0.0, loss, jumps
+    if math.isnan(shared.entry):
         left, level = (trace[END, now], trace[END_DEPTH, now]) if now >= 0 else (0.0, 0.0)
-        wave, end, top, _, top_before = first_wave_above(table, curve, shared[BEFORE], after, level)
+        wave, end, top, _, top_before = first_wave_above(table, curve, shared.before, after, level)
         if math.isnan(top):  # the wave is `after` itself
             end, top = fold_of_wave(table, curve, wave, NO)
         close = tolerance(table, curve, end)
         if abs(top - level) <= close or abs(top_before - level) <= close:
-            shared[FIRST_CLOSE] = min(shared[FIRST_CLOSE], end)
+            shared.first_close = min(shared.first_close, end)
         x = find_depth(table, curve, level, branch_of_wave(table, curve, wave))
         if losses and now >= 0:
             loss += jump_energy(table, curve, left, x, trace[WORK])
         elif losses:
             loss = energy_from_zero(table, curve, x, 0.0)
-        shared[ENTRY], shared[ENTRY_PLACE], shared[ENTRY_LOSS], shared[ENTRY_JUMPS] = wave, x, loss, jumps + 1.0
-    return shared[ENTRY], shared[ENTRY_PLACE], shared[ENTRY_LOSS], shared[ENTRY_JUMPS]
+        shared.entry, shared.entry_place, shared.entry_loss, shared.entry_jumps = wave, x, loss, jumps + 1.0
+    return shared.entry, shared.entry_place, shared.entry_loss, shared.entry_jumps
 
 
 @kernel()
 def _load_through(
-    table: Any,
-    curve: Cosine,
-    count: int,
-    after: float,
-    final: float,
-    long: Any,
-    trace: Any,
-    rim: float,
-    running: bool,
-    losses: bool,
+    table: Any, curve: Cosine, long: Long, count: int, after: float, rim: float, running: bool, losses: bool
 ) -> None:
-    """Follow loading from the beginning through the gap to the branches near the rim; `after` is the first of them."""
-    shared, sums, room = long
-    near, now = int(shared[NEAR]), int(shared[LAST_UP])
+    """Follow loading from the beginning through the gap to the `count` branches up to x = `rim`.
+
+    The wave `after` is the first that has a branch again.
+    """
+    shared, trace = long.shared[0], long.trace
+    near, now = shared.near, shared.last_up
     trace[ARRIVAL, near:count] = math.inf
     trace[RUN, GAP], trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST] = near, 0.0, -1.0
     level = trace[END_DEPTH, now] if now >= 0 else 0.0
     if trace[END_DEPTH, near] > level:
-        wave, x, loss, jumps = entry(table, curve, after, long, trace, losses)
+        wave, x, loss, jumps = entry(table, curve, after, long, losses)
         if wave < after:
             trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST], trace[RUN, RUN_LANDING] = wave, after - 1.0, x
             if losses:
-                loss += sum_of_gap(table, curve, sums[0], wave, after - 1.0, YES, final, running, room)
+                loss += sum_of_gap(table, curve, long, wave, after - 1.0, YES, running)
             x = after - 1.0 + landing_of_wave(table, curve, after - 1.0, YES)
             jumps += after - wave
         arrive(trace, near, x, loss, jumps)
@@ -280,13 +305,13 @@ def _load_through(
 
 
 @kernel()
-def leave_lowest(table: Any, curve: Cosine, long: Any, final: float, trace: Any, losses: bool) -> None:
+def leave_lowest(table: Any, curve: Cosine, long: Long, losses: bool) -> None:
     """Find the wave of the gap that starts lowest, and what unloading loses from there on, if that is not known yet."""
-    shared, _, _ = long
-    if not math.isnan(shared[LOWEST]):
+    shared, trace = long.shared[0], long.trace
+    if not math.isnan(shared.lowest):
         return
-    near, before = int(shared[NEAR]), shared[BEFORE]
-    lowest, close = _lowest_wave(table, curve, before, max(before, np.floor(0.5 * final - NEAR_RIM)))
+    near, before = shared.near, shared.before
+    lowest, close = _lowest_wave(table, curve, before, max(before, np.floor(0.5 * long.arches[1] - NEAR_RIM)))
     loss, jumps, last, lower = 0.0, 1.0, 0.0, near - 1
     if lowest == before and near > 0:
         descend(table, curve, trace, near - 1, losses)
@@ -310,27 +335,25 @@ def leave_lowest(table: Any, curve: Cosine, long: Any, final: float, trace: Any,
             )
         else:
             loss, last = -energy_from_zero(table, curve, start, level) if losses else 0.0, level
-    shared[LOWEST], shared[LOWEST_LOSS], shared[LOWEST_JUMPS], shared[LOWEST_LAST] = lowest, loss, jumps, last
-    shared[LOWEST_BRANCH] = lower
+    shared.lowest, shared.lowest_loss, shared.lowest_jumps, shared.lowest_last = lowest, loss, jumps, last
+    shared.lowest_branch = lower
     if close:
-        shared[FIRST_CLOSE] = min(shared[FIRST_CLOSE], lowest)
+        shared.first_close = min(shared.first_close, lowest)
 
 
 @kernel()
-def _unload_through(
-    table: Any, curve: Cosine, after: float, final: float, long: Any, trace: Any, running: bool, losses: bool
-) -> None:
-    """Give the first branch after the gap what unloading loses from there, if it goes on into the gap."""
-    shared, sums, room = long
-    leave_lowest(table, curve, long, final, trace, losses)
-    lowest = min(shared[LOWEST], after)  # starts fall outwards up to the lowest one
-    trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER], trace[RUN, RUN_LOWEST] = shared[BEFORE], after, lowest
+def _unload_through(table: Any, curve: Cosine, after: float, long: Long, running: bool, losses: bool) -> None:
+    """Give the first branch after the gap, that of the wave `after`, what unloading loses from there into the gap."""
+    shared, trace = long.shared[0], long.trace
+    leave_lowest(table, curve, long, losses)
+    lowest = min(shared.lowest, after)  # starts fall outwards up to the lowest one
+    trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER], trace[RUN, RUN_LOWEST] = shared.before, after, lowest
     if lowest == after:  # nothing in the gap is lower
         return
-    loss = shared[LOWEST_LOSS]
+    loss = shared.lowest_loss
     if losses:
-        loss += sum_of_gap(table, curve, sums[1], lowest + 1.0, after, NO, final, running, room)
-    leave(trace, int(shared[NEAR]), loss, shared[LOWEST_JUMPS] + after - lowest, shared[LOWEST_LAST])
+        loss += sum_of_gap(table, curve, long, lowest + 1.0, after, NO, running)
+    leave(trace, shared.near, loss, shared.lowest_jumps + after - lowest, shared.lowest_last)
 
 
 @kernel()
@@ -352,26 +375,16 @@ def _nominal_branch(table: Any, curve: Cosine, rim: float, final: float, trace: 
 
 
 @kernel()
-def stride(
-    table: Any,
-    curve: Cosine,
-    arches: tuple[float, float],
-    rim: float,
-    trace: Any,
-    long: Any,
-    losses: bool,
-    reach: float,
-) -> int:
-    """Put what `begin_long` leaves out into the trace, for one rim; return the number of branches.
+def stride(table: Any, curve: Cosine, rim: float, long: Long, losses: bool, reach: float) -> int:
+    """Put what `begin_long` leaves out into the trace, for a rim x = a/lambda; return the number of branches.
 
     A rim for which `ends_folds` holds serves all those before it for which it holds too, unless the phase there is not
     told. A `reach` of up to 2 walks that many times as many waves at either end, and sums those between for the rim
     alone, which tells how good the sums are (scene/cosine_report.py).
     """
-    _, final = arches
-    shared, _, _ = long
-    near = int(shared[NEAR])
-    trace[TANGENCY, 0] = shared[FIRST_CLOSE]
+    arches, trace, shared = long.arches, long.trace, long.shared[0]
+    final, near = arches[1], shared.near
+    trace[TANGENCY, 0] = shared.first_close
     running = reach == 1.0 and not ends_folds(table, arches, rim)
     last, waves = 2.0 * rim - table.phase / math.pi + 3.0, _BEFORE_RIM + NEAR_RIM * (reach - 1.0)
     if ends_folds(table, arches, rim):
@@ -384,29 +397,29 @@ def stride(
     if nominal:
         after = _nominal_branch(table, curve, rim, 0.5 * final, trace, near)
         count = near + 1
-    _load_through(table, curve, count, after, final, long, trace, rim, running, losses)
+    _load_through(table, curve, long, count, after, rim, running, losses)
     if nominal and trace[ARRIVAL, near] < math.inf and rim <= 0.5 * final:
         trace[ARRIVAL, near] = trace[START, near]
-    _unload_through(table, curve, after, final, long, trace, running, losses)
-    trace[TANGENCY, 0] = min(trace[TANGENCY, 0], shared[FIRST_CLOSE])
+    _unload_through(table, curve, after, long, running, losses)
+    trace[TANGENCY, 0] = min(trace[TANGENCY, 0], shared.first_close)
     note_loading_from(table, curve, near, count, trace, rim)
     return count
 
 
 @kernel()
-def open_gap(table: Any, curve: Cosine, place: float, trace: Any, long: Any) -> bool:
-    """Let the gap end at a wave beyond a place, with no branch beyond it; return whether loading goes through the gap.
+def open_gap(table: Any, curve: Cosine, place: float, long: Long) -> bool:
+    """Let the gap end at a wave beyond x = `place`, with no branch beyond; return whether loading goes through the gap.
 
     That is enough for a cycle that surely turns before the place.
     """
-    shared, _, _ = long
-    near, now = int(shared[NEAR]), int(shared[LAST_UP])
+    shared, trace = long.shared[0], long.trace
+    now = shared.last_up
     after = np.floor(place - table.phase / TWO_PI) + 1.0
     _, top = fold_of_wave(table, curve, after, NO)
     if not top > (trace[END_DEPTH, now] if now >= 0 else 0.0):
         return False
-    trace[TANGENCY, 0] = shared[FIRST_CLOSE]
-    wave, x, _, _ = entry(table, curve, after, long, trace, NO)
-    trace[RUN, GAP], trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER] = near, shared[BEFORE], after
+    trace[TANGENCY, 0] = shared.first_close
+    wave, x, _, _ = entry(table, curve, after, long, NO)
+    trace[RUN, GAP], trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER] = shared.near, shared.before, after
     trace[RUN, RUN_FIRST], trace[RUN, RUN_LAST], trace[RUN, RUN_LANDING] = wave, after, x
     return True

@@ -8,7 +8,7 @@ together, each for itself.
 """
 
 import math
-from typing import Any, Final, TypeAlias
+from typing import Any, Final, NamedTuple
 
 from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.at_once import find_depths
@@ -16,37 +16,50 @@ from gradhesion.core.curve.branches import END_DEPTH, LOADING_IS_CLOSE, WORK
 from gradhesion.core.curve.cosine import Cosine, slopes_at_once
 from gradhesion.core.curve.cosine_energy import energies_at_once, jump_energy
 from gradhesion.core.curve.cosine_folds import CLOSE
-from gradhesion.core.path.cosine_long import (
-    FIRST_CLOSE,
-    LAST_UP,
-    LOWEST,
-    LOWEST_BRANCH,
-    LOWEST_JUMPS,
-    LOWEST_LAST,
-    LOWEST_LOSS,
-    NEAR,
-    entry,
-    leave_lowest,
-    sum_of_gap,
-)
+from gradhesion.core.path.cosine_long import Long, entry, leave_lowest, sum_of_gap
+from gradhesion.core.path.cycle import Cycle
 from gradhesion.core.path.ties import highest_before, is_within, unloading_is_close
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.lanes import Lanes, any_above, chosen, eight, floor_of, lane_of
 from gradhesion.core.waves.cosine_at_once import folds_at_once
 
-Stands: TypeAlias = tuple[Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes]
-BRANCH, ON, REACHED, HERE, VALUE, RATE, END, TOP, BOTTOM, LANDING, UP, DOWN = range(12)
-"""The wave of the last branch that starts within each rim; 1 where the rim stands on it; 1 where loading arrives on it
-before the rim; the depth at the rim, D there, and its derivative; the end from which loading goes to the rim, and its
-depth; the depth at which the branch starts (-inf where the rim stands on it), and where unloading lands on it; what the
-jumps to the rim, and away from it, lose. NaN is what takes longer."""
+
+class Stands(NamedTuple):
+    """How eight rims stand among regular waves, each number for all of them; NaN is what takes longer.
+
+    branch      the wave of the last branch that starts within the rim
+    on          1 where the rim stands on that branch, else 0
+    reached     1 where loading arrives on it before the rim, else 0
+    here        the depth at the rim, in s l^c
+    value       D there (curve/cosine.py)
+    rate        its derivative by z
+    end, top    x and depth of the end from which loading goes to the rim
+    bottom      the depth at which the branch starts, -inf where the rim stands on it
+    landing     x where unloading lands on it, 0 where the rim stands on it
+    up, down    what the jumps to the rim, and away from it, lose, in 2 pi l^2 dgamma
+    """
+
+    branch: Lanes
+    on: Lanes
+    reached: Lanes
+    here: Lanes
+    value: Lanes
+    rate: Lanes
+    end: Lanes
+    top: Lanes
+    bottom: Lanes
+    landing: Lanes
+    up: Lanes
+    down: Lanes
+
+
 FURTHEST: Final = 1.0e9
 """Arches within which neighbours are no near tie, and a float tells on which side of a fold a rim stands."""
 
 
 @kernel(contract=True)
 def stand_at_once(table: Any, curve: Cosine, rims: Lanes, losses: bool) -> Stands:
-    """Return how eight rims stand among regular waves."""
+    """Return how eight rims x = a/lambda stand among regular waves; with `losses` the energies of jumps as well."""
     turns = rims - table.phase / TWO_PI
     value, rate, _, _, here = slopes_at_once(table, curve, 0.5 * (1.0 - table.k), rims)
     nearest = floor_of(turns + 0.5)
@@ -67,70 +80,60 @@ def stand_at_once(table: Any, curve: Cosine, rims: Lanes, losses: bool) -> Stand
         if losses:
             down = chosen(1.0, on, 0.0, energies_at_once(table, curve, rims, landing))
         bottom = chosen(1.0, on, -math.inf, low)
-    return branch, on, reached, here, value, rate, end, top, bottom, landing, up, down
+    return Stands(branch, on, reached, here, value, rate, end, top, bottom, landing, up, down)
 
 
 @kernel()
 def cycle_among(
-    table: Any,
-    curve: Cosine,
-    stands: Stands,
-    lane: int,
-    rim: float,
-    final: float,
-    long: Any,
-    trace: Any,
-    losses: bool,
-) -> tuple[bool, float, float, float, float, float, float, float]:
-    """Return the cycle of one of the rims, as far as it stands among regular waves (the first of what is returned).
+    table: Any, curve: Cosine, stands: Stands, lane: int, rim: float, long: Long, losses: bool
+) -> tuple[bool, Cycle, float]:
+    """Return whether one of the rims stands among regular waves, its cycle if so, and the wave that loading enters.
 
-    Then come what loading loses and its jumps, the same of unloading, the depth at which contact ends, the largest
-    depth, and the wave on which loading enters those of the gap.
+    That is the first one of the gap on which it stands. The rim is x = a/lambda, number `lane` of `stands`.
     """
-    shared, sums, room = long
-    near, now = int(shared[NEAR]), int(shared[LAST_UP])
-    branch, on, reached = lane_of(stands[BRANCH], lane), lane_of(stands[ON], lane), lane_of(stands[REACHED], lane)
-    end, top, landing = lane_of(stands[END], lane), lane_of(stands[TOP], lane), lane_of(stands[LANDING], lane)
+    shared, trace = long.shared[0], long.trace
+    near, now = shared.near, shared.last_up
+    branch, on, reached = lane_of(stands.branch, lane), lane_of(stands.on, lane), lane_of(stands.reached, lane)
+    end, top, landing = lane_of(stands.end, lane), lane_of(stands.top, lane), lane_of(stands.landing, lane)
     level = trace[END_DEPTH, now] if now >= 0 else 0.0
+    nothing = Cycle(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if not top > level or math.isnan(end + landing):
-        return False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    wave, _, loaded, loading_jumps = entry(table, curve, branch, long, trace, losses)
-    leave_lowest(table, curve, long, final, trace, losses)
-    lowest = shared[LOWEST]
+        return False, nothing, 0.0
+    wave, _, loaded, loading_jumps = entry(table, curve, branch, long, losses)
+    leave_lowest(table, curve, long, losses)
+    lowest = shared.lowest
     if not max(wave, lowest) < branch - 1.0:
-        return False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        return False, nothing, 0.0
     last = branch - 1.0 if on == reached else branch - 2.0
-    unloaded = shared[LOWEST_LOSS]
+    unloaded = shared.lowest_loss
     if losses:
-        up, down = lane_of(stands[UP], lane), lane_of(stands[DOWN], lane)
+        up, down = lane_of(stands.up, lane), lane_of(stands.down, lane)
         if math.isnan(up):
             up = jump_energy(table, curve, end, rim, trace[WORK])
         if math.isnan(down):
             down = jump_energy(table, curve, rim, landing, trace[WORK])
-        loaded += sum_of_gap(table, curve, sums[0], wave, last, YES, final, YES, room) + up
-        unloaded += sum_of_gap(table, curve, sums[1], lowest + 1.0, branch, NO, final, YES, room) + down
+        loaded += sum_of_gap(table, curve, long, wave, last, YES, YES) + up
+        unloaded += sum_of_gap(table, curve, long, lowest + 1.0, branch, NO, YES) + down
     loading_jumps += last + 1.0 - wave + (1.0 - reached)
-    unloading_jumps = shared[LOWEST_JUMPS] + branch - lowest + (1.0 - on)
-    deepest = max(lane_of(stands[HERE], lane), top, highest_before(trace, near - 1), 0.0)
-    return True, loaded, loading_jumps, unloaded, unloading_jumps, shared[LOWEST_LAST], deepest, wave
+    unloading_jumps = shared.lowest_jumps + branch - lowest + (1.0 - on)
+    deepest = max(lane_of(stands.here, lane), top, highest_before(trace, near - 1), 0.0)
+    return True, Cycle(loaded, loading_jumps, unloaded, unloading_jumps, shared.lowest_last, deepest), wave
 
 
 @kernel()
-def is_close_among(
-    table: Any, curve: Cosine, stands: Stands, lane: int, rim: float, long: Any, trace: Any, turned: bool
-) -> bool:
+def is_close_among(table: Any, curve: Cosine, stands: Stands, lane: int, rim: float, long: Long, turned: bool) -> bool:
     """Return what `is_close_to_a_jump` (path/ties.py) does for one of the rims that stand among regular waves."""
-    shared, _, _ = long
-    near, lower = int(shared[NEAR]), int(shared[LOWEST_BRANCH])
-    if shared[FIRST_CLOSE] <= rim or (near > 0 and trace[LOADING_IS_CLOSE, near - 1] > 0.0):
+    shared, trace = long.shared[0], long.trace
+    near, lower = shared.near, shared.lowest_branch
+    if shared.first_close <= rim or (near > 0 and trace[LOADING_IS_CLOSE, near - 1] > 0.0):
         return True
-    here, on = lane_of(stands[HERE], lane), lane_of(stands[ON], lane) > 0.0
+    here, on = lane_of(stands.here, lane), lane_of(stands.on, lane) > 0.0
     if not turned:
-        value, rate = lane_of(stands[VALUE], lane), lane_of(stands[RATE], lane)
+        value, rate = lane_of(stands.value, lane), lane_of(stands.rate, lane)
         if abs(value) <= 2.0 * CLOSE * TWO_PI * rim * abs(rate):
             return True
-        if on and is_within(table, curve, abs(here - lane_of(stands[TOP], lane)), rim):
+        if on and is_within(table, curve, abs(here - lane_of(stands.top, lane)), rim):
             return True
-    if not on and is_within(table, curve, abs(here - lane_of(stands[BOTTOM], lane)), rim):
+    if not on and is_within(table, curve, abs(here - lane_of(stands.bottom, lane)), rim):
         return True
     return lower >= 0 and unloading_is_close(table, curve, trace, lower)

@@ -6,7 +6,7 @@ one rise, and unloading goes down where the other fall inwards. Where they do no
 """
 
 import math
-from typing import Any, Final, TypeAlias
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from gradhesion.core.path.general_ties import first_close_pair, is_at_a_fold
 from gradhesion.core.path.pieces import (
     NOTED_DOWN,
     NOTED_UP,
+    Piece,
     State,
     climb,
     descend,
@@ -29,10 +30,14 @@ from gradhesion.core.path.pieces import (
     note,
     reach_rim,
 )
+from gradhesion.core.types import Floats
 from gradhesion.core.waves.general import (
     DOWN,
     NEAREST,
+    NOWHERE,
     UP,
+    Room,
+    Waves,
     branches_of_wave,
     cut_of,
     falls_at_cut,
@@ -57,16 +62,48 @@ _TESTED: Final = 12
 """Waves on which the contact is tested."""
 IRREGULAR, FEW, REGULAR = map(constant, range(3))
 """Long curves that cannot be summed; whose folds end so early that they can be walked; and that are summed."""
-Middle: TypeAlias = tuple[int, float, float, float, float, float, bool]
-"""Which of these, the place up to which folds are looked for, the cut of waves/general.py, and what `regular_waves`
-returns: where folds may begin anew, the first and the last wave to be summed, and whether folds end beyond."""
 MOST_WAVES: Final = 1e14
 """Waves beyond which the coordinates of neighbours cannot be told apart."""
 
 
+class Middle(NamedTuple):
+    """What of a long curve is summed.
+
+    kind        IRREGULAR, FEW or REGULAR
+    until       x up to which folds are searched for
+    cut         where waves are cut, 0 .. 1 (waves/general.py)
+    again       the wave from which on folds may begin anew, 0 if they do not cease
+    begin, end  the first and the last wave to be summed
+    ends        whether folds end beyond
+    """
+
+    kind: int
+    until: float
+    cut: float
+    again: float
+    begin: float
+    end: float
+    ends: bool
+
+
+class Tasks(NamedTuple):
+    """What is wanted of a cycle on a long curve.
+
+    losses     whether what it loses is
+    last_loss  whether what the end of contact loses is a part of that
+    test       whether loading is tested for keeping the contact one disc
+    turned     whether the rim is a place that loading surely reaches
+    """
+
+    losses: bool
+    last_loss: bool
+    test: bool
+    turned: bool
+
+
 @kernel()
-def places_between(low: float, high: float) -> Any:
-    """Return whole waves between two, in equal ratios."""
+def places_between(low: float, high: float) -> Floats:
+    """Return whole waves between two, in equal ratios, of shape (_SAMPLES,)."""
     places = np.empty(_SAMPLES)
     for i in range(_SAMPLES):
         places[i] = np.floor(low * (high / low) ** (i / (_SAMPLES - 1.0)))
@@ -124,7 +161,7 @@ def regular_waves(
 
 
 @kernel()
-def _highest(basis: Basis, curve: Series, cut: float, wave: float, work: Any) -> float:
+def _highest(basis: Basis, curve: Series, cut: float, wave: float, work: Room) -> float:
     """Return the highest end of a branch of a wave, -inf without any."""
     rows = work[2][0]
     best = highest_end(rows, branches_of_wave(basis, curve, wave, cut, work, rows))
@@ -132,7 +169,7 @@ def _highest(basis: Basis, curve: Series, cut: float, wave: float, work: Any) ->
 
 
 @kernel()
-def _lowest(basis: Basis, curve: Series, cut: float, wave: float, work: Any) -> float:
+def _lowest(basis: Basis, curve: Series, cut: float, wave: float, work: Room) -> float:
     """Return the lowest start of a branch of a wave, inf without any."""
     rows = work[2][0]
     best = lowest_start(rows, branches_of_wave(basis, curve, wave, cut, work, rows))
@@ -140,7 +177,7 @@ def _lowest(basis: Basis, curve: Series, cut: float, wave: float, work: Any) -> 
 
 
 @kernel()
-def _goes_on(basis: Basis, curve: Series, cut: float, wave: float, kind: int, work: Any) -> bool:
+def _goes_on(basis: Basis, curve: Series, cut: float, wave: float, kind: int, work: Room) -> bool:
     """Return whether loading goes up from a wave to the next one, or unloading down from the next one to it."""
     if kind == UP:
         return _highest(basis, curve, cut, wave + 1.0, work) > _highest(basis, curve, cut, wave, work)
@@ -148,7 +185,7 @@ def _goes_on(basis: Basis, curve: Series, cut: float, wave: float, kind: int, wo
 
 
 @kernel()
-def _reaches(basis: Basis, curve: Series, cut: float, wave: float, kind: int, level: float, work: Any) -> bool:
+def _reaches(basis: Basis, curve: Series, cut: float, wave: float, kind: int, level: float, work: Room) -> bool:
     """Return whether a wave ends above a level, or starts below it."""
     if kind == UP:
         return _highest(basis, curve, cut, wave, work) > level
@@ -157,7 +194,7 @@ def _reaches(basis: Basis, curve: Series, cut: float, wave: float, kind: int, le
 
 @kernel()
 def first_that_reaches(
-    basis: Basis, curve: Series, cut: float, places: Any, now: float, kind: int, level: float, work: Any
+    basis: Basis, curve: Series, cut: float, places: Floats, now: float, kind: int, level: float, work: Room
 ) -> float:
     """Return the first wave from `now` on, in the order of `places`, that reaches a level; NaN if none does."""
     if _reaches(basis, curve, cut, now, kind, level, work):
@@ -180,7 +217,7 @@ def first_that_reaches(
 
 
 @kernel()
-def last_of_climb(basis: Basis, curve: Series, cut: float, places: Any, now: float, kind: int, work: Any) -> float:
+def last_of_climb(basis: Basis, curve: Series, cut: float, places: Floats, now: float, kind: int, work: Room) -> float:
     """Return the wave up to which loading or unloading goes from wave to wave."""
     sign = 1.0 if kind == UP else -1.0
     step = 0.0 if kind == UP else -1.0
@@ -208,7 +245,7 @@ def last_of_climb(basis: Basis, curve: Series, cut: float, places: Any, now: flo
 
 
 @kernel()
-def _waves_are_one_disc(basis: Basis, curve: Series, cut: float, first: float, last: float, work: Any) -> bool:
+def _waves_are_one_disc(basis: Basis, curve: Series, cut: float, first: float, last: float, work: Room) -> bool:
     """Return whether loading keeps the contact one disc on some of the waves `first` to `last`."""
     _, _, rows = work
     for i in range(_TESTED):
@@ -226,47 +263,59 @@ def _waves_are_one_disc(basis: Basis, curve: Series, cut: float, first: float, l
 def go_through(
     basis: Basis,
     curve: Series,
-    cut: float,
-    begin: float,
-    end: float,
-    kind: int,
+    waves: Waves,
+    run: tuple[float, float],
     state: State,
-    work: Any,
     losses: bool,
     test: bool,
-    notes: Any,
+    notes: Floats,
 ) -> tuple[State, bool]:
-    """Follow loading from wave `begin` to `end`, or unloading from `end` to `begin`; the loss is NaN if it cannot be.
+    """Follow loading from the first wave of a run to the last, or unloading back; the loss is NaN if it cannot be.
+
+    Parameters
+    ----------
+    basis, curve, waves
+        The curve, and how its waves add: UP for loading, DOWN for unloading.
+    run
+        The first and the last wave.
+    state
+        How far the cycle has come.
+    losses, test
+        Whether energies are found, and whether loading is tested for keeping the contact one disc.
+    notes
+        Room for notes (path/pieces.py).
 
     Returns
     -------
-    The state, and whether the contact stays one disc as far as was asked.
+    The state, and whether the contact stays one disc as far as was tested.
     """
+    kind, cut, _, work = waves
+    begin, end = run
     one_disc = True
     places = places_between(begin, end)
     if kind == DOWN:
         places = places[::-1].copy()
-    left = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     sign = 1.0 if kind == UP else -1.0
     now, last = places[0], places[places.size - 1]
     rows = work[2][0]
     while sign * (last - now) >= 0.0:
-        now = first_that_reaches(basis, curve, cut, places, now, kind, state[2], work)
+        now = first_that_reaches(basis, curve, cut, places, now, kind, state.level, work)
         if math.isnan(now):
             break
         count = branches_of_wave(basis, curve, now, cut, work, rows)
         if kind == UP:
             if test and one_disc:
-                one_disc = climb_is_one_disc(basis, curve, count, rows, -math.inf, state[3] + state[4], state[2], now)
-            state = climb(basis, curve, count, rows, state, losses, now, -1.0, notes)
+                left = state.waves + state.left
+                one_disc = climb_is_one_disc(basis, curve, count, rows, -math.inf, left, state.level, now)
+            state = climb(basis, curve, Piece(count, rows, now), state, -1.0, losses, notes)
         else:
-            state = descend(basis, curve, count, rows, state, losses, now, notes)
+            state = descend(basis, curve, Piece(count, rows, now), state, losses, notes)
         far = last_of_climb(basis, curve, cut, places, now, kind, work)
         if far != now:
             first, final = (now + 1.0, far) if kind == UP else (far + 1.0, now)
             if test and one_disc:
                 one_disc = _waves_are_one_disc(basis, curve, cut, first, final, work)
-            loss, jumps = sum_of_waves(kind, basis, curve, cut, left, first, final, work, losses)
+            loss, jumps = sum_of_waves(basis, curve, waves, first, final, losses)
             if losses:
                 note(notes, NOTED_UP if kind == UP else NOTED_DOWN, 0.0, first, final, NO)
             count = branches_of_wave(basis, curve, far, cut, work, rows)
@@ -276,7 +325,7 @@ def go_through(
             else:
                 best = lowest_start(rows, count)
                 level, x = rows[START_LEVEL, best], rows[START, best]
-            state = (state[0] + loss, state[1] + jumps, level, far, x, state[5])
+            state = State(state.loss + loss, state.jumps + jumps, level, far, x, state.close)
         now = far + sign
     return state, one_disc
 
@@ -289,16 +338,17 @@ def middle_of(basis: Basis, curve: Series, first: float, last: float, apart: flo
     """
     table, _, series = basis
     if last > MOST_WAVES or last - first < 2.0 * SHORTEST:
-        return IRREGULAR, last, 0.0, 0.0, 0.0, 0.0, NO
+        return Middle(IRREGULAR, last, 0.0, 0.0, 0.0, 0.0, NO)
     cut = cut_of(table, series)
     again, begin, end, ends = regular_waves(basis, curve, cut, first, last)
     until = end + 1.0 + 2.0 * NEAR_END if ends else last + 1.0
     begin, end = begin + apart, end - apart
     if end - begin >= SHORTEST:
-        return REGULAR, until, cut, again, begin, end, ends
+        return Middle(REGULAR, until, cut, again, begin, end, ends)
     if ends and again == 0.0:
-        return FEW, min(last, max(begin, end + NEAR_END) + NEAR_END + apart), cut, again, begin, end, ends
-    return IRREGULAR, last, cut, again, begin, end, ends
+        until = min(last, max(begin, end + NEAR_END) + NEAR_END + apart)
+        return Middle(FEW, until, cut, again, begin, end, ends)
+    return Middle(IRREGULAR, last, cut, again, begin, end, ends)
 
 
 @kernel()
@@ -320,16 +370,9 @@ def folds_before(
 
 @kernel()
 def stride(
-    basis: Basis,
-    curve: Series,
-    first: float,
-    middle: Middle,
-    rim: float,
-    rim_low: float,
-    tasks: tuple[bool, bool, bool, bool],
-    notes: Any,
-) -> Any:
-    """Follow the cycle on a long curve up to one rim; `rim_low` is the rounding error of the rim.
+    basis: Basis, curve: Series, first: float, middle: Middle, rim: tuple[float, float], tasks: Tasks, notes: Floats
+) -> tuple[bool, State, State, bool, bool, float, float]:
+    """Follow the cycle on a long curve up to one rim.
 
     The contact is tested on the way into the regular waves and out of them, and on some of these.
 
@@ -339,11 +382,10 @@ def stride(
         The curve, and the place before which there is no fold.
     middle
         What `middle_of` has returned, REGULAR.
-    rim, rim_low
-        The rim.
+    rim
+        x of the rim, and its rounding error.
     tasks
-        Whether what is lost is wanted, whether what the end of contact loses is a part of it, whether loading is tested
-        for keeping the contact one disc, and whether the rim is a place that loading surely reaches.
+        What is wanted.
     notes
         Room for notes of what loses energy (path/pieces.py).
 
@@ -351,43 +393,45 @@ def stride(
     -------
     Whether it could be done; the states at the end of loading and of unloading (the coordinate that loading ends with,
     and the place that the last jump leaves, 0 if contact ends at a point), whether a decision was close, whether
-    the contact stays one disc as far as was asked, and the rim as whole waves and x beyond them.
+    the contact stays one disc as far as was tested, and the rim as whole waves and x beyond them.
     """
-    _, _, series = basis
     losses, last_loss, test, turned = tasks
     _, until, cut, _, begin, end, _ = middle
-    nothing = (0.0, 0.0, 0.0, 0.0, 0.0, NO)
+    nothing = State(0.0, 0.0, 0.0, 0.0, 0.0, NO)
     search = room()
     zeros = np.empty(MOST_FOLDS)
     count, rises, tangency = folds_before(basis, curve, first, middle, search, zeros)
     if count < 0:
-        return False, nothing, nothing, False, True, 0.0, rim
+        return False, nothing, nothing, False, True, 0.0, rim[0]
     near = np.empty((4, count // 2 + 2))
     branches = fill_branches(basis, curve, zeros, count, rises, begin + cut, near, 0.0)
     close = tangency < math.inf or first_close_pair(zeros, count, 0.0) < math.inf
     whole = end + 1.0
-    x = (rim - whole) + rim_low
+    x = (rim[0] - whole) + rim[1]
     furthest = min(x, until - whole)
     count, rises, tangency = find_folds(basis, curve, cut, furthest, search, zeros, whole)
     if count < 0 or rises:
-        return False, nothing, nothing, False, True, 0.0, rim
+        return False, nothing, nothing, False, True, 0.0, rim[0]
     far = np.empty((4, count // 2 + 2))
-    outer = fill_branches(basis, curve, zeros, count, rises, x, far, whole)
+    inner = Piece(branches, near, 0.0)
+    outer = Piece(fill_branches(basis, curve, zeros, count, rises, x, far, whole), far, whole)
     close = close or tangency < math.inf or first_close_pair(zeros, count, whole) < math.inf
     close = close or (x < math.inf and not turned and is_at_a_fold(basis, curve, x, whole))
-    work = room_for_waves(series)
+    work, run = room_for_waves(basis.series), (begin, end)
+    up, down = Waves(UP, cut, NOWHERE, work), Waves(DOWN, cut, NOWHERE, work)
     one_disc = not test or climb_is_one_disc(basis, curve, branches, near, -math.inf, 0.0, 0.0, 0.0)
-    loading = climb(basis, curve, branches, near, nothing, losses, 0.0, -1.0, notes)
-    loading, open_too = go_through(basis, curve, cut, begin, end, UP, loading, work, losses, test and one_disc, notes)
+    loading = climb(basis, curve, inner, nothing, -1.0, losses, notes)
+    loading, open_too = go_through(basis, curve, up, run, loading, losses, test and one_disc, notes)
     one_disc = one_disc and open_too
     if test and one_disc:
-        one_disc = climb_is_one_disc(basis, curve, outer, far, x, loading[3] + loading[4], loading[2], whole)
-    loading = climb(basis, curve, outer, far, loading, losses, whole, x if turned else -1.0, notes)
+        left = loading.waves + loading.left
+        one_disc = climb_is_one_disc(basis, curve, outer.branches, far, x, left, loading.level, whole)
+    loading = climb(basis, curve, outer, loading, x if turned else -1.0, losses, notes)
     loading = reach_rim(basis, curve, x, loading, losses, whole, notes)
-    inside, unloading = leave_rim(basis, curve, outer, far, x, whole)
-    unloading = descend(basis, curve, inside, far, unloading, losses, whole, notes)
-    unloading, _ = go_through(basis, curve, cut, begin, end, DOWN, unloading, work, losses, NO, notes)
-    unloading = descend(basis, curve, branches, near, unloading, losses, 0.0, notes)
+    inside, unloading = leave_rim(basis, curve, outer, x)
+    unloading = descend(basis, curve, Piece(inside, far, whole), unloading, losses, notes)
+    unloading, _ = go_through(basis, curve, down, run, unloading, losses, NO, notes)
+    unloading = descend(basis, curve, inner, unloading, losses, notes)
     unloading = leave(basis, curve, unloading, losses and last_loss, notes)
-    done = not (math.isnan(loading[0] + loading[1]) or math.isnan(unloading[0] + unloading[1]))
-    return done, loading, unloading, close or loading[5] or unloading[5], one_disc, whole, x
+    done = not (math.isnan(loading.loss + loading.jumps) or math.isnan(unloading.loss + unloading.jumps))
+    return done, loading, unloading, close or loading.close or unloading.close, one_disc, whole, x

@@ -9,7 +9,7 @@ whether the rim cuts the jump short. The first row counts; without rows there ar
 """
 
 import math
-from typing import Any, Final, TypeAlias
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -18,11 +18,41 @@ from gradhesion.core.curve.branches import END, START, ends
 from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, find_level
 from gradhesion.core.path.general_ties import is_near
+from gradhesion.core.types import Floats
 from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
 
-State: TypeAlias = tuple[float, float, float, float, float, bool]
-"""Of loading or unloading: its loss and jumps so far, the coordinate, the place that it leaves next (whole waves and x
-beyond them, both 0 for no contact), and whether a decision was close."""
+
+class State(NamedTuple):
+    """How far loading or unloading has come.
+
+    loss    what it has lost so far, in 2 pi l^2 dgamma
+    jumps   how many it has made
+    level   the coordinate, in s l^c
+    waves   the place that it leaves next: whole waves,
+    left    and x beyond them; both 0 for no contact
+    close   whether a decision was close
+    """
+
+    loss: float
+    jumps: float
+    level: float
+    waves: float
+    left: float
+    close: bool
+
+
+class Piece(NamedTuple):
+    """Branches of a part of a long curve.
+
+    branches  how many they are
+    rows      the branches in the rows of curve/general_branches.py, x beyond some whole waves; (4, branches or more)
+    whole     these waves
+    """
+
+    branches: int
+    rows: Floats
+    whole: float
+
 
 NOTED_UP, NOTED_DOWN, NOTED_JUMP, NOTED_IN, NOTED_OUT = map(constant, range(5))
 """What is noted: waves that are summed, their first and last one for start and end; a jump; and those from and to zero
@@ -31,8 +61,8 @@ _COLUMNS: Final = 5
 
 
 @kernel()
-def notes_for(rows: int) -> Any:
-    """Return room for notes."""
+def notes_for(rows: int) -> Floats:
+    """Return room for notes, of shape (rows, 5); the first of them counts the others."""
     notes = np.empty((rows, _COLUMNS))
     if rows > 0:
         notes[0, 0] = 0.0
@@ -40,7 +70,7 @@ def notes_for(rows: int) -> Any:
 
 
 @kernel()
-def note(notes: Any, kind: int, waves: float, start: float, end: float, cut: bool) -> None:
+def note(notes: Floats, kind: int, waves: float, start: float, end: float, cut: bool) -> None:
     """Note a jump, or waves that are summed."""
     if notes.shape[0] == 0:
         return
@@ -51,7 +81,7 @@ def note(notes: Any, kind: int, waves: float, start: float, end: float, cut: boo
 
 
 @kernel()
-def _note_leap(notes: Any, state: State, x: float, whole: float, cut: bool) -> None:
+def _note_leap(notes: Floats, state: State, x: float, whole: float, cut: bool) -> None:
     """Note the jump outwards from a state to whole + x."""
     _, _, _, waves, left, _ = state
     if waves + left == 0.0:
@@ -70,83 +100,77 @@ def _leap(basis: Basis, curve: Series, state: State, x: float, whole: float) -> 
 
 
 @kernel()
-def climb(
-    basis: Basis,
-    curve: Series,
-    count: int,
-    trace: Any,
-    state: State,
-    losses: bool,
-    whole: float,
-    sure: float,
-    notes: Any,
-) -> State:
-    """Follow loading from a state over the branches of a trace, `whole` waves out.
+def climb(basis: Basis, curve: Series, piece: Piece, state: State, sure: float, losses: bool, notes: Floats) -> State:
+    """Follow loading from a state over the branches of a piece; return the state at the end of the last it visits.
 
-    It surely reaches the place `sure`: whether the curve there is higher is no close decision.
+    It surely reaches the x `sure`: whether the curve there is higher is no close decision. With `losses` the energies
+    of jumps are found, and noted in rows of `notes` (`notes_for`).
     """
+    count, rows, whole = piece
     for branch in range(count):
         loss, jumps, level, _, _, close = state
-        top = trace[END_LEVEL, branch]
-        end = trace[END, branch]
+        top = rows[END_LEVEL, branch]
+        end = rows[END, branch]
         if top < math.inf and end != sure and is_near(basis, curve, top, level, end, whole):
             close = True
         if top > level:
             if losses or end == math.inf:
-                x = find_level(basis, curve, level, ends(trace, branch), whole)
+                x = find_level(basis, curve, level, ends(rows, branch), whole)
                 end = x if end == math.inf else end  # nothing leaves it: where loading has arrived
             if losses:
                 loss += _leap(basis, curve, state, x, whole)
                 _note_leap(notes, state, x, whole, NO)
-            state = (loss, jumps + 1.0, top, whole, end, close)
+            state = State(loss, jumps + 1.0, top, whole, end, close)
         else:
-            state = (loss, jumps, level, state[3], state[4], close)
+            state = State(loss, jumps, level, state.waves, state.left, close)
     return state
 
 
 @kernel()
-def reach_rim(basis: Basis, curve: Series, rim: float, state: State, losses: bool, whole: float, notes: Any) -> State:
-    """Follow loading from its last branch to the rim."""
+def reach_rim(
+    basis: Basis, curve: Series, rim: float, state: State, losses: bool, whole: float, notes: Floats
+) -> State:
+    """Follow loading from its last branch to the rim, at x = `rim` beyond `whole` waves."""
     loss, jumps, level, waves, left, close = state
     if (waves - whole) + left < rim < math.inf:
         if losses:
             loss += _leap(basis, curve, state, rim, whole)
             _note_leap(notes, state, rim, whole, YES)
         jumps += 1.0
-    return loss, jumps, level, waves, left, close
+    return State(loss, jumps, level, waves, left, close)
 
 
 @kernel()
-def leave_rim(basis: Basis, curve: Series, count: int, trace: Any, rim: float, whole: float) -> tuple[int, State]:
-    """Return the branches of a trace inside of where unloading is when it has left the rim, and its state."""
-    if count > 0 and trace[END, count - 1] == rim:
-        return count - 1, (0.0, 0.0, trace[START_LEVEL, count - 1], whole, trace[START, count - 1], NO)
-    return count, (0.0, 0.0, coordinate(basis, curve, rim, whole), whole, rim, NO)
+def leave_rim(basis: Basis, curve: Series, piece: Piece, rim: float) -> tuple[int, State]:
+    """Return how many branches of a piece are inside of where unloading is when it has left the rim, and its state."""
+    count, rows, whole = piece
+    if count > 0 and rows[END, count - 1] == rim:
+        return count - 1, State(0.0, 0.0, rows[START_LEVEL, count - 1], whole, rows[START, count - 1], NO)
+    return count, State(0.0, 0.0, coordinate(basis, curve, rim, whole), whole, rim, NO)
 
 
 @kernel()
-def descend(
-    basis: Basis, curve: Series, count: int, trace: Any, state: State, losses: bool, whole: float, notes: Any
-) -> State:
-    """Follow unloading from a state inwards over the first `count` branches of a trace, `whole` waves out."""
+def descend(basis: Basis, curve: Series, piece: Piece, state: State, losses: bool, notes: Floats) -> State:
+    """Follow unloading from a state inwards over the branches of a piece; `losses` and `notes` as of `climb`."""
+    count, rows, whole = piece
     for branch in range(count - 1, -1, -1):
         loss, jumps, level, waves, left, close = state
-        bottom = trace[START_LEVEL, branch]
+        bottom = rows[START_LEVEL, branch]
         if is_near(basis, curve, bottom, level, left, waves):
             close = True
         if bottom < level:
             if losses:
-                x = find_level(basis, curve, level, ends(trace, branch), whole)
+                x = find_level(basis, curve, level, ends(rows, branch), whole)
                 loss += jump_between(basis, curve, left, (whole - waves) + x, waves)
                 note(notes, NOTED_JUMP, waves, left, (whole - waves) + x, NO)
-            state = (loss, jumps + 1.0, bottom, whole, trace[START, branch], close)
+            state = State(loss, jumps + 1.0, bottom, whole, rows[START, branch], close)
         else:
-            state = (loss, jumps, level, waves, left, close)
+            state = State(loss, jumps, level, waves, left, close)
     return state
 
 
 @kernel()
-def leave(basis: Basis, curve: Series, state: State, losses: bool, notes: Any) -> State:
+def leave(basis: Basis, curve: Series, state: State, losses: bool, notes: Floats) -> State:
     """Follow unloading from the last branch to zero contact."""
     loss, jumps, level, waves, left, close = state
     if waves + left > 0.0:
@@ -154,4 +178,4 @@ def leave(basis: Basis, curve: Series, state: State, losses: bool, notes: Any) -
         if losses:
             loss -= jump_from_zero(basis, curve, left, level, waves)
             note(notes, NOTED_OUT, waves, left, 0.0, NO)
-    return loss, jumps, level, waves, left, close
+    return State(loss, jumps, level, waves, left, close)

@@ -12,11 +12,12 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.current import ready_for_theta
 from gradhesion.core.struve.theta import front_of, gammas_by_table, gammas_of, sinc
+from gradhesion.core.types import Floats
 
 
 @kernel(entry=True)
@@ -67,7 +68,7 @@ def _thetas(k: Any, nu: Any, out: Any) -> None:
         out[i] = theta_of(k[i], nu[i])
 
 
-def theta(k: ArrayLike, nu: ArrayLike) -> NDArray[np.float64]:
+def theta(k: ArrayLike, nu: ArrayLike) -> Floats:
     """Return theta(k, nu), the stiffness of the graded half-space relative to E*/c0^k (3.3).
 
     Parameters
@@ -112,7 +113,7 @@ def fill_stiffness(
         out[i] = value * modulus[i] / power if valid else math.nan
 
 
-def stiffness(k: ArrayLike, nu: ArrayLike, modulus: ArrayLike, c0_over_R: ArrayLike) -> NDArray[np.float64]:
+def stiffness(k: ArrayLike, nu: ArrayLike, modulus: ArrayLike, c0_over_R: ArrayLike) -> Floats:
     """Return M R^(1+k)/dgamma = theta (E* R/dgamma)/(c0/R)^k (4.6), the one number through which the material acts.
 
     Parameters

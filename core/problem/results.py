@@ -1,16 +1,17 @@
 """The results of a scene: their names, their rows, and how a kernel stores those that were asked for.
 
-Results go to `out[slots[row], rim]`, where `slots` holds -1 for what nobody asked for.
+They go to `out[slots[row], rim]` of a record `Results`, where `slots` holds -1 for what is not wanted.
 """
 
 from collections.abc import Sequence
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.compiler.jit import constant, kernel
 from gradhesion.core.problem.names import REACH, RESULTS
+from gradhesion.core.types import Bits, Floats, Integers
 
 INTEGERS: Final = ("loading_jumps", "unloading_jumps")
 """Those that count."""
@@ -24,13 +25,26 @@ OUTERMOST = constant(11)
 """The last one: the row of the largest end of a jump, REACH of names.py, stored of rims at infinity only."""
 
 
-def slots_of(rows: Sequence[str], *, check_contact: bool, turned: bool) -> NDArray[np.int64]:
+class Results(NamedTuple):
+    """Where the results of one curve go; a loop over curves has one axis more in `out` and `status`, before the last.
+
+    slots       the row of `out` for each result, -1 for what is not wanted, int64 of shape (12,): `slots_of`
+    out         the values, of shape (rows, rims)
+    status      bits of problem/status.py, int8 of shape (rims,)
+    """
+
+    slots: Integers
+    out: Floats
+    status: Bits
+
+
+def slots_of(rows: Sequence[str], *, check_contact: bool, turned: bool) -> Integers:
     """Return the slots for results that stand in these rows of `out`."""
     places = [rows.index(name) if name in rows else -1 for name in (*RESULTS, REACH)]
     return np.array([*places[:-1], int(check_contact) - 1, int(turned), places[-1]])
 
 
-def typed(name: str, values: NDArray[np.float64]) -> NDArray[Any]:
+def typed(name: str, values: Floats) -> NDArray[Any]:
     """Return values as the type of their result: counts as int32, -1 for NaN, 2^31 - 1 for more."""
     if name not in INTEGERS:
         return values
@@ -38,39 +52,39 @@ def typed(name: str, values: NDArray[np.float64]) -> NDArray[Any]:
 
 
 @kernel()
-def wants_force(slots: Any) -> bool:
-    """Return whether anything of the pull-off is asked for."""
+def wants_force(slots: Integers) -> bool:
+    """Return whether anything of the pull-off is wanted; `slots` as of `Results`."""
     return slots[FORCE] >= 0 or slots[RADIUS] >= 0
 
 
 @kernel()
-def wants_losses(slots: Any) -> bool:
-    """Return whether anything is asked for that needs what the jumps lose."""
+def wants_losses(slots: Integers) -> bool:
+    """Return whether anything is wanted that needs what the jumps lose; `slots` as of `Results`."""
     return slots[ENERGY] >= 0 or slots[LOADED] >= 0 or slots[UNLOADED] >= 0
 
 
 @kernel()
-def wants_cycle(slots: Any) -> bool:
-    """Return whether anything is asked for that needs the jumps."""
+def wants_cycle(slots: Integers) -> bool:
+    """Return whether anything is wanted that needs the jumps; `slots` as of `Results`."""
     counts = slots[LOADING] >= 0 or slots[UNLOADING] >= 0
     return wants_losses(slots) or counts or slots[LAST] >= 0 or slots[OUTERMOST] >= 0
 
 
 @kernel()
-def wants_folds(slots: Any) -> bool:
-    """Return whether anything is asked for that needs the folds: the jumps, or the largest depth."""
+def wants_folds(slots: Integers) -> bool:
+    """Return whether anything is wanted that needs the folds, the jumps or the largest depth; `slots` of `Results`."""
     return wants_cycle(slots) or slots[DEEPEST] >= 0
 
 
 @kernel()
-def put(out: Any, slots: Any, row: int, rim: int, value: float) -> None:
-    """Store one result if it was asked for."""
-    if slots[row] >= 0:
-        out[slots[row], rim] = value
+def put(results: Results, row: int, rim: int, value: float) -> None:
+    """Store one result of a rim, by its row among all results and the number of the rim, if it is wanted."""
+    if results.slots[row] >= 0:
+        results.out[results.slots[row], rim] = value
 
 
 @kernel()
-def put_all(out: Any, slots: Any, rim: int, values: Any) -> None:
-    """Store those of all results, in the order of the rows, that were asked for."""
+def put_all(results: Results, rim: int, values: tuple[float, ...]) -> None:
+    """Store those results of a rim that are wanted; `values` are all nine in the order of the rows."""
     for row in range(len(values)):
-        put(out, slots, row, rim, values[row])
+        put(results, row, rim, values[row])

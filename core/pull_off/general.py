@@ -136,14 +136,7 @@ def load_at_rim(basis: Basis, curve: Series, x: float, x_low: float) -> float:
 
 @kernel()
 def _better(
-    basis: Basis,
-    curve: Series,
-    low: float,
-    high: float,
-    work: Any,
-    cell_zeros: Any,
-    best: Lowest,
-    whole: float,
+    basis: Basis, curve: Series, low: float, high: float, work: Any, cell_zeros: Any, best: Lowest, whole: float
 ) -> Lowest:
     """Return the lowest load so far, its place, and the second lowest, a cell taken in."""
     at_low, _, _ = slope(basis, curve, low, whole)
@@ -157,14 +150,7 @@ def _better(
 
 
 @kernel()
-def _in_question(
-    terms: Terms,
-    curve: Series,
-    k: float,
-    start: float,
-    rim: float,
-    load: float,
-) -> tuple[float, float]:
+def _in_question(terms: Terms, curve: Series, k: float, start: float, rim: float, load: float) -> tuple[float, float]:
     """Return places between which the lowest load stands, some load being known: both bounds are lowest at `start`."""
     B, m, _, _, _ = curve
     bend, power = B * m / (1.0 + k + m), m - 0.5 * (1.0 - k)

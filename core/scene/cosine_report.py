@@ -28,10 +28,13 @@ from gradhesion.core.path.cosine_long import begin_long, is_told, stride
 from gradhesion.core.path.cosine_loop import loop_energy
 from gradhesion.core.path.loading import loading_to
 from gradhesion.core.path.unloading import unloading_from
-from gradhesion.core.problem.results import ENERGY, FORCE, RADIUS, put
+from gradhesion.core.problem.curves import Curves
+from gradhesion.core.problem.results import ENERGY, FORCE, RADIUS, Results, put
 from gradhesion.core.problem.status import NO_VALUE, TOLERANCE_NOT_MET
+from gradhesion.core.scene.scene import Scene
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.current import ready
+from gradhesion.core.types import Floats, Integers
 
 NEEDED: Final = {
     "pull_off_force_error": "pull_off_radius",
@@ -128,21 +131,24 @@ def _report_energy(
     table: Any,
     curve: Cosine,
     arches: tuple[float, float],
-    scale: float,
+    scene: Scene,
     x: float,
     energy: float,
-    slots: Any,
-    out: Any,
-    status: Any,
     i: int,
-    scratch: Any,
+    scratch: Floats,
 ) -> None:
-    """Tell how good the energy of one rim is, in its status too if it is not as good as promised."""
+    """Tell how good the energy of rim number i, at x, is, in its status too if it is not as good as promised.
+
+    The energy is in R^2 dgamma; `arches` are the first and the last one on which the curve can fold, `scratch` is room
+    for a trace, of shape (ROWS, branches).
+    """
+    results, scale = scene.results, scene.energy
     long = is_long(table, arches, x)
     residual = math.nan
     if long:
-        trace, beginning = begin_long(table, curve, arches, scratch, YES, 2.0)
-        count = stride(table, curve, arches, x, trace, beginning, YES, 2.0)
+        wide = begin_long(table, curve, arches, scratch, YES, 2.0)
+        trace = wide.trace
+        count = stride(table, curve, x, wide, YES, 2.0)
         loaded, unloaded = _energies_at(table, curve, count, trace, x)
         last = min(arches[1], 2.0 * x)
         least = min(_SUMMED_FAR, _SUMMED * (1.0 + max(0.0, (last - arches[0]) / _FAR - 1.0)))
@@ -155,46 +161,50 @@ def _report_energy(
     error *= table.rounding
     terms = scale * _energy_terms(table, curve, count, trace, x)
     if error > _PROMISED * terms:
-        status[i] |= TOLERANCE_NOT_MET
+        results.status[i] |= TOLERANCE_NOT_MET
     waves = _outermost(count, trace, x) - (trace[START, 0] if count > 0 else 0.0)
-    if slots[RESIDUAL] >= 0 and max(min(arches[1], 2.0 * x) - arches[0], 2.0 * waves) <= _LOOPED:
+    if results.slots[RESIDUAL] >= 0 and max(min(arches[1], 2.0 * x) - arches[0], 2.0 * waves) <= _LOOPED:
         if long:
             count, trace = walk(table, curve, arches, x, scratch, NO)
         rim_depth = depth(table, curve, x) if x < math.inf else math.inf
         residual = energy - scale * loop_energy(table, curve, count, trace, x, rim_depth)
-    put(out, slots, ENERGY_ERROR, i, error)
-    put(out, slots, RESIDUAL, i, residual)
+    put(results, ENERGY_ERROR, i, error)
+    put(results, RESIDUAL, i, residual)
 
 
 @kernel()
-def _report_smooth(k: float, stretch: float, rims: Any, slots: Any, out: Any) -> None:
-    """Report on a smooth punch for all its rims."""
+def _report_smooth(k: float, stretch: float, rims: Floats, results: Results) -> None:
+    """Report on a smooth punch of stretch s for all its rims a_max/R, of shape (rims,)."""
     jump_in = smooth.smooth_square(k, stretch, smooth.ABSCISSA_OF_JUMP_IN)
     last_radius = math.sqrt(smooth.smooth_square(k, stretch, smooth.abscissa_of_jump_out(k)))
     for i in range(rims.size):
         abscissa = min(smooth.smooth_abscissa(k, stretch, rims[i]), smooth.abscissa_of_pull_off(k))
-        put(out, slots, FORCE_ERROR, i, _EDGE_ROUNDING * smooth.FORCE_SCALE * abscissa * (1.0 + abscissa / (3.0 + k)))
-        put(out, slots, ENERGY_ERROR, i, _ROUNDING * TWO_PI * min(rims[i] * rims[i], jump_in))
-        put(out, slots, RESIDUAL, i, 0.0)
-        put(out, slots, ROUGHNESS, i, 0.0)
-        put(out, slots, SATURATION, i, last_radius)
-        put(out, slots, ADHESION_GAIN, i, 1.0)
-        put(out, slots, ENERGY_GAIN, i, 1.0)
+        put(results, FORCE_ERROR, i, _EDGE_ROUNDING * smooth.FORCE_SCALE * abscissa * (1.0 + abscissa / (3.0 + k)))
+        put(results, ENERGY_ERROR, i, _ROUNDING * TWO_PI * min(rims[i] * rims[i], jump_in))
+        put(results, RESIDUAL, i, 0.0)
+        put(results, ROUGHNESS, i, 0.0)
+        put(results, SATURATION, i, last_radius)
+        put(results, ADHESION_GAIN, i, 1.0)
+        put(results, ENERGY_GAIN, i, 1.0)
 
 
 @kernel()
-def _report_gains(k: float, stretch: float, rims: Any, results: Any, slots: Any, out: Any) -> None:
-    """Set force and energy in relation to those of the smooth punch of the same material and rim."""
+def _report_gains(k: float, stretch: float, rims: Floats, solved: Integers, results: Results) -> None:
+    """Set force and energy in relation to those of the smooth punch of the same material and rim.
+
+    `rims` are a_max/R, of shape (rims,), `solved` the slots of force and energy themselves.
+    """
+    slots, out, _ = results
     jump_in = smooth.smooth_square(k, stretch, smooth.ABSCISSA_OF_JUMP_IN)
     jump_out = smooth.smooth_square(k, stretch, smooth.abscissa_of_jump_out(k))
     for i in range(rims.size):
         abscissa = smooth.smooth_abscissa(k, stretch, rims[i])
         if slots[ADHESION_GAIN] >= 0:
-            out[slots[ADHESION_GAIN], i] = out[results[FORCE], i] / smooth.smooth_force(k, abscissa)
+            out[slots[ADHESION_GAIN], i] = out[solved[FORCE], i] / smooth.smooth_force(k, abscissa)
         if slots[ENERGY_GAIN] >= 0:
             loaded = smooth.smooth_loading(k, abscissa, rims[i], jump_in)
             unloaded = smooth.smooth_unloading(k, abscissa, rims[i], jump_out)
-            out[slots[ENERGY_GAIN], i] = out[results[ENERGY], i] / (loaded + unloaded)
+            out[slots[ENERGY_GAIN], i] = out[solved[ENERGY], i] / (loaded + unloaded)
 
 
 @kernel()
@@ -203,67 +213,79 @@ def _report_curve(
     stretch: float,
     wavelength: float,
     amplitude: float,
-    rims: Any,
-    results: Any,
-    slots: Any,
-    out: Any,
-    status: Any,
-    scratch: Any,
+    rims: Floats,
+    solved: Integers,
+    results: Results,
+    scratch: Floats,
 ) -> None:
-    """Report on one curve for all its rims."""
+    """Report on one curve for all its rims.
+
+    Parameters
+    ----------
+    table
+        The table of its exponent.
+    stretch, wavelength, amplitude
+        s in R^((1+k)/2), lambda/R and A.
+    rims
+        a_max/R, shape (rims,).
+    solved
+        The slots of what is solved already, shape (12,).
+    results
+        Where all values stand, with the slots of the reports, shape (7,).
+    scratch
+        Room for a trace, shape (ROWS, branches).
+    """
     k = table.k
+    slots, out, status = results
     curve, length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
     endless = is_endless_wave(wavelength, amplitude)
     arches = (0.0, 0.0) if endless else extent(table, curve)
     if endless or is_smooth(arches):
-        _report_smooth(k, stretch, rims, slots, out)
+        _report_smooth(k, stretch, rims, results)
         for i in range(rims.size):
-            put(out, slots, ROUGHNESS, i, curve.gain * table.amplitude if amplitude > 0.0 else 0.0)
+            put(results, ROUGHNESS, i, curve.gain * table.amplitude if amplitude > 0.0 else 0.0)
         return
-    _report_gains(k, stretch, rims, results, slots, out)
+    _report_gains(k, stretch, rims, solved, results)
     force_scale = force_unit(k, length, depth_scale)
+    scene = Scene(wavelength, length, TWO_PI * length * length, depth_scale, results)
     saturation = last_fold(table, curve, arches) * wavelength if slots[SATURATION] >= 0 else 0.0
     for i in range(rims.size):
         if status[i] & NO_VALUE:
             continue
-        put(out, slots, ROUGHNESS, i, curve.gain * table.amplitude)
-        put(out, slots, SATURATION, i, saturation)
+        put(results, ROUGHNESS, i, curve.gain * table.amplitude)
+        put(results, SATURATION, i, saturation)
         if slots[FORCE_ERROR] >= 0:
-            x = out[results[RADIUS], i] / wavelength
+            x = out[solved[RADIUS], i] / wavelength
             out[slots[FORCE_ERROR], i] = _ROUNDING * table.rounding * force_scale * _force_terms(table, curve, x)
         if slots[ENERGY_ERROR] >= 0 or slots[RESIDUAL] >= 0:
             x = rims[i] / wavelength
-            scale = TWO_PI * length * length
-            _report_energy(table, curve, arches, scale, x, out[results[ENERGY], i], slots, out, status, i, scratch)
+            _report_energy(table, curve, arches, scene, x, out[solved[ENERGY], i], i, scratch)
 
 
 @kernel()
-def report_curves(
-    tables: Any,
-    which: Any,
-    index: Any,
-    stiffness: Any,
-    wavelength: Any,
-    amplitude: Any,
-    rims: Any,
-    results: Any,
-    slots: Any,
-    out: Any,
-    status: Any,
-    scratch: Any,
-) -> None:
-    """Report on the curves `index`, `which` are their tables; `results` are the slots of what is solved already."""
+def report_curves(curves: Curves, solved: Integers, results: Results, scratch: Floats) -> None:
+    """Report on curves that are solved.
+
+    Parameters
+    ----------
+    curves, scratch
+        As those of `solve_curves` (scene/solvers.py).
+    solved
+        The slots of what is solved already, shape (12,).
+    results
+        Where all values stand, with the slots of the reports, shape (7,).
+    """
+    tables, which, index, stiffness, wavelength, amplitude, rims = curves
     for j in range(index.size):
         i, table = index[j], tables[ready(tables, which[j])]
         stretch_factor = 2.0 ** (1.0 + table.k) * math.pi
         row = rims[i if rims.shape[0] > 1 else 0]
-        values, flags = out[:, i], status[i]
+        own = Results(results.slots, results.out[:, i], results.status[i])
         stretch = math.sqrt(stretch_factor / stiffness[i])
-        if np.any((flags & NO_VALUE) == 0):  # what solve gives no value may be out of every range
-            solved = (results, slots, values, flags, scratch)
-            _report_curve(table, stretch, wavelength[i], amplitude[i], row, *solved)
-        for rim in range(flags.size):
-            if flags[rim] & NO_VALUE:
-                for slot in slots:
+        if np.any((own.status & NO_VALUE) == 0):  # what solve gives no value may be out of every range
+            _report_curve(table, stretch, wavelength[i], amplitude[i], row, solved, own, scratch)
+        for rim in range(own.status.size):
+            if own.status[rim] & NO_VALUE:
+                for slot in own.slots:
                     if slot >= 0:
-                        values[slot, rim] = math.nan
+                        own.out[slot, rim] = math.nan

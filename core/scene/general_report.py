@@ -13,7 +13,7 @@ computation that shares no integrand with the energies of jumps. A dead load clo
 """
 
 import math
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
@@ -24,15 +24,26 @@ from gradhesion.core.curve.general import Basis, Series, coordinate, curve_of, s
 from gradhesion.core.curve.general_folds import MOST_CELLS, cell_width, folds_of_cell, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.path.general import walk
-from gradhesion.core.path.general_long import FEW, LONGEST_WALK, NEAR_END, REGULAR, middle_of, regular_waves, stride
+from gradhesion.core.path.general_long import (
+    FEW,
+    LONGEST_WALK,
+    NEAR_END,
+    REGULAR,
+    Tasks,
+    middle_of,
+    regular_waves,
+    stride,
+)
 from gradhesion.core.path.loading import highest_depth, loading_to
 from gradhesion.core.path.pieces import notes_for
 from gradhesion.core.path.unloading import descend, leave_rim, unloading_from
+from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.status import NO_VALUE, TOLERANCE_NOT_MET
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import integrals
+from gradhesion.core.types import Bits, Floats, Truths
 from gradhesion.core.waves.general import cut_of
 
 ROWS: Final = ("pull_off_force_error", "dissipated_energy_error", "energy_residual", "saturation_radius")
@@ -190,27 +201,26 @@ def _spring(basis: Basis, curve: Series, place: float) -> float:
 
 
 @kernel()
-def _other_sum(
-    basis: Basis, curve: Series, first: float, last: float, rim: float, rim_low: float
-) -> tuple[float, float]:
+def _other_sum(basis: Basis, curve: Series, first: float, last: float, rim: tuple[float, float]) -> tuple[float, float]:
     """Return the energy of a long curve over 2 pi l^2 dgamma by other sums, and the place that unloading leaves last.
+
+    Folds stand between x = `first` and `last` only; `rim` is x of the rim, and its rounding error.
 
     NaN if it cannot be summed.
     """
-    _, _, _, alpha, _ = curve
     middle = middle_of(basis, curve, first, last, _APART)
-    kind, until, _, _, _, _, _ = middle
-    if kind == REGULAR:
-        tasks = (YES, alpha > 0.0, NO, NO)
-        done, loading, unloading, _, _, _, _ = stride(basis, curve, first, middle, rim, rim_low, tasks, notes_for(NONE))
-        return loading[0] + unloading[0] if done else math.nan, unloading[3] + unloading[4]
-    if kind == FEW:
-        count, trace, _ = walk(basis, curve, first, until, rim, YES)
+    if middle.kind == REGULAR:
+        tasks = Tasks(YES, curve.alpha > 0.0, NO, NO)
+        done, up, down, _, _, _, _ = stride(basis, curve, first, middle, rim, tasks, notes_for(NONE))
+        return up.loss + down.loss if done else math.nan, down.waves + down.left
+    if middle.kind == FEW:
+        x, _ = rim
+        count, trace, _ = walk(basis, curve, first, middle.until, x, YES)
         if count >= 0:
-            level = coordinate(basis, curve, rim) if rim < math.inf else math.inf
-            loss, _ = loading_to(basis, curve, count, trace, rim, YES)
-            unloaded, _, _ = unloading_from(basis, curve, count, trace, rim, level, YES)
-            return loss + unloaded, _last_left(basis, curve, count, trace, rim)
+            level = coordinate(basis, curve, x) if x < math.inf else math.inf
+            loss, _ = loading_to(basis, curve, count, trace, x, YES)
+            unloaded, _, _ = unloading_from(basis, curve, count, trace, x, level, YES)
+            return loss + unloaded, _last_left(basis, curve, count, trace, x)
     return math.nan, math.nan
 
 
@@ -231,7 +241,7 @@ def _energy_reports(
         return math.nan, math.nan, math.nan
     apart, total, outermost, left = 0.0, math.nan, last, math.nan
     if series.shape[0] > 0 and waves > LONGEST_WALK:
-        other, left = _other_sum(basis, curve, first, last, rim, rim_low)
+        other, left = _other_sum(basis, curve, first, last, (rim, rim_low))
         apart = 4.0 * abs(energy - other)
     if not waves > _LOOPED:
         count, trace, _ = walk(basis, curve, first, last, rim, NO)
@@ -244,45 +254,60 @@ def _energy_reports(
     return terms, apart, residual
 
 
+class Solved(NamedTuple):
+    """What is known of scenes that are solved, of all of them, of shape (scenes,).
+
+    radius  a/R of the pull-off
+    energy  the dissipated energy in R^2 dgamma
+    status  bits of problem/status.py
+    """
+
+    radius: Floats
+    energy: Floats
+    status: Bits
+
+
 @kernel()
-def report_scenes(
-    table: Any,
-    cosine_bins: Any,
-    series: Any,
-    exponent: float,
-    depth_factor: float,
-    index: Any,
-    stretch: Any,
-    wavelength: Any,
-    amplitude: Any,
-    compliance: Any,
-    rim: Any,
-    radius: Any,
-    energy: Any,
-    wanted: Any,
-    out: Any,
-    status: Any,
-) -> None:
-    """Report on the scenes `index` of one gradient exponent that have values."""
+def report_scenes(basis: Basis, curves: GeneralCurves, solved: Solved, wanted: Truths, out: Floats) -> None:
+    """Report on the scenes of one gradient exponent that have values.
+
+    Parameters
+    ----------
+    basis
+        What all of them are computed from.
+    curves
+        The scenes, each a curve with one rim; `rims` are of shape (scenes, 1).
+    solved
+        What is known of them. Their status tells as well where the energy is not as good as promised.
+    wanted
+        Which of ROWS are found, shape (4,).
+    out
+        Where they go, shape (4, scenes): error of the force in 1.5 pi R dgamma, error and residual of the energy in
+        R^2 dgamma, radius of saturation in R.
+    """
+    numbers, exponent, depth_factor, stretch, wavelength, amplitude, compliance, rims = curves
+    table, cosine_bins, series = basis
+    radius, energy, status = solved
     smooth = np.zeros((0, 3))
-    for j in range(index.size):
-        i = index[j]
+    for j in range(numbers.size):
+        i = numbers[j]
         if status[i] & NO_VALUE:
             continue
-        basis = (table, cosine_bins, series if amplitude[i] > 0.0 else smooth)
+        waves = Basis(table, cosine_bins, series if amplitude[i] > 0.0 else smooth)
         curve, length, unit = curve_of(
             table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
         )
         if wanted[0]:
             scale = 8.0 / (3.0 * (1.0 + table.k)) * length * length / unit
-            out[0, i] = _FORCE_ROUNDING * table.rounding * scale * _force_terms(basis, curve, radius[i] / wavelength[i])
+            out[0, i] = _FORCE_ROUNDING * table.rounding * scale * _force_terms(waves, curve, radius[i] / wavelength[i])
         if wanted[1] or wanted[2]:
-            x, scale = rim[i] / wavelength[i], TWO_PI * length * length
-            x_low = fma(-x, wavelength[i], rim[i]) / wavelength[i] if x < math.inf else 0.0
-            terms, apart, total = _energy_reports(basis, curve, x, x_low, energy[i] / scale)
+            rim, scale = rims[i, 0], TWO_PI * length * length
+            x = rim / wavelength[i]
+            x_low = fma(-x, wavelength[i], rim) / wavelength[i] if x < math.inf else 0.0
+            terms, apart, total = _energy_reports(waves, curve, x, x_low, energy[i] / scale)
             out[1, i] = scale * (_ENERGY_ROUNDING * table.rounding * terms + apart)
             out[2, i] = energy[i] - scale * total
             if out[1, i] > _PROMISED * scale * terms:
                 status[i] |= TOLERANCE_NOT_MET
         if wanted[3]:
-            out[3, i] = outermost_fold(basis, curve) * wavelength[i]
+            out[3, i] = outermost_fold(waves, curve) * wavelength[i]

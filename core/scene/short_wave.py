@@ -34,9 +34,10 @@ from gradhesion.core.curve.short_wave import (
 )
 from gradhesion.core.path.loading import highest_depth, load_up, loading_to
 from gradhesion.core.path.unloading import unloading_from
-from gradhesion.core.problem.results import OUTERMOST, put, put_all, wants_folds, wants_force
+from gradhesion.core.problem.results import OUTERMOST, Results, put, put_all, wants_folds, wants_force
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.types import Floats
 
 NOTHING: Final = ()
 """The tables that the leading form needs."""
@@ -89,18 +90,18 @@ def _follow(wave: ShortWave, count: int, trace: Any, furthest: float) -> None:
 
 @kernel()
 def solve_curve(
-    table: Any, stretch: float, wavelength: float, amplitude: float, rims: Any, slots: Any, out: Any, status: Any
+    table: Any, stretch: float, wavelength: float, amplitude: float, rims: Floats, results: Results
 ) -> None:
-    """Solve one curve for all its rims."""
+    """Solve one curve (s, lambda/R, A) for all its rims a_max/R, of shape (rims,)."""
     if amplitude == 0.0:
-        envelope.solve_curve(table, stretch, wavelength, amplitude, rims, slots, out)
+        envelope.solve_curve(table, stretch, wavelength, amplitude, rims, results)
         return
     k = table.k
     (bend, gain, _), length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
     wave = ShortWave(k, bend, table.amplitude * gain, gain, table.phase)
     force_scale = force_unit(k, length, depth_scale)
     energy_scale = TWO_PI * length * length
-    force, folds = wants_force(slots), wants_folds(slots)
+    force, folds = wants_force(results.slots), wants_folds(results.slots)
     count, trace = -1, np.empty((ROWS, 0))
     if folds:
         count, trace = trace_branches(wave, rims.max() / length)
@@ -122,7 +123,7 @@ def solve_curve(
             if loss + loss_back < 0.0:  # no cycle gains energy: the contact is no larger than a wave, out of range here
                 loss = loss_back = loading = unloading = deepest = last = math.nan
         fine = (loss + loss_back >= 0.0 or not folds) and (lowest < 0.0 or not force)
-        status[i] = 0 if fine else NO_VALUE
+        results.status[i] = 0 if fine else NO_VALUE
         values = (
             -force_scale * lowest,
             place * length if place < z_rim else rims[i],
@@ -134,6 +135,6 @@ def solve_curve(
             energy_scale * loss,
             energy_scale * loss_back,
         )
-        put_all(out, slots, i, values)
+        put_all(results, i, values)
         if folds:
-            put(out, slots, OUTERMOST, i, trace[ARRIVAL, count - 1] * length if count > 0 else math.nan)
+            put(results, OUTERMOST, i, trace[ARRIVAL, count - 1] * length if count > 0 else math.nan)

@@ -11,6 +11,7 @@ from typing import Any, Final
 from gradhesion.core.closed import smooth
 from gradhesion.core.closed.power import fill_powers
 from gradhesion.core.compiler.jit import NONE, ONE, YES, constant, kernel
+from gradhesion.core.problem.curves import Curves, is_in_range
 from gradhesion.core.problem.results import (
     DEEPEST,
     ENERGY,
@@ -22,12 +23,14 @@ from gradhesion.core.problem.results import (
     RADIUS,
     UNLOADED,
     UNLOADING,
+    Results,
     wants_cycle,
     wants_folds,
     wants_force,
     wants_losses,
 )
 from gradhesion.core.problem.status import JUMP_IN_TO_RIM, NO_VALUE, PULL_OFF_AT_RIM
+from gradhesion.core.types import Floats, Integers
 
 ROWS: Final = 19
 SCENES: Final = 256
@@ -38,21 +41,21 @@ _K, _STRETCH, _IN, _OUT, _RIM, _X, _BASE, _EXPONENT, _FLAGS, _REACH = map(consta
 
 
 @kernel()
-def _take_curves(index: Any, k: Any, stiffness: Any, wavelength: Any, amplitude: Any, block: Any) -> None:
-    """Take k and s of some curves, s being NaN for one that is out of range."""
+def _take_curves(index: Integers, k: Floats, curves: Curves, block: Floats) -> None:
+    """Put k and s of the curves of some numbers into a block, s being NaN for one that is out of range."""
     before, factor = math.nan, math.nan
     for j in range(index.size):
         i = index[j]
         if k[i] != before:
             before = k[i]
             factor = 2.0 ** (1.0 + before) * math.pi
-        stretch = math.sqrt(factor / stiffness[i])  # s = sqrt(2^(1+k) pi dgamma/M)
-        sound = 0.0 < stretch < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf
+        stretch = math.sqrt(factor / curves.stiffness[i])  # s = sqrt(2^(1+k) pi dgamma/M)
+        sound = is_in_range(stretch, curves.wavelength[i], curves.amplitude[i])
         block[_K, j], block[_STRETCH, j] = before, stretch if sound else math.nan
 
 
 @kernel()
-def _take_scenes(index: Any, first: int, count: int, rims: Any, curves: Any, scenes: Any) -> None:
+def _take_scenes(index: Integers, first: int, count: int, rims: Floats, curves: Floats, scenes: Floats) -> None:
     """Take the rims of scenes, from number `first` on, and what is known of their curves."""
     number = rims.shape[1]
     if number == 1:  # curves and scenes are the same block
@@ -73,7 +76,7 @@ def _take_scenes(index: Any, first: int, count: int, rims: Any, curves: Any, sce
 
 
 @kernel()
-def _store(index: Any, first: int, count: int, values: Any, out: Any) -> None:
+def _store(index: Integers, first: int, count: int, values: Floats, out: Any) -> None:
     """Store numbers of scenes, from number `first` on, where they belong in `out`, shape (curves, rims)."""
     number = out.shape[1]
     if number == 1:
@@ -90,7 +93,7 @@ def _store(index: Any, first: int, count: int, values: Any, out: Any) -> None:
 
 
 @kernel()
-def _find_squares(count: int, block: Any, start: float, slope: float, row: int) -> None:
+def _find_squares(count: int, block: Floats, start: float, slope: float, row: int) -> None:
     """Find the squares of radii, those where X = start + slope k."""
     for e in range(count):
         k = block[_K, e]
@@ -100,7 +103,7 @@ def _find_squares(count: int, block: Any, start: float, slope: float, row: int) 
 
 
 @kernel()
-def _are_far_out(count: int, block: Any) -> bool:
+def _are_far_out(count: int, block: Floats) -> bool:
     """Return whether all rims are far beyond the radius to which contacts jump: where X is does not matter then."""
     near = 0
     for e in range(count):
@@ -109,7 +112,7 @@ def _are_far_out(count: int, block: Any) -> bool:
 
 
 @kernel()
-def _find_abscissas(count: int, block: Any, far: bool) -> None:
+def _find_abscissas(count: int, block: Floats, far: bool) -> None:
     """Find X at the rims; infinity for those that are `far` out."""
     if far:
         for e in range(count):
@@ -123,7 +126,7 @@ def _find_abscissas(count: int, block: Any, far: bool) -> None:
 
 
 @kernel()
-def _find_radii(count: int, block: Any) -> None:
+def _find_radii(count: int, block: Floats) -> None:
     """Find the radii of the pull-off."""
     _find_squares(count, block, smooth.abscissa_of_pull_off(0.0), 0.5, RADIUS)
     for e in range(count):
@@ -132,7 +135,7 @@ def _find_radii(count: int, block: Any) -> None:
 
 
 @kernel()
-def _find_losses(count: int, block: Any) -> None:
+def _find_losses(count: int, block: Floats) -> None:
     """Find the energies of loading and unloading."""
     for e in range(count):
         k, abscissa, rim = block[_K, e], block[_X, e], block[_RIM, e]
@@ -142,7 +145,7 @@ def _find_losses(count: int, block: Any) -> None:
 
 
 @kernel()
-def _find_last(count: int, block: Any) -> None:
+def _find_last(count: int, block: Floats) -> None:
     """Find the depths at which contact ends."""
     for e in range(count):
         block[_BASE, e] = math.sqrt(min(block[_RIM, e] * block[_RIM, e], block[_OUT, e]))
@@ -154,7 +157,7 @@ def _find_last(count: int, block: Any) -> None:
 
 
 @kernel()
-def _find_flags(count: int, block: Any, force: bool, folds: bool) -> None:
+def _find_flags(count: int, block: Floats, force: bool, folds: bool) -> None:
     """Find the status of the scenes."""
     at_rim, in_to_rim = PULL_OFF_AT_RIM if force else 0, JUMP_IN_TO_RIM if folds else 0
     for e in range(count):
@@ -163,7 +166,7 @@ def _find_flags(count: int, block: Any, force: bool, folds: bool) -> None:
 
 
 @kernel()
-def _solve_block(count: int, block: Any, slots: Any, far: bool) -> None:
+def _solve_block(count: int, block: Floats, slots: Integers, far: bool) -> None:
     """Compute what is asked of scenes."""
     _find_abscissas(count, block, far)
     if slots[FORCE] >= 0:
@@ -189,12 +192,13 @@ def _solve_block(count: int, block: Any, slots: Any, far: bool) -> None:
 
 @kernel()
 def _solve_run(
-    number: int, rims: Any, curve: int, place: int, curves: Any, scenes: Any, slots: Any, out: Any, status: Any
+    number: int, rims: Floats, curve: int, place: int, curves: Floats, scenes: Floats, results: Results
 ) -> int:
     """Solve the rims of a curve from `number` on that are far out, if they fill a block: none of them matters.
 
     Return how many they are, and 0 if they do not. The curve stands at `place` of the block of curves.
     """
+    slots, out, status = results
     row, end = curve if rims.shape[0] > 1 else 0, number
     while end < rims.shape[1] and rims[row, end] * rims[row, end] > 2.0 * curves[_IN, place]:
         end += 1
@@ -219,52 +223,50 @@ def _solve_run(
 
 
 @kernel()
-def _refuse(index: Any, curves: Any, out: Any, status: Any) -> None:
-    """Give curves that are out of range no value."""
+def _refuse(index: Integers, block: Floats, results: Results) -> None:
+    """Give the curves of these numbers that are out of range no value; the block is theirs, in the same order."""
     for j in range(index.size):
-        if not curves[_STRETCH, j] > 0.0:
-            for rim in range(status.shape[1]):
-                status[index[j], rim] = NO_VALUE
-                for row in range(out.shape[0]):
-                    out[row, index[j], rim] = math.nan
+        if not block[_STRETCH, j] > 0.0:
+            for rim in range(results.status.shape[1]):
+                results.status[index[j], rim] = NO_VALUE
+                for row in range(results.out.shape[0]):
+                    results.out[row, index[j], rim] = math.nan
 
 
 @kernel()
-def solve_smooth(
-    index: Any,
-    k: Any,
-    stiffness: Any,
-    wavelength: Any,
-    amplitude: Any,
-    rims: Any,
-    slots: Any,
-    out: Any,
-    status: Any,
-    scratch: Any,
-) -> None:
-    """Solve the curves `index`, whose waves count for nothing; `rims` has one row, or one a curve.
+def solve_smooth(k: Floats, curves: Curves, results: Results, scratch: Floats) -> None:
+    """Solve curves whose waves count for nothing; their tables are not read.
 
-    `slots`, `out` and `status` are as those of `solve_curves` (scene/solvers.py); `scratch` has two blocks.
+    Parameters
+    ----------
+    k
+        The exponents of all curves, of shape (curves,).
+    curves, results
+        As those of `solve_curves` (scene/solvers.py).
+    scratch
+        Two blocks, shape (2, ROWS, scenes of a block).
     """
+    index, rims = curves.numbers, curves.rims
+    slots, out, status = results
     size, number = scratch.shape[2], rims.shape[1]
-    curves, scenes = scratch[0], scratch[0 if number == 1 else 1]
+    block, scenes = scratch[0], scratch[0 if number == 1 else 1]
     for begin in range(0, index.size, size):
         some = index[begin : begin + size]
-        _take_curves(some, k, stiffness, wavelength, amplitude, curves)
+        _take_curves(some, k, curves, block)
         if wants_cycle(slots) or number > 1:
-            _find_squares(some.size, curves, smooth.ABSCISSA_OF_JUMP_IN, 0.0, _IN)
+            _find_squares(some.size, block, smooth.ABSCISSA_OF_JUMP_IN, 0.0, _IN)
         if wants_cycle(slots):
-            _find_squares(some.size, curves, smooth.abscissa_of_jump_out(0.0), -0.5, _OUT)
+            _find_squares(some.size, block, smooth.abscissa_of_jump_out(0.0), -0.5, _OUT)
         first, total = NONE, some.size * number
         while first < total:
             count = min(size, total - first)
             if number >= size and slots[DEEPEST] < 0:
                 j = first // number
-                run = _solve_run(first % number, rims, some[j], j, curves, scenes, slots, out, status)
+                run = _solve_run(first % number, rims, some[j], j, block, scenes, results)
                 if run > 0:
                     first += run
                     continue
-            _take_scenes(some, first, count, rims, curves, scenes)
+            _take_scenes(some, first, count, rims, block, scenes)
             far = number > 1 and slots[DEEPEST] < 0 and _are_far_out(count, scenes)
             _solve_block(count, scenes, slots, far)
             for row in range(_RESULTS):
@@ -274,4 +276,4 @@ def solve_smooth(
                 _store(some, first, count, scenes[_REACH], out[slots[OUTERMOST]])
             _store(some, first, count, scenes[_FLAGS], status)
             first += count
-        _refuse(some, curves, out, status)
+        _refuse(some, block, results)

@@ -11,47 +11,37 @@ from typing import Any, Final
 
 from gradhesion.core.closed import envelope
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.problem.status import NO_VALUE
+from gradhesion.core.problem.curves import Curves, is_in_range
+from gradhesion.core.problem.results import Results
 from gradhesion.core.scene import cosine as scene
 from gradhesion.core.scene import short_wave as asymptotic_cycle
 from gradhesion.core.sensitivities.cosine_slopes import of_curve
 from gradhesion.core.struve.current import ready
+from gradhesion.core.types import Floats
 
 EXACT, ASYMPTOTIC, ENVELOPE, PULL_OFF = 0, 1, 2, 3
 """The last one is the exact solver where nothing but the pull-off is asked for: a third of the code to compile."""
-
-
-@kernel()
-def _refuse(values: Any, flags: Any) -> None:
-    """Give a curve out of range no value."""
-    values[:, :] = math.nan
-    flags[:] = NO_VALUE
 
 
 def loop_of(solver: int) -> Callable[..., None]:
     """Return the kernel that solves many curves by one solver."""
 
     @kernel()
-    def solve_curves(
-        tables: Any,
-        which: Any,
-        index: Any,
-        stiffness: Any,
-        wavelength: Any,
-        amplitude: Any,
-        rims: Any,
-        slots: Any,
-        out: Any,
-        status: Any,
-        scratch: Any,
-        sense: Any,
-    ) -> None:
-        """Solve the curves `index`, `which` are the tables of theirs; `rims` has one row, or one a curve.
+    def solve_curves(curves: Curves, results: Results, scratch: Floats, sense: Any) -> None:
+        """Solve curves, each for all its rims.
 
-        `sense` is (), or for the exact solver what its sensitivities need (`solve_curve` of scene/cosine.py), those of
-        all exponents and curves: the tables of neighbours and their weights have one
-        row for each table, and the sensitivities go to (3, COUNT, curves, rims).
+        Parameters
+        ----------
+        curves
+            The curves.
+        results
+            Where results go: values of shape (results, curves, rims), flags of shape (curves, rims).
+        scratch
+            Room for a trace, of shape (ROWS, branches).
+        sense
+            (), or for the exact solver the record `Sense` of all curves (sensitivities/cosine_slopes.py).
         """
+        tables, which, index, stiffness, wavelengths, amplitudes, rims = curves
         table = tables[0]
         stretch_factor = math.nan
         for j in range(index.size):
@@ -60,22 +50,23 @@ def loop_of(solver: int) -> Callable[..., None]:
                 table = tables[ready(tables, which[j])]
                 stretch_factor = 2.0 ** (1.0 + table.k) * math.pi
             row = rims[i if rims.shape[0] > 1 else 0]
-            values, flags = out[:, i], status[i]
+            own = Results(results.slots, results.out[:, i], results.status[i])
+            wavelength, amplitude = wavelengths[i], amplitudes[i]
             stretch = math.sqrt(stretch_factor / stiffness[i])  # s = sqrt(2^(1+k) pi dgamma/M)
-            if not (0.0 < stretch < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf):
-                _refuse(values, flags)
+            if not is_in_range(stretch, wavelength, amplitude):
+                scene.refuse(own)
                 continue
-            for rim in range(flags.size):
-                flags[rim] = 0
+            for rim in range(own.status.size):
+                own.status[rim] = 0
             if solver == EXACT:
-                own = of_curve(sense, i, which[j])
-                scene.solve_curve(table, stretch, wavelength[i], amplitude[i], row, slots, values, flags, scratch, own)
+                sense_of_it = of_curve(sense, i, which[j])
+                scene.solve_curve(table, stretch, wavelength, amplitude, row, own, scratch, sense_of_it)
             elif solver == PULL_OFF:
-                scene.solve_pull_off(table, stretch, wavelength[i], amplitude[i], row, slots, values, flags)
+                scene.solve_pull_off(table, stretch, wavelength, amplitude, row, own)
             elif solver == ASYMPTOTIC:
-                asymptotic_cycle.solve_curve(table, stretch, wavelength[i], amplitude[i], row, slots, values, flags)
+                asymptotic_cycle.solve_curve(table, stretch, wavelength, amplitude, row, own)
             else:
-                envelope.solve_curve(table, stretch, wavelength[i], amplitude[i], row, slots, values)
+                envelope.solve_curve(table, stretch, wavelength, amplitude, row, own)
 
     return solve_curves
 

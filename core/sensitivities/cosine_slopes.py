@@ -13,7 +13,7 @@ The pull-off is a minimum of the load, or stands at the rim: its place may be he
 """
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -34,13 +34,14 @@ from gradhesion.core.curve.branches import (
 )
 from gradhesion.core.curve.cosine import Cosine, curve_of, depth, load, slope, wave
 from gradhesion.core.problem.results import ENERGY as ENERGY_ROW
-from gradhesion.core.problem.results import RADIUS
+from gradhesion.core.problem.results import RADIUS, Results
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.pull_off.cosine import PHASELESS
 from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SLOPES
-from gradhesion.core.sensitivities.path_slopes import energy_slopes, fill_loading, slopes_for
+from gradhesion.core.sensitivities.path_slopes import Traced, energy_slopes, fill_loading, with_slopes
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.types import Floats
 
 BY_STIFFNESS, BY_WAVELENGTH, BY_AMPLITUDE, BY_RIM, BY_EXPONENT, BY_MACHINE = map(constant, range(6))
 """Rows of what is found; that of k is at fixed M, and only general scenes have a machine."""
@@ -49,9 +50,64 @@ FORCE, ENERGY, DEPTH = 0, 1, 2
 """What is differentiated: the last one is the depth at the rim, over R, not its logarithm."""
 
 
+class Sense(NamedTuple):
+    """What sensitivities need; of all curves for their loop, of one for the rest, without the first axis of curves.
+
+    tables    the tables of neighbouring exponents (sensitivities/neighbours.py), of shape (exponents, 4), or (4,)
+    weights   their weights in d/dk, of the same shape
+    found     where the sensitivities go, of shape (3, COUNT, curves, rims), or (3, COUNT, rims)
+    force     whether those of the pull-off force are wanted
+    energy    whether those of the energy are
+    turned    whether the rims are places where cycles turn
+    """
+
+    tables: Any
+    weights: Floats
+    found: Floats
+    force: bool
+    energy: bool
+    turned: bool
+
+
+class Near(NamedTuple):
+    """A curve at neighbouring exponents of the gradient.
+
+    tables    their tables, of shape (4,)
+    curves    b and g of each, of shape (4, 2)
+    weights   their weights in d/dk, of shape (4,)
+    """
+
+    tables: Any
+    curves: Floats
+    weights: Floats
+
+
+class Sensed(NamedTuple):
+    """What the sensitivities of one curve need, and where they go.
+
+    near      the curve at neighbouring exponents
+    units     the units there: of force over that of the curve, and of depth in R; of shape (2, 4)
+    size      ln L, the size of a contact, in R
+    found     where the sensitivities go, of shape (3, COUNT, rims)
+    energy    whether those of the energy are wanted
+    turned    whether the rims are places where cycles turn
+    """
+
+    near: Near
+    units: Floats
+    size: float
+    found: Floats
+    energy: bool
+    turned: bool
+
+
 @kernel()
-def _put(found: Any, k: float, curve: Cosine, unit: float, half: float, by: Any, value: float, i: int) -> None:
-    """Store the sensitivities of a value from its slopes by b, g, x and k; `unit` is its power of lambda."""
+def _put(found: Floats, k: float, curve: Cosine, powers: tuple[float, float], by: Floats, value: float, i: int) -> None:
+    """Store the sensitivities of a value of rim number i, into `found` of shape (COUNT, rims).
+
+    `by` are its slopes by b, g, ln x and k, of shape (4,); `powers` are those of lambda and of M in its unit.
+    """
+    unit, half = powers
     b, g, _ = curve
     c = 0.5 * (1.0 - k)
     if not value > 0.0:
@@ -78,9 +134,9 @@ def _lowest_load_at(table: Any, curve: Cosine, x: float) -> float:
 
 
 @kernel()
-def _force_slopes(table: Any, curve: Cosine, near: Any, units: Any, x: float, at_rim: bool, by: Any) -> float:
-    """Put the slopes of the reduced force by b, g, ln x and k into `by`; return the force."""
-    tables, curves, weights = near
+def _force_slopes(table: Any, curve: Cosine, sensed: Sensed, x: float, at_rim: bool, by: Floats) -> float:
+    """Put the slopes of the reduced force at x by b, g, ln x and k into `by`, of shape (4,); return the force."""
+    (tables, curves, weights), units = sensed.near, sensed.units[0]
     b, g, _ = curve
     k = table.k
     z, power, s0, s1, v, _, _ = wave(table, 0.0, x)
@@ -102,9 +158,12 @@ def _force_slopes(table: Any, curve: Cosine, near: Any, units: Any, x: float, at
 
 
 @kernel()
-def _put_depth(table: Any, curve: Cosine, near: Any, units: Any, unit: float, x: float, found: Any, i: int) -> None:
-    """Store the slopes of the depth at a rim: where the cycle turns at a depth, they say how the place moves."""
-    tables, curves, weights = near
+def _put_depth(table: Any, curve: Cosine, sensed: Sensed, unit: float, x: float, i: int) -> None:
+    """Store the slopes of the depth at rim number i, x: where the cycle turns at a depth, they say how the place moves.
+
+    `unit` is the unit of depth in R.
+    """
+    (tables, curves, weights), units, found = sensed.near, sensed.units[1], sensed.found[DEPTH]
     b, g, _ = curve
     k = table.k
     c = 0.5 * (1.0 - k)
@@ -122,8 +181,8 @@ def _put_depth(table: Any, curve: Cosine, near: Any, units: Any, unit: float, x:
 
 
 @kernel()
-def smooth_trace(table: Any, curve: Cosine, trace: Any) -> int:
-    """Put the one branch of a smooth punch of b = 1 into the trace; return the number of branches."""
+def smooth_trace(table: Any, curve: Cosine, trace: Floats) -> int:
+    """Put the one branch of a smooth punch of b = 1 into a trace (curve/branches.py); return the number of branches."""
     _, z_in, z_out, _ = smooth.smooth_places(table.k)
     trace[RUN, GAP] = math.inf
     trace[START, 0], trace[END, 0], trace[END_DEPTH, 0] = z_out / TWO_PI, math.inf, math.inf
@@ -135,31 +194,20 @@ def smooth_trace(table: Any, curve: Cosine, trace: Any) -> int:
 
 @kernel()
 def of_curve(sense: Any, i: int, which: int) -> Any:
-    """Return what the sensitivities of curve i, of exponent `which`, need; () where none are asked for."""
+    """Return the record `Sense` of curve i, of exponent `which`, from that of all curves; () if there is none."""
     if len(sense) == 0:
         return ()
     tables, weights, found, force, energy, turned = sense
-    return tables[which], weights[which], found[:, :, i], force, energy, turned
+    return Sense(tables[which], weights[which], found[:, :, i], force, energy, turned)
 
 
 @kernel()
-def beside(table: Any, sense: Any, stretch: float, wavelength: float, amplitude: float) -> tuple[Any, Any, float]:
-    """Return what is the same curve at neighbouring exponents, its units over those of the curve, and ln of a contact.
+def sensed_by(table: Any, sense: Sense, stretch: float, wavelength: float, amplitude: float) -> Sensed:
+    """Return what the sensitivities of a curve (s, lambda/R, A) need.
 
     k changes at fixed M L^k, L the size of a contact: at fixed M each length would bring its logarithm.
-
-    Parameters
-    ----------
-    table, stretch, wavelength, amplitude
-        Those of the curve.
-    sense
-        What `solve_curves` of scene/solvers.py is given.
-
-    Returns
-    -------
-    The tables, the curves and the weights in d/dk; the units of force and of depth; and ln L.
     """
-    tables, weights = sense[0], sense[1]
+    tables, weights, found, _, energy, turned = sense
     k = table.k
     curves, units = np.empty((weights.size, 2)), np.empty((2, weights.size))
     (b, g, _), length, unit = curve_of(k, stretch, wavelength, amplitude * wavelength)
@@ -172,91 +220,71 @@ def beside(table: Any, sense: Any, stretch: float, wavelength: float, amplitude:
         share = (1.0 + k) / ((1.0 + other) * ratio)
         curves[j, 0], curves[j, 1] = b * share, g / ratio
         units[0, j], units[1, j] = share, unit * ratio
-    return (tables, curves, weights), units, size
+    return Sensed(Near(tables, curves, weights), units, size, found, energy, turned)
 
 
 @kernel()
 def put_forces(
-    table: Any,
-    curve: Cosine,
-    beside: Any,
-    unit: float,
-    wavelength: float,
-    rims: Any,
-    slots: Any,
-    out: Any,
-    status: Any,
-    sense: Any,
+    table: Any, curve: Cosine, sensed: Sensed, unit: float, wavelength: float, rims: Floats, results: Results
 ) -> None:
     """Store the sensitivities of the pull-off forces of a curve, whose places and flags are there, for all rims.
 
-    Where cycles turn at a depth, those of the depth at the rim as well; `unit` is that of depth.
+    Where cycles turn at a depth, those of the depth at the rim as well; `unit` is that of depth in R, `rims` are
+    a_max/R, of shape (rims,).
     """
-    near, units, _ = beside
-    found, turned = sense[2], sense[5]
     by = np.zeros(4)
+    powers = (2.0 - 0.5 * (1.0 - table.k), 0.5)
     for i in range(rims.size):
-        if status[i] & NO_VALUE:
+        if results.status[i] & NO_VALUE:
             continue
-        at_rim = status[i] & PULL_OFF_AT_RIM != 0
-        x = (rims[i] if at_rim else out[slots[RADIUS], i]) / wavelength
-        force = _force_slopes(table, curve, near, units[0], x, at_rim, by)
-        _put(found[FORCE], table.k, curve, 2.0 - 0.5 * (1.0 - table.k), 0.5, by, force, i)
-        if turned and at_rim:
-            _put_depth(table, curve, near, units[1], unit, x, found[DEPTH], i)
+        at_rim = results.status[i] & PULL_OFF_AT_RIM != 0
+        x = (rims[i] if at_rim else results.out[results.slots[RADIUS], i]) / wavelength
+        force = _force_slopes(table, curve, sensed, x, at_rim, by)
+        _put(sensed.found[FORCE], table.k, curve, powers, by, force, i)
+        if sensed.turned and at_rim:
+            _put_depth(table, curve, sensed, unit, x, i)
 
 
 @kernel()
-def put_energy(
-    table: Any,
-    curve: Cosine,
-    beside: Any,
-    scale: float,
-    count: int,
-    trace: Any,
-    final: float,
-    slopes: Any,
-    x: float,
-    energy: float,
-    found: Any,
-    i: int,
-) -> None:
-    """Store the sensitivities of the energy of a rim, read off the trace that the energy was read off."""
-    near, _, _ = beside
+def put_energy(table: Any, curve: Cosine, sensed: Sensed, slopes: Traced, x: float, energy: float, i: int) -> None:
+    """Store the sensitivities of the energy of rim number i, at x, read off the trace that the energy was read off.
+
+    The energy is in 2 pi l^2 dgamma.
+    """
     total, by = np.empty(SLOPES), np.empty(4)
     rim_depth = depth(table, curve, x) if x < math.inf else math.inf
-    by[2] = energy_slopes(table, curve, near, count, trace, x, rim_depth, final, slopes, total)
+    by[2] = energy_slopes(table, curve, sensed.near, slopes, x, rim_depth, total)
     by[0], by[1] = total[BEND], total[GAIN]
     by[3] = total[EXPONENT]
-    _put(found[ENERGY], table.k, curve, 2.0, 0.0, by, energy / scale, i)
+    _put(sensed.found[ENERGY], table.k, curve, (2.0, 0.0), by, energy, i)
 
 
 @kernel()
-def put_smooth(
-    table: Any, stretch: float, rims: Any, slots: Any, out: Any, status: Any, sense: Any, trace: Any
-) -> None:
-    """Store the sensitivities of a smooth punch, whose values are there, for all rims."""
-    found, force, energy = sense[2], sense[3], sense[4]
+def put_smooth(table: Any, stretch: float, rims: Floats, results: Results, sense: Sense, trace: Floats) -> None:
+    """Store the sensitivities of a smooth punch, whose values are there, for all rims a_max/R, of shape (rims,).
+
+    `trace` is room for one branch, of shape (ROWS, 8 or more).
+    """
     wavelength = TWO_PI * smooth.smooth_length(table.k, stretch)
     curve, length, unit = curve_of(table.k, stretch, wavelength, 0.0)
-    around = beside(table, sense, stretch, wavelength, 0.0)
-    if force:
-        put_forces(table, curve, around, unit, wavelength, rims, slots, out, status, sense)
-    if energy:
-        count = smooth_trace(table, curve, trace)
-        slopes = slopes_for(trace)
-        fill_loading(table, curve, around[0], count, trace, 0.0, slopes)
+    sensed = sensed_by(table, sense, stretch, wavelength, 0.0)
+    if sense.force:
+        put_forces(table, curve, sensed, unit, wavelength, rims, results)
+    if sense.energy:
+        slopes = with_slopes(smooth_trace(table, curve, trace), trace, 0.0)
+        fill_loading(table, curve, sensed.near, slopes)
         scale = TWO_PI * length * length
         for i in range(rims.size):
-            x = rims[i] / wavelength
-            put_energy(table, curve, around, scale, count, trace, 0.0, slopes, x, out[slots[ENERGY_ROW], i], found, i)
-    at_fixed_stiffness(around, found)
+            energy = results.out[results.slots[ENERGY_ROW], i] / scale
+            put_energy(table, curve, sensed, slopes, rims[i] / wavelength, energy, i)
+    at_fixed_stiffness(sensed)
+    found = sensed.found
     found[:, BY_WAVELENGTH, :] = 0.0 * found[:, BY_WAVELENGTH, :]
     found[:, BY_AMPLITUDE, :] = 0.0 * found[:, BY_AMPLITUDE, :]
 
 
 @kernel()
-def at_fixed_stiffness(beside: Any, found: Any) -> None:
+def at_fixed_stiffness(sensed: Sensed) -> None:
     """Turn the sensitivities to k at fixed M L^k into those at fixed M."""
-    _, _, size = beside
-    found[:, BY_EXPONENT, :] += size * found[:, BY_STIFFNESS, :]
+    found = sensed.found
+    found[:, BY_EXPONENT, :] += sensed.size * found[:, BY_STIFFNESS, :]

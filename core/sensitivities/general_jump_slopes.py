@@ -13,7 +13,7 @@ alpha may be held.
 """
 
 import math
-from typing import Any, Final, TypeAlias
+from typing import Any, Final, NamedTuple, TypeAlias
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series, coordinate, state
@@ -32,15 +32,31 @@ from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.struve.series_by_k import sums_by_k
+from gradhesion.core.types import Floats
+from gradhesion.core.waves.general import NOWHERE
 
 Parts: TypeAlias = tuple[float, float, float, float]
 """B, g and the machine's share times the slopes of the coordinate by them, at fixed alpha, and that by k."""
 Change: TypeAlias = tuple[Any, Any]
 """The derivatives of the tables by k (struve/series_by_k.py): one record, and the flat array."""
-Jump: TypeAlias = tuple[Left, Parts, float]
-"""The place that a jump leaves, by how much its parts exceed those of the jump's coordinate, and that one's by k."""
 _AREA: Final = TWO_PI * TWO_PI
 NOTHING: Final = (0.0, 0.0, 0.0, 0.0)
+
+
+class Jump(NamedTuple):
+    """A jump whose slopes are found.
+
+    left  the place that it leaves
+    more  by how much the parts of that place exceed those of the jump's coordinate
+    held  the slope of that coordinate by k
+    """
+
+    left: Left
+    more: Parts
+    held: float
+
+
+NO_JUMP: Final = Jump(NOWHERE, NOTHING, 0.0)
 
 
 @kernel(contract=True)
@@ -123,14 +139,18 @@ def drop_slopes(
     curve: Series,
     change: Change,
     jump: Jump,
-    low: float,
-    high: float,
+    way: tuple[float, float],
     whole: float,
     sign: float,
-    total: Any,
+    total: Floats,
 ) -> None:
-    """Add `sign` times the slopes of what `drop` of curve/general_energy.py returns, times 4 pi^2."""
+    """Add `sign` times the slopes of what `drop` of curve/general_energy.py returns, times 4 pi^2.
+
+    `way` are the x, beyond `whole` waves, that the jump passes; `total` are slopes by the numbers of jump_slopes.py, of
+    shape (SLOPES,), in 2 pi l^2 dgamma.
+    """
     left, more, held = jump
+    low, high = way
     _, _, series = basis
     shortest = highest_harmonic(series)
     bends, gains, shares, exponents, levels = 0.0, 0.0, 0.0, 0.0, 0.0
@@ -156,7 +176,7 @@ def drop_slopes(
 
 @kernel(contract=True)
 def _slopes_from_zero(
-    basis: Basis, curve: Series, change: Change, parts: Parts, x: float, level: float, weight: float, total: Any
+    basis: Basis, curve: Series, change: Change, parts: Parts, x: float, level: float, weight: float, total: Floats
 ) -> None:
     """Add the slopes at one radius of a jump from or to zero contact."""
     _, m, _, alpha, _ = curve
@@ -177,7 +197,7 @@ def _slopes_from_zero(
 
 @kernel()
 def add_from_zero(
-    basis: Basis, curve: Series, change: Change, parts: Parts, x: float, level: float, sign: float, total: Any
+    basis: Basis, curve: Series, change: Change, parts: Parts, x: float, level: float, sign: float, total: Floats
 ) -> None:
     """Add `sign` times the slopes of a jump at Y = level from zero contact to x; those of the level are `parts`.
 
@@ -203,16 +223,16 @@ def add_from_zero(
 def jump_from(basis: Basis, curve: Series, change: Change, start: float, whole: float) -> Jump:
     """Return the jump that leaves the curve at whole + start."""
     _, _, _, held = parts_of(basis, curve, change, start, whole)
-    return place_left(basis, curve, start, whole, 0.0), NOTHING, held
+    return Jump(place_left(basis, curve, start, whole, 0.0), NOTHING, held)
 
 
 @kernel()
 def add_drop(
-    basis: Basis, curve: Series, change: Change, start: float, waves: float, end: float, sign: float, total: Any
+    basis: Basis, curve: Series, change: Change, start: float, waves: float, end: float, sign: float, total: Floats
 ) -> None:
     """Add `sign` times the slopes of a jump between waves + start, which it leaves, and waves + end."""
     jump = jump_from(basis, curve, change, start, waves)
-    drop_slopes(basis, curve, change, jump, min(start, end), max(start, end), waves, sign, total)
+    drop_slopes(basis, curve, change, jump, (min(start, end), max(start, end)), waves, sign, total)
 
 
 @kernel()

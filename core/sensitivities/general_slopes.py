@@ -13,14 +13,14 @@ with S the stiffness of the machine itself; the load does not depend on it. See 
 """
 
 import math
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series, coordinate, slope, state
 from gradhesion.core.path.pieces import NOTED_DOWN, NOTED_JUMP, NOTED_OUT, NOTED_UP
-from gradhesion.core.problem.results import RADIUS
+from gradhesion.core.problem.results import RADIUS, Results
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.sensitivities.cosine_slopes import (
     BY_AMPLITUDE,
@@ -33,48 +33,96 @@ from gradhesion.core.sensitivities.cosine_slopes import (
     ENERGY,
     FORCE,
 )
-from gradhesion.core.sensitivities.general_jump_slopes import NOTHING, parts_of, rim_slope_of, rise_to
+from gradhesion.core.sensitivities.general_jump_slopes import NO_JUMP, Change, parts_of, rim_slope_of, rise_to
 from gradhesion.core.sensitivities.general_wave_slopes import add_jump, add_jump_from_zero, add_waves
 from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SHARE, SLOPES
 from gradhesion.core.sensitivities.jump_slopes import DEPTH as BY_LEVEL
-from gradhesion.core.sensitivities.path_slopes import energy_slopes, fill_loading, slopes_for
+from gradhesion.core.sensitivities.path_slopes import Traced, energy_slopes, fill_loading, with_slopes
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.waves.general import DOWN, UP, room_for_waves
+from gradhesion.core.types import Floats
+from gradhesion.core.waves.general import DOWN, NOWHERE, UP, Waves, room_for_waves
 
 LN2: Final = math.log(2.0)
 NOTES: Final = 4096
 """Notes of a cycle that there is room for."""
 
 
+class Sense(NamedTuple):
+    """What the sensitivities of all curves of one exponent need.
+
+    change      the change of the tables by k (struve/series_by_k.py): one record, of shape (1,), and the flat array
+    front_by_k  the slope by k of ln of the factor of the punch (`depth_factor` of `curve_of`)
+    k           the exponent of the gradient
+    m           that of the punch
+    found       where the sensitivities go, of shape (3, COUNT, curves, rims)
+    force       whether those of the pull-off force are wanted
+    energy      whether those of the energy are
+    turned      whether the rims are places where cycles turn
+    """
+
+    change: Change
+    front_by_k: float
+    k: float
+    m: float
+    found: Floats
+    force: bool
+    energy: bool
+    turned: bool
+
+
+class ByExponent(NamedTuple):
+    """Slopes by k at fixed M L^k, L the size of a contact (at fixed M each length would bring its logarithm).
+
+    Those of ln B, ln g, ln of the machine's share, and ln of the units of force and of depth.
+    """
+
+    bend: float
+    gain: float
+    share: float
+    force: float
+    depth: float
+
+
+class Sensed(NamedTuple):
+    """What the sensitivities of one curve need, and where they go.
+
+    change      as of `Sense`
+    k, m        the exponents of the gradient and of the punch
+    by_k        how the numbers and units of the curve change with k
+    size        ln L, the size of a contact, in R
+    found       where the sensitivities go, of shape (3, COUNT, rims)
+    force, energy, turned   as of `Sense`
+    wavy        whether the amplitude is positive
+    """
+
+    change: Change
+    k: float
+    m: float
+    by_k: ByExponent
+    size: float
+    found: Floats
+    force: bool
+    energy: bool
+    turned: bool
+    wavy: bool
+
+
 @kernel()
-def of_scene(sense: Any, i: int, stretch: float, wavelength: float, amplitude: float, compliance: float) -> Any:
-    """Return what the sensitivities of one scene need, () where none are asked for.
+def sensed_by(sense: Any, i: int, stretch: float, wavelength: float, amplitude: float, compliance: float) -> Any:
+    """Return the record `Sensed` of curve i from the record `Sense` of all, () if this is ().
 
-    Parameters
-    ----------
-    sense
-        (), or the change of the tables (struve/series_by_k.py); ln of the factor of the punch (`depth_factor` of
-        `curve_of`), its slope by k, k and the exponent of the punch; where sensitivities go (3, COUNT, curves, rims);
-        and whether those of force and of energy are asked for, and whether the rims are places where cycles turn.
-    i, stretch, wavelength, amplitude, compliance
-        The scene, as `curve_of` takes it.
-
-    Returns
-    -------
-    The change of the tables; k and m; the slopes by k of ln B, ln g, ln of the share, and ln of the units of force and
-    depth, at fixed M L^k, L the size of a contact (at fixed M each length would bring its logarithm); ln L; where the
-    sensitivities go; and the three flags.
+    s, lambda/R, A and the compliance of the curve are those of `curve_of` (curve/general.py).
     """
     if len(sense) == 0:
         return ()
-    change, waves, front_by_k, (k, m), found, force, energy, turned = sense
+    change, front_by_k, k, m, found, force, energy, turned = sense
     stiffness = 2.0 ** (1.0 + k) * math.pi / (stretch * stretch)
     size = -math.log(stiffness) / (2.0 * m - 1.0 + k)
     length = math.log(wavelength / TWO_PI)
     unit = 0.5 * (LN2 + size - length)  # of s l^c
     share = length - size - LN2 - 1.0 / (1.0 + k) if 0.0 < compliance < math.inf else 0.0
-    changes = (front_by_k - unit, -unit, share, -1.0 / (1.0 + k) - unit, unit)
-    return (change, waves), (k, m), changes, size, found[:, :, i], (force, energy, turned), amplitude > 0.0
+    by_k = ByExponent(front_by_k - unit, -unit, share, -1.0 / (1.0 + k) - unit, unit)
+    return Sensed(change, k, m, by_k, size, found[:, :, i], force, energy, turned, amplitude > 0.0)
 
 
 @kernel()
@@ -82,15 +130,19 @@ def senses_energy(own: Any) -> bool:
     """Return whether the sensitivities of the energy of a scene are asked for."""
     if len(own) == 0:
         return False
-    energy: bool = own[5][1]
+    energy: bool = own.energy
     return energy
 
 
 @kernel()
-def _put(own: Any, row: int, unit: float, half: float, unit_by_k: float, by: Any, value: float, i: int) -> None:
-    """Store the sensitivities of a value from its slopes by ln B, ln g, the share, ln x and k."""
-    _, (k, m), changes, _, every, _, _ = own
-    found = every[row]
+def _put(own: Sensed, row: int, powers: tuple[float, float, float], by: Floats, value: float, i: int) -> None:
+    """Store the sensitivities of a value of rim number i, in the row FORCE or ENERGY.
+
+    `by` are its slopes by ln B, ln g, the share, ln x and k, of shape (5,); `powers` are those of lambda and of M in
+    its unit, and the slope by k of ln of this.
+    """
+    unit, half, unit_by_k = powers
+    k, m, by_k, found = own.k, own.m, own.by_k, own.found[row]
     c = 0.5 * (1.0 - k)
     if not value > 0.0:
         found[:, i] = math.nan
@@ -100,14 +152,14 @@ def _put(own: Any, row: int, unit: float, half: float, unit_by_k: float, by: Any
     found[BY_WAVELENGTH, i] = unit + (m - c) * bend + (1.0 - c) * gain + (1.0 + k) * share - rim
     found[BY_AMPLITUDE, i] = gain
     found[BY_RIM, i] = rim
-    found[BY_EXPONENT, i] = by[4] / value + changes[0] * bend + changes[1] * gain + changes[2] * share + unit_by_k
+    found[BY_EXPONENT, i] = by[4] / value + by_k.bend * bend + by_k.gain * gain + by_k.share * share + unit_by_k
     found[BY_MACHINE, i] = -share
 
 
 @kernel()
-def _put_depth(basis: Basis, curve: Series, own: Any, unit: float, x: float, i: int) -> None:
-    """Store the slopes of the depth at a rim, in R: where cycles turn at a depth, they say how the place moves."""
-    change, (k, m), changes, _, found, _, _ = own
+def _put_depth(basis: Basis, curve: Series, own: Sensed, unit: float, x: float, i: int) -> None:
+    """Store the slopes of the depth at rim number i, x, in R: where cycles turn at a depth, how the place moves."""
+    change, k, m, found = own.change, own.k, own.m, own.found
     B, _, g, _, _ = curve
     c = 0.5 * (1.0 - k)
     held = Series(B, m, g, 1.0, 0.0)
@@ -119,93 +171,101 @@ def _put_depth(basis: Basis, curve: Series, own: Any, unit: float, x: float, i: 
     found[DEPTH, BY_AMPLITUDE, i] = unit * gain
     found[DEPTH, BY_RIM, i] = unit * z * steepness
     found[DEPTH, BY_MACHINE, i] = 0.0
-    found[DEPTH, BY_EXPONENT, i] = unit * (by_k + changes[0] * bend + changes[1] * gain + changes[4] * depth)
+    found[DEPTH, BY_EXPONENT, i] = unit * (by_k + own.by_k.bend * bend + own.by_k.gain * gain + own.by_k.depth * depth)
 
 
 @kernel()
 def put_rest(
-    basis: Basis,
-    curve: Series,
-    own: Any,
-    unit: float,
-    wavelength: float,
-    rims: Any,
-    slots: Any,
-    out: Any,
-    status: Any,
+    basis: Basis, curve: Series, own: Sensed, unit: float, wavelength: float, rims: Floats, results: Results
 ) -> None:
     """Store the sensitivities of the pull-off forces of a curve, whose places and flags are there, for all rims.
 
-    Where cycles turn at a depth, those of the depth at the rim as well; `unit` is that of depth. Last, all
-    sensitivities to k are turned into those at fixed M.
+    Where cycles turn at a depth, those of the depth at the rim as well; `unit` is that of depth in R, `rims` are
+    a_max/R, of shape (rims,). Last, all sensitivities to k are turned into those at fixed M.
     """
-    change, (k, _), changes, size, found, (force_too, _, turned), wavy = own
     B, m, g, _, _ = curve
+    found = own.found
     pulled = Series(B, m, g, 0.0, 1.0)
     by = np.zeros(5)
+    powers = (2.0 - 0.5 * (1.0 - own.k), 0.5, own.by_k.force)
     for i in range(rims.size):
-        if status[i] & NO_VALUE or not force_too:
+        if results.status[i] & NO_VALUE or not own.force:
             continue
-        at_rim = status[i] & PULL_OFF_AT_RIM != 0
-        x = (rims[i] if at_rim else out[slots[RADIUS], i]) / wavelength
+        at_rim = results.status[i] & PULL_OFF_AT_RIM != 0
+        x = (rims[i] if at_rim else results.out[results.slots[RADIUS], i]) / wavelength
         force = -coordinate(basis, pulled, x)
-        bend, gain, _, by_k = parts_of(basis, pulled, change, x, 0.0)
+        bend, gain, _, by_k = parts_of(basis, pulled, own.change, x, 0.0)
         by[0], by[1], by[2], by[3] = -bend, -gain, 0.0, 0.0
         if at_rim:
             _, _, rate = slope(basis, pulled, x)
             by[3] = -TWO_PI * x * rate
         by[4] = -by_k
-        _put(own, FORCE, 2.0 - 0.5 * (1.0 - k), 0.5, changes[3], by, force, i)
-        if turned and at_rim:
+        _put(own, FORCE, powers, by, force, i)
+        if own.turned and at_rim:
             _put_depth(basis, curve, own, unit, x, i)
-    found[:, BY_EXPONENT, :] += size * found[:, BY_STIFFNESS, :]
-    if not wavy or basis[2].shape[0] == 0:
+    found[:, BY_EXPONENT, :] += own.size * found[:, BY_STIFFNESS, :]
+    if not own.wavy or basis.series.shape[0] == 0:
         found[:, BY_WAVELENGTH, :] = 0.0 * found[:, BY_WAVELENGTH, :]
         found[:, BY_AMPLITUDE, :] = 0.0 * found[:, BY_AMPLITUDE, :]
 
 
 @kernel()
-def _put_total(own: Any, total: Any, by_rim: float, energy: float, i: int) -> None:
-    """Store the sensitivities of a reduced energy."""
+def _put_total(own: Sensed, total: Floats, by_rim: float, energy: float, i: int) -> None:
+    """Store the sensitivities of the energy of rim number i, in 2 pi l^2 dgamma, from its slopes (SLOPES,)."""
     by = np.empty(5)
     by[0], by[1], by[2], by[3] = total[BEND], total[GAIN], total[SHARE], by_rim
     by[4] = total[EXPONENT]
-    _put(own, ENERGY, 2.0, 0.0, 0.0, by, energy, i)
+    _put(own, ENERGY, (2.0, 0.0, 0.0), by, energy, i)
 
 
 @kernel()
-def slopes_of(basis: Basis, curve: Series, own: Any, count: int, trace: Any) -> Any:
-    """Return the slopes that go with a trace, those of loading filled in, if they are asked for."""
-    slopes = slopes_for(trace)
+def slopes_of(basis: Basis, curve: Series, own: Sensed, count: int, trace: Floats) -> Traced:
+    """Return the slopes that go with a trace of `count` branches; those of loading filled in, if they are wanted."""
+    slopes = with_slopes(count, trace, 0.0)
     if senses_energy(own):
-        fill_loading(basis, curve, own[0], count, trace, 0.0, slopes)
+        fill_loading(basis, curve, own.change, slopes)
     return slopes
 
 
 @kernel()
-def put_energy(
-    basis: Basis, curve: Series, own: Any, count: int, trace: Any, slopes: Any, x: float, energy: float, i: int
-) -> None:
-    """Store the sensitivities of the reduced energy of a rim, read off the trace that the energy was read off."""
+def put_energy(basis: Basis, curve: Series, own: Sensed, slopes: Traced, x: float, energy: float, i: int) -> None:
+    """Store the sensitivities of the energy of rim number i, at x, read off the trace that the energy was read off.
+
+    The energy is in 2 pi l^2 dgamma.
+    """
     if not senses_energy(own):
         return
     total = np.empty(SLOPES)
     level = coordinate(basis, curve, x) if x < math.inf else math.inf
-    by_rim = energy_slopes(basis, curve, own[0], count, trace, x, level, 0.0, slopes, total)
+    by_rim = energy_slopes(basis, curve, own.change, slopes, x, level, total)
     _put_total(own, total, by_rim, energy, i)
 
 
 @kernel()
 def put_noted(
-    basis: Basis, curve: Series, own: Any, cut: float, notes: Any, x: float, whole: float, energy: float, i: int
+    basis: Basis, curve: Series, own: Sensed, cut: float, notes: Floats, rim: tuple[float, float], energy: float, i: int
 ) -> None:
-    """Store the sensitivities of the reduced energy of a long cycle from the notes of its jumps (path/pieces.py)."""
+    """Store the sensitivities of the energy of rim number i of a long cycle from the notes of its jumps.
+
+    Parameters
+    ----------
+    basis, curve, own
+        The curve, and what its sensitivities need.
+    cut
+        Where its waves are cut (waves/general.py).
+    notes
+        The notes of the cycle, shape (notes, 5) (path/pieces.py).
+    rim
+        x of the rim, beyond some whole waves.
+    energy
+        In 2 pi l^2 dgamma.
+    """
     if not senses_energy(own):
         return
-    change = own[0]
+    change = own.change
+    x, whole = rim
     total, by_rim = np.zeros(SLOPES), 0.0
-    nowhere = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    work = room_for_waves(basis[2])
+    work = room_for_waves(basis.series)
     count = int(notes[0, 0])
     if count >= notes.shape[0]:
         total[:] = math.nan
@@ -214,8 +274,8 @@ def put_noted(
         kind, waves, start, end = int(notes[n, 0]), notes[n, 1], notes[n, 2], notes[n, 3]
         before = total[BY_LEVEL]
         if kind in (NOTED_UP, NOTED_DOWN):
-            task = UP if kind == NOTED_UP else DOWN
-            add_waves(task, basis, curve, change, cut, (nowhere, NOTHING, 0.0), start, end, work, total)
+            run = Waves(UP if kind == NOTED_UP else DOWN, cut, NOWHERE, work)
+            add_waves(basis, curve, change, run, NO_JUMP, start, end, total)
         elif kind == NOTED_JUMP:
             add_jump(basis, curve, change, start, end, waves, total)
             if notes[n, 4] > 0.0:  # the rim cuts it

@@ -5,7 +5,7 @@ At a fixed pattern the slopes of a wave are as smooth a function of its number a
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -25,10 +25,12 @@ from gradhesion.core.sensitivities.general_jump_slopes import (
     parts_of,
 )
 from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SHARE, SLOPES
+from gradhesion.core.types import Floats
 from gradhesion.core.waves.cosine_sum import limit_terms
 from gradhesion.core.waves.general import (
     PASSING,
     UP,
+    Waves,
     branches_of_wave,
     highest_end,
     lowest_start,
@@ -56,22 +58,18 @@ _TOP: Final = 64
 
 @kernel()
 def slopes_of_step(
-    kind: int,
-    basis: Basis,
-    curve: Series,
-    change: Change,
-    cut: float,
-    jump: Jump,
-    wave: float,
-    work: Any,
-    found: Any,
+    basis: Basis, curve: Series, change: Change, waves: Waves, jump: Jump, wave: float, found: Floats
 ) -> int:
-    """Put the slopes of what `step_of_wave` of waves/general.py adds into `found`; return the pattern of the jumps."""
+    """Put the slopes of what `step_of_wave` of waves/general.py adds into `found`; return the pattern of the jumps.
+
+    `jump` is the one that passes the wave, NO_JUMP else; `found` is of shape (SLOPES,), in 2 pi l^2 dgamma.
+    """
+    kind, cut, _, work = waves
     found[:] = 0.0
     if kind == PASSING:
-        drop_slopes(basis, curve, change, jump, 0.0, 1.0, wave, 1.0, found)
+        drop_slopes(basis, curve, change, jump, (0.0, 1.0), wave, 1.0, found)
         return 0
-    _, _, pattern = step_of_wave(kind, basis, curve, cut, jump[0], wave, work, NO)
+    _, _, pattern = step_of_wave(basis, curve, waves, wave, NO)
     if pattern < 0:
         return pattern
     _, _, rows = work
@@ -101,25 +99,25 @@ def slopes_of_step(
 
 @kernel()
 def _integrals_of_run(
-    kind: int,
     basis: Basis,
     curve: Series,
     change: Change,
-    cut: float,
+    waves: Waves,
     jump: Jump,
-    run: Any,
-    scales: Any,
-    work: Any,
-    total: Any,
-) -> Any:
+    run: tuple[float, float],
+    scales: Floats,
+    total: Floats,
+) -> tuple[bool, int, Floats, int, int]:
     """Add the integrals over a run without its ends to `total`, as `_integral_of_run` of waves/general_sum.py.
+
+    `scales` are the sizes of the largest parts so far; both are of shape (SLOPES,), in 2 pi l^2 dgamma.
 
     Returns
     -------
-    Whether it is done, the pattern, the runs to take instead, their number, and the steps that it took.
+    Whether it is done, the pattern, the runs to take instead, rows (first, last), their number, and the steps that it
+    took.
     """
     first, last = run
-    left, _, _ = jump
     low = math.log(first - 0.5)
     span = math.log(last + 0.5) - low
     runs, panels = np.empty((2 * _POINTS, 2)), np.empty((_TOP, 2))
@@ -127,24 +125,24 @@ def _integrals_of_run(
     panels[0, 1] = _angle_of(last - _EDGE + 0.5, low, span)
     top, steps, pattern = 0, 0, 0
     sums, part, rests, found = np.zeros(SLOPES), np.empty(SLOPES), np.empty(SLOPES), np.empty(SLOPES)
-    values, waves, patterns = np.empty((SLOPES, _POINTS)), np.empty(_POINTS), np.empty(_POINTS, np.int64)
+    values, places, patterns = np.empty((SLOPES, _POINTS)), np.empty(_POINTS), np.empty(_POINTS, np.int64)
     while top >= 0:
         begin, end = panels[top]
         top -= 1
         half = 0.5 * (end - begin)
         for i in range(_POINTS):
             angle = begin + half * (1.0 + _PLACES[i])
-            waves[i] = _wave_at(angle, low, span)
-            patterns[i] = slopes_of_step(kind, basis, curve, change, cut, jump, waves[i], work, found)
-            values[:, i] = found * (waves[i] * 0.5 * span * math.sin(angle))
+            places[i] = _wave_at(angle, low, span)
+            patterns[i] = slopes_of_step(basis, curve, change, waves, jump, places[i], found)
+            values[:, i] = found * (places[i] * 0.5 * span * math.sin(angle))
         steps += _POINTS
         pattern = patterns[0]
         count, start = 0, first
         for i in range(_POINTS - 1):
             if patterns[i + 1] != patterns[i]:
-                here, there = max(start, np.floor(waves[i])), min(last, np.floor(waves[i + 1]) + 1.0)
+                here, there = max(start, np.floor(places[i])), min(last, np.floor(places[i + 1]) + 1.0)
                 if there > here:
-                    here, taken = _last_of_run(kind, basis, curve, cut, left, here, there, work)
+                    here, taken = _last_of_run(basis, curve, waves, here, there)
                     steps += taken
                     runs[count, 0], runs[count, 1] = start, here
                     start = here + 1.0
@@ -162,8 +160,8 @@ def _integrals_of_run(
             settled = settled and half * rests[j] <= _TOLERANCE * max(common, scales[j])
         if settled:
             sums += part
-        elif waves[_POINTS - 1] - waves[0] < _NARROW or top + 2 >= _TOP:
-            begin, end = np.floor(waves[0]), np.floor(waves[_POINTS - 1]) + 1.0
+        elif places[_POINTS - 1] - places[0] < _NARROW or top + 2 >= _TOP:
+            begin, end = np.floor(places[0]), np.floor(places[_POINTS - 1]) + 1.0
             runs[0, 0], runs[0, 1] = first, begin - 1.0
             runs[1, 0], runs[1, 1] = begin, end
             runs[2, 0], runs[2, 1] = end + 1.0, last
@@ -178,24 +176,25 @@ def _integrals_of_run(
 
 @kernel()
 def _add_ends(
-    kind: int,
     basis: Basis,
     curve: Series,
     change: Change,
-    cut: float,
+    waves: Waves,
     jump: Jump,
-    run: Any,
+    run: tuple[float, float],
     pattern: int,
-    work: Any,
-    total: Any,
+    total: Floats,
 ) -> bool:
-    """Add the waves at both ends of a run, and Euler's and Maclaurin's terms; return whether all have one pattern."""
+    """Add the waves at both ends of a run, and Euler's and Maclaurin's terms; return whether all have one pattern.
+
+    `total` is of shape (SLOPES,), in 2 pi l^2 dgamma.
+    """
     begin, end = run
     found, values, even = np.empty(SLOPES), np.empty((SLOPES, 6)), True
     for side in range(2):
         for i in range(_EDGE + 3):
             wave = begin + i if side == 0 else end - i
-            there = slopes_of_step(kind, basis, curve, change, cut, jump, wave, work, found)
+            there = slopes_of_step(basis, curve, change, waves, jump, wave, found)
             even = even and there == pattern
             if i < _EDGE:
                 total += found
@@ -208,18 +207,12 @@ def _add_ends(
 
 @kernel()
 def add_waves(
-    kind: int,
-    basis: Basis,
-    curve: Series,
-    change: Change,
-    cut: float,
-    jump: Jump,
-    first: float,
-    last: float,
-    work: Any,
-    total: Any,
+    basis: Basis, curve: Series, change: Change, waves: Waves, jump: Jump, first: float, last: float, total: Floats
 ) -> None:
-    """Add the slopes of the waves `first` to `last`, as `sum_of_waves` of waves/general_sum.py; NaN if not regular."""
+    """Add the slopes of the waves `first` to `last`, as `sum_of_waves` of waves/general_sum.py; NaN if not regular.
+
+    `total` is of shape (SLOPES,), in 2 pi l^2 dgamma.
+    """
     stack = np.empty((_ROOM, 2))
     stack[0, 0], stack[0, 1] = first, last
     found, part, scales = np.empty(SLOPES), np.empty(SLOPES), np.zeros(SLOPES)
@@ -230,7 +223,7 @@ def add_waves(
         if end - begin < _DIRECT:
             wave = begin
             while wave <= end:
-                if slopes_of_step(kind, basis, curve, change, cut, jump, wave, work, found) < 0:
+                if slopes_of_step(basis, curve, change, waves, jump, wave, found) < 0:
                     total[:] = math.nan
                     return
                 total += found
@@ -239,7 +232,7 @@ def add_waves(
             continue
         part[:] = 0.0
         done, pattern, runs, count, taken = _integrals_of_run(
-            kind, basis, curve, change, cut, jump, (begin, end), scales, work, part
+            basis, curve, change, waves, jump, (begin, end), scales, part
         )
         steps += taken
         if steps > _MOST_STEPS or (done and pattern < 0) or top + max(count, 3) >= _ROOM:
@@ -252,7 +245,7 @@ def add_waves(
         if not done:
             continue
         steps += 2 * _EDGE + 6
-        if _add_ends(kind, basis, curve, change, cut, jump, (begin, end), pattern, work, part):
+        if _add_ends(basis, curve, change, waves, jump, (begin, end), pattern, part):
             total += part
         else:  # a pattern of some waves at an end: these one by one
             stack[top + 1, 0], stack[top + 1, 1] = begin, begin + _EDGE + 3.0
@@ -267,25 +260,30 @@ def _add_passage(
     curve: Series,
     change: Change,
     jump: Jump,
-    low: float,
-    high: float,
+    way: tuple[float, float],
     whole: float,
     sign: float,
-    total: Any,
+    total: Floats,
 ) -> None:
-    """Add `sign` times the slopes of a long jump between whole + low >= _INNER and whole + high."""
-    _, _, series = basis
+    """Add `sign` times the slopes of a long jump between the x of its way beyond whole waves, from _INNER on.
+
+    `total` is of shape (SLOPES,), in 2 pi l^2 dgamma.
+    """
+    low, high = way
     begin, end = np.ceil(whole + low), np.floor(whole + high) - 1.0
     inner, outer = begin - 1.0, end + 1.0
-    drop_slopes(basis, curve, change, jump, (whole - inner) + low, 1.0, inner, sign, total)
-    drop_slopes(basis, curve, change, jump, 0.0, (whole - outer) + high, outer, sign, total)
+    drop_slopes(basis, curve, change, jump, ((whole - inner) + low, 1.0), inner, sign, total)
+    drop_slopes(basis, curve, change, jump, (0.0, (whole - outer) + high), outer, sign, total)
     middle = np.zeros(SLOPES)
-    add_waves(PASSING, basis, curve, change, 0.0, jump, begin, end, room_for_waves(series), middle)
+    waves = Waves(PASSING, 0.0, jump.left, room_for_waves(basis.series))
+    add_waves(basis, curve, change, waves, jump, begin, end, middle)
     total += sign * middle
 
 
 @kernel()
-def add_jump(basis: Basis, curve: Series, change: Change, start: float, end: float, whole: float, total: Any) -> None:
+def add_jump(
+    basis: Basis, curve: Series, change: Change, start: float, end: float, whole: float, total: Floats
+) -> None:
     """Add the slopes of a jump that leaves the curve at whole + start and ends at whole + end > 0."""
     _, _, series = basis
     sign = 1.0 if end > start else -1.0
@@ -295,14 +293,14 @@ def add_jump(basis: Basis, curve: Series, change: Change, start: float, end: flo
     jump = jump_from(basis, curve, change, start, whole)
     low, high = min(start, end), max(start, end)
     if whole + low < _INNER:
-        drop_slopes(basis, curve, change, jump, whole + low, _INNER, 0.0, sign, total)
+        drop_slopes(basis, curve, change, jump, (whole + low, _INNER), 0.0, sign, total)
         low = _INNER - whole
-    _add_passage(basis, curve, change, jump, low, high, whole, sign, total)
+    _add_passage(basis, curve, change, jump, (low, high), whole, sign, total)
 
 
 @kernel()
 def add_jump_from_zero(
-    basis: Basis, curve: Series, change: Change, x: float, whole: float, inwards: bool, total: Any
+    basis: Basis, curve: Series, change: Change, x: float, whole: float, inwards: bool, total: Floats
 ) -> None:
     """Add the slopes of the jump-out from whole + x (inwards), 0 under a dead load, or of the jump-in that ends there.
 
@@ -320,5 +318,5 @@ def add_jump_from_zero(
         return
     more = (parts[0] - moved[0], parts[1] - moved[1], parts[2] - moved[2], 0.0)
     add_from_zero(basis, curve, change, moved, _INNER, level, sign, total)
-    jump = (place_left(basis, curve, x, whole, here - level), more, moved[3])
-    _add_passage(basis, curve, change, jump, _INNER - whole, x, whole, sign, total)
+    jump = Jump(place_left(basis, curve, x, whole, here - level), more, moved[3])
+    _add_passage(basis, curve, change, jump, (_INNER - whole, x), whole, sign, total)

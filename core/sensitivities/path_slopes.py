@@ -8,7 +8,7 @@ The curve is any whose kind answers about its sensitivities (core/face.py).
 """
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -44,23 +44,40 @@ from gradhesion.core.path.unloading import descend, leave_rim, next_lower
 from gradhesion.core.sensitivities.jump_slopes import DEPTH, SLOPES
 from gradhesion.core.sensitivities.wave_slopes import ROOM
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.types import Floats
 
 LOADED, UNLOADED, KNOWN = 0, SLOPES, 2 * SLOPES
 ROWS = 2 * SLOPES + 1
 """Rows of the array that goes with a trace."""
 
 
+class Traced(NamedTuple):
+    """A trace with the slopes of energies by the numbers of its curve (sensitivities/jump_slopes.py).
+
+    branches  how many the trace has
+    trace     the branches, of shape (core.curve.branches.ROWS, branches or more)
+    final     the last arch on which the curve folds
+    slopes    those of loading and unloading, a column a branch, and whether the latter are there; two rows more are
+              room for a jump and for its slopes; of shape (ROWS + 2, columns)
+    """
+
+    branches: int
+    trace: Floats
+    final: float
+    slopes: Floats
+
+
 @kernel()
-def slopes_for(trace: Any) -> Any:
-    """Return room for the slopes of a trace."""
+def with_slopes(count: int, trace: Floats, final: float) -> Traced:
+    """Return a trace of `count` branches with room for its slopes; `final` is the last arch on which it folds."""
     slopes = np.empty((ROWS + 2, max(trace.shape[1], ROOM)))
     slopes[:ROWS] = 0.0
-    return slopes
+    return Traced(count, trace, final, slopes)
 
 
 @kernel()
-def _enter(table: Any, curve: Any, near: Any, now: int, left: float, x: float, work: Any, total: Any) -> None:
-    """Add a jump of loading, from zero contact if it is on no branch yet."""
+def _enter(table: Any, curve: Any, near: Any, now: int, left: float, x: float, work: Floats, total: Floats) -> None:
+    """Add a jump of loading that leaves branch `now` at x = `left`, or zero contact if it is on none yet (-1)."""
     if now < 0:
         add_slopes_to_zero(table, curve, near, x, NO, total)
     else:
@@ -68,10 +85,12 @@ def _enter(table: Any, curve: Any, near: Any, now: int, left: float, x: float, w
 
 
 @kernel()
-def _enter_through(
-    table: Any, curve: Any, near: Any, now: int, left: float, arrival: float, trace: Any, final: float, slopes: Any
-) -> None:
-    """Add loading to the first branch after a gap, through the waves of the gap if it goes that way."""
+def _enter_through(table: Any, curve: Any, near: Any, now: int, left: float, arrival: float, traced: Traced) -> None:
+    """Add loading from branch `now`, left at x = `left`, to x = `arrival` on the first branch after a gap.
+
+    It goes through the waves of the gap if the trace says so.
+    """
+    _, trace, final, slopes = traced
     work, total = slopes[ROWS], slopes[ROWS + 1, :SLOPES]
     if trace[RUN, RUN_LAST] >= trace[RUN, RUN_FIRST]:
         if trace[RUN, RUN_LANDING] > 0.0:
@@ -83,8 +102,9 @@ def _enter_through(
 
 
 @kernel()
-def fill_loading(table: Any, curve: Any, near: Any, count: int, trace: Any, final: float, slopes: Any) -> None:
+def fill_loading(table: Any, curve: Any, near: Any, traced: Traced) -> None:
     """Put the slopes of loading to where it arrives on each branch into their rows."""
+    count, trace, _, slopes = traced
     work, total = slopes[ROWS], slopes[ROWS + 1, :SLOPES]
     total[:] = 0.0
     now, gap = NOWHERE, gap_in(curve, trace)
@@ -93,7 +113,7 @@ def fill_loading(table: Any, curve: Any, near: Any, count: int, trace: Any, fina
             continue
         left = trace[END, now] if now >= 0 else 0.0
         if now < gap and branch == gap:
-            _enter_through(table, curve, near, now, left, trace[ARRIVAL, branch], trace, final, slopes)
+            _enter_through(table, curve, near, now, left, trace[ARRIVAL, branch], traced)
         else:
             _enter(table, curve, near, now, left, trace[ARRIVAL, branch], work, total)
         slopes[LOADED : LOADED + SLOPES, branch] = total
@@ -101,10 +121,9 @@ def fill_loading(table: Any, curve: Any, near: Any, count: int, trace: Any, fina
 
 
 @kernel()
-def add_loading(
-    table: Any, curve: Any, near: Any, count: int, trace: Any, rim: float, slopes: Any, total: Any
-) -> float:
-    """Add the slopes of loading up to a rim; return that by ln x of the rim."""
+def _add_loading(table: Any, curve: Any, near: Any, traced: Traced, rim: float, total: Floats) -> float:
+    """Add the slopes of loading up to a rim x to `total`, of shape (SLOPES,); return that by ln x of the rim."""
+    count, trace, _, slopes = traced
     now = count - 1
     while now >= 0 and not trace[ARRIVAL, now] <= rim:
         now -= 1
@@ -118,8 +137,9 @@ def add_loading(
 
 
 @kernel()
-def _leave(table: Any, curve: Any, near: Any, trace: Any, now: int, slopes: Any) -> None:
-    """Put the slopes of unloading from the start of a branch into its rows; those of all further in are there."""
+def _leave(table: Any, curve: Any, near: Any, traced: Traced, now: int) -> None:
+    """Put the slopes of unloading from the start of branch `now` into its rows; those of all further in are there."""
+    _, trace, _, slopes = traced
     total, work = slopes[ROWS + 1, :SLOPES], slopes[ROWS]
     total[:] = 0.0
     if trace[START, now] > 0.0:
@@ -134,8 +154,9 @@ def _leave(table: Any, curve: Any, near: Any, trace: Any, now: int, slopes: Any)
 
 
 @kernel()
-def _leave_through(table: Any, curve: Any, near: Any, trace: Any, gap: int, final: float, slopes: Any) -> None:
-    """Do the same for the first branch after a gap, from which unloading goes on into the gap."""
+def _leave_through(table: Any, curve: Any, near: Any, traced: Traced, gap: int) -> None:
+    """Do the same for the first branch after a gap, number `gap`, from which unloading goes on into the gap."""
+    _, trace, final, slopes = traced
     before, after, lowest = trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER], trace[RUN, RUN_LOWEST]
     total, work = slopes[ROWS + 1, :SLOPES], slopes[ROWS]
     if lowest == before and gap > 0:
@@ -156,35 +177,28 @@ def _leave_through(table: Any, curve: Any, near: Any, trace: Any, gap: int, fina
 
 
 @kernel()
-def fill_unloading(table: Any, curve: Any, near: Any, count: int, trace: Any, final: float, slopes: Any) -> None:
+def _fill_unloading(table: Any, curve: Any, near: Any, traced: Traced) -> None:
     """Put the slopes of unloading from the start of each branch that it has visited into their rows."""
+    count, trace, _, slopes = traced
     gap = gap_in(curve, trace)
     for branch in range(count):
         if trace[UNLOADING_JUMPS, branch] >= 0.0 and slopes[KNOWN, branch] == 0.0:
             if branch == gap and trace[RUN, RUN_LOWEST] != trace[RUN, RUN_AFTER]:
-                _leave_through(table, curve, near, trace, branch, final, slopes)
+                _leave_through(table, curve, near, traced, branch)
             else:
-                _leave(table, curve, near, trace, branch, slopes)
+                _leave(table, curve, near, traced, branch)
 
 
 @kernel()
-def add_unloading(
-    table: Any,
-    curve: Any,
-    near: Any,
-    count: int,
-    trace: Any,
-    rim: float,
-    rim_depth: float,
-    final: float,
-    slopes: Any,
-    total: Any,
+def _add_unloading(
+    table: Any, curve: Any, near: Any, traced: Traced, rim: float, rim_depth: float, total: Floats
 ) -> float:
-    """Add the slopes of unloading from a rim; return that by ln x of the rim."""
+    """Add the slopes of unloading from a rim x to `total`, of shape (SLOPES,); return that by ln x of the rim."""
+    count, trace, _, slopes = traced
     now, landing = leave_rim(table, curve, count, trace, rim, rim_depth)
     if now >= 0:
         descend(table, curve, trace, now, NO)
-        fill_unloading(table, curve, near, count, trace, final, slopes)
+        _fill_unloading(table, curve, near, traced)
     if now >= 0 and landing == rim:
         total += slopes[UNLOADED : UNLOADED + SLOPES, now]
         return 0.0
@@ -201,21 +215,21 @@ def add_unloading(
 
 @kernel()
 def energy_slopes(
-    table: Any,
-    curve: Any,
-    near: Any,
-    count: int,
-    trace: Any,
-    rim: float,
-    rim_depth: float,
-    final: float,
-    slopes: Any,
-    total: Any,
+    table: Any, curve: Any, near: Any, traced: Traced, rim: float, rim_depth: float, total: Floats
 ) -> float:
     """Put the slopes of the reduced energy of a rim into `total`; return that by ln x of the rim.
 
-    `slopes` holds what `fill_loading` has put there, and what was found for other rims.
+    Parameters
+    ----------
+    table, curve, near
+        The curve, and what its sensitivities need (core/face.py).
+    traced
+        Its trace, with the slopes that `fill_loading` has put there and those found for other rims.
+    rim, rim_depth
+        The rim x, and what is prescribed there, in s l^c.
+    total
+        The slopes by the numbers of sensitivities/jump_slopes.py, shape (SLOPES,), in 2 pi l^2 dgamma.
     """
     total[:] = 0.0
-    by_rim = add_loading(table, curve, near, count, trace, rim, slopes, total)
-    return float(by_rim + add_unloading(table, curve, near, count, trace, rim, rim_depth, final, slopes, total))
+    by_rim = _add_loading(table, curve, near, traced, rim, total)
+    return float(by_rim + _add_unloading(table, curve, near, traced, rim, rim_depth, total))

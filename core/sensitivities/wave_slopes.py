@@ -12,6 +12,7 @@ from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import LONG, NODES, SHORT_NODES, SHORT_WEIGHTS, WEIGHTS, panel_above
 from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, EXPONENT, GAIN, SLOPES, panel_slopes_above
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.types import Floats
 from gradhesion.core.waves.cosine import _fold, _landing, _slope
 from gradhesion.core.waves.cosine_sum import (
     _DIRECT,
@@ -67,9 +68,17 @@ def slopes_of_wave(table: Any, curve: Cosine, near: Any, wave: float, outwards: 
 
 @kernel()
 def _add_outer_part(
-    table: Any, curve: Cosine, near: Any, begin: float, end: float, outer: float, outwards: bool, work: Any, total: Any
+    table: Any,
+    curve: Cosine,
+    near: Any,
+    waves: tuple[float, float],
+    outer: float,
+    outwards: bool,
+    work: Floats,
+    total: Floats,
 ) -> None:
-    """Add the integral in y."""
+    """Add the integral in y between two waves; `outer` is a branch point, the rest as of `add_slopes_of_waves`."""
+    begin, end = waves
     found = work[_SAMPLES + 2 * _EDGE * SLOPES : _SAMPLES + (2 * _EDGE + 1) * SLOPES]
     outer = min(max(outer, end), _REMOTE * end)
     low, width = outer_limits(begin, end, outer)
@@ -82,9 +91,17 @@ def _add_outer_part(
 
 @kernel()
 def _add_inner_part(
-    table: Any, curve: Cosine, near: Any, begin: float, end: float, inner: float, outwards: bool, work: Any, total: Any
+    table: Any,
+    curve: Cosine,
+    near: Any,
+    waves: tuple[float, float],
+    inner: float,
+    outwards: bool,
+    work: Floats,
+    total: Floats,
 ) -> None:
-    """Add the integral in v."""
+    """Add the integral in v between two waves; `inner` is a branch point, the rest as of `add_slopes_of_waves`."""
+    begin, end = waves
     found = work[_SAMPLES + 2 * _EDGE * SLOPES : _SAMPLES + (2 * _EDGE + 1) * SLOPES]
     inner = min(inner, begin)
     low, width = inner_limits(begin, end, inner)
@@ -96,18 +113,26 @@ def _add_inner_part(
 
 @kernel()
 def _add_integral(
-    table: Any, curve: Cosine, near: Any, begin: float, end: float, points: Any, outwards: bool, work: Any, total: Any
+    table: Any,
+    curve: Cosine,
+    near: Any,
+    waves: tuple[float, float],
+    points: tuple[float, float],
+    outwards: bool,
+    work: Floats,
+    total: Floats,
 ) -> None:
-    """Add the integral over the index of the wave."""
+    """Add the integral over the index between two waves; `points` are the branch points of waves/cosine_sum.py."""
+    begin, end = waves
     inner, outer = points
     if inner > _WIDE * begin or end > _LONG * begin:
         middle = max(begin, min(_PART * max(inner, begin), math.sqrt(begin * end)))
-        _add_inner_part(table, curve, near, begin, middle, inner, outwards, work, total)
+        _add_inner_part(table, curve, near, (begin, middle), inner, outwards, work, total)
         begin = middle
     if end > _LONGEST * begin:
-        _add_outer_part(table, curve, near, begin, _FRACTION * end, outer, outwards, work, total)
+        _add_outer_part(table, curve, near, (begin, _FRACTION * end), outer, outwards, work, total)
         begin = _FRACTION * end
-    _add_outer_part(table, curve, near, begin, end, outer, outwards, work, total)
+    _add_outer_part(table, curve, near, (begin, end), outer, outwards, work, total)
 
 
 @kernel()
@@ -118,15 +143,18 @@ def add_slopes_of_waves(
     waves: tuple[float, float],
     outwards: bool,
     final: float,
-    work: Any,
-    total: Any,
+    work: Floats,
+    total: Floats,
 ) -> None:
-    """Add the slopes of what the jumps from the first to the last of some waves lose, as `sum_of_waves` does."""
+    """Add the slopes of what the jumps from the first to the last of some waves lose, as `sum_of_waves` does.
+
+    The arguments are those of core/face.py; `work` is of shape (ROOM,), `total` of shape (SLOPES,), in 2 pi l^2 dgamma.
+    """
     first, last = waves
     found = work[_SAMPLES + 2 * _EDGE * SLOPES : _SAMPLES + (2 * _EDGE + 1) * SLOPES]
     points = branch_points(table, curve, final, outwards)
     if last - first > _EVEN:
-        _add_integral(table, curve, near, first - 0.5, last + 0.5, points, outwards, work, total)
+        _add_integral(table, curve, near, (first - 0.5, last + 0.5), points, outwards, work, total)
         return
     if last - first < _DIRECT:
         wave = first
@@ -151,4 +179,4 @@ def add_slopes_of_waves(
             total += found
     for j in range(SLOPES):
         total[j] -= limit_terms(values[j])
-    _add_integral(table, curve, near, first + _FIRST - 0.5, last - _EDGE + 0.5, points, outwards, work, total)
+    _add_integral(table, curve, near, (first + _FIRST - 0.5, last - _EDGE + 0.5), points, outwards, work, total)

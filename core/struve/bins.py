@@ -14,11 +14,11 @@ from fractions import Fraction
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve import double_double as dd
 from gradhesion.core.struve.layout import BIN_TERMS, BIN_WIDTH
+from gradhesion.core.types import Floats
 
 TAYLOR: Final = 20
 """Taylor coefficients a bin: h^20/20! and the smallness of S0 leave nothing above 1e-20."""
@@ -26,7 +26,7 @@ _SERIES: Final = 14
 """Terms of the power series at z = 1/4."""
 
 
-def economisation(taylor_terms: int, terms: int) -> NDArray[np.float64]:
+def economisation(taylor_terms: int, terms: int) -> Floats:
     """Return the matrix that turns Taylor coefficients into those of the truncated Chebyshev series.
 
     Shape (terms, taylor_terms); each column is one power of t, re-expanded in exact rational arithmetic.

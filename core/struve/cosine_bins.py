@@ -18,7 +18,6 @@ import math
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve import double_double as dd
@@ -32,6 +31,7 @@ from gradhesion.core.struve.bins import (
     taylor_of,
 )
 from gradhesion.core.struve.layout import BIN_TERMS, BIN_WIDTH, BINS
+from gradhesion.core.types import Floats
 
 _SERIES: Final = 12
 """Terms of the power series at z = 1/4."""
@@ -79,7 +79,7 @@ def _fill(k: float, bins: Any, matrix: Any) -> None:
         slope = at_next_centre(t0_slope, TAYLOR + 1)
 
 
-def build_cosine_bins(k: float) -> NDArray[np.float64]:
+def build_cosine_bins(k: float) -> Floats:
     """Return T0 and T1 of the gradient exponent 0 <= k <= 1 in t = 4 z - (2 bin + 1), of shape (80, 11, 2)."""
     bins = np.zeros((BINS, BIN_TERMS, 2))
     _fill(float(k), bins, ECONOMISATION)

@@ -23,6 +23,7 @@ from gradhesion.core.struve.filling import ask_for_arches, ask_for_bin, ask_for_
 from gradhesion.core.struve.intrinsics import bits_of
 from gradhesion.core.struve.layout import TABLE
 from gradhesion.core.struve.table import build_table
+from gradhesion.core.types import Floats
 
 _NODES: Final = 24
 _DEGREES: Final = 16
@@ -36,7 +37,7 @@ _WORD: Final = 8
 
 
 @lru_cache(maxsize=1)
-def _at_nodes() -> tuple[NDArray[np.float64], list[NDArray[np.float64]]]:
+def _at_nodes() -> tuple[Floats, list[Floats]]:
     """Return the exponents of the nodes, and what their tables hold: arrays of the shape (blocks, nodes, numbers)."""
     places, _ = chebyshev_fit(_NODES, _DEGREES)
     exponents = 0.5 * (1.0 + places)
@@ -52,7 +53,7 @@ def _at_nodes() -> tuple[NDArray[np.float64], list[NDArray[np.float64]]]:
 
 
 @lru_cache(maxsize=2)
-def _expansions(terms: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _expansions(terms: int) -> tuple[Floats, Floats]:
     """Return the matrices from values at the nodes to Chebyshev coefficients on pieces, and from these to powers of t.
 
     Shapes (_PIECES, terms, nodes) and (terms, terms).
@@ -66,7 +67,7 @@ def _expansions(terms: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return fit_of_piece @ whole @ fit, powers
 
 
-def _made(piece: int) -> NDArray[np.float64]:
+def _made(piece: int) -> Floats:
     """Return the coefficients of a piece, block by block (filling.py)."""
     exponents, values_of_all = _at_nodes()
     nearest = np.argmin(np.abs(exponents - _CENTRES[piece]))
@@ -82,11 +83,11 @@ def _made(piece: int) -> NDArray[np.float64]:
     return np.concatenate(parts)
 
 
-_pieces: Final[dict[int, NDArray[np.float64]]] = {}
+_pieces: Final[dict[int, Floats]] = {}
 """What has been made, for good: tables know its address."""
 
 
-def _piece(piece: int) -> NDArray[np.float64]:
+def _piece(piece: int) -> Floats:
     """Return the coefficients of a piece, of many threads' the first one's."""
     if piece not in _pieces:
         return _pieces.setdefault(piece, _made(piece))
@@ -112,7 +113,7 @@ def _prepare(recipes: Any, tables: Any) -> None:
         prepare(tables[i], recipes[i, 0], recipes[i, 1], bits_of(recipes[i, 2]))
 
 
-def _fill_recipes(exponents: NDArray[np.float64], recipes: NDArray[np.float64]) -> None:
+def _fill_recipes(exponents: Floats, recipes: Floats) -> None:
     """Put the exponents, their places on their pieces, and the bits of the addresses of these into `recipes`."""
     pieces = np.searchsorted(_EDGES[1:-1], exponents)
     addresses = np.zeros(_PIECES, dtype=np.int64)
@@ -123,7 +124,7 @@ def _fill_recipes(exponents: NDArray[np.float64], recipes: NDArray[np.float64]) 
     recipes[:, 2] = addresses[pieces].view(np.float64)
 
 
-def interpolated_tables(exponents: NDArray[np.float64], *, whole: bool = False) -> NDArray[Any]:
+def interpolated_tables(exponents: Floats, *, whole: bool = False) -> NDArray[Any]:
     """Return the tables of some exponents, records of layout.TABLE.
 
     Parameters
@@ -147,7 +148,7 @@ def interpolated_tables(exponents: NDArray[np.float64], *, whole: bool = False) 
     return tables
 
 
-def table_of_each(exponents: NDArray[np.float64], *, forces: bool) -> NDArray[Any]:
+def table_of_each(exponents: Floats, *, forces: bool) -> NDArray[Any]:
     """Return one record that becomes the table of one exponent after the other (current.py).
 
     Parameters

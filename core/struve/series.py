@@ -15,7 +15,6 @@ wave a smooth function of its number (waves/general.py).
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
@@ -33,6 +32,7 @@ from gradhesion.core.struve.series_table import (
     near_bins,
     tabulated_sums,
 )
+from gradhesion.core.types import Floats
 
 _COSINE_BIN: Final = 2 * BIN_TERMS
 horner2 = make_horner(2, BIN_TERMS)
@@ -147,7 +147,7 @@ def _fill_near(table: Any, waves: Any, series: Any, count: float, near: Any) -> 
         fit_powers(values, near[b])
 
 
-def with_table(table: Any, bins: NDArray[np.float64], rows: NDArray[np.float64]) -> NDArray[np.float64]:
+def with_table(table: Any, bins: Floats, rows: Floats) -> Floats:
     """Return the bins of T0 and T1, flat, with the table of a series that has_table (struve/series_table.py)."""
     far, slow = build_far(table, rows)
     near = np.empty((near_bins(far.shape[0]), TERMS, 4))

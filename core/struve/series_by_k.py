@@ -17,6 +17,7 @@ from gradhesion.core.struve.layout import SWITCH
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import _COSINE_BIN, horner2, horner4, horner8
 from gradhesion.core.struve.series_table import COSINES, NEAR, slow_sums, tabulated_sums
+from gradhesion.core.types import Floats
 
 
 @kernel(contract=True)
@@ -102,10 +103,8 @@ def sums_by_k(
 
 
 def change_of(
-    own: tuple[Any, NDArray[np.float64]],
-    others: list[tuple[Any, NDArray[np.float64]]],
-    weights: NDArray[np.float64],
-) -> tuple[NDArray[Any], NDArray[np.float64]]:
+    own: tuple[Any, Floats], others: list[tuple[Any, Floats]], weights: Floats
+) -> tuple[NDArray[Any], Floats]:
     """Return the derivatives by k of a table, as an array of one record, and of the flat array that goes with it.
 
     Parameters

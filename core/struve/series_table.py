@@ -16,7 +16,6 @@ import math
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
@@ -24,6 +23,7 @@ from gradhesion.core.struve.intrinsics import fma, make_horner
 from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS
 from gradhesion.core.struve.layout import BINS as COSINE_BINS
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.types import Floats
 
 FEWEST: Final = 6
 """Harmonics from which on a table pays."""
@@ -54,7 +54,7 @@ _CHEBYSHEV: Final = np.array(
 """From values at `PLACES` to Chebyshev coefficients."""
 
 
-def _powers_of_chebyshev() -> NDArray[np.float64]:
+def _powers_of_chebyshev() -> Floats:
     """Return the coefficients of powers, all integers, of Chebyshev polynomials, one a column."""
     powers = np.zeros((TERMS, TERMS))
     for j in range(TERMS):
@@ -90,12 +90,12 @@ _FAR_ORDER: Final = _LANES * TERMS
 _FAR_BIN: Final = TAIL_TERMS * _FAR_ORDER
 
 
-def has_table(rows: NDArray[np.float64]) -> bool:
+def has_table(rows: Floats) -> bool:
     """Return whether a table of the series pays."""
     return bool(len(rows) >= FEWEST and rows[:, 0].max() <= HIGHEST)
 
 
-def _orders(k: float, tail: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _orders(k: float, tail: Floats) -> tuple[Floats, Floats]:
     """Return the orders of 40/y of the four sums of one harmonic.
 
     Returns
@@ -113,7 +113,7 @@ def _orders(k: float, tail: NDArray[np.float64]) -> tuple[NDArray[np.float64], N
         powers[lane, : 2 * even.size : 2] = even
     p0, p1, g0, g1, h0 = powers[[0, 2, 4, 5, 6]]
 
-    def over_y(orders: NDArray[np.float64]) -> NDArray[np.float64]:
+    def over_y(orders: Floats) -> Floats:
         return np.concatenate([[0.0], orders[:-1] / SWITCH])
 
     q0, q1 = over_y(powers[1]), over_y(powers[3])
@@ -211,14 +211,12 @@ def slow_sums(waves: Any, z: float) -> tuple[float, float]:
     return inverse * s0, inverse * s1
 
 
-def join_table(
-    bins: NDArray[np.float64], near: NDArray[np.float64], far: NDArray[np.float64], slow: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def join_table(bins: Floats, near: Floats, far: Floats, slow: Floats) -> Floats:
     """Return the flat array of the bins of T0 and T1, and the table of a series."""
     return np.concatenate([bins.ravel(), [float(far.shape[0])], slow.ravel(), near.ravel(), far.ravel()])
 
 
-def build_far(table: Any, rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def build_far(table: Any, rows: Floats) -> tuple[Floats, Floats]:
     """Return the bins of F_j, and the slow parts."""
     n, even = rows[:, 0], rows[:, 1]
     orders, slow = _orders(float(table["k"]), table["tail"])

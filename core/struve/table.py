@@ -9,13 +9,14 @@ from functools import lru_cache
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve import arches, bins, fractional, jump_tail, large, moments, theta
 from gradhesion.core.struve.layout import TABLE
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.power import build_power
+from gradhesion.core.types import Floats
 
 
 @kernel()
@@ -74,7 +75,7 @@ def _pairs(table: Any, x: Any, out: Any) -> None:
         out[0, i], out[1, i], out[2, i], out[3, i] = pair(table, x[i])
 
 
-def struve_pair(k: float, x: ArrayLike) -> NDArray[np.float64]:
+def struve_pair(k: float, x: ArrayLike) -> Floats:
     """Return S0, S1, dS0/dz and dS1/dz at z = 2 pi x.
 
     Parameters

@@ -6,7 +6,7 @@ of a long curve are looked for eight at a time (turning/cosine_at_once.py).
 """
 
 import math
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
@@ -27,8 +27,9 @@ from gradhesion.core.path.cosine import (
     is_unresolved,
     walk,
 )
-from gradhesion.core.path.cosine_long import BEFORE, LAST_UP, NEAR, begin_long, ends_folds, open_gap, stride
+from gradhesion.core.path.cosine_long import Long, begin_long, ends_folds, open_gap, stride
 from gradhesion.core.path.ties import is_within, rim_is_close
+from gradhesion.core.problem.curves import Curves, is_in_range
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.current import ready
@@ -43,10 +44,31 @@ from gradhesion.core.turning.first_reached import (
     turn_long_at_depth,
     turn_long_at_load,
 )
+from gradhesion.core.turning.turns import Turns
+from gradhesion.core.types import Floats
 
 _STEPS: Final = 200
 _AROUND: Final = 1.25
 """Waves beyond a regular one within which the next branch meets every depth of it."""
+
+
+class Goal(NamedTuple):
+    """One rim of a curve, and what its cycle turns at.
+
+    rim          x = a_max/lambda
+    target       the depth or load, in the units of the curve
+    reach        x within which it turns at the rim or before it, as far as the envelopes tell
+    wavelength   lambda/R
+    by_load      whether the target is a load
+    check        whether the contact that turns is tested for being one disc
+    """
+
+    rim: float
+    target: float
+    reach: float
+    wavelength: float
+    by_load: bool
+    check: bool
 
 
 @kernel()
@@ -92,8 +114,9 @@ def _is_one_disc(table: Any, curve: Cosine, count: int, trace: Any, long: bool, 
 
 
 @kernel()
-def _turn_smooth(k: float, stretch: float, rims: Any, targets: Any, by_load: bool, radii: Any, flags: Any) -> None:
-    """Turn a smooth punch, all its rims, in closed form (closed/smooth.py)."""
+def _turn_smooth(k: float, stretch: float, turns: Turns) -> None:
+    """Turn a smooth punch of stretch s, all its rims, in closed form (closed/smooth.py); lengths are in R."""
+    rims, targets, by_load, _, radii, flags = turns
     length = smooth.smooth_length(k, stretch)
     depth_scale = 2.0 * length * length / (1.0 + k)
     z_in = 2.0 ** (2.0 / (3.0 + k))
@@ -131,19 +154,24 @@ def _has_value(rim: float, target: float, by_load: bool) -> bool:
 
 @kernel()
 def _turn_rim(
-    table: Any,
-    curve: Cosine,
-    count: int,
-    trace: Any,
-    peaks: Any,
-    long: bool,
-    reach: float,
-    scene: tuple[float, float, float],
-    modes: tuple[bool, bool],
+    table: Any, curve: Cosine, count: int, trace: Floats, peaks: Floats, long: bool, goal: Goal
 ) -> tuple[float, int]:
-    """Return x where one scene turns, inf for the rim, and its flags; `scene` is rim, target and lambda/R."""
-    rim, target, wavelength = scene
-    by_load, check = modes
+    """Return x where the cycle of one rim turns, inf for the rim, and its flags.
+
+    Parameters
+    ----------
+    table, curve
+        The curve.
+    count, trace
+        Its branches: how many, and a trace of shape (ROWS, count or more).
+    peaks
+        Under loads, the largest load on each branch (`peaks_of`), shape (count,).
+    long
+        Whether waves stand in a gap of the trace.
+    goal
+        The rim, and what its cycle turns at.
+    """
+    rim, target, reach, wavelength, by_load, check = goal
     if by_load:
         if long:
             x, close = turn_long_at_load(table, curve, count, trace, peaks, reach, target)
@@ -166,48 +194,39 @@ def _turn_rim(
 
 
 @kernel()
-def _turn_long(
-    table: Any,
-    curve: Cosine,
-    arches: tuple[float, float],
-    inner: float,
-    reach: float,
-    scene: tuple[float, float, float],
-    modes: tuple[bool, bool],
-    trace: Any,
-    beginning: Any,
-) -> tuple[float, int]:
-    """Return what `_turn_rim` does for a scene of a long curve.
+def _turn_long(table: Any, curve: Cosine, inner: float, goal: Goal, long: Long) -> tuple[float, int]:
+    """Return what `_turn_rim` does for a rim of a long curve; within x = `inner` its load is not reached.
 
     A cycle that turns among the waves of a gap, surely before the rim, needs no branch beyond the gap.
     """
-    count = int(beginning[0][NEAR])
-    inside = reach < scene[0] and not ends_folds(table, arches, reach)
-    if not inside or not open_gap(table, curve, reach, trace, beginning):
-        count = stride(table, curve, arches, reach, trace, beginning, NO, 1.0)
-    peaks = peaks_of(table, curve, count, trace, inner, ONE) if modes[0] else trace[WORK]
-    return _turn_rim(table, curve, count, trace, peaks, YES, reach, scene, modes)
+    count = long.shared[0].near
+    inside = goal.reach < goal.rim and not ends_folds(table, long.arches, goal.reach)
+    if not inside or not open_gap(table, curve, goal.reach, long):
+        count = stride(table, curve, goal.reach, long, NO, 1.0)
+    trace = long.trace
+    peaks = peaks_of(table, curve, count, trace, inner, ONE) if goal.by_load else trace[WORK]
+    return _turn_rim(table, curve, count, trace, peaks, YES, goal)
 
 
 @kernel()
 def _turn_eight(
     table: Any,
     curve: Cosine,
-    arches: tuple[float, float],
     wavelength: float,
     waiting: tuple[int, Lanes, Lanes],
-    reaches: Any,
-    rims: Any,
-    modes: tuple[bool, bool],
-    radii: Any,
-    flags: Any,
-    trace: Any,
-    beginning: Any,
+    reaches: Floats,
+    turns: Turns,
+    long: Long,
 ) -> None:
-    """Turn the scenes of a long curve that wait at their depths: at once where these are those of regular waves."""
+    """Turn the rims of a long curve that wait at their depths: at once where these are those of regular waves.
+
+    `waiting` is how many they are, their numbers, and their depths in s l^c; `reaches` are x within which each rim
+    turns, of shape (rims,).
+    """
     count, indices, targets = waiting
-    shared, _, _ = beginning
-    now = int(shared[LAST_UP])
+    rims, _, _, check, radii, flags = turns
+    shared, trace = long.shared[0], long.trace
+    now = shared.last_up
     left, level = (trace[END, now], trace[END_DEPTH, now]) if now >= 0 else (0.0, 0.0)
     places, waves, ends, tops, befores = turns_at_once(table, curve, targets)
     for lane in range(count):
@@ -218,22 +237,22 @@ def _turn_eight(
             lane_of(ends, lane),
         )
         rim = rims[i] / wavelength
-        among = x < rim and x * wavelength < rim * wavelength and lane_of(waves, lane) > shared[BEFORE] + 1.0
+        among = x < rim and x * wavelength < rim * wavelength and lane_of(waves, lane) > shared.before + 1.0
         if (
             not among
-            or ends_folds(table, arches, end)
+            or ends_folds(table, long.arches, end)
             or target <= level
             or is_within(table, curve, target - level, left)
         ):
-            scene = (rim, target, wavelength)
-            x, flags[i] = _turn_long(table, curve, arches, 0.0, reaches[i], scene, modes, trace, beginning)
+            goal = Goal(rim, target, reaches[i], wavelength, NO, check)
+            x, flags[i] = _turn_long(table, curve, 0.0, goal, long)
             radii[i] = min(rims[i], x * wavelength)
             continue
         radii[i] = min(rims[i], x * wavelength)
         apart = min(target - lane_of(befores, lane), lane_of(tops, lane) - target)
         if is_within(table, curve, apart, end) or _is_first_contact(table.k, curve.bend, target):
             flags[i] |= CLOSE_TO_A_JUMP
-        if modes[1] and not is_always_one_disc(table, curve):
+        if check and not is_always_one_disc(table, curve):
             outer = min(rim, x + _AROUND)
             if least_opening(table, curve, x, outer) < 0.0:
                 flags[i] |= LOADING_NOT_ONE_DISC
@@ -244,17 +263,25 @@ def _turn_curve(
     table: Any,
     curve: Cosine,
     arches: tuple[float, float],
-    scales: tuple[float, float],
-    rims: Any,
-    targets: Any,
-    modes: tuple[bool, bool],
-    radii: Any,
-    flags: Any,
-    scratch: Any,
+    wavelength: float,
+    unit: float,
+    turns: Turns,
+    scratch: Floats,
 ) -> None:
-    """Turn a wavy punch, all its rims: they share one trace, or the beginning of a long one."""
-    wavelength, unit = scales
-    by_load, _ = modes
+    """Turn a wavy punch, all its rims: they share one trace, or the beginning of a long one.
+
+    Parameters
+    ----------
+    table, curve, arches
+        The curve, and the first and the last arch on which it can fold.
+    wavelength, unit
+        lambda/R, and the unit of depth or of load.
+    turns
+        The rims, and what they turn at; what is found goes there.
+    scratch
+        Room for a trace, shape (ROWS, branches).
+    """
+    rims, targets, by_load, check, radii, flags = turns
     b, g, _ = curve
     least, greatest = math.inf, -math.inf
     for i in range(rims.size):
@@ -286,69 +313,51 @@ def _turn_curve(
         peaks = peaks_of(table, curve, count, trace, inner, rims.size) if by_load else reaches
         for i in range(rims.size):
             if reaches[i] > 0.0 and not is_long(table, arches, reaches[i]):
-                scene = (rims[i] / wavelength, targets[i] / unit, wavelength)
-                x, flags[i] = _turn_rim(table, curve, count, trace, peaks, NO, reaches[i], scene, modes)
+                goal = Goal(rims[i] / wavelength, targets[i] / unit, reaches[i], wavelength, by_load, check)
+                x, flags[i] = _turn_rim(table, curve, count, trace, peaks, NO, goal)
                 radii[i] = min(rims[i], x * wavelength)
     begun, number, indices, levels = False, NONE, eight(0.0), eight(0.0)
     for i in range(rims.size):
         if reaches[i] > 0.0 and is_long(table, arches, reaches[i]):
             if not begun:
-                trace, beginning = begin_long(table, curve, arches, scratch, NO, 1.0)
+                long = begin_long(table, curve, arches, scratch, NO, 1.0)
                 begun = True
             if by_load:
-                scene = (rims[i] / wavelength, targets[i] / unit, wavelength)
-                x, flags[i] = _turn_long(table, curve, arches, inner, reaches[i], scene, modes, trace, beginning)
+                goal = Goal(rims[i] / wavelength, targets[i] / unit, reaches[i], wavelength, by_load, check)
+                x, flags[i] = _turn_long(table, curve, inner, goal, long)
                 radii[i] = min(rims[i], x * wavelength)
                 continue
             indices, levels = next_lane(indices, number, float(i)), next_lane(levels, number, targets[i] / unit)
             number += 1
             if number == LANES:
-                waiting = (number, indices, levels)
-                _turn_eight(
-                    table, curve, arches, wavelength, waiting, reaches, rims, modes, radii, flags, trace, beginning
-                )
+                _turn_eight(table, curve, wavelength, (number, indices, levels), reaches, turns, long)
                 number = NONE
     if number > 0:
-        waiting = (number, indices, levels)
-        _turn_eight(table, curve, arches, wavelength, waiting, reaches, rims, modes, radii, flags, trace, beginning)
+        _turn_eight(table, curve, wavelength, (number, indices, levels), reaches, turns, long)
 
 
 @kernel()
-def turn_curves(
-    tables: Any,
-    which: Any,
-    index: Any,
-    stiffness: Any,
-    wavelength: Any,
-    amplitude: Any,
-    rims: Any,
-    targets: Any,
-    by_load: bool,
-    check: bool,
-    radii: Any,
-    flags: Any,
-    scratch: Any,
-) -> None:
-    """Find where the curves `index` turn.
+def turn_curves(curves: Curves, turns: Turns, scratch: Floats) -> None:
+    """Find where the cycles of curves turn.
 
     Parameters
     ----------
-    tables, which, index, stiffness, wavelength, amplitude, rims, scratch
-        As those of the loops of scene/solvers.py.
-    targets
-        What the cycles turn at, of the shape of the rims: depths in R, or loads in 1.5 pi R dgamma.
-    by_load, check
-        Whether they are loads; whether the contact that turns is tested for being one disc.
-    radii, flags
-        The results, of the shape (curves, rims): a/R, 0 without contact, NaN without a value; and bits of the status.
+    curves
+        The curves; their rims are those of `turns`.
+    turns
+        The rims and what they turn at, shape (curves, rims) or (1, rims), and what is found, shape (curves, rims).
+    scratch
+        Room for a trace, shape (ROWS, branches).
     """
+    tables, which, index, stiffness, wavelength, amplitude, _ = curves
+    rims, targets, by_load, check, radii, flags = turns
     for j in range(index.size):
         i, table = index[j], tables[ready(tables, which[j])]
         k = table.k
         stretch_factor = 2.0 ** (1.0 + k) * math.pi
         row = i if rims.shape[0] > 1 else 0
         stretch = math.sqrt(stretch_factor / stiffness[i])
-        if not (0.0 < stretch < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf):
+        if not is_in_range(stretch, wavelength[i], amplitude[i]):
             radii[i, :], flags[i, :] = math.nan, NO_VALUE
             continue
         plain = is_endless_wave(wavelength[i], amplitude[i])
@@ -362,8 +371,8 @@ def turn_curves(
             plain = is_smooth(arches)
         if by_load:
             unit = force_unit(k, length, unit)
+        own = Turns(rims[row], targets[row], by_load, check, radii[i], flags[i])
         if plain:
-            _turn_smooth(k, stretch, rims[row], targets[row], by_load, radii[i], flags[i])
+            _turn_smooth(k, stretch, own)
         else:
-            scales, modes = (wavelength[i], unit), (by_load, check)
-            _turn_curve(table, curve, arches, scales, rims[row], targets[row], modes, radii[i], flags[i], scratch)
+            _turn_curve(table, curve, arches, wavelength[i], unit, own, scratch)

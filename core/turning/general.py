@@ -19,12 +19,15 @@ from gradhesion.core.path.general import walk
 from gradhesion.core.path.general_long import FEW, LONGEST_WALK, REGULAR, middle_of
 from gradhesion.core.path.general_ties import is_at_a_fold
 from gradhesion.core.path.ties import rim_is_close
+from gradhesion.core.problem.curves import GeneralCurves, is_in_range
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.turning.corners import corners_of, first_reached
 from gradhesion.core.turning.general_far import turn_far
 from gradhesion.core.turning.general_reach import reach
+from gradhesion.core.turning.turns import Turns
+from gradhesion.core.types import Floats, Truths
 
 _TRIALS: Final = 12
 """Times that a trace is made longer: a jump may land beyond where the target is surely exceeded."""
@@ -64,22 +67,29 @@ def _is_one_disc(basis: Basis, curve: Series, count: int, trace: Any, x: float, 
 def _turn_walked(
     basis: Basis,
     curve: Series,
-    by_load: bool,
-    check: bool,
     bounds: tuple[float, float],
-    rims: Any,
-    targets: Any,
-    reaches: Any,
-    chosen: Any,
-    places: Any,
-    flags: Any,
-    passed: Any,
+    turns: Turns,
+    reaches: Floats,
+    chosen: Truths,
+    passed: Truths,
 ) -> bool:
-    """Find the places x where the chosen scenes of a curve turn, on one trace; return whether it could be walked.
+    """Find the places x where the chosen rims of a curve turn, on one trace; return whether it could be walked.
 
-    `chosen` is no longer so of those that are found.
+    Parameters
+    ----------
+    basis, curve, bounds
+        The curve, and the x between which all its folds stand.
+    turns
+        The rims and places, in wavelengths, and what they turn at, in the units of the curve.
+    reaches
+        x within which each of them turns, shape (rims,); moved outwards where it is not so.
+    chosen
+        Which rims are turned, shape (rims,); no longer so of those that are found.
+    passed
+        Found: whether a jump has passed the target, shape (rims,).
     """
     first, last = bounds
+    rims, targets, by_load, check, places, flags = turns
     search = (room(), np.empty(MOST_FOLDS), 0.0)
     for _ in range(_TRIALS):
         furthest, left = 0.0, False
@@ -114,29 +124,28 @@ def _turn_walked(
 
 @kernel()
 def _turn_one_far(
-    basis: Basis,
-    curve: Series,
-    by_load: bool,
-    check: bool,
-    bounds: tuple[float, float],
-    rim: float,
-    target: float,
-    surely: float,
+    basis: Basis, curve: Series, bounds: tuple[float, float], turns: Turns, surely: float, i: int
 ) -> tuple[bool, float, int, bool]:
-    """Find where one scene of a long curve turns; return whether that could be done, x, its flags, and `passed`."""
+    """Find where rim number i of a long curve turns, as far as is known within x = `surely`.
+
+    Returns
+    -------
+    Whether that could be done, x, its flags, and whether a jump has passed the target.
+    """
     first, last = bounds
+    rim, target = turns.rims[i], turns.targets[i]
     for _ in range(_TRIALS):
         furthest = min(rim, surely)
         middle = middle_of(basis, curve, first, min(furthest, last), 0.0)
-        if middle[0] != REGULAR:
+        if middle.kind != REGULAR:
             return False, rim, 0, False
-        done, here, whole = turn_far(basis, curve, (by_load, target), first, middle, furthest)
+        done, here, whole = turn_far(basis, curve, (turns.by_load, target), first, middle, furthest)
         if not done:
             return False, rim, 0, False
         found, x, close, jumped = here
         flags = CLOSE_TO_A_JUMP if close else 0
         if found and whole + x < rim:
-            if check:
+            if turns.check:
                 empty = np.empty((1, 0))
                 if not _is_one_disc(basis, curve, NONE, empty, whole + x, rim):
                     flags |= LOADING_NOT_ONE_DISC
@@ -150,27 +159,20 @@ def _turn_one_far(
 
 
 @kernel()
-def _turn_curve(
-    basis: Basis,
-    curve: Series,
-    unit: float,
-    wavelength: float,
-    by_load: bool,
-    check: bool,
-    rims: Any,
-    targets: Any,
-    radii: Any,
-    flags: Any,
-    passed: Any,
-) -> None:
-    """Find where the cycles of a curve turn; targets are in `unit`."""
+def _turn_curve(basis: Basis, curve: Series, unit: float, wavelength: float, turns: Turns, passed: Truths) -> None:
+    """Find where the cycles of a curve turn, and whether a jump has passed the target, of shape (rims,).
+
+    Lengths of `turns` are in R; `unit` is that of its targets.
+    """
     table, _, series = basis
     B, m, g, _, _ = curve
+    rims, targets, by_load, check, radii, flags = turns
     count = rims.size
     highest = highest_harmonic(series)
     first, last = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
     measured = Series(B, m, g, 0.0, 1.0) if by_load else Series(B, m, g, 1.0, 0.0)
     edges, reduced, reaches, places = np.empty(count), np.empty(count), np.empty(count), np.empty(count)
+    own = Turns(edges, reduced, by_load, check, places, flags)
     chosen, alone = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
     together, bound = False, 0.0
     for i in range(count):  # that of the largest serves all that are walked together
@@ -193,34 +195,28 @@ def _turn_curve(
         waves = min(edges[i], reaches[i], last) - first
         if series.shape[0] > 0 and LONGEST_WALK < waves < math.inf:
             middle = middle_of(basis, curve, first, min(edges[i], reaches[i], last), 0.0)
-            if middle[0] == REGULAR:
-                done, x, found, jumped = _turn_one_far(
-                    basis, curve, by_load, check, (first, last), edges[i], target, reaches[i]
-                )
+            if middle.kind == REGULAR:
+                done, x, found, jumped = _turn_one_far(basis, curve, (first, last), own, reaches[i], i)
                 if done:
                     places[i], passed[i] = x, jumped
                     flags[i] |= found
                     continue
             alone[i] = True
-            bounds = (first, middle[1] if middle[0] == FEW else last)
-            if (middle[0] == FEW or waves * highest < MOST_CELLS) and _turn_walked(
-                basis, curve, by_load, check, bounds, edges, reduced, reaches, alone, places, flags, passed
+            few = middle.kind == FEW
+            bounds = (first, middle.until if few else last)
+            if (few or waves * highest < MOST_CELLS) and _turn_walked(
+                basis, curve, bounds, own, reaches, alone, passed
             ):
                 continue
             alone[i] = False
             places[i] = math.nan
         elif waves * highest < MOST_CELLS:
             chosen[i] = together = True
-    if together and not _turn_walked(
-        basis, curve, by_load, check, (first, last), edges, reduced, reaches, chosen, places, flags, passed
-    ):
+    if together and not _turn_walked(basis, curve, (first, last), own, reaches, chosen, passed):
         for i in range(count):  # too many folds up to the furthest of them
             if chosen[i]:
                 alone[i], reaches[i] = True, reach(basis, measured, reduced[i])
-                bounds = (first, last)
-                _turn_walked(
-                    basis, curve, by_load, check, bounds, edges, reduced, reaches, alone, places, flags, passed
-                )
+                _turn_walked(basis, curve, (first, last), own, reaches, alone, passed)
                 alone[i] = False
     for i in range(count):
         if math.isnan(places[i]):
@@ -230,46 +226,29 @@ def _turn_curve(
 
 
 @kernel()
-def turn_scenes(
-    table: Any,
-    cosine_bins: Any,
-    series: Any,
-    exponent: float,
-    depth_factor: float,
-    index: Any,
-    stretch: Any,
-    wavelength: Any,
-    amplitude: Any,
-    compliance: Any,
-    rims: Any,
-    targets: Any,
-    by_load: bool,
-    check: bool,
-    radii: Any,
-    flags: Any,
-    passed: Any,
-) -> None:
-    """Find where the cycles of the curves `index` of one gradient exponent turn.
+def turn_scenes(basis: Basis, curves: GeneralCurves, turns: Turns, passed: Truths) -> None:
+    """Find where the cycles of curves of one gradient exponent turn.
 
     Parameters
     ----------
-    table, cosine_bins, series, exponent, depth_factor, index, stretch, wavelength, amplitude, compliance, rims
-        As those of `solve_scenes` in scene/general.py.
-    targets
-        What the cycles turn at, of the shape of the rims: depths in R, or loads in 1.5 pi R dgamma.
-    by_load, check
-        Whether they are loads; whether the contact that turns is tested for being one disc.
-    radii, flags, passed
-        The results, of the shape (curves, rims): a/R, 0 without contact, NaN without a value; bits of the status; and
-        whether a jump has passed the target, so that the cycle turns beyond it.
+    basis
+        What all of them are computed from.
+    curves
+        The curves; their rims are those of `turns`.
+    turns
+        The rims and what they turn at, shape (curves, rims) or (1, rims), and what is found, shape (curves, rims).
+    passed
+        Found: whether a jump has passed the target, so that the cycle turns beyond it; shape (curves, rims).
     """
+    numbers, exponent, depth_factor, stretch, wavelength, amplitude, compliance, _ = curves
+    table, cosine_bins, series = basis
+    rims, targets, by_load, check, radii, flags = turns
     smooth = np.zeros((0, 3))
-    for j in range(index.size):
-        i = index[j]
+    for j in range(numbers.size):
+        i = numbers[j]
         row = i if rims.shape[0] > 1 else 0
-        valid = 0.0 < stretch[i] < math.inf and 0.0 < wavelength[i] < math.inf and 0.0 <= amplitude[i] < math.inf
-        valid = valid and compliance[i] >= 0.0
-        basis = (table, cosine_bins, series if amplitude[i] > 0.0 else smooth)
+        valid = is_in_range(stretch[i], wavelength[i], amplitude[i]) and compliance[i] >= 0.0
+        waves = Basis(table, cosine_bins, series if amplitude[i] > 0.0 else smooth)
         curve, length, unit = curve_of(
             table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
         )
@@ -278,5 +257,5 @@ def turn_scenes(
             continue
         if by_load:
             unit = force_unit(table.k, length, unit)
-        found = (radii[i], flags[i], passed[i])
-        _turn_curve(basis, curve, unit, wavelength[i], by_load, check, rims[row], targets[row], *found)
+        own = Turns(rims[row], targets[row], by_load, check, radii[i], flags[i])
+        _turn_curve(waves, curve, unit, wavelength[i], own, passed[i])

@@ -19,10 +19,11 @@ from typing import Any, Final
 
 import numpy as np
 
-from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.compiler.jit import NONE, constant, kernel
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.struve.chebyshev import chebyshev_fit
 from gradhesion.core.struve.lanes import chosen, lane_of, load, root_of
+from gradhesion.core.types import Floats
 from gradhesion.core.waves.cosine_at_once import BATCH, LOSSES, WAVES, jumps_in_a_row, jumps_of_batch
 from gradhesion.core.waves.cosine_sum import branch_points, sum_of_waves
 
@@ -52,42 +53,55 @@ _MOST: Final = 2.0**52
 _LINKED: Final = 3
 """Panels in a row, of which the first one begins with a sum of its own and the others with that of the one before."""
 _PANELS: Final = 32
-FIRST, INNER, OUTER, COUNT, SAMPLES, SINGLE, KNOWN, _SUMS = 0, 1, 2, 3, 4, 5, 6, 8
-"""Row 0 of the sums: the first wave, the branch points, the number of panels; the waves whose jump has been found; how
-many of the first waves are to be summed one by one, how many are, and their sums."""
+NOT_BEGUN: Final = constant(-1)
 BEGIN, END, BASE, LOW, HIGH, IN_Y, _AT_BEGIN, _LOSS, _INTEGRAL = 0, 1, 2, 3, 4, 5, 6, 8, 24
-"""Other rows: where a panel begins and ends, the sum up to its begin (NaN: not filled), the variable at both ends,
+"""A panel: where it begins and ends, the sum up to its begin (NaN: not filled), the variable at both ends,
 which one it is, `_up_to` at the begin, and the coefficients of the loss and of its integral."""
 _COLUMNS: Final = 41
+SUMS: Final = np.dtype(
+    [
+        ("first", "f8"),  # the first wave
+        ("inner", "f8"),  # the branch points
+        ("outer", "f8"),
+        ("count", "i8"),  # the number of panels, -1 before the sums have begun
+        ("samples", "i8"),  # the waves whose jump has been found
+        ("single", "i8"),  # how many of the first waves are to be summed one by one,
+        ("known", "i8"),  # how many are,
+        ("totals", "f8", (_SINGLE,)),  # and their sums up to each
+        ("panels", "f8", (_PANELS, _COLUMNS)),  # the first row is not used
+    ]
+)
+"""What the sums in one direction share."""
 _AROUND: Final = np.array([-1.25, -0.75, -0.25, 0.25, 0.75, 1.25, 1.25, 1.25])
 """Waves around a half wave at which the loss gives its derivatives; the last ones fill eight."""
 
 
 @kernel()
 def room_for_sums() -> Any:
-    """Return room for the sums outwards and inwards of one curve, of which none has begun."""
-    sums = np.empty((2, _PANELS, _COLUMNS))
-    sums[:, 0, COUNT] = -1.0
+    """Return room for the sums outwards and inwards of one curve, records `SUMS` of shape (2,); none has begun."""
+    sums = np.empty(2, SUMS)
+    for i in range(2):
+        sums[i].count = NOT_BEGUN
     return sums
 
 
 @kernel()
 def begin_sums(table: Any, curve: Cosine, sums: Any, first: float, outwards: bool, final: float) -> None:
-    """Lay the panels of the sums that begin with the jump of wave `first`; `sums` are those of one direction.
+    """Lay the panels of the sums that begin with the jump of wave `first`; `sums` is the record of one direction.
 
-    There are none where the first wave stands well within the inner branch point (with k next to 1 and waves that are
-    much steeper than adhesion is strong): each sum is then one of its own.
+    `final` is the last arch on which the curve folds. There are no panels where the first wave stands well within the
+    inner branch point (with k next to 1 and waves that are much steeper than adhesion is strong): each sum is then one
+    of its own.
     """
-    head = sums[0]
-    head[FIRST], head[SAMPLES], head[KNOWN] = first, 0.0, 0.0
-    head[INNER], head[OUTER] = branch_points(table, curve, final, outwards)
-    inner, outer = max(0.0, head[INNER]), head[OUTER]
-    head[COUNT], head[SINGLE] = 0.0, 0.0
+    sums.first, sums.samples, sums.known = first, NONE, NONE
+    sums.inner, sums.outer = branch_points(table, curve, final, outwards)
+    inner, outer = max(0.0, sums.inner), sums.outer
+    sums.count, sums.single = NONE, NONE
     single = max(0.0, min(float(_SINGLE), math.ceil(max(inner, _INNERMOST) + _CLEAR - first)))
     if first + single < inner + _NEAREST:
         return
-    head[SINGLE] = single
-    begin = first + (head[SINGLE] - 0.5)
+    sums.single = int(single)
+    begin = first + (single - 0.5)
     middle = inner + _MIDDLE * (outer - inner)
     late = inner + _LATE * (outer - inner)
     count = 0
@@ -100,25 +114,25 @@ def begin_sums(table: Any, curve: Cosine, sums: Any, first: float, outwards: boo
         count += 1
         if count == _PANELS or not begin < end:
             return
-        panel = sums[count]
+        panel = sums.panels[count]
         panel[BEGIN], panel[END], panel[BASE] = begin, end, math.nan
         panel[IN_Y] = 1.0 if begin >= inner + _OUTER_HALF * (middle - inner) else 0.0
         begin = end
-    head[COUNT] = count
+    sums.count = count
 
 
 @kernel(contract=True)
-def _variable(head: Any, panel: Any, wave: float) -> float:
-    """Return y or v, of a wave or of eight (struve/lanes.py)."""
+def _variable(sums: Any, panel: Floats, wave: float) -> float:
+    """Return y or v, of a wave or of eight (struve/lanes.py); `panel` is one row of the panels of `sums`."""
     if panel[IN_Y] > 0.0:
-        rest = 1.0 - root_of(root_of(wave / head[OUTER]))
+        rest = 1.0 - root_of(root_of(wave / sums.outer))
         return root_of(chosen(rest, 0.0, 0.0, rest))
-    return root_of(wave - head[INNER])
+    return root_of(wave - sums.inner)
 
 
 @kernel(contract=True)
-def _series(panel: Any, at: int, terms: int, t: float) -> float:
-    """Return a Chebyshev series at t, a number or eight (Clenshaw)."""
+def _series(panel: Floats, at: int, terms: int, t: float) -> float:
+    """Return the Chebyshev series of `terms` coefficients, from column `at` of a panel on, at t, a number or eight."""
     here, before = 0.0 * t, 0.0 * t
     for j in range(terms - 1, 0, -1):
         here, before = panel[at + j] + 2.0 * t * here - before, here
@@ -126,17 +140,17 @@ def _series(panel: Any, at: int, terms: int, t: float) -> float:
 
 
 @kernel(contract=True)
-def _place(head: Any, panel: Any, wave: float) -> float:
+def _place(sums: Any, panel: Floats, wave: float) -> float:
     """Return the place of a wave, or of eight, on the [-1, 1] of its panel."""
     low, high = panel[LOW], panel[HIGH]
-    return (2.0 * _variable(head, panel, wave) - low - high) / (high - low)
+    return (2.0 * _variable(sums, panel, wave) - low - high) / (high - low)
 
 
 @kernel(contract=True)
-def _up_to(head: Any, panel: Any, wave: float) -> float:
+def _up_to(sums: Any, panel: Floats, wave: float) -> float:
     """Return the integral up to a half wave less e'/24 - 7 e'''/5760 + 31 e^(5)/967680 there."""
-    total = _series(panel, _INTEGRAL, _TERMS + 1, _place(head, panel, wave))
-    around = _series(panel, _LOSS, _TERMS, _place(head, panel, wave + load(_AROUND, 0)))
+    total = _series(panel, _INTEGRAL, _TERMS + 1, _place(sums, panel, wave))
+    around = _series(panel, _LOSS, _TERMS, _place(sums, panel, wave + load(_AROUND, 0)))
     one = lane_of(around, 3) - lane_of(around, 2)
     two, three = lane_of(around, 4) - lane_of(around, 1), lane_of(around, 5) - lane_of(around, 0)
     third, fifth = two - 3.0 * one, three - 5.0 * two + 10.0 * one
@@ -145,9 +159,9 @@ def _up_to(head: Any, panel: Any, wave: float) -> float:
 
 
 @kernel()
-def _fill(table: Any, curve: Cosine, head: Any, panel: Any, outwards: bool, room: Any) -> None:
-    """Put the coefficients of the loss and of its integral into a panel."""
-    low, high = _variable(head, panel, panel[BEGIN]), _variable(head, panel, panel[END])
+def _fill(table: Any, curve: Cosine, sums: Any, panel: Floats, outwards: bool, room: Floats) -> None:
+    """Put the coefficients of the loss, in 2 pi l^2 dgamma, and of its integral over waves into a panel of `sums`."""
+    low, high = _variable(sums, panel, panel[BEGIN]), _variable(sums, panel, panel[END])
     panel[LOW], panel[HIGH] = low, high
     half = 0.5 * (high - low)
     panel[_LOSS : _INTEGRAL + _TERMS + 1] = 0.0
@@ -156,69 +170,68 @@ def _fill(table: Any, curve: Cosine, head: Any, panel: Any, outwards: bool, room
         variable = 0.5 * (low + high) + half * _PLACES[i]
         rest = 1.0 - variable * variable
         is_y = panel[IN_Y] > 0.0
-        room[WAVES + i] = head[OUTER] * rest**4 if is_y else head[INNER] + variable * variable
-        rates[i] = half * (-8.0 * head[OUTER] * variable * rest**3 if is_y else 2.0 * variable)
+        room[WAVES + i] = sums.outer * rest**4 if is_y else sums.inner + variable * variable
+        rates[i] = half * (-8.0 * sums.outer * variable * rest**3 if is_y else 2.0 * variable)
     jumps_of_batch(table, curve, outwards, room)
     for i in range(_TERMS):
         loss = room[LOSSES + i]
         for j in range(_TERMS):
             panel[_LOSS + j] += _FIT[j, i] * loss
             steps[j] += _FIT[j, i] * (loss * rates[i])
-    head[SAMPLES] += _TERMS
+    sums.samples += _TERMS
     panel[_INTEGRAL + 1] = steps[0] - 0.5 * steps[2]
     for j in range(2, _TERMS + 1):
         panel[_INTEGRAL + j] = 0.5 / j * (steps[j - 1] - steps[j + 1])
-    panel[_AT_BEGIN] = _up_to(head, panel, panel[BEGIN])
+    panel[_AT_BEGIN] = _up_to(sums, panel, panel[BEGIN])
 
 
 @kernel()
-def _first_waves(table: Any, curve: Cosine, head: Any, count: int, outwards: bool, room: Any) -> float:
-    """Return the sum over some of the first waves; all of them are found at once."""
-    if head[KNOWN] == 0.0 and count > 0:
-        first, known = head[FIRST], head[SINGLE]
-        last = min(first + (known - 1.0), max(first, head[OUTER] - _BEFORE))
-        jumps_in_a_row(table, curve, first, last, outwards, room)
+def _first_waves(table: Any, curve: Cosine, sums: Any, count: int, outwards: bool, room: Floats) -> float:
+    """Return the sum over `count` of the first waves, in 2 pi l^2 dgamma; all that are single are found at once."""
+    if sums.known == 0 and count > 0:
+        last = min(sums.first + (sums.single - 1.0), max(sums.first, sums.outer - _BEFORE))
+        jumps_in_a_row(table, curve, sums.first, last, outwards, room)
         total = 0.0
-        for i in range(int(known)):
+        for i in range(sums.single):
             total += room[LOSSES + i]
-            head[_SUMS + i] = total
-        head[SAMPLES] += known
-        head[KNOWN] = known
-    return head[_SUMS + count - 1] if count > 0 else 0.0
+            sums.totals[i] = total
+        sums.samples += sums.single
+        sums.known = sums.single
+    return sums.totals[count - 1] if count > 0 else 0.0
 
 
 @kernel()
-def sum_up_to(table: Any, curve: Cosine, sums: Any, last: float, outwards: bool, final: float, room: Any) -> float:
-    """Return the sum of what the jumps from the first wave to wave `last` lose.
+def sum_up_to(table: Any, curve: Cosine, sums: Any, last: float, outwards: bool, final: float, room: Floats) -> float:
+    """Return the sum of what the jumps from the first wave to wave `last` lose, in 2 pi l^2 dgamma.
 
-    `last` stands eight waves or more before the outer branch point; `sums` is what `begin_sums` has begun for the
-    direction.
+    `last` stands eight waves or more before the outer branch point; `sums` is the record that `begin_sums` has begun
+    for the direction; `final` is the last arch on which the curve folds, and `room` that of waves/cosine_at_once.py.
     """
-    head = sums[0]
-    count = last - head[FIRST] + 1.0
-    if count <= head[SINGLE]:
-        return _first_waves(table, curve, head, max(0, int(count)), outwards, room)
-    if head[COUNT] < 1.0:
-        return sum_of_waves(table, curve, head[FIRST], last, outwards, final, room)
+    count = last - sums.first + 1.0
+    if count <= sums.single:
+        return _first_waves(table, curve, sums, max(0, int(count)), outwards, room)
+    if sums.count < 1:
+        return sum_of_waves(table, curve, sums.first, last, outwards, final, room)
+    panels = sums.panels
     number = 1
-    while number < head[COUNT] and sums[number, END] < last:
+    while number < sums.count and panels[number, END] < last:
         number += 1
     # inwards to a panel that is filled, or whose sum is found without the one before it
     start = number
-    while math.isnan(sums[start, BASE]) and (start - 1) % _LINKED > 0:
+    while math.isnan(panels[start, BASE]) and (start - 1) % _LINKED > 0:
         start -= 1
     for i in range(start, number + 1):
-        panel = sums[i]
+        panel = panels[i]
         if not math.isnan(panel[BASE]):
             continue
         if i == 1:
-            base = _first_waves(table, curve, head, int(head[SINGLE]), outwards, room)
+            base = _first_waves(table, curve, sums, sums.single, outwards, room)
         elif (i - 1) % _LINKED == 0:
-            base = sum_of_waves(table, curve, head[FIRST], panel[BEGIN] - 0.5, outwards, final, room)
+            base = sum_of_waves(table, curve, sums.first, panel[BEGIN] - 0.5, outwards, final, room)
         else:
-            before = sums[i - 1]
-            base = before[BASE] + (_up_to(head, before, before[END]) - before[_AT_BEGIN])
-        _fill(table, curve, head, panel, outwards, room)
+            before = panels[i - 1]
+            base = before[BASE] + (_up_to(sums, before, before[END]) - before[_AT_BEGIN])
+        _fill(table, curve, sums, panel, outwards, room)
         panel[BASE] = base
-    panel = sums[number]
-    return panel[BASE] + (_up_to(head, panel, last + 0.5) - panel[_AT_BEGIN])
+    panel = panels[number]
+    return panel[BASE] + (_up_to(sums, panel, last + 0.5) - panel[_AT_BEGIN])

@@ -13,7 +13,7 @@ before; unloading from the lowest start to that of the wave before.
 """
 
 import math
-from typing import Any, Final, TypeAlias
+from typing import Any, Final, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -27,7 +27,38 @@ from gradhesion.core.curve.general_folds import folds_of_cell, refine, room
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import highest_harmonic
+from gradhesion.core.types import Floats
 
+
+class Room(NamedTuple):
+    """Arrays that waves are worked on in.
+
+    search  of a search of folds (curve/general_folds.py)
+    zeros   folds of a cell, of shape (MOST,)
+    rows    the branches of two waves in the rows of curve/general_branches.py, of shape (2, 4, branches)
+    """
+
+    search: Any
+    zeros: Floats
+    rows: Floats
+
+
+class Waves(NamedTuple):
+    """How far waves add to a cycle.
+
+    kind  UP, DOWN or PASSING
+    cut   where waves are cut, 0 .. 1
+    left  the place that a jump leaves which passes them; NOWHERE else
+    work  room for waves
+    """
+
+    kind: int
+    cut: float
+    left: Left
+    work: Room
+
+
+NOWHERE: Final = Left(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 Step: TypeAlias = tuple[float, float, int]
 """What the jumps of a wave lose, their number, and the pattern they make: 0 for none, -1 where they are not regular."""
 UP, DOWN, PASSING = map(constant, range(3))
@@ -43,7 +74,7 @@ _MODULUS: Final = 2_147_483_647
 
 
 @kernel()
-def _leading(table: Any, series: Any, u: float) -> tuple[float, float]:
+def _leading(table: Any, series: Floats, u: float) -> tuple[float, float]:
     """Return F and its slope over 2 pi."""
     value, rate = 0.0, 0.0
     power = 0.5 * (3.0 - table.k)
@@ -58,7 +89,7 @@ def _leading(table: Any, series: Any, u: float) -> tuple[float, float]:
 
 
 @kernel()
-def cut_of(table: Any, series: Any) -> float:
+def cut_of(table: Any, series: Floats) -> float:
     """Return u in 0 .. 1 at which F is least."""
     samples = int(_SAMPLES * highest_harmonic(series))
     least, best = math.inf, 0
@@ -79,9 +110,9 @@ def cut_of(table: Any, series: Any) -> float:
 
 
 @kernel()
-def room_for_waves(series: Any) -> Any:
-    """Return the arrays that waves are worked on in: of a search, zeros of a cell, and branches of two waves."""
-    return room(), np.empty(MOST), np.empty((2, 4, 2 * int(highest_harmonic(series)) + 8))
+def room_for_waves(series: Floats) -> Room:
+    """Return room for the waves of a series, rows (n, cos, sin) of shape (harmonics, 3)."""
+    return Room(room(), np.empty(MOST), np.empty((2, 4, 2 * int(highest_harmonic(series)) + 8)))
 
 
 @kernel()
@@ -92,7 +123,7 @@ def falls_at_cut(basis: Basis, curve: Series, cut: float, wave: float) -> bool:
 
 
 @kernel()
-def _branch_of_one_harmonic(basis: Basis, curve: Series, wave: float, low: float, at_low: float, rows: Any) -> int:
+def _branch_of_one_harmonic(basis: Basis, curve: Series, wave: float, low: float, at_low: float, rows: Floats) -> int:
     """Do what `branches_of_wave` does for one harmonic: D has one crest a wave, and rises and falls monotonously.
 
     Of what else is in D the rise over a wave is a part 3/z, at most, of what the waves themselves rise, or no fold is
@@ -130,7 +161,7 @@ def _between(trough: float, crest: float, below: float, above: float) -> float:
 
 
 @kernel()
-def branches_of_wave(basis: Basis, curve: Series, wave: float, low: float, work: Any, rows: Any) -> int:
+def branches_of_wave(basis: Basis, curve: Series, wave: float, low: float, work: Room, rows: Floats) -> int:
     """Put the branches between wave + low and wave + low + 1 into `rows`; return their number, -1 if one is cut."""
     _, _, series = basis
     search, zeros, _ = work
@@ -158,7 +189,7 @@ def branches_of_wave(basis: Basis, curve: Series, wave: float, low: float, work:
 
 
 @kernel()
-def highest_end(rows: Any, count: int) -> int:
+def highest_end(rows: Floats, count: int) -> int:
     """Return the branch that ends highest, -1 without any."""
     best, level = -1, -math.inf
     for i in range(count):
@@ -168,7 +199,7 @@ def highest_end(rows: Any, count: int) -> int:
 
 
 @kernel()
-def lowest_start(rows: Any, count: int) -> int:
+def lowest_start(rows: Floats, count: int) -> int:
     """Return the branch that starts lowest, -1 without any."""
     best, level = -1, math.inf
     for i in range(count):
@@ -178,7 +209,7 @@ def lowest_start(rows: Any, count: int) -> int:
 
 
 @kernel()
-def _step_up(basis: Basis, curve: Series, cut: float, wave: float, work: Any, losses: bool) -> Step:
+def _step_up(basis: Basis, curve: Series, cut: float, wave: float, work: Room, losses: bool) -> Step:
     """Load from the highest end of the wave before to that of a wave."""
     _, _, rows = work
     before = wave - 1.0
@@ -202,7 +233,7 @@ def _step_up(basis: Basis, curve: Series, cut: float, wave: float, work: Any, lo
 
 
 @kernel()
-def _step_down(basis: Basis, curve: Series, cut: float, wave: float, work: Any, losses: bool) -> Step:
+def _step_down(basis: Basis, curve: Series, cut: float, wave: float, work: Room, losses: bool) -> Step:
     """Unload from the lowest start of a wave to that of the wave before."""
     _, _, rows = work
     before = wave - 1.0
@@ -226,12 +257,10 @@ def _step_down(basis: Basis, curve: Series, cut: float, wave: float, work: Any, 
 
 
 @kernel()
-def step_of_wave(
-    kind: int, basis: Basis, curve: Series, cut: float, left: Left, wave: float, work: Any, losses: bool
-) -> Step:
-    """Return what a wave adds: to loading or unloading, or to a jump outwards from `left` that passes it."""
-    if kind == UP:
-        return _step_up(basis, curve, cut, wave, work, losses)
-    if kind == DOWN:
-        return _step_down(basis, curve, cut, wave, work, losses)
-    return TWO_PI * TWO_PI * drop(basis, curve, left, 0.0, 1.0, wave), 0.0, 0
+def step_of_wave(basis: Basis, curve: Series, waves: Waves, wave: float, losses: bool) -> Step:
+    """Return what a wave adds: to loading or unloading, or to a jump outwards that passes it."""
+    if waves.kind == UP:
+        return _step_up(basis, curve, waves.cut, wave, waves.work, losses)
+    if waves.kind == DOWN:
+        return _step_down(basis, curve, waves.cut, wave, waves.work, losses)
+    return TWO_PI * TWO_PI * drop(basis, curve, waves.left, 0.0, 1.0, wave), 0.0, 0

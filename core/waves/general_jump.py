@@ -8,7 +8,7 @@ from gradhesion.core.compiler.jit import YES, kernel
 from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.curve.general_energy import Left, drop, energy_from_zero, jump_energy, place_left
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.waves.general import PASSING, room_for_waves
+from gradhesion.core.waves.general import PASSING, Waves, room_for_waves
 from gradhesion.core.waves.general_sum import sum_of_waves
 
 LONG: Final = 512.0
@@ -25,7 +25,7 @@ def _pass(basis: Basis, curve: Series, left: Left, low: float, high: float, whol
     inner, outer = begin - 1.0, end + 1.0
     total = drop(basis, curve, left, (whole - inner) + low, 1.0, inner)
     total += drop(basis, curve, left, 0.0, (whole - outer) + high, outer)
-    middle, _ = sum_of_waves(PASSING, basis, curve, 0.0, left, begin, end, room_for_waves(series), YES)
+    middle, _ = sum_of_waves(basis, curve, Waves(PASSING, 0.0, left, room_for_waves(series)), begin, end, YES)
     return total * TWO_PI * TWO_PI + middle
 
 

@@ -15,15 +15,15 @@ last coefficients vanish. Runs are told by their patterns at those points, and w
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.general import Basis, Series
-from gradhesion.core.curve.general_energy import Left
+from gradhesion.core.types import Floats
 from gradhesion.core.waves.cosine_sum import limit_terms
-from gradhesion.core.waves.general import step_of_wave
+from gradhesion.core.waves.general import Waves, step_of_wave
 
 _POINTS: Final = 17
 _PLACES: Final = np.cos(np.pi * np.arange(_POINTS)[::-1] / (_POINTS - 1))
@@ -50,8 +50,8 @@ _LAST: Final = 3
 
 
 @kernel()
-def _integrate(values: Any) -> tuple[float, float]:
-    """Return the integral of an interpolant over [-1, 1] and the size of its last coefficients."""
+def _integrate(values: Floats) -> tuple[float, float]:
+    """Return the integral over [-1, 1] of what has values at `_PLACES`, and the size of its last coefficients."""
     total, rest = 0.0, 0.0
     for j in range(_POINTS):
         coefficient = 0.0
@@ -75,15 +75,13 @@ def _wave_at(angle: float, low: float, span: float) -> float:
 
 
 @kernel()
-def _last_of_run(
-    kind: int, basis: Basis, curve: Series, cut: float, left: Left, low: float, high: float, work: Any
-) -> tuple[float, int]:
+def _last_of_run(basis: Basis, curve: Series, waves: Waves, low: float, high: float) -> tuple[float, int]:
     """Return the last wave from `low` on, before `high`, of the pattern that `low` has, and the steps it took."""
-    _, _, pattern = step_of_wave(kind, basis, curve, cut, left, low, work, NO)
+    _, _, pattern = step_of_wave(basis, curve, waves, low, NO)
     steps = 1
     while high - low > 1.0:
         middle = np.floor(0.5 * (low + high))
-        _, _, there = step_of_wave(kind, basis, curve, cut, left, middle, work, NO)
+        _, _, there = step_of_wave(basis, curve, waves, middle, NO)
         steps += 1
         if there == pattern:
             low = middle
@@ -94,14 +92,14 @@ def _last_of_run(
 
 @kernel()
 def _integral_of_run(
-    kind: int, basis: Basis, curve: Series, cut: float, left: Left, run: Any, scale: float, work: Any, losses: bool
-) -> Any:
+    basis: Basis, curve: Series, waves: Waves, run: tuple[float, float], scale: float, losses: bool
+) -> tuple[bool, float, float, int, Floats, int, float, int]:
     """Integrate over a run (first, last wave) without its ends, as long as it has one pattern.
 
     Returns
     -------
-    Whether it is done; the integral, jumps a wave, pattern; the runs to take instead, and their number; the scale; the
-    steps that it took.
+    Whether it is done; the integral in 2 pi l^2 dgamma, jumps a wave, pattern; the runs to take instead, rows (first,
+    last), and their number; the scale; the steps that it took.
     """
     first, last = run
     low = math.log(first - 0.5)
@@ -112,26 +110,26 @@ def _integral_of_run(
     panels[0, 1] = _angle_of(last - _EDGE + 0.5, low, span)
     top, steps = 0, 0
     total, jumps, pattern = 0.0, 0.0, 0
-    values, waves, patterns = np.empty(_POINTS), np.empty(_POINTS), np.empty(_POINTS, np.int64)
+    values, places, patterns = np.empty(_POINTS), np.empty(_POINTS), np.empty(_POINTS, np.int64)
     while top >= 0:
         begin, end = panels[top]
         top -= 1
         half = 0.5 * (end - begin)
         for i in range(_POINTS):
             angle = begin + half * (1.0 + _PLACES[i])
-            waves[i] = _wave_at(angle, low, span)
-            value, jumps, patterns[i] = step_of_wave(kind, basis, curve, cut, left, waves[i], work, losses)
-            values[i] = value * waves[i] * 0.5 * span * math.sin(angle)
+            places[i] = _wave_at(angle, low, span)
+            value, jumps, patterns[i] = step_of_wave(basis, curve, waves, places[i], losses)
+            values[i] = value * places[i] * 0.5 * span * math.sin(angle)
         steps += _POINTS
         pattern = patterns[0]
         count, start = 0, first
         for i in range(_POINTS - 1):
             if patterns[i + 1] != patterns[i]:
-                here = max(start, np.floor(waves[i]))
-                there = min(last, np.floor(waves[i + 1]) + 1.0)
+                here = max(start, np.floor(places[i]))
+                there = min(last, np.floor(places[i + 1]) + 1.0)
                 if there <= here:
                     continue
-                here, taken = _last_of_run(kind, basis, curve, cut, left, here, there, work)
+                here, taken = _last_of_run(basis, curve, waves, here, there)
                 steps += taken
                 runs[count, 0], runs[count, 1] = start, here
                 start = here + 1.0
@@ -144,8 +142,8 @@ def _integral_of_run(
         scale = max(scale, abs(part))
         if rest <= _TOLERANCE * scale:
             total += part
-        elif waves[_POINTS - 1] - waves[0] < _NARROW or top + 2 >= panels.shape[0]:
-            begin, end = np.floor(waves[0]), np.floor(waves[_POINTS - 1]) + 1.0
+        elif places[_POINTS - 1] - places[0] < _NARROW or top + 2 >= panels.shape[0]:
+            begin, end = np.floor(places[0]), np.floor(places[_POINTS - 1]) + 1.0
             runs[0, 0], runs[0, 1] = first, begin - 1.0
             runs[1, 0], runs[1, 1] = begin, end
             runs[2, 0], runs[2, 1] = end + 1.0, last
@@ -159,9 +157,9 @@ def _integral_of_run(
 
 @kernel()
 def sum_of_waves(
-    kind: int, basis: Basis, curve: Series, cut: float, left: Left, first: float, last: float, work: Any, losses: bool
+    basis: Basis, curve: Series, waves: Waves, first: float, last: float, losses: bool
 ) -> tuple[float, float]:
-    """Return what the waves `first` to `last` add, and the number of their jumps; NaN where they are not regular."""
+    """Return what the waves `first` to `last` add, in 2 pi l^2 dgamma, and their jumps; NaN where not regular."""
     stack = np.empty((_ROOM, 2))
     stack[0, 0], stack[0, 1] = first, last
     values = np.empty(6)
@@ -173,7 +171,7 @@ def sum_of_waves(
         if end - begin < _DIRECT:
             wave = begin
             while wave <= end:
-                loss, number, pattern = step_of_wave(kind, basis, curve, cut, left, wave, work, losses)
+                loss, number, pattern = step_of_wave(basis, curve, waves, wave, losses)
                 if pattern < 0:
                     return math.nan, math.nan
                 total += loss
@@ -182,7 +180,7 @@ def sum_of_waves(
                 steps += 1
             continue
         done, integral, number, pattern, runs, count, scale, taken = _integral_of_run(
-            kind, basis, curve, cut, left, (begin, end), scale, work, losses
+            basis, curve, waves, (begin, end), scale, losses
         )
         steps += taken
         if steps > _MOST_STEPS or (done and pattern < 0) or top + count >= _ROOM:
@@ -198,7 +196,7 @@ def sum_of_waves(
         for side in range(2):
             for i in range(_EDGE + 3):
                 wave = begin + i if side == 0 else end - i
-                loss, _, there = step_of_wave(kind, basis, curve, cut, left, wave, work, losses)
+                loss, _, there = step_of_wave(basis, curve, waves, wave, losses)
                 even = even and there == pattern
                 if i < _EDGE:
                     part += loss

@@ -18,7 +18,7 @@ from gradhesion.core.curve import cosine, general, short_wave
 from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, ROWS, RUN, RUN_LEAST, START, START_DEPTH
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_folds import last_arch
-from gradhesion.core.curve.general import Series
+from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.curve.short_wave import ShortWave
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.path import cosine as cosine_path
@@ -80,7 +80,7 @@ def _cosine() -> Case:
 
 
 def _series(rows: Any, exponent: float, alpha: float, beta: float) -> Case:
-    basis, one = (*tables_of(K, rows), rows), _cosine().curve
+    basis, one = Basis(*tables_of(K, rows), rows), _cosine().curve
     curve = Series(0.5 * one.bend * (TWO_PI * 3) ** (2 - exponent), exponent, one.gain, alpha, beta)
     first, last = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
     count, trace, _ = general_path.walk(basis, curve, first, last, FURTHEST, True)

@@ -16,14 +16,14 @@ from gradhesion.core.compiler.jit import NO, YES
 from gradhesion.core.curve.branches import ROWS
 from gradhesion.core.curve.cosine import curve_of as cosine_of
 from gradhesion.core.curve.cosine import depth
-from gradhesion.core.curve.general import curve_of
+from gradhesion.core.curve.general import Basis, curve_of
 from gradhesion.core.curve.general_branches import fill_branches
 from gradhesion.core.curve.general_folds import MOST_FOLDS, find_folds, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.path.cosine import extent, is_long, is_unresolved, walk
 from gradhesion.core.path.general_long import LONGEST_WALK, REGULAR, folds_before, middle_of
 from gradhesion.core.path.loading import loading_to
-from gradhesion.core.path.pieces import climb, descend, leave, leave_rim, notes_for, reach_rim
+from gradhesion.core.path.pieces import Piece, State, climb, descend, leave, leave_rim, notes_for, reach_rim
 from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
@@ -34,7 +34,7 @@ from gradhesion.core.waves.general import branches_of_wave, room_for_waves
 
 Walked = tuple[float, float, float]
 """Energy in R^2 dgamma, and the jumps of loading and of unloading."""
-NOTHING = (0.0, 0.0, 0.0, 0.0, 0.0, NO)
+NOTHING = State(0.0, 0.0, 0.0, 0.0, 0.0, NO)
 """The state before contact."""
 
 
@@ -71,7 +71,7 @@ def walked_general(
     k, wavelength = float(scenes.k[0]), float(scenes.wavelength[0]) / n
     numbers = (float(scenes.stretch[0]), wavelength, n * float(scenes.amplitude[0]), float(scenes.compliance[0]))
     curve, length, _ = curve_of(k, profile.exponent, depth_factor_of(k, profile.exponent), *numbers)
-    basis, edge = (*tables_of(k, series), series), float(scenes.rim[0, 0])
+    basis, edge = Basis(*tables_of(k, series), series), float(scenes.rim[0, 0])
     rim = edge / wavelength
     first, last = first_fold_bound(basis, curve) / TWO_PI, min(rim, last_fold_bound(basis, curve) / TWO_PI)
     if not max(LONGEST_WALK, waves[0]) < last - first <= waves[1]:
@@ -94,22 +94,23 @@ def walked_general(
     losses: list[float] = []
     unnoted = notes_for(0)
 
-    def alone(state: Any) -> Any:
+    def alone(state: State) -> State:
         """Keep what is lost apart: thousands of losses are added up at once, and rounded once."""
-        losses.append(state[0])
-        return 0.0, *state[1:]
+        losses.append(state.loss)
+        return state._replace(loss=0.0)
 
-    up = alone(climb(basis, curve, inner, near, NOTHING, YES, 0.0, -1.0, unnoted))
+    first_of_all, last_of_all = Piece(inner, near, 0.0), Piece(outer, far, whole)
+    up = alone(climb(basis, curve, first_of_all, NOTHING, -1.0, YES, unnoted))
     for wave in numbers_of.tolist():
-        count = branches_of_wave(basis, curve, wave, cut, work, rows)
-        up = alone(climb(basis, curve, count, rows, up, YES, wave, -1.0, unnoted))
-    up = alone(climb(basis, curve, outer, far, up, YES, whole, -1.0, unnoted))
+        piece = Piece(branches_of_wave(basis, curve, wave, cut, work, rows), rows, wave)
+        up = alone(climb(basis, curve, piece, up, -1.0, YES, unnoted))
+    up = alone(climb(basis, curve, last_of_all, up, -1.0, YES, unnoted))
     up = alone(reach_rim(basis, curve, x, up, YES, whole, unnoted))
-    inside, down = leave_rim(basis, curve, outer, far, x, whole)
-    down = alone(descend(basis, curve, inside, far, down, YES, whole, unnoted))
+    inside, down = leave_rim(basis, curve, last_of_all, x)
+    down = alone(descend(basis, curve, Piece(inside, far, whole), down, YES, unnoted))
     for wave in numbers_of[::-1].tolist():
-        count = branches_of_wave(basis, curve, wave, cut, work, rows)
-        down = alone(descend(basis, curve, count, rows, down, YES, wave, unnoted))
-    down = alone(descend(basis, curve, inner, near, down, YES, 0.0, unnoted))
+        piece = Piece(branches_of_wave(basis, curve, wave, cut, work, rows), rows, wave)
+        down = alone(descend(basis, curve, piece, down, YES, unnoted))
+    down = alone(descend(basis, curve, first_of_all, down, YES, unnoted))
     down = alone(leave(basis, curve, down, loading.control != "load", unnoted))
-    return 2.0 * math.pi * length**2 * math.fsum(losses), up[1], down[1]
+    return 2.0 * math.pi * length**2 * math.fsum(losses), up.jumps, down.jumps

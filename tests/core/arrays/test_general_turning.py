@@ -11,7 +11,7 @@ from gradhesion.core.arrays.general_turning import turning_general
 from gradhesion.core.arrays.prepared import compliance_of
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.cosine import force_unit
-from gradhesion.core.curve.general import curve_of, state
+from gradhesion.core.curve.general import Basis, curve_of, state
 from gradhesion.core.curve.general_folds import MOST_FOLDS, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.path.general import walk
@@ -62,7 +62,7 @@ def _numbers(scene: dict[str, Any], profile: Profile, loading: Loading) -> tuple
     front = depth_factor_of(k, profile.exponent)
     numbers = (stretch, scene["lambda_over_R"], scene["A"], compliance)
     curve, length, unit = curve_of(k, profile.exponent, front, *numbers)
-    return (*tables_of(k), rows_of(profile)), curve, unit, force_unit(k, length, unit)
+    return Basis(*tables_of(k), rows_of(profile)), curve, unit, force_unit(k, length, unit)
 
 
 def _turn(scene: dict[str, Any], turn: str, values: Any, profile: Profile, loading: Loading) -> tuple[Any, Any]:
@@ -225,7 +225,7 @@ def test_far_turns_are_those_of_a_walk(
     rim = 3000.0
     first, last = first_fold_bound(basis, curve) / TWO_PI, min(rim, last_fold_bound(basis, curve) / TWO_PI)
     middle = middle_of(basis, curve, first, last, 0.0)
-    assert middle[0] == REGULAR
+    assert middle.kind == REGULAR
     count, trace, _ = walk(basis, curve, first, last, rim, False)
     search = (room(), np.empty(MOST_FOLDS), 0.0)
     corners, number = corners_of(basis, curve, by_load, count, trace, rim, search)

@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
@@ -27,6 +27,13 @@ def counts_references(kernel: Any) -> bool:
     return any("NRT_incref" in code or "NRT_decref" in code for code in kernel.inspect_llvm().values())
 
 
+class Pair(NamedTuple):
+    """A table, and one of its rows."""
+
+    table: Any
+    row: int
+
+
 with pytest.MonkeyPatch.context() as patch:
     patch.setattr(cache, "place", lambda: cache.Place(None))  # code that is read from a cache cannot be looked at
 
@@ -40,6 +47,11 @@ with pytest.MonkeyPatch.context() as patch:
         table, row = pair
         other = (table, row)
         return last_of_row(other[0], row)
+
+    @jit.kernel()
+    def last_in_record(table: Any, row: int) -> float:
+        pair = Pair(table, row)
+        return last_in_pair(pair) + pair.table[0, 0]
 
     @jit.kernel()
     def half_of(values: Any) -> Any:
@@ -71,9 +83,10 @@ with pytest.MonkeyPatch.context() as patch:
 def test_what_only_reads_arrays_counts_nothing() -> None:
     table = np.arange(6.0).reshape(2, 3)
     held = sys.getrefcount(table)
-    assert [last_of_row(table, 1), last_in_pair((table, 0))] == [5.0, 2.0]
+    assert [last_of_row(table, 1), last_in_pair((table, 0)), last_in_record(table, 1)] == [5.0, 2.0, 5.0]
     assert sys.getrefcount(table) == held
     assert not counts_references(last_of_row)
+    assert not counts_references(last_in_record)
 
 
 def test_an_array_that_is_returned_or_made_is_counted() -> None:

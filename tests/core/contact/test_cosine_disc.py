@@ -106,8 +106,8 @@ def _curve(k: float, chi: float, waves: float) -> Cosine:
 
 
 def _stride(table: Any, curve: Any, arches: Any, rim: float, trace: Any, losses: bool) -> Any:
-    trace, long = long_cycle.begin_long(table, curve, arches, trace, losses, 1.0)
-    return long_cycle.stride(table, curve, arches, rim, trace, long, losses, 1.0), trace
+    long = long_cycle.begin_long(table, curve, arches, trace, losses, 1.0)
+    return long_cycle.stride(table, curve, rim, long, losses, 1.0), long.trace
 
 
 def _limits(table: Any, curve: tuple[float, float, float], rim: float, follow: Any = cycle.walk) -> Any:

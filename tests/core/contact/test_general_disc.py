@@ -14,7 +14,7 @@ from gradhesion.core.contact.disc import disc_limits, is_surely_open, jump_is_on
 from gradhesion.core.contact.gap import opening
 from gradhesion.core.contact.least import least_opening
 from gradhesion.core.curve.branches import END, END_DEPTH, START_DEPTH
-from gradhesion.core.curve.general import Series, coordinate
+from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.face import edge_at
 from gradhesion.core.path.general import walk
@@ -67,7 +67,7 @@ def test_against_the_gap_at_many_states(k: float, truth: Any) -> None:
     discs, undecided = [], 0
     for _ in range(50):
         curve, rows, rim = _draw(rng, k)
-        basis = (*tables_of(k), rows)
+        basis = Basis(*tables_of(k), rows)
         one = disc_limits(basis, curve, *_branches(basis, curve, rim), rim) == (math.inf, math.inf)
         slow = truth(k, curve, rows, rim)
         assert slow.least(unloading=True) > 0.0, (curve, rows, rim)
@@ -149,7 +149,7 @@ def test_long_jumps(k: float) -> None:
     signs = []
     for _ in range(40):
         rows = np.array([(1.0, rng.uniform(0.0, 0.5), 0.0), (12.0, rng.uniform(0.02, 0.1), 0.01)])
-        basis = (*tables_of(k), rows)
+        basis = Basis(*tables_of(k), rows)
         curve = Series(10 ** rng.uniform(-6, -3), 2.0, rng.uniform(0.5, 1.7) / _strength(k, rows), 1.0, 0.0)
         start, end = rng.uniform(0.2, 1.3), rng.uniform(1.5, 6.0)
         edge = edge_at(basis, curve, start)
@@ -170,7 +170,7 @@ def test_what_is_surely_open_is_open(k: float) -> None:
     sure = 0
     for _ in range(60):
         curve, rows, rim = _draw(rng, k)
-        basis = (*tables_of(k), rows)
+        basis = Basis(*tables_of(k), rows)
         count, trace = _branches(basis, curve, rim)
         for branch in range(count - 1):
             left, level = trace[END, branch], trace[END_DEPTH, branch]

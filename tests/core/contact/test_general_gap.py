@@ -17,7 +17,7 @@ from gradhesion.core.contact.gap import (
     openings_between,
 )
 from gradhesion.core.curve.cosine import Cosine
-from gradhesion.core.curve.general import Series
+from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.face import edge_at, panels_of
 from gradhesion.core.problem.shape import rows_of
 from gradhesion.core.struve.fractional import NODES
@@ -30,7 +30,7 @@ EXPONENTS = [0.0, 0.3, 0.9]
 
 
 def _scene(k: float, m: float, rows: list[tuple[float, float, float]]) -> tuple[Any, Any]:
-    return (*tables_of(k), np.array(rows)), Series(BEND * (2 * math.pi) ** (2 - m), m, GAIN, 1.0, 0.0)
+    return Basis(*tables_of(k), np.array(rows)), Series(BEND * (2 * math.pi) ** (2 - m), m, GAIN, 1.0, 0.0)
 
 
 def _second_route(k: float, curve: Any, rows: Any, a: float, r: float) -> mpmath.mpf:

@@ -9,12 +9,12 @@ from scipy.special import beta
 
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.contact.touch import front_at, profile_at, touches_at_centre
-from gradhesion.core.curve.general import Series
+from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.problem.shape import depth_factor_of
 
 
 def _basis(k: float, rows: list[tuple[float, float, float]]) -> Any:
-    return (*tables_of(k), np.array(rows))
+    return Basis(*tables_of(k), np.array(rows))
 
 
 def _power(k: float, m: float, factor: float) -> tuple[float, ...]:

@@ -8,7 +8,7 @@ import pytest
 
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.arches import folds_by_arches, is_one_cosine
-from gradhesion.core.curve.general import Series, slope
+from gradhesion.core.curve.general import Basis, Series, slope
 from gradhesion.core.curve.general_folds import find_folds, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.struve.circle import TWO_PI
@@ -24,7 +24,7 @@ def _draw(rng: Any, k: float, share: float | None) -> tuple[Any, Any, float, flo
     waves = TWO_PI * 10.0 ** rng.uniform(-0.3, 1.5)
     gain = 10.0 ** rng.uniform(-2, 1)
     bend = gain * waves ** (-0.5 * (1.0 + k))
-    basis = (*tables_of(k), COSINE)
+    basis = Basis(*tables_of(k), COSINE)
     curve = Series(bend, 2.0, gain, 1.0 - beta, beta)
     first, last = (bound(basis, curve) / TWO_PI for bound in (first_fold_bound, last_fold_bound))
     return basis, curve, first, min(last, 60.0)

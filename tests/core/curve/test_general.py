@@ -9,7 +9,7 @@ import pytest
 
 from gradhesion.core import Harmonic, Profile
 from gradhesion.core.arrays.tables import tables_of
-from gradhesion.core.curve.general import coordinate, curve_of, slope, state
+from gradhesion.core.curve.general import Basis, coordinate, curve_of, slope, state
 from gradhesion.core.problem.shape import depth_factor_of, rows_of
 from gradhesion.core.struve.circle import TWO_PI
 
@@ -57,7 +57,7 @@ def _integral(k: float, m: float, harmonics: tuple[Harmonic, ...], a: float, j: 
 @pytest.mark.parametrize("k", [0.0, 0.3, 0.9, 1.0])
 @pytest.mark.parametrize("m", [1.0, 1.5, 2.0, 3.0, 4.0, 6.5])
 def test_against_quadrature(m: float, k: float, harmonics: tuple[Harmonic, ...]) -> None:
-    basis = (*tables_of(k), rows_of(Profile(exponent=m, harmonics=harmonics)))
+    basis = Basis(*tables_of(k), rows_of(Profile(exponent=m, harmonics=harmonics)))
     curve, length, unit = curve_of(k, m, depth_factor_of(k, m), STRETCH, WAVELENGTH, AMPLITUDE, 0.0)
     for x in (0.11, 0.93):
         a = x * WAVELENGTH
@@ -78,7 +78,7 @@ def test_against_quadrature(m: float, k: float, harmonics: tuple[Harmonic, ...])
 @pytest.mark.parametrize("compliance", [0.0, 0.7, 1e3, math.inf])
 @pytest.mark.parametrize("k", [0.0, 0.4, 1.0])
 def test_slopes_are_derivatives(k: float, compliance: float) -> None:
-    basis = (*tables_of(k), rows_of(Profile(harmonics=MIXED)))
+    basis = Basis(*tables_of(k), rows_of(Profile(harmonics=MIXED)))
     curve, _, _ = curve_of(k, 2.6, depth_factor_of(k, 2.6), STRETCH, WAVELENGTH, AMPLITUDE, compliance)
     for x in (0.05, 0.4, 3.3, 11.7):
         h = 1e-3

@@ -8,7 +8,7 @@ import pytest
 
 from gradhesion.core import Harmonic, Loading, Profile, solve
 from gradhesion.core.arrays.tables import tables_of
-from gradhesion.core.curve.general import coordinate, curve_of
+from gradhesion.core.curve.general import Basis, coordinate, curve_of
 from gradhesion.core.curve.general_branches import find_level
 from gradhesion.core.curve.window import last_fold_bound
 from gradhesion.core.problem.shape import depth_factor_of, rows_of
@@ -20,7 +20,7 @@ EPS = 2.0**-52
 def _punch(k: float, compliance: float) -> tuple[Any, Any, float]:
     """Give a curve, and a place beyond its folds."""
     profile = Profile(exponent=1.5, harmonics=(Harmonic(n=1), Harmonic(n=2, cos=0.3)))
-    basis = (*tables_of(k), rows_of(profile))
+    basis = Basis(*tables_of(k), rows_of(profile))
     curve, _, _ = curve_of(k, 1.5, depth_factor_of(k, 1.5), 0.083, 0.41, 0.027, compliance)
     return basis, curve, 1.01 * last_fold_bound(basis, curve) / TWO_PI
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core.arrays.tables import tables_of
-from gradhesion.core.curve.general import Series, coordinate
+from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.curve.general_energy import energies_in, energy_from_zero
 from gradhesion.core.struve.circle import TWO_PI
 
@@ -33,7 +33,7 @@ def _exact(k: float, numbers: tuple[float, ...], place: float, held: float) -> m
 def test_energy_from_zero(k: float) -> None:
     """Its powers of z have a branch point at 0, and the stiffness of a soft machine changes its balance near by."""
     rng = np.random.default_rng(int(100 * k))
-    basis = (*tables_of(k), np.zeros((0, 3)))
+    basis = Basis(*tables_of(k), np.zeros((0, 3)))
     for share in (0.0, *(10.0 ** rng.uniform(-3, 4, 8))):
         m = float(rng.choice([1.0, 1.5, 2.0, 3.0]))
         x = 10.0 ** rng.uniform(-1, 2) / TWO_PI
@@ -61,7 +61,7 @@ WAVES = {
 def test_energy_of_a_jump_between_any_rim_and_zero_contact(k: float, waves: str, share: float) -> None:
     """With stations it is that of panels from the rim inwards, whatever the stations hold already."""
     rng = np.random.default_rng(3)
-    basis = (*tables_of(k), WAVES[waves])
+    basis = Basis(*tables_of(k), WAVES[waves])
     curve = Series(0.02, 2.0, 0.3, 1.0 / (1.0 + share), share / (1.0 + share))
     rims = rng.permutation(np.geomspace(1e-3, 20.0, 60))
     kept, few = (np.full((4, n), math.inf) for n in (64, 3))

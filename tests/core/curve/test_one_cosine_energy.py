@@ -20,7 +20,7 @@ ONE_COSINE = np.array([[1.0, 1.0, 0.0]])
 
 
 def _basis(k: float) -> Basis:
-    return (*tables_of(k, ONE_COSINE), ONE_COSINE)
+    return Basis(*tables_of(k, ONE_COSINE), ONE_COSINE)
 
 
 def _curve(basis: Basis, x: float, chi: float, bend: float, share: float) -> Series:

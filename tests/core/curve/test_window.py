@@ -9,7 +9,7 @@ from scipy.special import gamma, roots_jacobi
 from gradhesion.core import Harmonic, Profile
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve import window
-from gradhesion.core.curve.general import curve_of, slope
+from gradhesion.core.curve.general import Basis, curve_of, slope
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.problem.shape import depth_factor_of, rows_of
 from gradhesion.core.pull_off import general as pull_off
@@ -70,7 +70,7 @@ def test_bounds_of_the_waves_of_the_load(k: float) -> None:
 @pytest.mark.parametrize("k", [0.0, 0.3, 0.9, 1.0])
 def test_all_folds_stand_between_the_bounds(k: float, profile: Profile, compliance: float) -> None:
     """On radii so close that no fold is missed the coordinate falls before the first bound and rises beyond the last."""
-    basis = (*tables_of(k), rows_of(profile))
+    basis = Basis(*tables_of(k), rows_of(profile))
     m = profile.exponent
     within = 0
     for wave in (0.02, 0.3):

@@ -16,7 +16,6 @@ from gradhesion.core.path import cosine_long as long_cycle
 from gradhesion.core.path.loading import loading_to
 from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.material import stiffness
-from gradhesion.core.waves.cosine_running import COUNT, SAMPLES
 
 EXPONENTS = [(0.0, 0.3), (0.31, 0.27), (0.7, 0.1), (0.97, 0.5), (1.0, 0.5)]
 
@@ -44,14 +43,14 @@ def test_striding_is_walking(k: float, chi: float, waves: float, table_of: Calla
     curve = _curve(k, chi, waves)
     arches = cycle.extent(table, curve)
     end = 0.5 * arches[1]
-    trace, long = long_cycle.begin_long(table, curve, arches, np.zeros((ROWS, 192)), True, 1.0)
+    long = long_cycle.begin_long(table, curve, arches, np.zeros((ROWS, 192)), True, 1.0)
     for rim in (85.0, 100.3, 0.71 * waves, end - 14.2, end - 9.7, end - 3.1, end - 1.4, 1.5 * waves, math.inf):
         if not cycle.is_long(table, arches, rim):
             continue
         count, all_of_it = cycle.walk(table, curve, arches, rim, np.zeros((ROWS, 192)), True)
         energy, *walked = _read(table, curve, count, all_of_it, rim)
-        count = long_cycle.stride(table, curve, arches, rim, trace, long, True, 1.0)
-        other, *strode = _read(table, curve, count, trace, rim)
+        count = long_cycle.stride(table, curve, rim, long, True, 1.0)
+        other, *strode = _read(table, curve, count, long.trace, rim)
         assert walked[:2] == strode[:2]
         assert math.isclose(walked[2], strode[2], rel_tol=1e-12)
         # what sums promise
@@ -64,16 +63,15 @@ def test_rims_share_the_samples_of_their_sums(chi: float, waves: float, table_of
     """Four hundred rims find the jumps of no more waves than the panels of the sums have places."""
     table, curve = table_of(0.3), _curve(0.3, chi, waves)
     arches = cycle.extent(table, curve)
-    trace, long = long_cycle.begin_long(table, curve, arches, np.zeros((ROWS, 192)), True, 1.0)
+    long = long_cycle.begin_long(table, curve, arches, np.zeros((ROWS, 192)), True, 1.0)
     rims = np.linspace(0.25 * waves, 0.9 * waves, 400)
     for rim in rims:
         assert cycle.is_long(table, arches, rim)
         assert not long_cycle.ends_folds(table, arches, rim)
-        long_cycle.stride(table, curve, arches, rim, trace, long, True, 1.0)
-    _, sums, _ = long
-    samples = sums[:, 0, SAMPLES]
-    assert np.all(samples > 0.0)
-    assert np.all(samples <= 12 + 16 * sums[:, 0, COUNT])
+        long_cycle.stride(table, curve, rim, long, True, 1.0)
+    samples = long.sums["samples"]
+    assert np.all(samples > 0)
+    assert np.all(samples <= 12 + 16 * long.sums["count"])
 
 
 @pytest.mark.parametrize(("k", "nu"), EXPONENTS)

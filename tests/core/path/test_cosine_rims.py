@@ -13,8 +13,6 @@ from gradhesion.core.curve.cosine import Cosine, depth, slope
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.path import cosine as cycle
 from gradhesion.core.path.cosine_long import begin_long, ends_folds, stride
-from gradhesion.core.path.cosine_rims import ON as ON_BRANCH
-from gradhesion.core.path.cosine_rims import REACHED as IS_REACHED
 from gradhesion.core.path.cosine_rims import cycle_among, is_close_among, stand_at_once
 from gradhesion.core.path.loading import highest_depth, loading_to
 from gradhesion.core.path.unloading import unloading_from
@@ -28,15 +26,16 @@ AMONG, LOADED, LOADING, UNLOADED, UNLOADING, LAST, DEEPEST, _WAVE, IS_CLOSE, ON,
 @kernel()
 def follow_eight(table: Any, curve: Any, arches: Any, rims: Any, scratch: Any, out: Any) -> None:
     """Put into the rows of `out` what `cycle_among` returns for eight rims, and how they stand."""
-    trace, long = begin_long(table, curve, arches, scratch, True, 1.0)
+    long = begin_long(table, curve, arches, scratch, True, 1.0)
     stands = stand_at_once(table, curve, load(rims, 0), True)
     for lane in range(LANES):
-        found = cycle_among(table, curve, stands, lane, rims[lane], arches[1], long, trace, True)
-        out[0, lane], out[1, lane], out[2, lane], out[3, lane] = 1.0 if found[0] else 0.0, found[1], found[2], found[3]
-        out[4, lane], out[5, lane], out[6, lane], out[7, lane] = found[4], found[5], found[6], found[7]
-        if found[0]:
-            out[8, lane] = 1.0 if is_close_among(table, curve, stands, lane, rims[lane], long, trace, False) else 0.0
-        out[9, lane], out[10, lane] = lane_of(stands[ON_BRANCH], lane), lane_of(stands[IS_REACHED], lane)
+        among, cycle, wave = cycle_among(table, curve, stands, lane, rims[lane], long, True)
+        out[0, lane], out[1, lane], out[2, lane] = 1.0 if among else 0.0, cycle.loaded, cycle.loading_jumps
+        out[3, lane], out[4, lane], out[5, lane] = cycle.unloaded, cycle.unloading_jumps, cycle.last
+        out[6, lane], out[7, lane] = cycle.highest, wave
+        if among:
+            out[8, lane] = 1.0 if is_close_among(table, curve, stands, lane, rims[lane], long, False) else 0.0
+        out[9, lane], out[10, lane] = lane_of(stands.on, lane), lane_of(stands.reached, lane)
 
 
 def _curve(table: Any, chi: float, waves: float) -> Cosine:
@@ -133,9 +132,9 @@ def test_where_waves_are_not_regular_a_rim_has_branches_of_its_own(table_of: Cal
     assert all(cycle.is_long(table, arches, rim) and not ends_folds(table, arches, rim) for rim in rims)
     found = _eight(table, curve, arches, rims)
     for lane, rim in enumerate(rims):
-        trace, long = begin_long(table, curve, arches, np.zeros(SIZE), True, 1.0)
-        count = stride(table, curve, arches, rim, trace, long, True, 1.0)
-        loaded, loading = loading_to(table, curve, count, trace, rim, True)
+        long = begin_long(table, curve, arches, np.zeros(SIZE), True, 1.0)
+        count = stride(table, curve, rim, long, True, 1.0)
+        loaded, loading = loading_to(table, curve, count, long.trace, rim, True)
         if found[AMONG, lane]:
             assert loading == found[LOADING, lane]
             assert math.isclose(loaded, found[LOADED, lane], rel_tol=1e-13)

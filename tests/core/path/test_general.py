@@ -12,7 +12,7 @@ from gradhesion.core import OUTPUTS, Harmonic, Loading, Profile, solve
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve import general_energy as energy
 from gradhesion.core.curve import general_folds as folds
-from gradhesion.core.curve.general import coordinate, curve_of, slope
+from gradhesion.core.curve.general import Basis, coordinate, curve_of, slope
 from gradhesion.core.curve.general_folds import find_folds, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.equations import general
@@ -89,7 +89,7 @@ def test_jumps_lose_the_loop_integral(index: int, machine: float) -> None:
 
 
 def _count(k: float, m: float, profile: Profile, gain: float, compliance: float) -> tuple[int, float]:
-    basis = (*tables_of(k), rows_of(profile))
+    basis = Basis(*tables_of(k), rows_of(profile))
     curve, _, _ = curve_of(k, m, depth_factor_of(k, m), 0.08, 0.2, gain, compliance)
     zeros = np.empty(folds.MOST_FOLDS)
     first, last = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
@@ -102,7 +102,7 @@ def _count(k: float, m: float, profile: Profile, gain: float, compliance: float)
 def test_a_pair_about_to_be_born(k: float, m: float, compliance: float) -> None:
     """D is linear in A: a pair is born at the extrema of -D(A=0)/(dD/dA) over the radius, which a fine scan finds."""
     profile = Profile(exponent=m, harmonics=(Harmonic(n=1, cos=0.7, sin=0.3), Harmonic(n=3, cos=-0.11, sin=0.05)))
-    basis = (*tables_of(k), rows_of(profile))
+    basis = Basis(*tables_of(k), rows_of(profile))
 
     def critical(x: float) -> float:
         smooth, _, _ = slope(basis, curve_of(k, m, depth_factor_of(k, m), 0.08, 0.2, 0.0, compliance)[0], x)
@@ -136,7 +136,7 @@ def test_bounds_of_the_window() -> None:
     for k in (0.0, 0.3, 0.8, 1.0):
         for m in (1.6, 2.0, 5.0):
             for compliance in (0.0, 3.0, math.inf):
-                basis = (*tables_of(k), rows_of(profile))
+                basis = Basis(*tables_of(k), rows_of(profile))
                 curve, _, _ = curve_of(k, m, depth_factor_of(k, m), 0.08, 0.2, 0.02, compliance)
                 first, last = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
                 if first > 1e-20:
@@ -153,7 +153,7 @@ def test_cost_is_linear_in_the_number_of_harmonics(monkeypatch: pytest.MonkeyPat
         calls.append(1)
         return counted(*arguments)
 
-    basis = (*tables_of(0.3), rows_of(Profile(harmonics=(Harmonic(n=16, cos=0.1),))))
+    basis = Basis(*tables_of(0.3), rows_of(Profile(harmonics=(Harmonic(n=16, cos=0.1),))))
     curve, _, _ = curve_of(0.3, 2.0, depth_factor_of(0.3, 2.0), 0.08, 0.2, 0.05, 0.0)
     folds.refine(basis, curve, 0.3, 0.2, 0.4, True, 0.0)  # compiled with what it calls, before that is replaced
     monkeypatch.setattr(folds, "slope", count)
@@ -162,7 +162,7 @@ def test_cost_is_linear_in_the_number_of_harmonics(monkeypatch: pytest.MonkeyPat
     radii = []
     for harmonics in (1, 2, 4, 8):
         series = (*(Harmonic(n=n, cos=1e-3) for n in range(2, harmonics + 1)), Harmonic(n=16, cos=0.1))
-        basis = (*tables_of(0.3), rows_of(Profile(harmonics=series)))
+        basis = Basis(*tables_of(0.3), rows_of(Profile(harmonics=series)))
         curve, _, _ = curve_of(0.3, 2.0, depth_factor_of(0.3, 2.0), 0.08, 0.2, 0.05, 0.0)
         calls.clear()
         find_folds.py_func(basis, curve, 0.01, 2.0, room(), np.empty(1000))
@@ -173,7 +173,7 @@ def test_cost_is_linear_in_the_number_of_harmonics(monkeypatch: pytest.MonkeyPat
 
 def test_a_jump_is_the_sum_of_its_parts() -> None:
     """The energy is additive along the radius, whether it is taken from zero contact or from the curve."""
-    basis = (*tables_of(0.4), rows_of(Profile(harmonics=(Harmonic(n=3, cos=0.5, sin=0.4),))))
+    basis = Basis(*tables_of(0.4), rows_of(Profile(harmonics=(Harmonic(n=3, cos=0.5, sin=0.4),))))
     for compliance in (0.0, 0.6, 50.0):
         curve, _, _ = curve_of(0.4, 2.7, depth_factor_of(0.4, 2.7), 0.08, 0.2, 0.03, compliance)
         start = 1.1

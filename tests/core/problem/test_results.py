@@ -8,7 +8,16 @@ import pytest
 
 from gradhesion.core.problem import results
 from gradhesion.core.problem.names import REACH, RESULTS
-from gradhesion.core.problem.results import INTEGERS, put, put_all, wants_cycle, wants_folds, wants_force, wants_losses
+from gradhesion.core.problem.results import (
+    INTEGERS,
+    Results,
+    put,
+    put_all,
+    wants_cycle,
+    wants_folds,
+    wants_force,
+    wants_losses,
+)
 
 ROWS = {
     "pull_off_force": results.FORCE,
@@ -39,10 +48,11 @@ def test_only_what_was_asked_for_is_stored_and_where_it_was_asked(plain: bool) -
     one, every = (put.py_func, put_all.py_func) if plain else (put, put_all)
     slots = slots_of("delta_max", "pull_off_force")
     single, together = np.full((2, 3), math.nan), np.full((2, 3), math.nan)
+    status = np.zeros(3, dtype=np.int8)
     values = (1.7, 2.9, 3.1, 4.0, 5.0, 6.3, 7.7, 8.1, 9.3)
     for row, value in enumerate(values):
-        one(single, slots, row, 1, value)
-    every(together, slots, 1, values)
+        one(Results(slots, single, status), row, 1, value)
+    every(Results(slots, together, status), 1, values)
     expected = [[math.nan, 6.3, math.nan], [math.nan, 1.7, math.nan]]
     np.testing.assert_array_equal(single, expected)
     np.testing.assert_array_equal(together, expected)

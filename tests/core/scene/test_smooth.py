@@ -12,10 +12,13 @@ from numpy.typing import NDArray
 from gradhesion.core import OUTPUTS, solve
 from gradhesion.core.arrays import cosine as cosine_arrays
 from gradhesion.core.kinds import MANY_SMOOTH
+from gradhesion.core.problem.curves import Curves
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import RESULTS
+from gradhesion.core.problem.results import Results
 from gradhesion.core.problem.status import JUMP_IN_TO_RIM, NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.scene.smooth import ROWS, SCENES, solve_smooth
+from gradhesion.core.struve.layout import TABLE
 
 EPS = 2.0**-52
 
@@ -143,8 +146,9 @@ def test_kernel_takes_a_part_of_the_curves() -> None:
     k, material = np.full(9, 0.3), np.full(9, 40.0)
     out, status = np.full((len(RESULTS), 9, 2), -7.0), np.full((9, 2), -1, dtype=np.int8)
     slots, index = np.array([*range(len(RESULTS)), -1, 0, -1]), np.array([1, 8])
-    block = np.empty((2, ROWS, 4))
-    solve_smooth(index, k, material, np.ones(9), np.zeros(9), np.array([[0.3, 0.5]]), slots, out, status, block)
+    which, rims = np.zeros(2, dtype=np.int64), np.array([[0.3, 0.5]])
+    curves = Curves(np.empty(1, TABLE), which, index, material, np.ones(9), np.zeros(9), rims)
+    solve_smooth(k, curves, Results(slots, out, status), np.empty((2, ROWS, 4)))
     others: NDArray[np.bool_] = ~np.isin(np.arange(9), index)
     assert (out[:, others] == -7.0).all()
     assert (status[others] == -1).all()
@@ -155,9 +159,9 @@ def test_many_are_solved_in_blocks_and_few_are_not(monkeypatch: pytest.MonkeyPat
     """A call that compiles nothing for a few scenes more: which kernel it is shows in no value."""
     taken: list[int] = []
 
-    def noted(index: NDArray[np.int64], *others: Any) -> None:
-        taken.append(index.size)
-        solve_smooth(index, *others)
+    def noted(k: NDArray[np.float64], curves: Curves, *others: Any) -> None:
+        taken.append(curves.numbers.size)
+        solve_smooth(k, curves, *others)
 
     monkeypatch.setattr(cosine_arrays, "solve_smooth", noted)
     scenes = drawn(MANY_SMOOTH + 1, seed=6)

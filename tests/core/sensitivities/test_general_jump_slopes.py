@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core.arrays.tables import changes_of, tables_of
-from gradhesion.core.curve.general import Series, coordinate
+from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.curve.general_energy import drop, energy_from_zero, jump_energy, place_left
 from gradhesion.core.sensitivities.general_jump_slopes import (
     NOTHING,
@@ -28,7 +28,7 @@ EPS = 2.0**-52
 
 def made(k: float, exponent: float, control: str) -> tuple[Any, Any, Any]:
     """Give the basis, a curve, and the change of the tables."""
-    return (*tables_of(k, PAIR), PAIR), Series(0.02, exponent, 0.4, *CONTROLS[control]), changes_of(k, PAIR)
+    return Basis(*tables_of(k, PAIR), PAIR), Series(0.02, exponent, 0.4, *CONTROLS[control]), changes_of(k, PAIR)
 
 
 @pytest.mark.parametrize("k", [0.0, 0.37, 1.0])
@@ -59,7 +59,7 @@ def test_against_differences(k: float, exponent: float, control: str, start: flo
     )
     assert abs(found[DEPTH] - (above - below)) <= rounding + 1000 * EPS * (abs(above) + abs(below))
     step = 2.0**-8 if k < 0.5 else -(2.0**-8)
-    bases = [(*tables_of(k + i * step, PAIR), PAIR) for i in range(7)]
+    bases = [Basis(*tables_of(k + i * step, PAIR), PAIR) for i in range(7)]
     weights = np.array([-147, 360, -450, 400, -225, 72, -10]) / 60
     by_k = np.dot(weights, [jump_energy(one, curve, start, end, 0.0) for one in bases]) / step
     assert abs(found[EXPONENT] - by_k) <= 1e-7 * size

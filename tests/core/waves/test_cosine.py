@@ -11,9 +11,9 @@ from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.branches import END, END_DEPTH, ROWS, START, START_DEPTH, append_branches
 from gradhesion.core.curve.cosine import Cosine, slope
 from gradhesion.core.curve.cosine_folds import last_arch
-from gradhesion.core.curve.general import Series
+from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.waves.cosine import FAR, branch_of_wave, end_of_wave, jump_of_wave
-from gradhesion.core.waves.general import DOWN, UP, cut_of, room_for_waves, step_of_wave
+from gradhesion.core.waves.general import DOWN, NOWHERE, UP, Waves, cut_of, room_for_waves, step_of_wave
 
 EPS = 2.0**-52
 EXPONENTS = [0.0, 0.37, 0.8, 1 - 1e-12, 1.0]
@@ -67,13 +67,12 @@ def test_the_loss_is_that_of_any_profile(k: float, chi: float, waves: float, tab
     curve = _curve(k, chi, waves)
     rows = np.array([[1.0, 1.0, 0.0]])
     table, cosine_bins = tables_of(k)
-    basis, other = (table, cosine_bins, rows), Series(0.5 * curve[0], 2.0, curve[1], 1.0, 0.0)
+    basis, other = Basis(table, cosine_bins, rows), Series(0.5 * curve[0], 2.0, curve[1], 1.0, 0.0)
     room, cut = room_for_waves(rows), cut_of(table, rows)
-    nowhere = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     for part in (0.3, 0.9):
         wave = round(part * waves) + 0.37
-        outwards, _, _ = step_of_wave(UP, basis, other, cut, nowhere, wave, room, True)
-        inwards, _, _ = step_of_wave(DOWN, basis, other, cut, nowhere, wave, room, True)
+        outwards, _, _ = step_of_wave(basis, other, Waves(UP, cut, NOWHERE, room), wave, True)
+        inwards, _, _ = step_of_wave(basis, other, Waves(DOWN, cut, NOWHERE, room), wave, True)
         # the cut stands beyond the centre of wave 0, so that both count waves alike
         assert math.isclose(jump_of_wave(table_of(k), curve, wave, True, WORK)[1], outwards, rel_tol=64 * EPS)
         assert math.isclose(jump_of_wave(table_of(k), curve, wave + 1.0, False, WORK)[1], inwards, rel_tol=64 * EPS)

@@ -11,7 +11,7 @@ from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_folds import first_arch, last_arch
 from gradhesion.core.waves.cosine import jump_of_wave
 from gradhesion.core.waves.cosine_at_once import room_for_batch
-from gradhesion.core.waves.cosine_running import COUNT, SAMPLES, begin_sums, room_for_sums, sum_up_to
+from gradhesion.core.waves.cosine_running import begin_sums, room_for_sums, sum_up_to
 from gradhesion.core.waves.cosine_sum import branch_points, sum_of_waves
 
 WORK, ROOM = np.zeros(22), room_for_batch()
@@ -77,9 +77,9 @@ def test_many_sums_take_the_samples_of_a_few(waves: float, table_of: Callable[[f
     of_all = room_for_sums()[0]
     begin_sums(table, curve, of_all, first, True, final)
     together = [sum_up_to(table, curve, of_all, end, True, final, ROOM) for end in ends]
-    assert of_all[0, SAMPLES] <= 12 + 16 * of_all[0, COUNT]
+    assert of_all["samples"] <= 12 + 16 * of_all["count"]
     for i in (0, 17, 500, 999):
         alone = room_for_sums()[0]
         begin_sums(table, curve, alone, first, True, final)
         assert sum_up_to(table, curve, alone, ends[i], True, final, ROOM) == together[i]
-        assert 0 < alone[0, SAMPLES] <= 12 + 16 * 3
+        assert 0 < alone["samples"] <= 12 + 16 * 3

@@ -12,12 +12,12 @@ from gradhesion.core.arrays.prepared import compliance_of
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.contact.disc import disc_limits
 from gradhesion.core.curve.branches import START_DEPTH
-from gradhesion.core.curve.general import coordinate, curve_of, state
+from gradhesion.core.curve.general import Basis, coordinate, curve_of, state
 from gradhesion.core.curve.general_energy import drop, energy_from_zero, jump_energy, place_left
 from gradhesion.core.curve.general_folds import room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.path.general import walk
-from gradhesion.core.path.general_long import REGULAR, middle_of, stride
+from gradhesion.core.path.general_long import REGULAR, Tasks, middle_of, stride
 from gradhesion.core.path.loading import highest_depth, loading_to
 from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.material import stiffness
@@ -27,7 +27,7 @@ from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, NO_VALUE
 from gradhesion.core.pull_off.general import deepest_wave, lowest_load
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.series import sums
-from gradhesion.core.waves.general import branches_of_wave, cut_of, room_for_waves, step_of_wave
+from gradhesion.core.waves.general import Waves, branches_of_wave, cut_of, room_for_waves, step_of_wave
 from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
 
 pytestmark = pytest.mark.slow
@@ -65,7 +65,7 @@ def _curve(
     stretch = math.sqrt(2 ** (1 + k) * math.pi / float(M))
     numbers = (stretch, scene["lambda_over_R"], _amplitude(chi, scene), compliance)
     curve, _, _ = curve_of(k, m, depth_factor_of(k, m), *numbers)
-    return (table, cosine_bins, rows_of(profile)), curve, waves
+    return Basis(table, cosine_bins, rows_of(profile)), curve, waves
 
 
 @pytest.mark.parametrize("wavelength", [1e-2, 1e-4, 1e-6])
@@ -114,9 +114,9 @@ def test_sums_are_walks(k: float, m: float, harmonics: Any, control: str, waves:
     basis, curve, rim = _curve(k, m, harmonics, control, waves, chi)
     first, last = first_fold_bound(basis, curve) / TWO_PI, min(rim, last_fold_bound(basis, curve) / TWO_PI)
     middle = middle_of(basis, curve, first, last, 0.0)
-    assert middle[0] == REGULAR
+    assert middle.kind == REGULAR
     done, up, down, _, one_disc, wholes, x = stride(
-        basis, curve, first, middle, rim, 0.0, (True, control != "load", True, False), np.empty((0, 5))
+        basis, curve, first, middle, (rim, 0.0), Tasks(True, control != "load", True, False), np.empty((0, 5))
     )
     count, trace, _ = walk(basis, curve, first, last, rim, True)
     assert done
@@ -188,12 +188,13 @@ def test_a_wave_is_smooth_in_its_number(kind: int) -> None:
     basis, curve, _ = _curve(0.4, 2.0, PAIR, "machine", 1e5, 0.6)
     work, cut = room_for_waves(basis[2]), cut_of(basis[0], basis[2])
     left = place_left(basis, curve, 0.3, 20_000.0)
+    task = Waves(kind, cut, left, work)
     waves = np.arange(30_000.0, 30_010.0)
-    steps = [step_of_wave(kind, basis, curve, cut, left, wave, work, True) for wave in waves]
+    steps = [step_of_wave(basis, curve, task, wave, True) for wave in waves]
     assert len({step[1:] for step in steps}) == 1
     fit = np.polynomial.Polynomial.fit(waves, [step[0] for step in steps], 4)
     for wave in (30_004.5, 30_006.13):
-        assert step_of_wave(kind, basis, curve, cut, left, wave, work, True)[0] == pytest.approx(fit(wave), rel=1e-11)
+        assert step_of_wave(basis, curve, task, wave, True)[0] == pytest.approx(fit(wave), rel=1e-11)
     if kind == 2:
         whole = drop(basis, curve, left, 0.0, 1.0, waves[0])
         parts = drop(basis, curve, left, 0.0, 0.37, waves[0]) + drop(basis, curve, left, 0.37, 1.0, waves[0])

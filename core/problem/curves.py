@@ -1,0 +1,61 @@
+"""Curves of one call as kernels read them: what each is made of, and the rims of each.
+
+A curve is one punch, surface and wave; its rims, or what else varies along it, are solved together. The first record is
+that of one cosine under displacement control, the second that of any profile under any control.
+"""
+
+import math
+from typing import Any, NamedTuple
+
+from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.types import Floats, Integers
+
+
+class Curves(NamedTuple):
+    """Curves of one cosine.
+
+    tables      tables of exponents, records of struve/layout.py, of shape (exponents,)
+    which       the table of each curve that is to be solved, int64 of shape (n,)
+    numbers     the number of each of these curves among all, int64 of shape (n,)
+    stiffness   M in dgamma/R^(1+k), of all curves, of shape (curves,)
+    wavelength  lambda/R, of shape (curves,)
+    amplitude   A, of shape (curves,)
+    rims        a_max/R, of shape (curves, rims), or (1, rims) where all curves have the same
+    """
+
+    tables: Any
+    which: Integers
+    numbers: Integers
+    stiffness: Floats
+    wavelength: Floats
+    amplitude: Floats
+    rims: Floats
+
+
+class GeneralCurves(NamedTuple):
+    """Curves of one profile, control and exponent of the gradient.
+
+    numbers       the number of each curve that is to be solved among all, int64 of shape (n,)
+    exponent      m of the punch r^m/(m R^(m-1))
+    depth_factor  G(m/2) G(n)/(2 G(n + m/2)), n = (1+k)/2
+    stretch       s in R^((1+k)/2), of all curves, of shape (curves,)
+    wavelength    lambda/R, of shape (curves,)
+    amplitude     A, of shape (curves,); 0 for a smooth punch
+    compliance    K/S in 1/R^(1+k), of shape (curves,): 0 under displacement control, inf under load control
+    rims          a_max/R, of shape (curves, rims), or (1, rims) where all curves have the same
+    """
+
+    numbers: Integers
+    exponent: float
+    depth_factor: float
+    stretch: Floats
+    wavelength: Floats
+    amplitude: Floats
+    compliance: Floats
+    rims: Floats
+
+
+@kernel()
+def is_in_range(stretch: float, wavelength: float, amplitude: float) -> bool:
+    """Return whether s > 0, lambda > 0 and A >= 0 are finite."""
+    return 0.0 < stretch < math.inf and 0.0 < wavelength < math.inf and 0.0 <= amplitude < math.inf
