@@ -20,10 +20,18 @@ curve names its functions directly. All declarations share these arguments:
 Energies are in units of 2 pi l^2 dgamma.
 """
 
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 from gradhesion.core.compiler.dispatch import face
+from gradhesion.core.curve.branches import Trace
+from gradhesion.core.types import Floats
 
+AnyTable: TypeAlias = Any
+"""What a curve is computed from, by its kind (above)."""
+AnyCurve: TypeAlias = Any
+"""A curve of any kind."""
+AnyNear: TypeAlias = Any
+"""What sensitivities of a curve need, by its kind: `Near` of sensitivities/neighbours.py, or how a basis changes."""
 _OF_PATHS: Final = tuple(f"gradhesion.core.faces.{kind}" for kind in ("cosine", "series", "short_wave"))
 _OF_EXACT: Final = _OF_PATHS[:2]
 _OF_CONTACT: Final = tuple(f"gradhesion.core.faces.{kind}_contact" for kind in ("cosine", "series"))
@@ -34,12 +42,12 @@ _OF_SLOPES: Final = tuple(f"gradhesion.core.faces.{kind}_slopes" for kind in ("c
 
 
 @face(*_OF_PATHS)
-def find_place(table: Any, curve: Any, level: float, trace: Any, branch: int) -> float:
+def find_place(table: AnyTable, curve: AnyCurve, level: float, trace: Trace, branch: int) -> float:
     """Return the place at which a branch meets a level: one between those of its two ends, on the rising curve."""
 
 
 @face(*_OF_PATHS)
-def loss_between(table: Any, curve: Any, start: float, end: float, work: Any) -> float:
+def loss_between(table: AnyTable, curve: AnyCurve, start: float, end: float, work: Floats) -> float:
     """Return the energy that a jump from one place to another one loses, at the level of the place that it leaves.
 
     `work` is room for 16 floats. The end may be 0 where k = 1: there the contact shrinks to a point.
@@ -47,17 +55,17 @@ def loss_between(table: Any, curve: Any, start: float, end: float, work: Any) ->
 
 
 @face(*_OF_PATHS)
-def loss_from_zero(table: Any, curve: Any, x: float) -> float:
+def loss_from_zero(table: AnyTable, curve: AnyCurve, x: float) -> float:
     """Return the energy that the jump from zero contact to x > 0 loses, at the level 0."""
 
 
 @face(*_OF_PATHS)
-def loss_to_zero(table: Any, curve: Any, x: float, level: float) -> float:
+def loss_to_zero(table: AnyTable, curve: AnyCurve, x: float, level: float) -> float:
     """Return the energy that the jump-out from x > 0 loses, at a level; 0 under a dead load: there it has no bound."""
 
 
 @face(*_OF_PATHS)
-def depth_at(table: Any, curve: Any, x: float, level: float) -> float:
+def depth_at(table: AnyTable, curve: AnyCurve, x: float, level: float) -> float:
     """Return the depth at x >= 0, a place where the coordinate is `level`, in units of s l^c."""
 
 
@@ -65,7 +73,7 @@ def depth_at(table: Any, curve: Any, x: float, level: float) -> float:
 
 
 @face(*_OF_EXACT)
-def gap_in(curve: Any, trace: Any) -> float:
+def gap_in(curve: AnyCurve, trace: Trace) -> float:
     """Return the branch of a trace before which waves stand that were not walked, inf if there are none."""
 
 
@@ -73,17 +81,17 @@ def gap_in(curve: Any, trace: Any) -> float:
 
 
 @face(*_OF_EXACT)
-def size_at(table: Any, curve: Any, x: float) -> float:
+def size_at(table: AnyTable, curve: AnyCurve, x: float) -> float:
     """Return the size of the coordinate's terms at x > 0, the sum of their absolute values."""
 
 
 @face(*_OF_EXACT)
-def most_size_at(table: Any, curve: Any, x: float) -> float:
+def most_size_at(table: AnyTable, curve: AnyCurve, x: float) -> float:
     """Return a bound of `size_at` that takes no power of x, inf if there is none."""
 
 
 @face(*_OF_EXACT)
-def fold_at(table: Any, curve: Any, x: float) -> tuple[float, float]:
+def fold_at(table: AnyTable, curve: AnyCurve, x: float) -> tuple[float, float]:
     """Return D at x > 0, whose zeros are the folds of the coordinate, and dD/dz."""
 
 
@@ -91,37 +99,37 @@ def fold_at(table: Any, curve: Any, x: float) -> tuple[float, float]:
 
 
 @face(*_OF_CONTACT)
-def table_of(table: Any, curve: Any) -> Any:
+def table_of(table: AnyTable, curve: AnyCurve) -> Any:
     """Return the table of the exponent, the record of struve/layout.py."""
 
 
 @face(*_OF_CONTACT)
-def coordinate_at(table: Any, curve: Any, x: float, whole: float) -> float:
+def coordinate_at(table: AnyTable, curve: AnyCurve, x: float, whole: float) -> float:
     """Return the coordinate at whole + x > 0; `whole` is a number of waves, 0 or beyond z = 40."""
 
 
 @face(*_OF_CONTACT)
-def surely_open(table: Any, curve: Any, x: float) -> float:
+def surely_open(table: AnyTable, curve: AnyCurve, x: float) -> float:
     """Return by how much the coordinate may fall over a jump of loading that leaves x > 0 and surely one disc."""
 
 
 @face(*_OF_CONTACT)
-def is_always_one_disc(table: Any, curve: Any) -> bool:
+def is_always_one_disc(table: AnyTable, curve: AnyCurve) -> bool:
     """Return whether every contact on the curve is known to be one disc."""
 
 
 @face(*_OF_CONTACT)
-def touches_at_centre(table: Any, curve: Any, end: float) -> bool:
+def touches_at_centre(table: AnyTable, curve: AnyCurve, end: float) -> bool:
     """Return whether the punch is nowhere, up to the radius `end`, lower than at its centre."""
 
 
 @face(*_OF_CONTACT)
-def waves_are_one_disc(table: Any, curve: Any, trace: Any) -> bool:
+def waves_are_one_disc(table: AnyTable, curve: AnyCurve, trace: Trace) -> bool:
     """Return whether the contact is one disc at the ends of the waves in the gap of a trace that loading passes."""
 
 
 @face(*_OF_CONTACT)
-def panels_of(table: Any, curve: Any) -> tuple[float, float]:
+def panels_of(table: AnyTable, curve: AnyCurve) -> tuple[float, float]:
     """Return the shortest wave in lambda, inf for none, and what radii of one panel may have for a ratio, inf for all.
 
     In a panel of that ratio the power of the profile is a polynomial to 1e-12.
@@ -129,22 +137,22 @@ def panels_of(table: Any, curve: Any) -> tuple[float, float]:
 
 
 @face(*_OF_CONTACT)
-def profile_at(table: Any, curve: Any, x: float) -> float:
+def profile_at(table: AnyTable, curve: AnyCurve, x: float) -> float:
     """Return the height of the punch at x over that of its centre, in units of s l^c."""
 
 
 @face(*_OF_CONTACT)
-def edge_at(table: Any, curve: Any, x: float) -> Any:
+def edge_at(table: AnyTable, curve: AnyCurve, x: float) -> Any:
     """Return the edge (contact/gap.py) of a contact of radius x > 0 on the curve."""
 
 
 @face(*_OF_CONTACT)
-def excess_at(table: Any, curve: Any, edge: Any, x: float) -> tuple[float, float]:
+def excess_at(table: AnyTable, curve: AnyCurve, edge: Any, x: float) -> tuple[float, float]:
     """Return by how much depth_H at the radius x > 0 exceeds the depth of a contact, and z^c, in units of s l^c."""
 
 
 @face(*_OF_CONTACT)
-def fill_heights(table: Any, curve: Any, edge: Any, low: float, width: float, heights: Any) -> None:
+def fill_heights(table: AnyTable, curve: AnyCurve, edge: Any, low: float, width: float, heights: Floats) -> None:
     """Fill F (contact/gap.py) at the 16 nodes of x^2 from low^2 to low^2 + width into `heights`, of shape (16,)."""
 
 
@@ -152,33 +160,42 @@ def fill_heights(table: Any, curve: Any, edge: Any, low: float, width: float, he
 
 
 @face(*_OF_SLOPES)
-def steepness_at(table: Any, curve: Any, x: float) -> float:
+def steepness_at(table: AnyTable, curve: AnyCurve, x: float) -> float:
     """Return the slope of the coordinate at x > 0 by z."""
 
 
 @face(*_OF_SLOPES)
-def rim_slope(table: Any, curve: Any, level: float, x: float) -> float:
+def rim_slope(table: AnyTable, curve: AnyCurve, level: float, x: float) -> float:
     """Return the slope by ln x of the energy of a jump at a level that ends at x > 0, on no branch."""
 
 
 @face(*_OF_SLOPES)
-def add_slopes(table: Any, curve: Any, near: Any, start: float, end: float, work: Any, total: Any) -> None:
+def add_slopes(
+    table: AnyTable, curve: AnyCurve, near: AnyNear, start: float, end: float, work: Floats, total: Floats
+) -> None:
     """Add the slopes of `loss_between`, of a jump whose ends are held; `work` is room for 48 floats."""
 
 
 @face(*_OF_SLOPES)
-def add_slopes_to_zero(table: Any, curve: Any, near: Any, x: float, inwards: bool, total: Any) -> None:
+def add_slopes_to_zero(table: AnyTable, curve: AnyCurve, near: AnyNear, x: float, inwards: bool, total: Floats) -> None:
     """Add the slopes of `loss_to_zero` at the level of x > 0 (inwards), or those of `loss_from_zero`."""
 
 
 @face(*_OF_SLOPES)
-def start_of_wave(table: Any, curve: Any, wave: float) -> tuple[float, float]:
+def start_of_wave(table: AnyTable, curve: AnyCurve, wave: float) -> tuple[float, float]:
     """Return place and level of the start of the branch on a wave of a gap; NaN if a trace of this kind has none."""
 
 
 @face(*_OF_SLOPES)
 def add_slopes_of_waves(
-    table: Any, curve: Any, near: Any, waves: tuple[float, float], outwards: bool, final: float, work: Any, total: Any
+    table: AnyTable,
+    curve: AnyCurve,
+    near: AnyNear,
+    waves: tuple[float, float],
+    outwards: bool,
+    final: float,
+    work: Floats,
+    total: Floats,
 ) -> None:
     """Add the slopes of all jumps from the first to the last of some waves of a gap, each to the next wave.
 

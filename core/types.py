@@ -1,4 +1,4 @@
-"""Short names of types of arrays, for the arguments of kernels; shapes and units stand with each argument."""
+"""Short names of types of arrays, for the arguments of kernels; shapes and units stand with the arguments."""
 
 from typing import TypeAlias
 
@@ -10,3 +10,5 @@ Integers: TypeAlias = NDArray[np.int64]
 Truths: TypeAlias = NDArray[np.bool_]
 Bits: TypeAlias = NDArray[np.int8]
 """Bits of problem/status.py."""
+Harmonics: TypeAlias = NDArray[np.float64]
+"""The waves of a profile: rows (n, cos, sin), of shape (harmonics, 3); all cosines and sines are in units of A."""

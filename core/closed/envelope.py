@@ -23,12 +23,12 @@ error of the order (lambda/a)^2, one wave not being at its lowest point.
 """
 
 import math
-from typing import Any
 
 from gradhesion.core.closed.smooth import FORCE_SCALE, smooth_length
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.problem.results import OUTERMOST, Results, put, put_all
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.types import Floats
 
 
@@ -109,7 +109,7 @@ def solve_rim(
 
 @kernel(inline=True)
 def solve_curve(
-    table: Any, stretch: float, wavelength: float, amplitude: float, rims: Floats, results: Results
+    table: Table, stretch: float, wavelength: float, amplitude: float, rims: Floats, results: Results
 ) -> None:
     """Solve one curve (s, lambda/R, A) for all its rims a_max/R, of shape (rims,)."""
     mean_height = amplitude * wavelength

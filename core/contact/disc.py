@@ -11,7 +11,6 @@ trace tells. Else the least opening is looked for (contact/least.py).
 """
 
 import math
-from typing import Any
 
 from gradhesion.core.compiler.jit import NONE, kernel
 from gradhesion.core.contact.least import least_opening
@@ -25,10 +24,13 @@ from gradhesion.core.curve.branches import (
     RUN_LANDING,
     RUN_LAST,
     START_DEPTH,
+    Trace,
     ends,
 )
 from gradhesion.core.curve.general_branches import find_level
 from gradhesion.core.face import (
+    AnyCurve,
+    AnyTable,
     coordinate_at,
     gap_in,
     is_always_one_disc,
@@ -39,20 +41,20 @@ from gradhesion.core.face import (
 
 
 @kernel()
-def is_surely_open(table: Any, curve: Any, left: float, fall: float) -> bool:
+def is_surely_open(table: AnyTable, curve: AnyCurve, left: float, fall: float) -> bool:
     """Return whether a jump leaves one disc because the coordinate falls by no more than `fall` over it."""
     return surely_open(table, curve, left) >= fall
 
 
 @kernel()
-def jump_is_one_disc(table: Any, curve: Any, left: float, end: float) -> bool:
+def jump_is_one_disc(table: AnyTable, curve: AnyCurve, left: float, end: float) -> bool:
     """Return whether the gap of the contact that a jump leaves, 0 for none, is nowhere negative up to `end`."""
     return touches_at_centre(table, curve, end) if left == 0.0 else least_opening(table, curve, left, end) >= 0.0
 
 
 @kernel()
 def climb_is_one_disc(
-    table: Any, curve: Any, count: int, trace: Any, rim: float, left: float, level: float, whole: float
+    table: AnyTable, curve: AnyCurve, count: int, trace: Trace, rim: float, left: float, level: float, whole: float
 ) -> bool:
     """Return whether loading over the branches of a trace, and on to the rim, keeps the contact one disc.
 
@@ -80,7 +82,7 @@ def climb_is_one_disc(
 
 @kernel()
 def limits_from(
-    table: Any, curve: Any, first: int, last: int, now: int, count: int, trace: Any, furthest: float
+    table: AnyTable, curve: AnyCurve, first: int, last: int, now: int, count: int, trace: Trace, furthest: float
 ) -> tuple[float, float]:
     """Return what `disc_limits` does, from jumps that land on the branches `first` to `last`, `count` for the rim.
 
@@ -111,7 +113,7 @@ def limits_from(
 
 
 @kernel()
-def disc_limits(table: Any, curve: Any, count: int, trace: Any, furthest: float) -> tuple[float, float]:
+def disc_limits(table: AnyTable, curve: AnyCurve, count: int, trace: Trace, furthest: float) -> tuple[float, float]:
     """Return the radius up to which loading keeps the contact one disc, and that from which on it does not.
 
     They are those of the first jump that does not, as far as `furthest`; for a rim between the two `is_one_disc` looks
@@ -130,7 +132,7 @@ def disc_limits(table: Any, curve: Any, count: int, trace: Any, furthest: float)
 
 
 @kernel()
-def is_one_disc(table: Any, curve: Any, limits: tuple[float, float], rim: float) -> bool:
+def is_one_disc(table: AnyTable, curve: AnyCurve, limits: tuple[float, float], rim: float) -> bool:
     """Return whether loading keeps the contact one disc up to a rim, from the limits of its curve."""
     low, high = limits
     if rim <= low or rim >= high:

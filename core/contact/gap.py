@@ -12,14 +12,15 @@ the contact is shorter (docs/theory.md, section 12).
 """
 
 import math
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.face import excess_at, fill_heights, panels_of, profile_at, table_of
+from gradhesion.core.face import AnyCurve, AnyTable, excess_at, fill_heights, panels_of, profile_at, table_of
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.fractional import NODES, WEIGHTS
 from gradhesion.core.struve.lanes import LANES, eight, load, store
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.types import Floats
 
 _LAST_PANEL: Final = 0.7
 """Shortest waves, for which the polynomial of the panel that ends at r leaves 1e-12 of a cosine."""
@@ -47,14 +48,14 @@ class Edge(NamedTuple):
 
 
 @kernel(contract=True)
-def height(table: Any, curve: Any, edge: Edge, x: float) -> float:
+def height(table: AnyTable, curve: AnyCurve, edge: Edge, x: float) -> float:
     """Return F at the radius x."""
     over, stretch = excess_at(table, curve, edge, x)
     return over * edge.stretch / (stretch * stretch)
 
 
 @kernel(contract=True)
-def opening_far(table: Any, curve: Any, edge: Edge, r: float) -> float:
+def opening_far(table: AnyTable, curve: AnyCurve, edge: Edge, r: float) -> float:
     """Return the opening at a radius far outside, for k < 1.
 
     gap = f(r) - depth + (2/pi) cos(k pi/2) int_0^a s^k (depth - depth_H) (r^2 - s^2)^(-(1+k)/2) ds
@@ -81,7 +82,7 @@ def opening_far(table: Any, curve: Any, edge: Edge, r: float) -> float:
 
 
 @kernel(contract=True)
-def opening_near(table: Any, curve: Any, edge: Edge, r: float) -> float:
+def opening_near(table: AnyTable, curve: AnyCurve, edge: Edge, r: float) -> float:
     """Return the opening at the radius r > a from the depths between the two: 1e-11 of the largest F.
 
     Panels go inwards from r: the first with the weights of struve/fractional.py, which take the singular factor into
@@ -114,7 +115,7 @@ def opening_near(table: Any, curve: Any, edge: Edge, r: float) -> float:
 
 
 @kernel()
-def opening(table: Any, curve: Any, edge: Edge, r: float) -> float:
+def opening(table: AnyTable, curve: AnyCurve, edge: Edge, r: float) -> float:
     """Return the opening at the radius r > a, by the shorter of the two integrals."""
     if r > _FAR * edge.x and table_of(table, curve).k < 1.0:
         return opening_far(table, curve, edge, r)
@@ -122,7 +123,9 @@ def opening(table: Any, curve: Any, edge: Edge, r: float) -> float:
 
 
 @kernel(contract=True)
-def openings_between(table: Any, curve: Any, edge: Edge, low: float, high: float, heights: Any, openings: Any) -> None:
+def openings_between(
+    table: AnyTable, curve: AnyCurve, edge: Edge, low: float, high: float, heights: Floats, openings: Floats
+) -> None:
     """Fill F at the nodes of low .. high, and what F contributes from there to the opening, at the nodes and at `high`.
 
     The contributions are over (x^2 - low^2)^c in place of X^c: for low = a they are the opening itself, else their

@@ -5,15 +5,16 @@ that is near zero.
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact.gap import Edge, opening, openings_between
-from gradhesion.core.face import edge_at, panels_of, table_of
+from gradhesion.core.face import AnyCurve, AnyTable, edge_at, panels_of, table_of
 from gradhesion.core.struve.fractional import NODES
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.types import Floats
 
 _WINDOW: Final = 1.125
 """Shortest waves that are looked at together."""
@@ -33,7 +34,7 @@ def place_of(low: float, high: float, i: int) -> float:
 
 
 @kernel()
-def _search(table: Any, curve: Any, edge: Edge, low: float, high: float) -> float:
+def _search(table: AnyTable, curve: AnyCurve, edge: Edge, low: float, high: float) -> float:
     """Return the least opening between two radii, or the first negative one that is met (golden section)."""
     inner, outer = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
     first, second = opening(table, curve, edge, inner), opening(table, curve, edge, outer)
@@ -52,7 +53,7 @@ def _search(table: Any, curve: Any, edge: Edge, low: float, high: float) -> floa
 
 
 @kernel()
-def _bottom(openings: Any, i: int) -> float:
+def _bottom(openings: Floats, i: int) -> float:
     """Return the lowest point of the parabola through the openings i - 1, i, i + 1, or the opening i if it is lower."""
     count = NODES.size
     here = NODES[i]
@@ -65,7 +66,7 @@ def _bottom(openings: Any, i: int) -> float:
 
 
 @kernel()
-def _is_low(openings: Any, i: int, clear: float) -> bool:
+def _is_low(openings: Floats, i: int, clear: float) -> bool:
     """Return whether an opening is the least among its neighbours, and not clear of a level."""
     count = NODES.size
     if (i > 0 and openings[i - 1] < openings[i]) or (i < count and openings[i + 1] < openings[i]):
@@ -75,7 +76,9 @@ def _is_low(openings: Any, i: int, clear: float) -> bool:
 
 
 @kernel()
-def _least_in_window(table: Any, curve: Any, edge: Edge, low: float, high: float, heights: Any, openings: Any) -> float:
+def _least_in_window(
+    table: AnyTable, curve: AnyCurve, edge: Edge, low: float, high: float, heights: Floats, openings: Floats
+) -> float:
     """Return the least opening between two radii, given that there is none below 0 up to `low`.
 
     Beyond `low` > a the opening is no less than what the radii from there on contribute, which is taken first. What
@@ -129,7 +132,7 @@ def _least_in_window(table: Any, curve: Any, edge: Edge, low: float, high: float
 
 
 @kernel()
-def next_window(low: float, high: float, heights: Any) -> float:
+def next_window(low: float, high: float, heights: Floats) -> float:
     """Return where the next window may begin: where the last part begins on which depth_H lies above, or at `high`."""
     i = NODES.size - 1
     while i > 0 and heights[i] < 0.0:
@@ -140,7 +143,7 @@ def next_window(low: float, high: float, heights: Any) -> float:
 
 
 @kernel()
-def least_opening(table: Any, curve: Any, start: float, end: float) -> float:
+def least_opening(table: AnyTable, curve: AnyCurve, start: float, end: float) -> float:
     """Return about the least opening at the radii up to `end` around the contact of radius `start` > 0.
 
     The sign is that of the least gap. Above 0 the value is a lower bound, or good to some hundredths; below 0 it is the

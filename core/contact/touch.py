@@ -8,11 +8,12 @@ amplitude, may be.
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.types import Harmonics
 
 _EPS: Final = 2.0**-52
 _ROUNDING: Final = 8.0
@@ -29,7 +30,7 @@ def front_at(k: float, m: float) -> float:
 
 
 @kernel()
-def _waves(series: Any, x: float) -> float:
+def _waves(series: Harmonics, x: float) -> float:
     """Return the sum over the waves at x, small ones to all their digits near x = 0."""
     total = 0.0
     for i in range(series.shape[0]):

@@ -5,14 +5,15 @@ number), and its least value is searched for only where it is near zero.
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.closed.power import power
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact.least import GOLDEN, STEPS, least_opening
-from gradhesion.core.curve.branches import RUN, RUN_FIRST, RUN_LAST, RUN_LEAST
+from gradhesion.core.curve.branches import RUN, RUN_FIRST, RUN_LAST, RUN_LEAST, Trace
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.face import is_always_one_disc
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.waves.cosine import end_of_wave
 
 _SAMPLES: Final = 12
@@ -22,14 +23,14 @@ _SMOOTH: Final = 0.25
 
 
 @kernel()
-def least_of_wave(table: Any, curve: Cosine, wave: float) -> float:
+def least_of_wave(table: Table, curve: Cosine, wave: float) -> float:
     """Return the least opening outside the end of a wave's branch; `wave` is any real number."""
     shifted, x = end_of_wave(table, curve, wave)
     return least_opening(table, shifted, x, x + 1.0)
 
 
 @kernel()
-def least_of_run(table: Any, curve: Cosine, first: float, last: float) -> float:
+def least_of_run(table: Table, curve: Cosine, first: float, last: float) -> float:
     """Return the least opening outside the ends of regular waves: a smooth function of the wave, sampled."""
     first = max(first, 1.0)
     ratio = power(last / first, 1.0 / (_SAMPLES - 1.0))
@@ -59,7 +60,7 @@ def least_of_run(table: Any, curve: Cosine, first: float, last: float) -> float:
 
 
 @kernel()
-def least_of_gap(table: Any, curve: Cosine, trace: Any) -> float:
+def least_of_gap(table: Table, curve: Cosine, trace: Trace) -> float:
     """Return the least opening on the waves of the gap that loading passes: that of all rims, or their own."""
     least: float = trace[RUN, RUN_LEAST]
     if math.isnan(least):
@@ -68,7 +69,7 @@ def least_of_gap(table: Any, curve: Cosine, trace: Any) -> float:
 
 
 @kernel()
-def note_run(table: Any, curve: Cosine, last: float, trace: Any) -> None:
+def note_run(table: Table, curve: Cosine, last: float, trace: Trace) -> None:
     """Note whether the contact is one disc on the waves of a gap, where that serves all rims.
 
     It does if the first of them is none, and if all up to wave `last` surely are.

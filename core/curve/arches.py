@@ -9,7 +9,7 @@ once. Where that does not tell, the arch is cut into pieces on which G - q is mo
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -18,10 +18,12 @@ from gradhesion.core.curve.cosine import Cosine, slope, slopes
 from gradhesion.core.curve.cosine_folds import CLOSE, fold_of_arch, survey_arch
 from gradhesion.core.curve.general import Basis, Series, level_at
 from gradhesion.core.curve.general import slope as general_slope
-from gradhesion.core.curve.general_folds import find_folds, refine
+from gradhesion.core.curve.general_folds import Search, find_folds, refine
 from gradhesion.core.struve.arches import inner_edge, summit
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.types import Floats, Harmonics
 
 _PIECES: Final = 64
 _NARROW: Final = 1e-6
@@ -34,20 +36,20 @@ _MOST: Final = 64
 
 
 @kernel()
-def is_one_cosine(series: Any, m: float) -> bool:
+def is_one_cosine(series: Harmonics, m: float) -> bool:
     """Return whether a profile is a paraboloid with a cosine of positive amplitude, its wavelength that of the unit."""
     return m == 2.0 and series.shape[0] == 1 and series[0, 0] == 1.0 and series[0, 1] > 0.0 and series[0, 2] == 0.0
 
 
 @kernel()
-def one_cosine(series: Any, curve: Series) -> Cosine:
+def one_cosine(series: Harmonics, curve: Series) -> Cosine:
     """Return the same curve in the form of core/curve/cosine.py."""
     B, _, g, _, _ = curve
     return Cosine(2.0 * B, g * series[0, 1], 0.0)
 
 
 @kernel()
-def _level(table: Any, curve: Series, x: float) -> float:
+def _level(table: Table, curve: Series, x: float) -> float:
     """Return q at x."""
     _, _, _, alpha, beta = curve
     if x == 0.0:
@@ -66,7 +68,7 @@ def _fastest(k: float, curve: Series, low: float, high: float) -> float:
 
 
 @kernel()
-def _line(table: Any, own: Cosine, x: float) -> tuple[float, float, float]:
+def _line(table: Table, own: Cosine, x: float) -> tuple[float, float, float]:
     """Return X, G and dG/dX at x."""
     n = 0.5 * (1.0 + table.k)
     z = TWO_PI * x
@@ -76,7 +78,7 @@ def _line(table: Any, own: Cosine, x: float) -> tuple[float, float, float]:
 
 
 @kernel()
-def _on_piece(table: Any, curve: Series, own: Cosine, concave: bool, low: float, high: float) -> int:
+def _on_piece(table: Table, curve: Series, own: Cosine, concave: bool, low: float, high: float) -> int:
     """Return how often G - q goes through zero between two places of an arch: 1, 0, or -1 if that is not sure.
 
     It goes through it once where it is monotone and of different signs, and never where bounds say so.
@@ -105,7 +107,7 @@ def _on_piece(table: Any, curve: Series, own: Cosine, concave: bool, low: float,
 
 @kernel()
 def _on_pieces(
-    basis: Basis, curve: Series, own: Cosine, i: int, low: float, high: float, work: Any, zeros: Any
+    basis: Basis, curve: Series, own: Cosine, i: int, low: float, high: float, work: Search, zeros: Floats
 ) -> tuple[int, float]:
     """Put the folds on a part of arch i into `zeros`, piece by piece; return their number and the nearest miss."""
     table, _, _ = basis
@@ -133,7 +135,7 @@ def _on_pieces(
 
 
 @kernel()
-def _continued(zeros: Any, count: int) -> float:
+def _continued(zeros: Floats, count: int) -> float:
     """Return about where the fold after the `count` first ones stands, from every other one of these; 0 if unknown.
 
     Far out two folds a wave stand in nearly equal distances.
@@ -147,7 +149,7 @@ def _continued(zeros: Any, count: int) -> float:
 
 
 @kernel(contract=True)
-def _slopes_of_machine(table: Any, curve: Series, own: Cosine, x: float) -> tuple[float, float, float]:
+def _slopes_of_machine(table: Table, curve: Series, own: Cosine, x: float) -> tuple[float, float, float]:
     """Return D and its first two derivatives with respect to z at x > 0: those at a fixed q, and what q adds."""
     _, _, _, alpha, beta = curve
     k = table.k
@@ -164,7 +166,7 @@ def _slopes_of_machine(table: Any, curve: Series, own: Cosine, x: float) -> tupl
 
 @kernel()
 def _fold_of_machine(
-    table: Any, curve: Series, own: Cosine, guess: float, low: float, high: float, rising: bool
+    table: Table, curve: Series, own: Cosine, guess: float, low: float, high: float, rising: bool
 ) -> tuple[float, float]:
     """Do what `refine` of curve/general_folds.py does for one cosine by a machine (Halley, kept in the bracket)."""
     x = guess if low < guess < high else 0.5 * (low + high)
@@ -192,7 +194,7 @@ def _fold_of_machine(
 
 @kernel()
 def _on_arch_of_machine(
-    basis: Basis, curve: Series, own: Cosine, i: int, first: float, zeros: Any, count: int
+    basis: Basis, curve: Series, own: Cosine, i: int, first: float, zeros: Floats, count: int
 ) -> tuple[int, float]:
     """Append the folds of an arch by a machine; return their number, -1 if that is not sure, and the nearest miss."""
     table, _, _ = basis
@@ -246,7 +248,7 @@ def _on_arch_of_machine(
 
 @kernel()
 def folds_by_arches(
-    basis: Basis, curve: Series, first: float, last: float, work: Any, zeros: Any
+    basis: Basis, curve: Series, first: float, last: float, work: Search, zeros: Floats
 ) -> tuple[int, bool, float]:
     """Do what `find_folds` (curve/general_folds.py) does for one cosine on a paraboloid."""
     table, _, series = basis
@@ -293,7 +295,7 @@ def folds_by_arches(
 
 @kernel()
 def folds_between(
-    basis: Basis, curve: Series, first: float, last: float, work: Any, zeros: Any
+    basis: Basis, curve: Series, first: float, last: float, work: Search, zeros: Floats
 ) -> tuple[int, bool, float]:
     """Do what `find_folds` (curve/general_folds.py) does, by arches where that is known to miss none."""
     _, _, series = basis

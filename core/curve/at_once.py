@@ -5,13 +5,14 @@ with. Out there the first guesses are so good that one step is the rule.
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Cosine, slopes_at_once
 from gradhesion.core.curve.cosine_folds import LAST_STEP_OF_DEPTH, half_wave
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.lanes import Lanes, any_above, chosen, eight, floor_of, size_of
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_powers
 
 _STEPS: Final = 3
@@ -20,7 +21,7 @@ _LAST_STEP_OF_LANDING: Final = 1e-2
 
 
 @kernel(contract=True)
-def guess_zeros(table: Any, curve: Cosine, level: float, arches: Lanes, signs: Lanes) -> Lanes:
+def guess_zeros(table: Table, curve: Cosine, level: float, arches: Lanes, signs: Lanes) -> Lanes:
     """Return what `guess_zero` does for eight folds; `signs` is 1 where D rises, else -1.
 
     The slow part is expanded about the summits.
@@ -46,7 +47,7 @@ def guess_zeros(table: Any, curve: Cosine, level: float, arches: Lanes, signs: L
 
 @kernel(contract=True)
 def find_zeros(
-    table: Any, curve: Cosine, level: float, lows: Lanes, highs: Lanes, guesses: Lanes
+    table: Table, curve: Cosine, level: float, lows: Lanes, highs: Lanes, guesses: Lanes
 ) -> tuple[Lanes, Lanes]:
     """Return what `find_zero` does for eight folds beyond z = 40, NaN where that takes longer.
 
@@ -72,7 +73,7 @@ def find_zeros(
 
 @kernel(contract=True)
 def find_depths(
-    table: Any, curve: Cosine, target: Lanes, low: Lanes, low_depth: Lanes, high: Lanes, high_depth: Lanes
+    table: Table, curve: Cosine, target: Lanes, low: Lanes, low_depth: Lanes, high: Lanes, high_depth: Lanes
 ) -> Lanes:
     """Return what `find_depth` does for eight branches beyond z = 40 that end, NaN where that takes longer."""
     level = 0.5 * (1.0 - table.k)

@@ -11,6 +11,7 @@ import math
 from typing import Any, Final, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gradhesion.core.compiler.jit import NO, NONE, YES, constant, kernel
 from gradhesion.core.curve.at_once import find_zeros, guess_zeros
@@ -26,7 +27,7 @@ from gradhesion.core.curve.cosine_folds import (
 )
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, with_lane
-from gradhesion.core.struve.layout import SWITCH
+from gradhesion.core.struve.layout import SWITCH, Table
 
 START, START_DEPTH, END, END_DEPTH = 0, 1, 2, 3
 ARRIVAL, LOADING_LOSS, LOADING_JUMPS = 4, 5, 6
@@ -45,6 +46,8 @@ HIGHEST, LOADING_IS_CLOSE, UNLOADING_IS_CLOSE = 16, 17, 18
 """The highest depth up to the end of a branch, 0 at least, whether a decision of loading was close up to there, and
 whether one of unloading is from the start of the branch on (path/ties.py)."""
 ROWS = 19
+Trace: TypeAlias = NDArray[np.float64]
+"""A trace, of shape (ROWS, branches or more): places in wavelengths, depths in s l^c, energies in 2 pi l^2 dgamma."""
 Waiting: TypeAlias = tuple[int, Lanes, Lanes, Lanes, Lanes]
 """How many folds wait; their arches, 1 where a branch starts and -1 where one ends, and the brackets."""
 NOWHERE: Final = constant(-1)
@@ -59,7 +62,7 @@ _LAST_ENDLESS_STEP: Final = 1e-3
 
 
 @kernel()
-def branch_within(count: int, trace: Any, x: float) -> int:
+def branch_within(count: int, trace: Trace, x: float) -> int:
     """Return the last branch that starts within x, -1 if none does."""
     low, high = -1, count
     while high - low > 1:
@@ -72,13 +75,13 @@ def branch_within(count: int, trace: Any, x: float) -> int:
 
 
 @kernel()
-def ends(trace: Any, branch: int) -> tuple[float, float, float, float]:
+def ends(trace: Trace, branch: int) -> tuple[float, float, float, float]:
     """Return the place and depth of a branch's start, and those of its end."""
     return trace[START, branch], trace[START_DEPTH, branch], trace[END, branch], trace[END_DEPTH, branch]
 
 
 @kernel()
-def find_depth(table: Any, curve: Cosine, target: float, branch: tuple[float, float, float, float]) -> float:
+def find_depth(table: Table, curve: Cosine, target: float, branch: tuple[float, float, float, float]) -> float:
     """Return where a branch meets a depth between those of its two ends (Householder, kept in the bracket)."""
     level = 0.5 * (1.0 - table.k)
     low, low_depth, high, high_depth = branch
@@ -128,7 +131,7 @@ def find_depth(table: Any, curve: Cosine, target: float, branch: tuple[float, fl
 
 
 @kernel()
-def room_for(trace: Any, columns: float) -> Any:
+def room_for(trace: Trace, columns: float) -> Any:
     """Return the trace, or a larger one that is still empty."""
     if columns <= trace.shape[1]:
         return trace
@@ -137,7 +140,7 @@ def room_for(trace: Any, columns: float) -> Any:
 
 @kernel()
 def _put_waiting(
-    table: Any, curve: Cosine, furthest: float, trace: Any, count: int, waiting: Waiting
+    table: Table, curve: Cosine, furthest: float, trace: Trace, count: int, waiting: Waiting
 ) -> tuple[int, bool]:
     """Put the folds that wait into the trace; return the number of branches, and whether the last is beyond reach."""
     level = 0.5 * (1.0 - table.k)
@@ -169,7 +172,7 @@ def _put_waiting(
 
 @kernel()
 def append_branches(
-    table: Any, curve: Cosine, first: int, final: float, furthest: float, trace: Any, count: int
+    table: Table, curve: Cosine, first: int, final: float, furthest: float, trace: Trace, count: int
 ) -> int:
     """Append the branches that start on arch `first` or later and within `furthest`; return the new count.
 

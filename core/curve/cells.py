@@ -10,11 +10,12 @@ itself, or none.
 
 import math
 from math import comb
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from gradhesion.core.compiler.jit import NONE, kernel
+from gradhesion.core.types import Floats
 
 DEGREE: Final = 16
 HALVINGS: Final = 16
@@ -57,7 +58,7 @@ _NEWTON: Final = 4
 
 
 @kernel(contract=True)
-def _zero(stack: Any, top: int) -> float:
+def _zero(stack: Floats, top: int) -> float:
     """Return about where a polynomial in [0, 1] whose Bernstein coefficients, row `top`, change sign once is zero.
 
     Over (1 - u)^DEGREE it is a polynomial in r = u/(1 - u), on which Newton's method is used.
@@ -82,7 +83,7 @@ def _zero(stack: Any, top: int) -> float:
 
 
 @kernel()
-def _changes(stack: Any, top: int) -> int:
+def _changes(stack: Floats, top: int) -> int:
     """Return how often the sign changes in row `top`; zero counts as positive."""
     count = 0
     for j in range(DEGREE):
@@ -92,7 +93,7 @@ def _changes(stack: Any, top: int) -> int:
 
 
 @kernel()
-def isolate(values: Any, stack: Any, spans: Any, found: Any) -> tuple[int, float]:
+def isolate(values: Floats, stack: Floats, spans: Floats, found: Floats) -> tuple[int, float]:
     """Put the parts of [0, 1] that hold zeros of an interpolant into `found`, from left to right.
 
     Parameters

@@ -19,12 +19,12 @@ A third number is zero for every real curve: the *lag*, in turns, by which the w
 punch. With it the wave number becomes continuous (waves/cosine.py).
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.lanes import Lanes
-from gradhesion.core.struve.layout import SWITCH
+from gradhesion.core.struve.layout import SWITCH, Table
 from gradhesion.core.struve.pair import pair_above, pair_below
 from gradhesion.core.struve.power import amplitude_power, amplitude_powers
 
@@ -59,7 +59,7 @@ def force_unit(k: float, length: float, unit: float) -> float:
 
 
 @kernel(contract=True)
-def wave(table: Any, lag: float, x: float) -> tuple[float, float, float, float, float, float, float]:
+def wave(table: Table, lag: float, x: float) -> tuple[float, float, float, float, float, float, float]:
     """Return z, z^(-n), S0, S1, V, V', V'' at x > 0."""
     k = table.k
     z = TWO_PI * x
@@ -72,7 +72,7 @@ def wave(table: Any, lag: float, x: float) -> tuple[float, float, float, float, 
 
 
 @kernel(contract=True)
-def depth(table: Any, curve: Cosine, x: float) -> float:
+def depth(table: Table, curve: Cosine, x: float) -> float:
     """Return the reduced depth at x > 0."""
     b, g, lag = curve
     z, power, s0, _, _, _, _ = wave(table, lag, x)
@@ -80,7 +80,7 @@ def depth(table: Any, curve: Cosine, x: float) -> float:
 
 
 @kernel(contract=True)
-def load(table: Any, curve: Cosine, x: float) -> float:
+def load(table: Table, curve: Cosine, x: float) -> float:
     """Return the reduced load at x > 0."""
     b, g, lag = curve
     z, power, s0, s1, _, _, _ = wave(table, lag, x)
@@ -88,7 +88,7 @@ def load(table: Any, curve: Cosine, x: float) -> float:
 
 
 @kernel(contract=True)
-def slope(table: Any, curve: Cosine, level: float, x: float) -> tuple[float, float, float, float]:
+def slope(table: Table, curve: Cosine, level: float, x: float) -> tuple[float, float, float, float]:
     """Return D, its first two derivatives with respect to z, and the depth, at x > 0."""
     b, g, lag = curve
     n = 0.5 * (1.0 + table.k)
@@ -120,7 +120,7 @@ def _slopes_of(
 
 
 @kernel(contract=True)
-def slopes(table: Any, curve: Cosine, level: float, x: float) -> tuple[float, float, float, float, float]:
+def slopes(table: Table, curve: Cosine, level: float, x: float) -> tuple[float, float, float, float, float]:
     """Return D, its first three derivatives with respect to z, and the depth, at x > 0."""
     _, _, lag = curve
     z = TWO_PI * x
@@ -130,7 +130,7 @@ def slopes(table: Any, curve: Cosine, level: float, x: float) -> tuple[float, fl
 
 
 @kernel(contract=True)
-def slopes_at_once(table: Any, curve: Cosine, level: float, x: Lanes) -> tuple[Lanes, Lanes, Lanes, Lanes, Lanes]:
+def slopes_at_once(table: Table, curve: Cosine, level: float, x: Lanes) -> tuple[Lanes, Lanes, Lanes, Lanes, Lanes]:
     """Return what `slopes` does at eight places beyond z = 40."""
     _, _, lag = curve
     z = TWO_PI * x
@@ -139,7 +139,7 @@ def slopes_at_once(table: Any, curve: Cosine, level: float, x: Lanes) -> tuple[L
 
 
 @kernel()
-def depth_size(table: Any, curve: Cosine, x: float) -> float:
+def depth_size(table: Table, curve: Cosine, x: float) -> float:
     """Return the size of the terms of the reduced depth at x; 1 where x is 0 or NaN."""
     b, g, _ = curve
     z = TWO_PI * x
@@ -149,7 +149,7 @@ def depth_size(table: Any, curve: Cosine, x: float) -> float:
 
 
 @kernel()
-def most_depth_size(table: Any, curve: Cosine, x: float) -> float:
+def most_depth_size(table: Table, curve: Cosine, x: float) -> float:
     """Return a bound of `depth_size` at x >= 0 that needs no power: z^c <= 1 + z/2 for c <= 1/2."""
     b, g, _ = curve
     z = TWO_PI * x

@@ -27,10 +27,11 @@ from gradhesion.core.curve.cosine import Cosine, wave
 from gradhesion.core.curve.cosine_jump import ENOUGH, REACH, beyond_at_once, energy_between, gauss_rule
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.lanes import LANES, Lanes, chosen, load, size_of, sum_of
-from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS
+from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS, Table
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.pair import first_functions
 from gradhesion.core.struve.power import amplitude_power, amplitude_powers
+from gradhesion.core.types import Floats
 
 _PANELS: Final = {12: 0.8, 16: 1.25}
 """Gauss nodes, and the longest panel in waves for which they leave 1e-14 of a term cos 2 z, the fastest there is."""
@@ -54,7 +55,7 @@ _SMALL_LAG: Final = 0.1
 
 
 @kernel(contract=True)
-def _panel_below(table: Any, curve: Cosine, start: float, left: Any, begin: float, width: float) -> float:
+def _panel_below(table: Table, curve: Cosine, start: float, left: Any, begin: float, width: float) -> float:
     """Integrate z (1 - rho^2) over one panel of the x axis, per unit of x, eight nodes at a time."""
     b, g, lag = curve
     z1, wave1, stretch1 = left
@@ -73,7 +74,7 @@ def _panel_below(table: Any, curve: Cosine, start: float, left: Any, begin: floa
 
 @kernel(contract=True)
 def panel_above(
-    table: Any, curve: Cosine, whole: float, start: float, left: Any, begin: float, width: float, work: Any
+    table: Table, curve: Cosine, whole: float, start: float, left: Any, begin: float, width: float, work: Floats
 ) -> float:
     """Do the same where all z >= 40: pair.py's expansion, written so that all nodes are worked on at once.
 
@@ -126,7 +127,7 @@ def panel_above(
 
 
 @kernel(contract=True)
-def energy_from_zero(table: Any, curve: Cosine, x: float, depth: float) -> float:
+def energy_from_zero(table: Table, curve: Cosine, x: float, depth: float) -> float:
     """Return e for a jump at the given depth from zero contact to x; the way back has the other sign."""
     b, g, lag = curve
     k = table.k
@@ -140,7 +141,7 @@ def energy_from_zero(table: Any, curve: Cosine, x: float, depth: float) -> float
 
 
 @kernel(contract=True)
-def energy_by_panels(table: Any, curve: Cosine, start: float, end: float, work: Any) -> float:
+def energy_by_panels(table: Table, curve: Cosine, start: float, end: float, work: Floats) -> float:
     """Return what `jump_energy` does, by quadrature: slower, but good to the last digits of the smallest loss."""
     b, g, lag = curve
     z1, power, s0, _, _, _, _ = wave(table, lag, start)
@@ -171,7 +172,7 @@ def energy_by_panels(table: Any, curve: Cosine, start: float, end: float, work: 
 
 
 @kernel()
-def jump_energy(table: Any, curve: Cosine, start: float, end: float, work: Any) -> float:
+def jump_energy(table: Table, curve: Cosine, start: float, end: float, work: Floats) -> float:
     """Return e for a jump that leaves the curve at x = start and ends at x = end; `work` has room for 16 floats."""
     if start == end:
         return 0.0
@@ -183,7 +184,7 @@ def jump_energy(table: Any, curve: Cosine, start: float, end: float, work: Any) 
 
 
 @kernel(contract=True)
-def energies_at_once(table: Any, curve: Cosine, start: Lanes, end: Lanes) -> Lanes:
+def energies_at_once(table: Table, curve: Cosine, start: Lanes, end: Lanes) -> Lanes:
     """Return what `jump_energy` does for eight jumps with both ends beyond z = 40, NaN where that takes longer."""
     energy, size = beyond_at_once(table, curve, start, end)
     energy = chosen(ENOUGH * size, size_of(energy), energy, math.nan)

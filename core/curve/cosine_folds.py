@@ -6,7 +6,7 @@ far side of the arch's curvature, none; equal signs on the near side, two or non
 """
 
 import math
-from typing import Any, Final, TypeAlias
+from typing import Final, TypeAlias
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from gradhesion.core.curve.cosine import Cosine, slope, slopes
 from gradhesion.core.struve.arches import inner_edge, summit
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.lanes import chosen, root_of
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
 
 _STEPS = 100
@@ -35,7 +36,7 @@ FEW: Final = 20.0
 
 @kernel(contract=True)
 def find_zero(
-    table: Any, curve: Cosine, level: float, low: float, high: float, rising: bool, guess: float, last_step: float
+    table: Table, curve: Cosine, level: float, low: float, high: float, rising: bool, guess: float, last_step: float
 ) -> tuple[float, float]:
     """Return the only zero of D between low and high, where D rises or falls through it, and the depth there.
 
@@ -70,7 +71,7 @@ def find_zero(
 
 
 @kernel()
-def find_extremum(table: Any, curve: Cosine, level: float, low: float, high: float, concave: bool) -> float:
+def find_extremum(table: Table, curve: Cosine, level: float, low: float, high: float, concave: bool) -> float:
     """Return where F has its extremum on an arch: the zero of R + (1+n) b/g, R monotone (Newton, kept in the bracket).
 
     In terms of D this is n D/z + D' + n level z^(-n)/z - n level z^(-n)/z = 0, that is (z^n D)' = 0.
@@ -108,7 +109,7 @@ def half_wave(share: float) -> float:
 
 
 @kernel(contract=True)
-def guess_zero(table: Any, curve: Cosine, level: float, i: int, place: float, outer: bool) -> float:
+def guess_zero(table: Table, curve: Cosine, level: float, i: int, place: float, outer: bool) -> float:
     """Return about where D = 0 on arch i, inside or outside its summit.
 
     At large z, D z^(n-1) = g C cos(z - phi) + b z^n - level/z: the cosine is known where the slow part is, for which
@@ -135,7 +136,7 @@ def guess_zero(table: Any, curve: Cosine, level: float, i: int, place: float, ou
 
 
 @kernel()
-def edge_of(table: Any, curve: Cosine, level: float, i: int) -> Edge:
+def edge_of(table: Table, curve: Cosine, level: float, i: int) -> Edge:
     """Return x, X and F at the inner edge of arch i."""
     b, g, _ = curve
     x, abscissa, height = inner_edge(table, i)
@@ -146,7 +147,7 @@ def edge_of(table: Any, curve: Cosine, level: float, i: int) -> Edge:
 
 @kernel()
 def survey_between(
-    table: Any, curve: Cosine, level: float, i: int, inner: Edge, outer: Edge
+    table: Table, curve: Cosine, level: float, i: int, inner: Edge, outer: Edge
 ) -> tuple[int, float, float, float]:
     """Return what stands on arch i: 0, 1 (F rises through 0), -1 (falls) or 2 folds, and where to look for them.
 
@@ -180,7 +181,7 @@ def survey_between(
 
 
 @kernel()
-def survey_arch(table: Any, curve: Cosine, level: float, i: int) -> tuple[int, float, float, float]:
+def survey_arch(table: Table, curve: Cosine, level: float, i: int) -> tuple[int, float, float, float]:
     """Return what `survey_between` does, from the number of the arch alone."""
     inner, outer = edge_of(table, curve, level, i), edge_of(table, curve, level, i + 1)
     return survey_between(table, curve, level, i, inner, outer)
@@ -188,7 +189,7 @@ def survey_arch(table: Any, curve: Cosine, level: float, i: int) -> tuple[int, f
 
 @kernel()
 def fold_of_arch(
-    table: Any,
+    table: Table,
     curve: Cosine,
     level: float,
     i: int,
@@ -213,7 +214,7 @@ def fold_of_arch(
 
 
 @kernel(contract=True)
-def last_arch(table: Any, curve: Cosine, level: float) -> float:
+def last_arch(table: Table, curve: Cosine, level: float) -> float:
     """Return the index of an arch beyond which no fold can stand: b z^n > g C (1 + 0.35/z^2) + level/z from there on.
 
     |V| <= C z^(1-n) (1 + 0.35/z^2) holds for every k. The left side less the right is concave and rises, so that
@@ -235,7 +236,7 @@ def last_arch(table: Any, curve: Cosine, level: float) -> float:
 
 
 @kernel(contract=True)
-def first_arch(table: Any, curve: Cosine, level: float) -> float:
+def first_arch(table: Table, curve: Cosine, level: float) -> float:
     """Return the index of an arch before which no fold can stand: level/z - b z^n > g C (1 + 0.35/z^2) up to there.
 
     The left side less a constant is convex and falls, so that Newton's iteration from the left stays left of its zero.

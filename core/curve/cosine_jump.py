@@ -17,7 +17,7 @@ The size of the bracket's terms is returned with the energy: one that is much sm
 """
 
 import math
-from typing import Any, Final, TypeAlias
+from typing import Final, TypeAlias
 
 import numpy as np
 
@@ -26,7 +26,7 @@ from gradhesion.core.curve.cosine import Cosine, wave
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.intrinsics import make_horner
 from gradhesion.core.struve.lanes import Lanes, load, rounded, size_of, stand_apart, sum_of
-from gradhesion.core.struve.layout import STRETCH_TERMS, SWITCH, TAIL_TERMS
+from gradhesion.core.struve.layout import STRETCH_TERMS, SWITCH, TAIL_TERMS, Table
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.pair import horner8
 from gradhesion.core.struve.power import amplitude_power, amplitude_powers
@@ -51,7 +51,7 @@ _NEAR: Final = 0.15
 
 
 @kernel(contract=True, inline=True)
-def _oscillating(table: Any, curve: Cosine, x: float, z: float, power: float) -> tuple[float, float, float]:
+def _oscillating(table: Table, curve: Cosine, x: float, z: float, power: float) -> tuple[float, float, float]:
     """Return z w0, w1, and the braces of the second form but for their term with q, at z >= 40."""
     b, g, lag = curve
     inverse = 1.0 / z
@@ -67,7 +67,7 @@ def _oscillating(table: Any, curve: Cosine, x: float, z: float, power: float) ->
 
 
 @kernel(contract=True, inline=True)
-def inverse_stretch(table: Any, e: float) -> float:
+def inverse_stretch(table: Table, e: float) -> float:
     """Return (1 + e)^(-c) - 1 for |e| <= 0.1; e is a number or eight (struve/lanes.py)."""
     series = table.inverse_stretch
     less = 0.0 * e
@@ -78,7 +78,7 @@ def inverse_stretch(table: Any, e: float) -> float:
 
 @kernel(contract=True, inline=True)
 def _slow(
-    table: Any,
+    table: Table,
     curve: Cosine,
     z1: float,
     stretch: float,
@@ -118,7 +118,7 @@ def _slow(
 
 
 @kernel(contract=True, inline=True)
-def _ends(table: Any, curve: Cosine, start: End, end: End, dz: float) -> tuple[float, float, float, float]:
+def _ends(table: Table, curve: Cosine, start: End, end: End, dz: float) -> tuple[float, float, float, float]:
     """Return what the bracket of the second form is at the two ends, and z^c and z S0 at the first."""
     b, g, _ = curve
     x1, z1, power1 = start
@@ -137,7 +137,7 @@ def _ends(table: Any, curve: Cosine, start: End, end: End, dz: float) -> tuple[f
 
 
 @kernel(contract=True)
-def _beyond(table: Any, curve: Cosine, start: float, end: float) -> tuple[float, float]:
+def _beyond(table: Table, curve: Cosine, start: float, end: float) -> tuple[float, float]:
     """Return e, and the size of its terms, where both ends lie at z >= 40 and not too far from each other."""
     _, g, _ = curve
     z1, z2, dz = TWO_PI * start, TWO_PI * end, TWO_PI * (end - start)
@@ -151,7 +151,7 @@ def _beyond(table: Any, curve: Cosine, start: float, end: float) -> tuple[float,
 
 
 @kernel(contract=True)
-def beyond_from(table: Any, curve: Cosine, start: End, end: End, dz: Lanes) -> tuple[Lanes, Lanes]:
+def beyond_from(table: Table, curve: Cosine, start: End, end: End, dz: Lanes) -> tuple[Lanes, Lanes]:
     """Return what `beyond_at_once` does, from x for the phase, z and z^(-n) at both ends, and how far z is between."""
     stand_apart()
     _, g, _ = curve
@@ -167,7 +167,7 @@ def beyond_from(table: Any, curve: Cosine, start: End, end: End, dz: Lanes) -> t
 
 
 @kernel(contract=True)
-def beyond_at_once(table: Any, curve: Cosine, start: Lanes, end: Lanes) -> tuple[Lanes, Lanes]:
+def beyond_at_once(table: Table, curve: Cosine, start: Lanes, end: Lanes) -> tuple[Lanes, Lanes]:
     """Return what `energy_between` does for eight jumps with both ends beyond z = 40, each within REACH."""
     z1, z2, dz = TWO_PI * start, TWO_PI * end, TWO_PI * (end - start)
     ends = (start, z1, amplitude_powers(table, z1)), (end, z2, amplitude_powers(table, z2))
@@ -175,7 +175,7 @@ def beyond_at_once(table: Any, curve: Cosine, start: Lanes, end: Lanes) -> tuple
 
 
 @kernel(contract=True)
-def _anywhere(table: Any, curve: Cosine, start: float, end: float) -> tuple[float, float]:
+def _anywhere(table: Table, curve: Cosine, start: float, end: float) -> tuple[float, float]:
     """Return e, and the size of its terms, by the first form."""
     b, g, _ = curve
     k = table.k
@@ -206,7 +206,7 @@ def _anywhere(table: Any, curve: Cosine, start: float, end: float) -> tuple[floa
 
 
 @kernel()
-def energy_between(table: Any, curve: Cosine, start: float, end: float) -> tuple[float, float]:
+def energy_between(table: Table, curve: Cosine, start: float, end: float) -> tuple[float, float]:
     """Return e of a jump from x = start > 0 on the curve to x = end > 0, and the size of the terms it is made of.
 
     The size is infinite where neither form serves.

@@ -1,12 +1,13 @@
 """The branches of a curve between its folds, in the rows of core/curve/branches.py: on each the coordinate Y rises."""
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.branches import END, END_DEPTH, START, START_DEPTH
+from gradhesion.core.curve.branches import END, END_DEPTH, START, START_DEPTH, Trace
 from gradhesion.core.curve.general import Basis, Series, coordinate, rise
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.types import Floats
 
 START_LEVEL: Final = START_DEPTH
 END_LEVEL: Final = END_DEPTH
@@ -21,7 +22,7 @@ _SURE: Final = 1e-6
 
 @kernel()
 def fill_branches(
-    basis: Basis, curve: Series, zeros: Any, count: int, rises: bool, rim: float, trace: Any, whole: float = 0.0
+    basis: Basis, curve: Series, zeros: Floats, count: int, rises: bool, rim: float, trace: Trace, whole: float = 0.0
 ) -> int:
     """Fill the trace from the folds within the rim; return the number of branches. All stand `whole` waves out.
 

@@ -7,7 +7,7 @@ Gauss's rule in panels short against the shortest wave, and against the distance
 """
 
 import math
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series, slope
@@ -26,6 +26,7 @@ from gradhesion.core.curve.panels import (
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import highest_harmonic, sums
+from gradhesion.core.types import Floats
 
 
 class Left(NamedTuple):
@@ -229,7 +230,7 @@ def _innermost_parts(basis: Basis, curve: Series, high: float) -> tuple[float, f
 
 @kernel()
 def energies_in(
-    basis: Basis, curve: Series, x: float, first_level: float, other_level: float, stations: Any
+    basis: Basis, curve: Series, x: float, first_level: float, other_level: float, stations: Floats
 ) -> tuple[float, float]:
     """Return e of the jumps at two coordinates from zero contact to x, as `energy_from_zero`.
 

@@ -1,7 +1,7 @@
 """All folds of a curve between two radii, cell by cell (curve/cells.py), refined on the curve itself."""
 
 import math
-from typing import Any, Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from gradhesion.core.curve.general import Basis, Series, level_at, slope
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import highest_harmonic
+from gradhesion.core.types import Floats, Harmonics
 
 MOST_CELLS: Final = 333_000
 """Cells of three quarters of the shortest wave that are looked at."""
@@ -28,14 +29,29 @@ _NEAR: Final = 1e-6
 """Least |D| over the ends' below which it is compared with the terms of D."""
 
 
-@kernel()
-def room() -> Any:
-    """Return the arrays that a search for folds works in."""
-    return np.empty(DEGREE + 1), np.empty((STACK, DEGREE + 1)), np.empty((STACK, 3)), np.empty((MOST, 5))
+class Search(NamedTuple):
+    """Room for a search for folds (curve/cells.py).
+
+    values  D and its slopes at the places of a cell, of shape (DEGREE + 1,)
+    stack   polynomials that are to be looked through, of shape (STACK, DEGREE + 1)
+    spans   where they stand, of shape (STACK, 3)
+    found   what is found, of shape (MOST, 5)
+    """
+
+    values: Floats
+    stack: Floats
+    spans: Floats
+    found: Floats
 
 
 @kernel()
-def cell_width(series: Any, x: float) -> float:
+def room() -> Search:
+    """Return room for a search for folds."""
+    return Search(np.empty(DEGREE + 1), np.empty((STACK, DEGREE + 1)), np.empty((STACK, 3)), np.empty((MOST, 5)))
+
+
+@kernel()
+def cell_width(series: Harmonics, x: float) -> float:
     """Return the width of the cell that begins or ends at x."""
     shortest = highest_harmonic(series)
     return min(_WAVES / shortest, _SHARE * x) if shortest > 0.0 else _SHARE * x
@@ -92,7 +108,7 @@ def _extremum(basis: Basis, curve: Series, low: float, high: float, whole: float
 
 @kernel()
 def folds_of_cell(
-    basis: Basis, curve: Series, low: float, high: float, at_low: float, work: Any, zeros: Any, whole: float = 0.0
+    basis: Basis, curve: Series, low: float, high: float, at_low: float, work: Search, zeros: Floats, whole: float = 0.0
 ) -> tuple[int, float, float]:
     """Put the zeros of D in a cell into `zeros`, in order; return their number, D at the far end, and the nearest miss.
 
@@ -156,7 +172,7 @@ def _terms(basis: Basis, curve: Series, x: float, whole: float) -> float:
 
 @kernel()
 def find_folds(
-    basis: Basis, curve: Series, first: float, last: float, work: Any, zeros: Any, whole: float = 0.0
+    basis: Basis, curve: Series, first: float, last: float, work: Search, zeros: Floats, whole: float = 0.0
 ) -> tuple[int, bool, float]:
     """Put all zeros of D between two radii, `whole` waves further out, into `zeros`, in order.
 

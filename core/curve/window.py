@@ -15,6 +15,8 @@ from typing import Any
 from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.struve.cosine_bins import integral_at_zero
+from gradhesion.core.struve.layout import Table
+from gradhesion.core.types import Harmonics
 
 _EXCESS = 0.35
 _INNERMOST = 1e-30
@@ -28,7 +30,7 @@ _OUTERMOST = 1e250
 
 
 @kernel()
-def wave_bounds(table: Any, series: Any, gain: float) -> tuple[float, float, float, float]:
+def wave_bounds(table: Table, series: Harmonics, gain: float) -> tuple[float, float, float, float]:
     """Return the factors of z and 1/z far out, and those of z^n and z^(1+n) near zero contact."""
     c = 0.5 * (1.0 - table.k)
     far, correction, near, near_slope = 0.0, 0.0, 0.0, 0.0

@@ -4,14 +4,15 @@ from typing import Any
 
 from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.branches import GAP, RUN, ends, find_depth
+from gradhesion.core.curve.branches import GAP, RUN, Trace, ends, find_depth
 from gradhesion.core.curve.cosine import Cosine, depth_size, most_depth_size, slope
 from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
+from gradhesion.core.struve.layout import Table
 
 
 @face.find_place.answers(Cosine)
 @kernel()
-def find_place(table: Any, curve: Cosine, level: float, trace: Any, branch: int) -> float:
+def find_place(table: Table, curve: Cosine, level: float, trace: Trace, branch: int) -> float:
     return find_depth(table, curve, level, ends(trace, branch))
 
 
@@ -20,13 +21,13 @@ face.loss_between.answers(Cosine)(jump_energy)
 
 @face.loss_from_zero.answers(Cosine)
 @kernel()
-def loss_from_zero(table: Any, curve: Cosine, x: float) -> float:
+def loss_from_zero(table: Table, curve: Cosine, x: float) -> float:
     return energy_from_zero(table, curve, x, 0.0)
 
 
 @face.loss_to_zero.answers(Cosine)
 @kernel()
-def loss_to_zero(table: Any, curve: Cosine, x: float, level: float) -> float:
+def loss_to_zero(table: Table, curve: Cosine, x: float, level: float) -> float:
     return -energy_from_zero(table, curve, x, level)
 
 
@@ -43,13 +44,13 @@ face.most_size_at.answers(Cosine)(most_depth_size)
 
 @face.fold_at.answers(Cosine)
 @kernel()
-def fold_at(table: Any, curve: Cosine, x: float) -> tuple[float, float]:
+def fold_at(table: Table, curve: Cosine, x: float) -> tuple[float, float]:
     value, rate, _, _ = slope(table, curve, 0.5 * (1.0 - table.k), x)
     return value, rate
 
 
 @face.gap_in.answers(Cosine)
 @kernel()
-def gap_in(_curve: Cosine, trace: Any) -> float:
+def gap_in(_curve: Cosine, trace: Trace) -> float:
     gap: float = trace[RUN, GAP]
     return gap

@@ -7,12 +7,15 @@ from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact.gap import Edge
 from gradhesion.core.contact.waves import least_of_gap
+from gradhesion.core.curve.branches import Trace
 from gradhesion.core.curve.cosine import Cosine, depth, wave
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.fractional import NODES
 from gradhesion.core.struve.lanes import LANES, load, root_of, store
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.pair import first_functions
 from gradhesion.core.struve.power import amplitude_power, amplitude_powers
+from gradhesion.core.types import Floats
 
 ALWAYS_ONE: Final = 0.5
 """C g up to which every contact under a depth of 0 or more is one disc."""
@@ -20,26 +23,26 @@ ALWAYS_ONE: Final = 0.5
 
 @face.table_of.answers(Cosine)
 @kernel()
-def table_of(table: Any, _curve: Cosine) -> Any:
+def table_of(table: Table, _curve: Cosine) -> Any:
     return table
 
 
 @face.coordinate_at.answers(Cosine)
 @kernel()
-def coordinate_at(table: Any, curve: Cosine, x: float, whole: float) -> float:
+def coordinate_at(table: Table, curve: Cosine, x: float, whole: float) -> float:
     return depth(table, curve, whole + x)
 
 
 @face.surely_open.answers(Cosine)
 @kernel()
-def surely_open(table: Any, _curve: Cosine, x: float) -> float:
+def surely_open(table: Table, _curve: Cosine, x: float) -> float:
     """Answer with the stretch: between starts of branches depth_H exceeds the depth of the outer one by it at least."""
     return TWO_PI * x * amplitude_power(table, TWO_PI * x)
 
 
 @face.is_always_one_disc.answers(Cosine)
 @kernel()
-def is_always_one_disc(table: Any, curve: Cosine) -> bool:
+def is_always_one_disc(table: Table, curve: Cosine) -> bool:
     return curve.gain * table.amplitude <= ALWAYS_ONE
 
 
@@ -52,7 +55,7 @@ def touches_at_centre(_table: Any, _curve: Cosine, _end: float) -> bool:
 
 @face.waves_are_one_disc.answers(Cosine)
 @kernel()
-def waves_are_one_disc(table: Any, curve: Cosine, trace: Any) -> bool:
+def waves_are_one_disc(table: Table, curve: Cosine, trace: Trace) -> bool:
     """Answer by what is noted of them, else by samples."""
     return least_of_gap(table, curve, trace) >= 0.0
 
@@ -66,7 +69,7 @@ def panels_of(_table: Any, _curve: Cosine) -> tuple[float, float]:
 
 @face.profile_at.answers(Cosine)
 @kernel()
-def profile_at(table: Any, curve: Cosine, x: float) -> float:
+def profile_at(table: Table, curve: Cosine, x: float) -> float:
     """Answer with what has depth_H for its depth."""
     z, half = TWO_PI * x, math.sin(0.5 * TWO_PI * x)
     return 0.25 * (1.0 + table.k) * curve.bend * z * z + 2.0 * curve.gain * half * half
@@ -74,7 +77,7 @@ def profile_at(table: Any, curve: Cosine, x: float) -> float:
 
 @face.edge_at.answers(Cosine)
 @kernel(contract=True)
-def edge_at(table: Any, curve: Cosine, x: float) -> Edge:
+def edge_at(table: Table, curve: Cosine, x: float) -> Edge:
     z, power, s0, _, _, _, _ = wave(table, curve.lag, x)
     return Edge(x, 0.5 * curve.bend * z * z, curve.gain * (z * s0), z * power)
 
@@ -89,14 +92,14 @@ def _rise(curve: Cosine, edge: Edge, x: float, z: float, s0: float) -> float:
 
 @face.excess_at.answers(Cosine)
 @kernel(contract=True)
-def excess_at(table: Any, curve: Cosine, edge: Edge, x: float) -> tuple[float, float]:
+def excess_at(table: Table, curve: Cosine, edge: Edge, x: float) -> tuple[float, float]:
     z, power, s0, _, _, _, _ = wave(table, curve.lag, x)
     return _rise(curve, edge, x, z, s0) + edge.stretch, z * power
 
 
 @face.fill_heights.answers(Cosine)
 @kernel(contract=True)
-def fill_heights(table: Any, curve: Cosine, edge: Edge, low: float, width: float, heights: Any) -> None:
+def fill_heights(table: Table, curve: Cosine, edge: Edge, low: float, width: float, heights: Floats) -> None:
     for first in range(0, NODES.size, LANES):
         x = root_of(low * low + width * load(NODES, first))
         z = TWO_PI * x

@@ -1,11 +1,10 @@
 """What one cosine on a paraboloid answers about its sensitivities (core/face.py)."""
 
-from typing import Any
-
 from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Cosine, slope
 from gradhesion.core.sensitivities import jump_slopes, wave_slopes
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.waves.cosine import branch_of_wave
 
 face.rim_slope.answers(Cosine)(jump_slopes.rim_slope)
@@ -16,14 +15,14 @@ face.add_slopes_of_waves.answers(Cosine)(wave_slopes.add_slopes_of_waves)
 
 @face.steepness_at.answers(Cosine)
 @kernel()
-def steepness_at(table: Any, curve: Cosine, x: float) -> float:
+def steepness_at(table: Table, curve: Cosine, x: float) -> float:
     steepness, _, _, _ = slope(table, curve, 0.5 * (1.0 - table.k), x)
     return steepness
 
 
 @face.start_of_wave.answers(Cosine)
 @kernel()
-def start_of_wave(table: Any, curve: Cosine, wave: float) -> tuple[float, float]:
+def start_of_wave(table: Table, curve: Cosine, wave: float) -> tuple[float, float]:
     """Answer by the expansion of the wave."""
     start, level, _, _ = branch_of_wave(table, curve, wave)
     return start, level

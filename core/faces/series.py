@@ -1,27 +1,27 @@
 """What any profile under any control answers (core/face.py)."""
 
 import math
-from typing import Any
 
 from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.arches import is_one_cosine
-from gradhesion.core.curve.branches import ends
+from gradhesion.core.curve.branches import Trace, ends
 from gradhesion.core.curve.general import Basis, Series, size, slope, state
 from gradhesion.core.curve.general_branches import find_level
 from gradhesion.core.curve.one_cosine_energy import jump_of_one_cosine, jump_of_one_cosine_from_zero
+from gradhesion.core.types import Floats
 from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
 
 
 @face.find_place.answers(Series)
 @kernel()
-def find_place(basis: Basis, curve: Series, level: float, trace: Any, branch: int) -> float:
+def find_place(basis: Basis, curve: Series, level: float, trace: Trace, branch: int) -> float:
     return find_level(basis, curve, level, ends(trace, branch), 0.0)
 
 
 @face.loss_between.answers(Series)
 @kernel()
-def loss_between(basis: Basis, curve: Series, start: float, end: float, _work: Any) -> float:
+def loss_between(basis: Basis, curve: Series, start: float, end: float, _work: Floats) -> float:
     """Answer in closed form for one cosine where that serves, else by quadrature."""
     if is_one_cosine(basis[2], curve.exponent) and end > 0.0:
         served, energy = jump_of_one_cosine(basis, curve, start, end)
@@ -85,6 +85,6 @@ def fold_at(basis: Basis, curve: Series, x: float) -> tuple[float, float]:
 
 @face.gap_in.answers(Series)
 @kernel()
-def gap_in(_curve: Series, _trace: Any) -> float:
+def gap_in(_curve: Series, _trace: Trace) -> float:
     """Answer that there is none: a long curve has notes instead (path/general_long.py)."""
     return math.inf

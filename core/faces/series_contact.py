@@ -7,11 +7,13 @@ from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact import touch
 from gradhesion.core.contact.gap import GROWTH, Edge
+from gradhesion.core.curve.branches import Trace
 from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.fractional import NODES
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import highest_harmonic, sums
+from gradhesion.core.types import Floats
 
 face.profile_at.answers(Series)(touch.profile_at)
 face.touches_at_centre.answers(Series)(touch.touches_at_centre)
@@ -42,7 +44,7 @@ def is_always_one_disc(_basis: Basis, _curve: Series) -> bool:
 
 @face.waves_are_one_disc.answers(Series)
 @kernel()
-def waves_are_one_disc(_basis: Basis, _curve: Series, _trace: Any) -> bool:
+def waves_are_one_disc(_basis: Basis, _curve: Series, _trace: Trace) -> bool:
     """Answer that no waves are left out of a trace."""
     return True
 
@@ -76,7 +78,7 @@ def excess_at(basis: Basis, curve: Series, edge: Edge, x: float) -> tuple[float,
 
 @face.fill_heights.answers(Series)
 @kernel(contract=True)
-def fill_heights(basis: Basis, curve: Series, edge: Edge, low: float, width: float, heights: Any) -> None:
+def fill_heights(basis: Basis, curve: Series, edge: Edge, low: float, width: float, heights: Floats) -> None:
     for i in range(NODES.size):
         over, stretch = excess_at(basis, curve, edge, math.sqrt(low * low + width * NODES[i]))
         heights[i] = over * edge.stretch / (stretch * stretch)

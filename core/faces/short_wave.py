@@ -5,21 +5,22 @@ from typing import Any
 from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve import short_wave
-from gradhesion.core.curve.branches import ends
+from gradhesion.core.curve.branches import Trace, ends
 from gradhesion.core.curve.short_wave import ShortWave
 from gradhesion.core.curve.short_wave_energy import loss_of_jump
+from gradhesion.core.types import Floats
 
 
 @face.find_place.answers(ShortWave)
 @kernel()
-def find_place(_table: Any, curve: ShortWave, level: float, trace: Any, branch: int) -> float:
+def find_place(_table: Any, curve: ShortWave, level: float, trace: Trace, branch: int) -> float:
     start, _, end, _ = ends(trace, branch)
     return short_wave.find_depth(curve, level, start, end)
 
 
 @face.loss_between.answers(ShortWave)
 @kernel()
-def loss_between(_table: Any, curve: ShortWave, start: float, end: float, _work: Any) -> float:
+def loss_between(_table: Any, curve: ShortWave, start: float, end: float, _work: Floats) -> float:
     """Answer at the depth of the place that is left."""
     return loss_of_jump(curve, short_wave.depth(curve, start), start, end)
 

@@ -11,6 +11,7 @@ from gradhesion.core.compiler.jit import NONE, kernel
 from gradhesion.core.curve.branches import (
     GAP,
     RUN,
+    Trace,
     append_branches,
     room_for,
 )
@@ -19,6 +20,7 @@ from gradhesion.core.curve.cosine_folds import first_arch, last_arch
 from gradhesion.core.path.loading import load_up
 from gradhesion.core.path.ties import note_loading
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
 
 LONGEST_WALK: Final = 160.0
 """Arches, two a wave, up to which a curve is walked."""
@@ -36,14 +38,14 @@ _NEGLIGIBLE: Final = 2.0**-56
 
 
 @kernel()
-def extent(table: Any, curve: Cosine) -> tuple[float, float]:
+def extent(table: Table, curve: Cosine) -> tuple[float, float]:
     """Return the first and the last arch on which the curve can fold."""
     level = 0.5 * (1.0 - table.k)
     return min(_FURTHEST, first_arch(table, curve, level)), min(_FURTHEST, last_arch(table, curve, level))
 
 
 @kernel()
-def is_long(table: Any, arches: tuple[float, float], rim: float) -> bool:
+def is_long(table: Table, arches: tuple[float, float], rim: float) -> bool:
     """Return whether a rim is too far out to walk there."""
     return min(arches[1], 2.0 * rim - table.phase / math.pi) - arches[0] > LONGEST_WALK
 
@@ -68,7 +70,7 @@ def is_smooth(arches: tuple[float, float]) -> bool:
 
 @kernel()
 def walk(
-    table: Any, curve: Cosine, arches: tuple[float, float], furthest: float, trace: Any, losses: bool
+    table: Table, curve: Cosine, arches: tuple[float, float], furthest: float, trace: Trace, losses: bool
 ) -> tuple[int, Any]:
     """Walk a curve of moderate length outwards to `furthest`; return the number of its branches and the trace."""
     first, final = arches

@@ -39,6 +39,7 @@ from gradhesion.core.curve.branches import (
     UNLOADING_JUMPS,
     UNLOADING_LOSS,
     WORK,
+    Trace,
     append_branches,
     ends,
     find_depth,
@@ -51,6 +52,7 @@ from gradhesion.core.path.loading import arrive, climb, load_up
 from gradhesion.core.path.ties import first_close_pair, note_loading, note_loading_from, scan_inwards, tolerance
 from gradhesion.core.path.unloading import descend, leave
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Floats
 from gradhesion.core.waves.cosine import branch_of_wave, fold_of_wave, landing_of_wave
@@ -113,7 +115,7 @@ class Long(NamedTuple):
 
 
 @kernel()
-def is_told(table: Any, curve: Cosine, arch: float) -> bool:
+def is_told(table: Table, curve: Cosine, arch: float) -> bool:
     """Return whether a float tells places on an arch well enough to walk there.
 
     A fold that is off by e has a depth that is off by e^2/2 of the wave; neighbours differ by 2 pi b z^n/(g C) of it.
@@ -126,14 +128,14 @@ def is_told(table: Any, curve: Cosine, arch: float) -> bool:
 
 
 @kernel()
-def wave_of(table: Any, start: float) -> float:
+def wave_of(table: Table, start: float) -> float:
     """Return the number of the wave whose branch starts at x: half a wave to none before its centre."""
     return np.floor(start - table.phase / TWO_PI + 0.75)
 
 
 @kernel()
 def first_wave_above(
-    table: Any, curve: Cosine, low: float, high: float, level: float
+    table: Table, curve: Cosine, low: float, high: float, level: float
 ) -> tuple[float, float, float, float, float]:
     """Return the first wave after `low`, which ends below a depth, that ends above it; `high` does.
 
@@ -170,7 +172,7 @@ def first_wave_above(
 
 
 @kernel()
-def _lowest_wave(table: Any, curve: Cosine, low: float, high: float) -> tuple[float, bool]:
+def _lowest_wave(table: Table, curve: Cosine, low: float, high: float) -> tuple[float, bool]:
     """Return the wave between two others whose branch starts lowest, and whether a neighbour hardly starts higher.
 
     The starts fall up to it and rise from it on.
@@ -201,7 +203,7 @@ def _lowest_wave(table: Any, curve: Cosine, low: float, high: float) -> tuple[fl
 
 @kernel()
 def begin_long(
-    table: Any, curve: Cosine, arches: tuple[float, float], trace: Floats, losses: bool, reach: float
+    table: Table, curve: Cosine, arches: tuple[float, float], trace: Floats, losses: bool, reach: float
 ) -> Long:
     """Walk the first waves of a long curve, `reach` times as many as `BEGINNING`, 1 or 2.
 
@@ -227,14 +229,14 @@ def begin_long(
 
 
 @kernel()
-def ends_folds(table: Any, arches: tuple[float, float], rim: float) -> bool:
+def ends_folds(table: Table, arches: tuple[float, float], rim: float) -> bool:
     """Return whether a rim stands among the last waves that fold, or beyond them."""
     return 2.0 * rim - table.phase / math.pi + 3.0 >= arches[1] - 2.0 * (NEAR_RIM - _BEFORE_RIM)
 
 
 @kernel()
 def sum_of_gap(
-    table: Any, curve: Cosine, long: Long, first: float, last: float, outwards: bool, running: bool
+    table: Table, curve: Cosine, long: Long, first: float, last: float, outwards: bool, running: bool
 ) -> float:
     """Return what the waves `first` to `last` of the gap lose, for one rim or from what serves all of them (running).
 
@@ -250,7 +252,7 @@ def sum_of_gap(
 
 
 @kernel()
-def entry(table: Any, curve: Cosine, after: float, long: Long, losses: bool) -> tuple[float, float, float, float]:
+def entry(table: Table, curve: Cosine, after: float, long: Long, losses: bool) -> tuple[float, float, float, float]:
     """Return the first wave of the gap that loading stands on, x there, and what it has lost and jumped by then.
 
     It comes from the last branch of the beginning (the place is 0 then), or by one long jump to the first wave that
@@ -280,7 +282,7 @@ def entry(table: Any, curve: Cosine, after: float, long: Long, losses: bool) -> 
 
 @kernel()
 def _load_through(
-    table: Any, curve: Cosine, long: Long, count: int, after: float, rim: float, running: bool, losses: bool
+    table: Table, curve: Cosine, long: Long, count: int, after: float, rim: float, running: bool, losses: bool
 ) -> None:
     """Follow loading from the beginning through the gap to the `count` branches up to x = `rim`.
 
@@ -305,7 +307,7 @@ def _load_through(
 
 
 @kernel()
-def leave_lowest(table: Any, curve: Cosine, long: Long, losses: bool) -> None:
+def leave_lowest(table: Table, curve: Cosine, long: Long, losses: bool) -> None:
     """Find the wave of the gap that starts lowest, and what unloading loses from there on, if that is not known yet."""
     shared, trace = long.shared[0], long.trace
     if not math.isnan(shared.lowest):
@@ -342,7 +344,7 @@ def leave_lowest(table: Any, curve: Cosine, long: Long, losses: bool) -> None:
 
 
 @kernel()
-def _unload_through(table: Any, curve: Cosine, after: float, long: Long, running: bool, losses: bool) -> None:
+def _unload_through(table: Table, curve: Cosine, after: float, long: Long, running: bool, losses: bool) -> None:
     """Give the first branch after the gap, that of the wave `after`, what unloading loses from there into the gap."""
     shared, trace = long.shared[0], long.trace
     leave_lowest(table, curve, long, losses)
@@ -357,7 +359,7 @@ def _unload_through(table: Any, curve: Cosine, after: float, long: Long, running
 
 
 @kernel()
-def _nominal_branch(table: Any, curve: Cosine, rim: float, final: float, trace: Any, near: int) -> float:
+def _nominal_branch(table: Table, curve: Cosine, rim: float, final: float, trace: Trace, near: int) -> float:
     """Put the branch of a rim whose phase no float tells into the trace, by the envelopes; return its wave.
 
     Beyond the end of the folds at wave `final` it is the last one, which has no end.
@@ -375,7 +377,7 @@ def _nominal_branch(table: Any, curve: Cosine, rim: float, final: float, trace: 
 
 
 @kernel()
-def stride(table: Any, curve: Cosine, rim: float, long: Long, losses: bool, reach: float) -> int:
+def stride(table: Table, curve: Cosine, rim: float, long: Long, losses: bool, reach: float) -> int:
     """Put what `begin_long` leaves out into the trace, for a rim x = a/lambda; return the number of branches.
 
     A rim for which `ends_folds` holds serves all those before it for which it holds too, unless the phase there is not
@@ -407,7 +409,7 @@ def stride(table: Any, curve: Cosine, rim: float, long: Long, losses: bool, reac
 
 
 @kernel()
-def open_gap(table: Any, curve: Cosine, place: float, long: Long) -> bool:
+def open_gap(table: Table, curve: Cosine, place: float, long: Long) -> bool:
     """Let the gap end at a wave beyond x = `place`, with no branch beyond; return whether loading goes through the gap.
 
     That is enough for a cycle that surely turns before the place.

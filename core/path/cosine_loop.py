@@ -12,15 +12,17 @@ curve/cosine_energy.py is used: not its integrand, not its panels, and no sums o
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from gradhesion.core.compiler.jit import NO, kernel
-from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, START_DEPTH
+from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, START_DEPTH, Trace
 from gradhesion.core.curve.cosine import Cosine, depth, load, slope
 from gradhesion.core.path.unloading import descend, leave_rim
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
+from gradhesion.core.types import Floats
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(14)
 _PANEL: Final = 0.5
@@ -28,7 +30,7 @@ _PANEL: Final = 0.5
 
 
 @kernel()
-def _work(table: Any, curve: Cosine, start: float, end: float) -> float:
+def _work(table: Table, curve: Cosine, start: float, end: float) -> float:
     """Return int load d(depth) from x = start to x = end (Gauss; panels grow with their distance from zero)."""
     level = 0.5 * (1.0 - table.k)
     low, high = min(start, end), max(start, end)
@@ -45,7 +47,7 @@ def _work(table: Any, curve: Cosine, start: float, end: float) -> float:
 
 
 @kernel()
-def _polished(table: Any, curve: Cosine, x: float, target: float, low: float, high: float) -> float:
+def _polished(table: Table, curve: Cosine, x: float, target: float, low: float, high: float) -> float:
     """Return a place of landing, which is found to half its digits, to nearly all of them (Newton)."""
     for _ in range(2):
         d, _, _, here = slope(table, curve, 0.5 * (1.0 - table.k), x)
@@ -57,14 +59,14 @@ def _polished(table: Any, curve: Cosine, x: float, target: float, low: float, hi
 
 
 @kernel()
-def _excess(table: Any, curve: Cosine, x: float, target: float) -> float:
+def _excess(table: Table, curve: Cosine, x: float, target: float) -> float:
     """Return the integral from where the depth is `target` to x, where it nearly is."""
     return load(table, curve, x) * (depth(table, curve, x) - target)
 
 
 @kernel()
 def _work_of_cycle(
-    table: Any, curve: Cosine, count: int, trace: Any, rim: float, rim_depth: float, landings: Any
+    table: Table, curve: Cosine, count: int, trace: Trace, rim: float, rim_depth: float, landings: Floats
 ) -> float:
     """Return the integral; `landings` has where unloading lands on each branch, and at what depth (-1: nowhere)."""
     total, level = 0.0, 0.0
@@ -96,7 +98,7 @@ def _work_of_cycle(
 
 
 @kernel()
-def loop_energy(table: Any, curve: Cosine, count: int, trace: Any, rim: float, rim_depth: float) -> float:
+def loop_energy(table: Table, curve: Cosine, count: int, trace: Trace, rim: float, rim_depth: float) -> float:
     """Return the reduced energy of a cycle up to the rim, off a trace that loading has walked."""
     landings = np.full((2, count), -1.0)
     now, landing = leave_rim(table, curve, count, trace, rim, rim_depth)

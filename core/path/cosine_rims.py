@@ -8,7 +8,7 @@ together, each for itself.
 """
 
 import math
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.at_once import find_depths
@@ -21,6 +21,7 @@ from gradhesion.core.path.cycle import Cycle
 from gradhesion.core.path.ties import highest_before, is_within, unloading_is_close
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.lanes import Lanes, any_above, chosen, eight, floor_of, lane_of
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.waves.cosine_at_once import folds_at_once
 
 
@@ -58,7 +59,7 @@ FURTHEST: Final = 1.0e9
 
 
 @kernel(contract=True)
-def stand_at_once(table: Any, curve: Cosine, rims: Lanes, losses: bool) -> Stands:
+def stand_at_once(table: Table, curve: Cosine, rims: Lanes, losses: bool) -> Stands:
     """Return how eight rims x = a/lambda stand among regular waves; with `losses` the energies of jumps as well."""
     turns = rims - table.phase / TWO_PI
     value, rate, _, _, here = slopes_at_once(table, curve, 0.5 * (1.0 - table.k), rims)
@@ -85,7 +86,7 @@ def stand_at_once(table: Any, curve: Cosine, rims: Lanes, losses: bool) -> Stand
 
 @kernel()
 def cycle_among(
-    table: Any, curve: Cosine, stands: Stands, lane: int, rim: float, long: Long, losses: bool
+    table: Table, curve: Cosine, stands: Stands, lane: int, rim: float, long: Long, losses: bool
 ) -> tuple[bool, Cycle, float]:
     """Return whether one of the rims stands among regular waves, its cycle if so, and the wave that loading enters.
 
@@ -121,7 +122,9 @@ def cycle_among(
 
 
 @kernel()
-def is_close_among(table: Any, curve: Cosine, stands: Stands, lane: int, rim: float, long: Long, turned: bool) -> bool:
+def is_close_among(
+    table: Table, curve: Cosine, stands: Stands, lane: int, rim: float, long: Long, turned: bool
+) -> bool:
     """Return what `is_close_to_a_jump` (path/ties.py) does for one of the rims that stand among regular waves."""
     shared, trace = long.shared[0], long.trace
     near, lower = shared.near, shared.lowest_branch

@@ -6,7 +6,7 @@ one rise, and unloading goes down where the other fall inwards. Where they do no
 """
 
 import math
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from gradhesion.core.curve.arches import folds_between
 from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, fill_branches
-from gradhesion.core.curve.general_folds import MOST_FOLDS, find_folds, room
+from gradhesion.core.curve.general_folds import MOST_FOLDS, Search, find_folds, room
 from gradhesion.core.path.general_ties import first_close_pair, is_at_a_fold
 from gradhesion.core.path.pieces import (
     NOTED_DOWN,
@@ -353,7 +353,7 @@ def middle_of(basis: Basis, curve: Series, first: float, last: float, apart: flo
 
 @kernel()
 def folds_before(
-    basis: Basis, curve: Series, first: float, middle: Middle, search: Any, zeros: Any
+    basis: Basis, curve: Series, first: float, middle: Middle, search: Search, zeros: Floats
 ) -> tuple[int, bool, float]:
     """Put the folds before the regular waves into `zeros`; return what find_folds does, -1 where they do not fit."""
     _, _, cut, again, begin, _, _ = middle

@@ -4,7 +4,6 @@ The curve is any of core/face.py; "depth" stands for what is prescribed.
 """
 
 import math
-from typing import Any
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import (
@@ -17,19 +16,20 @@ from gradhesion.core.curve.branches import (
     NOWHERE,
     START,
     WORK,
+    Trace,
     branch_within,
 )
-from gradhesion.core.face import find_place, loss_between, loss_from_zero
+from gradhesion.core.face import AnyCurve, AnyTable, find_place, loss_between, loss_from_zero
 
 
 @kernel()
-def arrive(trace: Any, branch: int, x: float, loss: float, jumps: float) -> None:
+def arrive(trace: Trace, branch: int, x: float, loss: float, jumps: float) -> None:
     """Keep where loading arrives on a branch, what it has lost by then, and in how many jumps."""
     trace[ARRIVAL, branch], trace[LOADING_LOSS, branch], trace[LOADING_JUMPS, branch] = x, loss, jumps
 
 
 @kernel()
-def next_higher(trace: Any, branch: int, count: int, level: float) -> int:
+def next_higher(trace: Trace, branch: int, count: int, level: float) -> int:
     """Return the first branch from `branch` on that ends above a depth, `count` if none does."""
     while branch < count and trace[END_DEPTH, branch] <= level:
         branch += 1
@@ -37,7 +37,7 @@ def next_higher(trace: Any, branch: int, count: int, level: float) -> int:
 
 
 @kernel()
-def climb(table: Any, curve: Any, now: int, count: int, trace: Any, furthest: float, losses: bool) -> int:
+def climb(table: AnyTable, curve: AnyCurve, now: int, count: int, trace: Trace, furthest: float, losses: bool) -> int:
     """Follow loading from branch `now` on, outwards to `furthest`; return the last branch that it arrives on.
 
     now = -1 stands for no contact: the first jump is that from zero contact, at the depth 0.
@@ -59,14 +59,16 @@ def climb(table: Any, curve: Any, now: int, count: int, trace: Any, furthest: fl
 
 
 @kernel()
-def load_up(table: Any, curve: Any, count: int, trace: Any, furthest: float, losses: bool) -> int:
+def load_up(table: AnyTable, curve: AnyCurve, count: int, trace: Trace, furthest: float, losses: bool) -> int:
     """Follow loading from zero contact; return the last branch that it arrives on, -1 if none."""
     trace[ARRIVAL, :count] = math.inf
     return climb(table, curve, NOWHERE, count, trace, furthest, losses)
 
 
 @kernel()
-def loading_to(table: Any, curve: Any, count: int, trace: Any, rim: float, losses: bool) -> tuple[float, float]:
+def loading_to(
+    table: AnyTable, curve: AnyCurve, count: int, trace: Trace, rim: float, losses: bool
+) -> tuple[float, float]:
     """Return what loading up to the rim loses, and its jumps."""
     now = branch_within(count, trace, rim)
     while now >= 0 and not trace[ARRIVAL, now] <= rim:
@@ -83,7 +85,7 @@ def loading_to(table: Any, curve: Any, count: int, trace: Any, rim: float, losse
 
 
 @kernel()
-def jumps_in_to(count: int, trace: Any, rim: float) -> bool:
+def jumps_in_to(count: int, trace: Trace, rim: float) -> bool:
     """Return whether loading goes from zero contact to the rim at once."""
     branch = 0
     while branch < count and not trace[ARRIVAL, branch] <= rim:
@@ -92,7 +94,7 @@ def jumps_in_to(count: int, trace: Any, rim: float) -> bool:
 
 
 @kernel()
-def highest_depth(count: int, trace: Any, rim: float, rim_depth: float) -> float:
+def highest_depth(count: int, trace: Trace, rim: float, rim_depth: float) -> float:
     """Return the largest depth on the way to the rim, 0 if all are negative."""
     now = branch_within(count, trace, rim)
     if now >= 0 and trace[END, now] >= rim:

@@ -13,7 +13,7 @@ neighbours stand apart by a wave. Where loading enters them, and unloading leave
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.compiler.jit import NO, NONE, kernel
 from gradhesion.core.curve.branches import (
@@ -27,10 +27,11 @@ from gradhesion.core.curve.branches import (
     TANGENCY,
     UNKNOWN,
     UNLOADING_IS_CLOSE,
+    Trace,
     branch_within,
 )
 from gradhesion.core.curve.cosine_folds import CLOSE
-from gradhesion.core.face import fold_at, most_size_at, size_at
+from gradhesion.core.face import AnyCurve, AnyTable, fold_at, most_size_at, size_at
 from gradhesion.core.struve.circle import TWO_PI
 
 PAIR: Final = 8.0 * CLOSE
@@ -38,19 +39,19 @@ PAIR: Final = 8.0 * CLOSE
 
 
 @kernel()
-def tolerance(table: Any, curve: Any, x: float) -> float:
+def tolerance(table: AnyTable, curve: AnyCurve, x: float) -> float:
     """Return CLOSE times the size of the terms of the coordinate at x."""
     return CLOSE * size_at(table, curve, x)
 
 
 @kernel()
-def is_within(table: Any, curve: Any, difference: float, x: float) -> bool:
+def is_within(table: AnyTable, curve: AnyCurve, difference: float, x: float) -> bool:
     """Return whether a difference of coordinates is within the tolerance at x, which is seldom worth its power."""
     return difference <= CLOSE * most_size_at(table, curve, x) and difference <= tolerance(table, curve, x)
 
 
 @kernel()
-def first_close_pair(count: int, trace: Any) -> float:
+def first_close_pair(count: int, trace: Trace) -> float:
     """Return the first place at which a pair of folds is about to be born or to vanish, inf without any."""
     first = trace[TANGENCY, 0]
     for branch in range(count):
@@ -66,7 +67,7 @@ def first_close_pair(count: int, trace: Any) -> float:
 
 
 @kernel()
-def note_loading_from(table: Any, curve: Any, first: int, count: int, trace: Any, furthest: float) -> None:
+def note_loading_from(table: AnyTable, curve: AnyCurve, first: int, count: int, trace: Trace, furthest: float) -> None:
     """Do what `note_loading` does from a branch on; what is noted of those before it holds."""
     highest, close = 0.0, 0.0
     if first > 0:
@@ -81,19 +82,21 @@ def note_loading_from(table: Any, curve: Any, first: int, count: int, trace: Any
 
 
 @kernel()
-def note_loading(table: Any, curve: Any, count: int, trace: Any, furthest: float) -> None:
+def note_loading(table: AnyTable, curve: AnyCurve, count: int, trace: Trace, furthest: float) -> None:
     """Note the highest coordinate up to the end of each branch, and whether a decision of loading was close before."""
     note_loading_from(table, curve, NONE, count, trace, furthest)
 
 
 @kernel()
-def highest_before(trace: Any, branch: int) -> float:
+def highest_before(trace: Trace, branch: int) -> float:
     """Return the highest coordinate up to the end of a branch, 0 for none."""
     return trace[HIGHEST, branch] if branch >= 0 else 0.0
 
 
 @kernel()
-def scan_inwards(table: Any, curve: Any, trace: Any, branch: int, level: float, place: float) -> tuple[bool, int]:
+def scan_inwards(
+    table: AnyTable, curve: AnyCurve, trace: Trace, branch: int, level: float, place: float
+) -> tuple[bool, int]:
     """Return whether a branch from `branch` inwards hardly starts below a level, and the first that does, -1 if none.
 
     The level is that of the curve at `place`.
@@ -109,7 +112,7 @@ def scan_inwards(table: Any, curve: Any, trace: Any, branch: int, level: float, 
 
 
 @kernel()
-def unloading_is_close(table: Any, curve: Any, trace: Any, branch: int) -> bool:
+def unloading_is_close(table: AnyTable, curve: AnyCurve, trace: Trace, branch: int) -> bool:
     """Return whether a decision of unloading is close from the start of a branch on."""
     now = branch
     while trace[UNLOADING_IS_CLOSE, now] < 0.0:  # inwards to where it is known, or to a close decision
@@ -130,14 +133,14 @@ def unloading_is_close(table: Any, curve: Any, trace: Any, branch: int) -> bool:
 
 
 @kernel()
-def is_at_a_fold(table: Any, curve: Any, x: float) -> bool:
+def is_at_a_fold(table: AnyTable, curve: AnyCurve, x: float) -> bool:
     """Return whether x is a fold, as far as anybody can tell: by a step of Newton's method."""
     value, rate = fold_at(table, curve, x)
     return abs(value) <= 2.0 * CLOSE * TWO_PI * x * abs(rate)
 
 
 @kernel()
-def rim_is_close(table: Any, curve: Any, count: int, trace: Any, rim: float, rim_level: float) -> bool:
+def rim_is_close(table: AnyTable, curve: AnyCurve, count: int, trace: Trace, rim: float, rim_level: float) -> bool:
     """Return whether the rim stands on a fold, or hardly reaches, or misses, the level of a jump.
 
     That is all that belongs to the edge of a punch, and not to a cycle that turns there.
@@ -154,7 +157,14 @@ def rim_is_close(table: Any, curve: Any, count: int, trace: Any, rim: float, rim
 
 @kernel()
 def is_close_to_a_jump(
-    table: Any, curve: Any, count: int, trace: Any, tangency: float, rim: float, rim_level: float, turned: bool
+    table: AnyTable,
+    curve: AnyCurve,
+    count: int,
+    trace: Trace,
+    tangency: float,
+    rim: float,
+    rim_level: float,
+    turned: bool,
 ) -> bool:
     """Return whether an error of 1e-12 in an input could change the number of jumps of a cycle up to the rim.
 

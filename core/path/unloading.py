@@ -6,8 +6,6 @@ integral and the drawn path read them. The curve is any of core/face.py; "depth"
 in the depth at which contact ends.
 """
 
-from typing import Any
-
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import (
     CALLER,
@@ -20,19 +18,20 @@ from gradhesion.core.curve.branches import (
     UNLOADING_JUMPS,
     UNLOADING_LOSS,
     WORK,
+    Trace,
     branch_within,
 )
-from gradhesion.core.face import depth_at, find_place, loss_between, loss_to_zero
+from gradhesion.core.face import AnyCurve, AnyTable, depth_at, find_place, loss_between, loss_to_zero
 
 
 @kernel()
-def leave(trace: Any, branch: int, loss: float, jumps: float, last_depth: float) -> None:
+def leave(trace: Trace, branch: int, loss: float, jumps: float, last_depth: float) -> None:
     """Keep what unloading loses from the start of a branch to the end of contact, its jumps, and the depth there."""
     trace[UNLOADING_LOSS, branch], trace[UNLOADING_JUMPS, branch], trace[LAST_DEPTH, branch] = loss, jumps, last_depth
 
 
 @kernel()
-def next_lower(trace: Any, branch: int, level: float) -> int:
+def next_lower(trace: Trace, branch: int, level: float) -> int:
     """Return the first branch from `branch` inwards that starts below a depth, -1 if none does."""
     while branch >= 0 and trace[START_DEPTH, branch] >= level:
         branch -= 1
@@ -40,7 +39,7 @@ def next_lower(trace: Any, branch: int, level: float) -> int:
 
 
 @kernel()
-def descend(table: Any, curve: Any, trace: Any, branch: int, losses: bool) -> None:
+def descend(table: AnyTable, curve: AnyCurve, trace: Trace, branch: int, losses: bool) -> None:
     """Complete where unloading goes from the start of a branch on, and what it loses, for all that it visits."""
     now = branch
     while trace[UNLOADING_JUMPS, now] < 0.0:  # inwards to where it is known, or to the end of contact
@@ -66,14 +65,16 @@ def descend(table: Any, curve: Any, trace: Any, branch: int, losses: bool) -> No
 
 
 @kernel()
-def jumps_out_from(count: int, trace: Any, rim: float, rim_depth: float) -> bool:
+def jumps_out_from(count: int, trace: Trace, rim: float, rim_depth: float) -> bool:
     """Return whether unloading goes from the rim to zero contact at once."""
     now = branch_within(count, trace, rim)
     return not (now >= 0 and trace[END, now] >= rim) and next_lower(trace, now, rim_depth) < 0
 
 
 @kernel()
-def leave_rim(table: Any, curve: Any, count: int, trace: Any, rim: float, rim_depth: float) -> tuple[int, float]:
+def leave_rim(
+    table: AnyTable, curve: AnyCurve, count: int, trace: Trace, rim: float, rim_depth: float
+) -> tuple[int, float]:
     """Return the branch on which unloading is when it has left the rim, -1 for none, and where it arrives there.
 
     That is the rim itself where it stands on a branch; else unloading leaves it by a jump.
@@ -87,7 +88,7 @@ def leave_rim(table: Any, curve: Any, count: int, trace: Any, rim: float, rim_de
 
 @kernel()
 def unloading_from(
-    table: Any, curve: Any, count: int, trace: Any, rim: float, rim_depth: float, losses: bool
+    table: AnyTable, curve: AnyCurve, count: int, trace: Trace, rim: float, rim_depth: float, losses: bool
 ) -> tuple[float, float, float]:
     """Return what unloading from the rim loses, its jumps, and the depth at which contact ends."""
     now, landing = leave_rim(table, curve, count, trace, rim, rim_depth)

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.current import ready_for_theta
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.theta import front_of, gammas_by_table, gammas_of, sinc
 from gradhesion.core.types import Floats
 
@@ -55,7 +56,7 @@ def theta_of(k: float, nu: float) -> float:
 
 
 @kernel()
-def _theta_by_table(table: Any, k: float, nu: float, wave: float) -> float:
+def _theta_by_table(table: Table, k: float, nu: float, wave: float) -> float:
     """Return theta, NaN out of range; the table is that of k, if k has one, and `wave` that of `_wave`."""
     if _is_out_of_range(k, nu):
         return math.nan
@@ -63,7 +64,7 @@ def _theta_by_table(table: Any, k: float, nu: float, wave: float) -> float:
 
 
 @kernel(entry=True)
-def _thetas(k: Any, nu: Any, out: Any) -> None:
+def _thetas(k: Any, nu: Any, out: Floats) -> None:
     for i in range(k.size):
         out[i] = theta_of(k[i], nu[i])
 
@@ -95,7 +96,7 @@ def theta(k: ArrayLike, nu: ArrayLike) -> Floats:
 
 @kernel()
 def fill_stiffness(
-    tables: Any, which: Any, index: Any, k: Any, nu: Any, modulus: Any, c0_over_R: Any, out: Any
+    tables: Any, which: Any, index: Any, k: Any, nu: Any, modulus: Any, c0_over_R: Any, out: Floats
 ) -> None:
     """Put M R^(1+k)/dgamma of the scenes `index` into `out`, NaN outside the ranges; `which` are their tables."""
     value, power, wave = math.nan, math.nan, math.nan

@@ -9,13 +9,14 @@ the best trough found: two or three troughs of a thousand are ever looked at.
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.compiler.jit import YES, kernel
 from gradhesion.core.curve.cosine import Cosine, load, wave
 from gradhesion.core.curve.cosine_folds import fold_of_arch, survey_arch
 from gradhesion.core.struve.arches import inner_edge
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
 
 PHASELESS: Final = 1e12
@@ -31,7 +32,7 @@ def _floor(b: float, chi: float, k: float, abscissa: float, z: float) -> float:
 
 
 @kernel()
-def _trough(table: Any, curve: Cosine, i: int) -> float:
+def _trough(table: Table, curve: Cosine, i: int) -> float:
     """Return x of the local minimum of the load on arch i, 0 where there is none."""
     level = 0.5 * (3.0 + table.k)
     survey = survey_arch(table, curve, level, i)
@@ -42,7 +43,7 @@ def _trough(table: Any, curve: Cosine, i: int) -> float:
 
 
 @kernel(contract=True)
-def load_at_rim(table: Any, curve: Cosine, x: float, x_low: float) -> float:
+def load_at_rim(table: Table, curve: Cosine, x: float, x_low: float) -> float:
     """Return the load at x + x_low, where x_low is the rounding error of x."""
     b, g, lag = curve
     z, power, s0, s1, v, _, _ = wave(table, lag, x)
@@ -54,7 +55,7 @@ def load_at_rim(table: Any, curve: Cosine, x: float, x_low: float) -> float:
 
 @kernel()
 def _better(
-    table: Any, curve: Cosine, i: int, x_rim: float, best: tuple[float, float, float]
+    table: Table, curve: Cosine, i: int, x_rim: float, best: tuple[float, float, float]
 ) -> tuple[float, float, float]:
     """Return the lowest load so far, its place, and the second lowest, arch i taken in."""
     x = _trough(table, curve, i)
@@ -68,7 +69,7 @@ def _better(
 
 
 @kernel()
-def lowest_load(table: Any, curve: Cosine, x_rim: float, x_rim_low: float) -> tuple[float, float, float]:
+def lowest_load(table: Table, curve: Cosine, x_rim: float, x_rim_low: float) -> tuple[float, float, float]:
     """Return the lowest reduced load over (0, x_rim], the x where it is met, and the second lowest trough (or 0)."""
     b, g, _ = curve
     k = table.k

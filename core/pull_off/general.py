@@ -22,11 +22,13 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.arches import is_one_cosine, one_cosine
 from gradhesion.core.curve.cells import MOST
 from gradhesion.core.curve.general import Basis, Series, coordinate, slope, state
-from gradhesion.core.curve.general_folds import MOST_CELLS, cell_width, folds_of_cell
+from gradhesion.core.curve.general_folds import MOST_CELLS, Search, cell_width, folds_of_cell
 from gradhesion.core.pull_off import cosine as pull_off
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.cosine_bins import integral_at_zero
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.series import highest_harmonic
+from gradhesion.core.types import Floats, Harmonics
 from gradhesion.core.waves.general import NEAREST, cut_of, falls_at_cut, room_for_waves
 from gradhesion.core.waves.lowest import Lowest, lower, lowest_of_waves
 
@@ -50,7 +52,7 @@ _MANY: Final = 32.0
 
 
 @kernel()
-def _wave_of_load(table: Any, series: Any, u: float) -> tuple[float, float]:
+def _wave_of_load(table: Table, series: Harmonics, u: float) -> tuple[float, float]:
     """Return sum n^c [-cos_n sin(n z - phi) - sin_n cos(n z - phi)] at z = 2 pi u, and its slope."""
     c = 0.5 * (1.0 - table.k)
     value, rate = 0.0, 0.0
@@ -65,7 +67,7 @@ def _wave_of_load(table: Any, series: Any, u: float) -> tuple[float, float]:
 
 
 @kernel()
-def deepest_wave(table: Any, series: Any) -> float:
+def deepest_wave(table: Table, series: Harmonics) -> float:
     """Return the highest crest of -z^(1-c) w1/C's leading term."""
     samples = int(_SAMPLES * highest_harmonic(series))
     values = np.empty(samples)
@@ -92,7 +94,7 @@ def deepest_wave(table: Any, series: Any) -> float:
 
 
 @kernel()
-def chi_terms(table: Any, series: Any, gain: float, deepest: float) -> Terms:
+def chi_terms(table: Table, series: Harmonics, gain: float, deepest: float) -> Terms:
     """Return the terms of the bounds: h n^c, h n^(c-2), the deepest wave, h n^(c-1), and that of small z.
 
     `deepest` is what `deepest_wave` returns.
@@ -136,7 +138,7 @@ def load_at_rim(basis: Basis, curve: Series, x: float, x_low: float) -> float:
 
 @kernel()
 def _better(
-    basis: Basis, curve: Series, low: float, high: float, work: Any, cell_zeros: Any, best: Lowest, whole: float
+    basis: Basis, curve: Series, low: float, high: float, work: Search, cell_zeros: Floats, best: Lowest, whole: float
 ) -> Lowest:
     """Return the lowest load so far, its place, and the second lowest, a cell taken in."""
     at_low, _, _ = slope(basis, curve, low, whole)
@@ -174,7 +176,7 @@ def _in_question(terms: Terms, curve: Series, k: float, start: float, rim: float
 
 @kernel()
 def _lowest_far(
-    basis: Basis, curve: Series, terms: Any, start: float, x_rim: float, x_rim_low: float, best: Lowest, search: Any
+    basis: Basis, curve: Series, terms: Any, start: float, x_rim: float, x_rim_low: float, best: Lowest, search: Search
 ) -> tuple[bool, Lowest]:
     """Do what `lowest_load` does where it is one of many waves; tell whether it is."""
     table, _, series = basis
@@ -207,7 +209,7 @@ def _lowest_far(
 
 @kernel()
 def lowest_load(
-    basis: Basis, curve: Series, x_rim: float, x_rim_low: float, work: Any, deepest: float
+    basis: Basis, curve: Series, x_rim: float, x_rim_low: float, work: Search, deepest: float
 ) -> tuple[float, float, float]:
     """Return the lowest reduced load over (0, x_rim], the x where it is met, and the second lowest trough (or 0).
 

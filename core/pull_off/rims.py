@@ -5,7 +5,7 @@ That of the largest rim serves all beyond its place. For the others the search g
 """
 
 import math
-from typing import Any, Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from gradhesion.core.curve.arches import is_one_cosine
 from gradhesion.core.curve.cells import MOST
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Series, coordinate, slope
-from gradhesion.core.curve.general_folds import cell_width, folds_of_cell
+from gradhesion.core.curve.general_folds import Search, cell_width, folds_of_cell
 from gradhesion.core.pull_off.general import (
     INWARDS,
     WORTH,
@@ -26,6 +26,7 @@ from gradhesion.core.pull_off.general import (
     lowest_load,
 )
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.types import Floats, Integers
 from gradhesion.core.waves.lowest import Lowest, lower
 
 _MOST_CELLS: Final = 8192
@@ -34,9 +35,26 @@ _FEW: Final = 4
 _UNKNOWN: Final = -1
 
 
+class Cells(NamedTuple):
+    """Cells of a curve from a place inwards, and the troughs of the load in them.
+
+    ends     x between which they stand, falling, of shape (cells + 1,)
+    counts   the troughs of each, _UNKNOWN as long as nobody has searched it, int64 of shape (cells + 1,)
+    troughs  x and load of each trough, of shape (cells + 1, 4, 2)
+    zeros    room for the folds of one cell, of shape (MOST,)
+    """
+
+    ends: Floats
+    counts: Integers
+    troughs: Floats
+    zeros: Floats
+
+
 @kernel()
-def _fill_cell(basis: Basis, curve: Series, low: float, high: float, work: Any, zeros: Any, troughs: Any) -> int:
-    """Put place and load of the troughs of a cell into `troughs`; return their number."""
+def _fill_cell(
+    basis: Basis, curve: Series, low: float, high: float, work: Search, zeros: Floats, troughs: Floats
+) -> int:
+    """Put x and load of the troughs of a cell into `troughs`, of shape (4, 2); return their number."""
     at_low, _, _ = slope(basis, curve, low)
     found, _, _ = folds_of_cell(basis, curve, low, high, at_low, work, zeros, 0.0)
     falling, count = at_low < 0.0, 0
@@ -50,7 +68,7 @@ def _fill_cell(basis: Basis, curve: Series, low: float, high: float, work: Any, 
 
 @kernel()
 def _inwards(
-    basis: Basis, curve: Series, terms: Terms, rim: float, best: Lowest, cells: Any, work: Any
+    basis: Basis, curve: Series, terms: Terms, rim: float, best: Lowest, cells: Cells, work: Search
 ) -> tuple[bool, Lowest]:
     """Return the lowest load within a rim; whether the cells reach that far in."""
     ends, counts, troughs, zeros = cells
@@ -71,8 +89,8 @@ def _inwards(
 
 
 @kernel()
-def _cells_from(basis: Basis, high: float) -> Any:
-    """Return the ends of cells from a place inwards, as far as there is room, with room for what they hold."""
+def _cells_from(basis: Basis, high: float) -> Floats:
+    """Return the ends of cells from x = `high` inwards, of shape (cells + 1,), as far as there is room."""
     _, _, series = basis
     ends = np.empty(_MOST_CELLS + 1)
     ends[0] = high
@@ -84,10 +102,12 @@ def _cells_from(basis: Basis, high: float) -> Any:
 
 
 @kernel()
-def lowest_loads(basis: Basis, curve: Series, rims: Any, rims_low: Any, work: Any, deepest: float, found: Any) -> None:
+def lowest_loads(
+    basis: Basis, curve: Series, rims: Floats, rims_low: Floats, work: Search, deepest: float, found: Floats
+) -> None:
     """Put what `lowest_load` (pull_off/general.py) returns for each rim x + its rounding error into a row of `found`.
 
-    Rims that are not above 0 are left out.
+    Rims and rounding errors are of shape (rims,), `found` is of shape (rims, 3). Rims that are not above 0 are left out.
     """
     table, _, series = basis
     B, m, g, _, _ = curve
@@ -116,7 +136,7 @@ def lowest_loads(basis: Basis, curve: Series, rims: Any, rims_low: Any, work: An
         terms = chi_terms(table, series, g, deepest)
         ends = _cells_from(basis, inner)
         counts, troughs = np.full(ends.size, _UNKNOWN), np.empty((ends.size, 4, 2))
-        cells = (ends, counts, troughs, np.empty(MOST))
+        cells = Cells(ends, counts, troughs, np.empty(MOST))
     for i in range(rims.size):
         if not (rims[i] > 0.0 and math.isnan(found[i, 0])) or (i == furthest):
             continue

@@ -61,6 +61,7 @@ from gradhesion.core.sensitivities.cosine_slopes import (
 )
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.types import Floats
 
 
@@ -99,7 +100,7 @@ def _solve_smooth(k: float, stretch: float, rims: Floats, results: Results) -> N
 
 
 @kernel()
-def _solve_force(table: Any, curve: Cosine, scale: float, wavelength: float, rims: Floats, results: Results) -> None:
+def _solve_force(table: Table, curve: Cosine, scale: float, wavelength: float, rims: Floats, results: Results) -> None:
     """Find the pull-off of a wavy punch for all its rims a_max/R, shape (rims,); the free one serves all beyond it.
 
     `scale` is the unit of load in 1.5 pi R dgamma.
@@ -123,7 +124,7 @@ def _solve_force(table: Any, curve: Cosine, scale: float, wavelength: float, rim
 
 @kernel()
 def _solve_cycle(
-    table: Any, curve: Cosine, arches: tuple[float, float], scene: Scene, rims: Floats, scratch: Floats, sensed: Any
+    table: Table, curve: Cosine, arches: tuple[float, float], scene: Scene, rims: Floats, scratch: Floats, sensed: Any
 ) -> None:
     """Follow the cycle of a wavy punch for all its rims: those within a walk share one trace.
 
@@ -180,7 +181,7 @@ def refuse(results: Results) -> None:
 
 @kernel()
 def solve_pull_off(
-    table: Any, stretch: float, wavelength: float, amplitude: float, rims: Floats, results: Results
+    table: Table, stretch: float, wavelength: float, amplitude: float, rims: Floats, results: Results
 ) -> None:
     """Solve a curve as `solve_curve` does where nothing but the pull-off is wanted: no cycle is compiled with it."""
     k = table.k
@@ -197,7 +198,7 @@ def solve_pull_off(
 
 @kernel()
 def solve_curve(
-    table: Any,
+    table: Table,
     stretch: float,
     wavelength: float,
     amplitude: float,

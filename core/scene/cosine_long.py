@@ -20,11 +20,12 @@ from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC
 from gradhesion.core.scene.cosine_rim import Walked, put_cycle, read_rim, slopes_of, walked_to
 from gradhesion.core.scene.scene import Scene
 from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, next_lane
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.types import Floats
 
 
 @kernel()
-def _limits_of_beginning(table: Any, curve: Cosine, first: float, last: float, long: Long) -> tuple[float, float]:
+def _limits_of_beginning(table: Table, curve: Cosine, first: float, last: float, long: Long) -> tuple[float, float]:
     """Return the x between which loading of the beginning ceases to keep the contact one disc, examined once.
 
     The waves `first` to `last` of the gap, which loading leaves, are examined too, where that serves all rims
@@ -43,7 +44,7 @@ def _limits_of_beginning(table: Any, curve: Cosine, first: float, last: float, l
 
 
 @kernel()
-def _walked_beyond(table: Any, curve: Cosine, count: int, long: Long, rim: float, scene: Scene) -> Walked:
+def _walked_beyond(table: Table, curve: Cosine, count: int, long: Long, rim: float, scene: Scene) -> Walked:
     """Return what `walked_to` does for one rim, x = a/lambda; the beginning and the gap are examined once."""
     trace = long.trace
     tangency = first_close_pair(count, trace)
@@ -59,7 +60,7 @@ def _walked_beyond(table: Any, curve: Cosine, count: int, long: Long, rim: float
 
 
 @kernel()
-def _follow(table: Any, curve: Cosine, scene: Scene, x: float, i: int, long: Long, sensed: Any) -> None:
+def _follow(table: Table, curve: Cosine, scene: Scene, x: float, i: int, long: Long, sensed: Any) -> None:
     """Follow the cycle of rim number i, at x wavelengths, on branches of its own, and store what it reads there."""
     count = stride(table, curve, x, long, wants_losses(scene.results.slots), 1.0)
     walked = _walked_beyond(table, curve, count, long, x, scene)
@@ -68,7 +69,7 @@ def _follow(table: Any, curve: Cosine, scene: Scene, x: float, i: int, long: Lon
 
 
 @kernel()
-def _is_one_disc_among(table: Any, curve: Cosine, x: float, first: float, long: Long, scene: Scene) -> bool:
+def _is_one_disc_among(table: Table, curve: Cosine, x: float, first: float, long: Long, scene: Scene) -> bool:
     """Return whether loading keeps the contact one disc up to a rim among the waves that it enters with `first`."""
     if scene.results.slots[CONTACT] < 0 or is_always_one_disc(table, curve):
         return True
@@ -84,7 +85,7 @@ def _is_one_disc_among(table: Any, curve: Cosine, x: float, first: float, long: 
 
 @kernel()
 def _follow_eight(
-    table: Any, curve: Cosine, scene: Scene, waiting: tuple[int, Lanes, Lanes], long: Long, sensed: Any
+    table: Table, curve: Cosine, scene: Scene, waiting: tuple[int, Lanes, Lanes], long: Long, sensed: Any
 ) -> None:
     """Do the same for the rims that wait: at once for those that stand among regular waves, sensitivities apart.
 
@@ -112,7 +113,7 @@ def _follow_eight(
 
 @kernel()
 def solve_long(
-    table: Any, curve: Cosine, arches: tuple[float, float], scene: Scene, rims: Floats, scratch: Floats, sensed: Any
+    table: Table, curve: Cosine, arches: tuple[float, float], scene: Scene, rims: Floats, scratch: Floats, sensed: Any
 ) -> None:
     """Follow the cycle of a wavy punch for its rims that no walk reaches: they share its beginning and its sums.
 

@@ -14,13 +14,13 @@ true error is the thirtieth part in the median (tests/core/test_stated_errors.py
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from gradhesion.core.closed import smooth
 from gradhesion.core.compiler.jit import NO, YES, constant, kernel
-from gradhesion.core.curve.branches import ARRIVAL, END, START
+from gradhesion.core.curve.branches import ARRIVAL, END, START, Trace
 from gradhesion.core.curve.cosine import Cosine, curve_of, depth, force_unit, wave
 from gradhesion.core.curve.cosine_folds import fold_of_arch, survey_arch
 from gradhesion.core.path.cosine import MOST_ARCHES, extent, is_endless_wave, is_long, is_smooth, walk
@@ -34,6 +34,7 @@ from gradhesion.core.problem.status import NO_VALUE, TOLERANCE_NOT_MET
 from gradhesion.core.scene.scene import Scene
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.current import ready
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.types import Floats, Integers
 
 NEEDED: Final = {
@@ -66,7 +67,7 @@ _ARCHES_BACK: Final = 8
 
 
 @kernel()
-def _force_terms(table: Any, curve: Cosine, x: float) -> float:
+def _force_terms(table: Table, curve: Cosine, x: float) -> float:
     """Return the size of the terms of the load at x."""
     b, g, lag = curve
     z, power, _, _, _, _, _ = wave(table, lag, x)
@@ -75,7 +76,7 @@ def _force_terms(table: Any, curve: Cosine, x: float) -> float:
 
 
 @kernel()
-def last_fold(table: Any, curve: Cosine, arches: tuple[float, float]) -> float:
+def last_fold(table: Table, curve: Cosine, arches: tuple[float, float]) -> float:
     """Return x of the outermost fold of a curve, 0 if it has none."""
     first, final = arches
     level = 0.5 * (1.0 - table.k)
@@ -92,7 +93,7 @@ def last_fold(table: Any, curve: Cosine, arches: tuple[float, float]) -> float:
 
 
 @kernel()
-def _outermost(count: int, trace: Any, rim: float) -> float:
+def _outermost(count: int, trace: Trace, rim: float) -> float:
     """Return the outermost place on the way of a jump: the rim, or where loading arrives on the branch of the rim."""
     now = count - 1
     while now >= 0 and trace[START, now] > rim:
@@ -103,7 +104,7 @@ def _outermost(count: int, trace: Any, rim: float) -> float:
 
 
 @kernel()
-def _energies_at(table: Any, curve: Cosine, count: int, trace: Any, rim: float) -> tuple[float, float]:
+def _energies_at(table: Table, curve: Cosine, count: int, trace: Trace, rim: float) -> tuple[float, float]:
     """Return the reduced energies of loading up to the rim and of unloading."""
     rim_depth = depth(table, curve, rim) if rim < math.inf else math.inf
     loading, _ = loading_to(table, curve, count, trace, rim, YES)
@@ -112,7 +113,7 @@ def _energies_at(table: Any, curve: Cosine, count: int, trace: Any, rim: float) 
 
 
 @kernel()
-def _wave_terms(table: Any, curve: Cosine, arch: float) -> float:
+def _wave_terms(table: Table, curve: Cosine, arch: float) -> float:
     """Return what a wave on an arch may lose on both ways, of which rounding may put one too many within the rim."""
     _, g, _ = curve
     chi = g * table.amplitude
@@ -120,7 +121,7 @@ def _wave_terms(table: Any, curve: Cosine, arch: float) -> float:
 
 
 @kernel()
-def _energy_terms(table: Any, curve: Cosine, count: int, trace: Any, rim: float) -> float:
+def _energy_terms(table: Table, curve: Cosine, count: int, trace: Trace, rim: float) -> float:
     """Return the size of the terms of the reduced energy."""
     _, g, _ = curve
     return (TWO_PI * _outermost(count, trace, rim) * (1.0 + g * table.amplitude)) ** 2
@@ -128,7 +129,7 @@ def _energy_terms(table: Any, curve: Cosine, count: int, trace: Any, rim: float)
 
 @kernel()
 def _report_energy(
-    table: Any,
+    table: Table,
     curve: Cosine,
     arches: tuple[float, float],
     scene: Scene,
@@ -209,7 +210,7 @@ def _report_gains(k: float, stretch: float, rims: Floats, solved: Integers, resu
 
 @kernel()
 def _report_curve(
-    table: Any,
+    table: Table,
     stretch: float,
     wavelength: float,
     amplitude: float,

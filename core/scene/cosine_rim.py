@@ -31,6 +31,7 @@ from gradhesion.core.scene.scene import Scene
 from gradhesion.core.sensitivities.cosine_slopes import put_energy
 from gradhesion.core.sensitivities.path_slopes import fill_loading, with_slopes
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.types import Floats
 
 
@@ -68,7 +69,7 @@ def put_cycle(scene: Scene, cycle: Cycle, i: int) -> None:
 
 
 @kernel()
-def _cycle_at_rim(table: Any, curve: Cosine, walked: Walked, scene: Scene, x: float, i: int) -> None:
+def _cycle_at_rim(table: Table, curve: Cosine, walked: Walked, scene: Scene, x: float, i: int) -> None:
     """Read the cycle of rim number i, at x wavelengths, off a trace, and store it and its flags."""
     count, trace, inner, outer, tangency = walked
     results = scene.results
@@ -91,7 +92,7 @@ def _cycle_at_rim(table: Any, curve: Cosine, walked: Walked, scene: Scene, x: fl
 
 
 @kernel()
-def walked_to(table: Any, curve: Cosine, count: int, trace: Floats, furthest: float, scene: Scene) -> Walked:
+def walked_to(table: Table, curve: Cosine, count: int, trace: Floats, furthest: float, scene: Scene) -> Walked:
     """Return a trace of `count` branches with what its rims up to x = `furthest` share."""
     tangency = first_close_pair(count, trace)
     if scene.results.slots[CONTACT] < 0:
@@ -101,7 +102,7 @@ def walked_to(table: Any, curve: Cosine, count: int, trace: Floats, furthest: fl
 
 
 @kernel()
-def slopes_of(table: Any, curve: Cosine, sensed: Any, walked: Walked, final: float) -> Any:
+def slopes_of(table: Table, curve: Cosine, sensed: Any, walked: Walked, final: float) -> Any:
     """Return the slopes that go with a trace, a `Traced`; those of loading filled in where those of energy are wanted.
 
     `sensed` is the record of sensitivities/cosine_slopes.py, `final` the last arch on which the curve folds.
@@ -114,7 +115,7 @@ def slopes_of(table: Any, curve: Cosine, sensed: Any, walked: Walked, final: flo
 
 @kernel()
 def read_rim(
-    table: Any, curve: Cosine, walked: Walked, scene: Scene, x: float, i: int, sensed: Any, slopes: Any
+    table: Table, curve: Cosine, walked: Walked, scene: Scene, x: float, i: int, sensed: Any, slopes: Any
 ) -> None:
     """Store what rim number i, at x wavelengths, reads off a trace: its cycle, and its sensitivities if wanted.
 

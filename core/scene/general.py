@@ -18,7 +18,7 @@ from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Series, coordinate, curve_of, state
 from gradhesion.core.curve.general_energy import energies_in
-from gradhesion.core.curve.general_folds import MOST_CELLS, room
+from gradhesion.core.curve.general_folds import MOST_CELLS, Search, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.face import depth_at
 from gradhesion.core.path.cycle import Cycle
@@ -281,7 +281,7 @@ def _pull_offs(
     wavelength: float,
     rims: Floats,
     results: Results,
-    work: Any,
+    work: Search,
     deepest: float,
 ) -> None:
     """Find the pull-off of a curve for all its rims.

@@ -13,12 +13,12 @@ computation that shares no integrand with the energies of jumps. A dead load clo
 """
 
 import math
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from gradhesion.core.compiler.jit import NO, NONE, YES, kernel
-from gradhesion.core.curve.branches import ARRIVAL, END, LANDING, NEXT, START
+from gradhesion.core.curve.branches import ARRIVAL, END, LANDING, NEXT, START, Trace
 from gradhesion.core.curve.cosine_energy import NODES, WEIGHTS
 from gradhesion.core.curve.general import Basis, Series, coordinate, curve_of, slope, state
 from gradhesion.core.curve.general_folds import MOST_CELLS, cell_width, folds_of_cell, room
@@ -41,9 +41,10 @@ from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.status import NO_VALUE, TOLERANCE_NOT_MET
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import integrals
-from gradhesion.core.types import Bits, Floats, Truths
+from gradhesion.core.types import Bits, Floats, Harmonics, Truths
 from gradhesion.core.waves.general import cut_of
 
 ROWS: Final = ("pull_off_force_error", "dissipated_energy_error", "energy_residual", "saturation_radius")
@@ -67,7 +68,7 @@ _NEGLIGIBLE: Final = 1e-8
 
 
 @kernel()
-def _crests(table: Any, series: Any, gain: float) -> float:
+def _crests(table: Table, series: Harmonics, gain: float) -> float:
     """Return chi of all waves at their crests."""
     total = 0.0
     for i in range(series.shape[0]):
@@ -115,7 +116,7 @@ def _work(basis: Basis, curve: Series, low: float, high: float) -> float:
 
 
 @kernel()
-def loop(basis: Basis, curve: Series, count: int, trace: Any, rim: float) -> tuple[float, float]:
+def loop(basis: Basis, curve: Series, count: int, trace: Trace, rim: float) -> tuple[float, float]:
     """Return the loop integral of the load over the coordinate, and the outermost radius that a jump passes.
 
     The trace is that of path/general.py, walked as far as the rim at least.
@@ -175,7 +176,7 @@ def outermost_fold(basis: Basis, curve: Series) -> float:
 
 
 @kernel()
-def _last_left(basis: Basis, curve: Series, count: int, trace: Any, rim: float) -> float:
+def _last_left(basis: Basis, curve: Series, count: int, trace: Trace, rim: float) -> float:
     """Return the place that unloading leaves last."""
     level = coordinate(basis, curve, rim) if rim < math.inf else math.inf
     now, _ = leave_rim(basis, curve, count, trace, rim, level)

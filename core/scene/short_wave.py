@@ -20,6 +20,7 @@ from gradhesion.core.curve.branches import (
     START_DEPTH,
     UNKNOWN,
     UNLOADING_JUMPS,
+    Trace,
 )
 from gradhesion.core.curve.cosine import curve_of, force_unit
 from gradhesion.core.curve.short_wave import (
@@ -37,6 +38,7 @@ from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.results import OUTERMOST, Results, put, put_all, wants_folds, wants_force
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.types import Floats
 
 NOTHING: Final = ()
@@ -79,7 +81,7 @@ def trace_branches(wave: ShortWave, furthest: float) -> tuple[int, Any]:
 
 
 @kernel()
-def _follow(wave: ShortWave, count: int, trace: Any, furthest: float) -> None:
+def _follow(wave: ShortWave, count: int, trace: Trace, furthest: float) -> None:
     """Fill the records of the cycle on the branches."""
     load_up(NOTHING, wave, count, trace, furthest, YES)
     highest = 0.0
@@ -90,7 +92,7 @@ def _follow(wave: ShortWave, count: int, trace: Any, furthest: float) -> None:
 
 @kernel()
 def solve_curve(
-    table: Any, stretch: float, wavelength: float, amplitude: float, rims: Floats, results: Results
+    table: Table, stretch: float, wavelength: float, amplitude: float, rims: Floats, results: Results
 ) -> None:
     """Solve one curve (s, lambda/R, A) for all its rims a_max/R, of shape (rims,)."""
     if amplitude == 0.0:

@@ -38,8 +38,10 @@ from gradhesion.core.problem.results import RADIUS, Results
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.pull_off.cosine import PHASELESS
 from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SLOPES
+from gradhesion.core.sensitivities.neighbours import Near
 from gradhesion.core.sensitivities.path_slopes import Traced, energy_slopes, fill_loading, with_slopes
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Floats
 
@@ -67,19 +69,6 @@ class Sense(NamedTuple):
     force: bool
     energy: bool
     turned: bool
-
-
-class Near(NamedTuple):
-    """A curve at neighbouring exponents of the gradient.
-
-    tables    their tables, of shape (4,)
-    curves    b and g of each, of shape (4, 2)
-    weights   their weights in d/dk, of shape (4,)
-    """
-
-    tables: Any
-    curves: Floats
-    weights: Floats
 
 
 class Sensed(NamedTuple):
@@ -123,7 +112,7 @@ def _put(found: Floats, k: float, curve: Cosine, powers: tuple[float, float], by
 
 
 @kernel()
-def _lowest_load_at(table: Any, curve: Cosine, x: float) -> float:
+def _lowest_load_at(table: Table, curve: Cosine, x: float) -> float:
     """Return the load at x, beyond all phases that of the lowest trough there (pull_off/cosine.py)."""
     z = TWO_PI * x
     if z <= PHASELESS:
@@ -134,7 +123,7 @@ def _lowest_load_at(table: Any, curve: Cosine, x: float) -> float:
 
 
 @kernel()
-def _force_slopes(table: Any, curve: Cosine, sensed: Sensed, x: float, at_rim: bool, by: Floats) -> float:
+def _force_slopes(table: Table, curve: Cosine, sensed: Sensed, x: float, at_rim: bool, by: Floats) -> float:
     """Put the slopes of the reduced force at x by b, g, ln x and k into `by`, of shape (4,); return the force."""
     (tables, curves, weights), units = sensed.near, sensed.units[0]
     b, g, _ = curve
@@ -158,7 +147,7 @@ def _force_slopes(table: Any, curve: Cosine, sensed: Sensed, x: float, at_rim: b
 
 
 @kernel()
-def _put_depth(table: Any, curve: Cosine, sensed: Sensed, unit: float, x: float, i: int) -> None:
+def _put_depth(table: Table, curve: Cosine, sensed: Sensed, unit: float, x: float, i: int) -> None:
     """Store the slopes of the depth at rim number i, x: where the cycle turns at a depth, they say how the place moves.
 
     `unit` is the unit of depth in R.
@@ -181,7 +170,7 @@ def _put_depth(table: Any, curve: Cosine, sensed: Sensed, unit: float, x: float,
 
 
 @kernel()
-def smooth_trace(table: Any, curve: Cosine, trace: Floats) -> int:
+def smooth_trace(table: Table, curve: Cosine, trace: Floats) -> int:
     """Put the one branch of a smooth punch of b = 1 into a trace (curve/branches.py); return the number of branches."""
     _, z_in, z_out, _ = smooth.smooth_places(table.k)
     trace[RUN, GAP] = math.inf
@@ -202,7 +191,7 @@ def of_curve(sense: Any, i: int, which: int) -> Any:
 
 
 @kernel()
-def sensed_by(table: Any, sense: Sense, stretch: float, wavelength: float, amplitude: float) -> Sensed:
+def sensed_by(table: Table, sense: Sense, stretch: float, wavelength: float, amplitude: float) -> Sensed:
     """Return what the sensitivities of a curve (s, lambda/R, A) need.
 
     k changes at fixed M L^k, L the size of a contact: at fixed M each length would bring its logarithm.
@@ -225,7 +214,7 @@ def sensed_by(table: Any, sense: Sense, stretch: float, wavelength: float, ampli
 
 @kernel()
 def put_forces(
-    table: Any, curve: Cosine, sensed: Sensed, unit: float, wavelength: float, rims: Floats, results: Results
+    table: Table, curve: Cosine, sensed: Sensed, unit: float, wavelength: float, rims: Floats, results: Results
 ) -> None:
     """Store the sensitivities of the pull-off forces of a curve, whose places and flags are there, for all rims.
 
@@ -246,7 +235,7 @@ def put_forces(
 
 
 @kernel()
-def put_energy(table: Any, curve: Cosine, sensed: Sensed, slopes: Traced, x: float, energy: float, i: int) -> None:
+def put_energy(table: Table, curve: Cosine, sensed: Sensed, slopes: Traced, x: float, energy: float, i: int) -> None:
     """Store the sensitivities of the energy of rim number i, at x, read off the trace that the energy was read off.
 
     The energy is in 2 pi l^2 dgamma.
@@ -260,7 +249,7 @@ def put_energy(table: Any, curve: Cosine, sensed: Sensed, slopes: Traced, x: flo
 
 
 @kernel()
-def put_smooth(table: Any, stretch: float, rims: Floats, results: Results, sense: Sense, trace: Floats) -> None:
+def put_smooth(table: Table, stretch: float, rims: Floats, results: Results, sense: Sense, trace: Floats) -> None:
     """Store the sensitivities of a smooth punch, whose values are there, for all rims a_max/R, of shape (rims,).
 
     `trace` is room for one branch, of shape (ROWS, 8 or more).

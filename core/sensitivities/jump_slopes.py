@@ -28,10 +28,12 @@ from gradhesion.core.curve.cosine_energy import (
     energy_from_zero,
     jump_energy,
 )
+from gradhesion.core.sensitivities.neighbours import Near
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
-from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS
+from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS, Table
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.types import Floats
 
 BEND, GAIN, EXPONENT, DEPTH, SHARE, SLOPES = 0, 1, 2, 3, 4, 5
 _FURTHEST: Final = 64.0
@@ -41,7 +43,7 @@ _POWER_TERMS: Final = 12
 
 @kernel(contract=True)
 def _panel_below(
-    table: Any, curve: Cosine, start: float, left: Any, begin: float, width: float, nodes: Any, weights: Any
+    table: Table, curve: Cosine, start: float, left: Any, begin: float, width: float, nodes: Floats, weights: Floats
 ) -> tuple[float, float, float]:
     """Integrate -2 z rho d rho over one panel of the x axis, per unit of x, by b, g and the depth."""
     b, g, lag = curve
@@ -60,7 +62,7 @@ def _panel_below(
 
 @kernel(contract=True)
 def panel_slopes_above(
-    table: Any, curve: Cosine, whole: float, start: float, left: Any, begin: float, width: float, work: Any
+    table: Table, curve: Cosine, whole: float, start: float, left: Any, begin: float, width: float, work: Floats
 ) -> tuple[float, float, float]:
     """Do the same where all z >= 40, at places `whole` + x, as `panel_above` of curve/cosine_energy.py."""
     b, g, _ = curve
@@ -104,7 +106,7 @@ def panel_slopes_above(
 
 
 @kernel(contract=True)
-def _slopes_from_zero(table: Any, curve: Cosine, x: float, depth: float) -> tuple[float, float, float]:
+def _slopes_from_zero(table: Table, curve: Cosine, x: float, depth: float) -> tuple[float, float, float]:
     """Return the slopes of `energy_from_zero` by b and g at a fixed depth, and by the depth."""
     b, g, lag = curve
     k = table.k
@@ -119,7 +121,7 @@ def _slopes_from_zero(table: Any, curve: Cosine, x: float, depth: float) -> tupl
 
 
 @kernel()
-def energies_nearby(near: Any, start: float, end: float, work: Any) -> float:
+def energies_nearby(near: Near, start: float, end: float, work: Floats) -> float:
     """Return the slope by k of the energy of a jump but for what the exponent itself adds to the sum."""
     tables, curves, weights = near
     total = 0.0
@@ -130,7 +132,7 @@ def energies_nearby(near: Any, start: float, end: float, work: Any) -> float:
 
 
 @kernel()
-def add_slopes_to_zero(table: Any, curve: Cosine, near: Any, x: float, inwards: bool, total: Any) -> None:
+def add_slopes_to_zero(table: Table, curve: Cosine, near: Near, x: float, inwards: bool, total: Floats) -> None:
     """Add the slopes of the jump-out from x at the depth there (inwards), or of the jump-in to x at the depth 0."""
     tables, curves, weights = near
     level = depth(table, curve, x) if inwards else 0.0
@@ -151,7 +153,7 @@ def add_slopes_to_zero(table: Any, curve: Cosine, near: Any, x: float, inwards: 
 
 
 @kernel(contract=True)
-def add_slopes(table: Any, curve: Cosine, near: Any, start: float, end: float, work: Any, total: Any) -> None:
+def add_slopes(table: Table, curve: Cosine, near: Near, start: float, end: float, work: Floats, total: Floats) -> None:
     """Add the slopes of a jump that leaves the curve at x = start and ends at x = end; `work` holds 48 floats."""
     b, g, lag = curve
     if end == 0.0:  # k = 1: the contact shrinks to a point
@@ -194,7 +196,7 @@ def add_slopes(table: Any, curve: Cosine, near: Any, start: float, end: float, w
 
 
 @kernel()
-def rim_slope(table: Any, curve: Cosine, level: float, x: float) -> float:
+def rim_slope(table: Table, curve: Cosine, level: float, x: float) -> float:
     """Return z (1 - rho^2) z, the slope by ln x of the energy of a jump at a depth that ends at x, on no branch."""
     b, g, lag = curve
     z, power, s0, _, _, _, _ = wave(table, lag, x)

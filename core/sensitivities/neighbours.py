@@ -4,16 +4,31 @@ What is differentiated is a smooth function of k (sensitivities/jump_slopes.py),
 well, where there is no solid but still a universal pair (k > -1): five points give it to some 2e-12.
 """
 
-from typing import Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from gradhesion.core.types import Floats
 
 _STEP: Final = 2.0**-11
 """Rounding leaves some eps/step, 5e-13, and the formula step^4/30 of the fifth derivative, which is (ln z)^5/32."""
 _PLACES: Final = (-2.0, -1.0, 1.0, 2.0)
 """In steps; the exponent itself has no weight."""
 _WEIGHTS: Final = np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
+
+
+class Near(NamedTuple):
+    """A curve at neighbouring exponents of the gradient.
+
+    tables    their tables, of shape (4,)
+    curves    b and g of each, of shape (4, 2)
+    weights   their weights in d/dk, of shape (4,)
+    """
+
+    tables: Any
+    curves: Floats
+    weights: Floats
 
 
 def exponents_beside(k: float) -> tuple[list[float], NDArray[np.float64]]:

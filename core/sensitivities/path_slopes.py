@@ -8,7 +8,7 @@ The curve is any whose kind answers about its sensitivities (core/face.py).
 """
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -31,6 +31,9 @@ from gradhesion.core.curve.branches import (
     UNLOADING_JUMPS,
 )
 from gradhesion.core.face import (
+    AnyCurve,
+    AnyNear,
+    AnyTable,
     add_slopes,
     add_slopes_of_waves,
     add_slopes_to_zero,
@@ -76,7 +79,9 @@ def with_slopes(count: int, trace: Floats, final: float) -> Traced:
 
 
 @kernel()
-def _enter(table: Any, curve: Any, near: Any, now: int, left: float, x: float, work: Floats, total: Floats) -> None:
+def _enter(
+    table: AnyTable, curve: AnyCurve, near: AnyNear, now: int, left: float, x: float, work: Floats, total: Floats
+) -> None:
     """Add a jump of loading that leaves branch `now` at x = `left`, or zero contact if it is on none yet (-1)."""
     if now < 0:
         add_slopes_to_zero(table, curve, near, x, NO, total)
@@ -85,7 +90,9 @@ def _enter(table: Any, curve: Any, near: Any, now: int, left: float, x: float, w
 
 
 @kernel()
-def _enter_through(table: Any, curve: Any, near: Any, now: int, left: float, arrival: float, traced: Traced) -> None:
+def _enter_through(
+    table: AnyTable, curve: AnyCurve, near: AnyNear, now: int, left: float, arrival: float, traced: Traced
+) -> None:
     """Add loading from branch `now`, left at x = `left`, to x = `arrival` on the first branch after a gap.
 
     It goes through the waves of the gap if the trace says so.
@@ -102,7 +109,7 @@ def _enter_through(table: Any, curve: Any, near: Any, now: int, left: float, arr
 
 
 @kernel()
-def fill_loading(table: Any, curve: Any, near: Any, traced: Traced) -> None:
+def fill_loading(table: AnyTable, curve: AnyCurve, near: AnyNear, traced: Traced) -> None:
     """Put the slopes of loading to where it arrives on each branch into their rows."""
     count, trace, _, slopes = traced
     work, total = slopes[ROWS], slopes[ROWS + 1, :SLOPES]
@@ -121,7 +128,7 @@ def fill_loading(table: Any, curve: Any, near: Any, traced: Traced) -> None:
 
 
 @kernel()
-def _add_loading(table: Any, curve: Any, near: Any, traced: Traced, rim: float, total: Floats) -> float:
+def _add_loading(table: AnyTable, curve: AnyCurve, near: AnyNear, traced: Traced, rim: float, total: Floats) -> float:
     """Add the slopes of loading up to a rim x to `total`, of shape (SLOPES,); return that by ln x of the rim."""
     count, trace, _, slopes = traced
     now = count - 1
@@ -137,7 +144,7 @@ def _add_loading(table: Any, curve: Any, near: Any, traced: Traced, rim: float, 
 
 
 @kernel()
-def _leave(table: Any, curve: Any, near: Any, traced: Traced, now: int) -> None:
+def _leave(table: AnyTable, curve: AnyCurve, near: AnyNear, traced: Traced, now: int) -> None:
     """Put the slopes of unloading from the start of branch `now` into its rows; those of all further in are there."""
     _, trace, _, slopes = traced
     total, work = slopes[ROWS + 1, :SLOPES], slopes[ROWS]
@@ -154,7 +161,7 @@ def _leave(table: Any, curve: Any, near: Any, traced: Traced, now: int) -> None:
 
 
 @kernel()
-def _leave_through(table: Any, curve: Any, near: Any, traced: Traced, gap: int) -> None:
+def _leave_through(table: AnyTable, curve: AnyCurve, near: AnyNear, traced: Traced, gap: int) -> None:
     """Do the same for the first branch after a gap, number `gap`, from which unloading goes on into the gap."""
     _, trace, final, slopes = traced
     before, after, lowest = trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER], trace[RUN, RUN_LOWEST]
@@ -177,7 +184,7 @@ def _leave_through(table: Any, curve: Any, near: Any, traced: Traced, gap: int) 
 
 
 @kernel()
-def _fill_unloading(table: Any, curve: Any, near: Any, traced: Traced) -> None:
+def _fill_unloading(table: AnyTable, curve: AnyCurve, near: AnyNear, traced: Traced) -> None:
     """Put the slopes of unloading from the start of each branch that it has visited into their rows."""
     count, trace, _, slopes = traced
     gap = gap_in(curve, trace)
@@ -191,7 +198,7 @@ def _fill_unloading(table: Any, curve: Any, near: Any, traced: Traced) -> None:
 
 @kernel()
 def _add_unloading(
-    table: Any, curve: Any, near: Any, traced: Traced, rim: float, rim_depth: float, total: Floats
+    table: AnyTable, curve: AnyCurve, near: AnyNear, traced: Traced, rim: float, rim_depth: float, total: Floats
 ) -> float:
     """Add the slopes of unloading from a rim x to `total`, of shape (SLOPES,); return that by ln x of the rim."""
     count, trace, _, slopes = traced
@@ -215,7 +222,7 @@ def _add_unloading(
 
 @kernel()
 def energy_slopes(
-    table: Any, curve: Any, near: Any, traced: Traced, rim: float, rim_depth: float, total: Floats
+    table: AnyTable, curve: AnyCurve, near: AnyNear, traced: Traced, rim: float, rim_depth: float, total: Floats
 ) -> float:
     """Put the slopes of the reduced energy of a rim into `total`; return that by ln x of the rim.
 

@@ -5,13 +5,15 @@ the inner one its power is 1/2 in the place of 3/2, which Gauss's rule takes in 
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import LONG, NODES, SHORT_NODES, SHORT_WEIGHTS, WEIGHTS, panel_above
 from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, EXPONENT, GAIN, SLOPES, panel_slopes_above
+from gradhesion.core.sensitivities.neighbours import Near
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.types import Floats
 from gradhesion.core.waves.cosine import _fold, _landing, _slope
 from gradhesion.core.waves.cosine_sum import (
@@ -38,7 +40,9 @@ ROOM: Final = 112
 
 
 @kernel()
-def slopes_of_wave(table: Any, curve: Cosine, near: Any, wave: float, outwards: bool, work: Any, found: Any) -> None:
+def slopes_of_wave(
+    table: Table, curve: Cosine, near: Near, wave: float, outwards: bool, work: Floats, found: Floats
+) -> None:
     """Put the slopes of the jump from a wave to the next one, as waves/cosine.py finds it, into `found`."""
     tables, curves, weights = near
     whole = wave - 2.0
@@ -68,9 +72,9 @@ def slopes_of_wave(table: Any, curve: Cosine, near: Any, wave: float, outwards: 
 
 @kernel()
 def _add_outer_part(
-    table: Any,
+    table: Table,
     curve: Cosine,
-    near: Any,
+    near: Near,
     waves: tuple[float, float],
     outer: float,
     outwards: bool,
@@ -91,9 +95,9 @@ def _add_outer_part(
 
 @kernel()
 def _add_inner_part(
-    table: Any,
+    table: Table,
     curve: Cosine,
-    near: Any,
+    near: Near,
     waves: tuple[float, float],
     inner: float,
     outwards: bool,
@@ -113,9 +117,9 @@ def _add_inner_part(
 
 @kernel()
 def _add_integral(
-    table: Any,
+    table: Table,
     curve: Cosine,
-    near: Any,
+    near: Near,
     waves: tuple[float, float],
     points: tuple[float, float],
     outwards: bool,
@@ -137,9 +141,9 @@ def _add_integral(
 
 @kernel()
 def add_slopes_of_waves(
-    table: Any,
+    table: Table,
     curve: Cosine,
-    near: Any,
+    near: Near,
     waves: tuple[float, float],
     outwards: bool,
     final: float,

@@ -16,12 +16,11 @@ z = phi + i pi, its inner edge near phi + (i - 1/2) pi. Even arches are concave,
 """
 
 import math
-from typing import Any
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.filling import ask_for_arches
-from gradhesion.core.struve.layout import ARCHES, ARCHES_AT_ONCE
+from gradhesion.core.struve.layout import ARCHES, ARCHES_AT_ONCE, Table
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.power import amplitude_power
 
@@ -30,7 +29,7 @@ _STEPS = 8
 
 
 @kernel()
-def _abscissa_and_height(table: Any, x: float) -> tuple[float, float, float]:
+def _abscissa_and_height(table: Table, x: float) -> tuple[float, float, float]:
     """Return x, X, Q."""
     z = TWO_PI * x
     s0, _, s0_slope, _ = pair(table, x)
@@ -39,7 +38,7 @@ def _abscissa_and_height(table: Any, x: float) -> tuple[float, float, float]:
 
 
 @kernel()
-def find_inflection(table: Any, i: int) -> tuple[float, float, float]:
+def find_inflection(table: Table, i: int) -> tuple[float, float, float]:
     """Return x, X, Q at the inner edge of arch i."""
     if i == 0:
         return 0.0, 0.0, 0.0
@@ -66,7 +65,7 @@ def find_inflection(table: Any, i: int) -> tuple[float, float, float]:
 
 
 @kernel()
-def find_summit(table: Any, i: int) -> tuple[float, float, float]:
+def find_summit(table: Table, i: int) -> tuple[float, float, float]:
     """Return x, X, Q where arch i is highest (i even) or lowest (i odd)."""
     k = table.k
     n = 0.5 * (1.0 + k)
@@ -88,7 +87,7 @@ def find_summit(table: Any, i: int) -> tuple[float, float, float]:
 
 
 @kernel()
-def build_arches(table: Any) -> None:
+def build_arches(table: Table) -> None:
     """Fill the table's arches; its pair must be complete."""
     for i in range(ARCHES + 1):
         row = table.arches[i]
@@ -97,7 +96,7 @@ def build_arches(table: Any) -> None:
 
 
 @kernel()
-def inner_edge(table: Any, i: int) -> tuple[float, float, float]:
+def inner_edge(table: Table, i: int) -> tuple[float, float, float]:
     """Return x, X, Q at the inner edge of arch i."""
     if i <= ARCHES:
         ask_for_arches(table, i // ARCHES_AT_ONCE)
@@ -107,7 +106,7 @@ def inner_edge(table: Any, i: int) -> tuple[float, float, float]:
 
 
 @kernel()
-def summit(table: Any, i: int) -> tuple[float, float, float]:
+def summit(table: Table, i: int) -> tuple[float, float, float]:
     """Return x, X, Q at the summit of arch i."""
     if i <= ARCHES:
         ask_for_arches(table, i // ARCHES_AT_ONCE)

@@ -67,7 +67,7 @@ def _start(k: float, z: float) -> tuple[tuple[float, float], tuple[float, float]
 
 
 @kernel()
-def over_z(taylor: Any, quotient: Any, centre: float, half: float) -> None:
+def over_z(taylor: Floats, quotient: Floats, centre: float, half: float) -> None:
     """Divide a Taylor series by z = centre + half t."""
     rest = (taylor[0, 0], taylor[0, 1])
     quotient[0, 0], quotient[0, 1] = dd.shrink(rest, centre)
@@ -77,7 +77,7 @@ def over_z(taylor: Any, quotient: Any, centre: float, half: float) -> None:
 
 
 @kernel()
-def differentiate(taylor: Any, slope: Any, half: float) -> None:
+def differentiate(taylor: Floats, slope: Any, half: float) -> None:
     """Differentiate a Taylor series with respect to z."""
     for n in range(len(taylor) - 1):
         slope[n, 0], slope[n, 1] = dd.scale((taylor[n + 1, 0], taylor[n + 1, 1]), (n + 1.0) / half)
@@ -99,7 +99,7 @@ def taylor_of(s: Any, k: float, centre: float, half: float, source: float) -> No
 
 
 @kernel()
-def at_next_centre(taylor: Any, terms: int) -> tuple[float, float]:
+def at_next_centre(taylor: Floats, terms: int) -> tuple[float, float]:
     """Sum a Taylor series at t = 2, the centre of the next bin."""
     total = (0.0, 0.0)
     for n in range(terms - 1, -1, -1):
@@ -108,7 +108,7 @@ def at_next_centre(taylor: Any, terms: int) -> tuple[float, float]:
 
 
 @kernel()
-def economise(taylor: Any, matrix: Any, coefficients: Any) -> None:
+def economise(taylor: Floats, matrix: Floats, coefficients: Floats) -> None:
     """Store a Taylor series at the degree of a bin."""
     terms, taylor_terms = matrix.shape
     for j in range(terms):
@@ -119,7 +119,7 @@ def economise(taylor: Any, matrix: Any, coefficients: Any) -> None:
 
 
 @kernel()
-def build_bins(k: float, bins: Any, matrix: Any) -> None:
+def build_bins(k: float, bins: Floats, matrix: Floats) -> None:
     """Fill `bins` (layout.py) with S0/z, S1/z, S0', S1'."""
     half = 0.5 * BIN_WIDTH
     s0 = np.zeros((TAYLOR + 2, 2))

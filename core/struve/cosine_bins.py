@@ -15,7 +15,7 @@ function and its local amplitude, against mpmath's Bessel functions.
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -57,7 +57,7 @@ def _start(k: float, z: float) -> tuple[tuple[float, float], tuple[float, float]
 
 
 @kernel(entry=True)
-def _fill(k: float, bins: Any, matrix: Any) -> None:
+def _fill(k: float, bins: Floats, matrix: Floats) -> None:
     half = 0.5 * BIN_WIDTH
     t0 = np.zeros((TAYLOR + 2, 2))
     t0_slope = np.zeros((TAYLOR + 2, 2))

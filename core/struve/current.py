@@ -10,6 +10,7 @@ from typing import Any, Final
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.filling import fill_theta, refill
 from gradhesion.core.struve.intrinsics import bits_of, numbers_at
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.table import fill_constants
 
 RECIPE: Final = 3
@@ -17,7 +18,7 @@ RECIPE: Final = 3
 
 
 @kernel()
-def prepare(table: Any, k: float, place: float, source: int) -> None:
+def prepare(table: Table, k: float, place: float, source: int) -> None:
     """Make a record the table of k: at t = `place` of the piece whose coefficients stand at `source`."""
     fill_constants(table, k)
     table.place, table.source = place, source

@@ -10,12 +10,13 @@ polynomial. It needs
     c int_0^1 v^(c-1) P_m(2v - 1) dv = prod_{i=1}^{m} (c - i)/(c + i)
 """
 
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.layout import FRACTIONAL_NODES
+from gradhesion.core.types import Floats
 
 _PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(FRACTIONAL_NODES)
 NODES: Final = 0.5 * (1.0 + _PLACES)
@@ -24,7 +25,7 @@ _BARYCENTRIC: Final = (-1.0) ** np.arange(FRACTIONAL_NODES) * np.sqrt(NODES * (1
 
 
 @kernel()
-def interpolated(values: Any, x: float) -> float:
+def interpolated(values: Floats, x: float) -> float:
     """Return at 0 <= x <= 1 the polynomial that has given values at the nodes; such as J F, which is one as F is."""
     total, weights = 0.0, 0.0
     for i in range(NODES.size):
@@ -39,7 +40,7 @@ def interpolated(values: Any, x: float) -> float:
 
 
 @kernel()
-def _end_weights(c: float, weights: Any) -> None:
+def _end_weights(c: float, weights: Floats) -> None:
     """Fill the weights with which the values at the nodes give c int_0^1 v^(c-1) F(v) dv."""
     for i in range(weights.size):
         argument = 2.0 * NODES[i] - 1.0
@@ -52,7 +53,7 @@ def _end_weights(c: float, weights: Any) -> None:
 
 
 @kernel()
-def build_fractional(k: float, matrix: Any) -> None:
+def build_fractional(k: float, matrix: Floats) -> None:
     """Fill the columns of J at the nodes, and the last column, J at 1."""
     count = NODES.size
     weights = np.empty(count)

@@ -9,19 +9,18 @@ with S, C = C z^(-n) sin psi, cos psi and four even polynomials, and mean = C^2/
 z G0 are polynomials in 2 (40/z)^2 - 1 like those of the pair.
 """
 
-from typing import Any
-
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.struve.layout import MOMENT_TAIL_TERMS, SWITCH
+from gradhesion.core.struve.layout import MOMENT_TAIL_TERMS, SWITCH, Table
+from gradhesion.core.types import Floats
 
 _OF_PAIR = 4
 """Lanes that are copied from the pair's tail: Re P0, z Im P0, Re P1, z Im P1."""
 
 
 @kernel()
-def _values(table: Any, t: float, out: Any) -> None:
+def _values(table: Table, t: float, out: Floats) -> None:
     """Put even1, odd1, even2, odd2 and |P0|^2 at 2 (40/z)^2 - 1 = t into `out`."""
     tail = table.moment_tail
     w = 0.5 * (1.0 + t) / (SWITCH * SWITCH)
@@ -38,7 +37,7 @@ def _values(table: Any, t: float, out: Any) -> None:
 
 
 @kernel()
-def build_jump_tail(table: Any, nodes: Any, fit: Any) -> None:
+def build_jump_tail(table: Table, nodes: Floats, fit: Floats) -> None:
     """Fill the three fields of a table whose tail and moments are complete; `nodes` and `fit` are those of large.py."""
     terms = nodes.size
     middle, values = np.empty(5), np.empty((terms, 5))

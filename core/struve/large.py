@@ -12,13 +12,14 @@ Chebyshev nodes to the asymptotic series, which is cut at its smallest term (wit
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from numpy.polynomial import chebyshev
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS
+from gradhesion.core.types import Floats
 
 NODES: Final = np.cos(np.pi * (2 * np.arange(TAIL_TERMS) + 1) / (2 * TAIL_TERMS))
 _DEGREES: Final = np.arange(TAIL_TERMS)[:, None]
@@ -71,7 +72,7 @@ def _descent_from_zero(alpha: float, z: float) -> tuple[float, float]:
 
 
 @kernel()
-def _slow_parts(k: float, z: float, out: Any) -> None:
+def _slow_parts(k: float, z: float, out: Floats) -> None:
     alpha = 0.5 * (k - 1.0)
     out[0], out[1] = _descent_from_one(alpha, z)
     out[2], out[3] = _descent_from_one(alpha + 1.0, z)
@@ -80,7 +81,7 @@ def _slow_parts(k: float, z: float, out: Any) -> None:
 
 
 @kernel()
-def build_tail(k: float, tail: Any, nodes: Any, fit: Any) -> None:
+def build_tail(k: float, tail: Floats, nodes: Floats, fit: Floats) -> None:
     """Fill `tail` (layout.py); the value at the middle is taken out of the fit to keep its rounding small."""
     lanes = tail.shape[1]
     middle = np.empty(lanes)

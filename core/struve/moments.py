@@ -40,9 +40,11 @@ from gradhesion.core.struve.layout import (
     MOMENT_TAIL_TERMS,
     MOMENT_TERMS,
     SWITCH,
+    Table,
 )
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.types import Floats
 
 _TAYLOR: Final = 2 * BIN_TERMS - 1
 """The square of a bin's polynomial has this many coefficients."""
@@ -53,7 +55,7 @@ _bins = make_horner(2, MOMENT_TERMS)
 
 
 @kernel()
-def _build_series(k: float, series: Any) -> None:
+def _build_series(k: float, series: Floats) -> None:
     """Integrate S0/z = sum c_n z^(2n) and its square term by term."""
     terms = len(series)
     c = np.empty(terms)
@@ -69,7 +71,7 @@ def _build_series(k: float, series: Any) -> None:
 
 
 @kernel()
-def _build_bins(k: float, bins: Any, pair_bins: Any, start: Any, matrix: Any) -> None:
+def _build_bins(k: float, bins: Floats, pair_bins: Floats, start: Any, matrix: Floats) -> None:
     """Solve z f' + (k+5) f = right bin by bin, from the value at the lower edge of the first one."""
     half = 0.5 * BIN_WIDTH
     first = len(pair_bins) - len(bins)
@@ -109,7 +111,7 @@ def _build_bins(k: float, bins: Any, pair_bins: Any, start: Any, matrix: Any) ->
 
 
 @kernel()
-def _build_tail(k: float, amplitude: float, tail: Any) -> float:
+def _build_tail(k: float, amplitude: float, tail: Floats) -> float:
     """Store the coefficients of the four parts of W and return that of the logarithm."""
     terms = len(tail)
     alpha, n = 0.5 * (k - 1.0), 0.5 * (k + 1.0)
@@ -150,7 +152,7 @@ def _build_tail(k: float, amplitude: float, tail: Any) -> float:
 
 
 @kernel(contract=True)
-def _second_moment_of_square(table: Any, x: float, z: float, power: float) -> float:
+def _second_moment_of_square(table: Table, x: float, z: float, power: float) -> float:
     """Return W at z >= 40 but for its constant."""
     tail = table.moment_tail
     inverse = 1.0 / z
@@ -175,7 +177,7 @@ def _second_moment_of_square(table: Any, x: float, z: float, power: float) -> fl
 
 
 @kernel()
-def build_moments(table: Any, matrix: Any) -> None:
+def build_moments(table: Table, matrix: Floats) -> None:
     """Fill the moments of a table whose pair is complete."""
     _build_series(table.k, table.moment_series)
     start = np.array(_series(table.moment_series, MOMENT_START * MOMENT_START))
@@ -191,7 +193,7 @@ def build_moments(table: Any, matrix: Any) -> None:
 
 
 @kernel(contract=True)
-def moments(table: Any, x: float, power: float) -> tuple[float, float]:
+def moments(table: Table, x: float, power: float) -> tuple[float, float]:
     """Return E2/z^(k+5) and W/z^(k+5) at z = 2 pi x, with power = z^(-(1+k)/2) (used from z = 40 on)."""
     z = TWO_PI * x
     if z < MOMENT_START:

@@ -5,14 +5,12 @@
 S0' is kept as a function of its own: by the first identity it would lose eps z^((1+k)/2), 1.6e-9 at x = 1e6.
 """
 
-from typing import Any
-
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
 from gradhesion.core.struve.filling import ask_for_bin
 from gradhesion.core.struve.intrinsics import fma, make_horner
 from gradhesion.core.struve.lanes import LANES, Lanes, lane_of, with_lane
-from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS
+from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS, Table
 from gradhesion.core.struve.power import amplitude_power
 
 horner4 = make_horner(4, BIN_TERMS)
@@ -20,7 +18,7 @@ horner8 = make_horner(8, TAIL_TERMS)
 
 
 @kernel(contract=True)
-def pair_below(table: Any, x: float, z: float) -> tuple[float, float, float, float]:
+def pair_below(table: Table, x: float, z: float) -> tuple[float, float, float, float]:
     """Return S0, S1, S0', S1' for z = 2 pi x < 40."""
     i = int(2.0 * z)
     t = fma(4.0 * TWO_PI, x, -(2.0 * i + 1.0)) + 4.0 * TWO_PI_LOW * x  # of the exact 2 pi x
@@ -30,7 +28,7 @@ def pair_below(table: Any, x: float, z: float) -> tuple[float, float, float, flo
 
 
 @kernel(contract=True)
-def pair_above(table: Any, x: float, z: float, power: float) -> tuple[float, float, float, float]:
+def pair_above(table: Table, x: float, z: float, power: float) -> tuple[float, float, float, float]:
     """Return S0, S1, S0', S1' for z = 2 pi x >= 40, with power = z^(-(1+k)/2)."""
     k = table.k
     inverse = 1.0 / z
@@ -49,7 +47,7 @@ def pair_above(table: Any, x: float, z: float, power: float) -> tuple[float, flo
 
 
 @kernel(contract=True)
-def first_functions(table: Any, lag: float, x: Lanes, z: Lanes, power: Lanes) -> Lanes:
+def first_functions(table: Table, lag: float, x: Lanes, z: Lanes, power: Lanes) -> Lanes:
     """Return S0 at eight places x > 0, the innermost first; beyond z = 40 the waves are `lag` turns behind."""
     if lane_of(z, 0) >= SWITCH:
         s0, _, _, _ = pair_above(table, x - lag, z, power)
@@ -66,7 +64,7 @@ def first_functions(table: Any, lag: float, x: Lanes, z: Lanes, power: Lanes) ->
 
 
 @kernel(contract=True)
-def pair(table: Any, x: float) -> tuple[float, float, float, float]:
+def pair(table: Table, x: float) -> tuple[float, float, float, float]:
     """Return S0, S1, S0', S1' at z = 2 pi x, x >= 0."""
     z = TWO_PI * x
     if z < SWITCH:

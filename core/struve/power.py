@@ -10,7 +10,7 @@ from typing import Any, Final
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.intrinsics import ROUND, bits_of, float_of, fma, parts_of, scaled
 from gradhesion.core.struve.lanes import Lanes
-from gradhesion.core.struve.layout import EXPONENT_SPAN, MANTISSA_BITS, POWER_TERMS
+from gradhesion.core.struve.layout import EXPONENT_SPAN, MANTISSA_BITS, POWER_TERMS, Table
 
 _MANTISSA: Final = (1 << 52) - 1
 _ONE: Final = 0x3FF0000000000000
@@ -58,7 +58,7 @@ def build_power(k: float, mantissa: Any, exponent: Any) -> None:
 
 
 @kernel(contract=True)
-def amplitude_power(table: Any, z: float) -> float:
+def amplitude_power(table: Table, z: float) -> float:
     """Return z^(-(1+k)/2) for 2^-512 <= z < 2^512."""
     bits = bits_of(z)
     c = table.power_mantissa[(bits >> (52 - MANTISSA_BITS)) & ((1 << MANTISSA_BITS) - 1)]
@@ -93,7 +93,7 @@ def _powers_of_two(r: Lanes) -> Lanes:
 
 
 @kernel()
-def amplitude_powers(table: Any, z: Lanes) -> Lanes:
+def amplitude_powers(table: Table, z: Lanes) -> Lanes:
     """Return the powers of eight z, to two units in the last place, for 2^-512 <= z < 2^512.
 
     They come from polynomials of least maximal error, for logarithm and exponential: eight do not read tables well.

@@ -19,7 +19,7 @@ import numpy as np
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
 from gradhesion.core.struve.intrinsics import fma, make_horner
-from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS
+from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS, Table
 from gradhesion.core.struve.pair import pair_above, pair_below
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series_table import (
@@ -32,7 +32,7 @@ from gradhesion.core.struve.series_table import (
     near_bins,
     tabulated_sums,
 )
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Harmonics
 
 _COSINE_BIN: Final = 2 * BIN_TERMS
 horner2 = make_horner(2, BIN_TERMS)
@@ -41,7 +41,7 @@ horner8 = make_horner(8, TAIL_TERMS)
 
 
 @kernel()
-def highest_harmonic(series: Any) -> float:
+def highest_harmonic(series: Harmonics) -> float:
     """Return n of the highest harmonic, 0 without any."""
     shortest = 0.0
     for i in range(series.shape[0]):
@@ -51,7 +51,7 @@ def highest_harmonic(series: Any) -> float:
 
 @kernel(contract=True, inline=True)
 def integrals(
-    table: Any, cosine_bins: Any, x: float, x_low: float, whole: float = 0.0, odd: float = 1.0
+    table: Table, cosine_bins: Floats, x: float, x_low: float, whole: float = 0.0, odd: float = 1.0
 ) -> tuple[float, float, float, float, float, float]:
     """Return z, S0, S1, S0', T0, T1 at z = 2 pi (whole + x + x_low) and the phase of x + x_low.
 
@@ -89,7 +89,7 @@ def integrals(
 
 @kernel(contract=True, inline=True)
 def summed(
-    table: Any, waves: Any, series: Any, x: float, x_low: float, whole: float
+    table: Table, waves: Floats, series: Harmonics, x: float, x_low: float, whole: float
 ) -> tuple[float, float, float, float]:
     """Return what `sums` does, term by term, at whole + x + x_low."""
     k1 = 1.0 + table.k
@@ -113,7 +113,7 @@ def summed(
 
 
 @kernel(contract=True, inline=True)
-def _of_one_cosine(table: Any, even: float, x: float, whole: float) -> tuple[float, float, float, float]:
+def _of_one_cosine(table: Table, even: float, x: float, whole: float) -> tuple[float, float, float, float]:
     """Return what `sums` does for the one row (1, even, 0)."""
     z = TWO_PI * (whole + x)
     if z < SWITCH:
@@ -124,7 +124,9 @@ def _of_one_cosine(table: Any, even: float, x: float, whole: float) -> tuple[flo
 
 
 @kernel(contract=True)
-def sums(table: Any, waves: Any, series: Any, x: float, whole: float = 0.0) -> tuple[float, float, float, float]:
+def sums(
+    table: Table, waves: Floats, series: Harmonics, x: float, whole: float = 0.0
+) -> tuple[float, float, float, float]:
     """Return w0, w1, v and v1 at whole + x >= 0; `series` has a row (n, cos, sin) for each harmonic."""
     if waves.size > COSINES and series.shape[0] > 0 and waves[COSINES] * (whole + x) >= 1.0:
         return tabulated_sums(table, waves, x, whole)
@@ -134,7 +136,7 @@ def sums(table: Any, waves: Any, series: Any, x: float, whole: float = 0.0) -> t
 
 
 @kernel(entry=True)
-def _fill_near(table: Any, waves: Any, series: Any, count: float, near: Any) -> None:
+def _fill_near(table: Table, waves: Floats, series: Harmonics, count: float, near: Any) -> None:
     """Fill the bins up to z = 40 and a little more, `count` a wavelength."""
     values = np.empty((TERMS, 4))
     for b in range(near.shape[0]):
@@ -147,7 +149,7 @@ def _fill_near(table: Any, waves: Any, series: Any, count: float, near: Any) -> 
         fit_powers(values, near[b])
 
 
-def with_table(table: Any, bins: Floats, rows: Floats) -> Floats:
+def with_table(table: Table, bins: Floats, rows: Floats) -> Floats:
     """Return the bins of T0 and T1, flat, with the table of a series that has_table (struve/series_table.py)."""
     far, slow = build_far(table, rows)
     near = np.empty((near_bins(far.shape[0]), TERMS, 4))

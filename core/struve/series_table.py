@@ -13,17 +13,17 @@ where there is a table, the number of bins of a wavelength, the slow parts, and 
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.intrinsics import fma, make_horner
-from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS
+from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS, Table
 from gradhesion.core.struve.layout import BINS as COSINE_BINS
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Harmonics
 
 FEWEST: Final = 6
 """Harmonics from which on a table pays."""
@@ -67,7 +67,7 @@ _POWERS: Final = _powers_of_chebyshev()
 
 
 @kernel()
-def fit_powers(values: Any, powers: Any) -> None:
+def fit_powers(values: Floats, powers: Floats) -> None:
     """Turn values at `PLACES`, one column a function, into coefficients of powers.
 
     By way of Chebyshev coefficients: the matrix of both steps has entries of thousands, of opposite signs.
@@ -128,7 +128,7 @@ def _orders(k: float, tail: Floats) -> tuple[Floats, Floats]:
 
 
 @kernel(entry=True)
-def _fill_far(table: Any, series: Any, orders: Any, far: Any) -> None:
+def _fill_far(table: Table, series: Harmonics, orders: Floats, far: Floats) -> None:
     """Fill the bins of F_j: those of w0, w1, v/z and v1/z."""
     bins = far.shape[0]
     values = np.zeros((TERMS, TAIL_TERMS, _LANES))
@@ -171,7 +171,7 @@ def near_bins(bins: int) -> int:
 
 
 @kernel(contract=True)
-def tabulated_sums(table: Any, waves: Any, x: float, whole: float) -> tuple[float, float, float, float]:
+def tabulated_sums(table: Table, waves: Floats, x: float, whole: float) -> tuple[float, float, float, float]:
     """Return what `sums` of struve/series.py does from the table of a series."""
     place = whole + x
     bins = int(waves[COSINES])
@@ -203,7 +203,7 @@ def tabulated_sums(table: Any, waves: Any, x: float, whole: float) -> tuple[floa
 
 
 @kernel(contract=True)
-def slow_sums(waves: Any, z: float) -> tuple[float, float]:
+def slow_sums(waves: Floats, z: float) -> tuple[float, float]:
     """Return the parts of w0 and w1 that have no phase, from the table of a series."""
     inverse = 1.0 / z
     w = SWITCH * inverse
@@ -216,7 +216,7 @@ def join_table(bins: Floats, near: Floats, far: Floats, slow: Floats) -> Floats:
     return np.concatenate([bins.ravel(), [float(far.shape[0])], slow.ravel(), near.ravel(), far.ravel()])
 
 
-def build_far(table: Any, rows: Floats) -> tuple[Floats, Floats]:
+def build_far(table: Table, rows: Floats) -> tuple[Floats, Floats]:
     """Return the bins of F_j, and the slow parts."""
     n, even = rows[:, 0], rows[:, 1]
     orders, slow = _orders(float(table["k"]), table["tail"])

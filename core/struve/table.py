@@ -13,14 +13,14 @@ from numpy.typing import ArrayLike
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve import arches, bins, fractional, jump_tail, large, moments, theta
-from gradhesion.core.struve.layout import TABLE
+from gradhesion.core.struve.layout import TABLE, Table
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.power import build_power
 from gradhesion.core.types import Floats
 
 
 @kernel()
-def fill_constants(table: Any, k: float) -> None:
+def fill_constants(table: Table, k: float) -> None:
     """Fill the constants of the amplitude and the phase."""
     table.k = k
     gamma = math.gamma(0.5 * (k + 1.0))
@@ -35,14 +35,14 @@ def fill_constants(table: Any, k: float) -> None:
 
 @kernel(entry=True)
 def _fill(
-    table: Any,
+    table: Table,
     k: float,
-    economisation: Any,
-    nodes: Any,
-    fit: Any,
-    moment_economisation: Any,
-    theta_nodes: Any,
-    theta_fit: Any,
+    economisation: Floats,
+    nodes: Floats,
+    fit: Floats,
+    moment_economisation: Floats,
+    theta_nodes: Floats,
+    theta_fit: Floats,
 ) -> None:
     fill_constants(table, k)
     table.rounding = 1.0
@@ -70,7 +70,7 @@ _kept: Final = lru_cache(maxsize=16)(build_table)
 
 
 @kernel(entry=True)
-def _pairs(table: Any, x: Any, out: Any) -> None:
+def _pairs(table: Table, x: Any, out: Floats) -> None:
     for i in range(x.size):
         out[0, i], out[1, i], out[2, i], out[3, i] = pair(table, x[i])
 

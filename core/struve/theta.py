@@ -9,11 +9,12 @@ Chebyshev coefficients of (4 - beta^2) H leave 4 eps where three gamma functions
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.chebyshev import chebyshev_fit
-from gradhesion.core.struve.layout import THETA_TERMS
+from gradhesion.core.struve.layout import THETA_TERMS, Table
+from gradhesion.core.types import Floats
 
 _LARGEST: Final = 3.0
 """beta^2 at k = 1 and Poisson's ratio -1."""
@@ -41,7 +42,7 @@ def front_of(k: float) -> float:
 
 
 @kernel()
-def build_theta(k: float, coefficients: Any, nodes: Any, fit: Any) -> None:
+def build_theta(k: float, coefficients: Floats, nodes: Floats, fit: Floats) -> None:
     """Fill the coefficients of (4 - beta^2) H."""
     coefficients[:] = 0.0
     for j in range(nodes.size):
@@ -52,7 +53,7 @@ def build_theta(k: float, coefficients: Any, nodes: Any, fit: Any) -> None:
 
 
 @kernel()
-def gammas_by_table(table: Any, square: float) -> float:
+def gammas_by_table(table: Table, square: float) -> float:
     """Return H from a table (Clenshaw)."""
     t = 2.0 / _LARGEST * square - 1.0
     here, before = 0.0, 0.0

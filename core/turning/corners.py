@@ -5,25 +5,40 @@ as large as a target, loading has either just landed, or stands between two corn
 """
 
 import math
-from typing import Any, Final, TypeAlias
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 
 from gradhesion.core.compiler.jit import NO, NONE, constant, kernel
 from gradhesion.core.curve.arches import folds_between
-from gradhesion.core.curve.branches import ARRIVAL, END
+from gradhesion.core.curve.branches import ARRIVAL, END, Trace
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Series, coordinate, size
 from gradhesion.core.curve.general_branches import find_level
-from gradhesion.core.curve.general_folds import find_folds
+from gradhesion.core.curve.general_folds import Search, find_folds
 from gradhesion.core.curve.window import last_fold_bound
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.types import Floats
 
 PLACE, VALUE, TERMS, KIND = 0, 1, 2, 3
 """Rows: x beyond whole waves, the measured coordinate there, the size of its terms, and what the corner is."""
 LANDING, FOLD, OPEN = map(constant, range(3))
 """Where a jump lands, a fold of the measured or of the prescribed coordinate, and the end of what is known."""
 ROWS: Final = 4
+
+
+class Place(NamedTuple):
+    """Where corners are searched for.
+
+    search  room for a search of folds
+    zeros   room for what it finds, of shape (MOST_FOLDS,)
+    whole   the whole waves beyond which places are given
+    """
+
+    search: Search
+    zeros: Floats
+    whole: float
+
 
 Found: TypeAlias = tuple[bool, float, bool, bool]
 """Whether the target is reached, at which x, whether a step of that place is near, and whether a jump to there has
@@ -39,8 +54,8 @@ def measured_by(curve: Series, by_load: bool) -> Series:
 
 @kernel()
 def _put(
-    basis: Basis, measured: Series, corners: Any, count: int, x: float, kind: int, whole: float
-) -> tuple[Any, int]:
+    basis: Basis, measured: Series, corners: Floats, count: int, x: float, kind: int, whole: float
+) -> tuple[Floats, int]:
     """Append a corner; return the corners, moved where there was no room, and their number."""
     if count == corners.shape[1]:
         more = np.empty((ROWS, 2 * count))
@@ -53,8 +68,8 @@ def _put(
 
 @kernel()
 def append_corners(
-    basis: Basis, curve: Series, by_load: bool, way: tuple[float, float, bool], room: Any, corners: Any, count: int
-) -> tuple[Any, int]:
+    basis: Basis, curve: Series, by_load: bool, way: tuple[float, float, bool], room: Place, corners: Floats, count: int
+) -> tuple[Floats, int]:
     """Append the corners of what loading passes of one branch.
 
     Parameters
@@ -66,7 +81,7 @@ def append_corners(
     way
         The x of landing, that of the end, and whether this is a fold of the curve.
     room
-        The arrays of a search, one for zeros, and the whole waves beyond which places are told.
+        Where they are searched for.
     corners, count
         To which they are appended.
     """
@@ -90,8 +105,8 @@ def append_corners(
 
 @kernel()
 def corners_of(
-    basis: Basis, curve: Series, by_load: bool, branches: int, trace: Any, furthest: float, room: Any
-) -> tuple[Any, int]:
+    basis: Basis, curve: Series, by_load: bool, branches: int, trace: Trace, furthest: float, room: Place
+) -> tuple[Floats, int]:
     """Return the corners of all that loading visits up to x = `furthest`, and their number."""
     corners, count = np.empty((ROWS, 2 * branches + 16)), NONE
     for branch in range(branches):
@@ -104,7 +119,7 @@ def corners_of(
 
 @kernel()
 def first_reached(
-    basis: Basis, curve: Series, by_load: bool, corners: Any, count: int, target: float, whole: float
+    basis: Basis, curve: Series, by_load: bool, corners: Floats, count: int, target: float, whole: float
 ) -> Found:
     """Return where loading first reaches a target on the way through some corners."""
     measured = measured_by(curve, by_load)

@@ -6,14 +6,14 @@ of a long curve are looked for eight at a time (turning/cosine_at_once.py).
 """
 
 import math
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from gradhesion.core.closed import smooth
 from gradhesion.core.compiler.jit import NO, NONE, ONE, YES, kernel
 from gradhesion.core.contact.least import least_opening
-from gradhesion.core.curve.branches import END, END_DEPTH, GAP, RUN, START, START_DEPTH, WORK, ends, find_depth
+from gradhesion.core.curve.branches import END, END_DEPTH, GAP, RUN, START, START_DEPTH, WORK, Trace, ends, find_depth
 from gradhesion.core.curve.cosine import Cosine, curve_of, depth, force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.face import is_always_one_disc
@@ -34,6 +34,7 @@ from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.current import ready
 from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, next_lane
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.turning.cosine_at_once import turns_at_once
 from gradhesion.core.turning.cosine_reach import reach, reach_outwards
@@ -78,13 +79,13 @@ def _is_first_contact(k: float, b: float, target: float) -> bool:
 
 
 @kernel()
-def _is_vague(table: Any, arches: tuple[float, float], reach: float) -> bool:
+def _is_vague(table: Table, arches: tuple[float, float], reach: float) -> bool:
     """Return whether folds stand so far out that no float tells the waves at which loading looks."""
     return is_long(table, arches, reach) and min(arches[1], 2.0 * reach) > MOST_ARCHES
 
 
 @kernel()
-def _is_one_disc(table: Any, curve: Cosine, count: int, trace: Any, long: bool, x: float, rim: float) -> bool:
+def _is_one_disc(table: Table, curve: Cosine, count: int, trace: Trace, long: bool, x: float, rim: float) -> bool:
     """Return whether the contact that turns at x is one disc, out to the rim of the punch."""
     if is_always_one_disc(table, curve):
         return True
@@ -154,7 +155,7 @@ def _has_value(rim: float, target: float, by_load: bool) -> bool:
 
 @kernel()
 def _turn_rim(
-    table: Any, curve: Cosine, count: int, trace: Floats, peaks: Floats, long: bool, goal: Goal
+    table: Table, curve: Cosine, count: int, trace: Floats, peaks: Floats, long: bool, goal: Goal
 ) -> tuple[float, int]:
     """Return x where the cycle of one rim turns, inf for the rim, and its flags.
 
@@ -194,7 +195,7 @@ def _turn_rim(
 
 
 @kernel()
-def _turn_long(table: Any, curve: Cosine, inner: float, goal: Goal, long: Long) -> tuple[float, int]:
+def _turn_long(table: Table, curve: Cosine, inner: float, goal: Goal, long: Long) -> tuple[float, int]:
     """Return what `_turn_rim` does for a rim of a long curve; within x = `inner` its load is not reached.
 
     A cycle that turns among the waves of a gap, surely before the rim, needs no branch beyond the gap.
@@ -210,7 +211,7 @@ def _turn_long(table: Any, curve: Cosine, inner: float, goal: Goal, long: Long) 
 
 @kernel()
 def _turn_eight(
-    table: Any,
+    table: Table,
     curve: Cosine,
     wavelength: float,
     waiting: tuple[int, Lanes, Lanes],
@@ -260,7 +261,7 @@ def _turn_eight(
 
 @kernel()
 def _turn_curve(
-    table: Any,
+    table: Table,
     curve: Cosine,
     arches: tuple[float, float],
     wavelength: float,

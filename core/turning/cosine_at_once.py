@@ -5,13 +5,14 @@ which branch loading reaches it. What takes longer is left to turning/first_reac
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.at_once import find_depths
 from gradhesion.core.curve.cosine import Cosine, slopes_at_once
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.lanes import Lanes, any_above, chosen, eight, floor_of, root_of, size_of
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_powers
 from gradhesion.core.waves.cosine_at_once import folds_at_once
 
@@ -22,7 +23,7 @@ SURE: Final = 1e-8
 
 
 @kernel(contract=True)
-def turns_at_once(table: Any, curve: Cosine, targets: Lanes) -> tuple[Lanes, Lanes, Lanes, Lanes, Lanes]:
+def turns_at_once(table: Table, curve: Cosine, targets: Lanes) -> tuple[Lanes, Lanes, Lanes, Lanes, Lanes]:
     """Return where the curve first rises through eight depths, NaN where that takes longer.
 
     Then come the wave on whose branch that is, the place and the depth of the end of this branch, and the depth at

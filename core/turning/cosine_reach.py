@@ -7,12 +7,13 @@ With chi = g C both hold at every z:
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.compiler.jit import YES, kernel
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.path.cosine import LARGEST
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
 
 _WIDE: Final = 1.06
 """The most by which the waves of the load exceed chi z^c downwards."""
@@ -54,7 +55,7 @@ def reach(k: float, b: float, pull: float, target: float, by_load: bool, outward
 
 
 @kernel()
-def reach_outwards(table: Any, curve: Cosine, target: float, by_load: bool) -> float:
+def reach_outwards(table: Table, curve: Cosine, target: float, by_load: bool) -> float:
     """Return x beyond which the depth (or the load) exceeds a target."""
     b, g, _ = curve
     chi = g * table.amplitude

@@ -24,6 +24,7 @@ from gradhesion.core.curve.branches import (
     RUN_LANDING,
     RUN_LAST,
     START,
+    Trace,
     ends,
     find_depth,
 )
@@ -33,8 +34,10 @@ from gradhesion.core.path.cosine_long import first_wave_above
 from gradhesion.core.path.ties import tolerance
 from gradhesion.core.struve.arches import inner_edge
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.turning.cosine_at_once import SURE
+from gradhesion.core.types import Floats
 from gradhesion.core.waves.cosine import branch_of_wave, fold_of_wave, landing_of_wave
 
 Turn: TypeAlias = tuple[float, bool]
@@ -45,13 +48,13 @@ _FEW: Final = 3
 
 
 @kernel()
-def _value(table: Any, curve: Cosine, x: float, by_load: bool) -> float:
+def _value(table: Table, curve: Cosine, x: float, by_load: bool) -> float:
     """Return the depth or the load."""
     return load(table, curve, x) if by_load else depth(table, curve, x)
 
 
 @kernel()
-def _size(table: Any, curve: Cosine, x: float, by_load: bool) -> float:
+def _size(table: Table, curve: Cosine, x: float, by_load: bool) -> float:
     """Return CLOSE times the size of the terms of the depth or the load."""
     size = tolerance(table, curve, x)
     if not by_load:
@@ -61,7 +64,7 @@ def _size(table: Any, curve: Cosine, x: float, by_load: bool) -> float:
 
 
 @kernel()
-def _find(table: Any, curve: Cosine, low: float, high: float, target: float, by_load: bool) -> float:
+def _find(table: Table, curve: Cosine, low: float, high: float, target: float, by_load: bool) -> float:
     """Return where the depth (or the load) rises through a target between two places (Newton, kept in the bracket)."""
     k = table.k
     level = 0.5 * (3.0 + k) if by_load else 0.5 * (1.0 - k)
@@ -96,7 +99,7 @@ def _find(table: Any, curve: Cosine, low: float, high: float, target: float, by_
 
 
 @kernel()
-def _load_between(table: Any, curve: Cosine, low: float, high: float, target: float) -> Turn:
+def _load_between(table: Table, curve: Cosine, low: float, high: float, target: float) -> Turn:
     """Return where the load first reaches a target between two places; at `low` it is below."""
     level = 0.5 * (3.0 + table.k)
     close = False
@@ -126,7 +129,7 @@ def _load_between(table: Any, curve: Cosine, low: float, high: float, target: fl
 
 @kernel()
 def _turn_on(
-    table: Any, curve: Cosine, arrival: float, branch: tuple[float, float, float, float], reach: float, target: float
+    table: Table, curve: Cosine, arrival: float, branch: tuple[float, float, float, float], reach: float, target: float
 ) -> Turn:
     """Return where the load first reaches a target on a branch that loading visits from its arrival on."""
     _, _, end, _ = branch
@@ -139,7 +142,9 @@ def _turn_on(
 
 
 @kernel()
-def turn_at_depth(table: Any, curve: Cosine, first: int, last: int, trace: Any, reach: float, target: float) -> Turn:
+def turn_at_depth(
+    table: Table, curve: Cosine, first: int, last: int, trace: Trace, reach: float, target: float
+) -> Turn:
     """Return where loading first reaches a depth on the branches `first` to `last` - 1 of a trace."""
     close = False
     for branch in range(first, last):
@@ -155,7 +160,7 @@ def turn_at_depth(table: Any, curve: Cosine, first: int, last: int, trace: Any, 
 
 
 @kernel()
-def _peak(table: Any, curve: Cosine, low: float, high: float) -> float:
+def _peak(table: Table, curve: Cosine, low: float, high: float) -> float:
     """Return the largest load between the place where loading arrives on a branch and the end of that."""
     level = 0.5 * (3.0 + table.k)
     highest = max(load(table, curve, low), load(table, curve, high))
@@ -174,7 +179,7 @@ def _peak(table: Any, curve: Cosine, low: float, high: float) -> float:
 
 
 @kernel()
-def peaks_of(table: Any, curve: Cosine, count: int, trace: Any, inner: float, targets: int) -> Any:
+def peaks_of(table: Table, curve: Cosine, count: int, trace: Trace, inner: float, targets: int) -> Any:
     """Return the largest load of loading on each branch, or a bound of it.
 
     It is -inf for a branch that ends before `inner`, where no target is reached, and inf for one that does not end, or
@@ -191,7 +196,7 @@ def peaks_of(table: Any, curve: Cosine, count: int, trace: Any, inner: float, ta
 
 @kernel()
 def turn_at_load(
-    table: Any, curve: Cosine, first: int, last: int, trace: Any, peaks: Any, reach: float, target: float
+    table: Table, curve: Cosine, first: int, last: int, trace: Trace, peaks: Floats, reach: float, target: float
 ) -> Turn:
     """Return where loading first reaches a load on the branches `first` to `last` - 1 of a trace."""
     close = False
@@ -210,7 +215,7 @@ def turn_at_load(
 
 
 @kernel()
-def _turn_on_wave(table: Any, curve: Cosine, trace: Any, wave: float, reach: float, target: float) -> Turn:
+def _turn_on_wave(table: Table, curve: Cosine, trace: Trace, wave: float, reach: float, target: float) -> Turn:
     """Return where loading first reaches a load on a regular wave."""
     arrival = trace[RUN, RUN_LANDING] if wave == trace[RUN, RUN_FIRST] else 0.0
     if arrival == 0.0:
@@ -219,7 +224,7 @@ def _turn_on_wave(table: Any, curve: Cosine, trace: Any, wave: float, reach: flo
 
 
 @kernel()
-def _wave_at_load(table: Any, curve: Cosine, target: float) -> float:
+def _wave_at_load(table: Table, curve: Cosine, target: float) -> float:
     """Return about the wave that carries a load: on the envelope X [b X/(3+k) - 1 + chi] above it, X = z^((3+k)/2)."""
     b, g, _ = curve
     half = 0.5 * (3.0 + table.k)
@@ -229,7 +234,7 @@ def _wave_at_load(table: Any, curve: Cosine, target: float) -> float:
 
 
 @kernel()
-def turn_on_waves(table: Any, curve: Cosine, trace: Any, reach: float, target: float) -> Turn:
+def turn_on_waves(table: Table, curve: Cosine, trace: Trace, reach: float, target: float) -> Turn:
     """Return where loading first reaches a load on the regular waves that it visits: their loads rise outwards."""
     low, high = trace[RUN, RUN_FIRST] - 1.0, trace[RUN, RUN_LAST] + 1.0
     found, close = math.inf, False
@@ -249,7 +254,7 @@ def turn_on_waves(table: Any, curve: Cosine, trace: Any, reach: float, target: f
 
 @kernel()
 def turn_long_at_load(
-    table: Any, curve: Cosine, count: int, trace: Any, peaks: Any, reach: float, target: float
+    table: Table, curve: Cosine, count: int, trace: Trace, peaks: Floats, reach: float, target: float
 ) -> Turn:
     """Return where loading first reaches a load on a long curve (stride or open_gap of path/cosine_long.py)."""
     gap = int(trace[RUN, GAP])
@@ -264,7 +269,7 @@ def turn_long_at_load(
 
 
 @kernel()
-def turn_long_at_depth(table: Any, curve: Cosine, count: int, trace: Any, reach: float, target: float) -> Turn:
+def turn_long_at_depth(table: Table, curve: Cosine, count: int, trace: Trace, reach: float, target: float) -> Turn:
     """Return where loading first reaches a depth on a long curve (stride or open_gap of path/cosine_long.py)."""
     gap = int(trace[RUN, GAP])
     x, close = turn_at_depth(table, curve, NONE, gap, trace, reach, target)

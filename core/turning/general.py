@@ -1,14 +1,14 @@
 """Where cycles of one general curve turn: where loading first reaches a depth, or a load."""
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from gradhesion.core.compiler.jit import NO, NONE, kernel
 from gradhesion.core.contact.disc import is_surely_open
 from gradhesion.core.contact.least import least_opening
-from gradhesion.core.curve.branches import END_DEPTH, START, START_DEPTH, ends
+from gradhesion.core.curve.branches import END_DEPTH, START, START_DEPTH, Trace, ends
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Series, coordinate, curve_of
@@ -23,7 +23,7 @@ from gradhesion.core.problem.curves import GeneralCurves, is_in_range
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.series import highest_harmonic
-from gradhesion.core.turning.corners import corners_of, first_reached
+from gradhesion.core.turning.corners import Place, corners_of, first_reached
 from gradhesion.core.turning.general_far import turn_far
 from gradhesion.core.turning.general_reach import reach
 from gradhesion.core.turning.turns import Turns
@@ -42,7 +42,7 @@ def _is_first_contact(k: float, curve: Series, target: float) -> bool:
 
 
 @kernel()
-def _is_one_disc(basis: Basis, curve: Series, count: int, trace: Any, x: float, rim: float) -> bool:
+def _is_one_disc(basis: Basis, curve: Series, count: int, trace: Trace, x: float, rim: float) -> bool:
     """Return whether the contact that turns at x is one disc, out to the rim of the punch."""
     level = coordinate(basis, curve, x)
     lowest, end = math.inf, math.inf
@@ -90,7 +90,7 @@ def _turn_walked(
     """
     first, last = bounds
     rims, targets, by_load, check, places, flags = turns
-    search = (room(), np.empty(MOST_FOLDS), 0.0)
+    search = Place(room(), np.empty(MOST_FOLDS), 0.0)
     for _ in range(_TRIALS):
         furthest, left = 0.0, False
         for i in range(rims.size):

@@ -1,7 +1,7 @@
 """Where a cycle turns on a long curve: before the regular waves that are not walked, on one of them, or beyond."""
 
 import math
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
@@ -13,8 +13,9 @@ from gradhesion.core.curve.general_folds import MOST_FOLDS, find_folds, room
 from gradhesion.core.path.general_long import Middle, first_that_reaches, folds_before, last_of_climb, places_between
 from gradhesion.core.path.loading import load_up
 from gradhesion.core.turning.corners import ROWS as CORNER_ROWS
-from gradhesion.core.turning.corners import Found, append_corners, corners_of, first_reached
-from gradhesion.core.waves.general import UP, branches_of_wave, highest_end, room_for_waves
+from gradhesion.core.turning.corners import Found, Place, append_corners, corners_of, first_reached
+from gradhesion.core.types import Floats
+from gradhesion.core.waves.general import UP, Room, branches_of_wave, highest_end, room_for_waves
 
 Way: TypeAlias = tuple[bool, float]
 """Whether the load is measured, else the depth, and the target."""
@@ -22,11 +23,11 @@ Way: TypeAlias = tuple[bool, float]
 
 @kernel()
 def _turn_on_piece(
-    basis: Basis, curve: Series, way: Way, count: int, rows: Any, level: float, end: float, search: Any
+    basis: Basis, curve: Series, way: Way, count: int, rows: Floats, level: float, end: float, search: Place
 ) -> tuple[Found, float]:
     """Follow loading from a coordinate over some branches; return where it reaches the target, and its last coordinate.
 
-    A branch that ends at x = `end` ends in no fold. `search` has what append_corners takes as room.
+    A branch that ends at x = `end` ends in no fold. The branches are `count`, in the rows of general_branches.py.
     """
     by_load, target = way
     _, _, whole = search
@@ -46,19 +47,19 @@ def _turn_on_piece(
 
 
 @kernel()
-def _turn_on_wave(basis: Basis, curve: Series, way: Way, cut: float, wave: float, work: Any, zeros: Any) -> Found:
+def _turn_on_wave(basis: Basis, curve: Series, way: Way, cut: float, wave: float, work: Room, zeros: Floats) -> Found:
     """Return where loading, come from the wave before, reaches the target on a wave."""
     _, _, rows = work
     before = highest_end(rows[0], branches_of_wave(basis, curve, wave - 1.0, cut, work, rows[0]))
     level = rows[0, END_DEPTH, before]
     count = branches_of_wave(basis, curve, wave, cut, work, rows[1])
-    found, _ = _turn_on_piece(basis, curve, way, count, rows[1], level, math.inf, (work[0], zeros, wave))
+    found, _ = _turn_on_piece(basis, curve, way, count, rows[1], level, math.inf, Place(work.search, zeros, wave))
     return found
 
 
 @kernel()
 def _first_of_waves(
-    basis: Basis, curve: Series, way: Way, cut: float, low: float, high: float, work: Any, zeros: Any
+    basis: Basis, curve: Series, way: Way, cut: float, low: float, high: float, work: Room, zeros: Floats
 ) -> tuple[Found, float]:
     """Return where loading reaches the target on its way from wave to wave, after `low`, up to `high`, and on which.
 
@@ -109,7 +110,7 @@ def turn_far(
     near = np.empty((ROWS, count // 2 + 2))
     branches = fill_branches(basis, curve, zeros, count, rises, begin + cut, near, 0.0)
     now = load_up(basis, curve, branches, near, math.inf, NO)
-    corners, number = corners_of(basis, curve, by_load, branches, near, math.inf, (search, zeros, 0.0))
+    corners, number = corners_of(basis, curve, by_load, branches, near, math.inf, Place(search, zeros, 0.0))
     found, x, close, passed = first_reached(basis, curve, by_load, corners, number, target, 0.0)
     if found:
         return True, (found, x, close, passed), 0.0
@@ -123,7 +124,7 @@ def turn_far(
         if math.isnan(wave):
             break
         count = branches_of_wave(basis, curve, wave, cut, work, rows)
-        here, level = _turn_on_piece(basis, curve, way, count, rows, level, math.inf, (search, zeros, wave))
+        here, level = _turn_on_piece(basis, curve, way, count, rows, level, math.inf, Place(search, zeros, wave))
         close = close or here[2]
         if here[0]:
             return True, (YES, here[1], close, here[3]), wave
@@ -143,5 +144,5 @@ def turn_far(
         return False, nothing, 0.0
     outer = np.empty((ROWS, count // 2 + 2))
     branches = fill_branches(basis, curve, zeros, count, rises, x, outer, whole)
-    here, _ = _turn_on_piece(basis, curve, way, branches, outer, level, x, (search, zeros, whole))
+    here, _ = _turn_on_piece(basis, curve, way, branches, outer, level, x, Place(search, zeros, whole))
     return True, (here[0], here[1], close or here[2], here[3]), whole

@@ -9,7 +9,7 @@ itself is larger than what a wave adds to it by the number of waves, and the adh
 """
 
 import math
-from typing import Any, Final, TypeAlias
+from typing import Final, TypeAlias
 
 import numpy as np
 
@@ -17,8 +17,10 @@ from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import LONG, panel_above
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.pair import pair_above
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.types import Floats
 
 Left: TypeAlias = tuple[float, float, float]
 """z, z S0 and z^c at the place that a jump leaves."""
@@ -39,7 +41,7 @@ _RATIO_TERMS: Final = 9
 
 @kernel(contract=True, inline=True)
 def slope_of(
-    table: Any, curve: Cosine, x: float, z: float, power: float
+    table: Table, curve: Cosine, x: float, z: float, power: float
 ) -> tuple[float, float, float, float, float, float]:
     """Return what `_slope` does from z and z^(-n), numbers or eight of them (struve/lanes.py)."""
     b, g, _ = curve
@@ -55,14 +57,14 @@ def slope_of(
 
 
 @kernel(contract=True)
-def _slope(table: Any, curve: Cosine, whole: float, x: float) -> tuple[float, float, float, float, float, float]:
+def _slope(table: Table, curve: Cosine, whole: float, x: float) -> tuple[float, float, float, float, float, float]:
     """Return D at the level of the depth, its first two derivatives with respect to z, z, z S0 and z^c."""
     z = TWO_PI * (whole + x)
     return slope_of(table, curve, x, z, amplitude_power(table, z))
 
 
 @kernel(contract=True)
-def _rise(table: Any, curve: Cosine, left: Left, step: float, z: float, wave: float) -> float:
+def _rise(table: Table, curve: Cosine, left: Left, step: float, z: float, wave: float) -> float:
     """Return the depth less that of the place that is left, `step` waves further in; `wave` is z S0 here."""
     b, g, _ = curve
     z1, wave1, stretch1 = left
@@ -75,7 +77,7 @@ def _rise(table: Any, curve: Cosine, left: Left, step: float, z: float, wave: fl
 
 
 @kernel(contract=True)
-def _angle(table: Any, curve: Cosine, z: float) -> float:
+def _angle(table: Table, curve: Cosine, z: float) -> float:
     """Return the distance of a fold near z from the centre of its wave, in z: cos = (level/z - b z^n)/(g C)."""
     b, g, _ = curve
     cosine = (0.5 * (1.0 - table.k) / z - b / amplitude_power(table, z)) / (g * table.amplitude)
@@ -84,7 +86,7 @@ def _angle(table: Any, curve: Cosine, z: float) -> float:
 
 @kernel(contract=True)
 def _fold_near(
-    table: Any, curve: Cosine, whole: float, centre: float, rising: bool, guess: float
+    table: Table, curve: Cosine, whole: float, centre: float, rising: bool, guess: float
 ) -> tuple[float, float, float, float, float, float]:
     """Return x of the start (rising) or the end of the branch around a centre, from a guess (Halley, in a bracket).
 
@@ -114,7 +116,7 @@ def _fold_near(
 
 
 @kernel(contract=True)
-def _fold(table: Any, curve: Cosine, whole: float, centre: float, rising: bool) -> float:
+def _fold(table: Table, curve: Cosine, whole: float, centre: float, rising: bool) -> float:
     """Return x of the start (rising) or the end of the branch around a centre."""
     k = table.k
     z = TWO_PI * (whole + centre)
@@ -126,7 +128,7 @@ def _fold(table: Any, curve: Cosine, whole: float, centre: float, rising: bool) 
 
 
 @kernel(contract=True)
-def _landing(table: Any, curve: Cosine, whole: float, left: Left, start: float, centre: float, rising: bool) -> float:
+def _landing(table: Table, curve: Cosine, whole: float, left: Left, start: float, centre: float, rising: bool) -> float:
     """Return x where the branch around a centre meets the depth of the place that is left, x = start.
 
     The fold on the far side of the landing is found; the other one stands about at the other side of the centre. Where
@@ -173,7 +175,7 @@ def _landing(table: Any, curve: Cosine, whole: float, left: Left, start: float, 
 
 
 @kernel()
-def _ends_of_jump(table: Any, curve: Cosine, whole: float, outwards: bool) -> tuple[float, float, Left]:
+def _ends_of_jump(table: Table, curve: Cosine, whole: float, outwards: bool) -> tuple[float, float, Left]:
     """Return where the jump from the wave `whole` + 2 to the next one starts and lands, and what is left there."""
     centre = table.phase / TWO_PI + 2.0
     start = _fold(table, curve, whole, centre, not outwards)
@@ -184,14 +186,14 @@ def _ends_of_jump(table: Any, curve: Cosine, whole: float, outwards: bool) -> tu
 
 
 @kernel()
-def landing_of_wave(table: Any, curve: Cosine, wave: float, outwards: bool) -> float:
+def landing_of_wave(table: Table, curve: Cosine, wave: float, outwards: bool) -> float:
     """Return where the jump from a wave to the next one lands, in waves from the wave."""
     _, landing, _ = _ends_of_jump(table, curve, wave - 2.0, outwards)
     return landing - 2.0
 
 
 @kernel()
-def jump_of_wave(table: Any, curve: Cosine, wave: float, outwards: bool, work: Any) -> tuple[float, float]:
+def jump_of_wave(table: Table, curve: Cosine, wave: float, outwards: bool, work: Floats) -> tuple[float, float]:
     """Return where the jump from a wave to the next one lands, in waves from the wave, and what it loses.
 
     Outwards it leaves the end of the wave's branch, inwards its start. `wave` is any real number from NEAREST on.
@@ -208,7 +210,7 @@ def jump_of_wave(table: Any, curve: Cosine, wave: float, outwards: bool, work: A
 
 
 @kernel()
-def fold_of_wave(table: Any, curve: Cosine, wave: float, rising: bool) -> tuple[float, float]:
+def fold_of_wave(table: Table, curve: Cosine, wave: float, rising: bool) -> tuple[float, float]:
     """Return the place in waves where the branch of a wave starts (rising) or ends, and the depth there."""
     b, g, _ = curve
     whole = wave - 2.0
@@ -218,7 +220,7 @@ def fold_of_wave(table: Any, curve: Cosine, wave: float, rising: bool) -> tuple[
 
 
 @kernel()
-def branch_of_wave(table: Any, curve: Cosine, wave: float) -> tuple[float, float, float, float]:
+def branch_of_wave(table: Table, curve: Cosine, wave: float) -> tuple[float, float, float, float]:
     """Return place and depth of the start, and of the end, of the branch of a wave."""
     start, start_depth = fold_of_wave(table, curve, wave, YES)
     end, end_depth = fold_of_wave(table, curve, wave, NO)
@@ -226,7 +228,7 @@ def branch_of_wave(table: Any, curve: Cosine, wave: float) -> tuple[float, float
 
 
 @kernel()
-def end_of_wave(table: Any, curve: Cosine, wave: float) -> tuple[Cosine, float]:
+def end_of_wave(table: Table, curve: Cosine, wave: float) -> tuple[Cosine, float]:
     """Return a curve that lags (curve/cosine.py), and the place on it where the branch of a wave ends.
 
     Beyond FAR it is that of a wave nearer to zero contact with the same cosine at its folds: as good as chi z is large,

@@ -21,9 +21,10 @@ from gradhesion.core.curve.cosine_folds import half_wave
 from gradhesion.core.curve.cosine_jump import beyond_from, inverse_stretch
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.lanes import LANES, Lanes, any_above, chosen, eight, load, rounded, size_of, store
-from gradhesion.core.struve.layout import SWITCH
+from gradhesion.core.struve.layout import SWITCH, Table
 from gradhesion.core.struve.pair import horner8
 from gradhesion.core.struve.power import amplitude_powers
+from gradhesion.core.types import Floats
 from gradhesion.core.waves.cosine import LAST_LANDING, LAST_STEP, WIDE, Left, jump_of_wave, slope_of
 
 Middle: TypeAlias = tuple[float, Lanes, Lanes]
@@ -61,7 +62,7 @@ def _within(low: Lanes, value: Lanes, high: Lanes) -> Lanes:
 
 
 @kernel(contract=True, inline=True)
-def _powers_at(table: Any, middle: Middle, x: Lanes) -> tuple[Lanes, Lanes]:
+def _powers_at(table: Table, middle: Middle, x: Lanes) -> tuple[Lanes, Lanes]:
     """Return z and z^(-n) at the places x beyond the whole waves."""
     place, z0, stretch0 = middle
     beyond = TWO_PI * (x - place)
@@ -70,14 +71,14 @@ def _powers_at(table: Any, middle: Middle, x: Lanes) -> tuple[Lanes, Lanes]:
 
 
 @kernel(contract=True, inline=True)
-def _slope(table: Any, curve: Cosine, middle: Middle, x: Lanes) -> tuple[Lanes, Lanes, Lanes, Lanes, Lanes, Lanes]:
+def _slope(table: Table, curve: Cosine, middle: Middle, x: Lanes) -> tuple[Lanes, Lanes, Lanes, Lanes, Lanes, Lanes]:
     """Return D at the level of the depth, its first two derivatives, z, z S0 and z^c."""
     z, power = _powers_at(table, middle, x)
     return slope_of(table, curve, x, z, power)
 
 
 @kernel(contract=True, inline=True)
-def _rise(table: Any, curve: Cosine, left: Left, step: Lanes, z: Lanes, wave: Lanes) -> Lanes:
+def _rise(table: Table, curve: Cosine, left: Left, step: Lanes, z: Lanes, wave: Lanes) -> Lanes:
     """Return the depth less that of the place that is left, `step` waves further in; `wave` is z S0 here."""
     b, g, _ = curve
     z1, wave1, stretch1 = left
@@ -86,7 +87,7 @@ def _rise(table: Any, curve: Cosine, left: Left, step: Lanes, z: Lanes, wave: La
 
 
 @kernel(contract=True)
-def _guess(table: Any, curve: Cosine, middle: Middle, centre: float, side: float) -> Lanes:
+def _guess(table: Table, curve: Cosine, middle: Middle, centre: float, side: float) -> Lanes:
     """Return about where the branches around a centre end (side = 1) or start (-1), as `_fold` of waves/cosine.py."""
     b, g, _ = curve
     k = table.k
@@ -102,7 +103,7 @@ def _guess(table: Any, curve: Cosine, middle: Middle, centre: float, side: float
 
 @kernel(contract=True)
 def _find_folds(
-    table: Any, curve: Cosine, middle: Middle, low: float, high: float, x: Lanes
+    table: Table, curve: Cosine, middle: Middle, low: float, high: float, x: Lanes
 ) -> tuple[Lanes, Lanes, Left, Lanes]:
     """Return the folds between two places (NaN if they take longer), from guesses x.
 
@@ -124,7 +125,7 @@ def _find_folds(
 
 @kernel(contract=True)
 def _land(
-    table: Any, curve: Cosine, middle: Middle, start: tuple[Lanes, Lanes, Left, Lanes], centre: float, side: float
+    table: Table, curve: Cosine, middle: Middle, start: tuple[Lanes, Lanes, Left, Lanes], centre: float, side: float
 ) -> Lanes:
     """Return where the branches around a centre meet the depth of the folds that are left, NaN where that takes longer.
 
@@ -166,13 +167,13 @@ def _land(
 
 @kernel(contract=True)
 def _by_nodes(
-    table: Any,
+    table: Table,
     curve: Cosine,
     middle: Middle,
     start: tuple[Lanes, Lanes, Left, Lanes],
     landing: Lanes,
-    nodes: Any,
-    weights: Any,
+    nodes: Floats,
+    weights: Floats,
 ) -> Lanes:
     """Return what the jumps lose by Gauss's rule, as `panel_above` of curve/cosine_energy.py, with m for the middle.
 
@@ -207,7 +208,7 @@ def _by_nodes(
 
 
 @kernel(contract=True)
-def folds_at_once(table: Any, curve: Cosine, waves: Lanes, signs: Lanes) -> tuple[Lanes, Lanes]:
+def folds_at_once(table: Table, curve: Cosine, waves: Lanes, signs: Lanes) -> tuple[Lanes, Lanes]:
     """Return the places in waves where branches start (sign 1) or end (-1), and the depths there.
 
     They are those of `fold_of_wave`, for waves whose phase a float tells with their place; NaN where that takes longer.
@@ -218,7 +219,7 @@ def folds_at_once(table: Any, curve: Cosine, waves: Lanes, signs: Lanes) -> tupl
 
 
 @kernel(contract=True)
-def jumps_at_once(table: Any, curve: Cosine, waves: Lanes, outwards: bool) -> Lanes:
+def jumps_at_once(table: Table, curve: Cosine, waves: Lanes, outwards: bool) -> Lanes:
     """Return what the jumps of eight waves to the next ones lose, NaN where that takes longer.
 
     Outwards each leaves the end of its wave's branch, inwards the start. Waves are real numbers from FIRST on.
@@ -244,7 +245,7 @@ def jumps_at_once(table: Any, curve: Cosine, waves: Lanes, outwards: bool) -> La
 
 
 @kernel()
-def jumps_of_batch(table: Any, curve: Cosine, outwards: bool, room: Any) -> None:
+def jumps_of_batch(table: Table, curve: Cosine, outwards: bool, room: Floats) -> None:
     """Put what the jumps of a batch of waves to their next ones lose into its room."""
     for first in range(0, BATCH, LANES):
         store(room, LOSSES + first, jumps_at_once(table, curve, load(room, WAVES + first), outwards))
@@ -254,7 +255,7 @@ def jumps_of_batch(table: Any, curve: Cosine, outwards: bool, room: Any) -> None
 
 
 @kernel()
-def jumps_in_a_row(table: Any, curve: Cosine, first: float, last: float, outwards: bool, room: Any) -> None:
+def jumps_in_a_row(table: Table, curve: Cosine, first: float, last: float, outwards: bool, room: Floats) -> None:
     """Do the same for the waves from `first` on; where `last` comes before the end of the batch, it fills the rest."""
     for i in range(BATCH):
         room[WAVES + i] = min(first + i, last)

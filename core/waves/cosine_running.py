@@ -15,7 +15,7 @@ Against the sum wave by wave, of 10^2 to 2 10^4 of them: 1e-13 of the loss, most
 """
 
 import math
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from gradhesion.core.compiler.jit import NONE, constant, kernel
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.struve.chebyshev import chebyshev_fit
 from gradhesion.core.struve.lanes import chosen, lane_of, load, root_of
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.types import Floats
 from gradhesion.core.waves.cosine_at_once import BATCH, LOSSES, WAVES, jumps_in_a_row, jumps_of_batch
 from gradhesion.core.waves.cosine_sum import branch_points, sum_of_waves
@@ -72,6 +73,8 @@ SUMS: Final = np.dtype(
     ]
 )
 """What the sums in one direction share."""
+Sums: TypeAlias = Any
+"""One record `SUMS`; numba knows its fields."""
 _AROUND: Final = np.array([-1.25, -0.75, -0.25, 0.25, 0.75, 1.25, 1.25, 1.25])
 """Waves around a half wave at which the loss gives its derivatives; the last ones fill eight."""
 
@@ -86,7 +89,7 @@ def room_for_sums() -> Any:
 
 
 @kernel()
-def begin_sums(table: Any, curve: Cosine, sums: Any, first: float, outwards: bool, final: float) -> None:
+def begin_sums(table: Table, curve: Cosine, sums: Sums, first: float, outwards: bool, final: float) -> None:
     """Lay the panels of the sums that begin with the jump of wave `first`; `sums` is the record of one direction.
 
     `final` is the last arch on which the curve folds. There are no panels where the first wave stands well within the
@@ -122,7 +125,7 @@ def begin_sums(table: Any, curve: Cosine, sums: Any, first: float, outwards: boo
 
 
 @kernel(contract=True)
-def _variable(sums: Any, panel: Floats, wave: float) -> float:
+def _variable(sums: Sums, panel: Floats, wave: float) -> float:
     """Return y or v, of a wave or of eight (struve/lanes.py); `panel` is one row of the panels of `sums`."""
     if panel[IN_Y] > 0.0:
         rest = 1.0 - root_of(root_of(wave / sums.outer))
@@ -140,14 +143,14 @@ def _series(panel: Floats, at: int, terms: int, t: float) -> float:
 
 
 @kernel(contract=True)
-def _place(sums: Any, panel: Floats, wave: float) -> float:
+def _place(sums: Sums, panel: Floats, wave: float) -> float:
     """Return the place of a wave, or of eight, on the [-1, 1] of its panel."""
     low, high = panel[LOW], panel[HIGH]
     return (2.0 * _variable(sums, panel, wave) - low - high) / (high - low)
 
 
 @kernel(contract=True)
-def _up_to(sums: Any, panel: Floats, wave: float) -> float:
+def _up_to(sums: Sums, panel: Floats, wave: float) -> float:
     """Return the integral up to a half wave less e'/24 - 7 e'''/5760 + 31 e^(5)/967680 there."""
     total = _series(panel, _INTEGRAL, _TERMS + 1, _place(sums, panel, wave))
     around = _series(panel, _LOSS, _TERMS, _place(sums, panel, wave + load(_AROUND, 0)))
@@ -159,7 +162,7 @@ def _up_to(sums: Any, panel: Floats, wave: float) -> float:
 
 
 @kernel()
-def _fill(table: Any, curve: Cosine, sums: Any, panel: Floats, outwards: bool, room: Floats) -> None:
+def _fill(table: Table, curve: Cosine, sums: Sums, panel: Floats, outwards: bool, room: Floats) -> None:
     """Put the coefficients of the loss, in 2 pi l^2 dgamma, and of its integral over waves into a panel of `sums`."""
     low, high = _variable(sums, panel, panel[BEGIN]), _variable(sums, panel, panel[END])
     panel[LOW], panel[HIGH] = low, high
@@ -186,7 +189,7 @@ def _fill(table: Any, curve: Cosine, sums: Any, panel: Floats, outwards: bool, r
 
 
 @kernel()
-def _first_waves(table: Any, curve: Cosine, sums: Any, count: int, outwards: bool, room: Floats) -> float:
+def _first_waves(table: Table, curve: Cosine, sums: Sums, count: int, outwards: bool, room: Floats) -> float:
     """Return the sum over `count` of the first waves, in 2 pi l^2 dgamma; all that are single are found at once."""
     if sums.known == 0 and count > 0:
         last = min(sums.first + (sums.single - 1.0), max(sums.first, sums.outer - _BEFORE))
@@ -201,7 +204,9 @@ def _first_waves(table: Any, curve: Cosine, sums: Any, count: int, outwards: boo
 
 
 @kernel()
-def sum_up_to(table: Any, curve: Cosine, sums: Any, last: float, outwards: bool, final: float, room: Floats) -> float:
+def sum_up_to(
+    table: Table, curve: Cosine, sums: Sums, last: float, outwards: bool, final: float, room: Floats
+) -> float:
     """Return the sum of what the jumps from the first wave to wave `last` lose, in 2 pi l^2 dgamma.
 
     `last` stands eight waves or more before the outer branch point; `sums` is the record that `begin_sums` has begun

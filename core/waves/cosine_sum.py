@@ -19,12 +19,14 @@ Against the sum wave by wave, of 10^2 to 10^5 of them: 1e-12 of the loss, mostly
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import NODES, WEIGHTS
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
+from gradhesion.core.types import Floats
 from gradhesion.core.waves.cosine_at_once import BATCH, LOSSES, WAVES, jumps_in_a_row, jumps_of_batch
 
 _EDGE: Final = 4
@@ -50,7 +52,7 @@ _REMOTE: Final = 1e8
 
 
 @kernel()
-def limit_terms(values: Any) -> float:
+def limit_terms(values: Floats) -> float:
     """Return e'/24 - 7 e'''/5760 + 31 e^(5)/967680 - 127 e^(7)/154828800 in the middle of eight values, or of six."""
     half = values.size // 2
     one, two = values[half] - values[half - 1], values[half + 1] - values[half - 2]
@@ -65,7 +67,7 @@ def limit_terms(values: Any) -> float:
 
 
 @kernel()
-def branch_points(table: Any, curve: Cosine, final: float, outwards: bool) -> tuple[float, float]:
+def branch_points(table: Table, curve: Cosine, final: float, outwards: bool) -> tuple[float, float]:
     """Return the real indices of waves at which what a jump loses is not smooth, the inner and the outer one.
 
     `final` is the last arch on which the curve can fold, a bound that is one arch and a half too far
@@ -98,7 +100,9 @@ def inner_limits(begin: float, end: float, inner: float) -> tuple[float, float]:
 
 
 @kernel()
-def _outer_part(table: Any, curve: Cosine, begin: float, end: float, outer: float, outwards: bool, room: Any) -> float:
+def _outer_part(
+    table: Table, curve: Cosine, begin: float, end: float, outer: float, outwards: bool, room: Floats
+) -> float:
     """Return the integral in y."""
     outer = min(max(outer, end), _REMOTE * end)  # so that 1 - y^2 keeps its digits
     low, width = outer_limits(begin, end, outer)
@@ -114,7 +118,9 @@ def _outer_part(table: Any, curve: Cosine, begin: float, end: float, outer: floa
 
 
 @kernel()
-def _inner_part(table: Any, curve: Cosine, begin: float, end: float, inner: float, outwards: bool, room: Any) -> float:
+def _inner_part(
+    table: Table, curve: Cosine, begin: float, end: float, inner: float, outwards: bool, room: Floats
+) -> float:
     """Return the integral in v."""
     inner = min(inner, begin)
     low, width = inner_limits(begin, end, inner)
@@ -130,7 +136,7 @@ def _inner_part(table: Any, curve: Cosine, begin: float, end: float, inner: floa
 
 @kernel()
 def _integral(
-    table: Any, curve: Cosine, begin: float, end: float, points: tuple[float, float], outwards: bool, room: Any
+    table: Table, curve: Cosine, begin: float, end: float, points: tuple[float, float], outwards: bool, room: Floats
 ) -> float:
     """Return the integral of what a jump loses over the index of its wave."""
     inner, outer = points
@@ -147,7 +153,7 @@ def _integral(
 
 @kernel()
 def sum_of_waves(
-    table: Any, curve: Cosine, first: float, last: float, outwards: bool, final: float, room: Any
+    table: Table, curve: Cosine, first: float, last: float, outwards: bool, final: float, room: Floats
 ) -> float:
     """Return the sum of what the jumps from the waves `first` to `last` lose.
 

@@ -25,6 +25,7 @@ from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL
 from gradhesion.core.curve.general_energy import Left, drop, find_landing, place_left
 from gradhesion.core.curve.general_folds import folds_of_cell, refine, room
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.types import Floats
@@ -74,7 +75,7 @@ _MODULUS: Final = 2_147_483_647
 
 
 @kernel()
-def _leading(table: Any, series: Floats, u: float) -> tuple[float, float]:
+def _leading(table: Table, series: Floats, u: float) -> tuple[float, float]:
     """Return F and its slope over 2 pi."""
     value, rate = 0.0, 0.0
     power = 0.5 * (3.0 - table.k)
@@ -89,7 +90,7 @@ def _leading(table: Any, series: Floats, u: float) -> tuple[float, float]:
 
 
 @kernel()
-def cut_of(table: Any, series: Floats) -> float:
+def cut_of(table: Table, series: Floats) -> float:
     """Return u in 0 .. 1 at which F is least."""
     samples = int(_SAMPLES * highest_harmonic(series))
     least, best = math.inf, 0

@@ -6,7 +6,7 @@ one.
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import START
 from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.curve.general_branches import START_LEVEL
-from gradhesion.core.waves.general import branches_of_wave, lowest_start
+from gradhesion.core.waves.general import Room, branches_of_wave, lowest_start
 
 _SAMPLES: Final = 25
 _NEIGHBOURS: Final = 2.0
@@ -24,7 +24,7 @@ Lowest = tuple[float, float, float]
 
 
 @kernel()
-def _trough(basis: Basis, curve: Series, cut: float, wave: float, work: Any) -> float:
+def _trough(basis: Basis, curve: Series, cut: float, wave: float, work: Room) -> float:
     """Return the lowest trough of a wave, inf without any."""
     rows = work[2][0]
     best = lowest_start(rows, branches_of_wave(basis, curve, wave, cut, work, rows))
@@ -42,7 +42,7 @@ def lower(best: Lowest, value: float, place: float) -> Lowest:
 
 @kernel()
 def lowest_of_waves(
-    basis: Basis, curve: Series, cut: float, low: float, high: float, best: Lowest, work: Any
+    basis: Basis, curve: Series, cut: float, low: float, high: float, best: Lowest, work: Room
 ) -> tuple[bool, Lowest]:
     """Return the lowest trough of the whole waves `low` to `high`, and whether each has one.
 
