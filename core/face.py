@@ -24,7 +24,7 @@ from typing import Any, Final, TypeAlias
 
 from gradhesion.core.compiler.dispatch import face
 from gradhesion.core.curve.branches import Trace
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Slopes, Work
 
 AnyTable: TypeAlias = Any
 """What a curve is computed from, by its kind (above)."""
@@ -47,7 +47,7 @@ def find_place(table: AnyTable, curve: AnyCurve, level: float, trace: Trace, bra
 
 
 @face(*_OF_PATHS)
-def loss_between(table: AnyTable, curve: AnyCurve, start: float, end: float, work: Floats) -> float:
+def loss_between(table: AnyTable, curve: AnyCurve, start: float, end: float, work: Work) -> float:
     """Return the energy that a jump from one place to another one loses, at the level of the place that it leaves.
 
     `work` is room for 16 floats. The end may be 0 where k = 1: there the contact shrinks to a point.
@@ -171,13 +171,13 @@ def rim_slope(table: AnyTable, curve: AnyCurve, level: float, x: float) -> float
 
 @face(*_OF_SLOPES)
 def add_slopes(
-    table: AnyTable, curve: AnyCurve, near: AnyNear, start: float, end: float, work: Floats, total: Floats
+    table: AnyTable, curve: AnyCurve, near: AnyNear, start: float, end: float, work: Work, total: Slopes
 ) -> None:
     """Add the slopes of `loss_between`, of a jump whose ends are held; `work` is room for 48 floats."""
 
 
 @face(*_OF_SLOPES)
-def add_slopes_to_zero(table: AnyTable, curve: AnyCurve, near: AnyNear, x: float, inwards: bool, total: Floats) -> None:
+def add_slopes_to_zero(table: AnyTable, curve: AnyCurve, near: AnyNear, x: float, inwards: bool, total: Slopes) -> None:
     """Add the slopes of `loss_to_zero` at the level of x > 0 (inwards), or those of `loss_from_zero`."""
 
 
@@ -194,8 +194,8 @@ def add_slopes_of_waves(
     waves: tuple[float, float],
     outwards: bool,
     final: float,
-    work: Floats,
-    total: Floats,
+    work: Work,
+    total: Slopes,
 ) -> None:
     """Add the slopes of all jumps from the first to the last of some waves of a gap, each to the next wave.
 

@@ -12,3 +12,7 @@ Bits: TypeAlias = NDArray[np.int8]
 """Bits of problem/status.py."""
 Harmonics: TypeAlias = NDArray[np.float64]
 """The waves of a profile: rows (n, cos, sin), of shape (harmonics, 3); all cosines and sines are in units of A."""
+Slopes: TypeAlias = NDArray[np.float64]
+"""Slopes of an energy, by the numbers of sensitivities/jump_slopes.py, of shape (SLOPES,), in 2 pi l^2 dgamma."""
+Work: TypeAlias = NDArray[np.float64]
+"""Room that a function works in, of shape (floats,); the function says how many it needs."""

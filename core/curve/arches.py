@@ -18,12 +18,12 @@ from gradhesion.core.curve.cosine import Cosine, slope, slopes
 from gradhesion.core.curve.cosine_folds import CLOSE, fold_of_arch, survey_arch
 from gradhesion.core.curve.general import Basis, Series, level_at
 from gradhesion.core.curve.general import slope as general_slope
-from gradhesion.core.curve.general_folds import Search, find_folds, refine
+from gradhesion.core.curve.general_folds import Search, Zeros, find_folds, refine
 from gradhesion.core.struve.arches import inner_edge, summit
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.types import Floats, Harmonics
+from gradhesion.core.types import Harmonics
 
 _PIECES: Final = 64
 _NARROW: Final = 1e-6
@@ -107,7 +107,7 @@ def _on_piece(table: Table, curve: Series, own: Cosine, concave: bool, low: floa
 
 @kernel()
 def _on_pieces(
-    basis: Basis, curve: Series, own: Cosine, i: int, low: float, high: float, work: Search, zeros: Floats
+    basis: Basis, curve: Series, own: Cosine, i: int, low: float, high: float, work: Search, zeros: Zeros
 ) -> tuple[int, float]:
     """Put the folds on a part of arch i into `zeros`, piece by piece; return their number and the nearest miss."""
     table, _, _ = basis
@@ -135,7 +135,7 @@ def _on_pieces(
 
 
 @kernel()
-def _continued(zeros: Floats, count: int) -> float:
+def _continued(zeros: Zeros, count: int) -> float:
     """Return about where the fold after the `count` first ones stands, from every other one of these; 0 if unknown.
 
     Far out two folds a wave stand in nearly equal distances.
@@ -194,7 +194,7 @@ def _fold_of_machine(
 
 @kernel()
 def _on_arch_of_machine(
-    basis: Basis, curve: Series, own: Cosine, i: int, first: float, zeros: Floats, count: int
+    basis: Basis, curve: Series, own: Cosine, i: int, first: float, zeros: Zeros, count: int
 ) -> tuple[int, float]:
     """Append the folds of an arch by a machine; return their number, -1 if that is not sure, and the nearest miss."""
     table, _, _ = basis
@@ -248,7 +248,7 @@ def _on_arch_of_machine(
 
 @kernel()
 def folds_by_arches(
-    basis: Basis, curve: Series, first: float, last: float, work: Search, zeros: Floats
+    basis: Basis, curve: Series, first: float, last: float, work: Search, zeros: Zeros
 ) -> tuple[int, bool, float]:
     """Do what `find_folds` (curve/general_folds.py) does for one cosine on a paraboloid."""
     table, _, series = basis
@@ -295,7 +295,7 @@ def folds_by_arches(
 
 @kernel()
 def folds_between(
-    basis: Basis, curve: Series, first: float, last: float, work: Search, zeros: Floats
+    basis: Basis, curve: Series, first: float, last: float, work: Search, zeros: Zeros
 ) -> tuple[int, bool, float]:
     """Do what `find_folds` (curve/general_folds.py) does, by arches where that is known to miss none."""
     _, _, series = basis

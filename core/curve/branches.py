@@ -8,10 +8,9 @@ to be born (path/ties.py).
 """
 
 import math
-from typing import Any, Final, TypeAlias
+from typing import Final, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.compiler.jit import NO, NONE, YES, constant, kernel
 from gradhesion.core.curve.at_once import find_zeros, guess_zeros
@@ -28,6 +27,7 @@ from gradhesion.core.curve.cosine_folds import (
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, with_lane
 from gradhesion.core.struve.layout import SWITCH, Table
+from gradhesion.core.types import Floats
 
 START, START_DEPTH, END, END_DEPTH = 0, 1, 2, 3
 ARRIVAL, LOADING_LOSS, LOADING_JUMPS = 4, 5, 6
@@ -46,7 +46,7 @@ HIGHEST, LOADING_IS_CLOSE, UNLOADING_IS_CLOSE = 16, 17, 18
 """The highest depth up to the end of a branch, 0 at least, whether a decision of loading was close up to there, and
 whether one of unloading is from the start of the branch on (path/ties.py)."""
 ROWS = 19
-Trace: TypeAlias = NDArray[np.float64]
+Trace: TypeAlias = Floats
 """A trace, of shape (ROWS, branches or more): places in wavelengths, depths in s l^c, energies in 2 pi l^2 dgamma."""
 Waiting: TypeAlias = tuple[int, Lanes, Lanes, Lanes, Lanes]
 """How many folds wait; their arches, 1 where a branch starts and -1 where one ends, and the brackets."""
@@ -131,7 +131,7 @@ def find_depth(table: Table, curve: Cosine, target: float, branch: tuple[float, 
 
 
 @kernel()
-def room_for(trace: Trace, columns: float) -> Any:
+def room_for(trace: Trace, columns: float) -> Trace:
     """Return the trace, or a larger one that is still empty."""
     if columns <= trace.shape[1]:
         return trace

@@ -18,7 +18,7 @@ All its terms are of the size of the result there, so nothing cancels.
 """
 
 import math
-from typing import Any, Final
+from typing import Final, TypeAlias
 
 import numpy as np
 
@@ -31,7 +31,7 @@ from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS, Table
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.pair import first_functions
 from gradhesion.core.struve.power import amplitude_power, amplitude_powers
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Work
 
 _PANELS: Final = {12: 0.8, 16: 1.25}
 """Gauss nodes, and the longest panel in waves for which they leave 1e-14 of a term cos 2 z, the fastest there is."""
@@ -48,6 +48,8 @@ SHORT_NODES, SHORT_WEIGHTS = unit_rule(12)
 NODES, WEIGHTS = unit_rule(16)
 _FURTHEST: Final = 64.0
 """In waves: over longer jumps the antiderivative loses less to cancellation than the sum of panels costs."""
+Left: TypeAlias = tuple[float, float, float]
+"""The place that a jump leaves: z, z S0 and z^c there."""
 _POWER_TERMS: Final = 12
 """Terms of (1 + eta)^c - 1 for |eta| <= 0.1, the half of a panel over its z."""
 _SMALL_LAG: Final = 0.1
@@ -55,7 +57,7 @@ _SMALL_LAG: Final = 0.1
 
 
 @kernel(contract=True)
-def _panel_below(table: Table, curve: Cosine, start: float, left: Any, begin: float, width: float) -> float:
+def _panel_below(table: Table, curve: Cosine, start: float, left: Left, begin: float, width: float) -> float:
     """Integrate z (1 - rho^2) over one panel of the x axis, per unit of x, eight nodes at a time."""
     b, g, lag = curve
     z1, wave1, stretch1 = left
@@ -74,7 +76,7 @@ def _panel_below(table: Table, curve: Cosine, start: float, left: Any, begin: fl
 
 @kernel(contract=True)
 def panel_above(
-    table: Table, curve: Cosine, whole: float, start: float, left: Any, begin: float, width: float, work: Floats
+    table: Table, curve: Cosine, whole: float, start: float, left: Left, begin: float, width: float, work: Work
 ) -> float:
     """Do the same where all z >= 40: pair.py's expansion, written so that all nodes are worked on at once.
 
@@ -141,7 +143,7 @@ def energy_from_zero(table: Table, curve: Cosine, x: float, depth: float) -> flo
 
 
 @kernel(contract=True)
-def energy_by_panels(table: Table, curve: Cosine, start: float, end: float, work: Floats) -> float:
+def energy_by_panels(table: Table, curve: Cosine, start: float, end: float, work: Work) -> float:
     """Return what `jump_energy` does, by quadrature: slower, but good to the last digits of the smallest loss."""
     b, g, lag = curve
     z1, power, s0, _, _, _, _ = wave(table, lag, start)
@@ -172,7 +174,7 @@ def energy_by_panels(table: Table, curve: Cosine, start: float, end: float, work
 
 
 @kernel()
-def jump_energy(table: Table, curve: Cosine, start: float, end: float, work: Floats) -> float:
+def jump_energy(table: Table, curve: Cosine, start: float, end: float, work: Work) -> float:
     """Return e for a jump that leaves the curve at x = start and ends at x = end; `work` has room for 16 floats."""
     if start == end:
         return 0.0

@@ -1,17 +1,21 @@
 """The branches of a curve between its folds, in the rows of core/curve/branches.py: on each the coordinate Y rises."""
 
 import math
-from typing import Final
+from typing import Final, TypeAlias
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.branches import END, END_DEPTH, START, START_DEPTH, Trace
+from gradhesion.core.curve.branches import END, END_DEPTH, START, START_DEPTH
 from gradhesion.core.curve.general import Basis, Series, coordinate, rise
+from gradhesion.core.curve.general_folds import Zeros
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats
 
 START_LEVEL: Final = START_DEPTH
 END_LEVEL: Final = END_DEPTH
 """The coordinates at the two ends."""
+Rows: TypeAlias = Floats
+"""Branches of a general curve: the rows START, START_LEVEL, END and END_LEVEL, of shape (4 or more, branches or more);
+x is beyond some whole waves where these are given, levels are coordinates in s l^c."""
 _STEPS: Final = 200
 _OUTERMOST: Final = 1e100
 _FAR: Final = 1e6
@@ -22,7 +26,7 @@ _SURE: Final = 1e-6
 
 @kernel()
 def fill_branches(
-    basis: Basis, curve: Series, zeros: Floats, count: int, rises: bool, rim: float, trace: Trace, whole: float = 0.0
+    basis: Basis, curve: Series, zeros: Zeros, count: int, rises: bool, rim: float, trace: Rows, whole: float = 0.0
 ) -> int:
     """Fill the trace from the folds within the rim; return the number of branches. All stand `whole` waves out.
 

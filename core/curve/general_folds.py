@@ -1,7 +1,7 @@
 """All folds of a curve between two radii, cell by cell (curve/cells.py), refined on the curve itself."""
 
 import math
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -27,6 +27,10 @@ _ENOUGH: Final = 1e-8
 """Step over the bracket, which holds one zero and no other: its square is below rounding."""
 _NEAR: Final = 1e-6
 """Least |D| over the ends' below which it is compared with the terms of D."""
+
+
+Zeros: TypeAlias = Floats
+"""Folds in order: x, beyond some whole waves where these are given; of shape (MOST_FOLDS,), (MOST,) in a cell."""
 
 
 class Search(NamedTuple):
@@ -108,7 +112,7 @@ def _extremum(basis: Basis, curve: Series, low: float, high: float, whole: float
 
 @kernel()
 def folds_of_cell(
-    basis: Basis, curve: Series, low: float, high: float, at_low: float, work: Search, zeros: Floats, whole: float = 0.0
+    basis: Basis, curve: Series, low: float, high: float, at_low: float, work: Search, zeros: Zeros, whole: float = 0.0
 ) -> tuple[int, float, float]:
     """Put the zeros of D in a cell into `zeros`, in order; return their number, D at the far end, and the nearest miss.
 
@@ -172,7 +176,7 @@ def _terms(basis: Basis, curve: Series, x: float, whole: float) -> float:
 
 @kernel()
 def find_folds(
-    basis: Basis, curve: Series, first: float, last: float, work: Search, zeros: Floats, whole: float = 0.0
+    basis: Basis, curve: Series, first: float, last: float, work: Search, zeros: Zeros, whole: float = 0.0
 ) -> tuple[int, bool, float]:
     """Put all zeros of D between two radii, `whole` waves further out, into `zeros`, in order.
 

@@ -9,7 +9,7 @@ from gradhesion.core.curve.branches import Trace, ends
 from gradhesion.core.curve.general import Basis, Series, size, slope, state
 from gradhesion.core.curve.general_branches import find_level
 from gradhesion.core.curve.one_cosine_energy import jump_of_one_cosine, jump_of_one_cosine_from_zero
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Work
 from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
 
 
@@ -21,7 +21,7 @@ def find_place(basis: Basis, curve: Series, level: float, trace: Trace, branch: 
 
 @face.loss_between.answers(Series)
 @kernel()
-def loss_between(basis: Basis, curve: Series, start: float, end: float, _work: Floats) -> float:
+def loss_between(basis: Basis, curve: Series, start: float, end: float, _work: Work) -> float:
     """Answer in closed form for one cosine where that serves, else by quadrature."""
     if is_one_cosine(basis[2], curve.exponent) and end > 0.0:
         served, energy = jump_of_one_cosine(basis, curve, start, end)

@@ -8,7 +8,7 @@ from gradhesion.core.curve import general
 from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.sensitivities.general_jump_slopes import Change, rim_slope_of
 from gradhesion.core.sensitivities.general_wave_slopes import add_jump, add_jump_from_zero
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Slopes, Work
 
 
 @face.steepness_at.answers(Series)
@@ -27,16 +27,14 @@ def rim_slope(basis: Basis, curve: Series, level: float, x: float) -> float:
 
 @face.add_slopes.answers(Series)
 @kernel()
-def add_slopes(
-    basis: Basis, curve: Series, near: Change, start: float, end: float, _work: Floats, total: Floats
-) -> None:
+def add_slopes(basis: Basis, curve: Series, near: Change, start: float, end: float, _work: Work, total: Slopes) -> None:
     """Answer for places before which no waves were left out."""
     add_jump(basis, curve, near, start, end, 0.0, total)
 
 
 @face.add_slopes_to_zero.answers(Series)
 @kernel()
-def add_slopes_to_zero(basis: Basis, curve: Series, near: Change, x: float, inwards: bool, total: Floats) -> None:
+def add_slopes_to_zero(basis: Basis, curve: Series, near: Change, x: float, inwards: bool, total: Slopes) -> None:
     """Answer for a place before which no waves were left out."""
     add_jump_from_zero(basis, curve, near, x, 0.0, inwards, total)
 
@@ -57,8 +55,8 @@ def add_slopes_of_waves(
     _waves: tuple[float, float],
     _outwards: bool,
     _final: float,
-    _work: Floats,
-    total: Floats,
+    _work: Work,
+    total: Slopes,
 ) -> None:
     """Answer that there are none."""
     total[:] = math.nan

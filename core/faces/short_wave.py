@@ -8,7 +8,7 @@ from gradhesion.core.curve import short_wave
 from gradhesion.core.curve.branches import Trace, ends
 from gradhesion.core.curve.short_wave import ShortWave
 from gradhesion.core.curve.short_wave_energy import loss_of_jump
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Work
 
 
 @face.find_place.answers(ShortWave)
@@ -20,7 +20,7 @@ def find_place(_table: Any, curve: ShortWave, level: float, trace: Trace, branch
 
 @face.loss_between.answers(ShortWave)
 @kernel()
-def loss_between(_table: Any, curve: ShortWave, start: float, end: float, _work: Floats) -> float:
+def loss_between(_table: Any, curve: ShortWave, start: float, end: float, _work: Work) -> float:
     """Answer at the depth of the place that is left."""
     return loss_of_jump(curve, short_wave.depth(curve, start), start, end)
 

@@ -5,7 +5,7 @@ it gets there, and unloading does not depend on where it came from. A long one i
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.compiler.jit import NONE, kernel
 from gradhesion.core.curve.branches import (
@@ -71,7 +71,7 @@ def is_smooth(arches: tuple[float, float]) -> bool:
 @kernel()
 def walk(
     table: Table, curve: Cosine, arches: tuple[float, float], furthest: float, trace: Trace, losses: bool
-) -> tuple[int, Any]:
+) -> tuple[int, Trace]:
     """Walk a curve of moderate length outwards to `furthest`; return the number of its branches and the trace."""
     first, final = arches
     trace = room_for(trace, min(final, 2.0 * furthest) - first + 8.0)

@@ -6,13 +6,13 @@ loading does not depend on the rim until it gets there, and unloading does not d
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.arches import folds_between
-from gradhesion.core.curve.branches import ROWS, UNKNOWN, UNLOADING_JUMPS
+from gradhesion.core.curve.branches import ROWS, UNKNOWN, UNLOADING_JUMPS, Trace
 from gradhesion.core.curve.general import Basis, Series, state
 from gradhesion.core.curve.general_branches import fill_branches
 from gradhesion.core.curve.general_folds import MOST_FOLDS, room
@@ -27,7 +27,7 @@ _WORK: Final = 8
 @kernel()
 def walk(
     basis: Basis, curve: Series, first: float, last: float, furthest: float, losses: bool
-) -> tuple[int, Any, float]:
+) -> tuple[int, Trace, float]:
     """Follow loading up to x = `furthest`, fold by fold: they stand between the places `first` and `last`.
 
     Returns

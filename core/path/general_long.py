@@ -16,11 +16,12 @@ from gradhesion.core.curve.arches import folds_between
 from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, fill_branches
-from gradhesion.core.curve.general_folds import MOST_FOLDS, Search, find_folds, room
+from gradhesion.core.curve.general_folds import MOST_FOLDS, Search, Zeros, find_folds, room
 from gradhesion.core.path.general_ties import first_close_pair, is_at_a_fold
 from gradhesion.core.path.pieces import (
     NOTED_DOWN,
     NOTED_UP,
+    Notes,
     Piece,
     State,
     climb,
@@ -268,7 +269,7 @@ def go_through(
     state: State,
     losses: bool,
     test: bool,
-    notes: Floats,
+    notes: Notes,
 ) -> tuple[State, bool]:
     """Follow loading from the first wave of a run to the last, or unloading back; the loss is NaN if it cannot be.
 
@@ -353,7 +354,7 @@ def middle_of(basis: Basis, curve: Series, first: float, last: float, apart: flo
 
 @kernel()
 def folds_before(
-    basis: Basis, curve: Series, first: float, middle: Middle, search: Search, zeros: Floats
+    basis: Basis, curve: Series, first: float, middle: Middle, search: Search, zeros: Zeros
 ) -> tuple[int, bool, float]:
     """Put the folds before the regular waves into `zeros`; return what find_folds does, -1 where they do not fit."""
     _, _, cut, again, begin, _, _ = middle
@@ -370,7 +371,7 @@ def folds_before(
 
 @kernel()
 def stride(
-    basis: Basis, curve: Series, first: float, middle: Middle, rim: tuple[float, float], tasks: Tasks, notes: Floats
+    basis: Basis, curve: Series, first: float, middle: Middle, rim: tuple[float, float], tasks: Tasks, notes: Notes
 ) -> tuple[bool, State, State, bool, bool, float, float]:
     """Follow the cycle on a long curve up to one rim.
 

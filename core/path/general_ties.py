@@ -5,9 +5,9 @@ import math
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Series, size, slope
+from gradhesion.core.curve.general_folds import Zeros
 from gradhesion.core.path.ties import PAIR
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.types import Floats
 
 
 @kernel()
@@ -17,7 +17,7 @@ def is_near(basis: Basis, curve: Series, first: float, other: float, x: float, w
 
 
 @kernel()
-def first_close_pair(zeros: Floats, count: int, whole: float) -> float:
+def first_close_pair(zeros: Zeros, count: int, whole: float) -> float:
     """Return the first of the folds that has another so near that the pair may vanish, inf if none has."""
     for i in range(1, count):
         width = TWO_PI * (zeros[i] - zeros[i - 1])

@@ -9,7 +9,7 @@ whether the rim cuts the jump short. The first row counts; without rows there ar
 """
 
 import math
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -20,6 +20,9 @@ from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, find_
 from gradhesion.core.path.general_ties import is_near
 from gradhesion.core.types import Floats
 from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
+
+Notes: TypeAlias = Floats
+"""Notes of jumps: the first row counts the others; of shape (rows, 5), without rows for none."""
 
 
 class State(NamedTuple):
@@ -70,7 +73,7 @@ def notes_for(rows: int) -> Floats:
 
 
 @kernel()
-def note(notes: Floats, kind: int, waves: float, start: float, end: float, cut: bool) -> None:
+def note(notes: Notes, kind: int, waves: float, start: float, end: float, cut: bool) -> None:
     """Note a jump, or waves that are summed."""
     if notes.shape[0] == 0:
         return
@@ -81,7 +84,7 @@ def note(notes: Floats, kind: int, waves: float, start: float, end: float, cut: 
 
 
 @kernel()
-def _note_leap(notes: Floats, state: State, x: float, whole: float, cut: bool) -> None:
+def _note_leap(notes: Notes, state: State, x: float, whole: float, cut: bool) -> None:
     """Note the jump outwards from a state to whole + x."""
     _, _, _, waves, left, _ = state
     if waves + left == 0.0:
@@ -100,7 +103,7 @@ def _leap(basis: Basis, curve: Series, state: State, x: float, whole: float) -> 
 
 
 @kernel()
-def climb(basis: Basis, curve: Series, piece: Piece, state: State, sure: float, losses: bool, notes: Floats) -> State:
+def climb(basis: Basis, curve: Series, piece: Piece, state: State, sure: float, losses: bool, notes: Notes) -> State:
     """Follow loading from a state over the branches of a piece; return the state at the end of the last it visits.
 
     It surely reaches the x `sure`: whether the curve there is higher is no close decision. With `losses` the energies
@@ -127,9 +130,7 @@ def climb(basis: Basis, curve: Series, piece: Piece, state: State, sure: float, 
 
 
 @kernel()
-def reach_rim(
-    basis: Basis, curve: Series, rim: float, state: State, losses: bool, whole: float, notes: Floats
-) -> State:
+def reach_rim(basis: Basis, curve: Series, rim: float, state: State, losses: bool, whole: float, notes: Notes) -> State:
     """Follow loading from its last branch to the rim, at x = `rim` beyond `whole` waves."""
     loss, jumps, level, waves, left, close = state
     if (waves - whole) + left < rim < math.inf:
@@ -150,7 +151,7 @@ def leave_rim(basis: Basis, curve: Series, piece: Piece, rim: float) -> tuple[in
 
 
 @kernel()
-def descend(basis: Basis, curve: Series, piece: Piece, state: State, losses: bool, notes: Floats) -> State:
+def descend(basis: Basis, curve: Series, piece: Piece, state: State, losses: bool, notes: Notes) -> State:
     """Follow unloading from a state inwards over the branches of a piece; `losses` and `notes` as of `climb`."""
     count, rows, whole = piece
     for branch in range(count - 1, -1, -1):
@@ -170,7 +171,7 @@ def descend(basis: Basis, curve: Series, piece: Piece, state: State, losses: boo
 
 
 @kernel()
-def leave(basis: Basis, curve: Series, state: State, losses: bool, notes: Floats) -> State:
+def leave(basis: Basis, curve: Series, state: State, losses: bool, notes: Notes) -> State:
     """Follow unloading from the last branch to zero contact."""
     loss, jumps, level, waves, left, close = state
     if waves + left > 0.0:

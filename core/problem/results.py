@@ -4,7 +4,7 @@ They go to `out[slots[row], rim]` of a record `Results`, where `slots` holds -1 
 """
 
 from collections.abc import Sequence
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,10 @@ OUTERMOST = constant(11)
 """The last one: the row of the largest end of a jump, REACH of names.py, stored of rims at infinity only."""
 
 
+Slots: TypeAlias = Integers
+"""The row of the values for each result, -1 for what is not wanted, and two flags; of shape (12,): `slots_of`."""
+
+
 class Results(NamedTuple):
     """Where the results of one curve go; a loop over curves has one axis more in `out` and `status`, before the last.
 
@@ -33,7 +37,7 @@ class Results(NamedTuple):
     status      bits of problem/status.py, int8 of shape (rims,)
     """
 
-    slots: Integers
+    slots: Slots
     out: Floats
     status: Bits
 
@@ -52,26 +56,26 @@ def typed(name: str, values: Floats) -> NDArray[Any]:
 
 
 @kernel()
-def wants_force(slots: Integers) -> bool:
+def wants_force(slots: Slots) -> bool:
     """Return whether anything of the pull-off is wanted; `slots` as of `Results`."""
     return slots[FORCE] >= 0 or slots[RADIUS] >= 0
 
 
 @kernel()
-def wants_losses(slots: Integers) -> bool:
+def wants_losses(slots: Slots) -> bool:
     """Return whether anything is wanted that needs what the jumps lose; `slots` as of `Results`."""
     return slots[ENERGY] >= 0 or slots[LOADED] >= 0 or slots[UNLOADED] >= 0
 
 
 @kernel()
-def wants_cycle(slots: Integers) -> bool:
+def wants_cycle(slots: Slots) -> bool:
     """Return whether anything is wanted that needs the jumps; `slots` as of `Results`."""
     counts = slots[LOADING] >= 0 or slots[UNLOADING] >= 0
     return wants_losses(slots) or counts or slots[LAST] >= 0 or slots[OUTERMOST] >= 0
 
 
 @kernel()
-def wants_folds(slots: Integers) -> bool:
+def wants_folds(slots: Slots) -> bool:
     """Return whether anything is wanted that needs the folds, the jumps or the largest depth; `slots` of `Results`."""
     return wants_cycle(slots) or slots[DEEPEST] >= 0
 

@@ -14,7 +14,7 @@ from gradhesion.core.curve.arches import is_one_cosine
 from gradhesion.core.curve.cells import MOST
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Series, coordinate, slope
-from gradhesion.core.curve.general_folds import Search, cell_width, folds_of_cell
+from gradhesion.core.curve.general_folds import Search, Zeros, cell_width, folds_of_cell
 from gradhesion.core.pull_off.general import (
     INWARDS,
     WORTH,
@@ -52,7 +52,7 @@ class Cells(NamedTuple):
 
 @kernel()
 def _fill_cell(
-    basis: Basis, curve: Series, low: float, high: float, work: Search, zeros: Floats, troughs: Floats
+    basis: Basis, curve: Series, low: float, high: float, work: Search, zeros: Zeros, troughs: Floats
 ) -> int:
     """Put x and load of the troughs of a cell into `troughs`, of shape (4, 2); return their number."""
     at_low, _, _ = slope(basis, curve, low)
@@ -107,7 +107,7 @@ def lowest_loads(
 ) -> None:
     """Put what `lowest_load` (pull_off/general.py) returns for each rim x + its rounding error into a row of `found`.
 
-    Rims and rounding errors are of shape (rims,), `found` is of shape (rims, 3). Rims that are not above 0 are left out.
+    Rims and rounding errors are of shape (rims,), `found` of shape (rims, 3). Rims that are not above 0 are left out.
     """
     table, _, series = basis
     B, m, g, _, _ = curve

@@ -4,7 +4,7 @@ The path is that of path/loading.py and path/unloading.py, which ask what core/f
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -46,7 +46,7 @@ NOTHING: Final = ()
 
 
 @kernel()
-def trace_branches(wave: ShortWave, furthest: float) -> tuple[int, Any]:
+def trace_branches(wave: ShortWave, furthest: float) -> tuple[int, Trace]:
     """Return the rising branches that begin within `furthest`, their number first: -1 if there are too many."""
     k, _, chi, _, _ = wave
     level = 0.5 * (1.0 - k)

@@ -6,7 +6,7 @@ all far beyond the radius to which contacts jump is solved once.
 """
 
 import math
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 from gradhesion.core.closed import smooth
 from gradhesion.core.closed.power import fill_powers
@@ -24,6 +24,7 @@ from gradhesion.core.problem.results import (
     UNLOADED,
     UNLOADING,
     Results,
+    Slots,
     wants_cycle,
     wants_folds,
     wants_force,
@@ -35,13 +36,15 @@ from gradhesion.core.types import Floats, Integers
 ROWS: Final = 19
 SCENES: Final = 256
 """Scenes of a block: what is used of it stays in the nearest cache."""
+Block: TypeAlias = Floats
+"""A block, of shape (ROWS, scenes): the rows of its results in their own units, and those below."""
 _RESULTS: Final = 9
 _K, _STRETCH, _IN, _OUT, _RIM, _X, _BASE, _EXPONENT, _FLAGS, _REACH = map(constant, range(_RESULTS, ROWS))
 """The rows: k, s, a_2^2, a_4^2, the rim, X there, x and p of a power x^p, flags, and a_2."""
 
 
 @kernel()
-def _take_curves(index: Integers, k: Floats, curves: Curves, block: Floats) -> None:
+def _take_curves(index: Integers, k: Floats, curves: Curves, block: Block) -> None:
     """Put k and s of the curves of some numbers into a block, s being NaN for one that is out of range."""
     before, factor = math.nan, math.nan
     for j in range(index.size):
@@ -55,7 +58,7 @@ def _take_curves(index: Integers, k: Floats, curves: Curves, block: Floats) -> N
 
 
 @kernel()
-def _take_scenes(index: Integers, first: int, count: int, rims: Floats, curves: Floats, scenes: Floats) -> None:
+def _take_scenes(index: Integers, first: int, count: int, rims: Floats, curves: Block, scenes: Block) -> None:
     """Take the rims of scenes, from number `first` on, and what is known of their curves."""
     number = rims.shape[1]
     if number == 1:  # curves and scenes are the same block
@@ -93,7 +96,7 @@ def _store(index: Integers, first: int, count: int, values: Floats, out: Any) ->
 
 
 @kernel()
-def _find_squares(count: int, block: Floats, start: float, slope: float, row: int) -> None:
+def _find_squares(count: int, block: Block, start: float, slope: float, row: int) -> None:
     """Find the squares of radii, those where X = start + slope k."""
     for e in range(count):
         k = block[_K, e]
@@ -103,7 +106,7 @@ def _find_squares(count: int, block: Floats, start: float, slope: float, row: in
 
 
 @kernel()
-def _are_far_out(count: int, block: Floats) -> bool:
+def _are_far_out(count: int, block: Block) -> bool:
     """Return whether all rims are far beyond the radius to which contacts jump: where X is does not matter then."""
     near = 0
     for e in range(count):
@@ -112,7 +115,7 @@ def _are_far_out(count: int, block: Floats) -> bool:
 
 
 @kernel()
-def _find_abscissas(count: int, block: Floats, far: bool) -> None:
+def _find_abscissas(count: int, block: Block, far: bool) -> None:
     """Find X at the rims; infinity for those that are `far` out."""
     if far:
         for e in range(count):
@@ -126,7 +129,7 @@ def _find_abscissas(count: int, block: Floats, far: bool) -> None:
 
 
 @kernel()
-def _find_radii(count: int, block: Floats) -> None:
+def _find_radii(count: int, block: Block) -> None:
     """Find the radii of the pull-off."""
     _find_squares(count, block, smooth.abscissa_of_pull_off(0.0), 0.5, RADIUS)
     for e in range(count):
@@ -135,7 +138,7 @@ def _find_radii(count: int, block: Floats) -> None:
 
 
 @kernel()
-def _find_losses(count: int, block: Floats) -> None:
+def _find_losses(count: int, block: Block) -> None:
     """Find the energies of loading and unloading."""
     for e in range(count):
         k, abscissa, rim = block[_K, e], block[_X, e], block[_RIM, e]
@@ -145,7 +148,7 @@ def _find_losses(count: int, block: Floats) -> None:
 
 
 @kernel()
-def _find_last(count: int, block: Floats) -> None:
+def _find_last(count: int, block: Block) -> None:
     """Find the depths at which contact ends."""
     for e in range(count):
         block[_BASE, e] = math.sqrt(min(block[_RIM, e] * block[_RIM, e], block[_OUT, e]))
@@ -157,7 +160,7 @@ def _find_last(count: int, block: Floats) -> None:
 
 
 @kernel()
-def _find_flags(count: int, block: Floats, force: bool, folds: bool) -> None:
+def _find_flags(count: int, block: Block, force: bool, folds: bool) -> None:
     """Find the status of the scenes."""
     at_rim, in_to_rim = PULL_OFF_AT_RIM if force else 0, JUMP_IN_TO_RIM if folds else 0
     for e in range(count):
@@ -166,7 +169,7 @@ def _find_flags(count: int, block: Floats, force: bool, folds: bool) -> None:
 
 
 @kernel()
-def _solve_block(count: int, block: Floats, slots: Integers, far: bool) -> None:
+def _solve_block(count: int, block: Block, slots: Slots, far: bool) -> None:
     """Compute what is asked of scenes."""
     _find_abscissas(count, block, far)
     if slots[FORCE] >= 0:
@@ -192,7 +195,7 @@ def _solve_block(count: int, block: Floats, slots: Integers, far: bool) -> None:
 
 @kernel()
 def _solve_run(
-    number: int, rims: Floats, curve: int, place: int, curves: Floats, scenes: Floats, results: Results
+    number: int, rims: Floats, curve: int, place: int, curves: Block, scenes: Block, results: Results
 ) -> int:
     """Solve the rims of a curve from `number` on that are far out, if they fill a block: none of them matters.
 
@@ -223,7 +226,7 @@ def _solve_run(
 
 
 @kernel()
-def _refuse(index: Integers, block: Floats, results: Results) -> None:
+def _refuse(index: Integers, block: Block, results: Results) -> None:
     """Give the curves of these numbers that are out of range no value; the block is theirs, in the same order."""
     for j in range(index.size):
         if not block[_STRETCH, j] > 0.0:

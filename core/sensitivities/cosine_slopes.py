@@ -43,7 +43,7 @@ from gradhesion.core.sensitivities.path_slopes import Traced, energy_slopes, fil
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Slopes
 
 BY_STIFFNESS, BY_WAVELENGTH, BY_AMPLITUDE, BY_RIM, BY_EXPONENT, BY_MACHINE = map(constant, range(6))
 """Rows of what is found; that of k is at fixed M, and only general scenes have a machine."""
@@ -91,7 +91,7 @@ class Sensed(NamedTuple):
 
 
 @kernel()
-def _put(found: Floats, k: float, curve: Cosine, powers: tuple[float, float], by: Floats, value: float, i: int) -> None:
+def _put(found: Slopes, k: float, curve: Cosine, powers: tuple[float, float], by: Floats, value: float, i: int) -> None:
     """Store the sensitivities of a value of rim number i, into `found` of shape (COUNT, rims).
 
     `by` are its slopes by b, g, ln x and k, of shape (4,); `powers` are those of lambda and of M in its unit.

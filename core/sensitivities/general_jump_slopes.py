@@ -32,7 +32,7 @@ from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.struve.series_by_k import sums_by_k
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Slopes
 from gradhesion.core.waves.general import NOWHERE
 
 Parts: TypeAlias = tuple[float, float, float, float]
@@ -142,7 +142,7 @@ def drop_slopes(
     way: tuple[float, float],
     whole: float,
     sign: float,
-    total: Floats,
+    total: Slopes,
 ) -> None:
     """Add `sign` times the slopes of what `drop` of curve/general_energy.py returns, times 4 pi^2.
 
@@ -176,7 +176,7 @@ def drop_slopes(
 
 @kernel(contract=True)
 def _slopes_from_zero(
-    basis: Basis, curve: Series, change: Change, parts: Parts, x: float, level: float, weight: float, total: Floats
+    basis: Basis, curve: Series, change: Change, parts: Parts, x: float, level: float, weight: float, total: Slopes
 ) -> None:
     """Add the slopes at one radius of a jump from or to zero contact."""
     _, m, _, alpha, _ = curve
@@ -197,7 +197,7 @@ def _slopes_from_zero(
 
 @kernel()
 def add_from_zero(
-    basis: Basis, curve: Series, change: Change, parts: Parts, x: float, level: float, sign: float, total: Floats
+    basis: Basis, curve: Series, change: Change, parts: Parts, x: float, level: float, sign: float, total: Slopes
 ) -> None:
     """Add `sign` times the slopes of a jump at Y = level from zero contact to x; those of the level are `parts`.
 
@@ -228,7 +228,7 @@ def jump_from(basis: Basis, curve: Series, change: Change, start: float, whole: 
 
 @kernel()
 def add_drop(
-    basis: Basis, curve: Series, change: Change, start: float, waves: float, end: float, sign: float, total: Floats
+    basis: Basis, curve: Series, change: Change, start: float, waves: float, end: float, sign: float, total: Slopes
 ) -> None:
     """Add `sign` times the slopes of a jump between waves + start, which it leaves, and waves + end."""
     jump = jump_from(basis, curve, change, start, waves)

@@ -19,7 +19,7 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series, coordinate, slope, state
-from gradhesion.core.path.pieces import NOTED_DOWN, NOTED_JUMP, NOTED_OUT, NOTED_UP
+from gradhesion.core.path.pieces import NOTED_DOWN, NOTED_JUMP, NOTED_OUT, NOTED_UP, Notes
 from gradhesion.core.problem.results import RADIUS, Results
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.sensitivities.cosine_slopes import (
@@ -39,7 +39,7 @@ from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SHAR
 from gradhesion.core.sensitivities.jump_slopes import DEPTH as BY_LEVEL
 from gradhesion.core.sensitivities.path_slopes import Traced, energy_slopes, fill_loading, with_slopes
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Slopes
 from gradhesion.core.waves.general import DOWN, NOWHERE, UP, Waves, room_for_waves
 
 LN2: Final = math.log(2.0)
@@ -210,7 +210,7 @@ def put_rest(
 
 
 @kernel()
-def _put_total(own: Sensed, total: Floats, by_rim: float, energy: float, i: int) -> None:
+def _put_total(own: Sensed, total: Slopes, by_rim: float, energy: float, i: int) -> None:
     """Store the sensitivities of the energy of rim number i, in 2 pi l^2 dgamma, from its slopes (SLOPES,)."""
     by = np.empty(5)
     by[0], by[1], by[2], by[3] = total[BEND], total[GAIN], total[SHARE], by_rim
@@ -243,7 +243,7 @@ def put_energy(basis: Basis, curve: Series, own: Sensed, slopes: Traced, x: floa
 
 @kernel()
 def put_noted(
-    basis: Basis, curve: Series, own: Sensed, cut: float, notes: Floats, rim: tuple[float, float], energy: float, i: int
+    basis: Basis, curve: Series, own: Sensed, cut: float, notes: Notes, rim: tuple[float, float], energy: float, i: int
 ) -> None:
     """Store the sensitivities of the energy of rim number i of a long cycle from the notes of its jumps.
 

@@ -25,7 +25,7 @@ from gradhesion.core.sensitivities.general_jump_slopes import (
     parts_of,
 )
 from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SHARE, SLOPES
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Slopes
 from gradhesion.core.waves.cosine_sum import limit_terms
 from gradhesion.core.waves.general import (
     PASSING,
@@ -58,7 +58,7 @@ _TOP: Final = 64
 
 @kernel()
 def slopes_of_step(
-    basis: Basis, curve: Series, change: Change, waves: Waves, jump: Jump, wave: float, found: Floats
+    basis: Basis, curve: Series, change: Change, waves: Waves, jump: Jump, wave: float, found: Slopes
 ) -> int:
     """Put the slopes of what `step_of_wave` of waves/general.py adds into `found`; return the pattern of the jumps.
 
@@ -106,7 +106,7 @@ def _integrals_of_run(
     jump: Jump,
     run: tuple[float, float],
     scales: Floats,
-    total: Floats,
+    total: Slopes,
 ) -> tuple[bool, int, Floats, int, int]:
     """Add the integrals over a run without its ends to `total`, as `_integral_of_run` of waves/general_sum.py.
 
@@ -183,7 +183,7 @@ def _add_ends(
     jump: Jump,
     run: tuple[float, float],
     pattern: int,
-    total: Floats,
+    total: Slopes,
 ) -> bool:
     """Add the waves at both ends of a run, and Euler's and Maclaurin's terms; return whether all have one pattern.
 
@@ -207,7 +207,7 @@ def _add_ends(
 
 @kernel()
 def add_waves(
-    basis: Basis, curve: Series, change: Change, waves: Waves, jump: Jump, first: float, last: float, total: Floats
+    basis: Basis, curve: Series, change: Change, waves: Waves, jump: Jump, first: float, last: float, total: Slopes
 ) -> None:
     """Add the slopes of the waves `first` to `last`, as `sum_of_waves` of waves/general_sum.py; NaN if not regular.
 
@@ -263,7 +263,7 @@ def _add_passage(
     way: tuple[float, float],
     whole: float,
     sign: float,
-    total: Floats,
+    total: Slopes,
 ) -> None:
     """Add `sign` times the slopes of a long jump between the x of its way beyond whole waves, from _INNER on.
 
@@ -282,7 +282,7 @@ def _add_passage(
 
 @kernel()
 def add_jump(
-    basis: Basis, curve: Series, change: Change, start: float, end: float, whole: float, total: Floats
+    basis: Basis, curve: Series, change: Change, start: float, end: float, whole: float, total: Slopes
 ) -> None:
     """Add the slopes of a jump that leaves the curve at whole + start and ends at whole + end > 0."""
     _, _, series = basis
@@ -300,7 +300,7 @@ def add_jump(
 
 @kernel()
 def add_jump_from_zero(
-    basis: Basis, curve: Series, change: Change, x: float, whole: float, inwards: bool, total: Floats
+    basis: Basis, curve: Series, change: Change, x: float, whole: float, inwards: bool, total: Slopes
 ) -> None:
     """Add the slopes of the jump-out from whole + x (inwards), 0 under a dead load, or of the jump-in that ends there.
 

@@ -14,7 +14,7 @@ The slopes are those by the bend b, the gain g and the exponent, each with the d
 that depth alone; of a general curve (sensitivities/general_jump_slopes.py) also that by the machine's share.
 """
 
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.compiler.jit import YES, kernel
 from gradhesion.core.curve.cosine import Cosine, depth, wave
@@ -25,6 +25,7 @@ from gradhesion.core.curve.cosine_energy import (
     SHORT_NODES,
     SHORT_WEIGHTS,
     WEIGHTS,
+    Left,
     energy_from_zero,
     jump_energy,
 )
@@ -33,7 +34,7 @@ from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS, Table
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Slopes, Work
 
 BEND, GAIN, EXPONENT, DEPTH, SHARE, SLOPES = 0, 1, 2, 3, 4, 5
 _FURTHEST: Final = 64.0
@@ -43,7 +44,7 @@ _POWER_TERMS: Final = 12
 
 @kernel(contract=True)
 def _panel_below(
-    table: Table, curve: Cosine, start: float, left: Any, begin: float, width: float, nodes: Floats, weights: Floats
+    table: Table, curve: Cosine, start: float, left: Left, begin: float, width: float, nodes: Floats, weights: Floats
 ) -> tuple[float, float, float]:
     """Integrate -2 z rho d rho over one panel of the x axis, per unit of x, by b, g and the depth."""
     b, g, lag = curve
@@ -62,7 +63,7 @@ def _panel_below(
 
 @kernel(contract=True)
 def panel_slopes_above(
-    table: Table, curve: Cosine, whole: float, start: float, left: Any, begin: float, width: float, work: Floats
+    table: Table, curve: Cosine, whole: float, start: float, left: Left, begin: float, width: float, work: Work
 ) -> tuple[float, float, float]:
     """Do the same where all z >= 40, at places `whole` + x, as `panel_above` of curve/cosine_energy.py."""
     b, g, _ = curve
@@ -121,7 +122,7 @@ def _slopes_from_zero(table: Table, curve: Cosine, x: float, depth: float) -> tu
 
 
 @kernel()
-def energies_nearby(near: Near, start: float, end: float, work: Floats) -> float:
+def energies_nearby(near: Near, start: float, end: float, work: Work) -> float:
     """Return the slope by k of the energy of a jump but for what the exponent itself adds to the sum."""
     tables, curves, weights = near
     total = 0.0
@@ -132,7 +133,7 @@ def energies_nearby(near: Near, start: float, end: float, work: Floats) -> float
 
 
 @kernel()
-def add_slopes_to_zero(table: Table, curve: Cosine, near: Near, x: float, inwards: bool, total: Floats) -> None:
+def add_slopes_to_zero(table: Table, curve: Cosine, near: Near, x: float, inwards: bool, total: Slopes) -> None:
     """Add the slopes of the jump-out from x at the depth there (inwards), or of the jump-in to x at the depth 0."""
     tables, curves, weights = near
     level = depth(table, curve, x) if inwards else 0.0
@@ -153,7 +154,7 @@ def add_slopes_to_zero(table: Table, curve: Cosine, near: Near, x: float, inward
 
 
 @kernel(contract=True)
-def add_slopes(table: Table, curve: Cosine, near: Near, start: float, end: float, work: Floats, total: Floats) -> None:
+def add_slopes(table: Table, curve: Cosine, near: Near, start: float, end: float, work: Work, total: Slopes) -> None:
     """Add the slopes of a jump that leaves the curve at x = start and ends at x = end; `work` holds 48 floats."""
     b, g, lag = curve
     if end == 0.0:  # k = 1: the contact shrinks to a point

@@ -47,7 +47,7 @@ from gradhesion.core.path.unloading import descend, leave_rim, next_lower
 from gradhesion.core.sensitivities.jump_slopes import DEPTH, SLOPES
 from gradhesion.core.sensitivities.wave_slopes import ROOM
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Slopes, Work
 
 LOADED, UNLOADED, KNOWN = 0, SLOPES, 2 * SLOPES
 ROWS = 2 * SLOPES + 1
@@ -80,7 +80,7 @@ def with_slopes(count: int, trace: Floats, final: float) -> Traced:
 
 @kernel()
 def _enter(
-    table: AnyTable, curve: AnyCurve, near: AnyNear, now: int, left: float, x: float, work: Floats, total: Floats
+    table: AnyTable, curve: AnyCurve, near: AnyNear, now: int, left: float, x: float, work: Work, total: Slopes
 ) -> None:
     """Add a jump of loading that leaves branch `now` at x = `left`, or zero contact if it is on none yet (-1)."""
     if now < 0:
@@ -128,7 +128,7 @@ def fill_loading(table: AnyTable, curve: AnyCurve, near: AnyNear, traced: Traced
 
 
 @kernel()
-def _add_loading(table: AnyTable, curve: AnyCurve, near: AnyNear, traced: Traced, rim: float, total: Floats) -> float:
+def _add_loading(table: AnyTable, curve: AnyCurve, near: AnyNear, traced: Traced, rim: float, total: Slopes) -> float:
     """Add the slopes of loading up to a rim x to `total`, of shape (SLOPES,); return that by ln x of the rim."""
     count, trace, _, slopes = traced
     now = count - 1
@@ -198,7 +198,7 @@ def _fill_unloading(table: AnyTable, curve: AnyCurve, near: AnyNear, traced: Tra
 
 @kernel()
 def _add_unloading(
-    table: AnyTable, curve: AnyCurve, near: AnyNear, traced: Traced, rim: float, rim_depth: float, total: Floats
+    table: AnyTable, curve: AnyCurve, near: AnyNear, traced: Traced, rim: float, rim_depth: float, total: Slopes
 ) -> float:
     """Add the slopes of unloading from a rim x to `total`, of shape (SLOPES,); return that by ln x of the rim."""
     count, trace, _, slopes = traced
@@ -222,7 +222,7 @@ def _add_unloading(
 
 @kernel()
 def energy_slopes(
-    table: AnyTable, curve: AnyCurve, near: AnyNear, traced: Traced, rim: float, rim_depth: float, total: Floats
+    table: AnyTable, curve: AnyCurve, near: AnyNear, traced: Traced, rim: float, rim_depth: float, total: Slopes
 ) -> float:
     """Put the slopes of the reduced energy of a rim into `total`; return that by ln x of the rim.
 

@@ -14,7 +14,7 @@ from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, EXPONENT, GAI
 from gradhesion.core.sensitivities.neighbours import Near
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.layout import Table
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Slopes, Work
 from gradhesion.core.waves.cosine import _fold, _landing, _slope
 from gradhesion.core.waves.cosine_sum import (
     _DIRECT,
@@ -41,7 +41,7 @@ ROOM: Final = 112
 
 @kernel()
 def slopes_of_wave(
-    table: Table, curve: Cosine, near: Near, wave: float, outwards: bool, work: Floats, found: Floats
+    table: Table, curve: Cosine, near: Near, wave: float, outwards: bool, work: Work, found: Slopes
 ) -> None:
     """Put the slopes of the jump from a wave to the next one, as waves/cosine.py finds it, into `found`."""
     tables, curves, weights = near
@@ -78,8 +78,8 @@ def _add_outer_part(
     waves: tuple[float, float],
     outer: float,
     outwards: bool,
-    work: Floats,
-    total: Floats,
+    work: Work,
+    total: Slopes,
 ) -> None:
     """Add the integral in y between two waves; `outer` is a branch point, the rest as of `add_slopes_of_waves`."""
     begin, end = waves
@@ -101,8 +101,8 @@ def _add_inner_part(
     waves: tuple[float, float],
     inner: float,
     outwards: bool,
-    work: Floats,
-    total: Floats,
+    work: Work,
+    total: Slopes,
 ) -> None:
     """Add the integral in v between two waves; `inner` is a branch point, the rest as of `add_slopes_of_waves`."""
     begin, end = waves
@@ -123,8 +123,8 @@ def _add_integral(
     waves: tuple[float, float],
     points: tuple[float, float],
     outwards: bool,
-    work: Floats,
-    total: Floats,
+    work: Work,
+    total: Slopes,
 ) -> None:
     """Add the integral over the index between two waves; `points` are the branch points of waves/cosine_sum.py."""
     begin, end = waves
@@ -147,8 +147,8 @@ def add_slopes_of_waves(
     waves: tuple[float, float],
     outwards: bool,
     final: float,
-    work: Floats,
-    total: Floats,
+    work: Work,
+    total: Slopes,
 ) -> None:
     """Add the slopes of what the jumps from the first to the last of some waves lose, as `sum_of_waves` does.
 

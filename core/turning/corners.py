@@ -27,6 +27,10 @@ LANDING, FOLD, OPEN = map(constant, range(3))
 ROWS: Final = 4
 
 
+Corners: TypeAlias = Floats
+"""Corners in the order of loading, in the rows above, of shape (ROWS, corners or more)."""
+
+
 class Place(NamedTuple):
     """Where corners are searched for.
 
@@ -54,7 +58,7 @@ def measured_by(curve: Series, by_load: bool) -> Series:
 
 @kernel()
 def _put(
-    basis: Basis, measured: Series, corners: Floats, count: int, x: float, kind: int, whole: float
+    basis: Basis, measured: Series, corners: Corners, count: int, x: float, kind: int, whole: float
 ) -> tuple[Floats, int]:
     """Append a corner; return the corners, moved where there was no room, and their number."""
     if count == corners.shape[1]:
@@ -68,7 +72,13 @@ def _put(
 
 @kernel()
 def append_corners(
-    basis: Basis, curve: Series, by_load: bool, way: tuple[float, float, bool], room: Place, corners: Floats, count: int
+    basis: Basis,
+    curve: Series,
+    by_load: bool,
+    way: tuple[float, float, bool],
+    room: Place,
+    corners: Corners,
+    count: int,
 ) -> tuple[Floats, int]:
     """Append the corners of what loading passes of one branch.
 
@@ -119,7 +129,7 @@ def corners_of(
 
 @kernel()
 def first_reached(
-    basis: Basis, curve: Series, by_load: bool, corners: Floats, count: int, target: float, whole: float
+    basis: Basis, curve: Series, by_load: bool, corners: Corners, count: int, target: float, whole: float
 ) -> Found:
     """Return where loading first reaches a target on the way through some corners."""
     measured = measured_by(curve, by_load)

@@ -39,6 +39,7 @@ from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.turning.cosine_at_once import turns_at_once
 from gradhesion.core.turning.cosine_reach import reach, reach_outwards
 from gradhesion.core.turning.first_reached import (
+    Peaks,
     peaks_of,
     turn_at_depth,
     turn_at_load,
@@ -155,7 +156,7 @@ def _has_value(rim: float, target: float, by_load: bool) -> bool:
 
 @kernel()
 def _turn_rim(
-    table: Table, curve: Cosine, count: int, trace: Floats, peaks: Floats, long: bool, goal: Goal
+    table: Table, curve: Cosine, count: int, trace: Floats, peaks: Peaks, long: bool, goal: Goal
 ) -> tuple[float, int]:
     """Return x where the cycle of one rim turns, inf for the rim, and its flags.
 

@@ -7,7 +7,7 @@ turns the cycle where the jump ends.
 """
 
 import math
-from typing import Any, Final, TypeAlias
+from typing import Final, TypeAlias
 
 import numpy as np
 
@@ -42,6 +42,8 @@ from gradhesion.core.waves.cosine import branch_of_wave, fold_of_wave, landing_o
 
 Turn: TypeAlias = tuple[float, bool]
 """Where a cycle turns (inf if not here), and whether a step of that is close."""
+Peaks: TypeAlias = Floats
+"""The largest load of loading on each branch of a trace, or a bound of it, of shape (branches,): `peaks_of`."""
 _STEPS: Final = 200
 _FEW: Final = 3
 """Turning points of a curve up to which each looks for itself."""
@@ -179,7 +181,7 @@ def _peak(table: Table, curve: Cosine, low: float, high: float) -> float:
 
 
 @kernel()
-def peaks_of(table: Table, curve: Cosine, count: int, trace: Trace, inner: float, targets: int) -> Any:
+def peaks_of(table: Table, curve: Cosine, count: int, trace: Trace, inner: float, targets: int) -> Peaks:
     """Return the largest load of loading on each branch, or a bound of it.
 
     It is -inf for a branch that ends before `inner`, where no target is reached, and inf for one that does not end, or
@@ -196,7 +198,7 @@ def peaks_of(table: Table, curve: Cosine, count: int, trace: Trace, inner: float
 
 @kernel()
 def turn_at_load(
-    table: Table, curve: Cosine, first: int, last: int, trace: Trace, peaks: Floats, reach: float, target: float
+    table: Table, curve: Cosine, first: int, last: int, trace: Trace, peaks: Peaks, reach: float, target: float
 ) -> Turn:
     """Return where loading first reaches a load on the branches `first` to `last` - 1 of a trace."""
     close = False
@@ -254,7 +256,7 @@ def turn_on_waves(table: Table, curve: Cosine, trace: Trace, reach: float, targe
 
 @kernel()
 def turn_long_at_load(
-    table: Table, curve: Cosine, count: int, trace: Trace, peaks: Floats, reach: float, target: float
+    table: Table, curve: Cosine, count: int, trace: Trace, peaks: Peaks, reach: float, target: float
 ) -> Turn:
     """Return where loading first reaches a load on a long curve (stride or open_gap of path/cosine_long.py)."""
     gap = int(trace[RUN, GAP])

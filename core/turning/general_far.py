@@ -8,13 +8,12 @@ import numpy as np
 from gradhesion.core.compiler.jit import NO, NONE, YES, kernel
 from gradhesion.core.curve.branches import END, END_DEPTH, ROWS, ends
 from gradhesion.core.curve.general import Basis, Series
-from gradhesion.core.curve.general_branches import fill_branches, find_level
-from gradhesion.core.curve.general_folds import MOST_FOLDS, find_folds, room
+from gradhesion.core.curve.general_branches import Rows, fill_branches, find_level
+from gradhesion.core.curve.general_folds import MOST_FOLDS, Zeros, find_folds, room
 from gradhesion.core.path.general_long import Middle, first_that_reaches, folds_before, last_of_climb, places_between
 from gradhesion.core.path.loading import load_up
 from gradhesion.core.turning.corners import ROWS as CORNER_ROWS
 from gradhesion.core.turning.corners import Found, Place, append_corners, corners_of, first_reached
-from gradhesion.core.types import Floats
 from gradhesion.core.waves.general import UP, Room, branches_of_wave, highest_end, room_for_waves
 
 Way: TypeAlias = tuple[bool, float]
@@ -23,7 +22,7 @@ Way: TypeAlias = tuple[bool, float]
 
 @kernel()
 def _turn_on_piece(
-    basis: Basis, curve: Series, way: Way, count: int, rows: Floats, level: float, end: float, search: Place
+    basis: Basis, curve: Series, way: Way, count: int, rows: Rows, level: float, end: float, search: Place
 ) -> tuple[Found, float]:
     """Follow loading from a coordinate over some branches; return where it reaches the target, and its last coordinate.
 
@@ -47,7 +46,7 @@ def _turn_on_piece(
 
 
 @kernel()
-def _turn_on_wave(basis: Basis, curve: Series, way: Way, cut: float, wave: float, work: Room, zeros: Floats) -> Found:
+def _turn_on_wave(basis: Basis, curve: Series, way: Way, cut: float, wave: float, work: Room, zeros: Zeros) -> Found:
     """Return where loading, come from the wave before, reaches the target on a wave."""
     _, _, rows = work
     before = highest_end(rows[0], branches_of_wave(basis, curve, wave - 1.0, cut, work, rows[0]))
@@ -59,7 +58,7 @@ def _turn_on_wave(basis: Basis, curve: Series, way: Way, cut: float, wave: float
 
 @kernel()
 def _first_of_waves(
-    basis: Basis, curve: Series, way: Way, cut: float, low: float, high: float, work: Room, zeros: Floats
+    basis: Basis, curve: Series, way: Way, cut: float, low: float, high: float, work: Room, zeros: Zeros
 ) -> tuple[Found, float]:
     """Return where loading reaches the target on its way from wave to wave, after `low`, up to `high`, and on which.
 

@@ -20,7 +20,7 @@ from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.pair import pair_above
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Work
 
 Left: TypeAlias = tuple[float, float, float]
 """z, z S0 and z^c at the place that a jump leaves."""
@@ -193,7 +193,7 @@ def landing_of_wave(table: Table, curve: Cosine, wave: float, outwards: bool) ->
 
 
 @kernel()
-def jump_of_wave(table: Table, curve: Cosine, wave: float, outwards: bool, work: Floats) -> tuple[float, float]:
+def jump_of_wave(table: Table, curve: Cosine, wave: float, outwards: bool, work: Work) -> tuple[float, float]:
     """Return where the jump from a wave to the next one lands, in waves from the wave, and what it loses.
 
     Outwards it leaves the end of the wave's branch, inwards its start. `wave` is any real number from NEAREST on.

@@ -9,7 +9,7 @@ folds are about to end, jumps are short and little is left of it: there, Gauss's
 """
 
 import math
-from typing import Any, Final, TypeAlias
+from typing import Final, TypeAlias
 
 import numpy as np
 
@@ -37,6 +37,8 @@ WORK: Final = 22
 WAVES: Final = WORK
 LOSSES: Final = WORK + BATCH
 """Where in their room the waves stand, and where what their jumps lose is put; one jump by itself works before them."""
+Batch: TypeAlias = Floats
+"""Room for a batch of waves, of shape (LOSSES + BATCH,)."""
 _BETWEEN: Final = 0.875
 """Waves from the centre of a wave to the middle of all places on its jump."""
 _FOLD_STEPS: Final = 3
@@ -50,7 +52,7 @@ _ENOUGH: Final = 0.1
 
 
 @kernel()
-def room_for_batch() -> Any:
+def room_for_batch() -> Batch:
     """Return room for a batch of waves."""
     return np.empty(LOSSES + BATCH)
 
@@ -245,7 +247,7 @@ def jumps_at_once(table: Table, curve: Cosine, waves: Lanes, outwards: bool) -> 
 
 
 @kernel()
-def jumps_of_batch(table: Table, curve: Cosine, outwards: bool, room: Floats) -> None:
+def jumps_of_batch(table: Table, curve: Cosine, outwards: bool, room: Batch) -> None:
     """Put what the jumps of a batch of waves to their next ones lose into its room."""
     for first in range(0, BATCH, LANES):
         store(room, LOSSES + first, jumps_at_once(table, curve, load(room, WAVES + first), outwards))
@@ -255,7 +257,7 @@ def jumps_of_batch(table: Table, curve: Cosine, outwards: bool, room: Floats) ->
 
 
 @kernel()
-def jumps_in_a_row(table: Table, curve: Cosine, first: float, last: float, outwards: bool, room: Floats) -> None:
+def jumps_in_a_row(table: Table, curve: Cosine, first: float, last: float, outwards: bool, room: Batch) -> None:
     """Do the same for the waves from `first` on; where `last` comes before the end of the batch, it fills the rest."""
     for i in range(BATCH):
         room[WAVES + i] = min(first + i, last)

@@ -25,7 +25,7 @@ from gradhesion.core.struve.chebyshev import chebyshev_fit
 from gradhesion.core.struve.lanes import chosen, lane_of, load, root_of
 from gradhesion.core.struve.layout import Table
 from gradhesion.core.types import Floats
-from gradhesion.core.waves.cosine_at_once import BATCH, LOSSES, WAVES, jumps_in_a_row, jumps_of_batch
+from gradhesion.core.waves.cosine_at_once import BATCH, LOSSES, WAVES, Batch, jumps_in_a_row, jumps_of_batch
 from gradhesion.core.waves.cosine_sum import branch_points, sum_of_waves
 
 _SINGLE: Final = 12
@@ -59,6 +59,8 @@ BEGIN, END, BASE, LOW, HIGH, IN_Y, _AT_BEGIN, _LOSS, _INTEGRAL = 0, 1, 2, 3, 4, 
 """A panel: where it begins and ends, the sum up to its begin (NaN: not filled), the variable at both ends,
 which one it is, `_up_to` at the begin, and the coefficients of the loss and of its integral."""
 _COLUMNS: Final = 41
+Panel: TypeAlias = Floats
+"""One panel, of shape (_COLUMNS,)."""
 SUMS: Final = np.dtype(
     [
         ("first", "f8"),  # the first wave
@@ -125,7 +127,7 @@ def begin_sums(table: Table, curve: Cosine, sums: Sums, first: float, outwards: 
 
 
 @kernel(contract=True)
-def _variable(sums: Sums, panel: Floats, wave: float) -> float:
+def _variable(sums: Sums, panel: Panel, wave: float) -> float:
     """Return y or v, of a wave or of eight (struve/lanes.py); `panel` is one row of the panels of `sums`."""
     if panel[IN_Y] > 0.0:
         rest = 1.0 - root_of(root_of(wave / sums.outer))
@@ -134,7 +136,7 @@ def _variable(sums: Sums, panel: Floats, wave: float) -> float:
 
 
 @kernel(contract=True)
-def _series(panel: Floats, at: int, terms: int, t: float) -> float:
+def _series(panel: Panel, at: int, terms: int, t: float) -> float:
     """Return the Chebyshev series of `terms` coefficients, from column `at` of a panel on, at t, a number or eight."""
     here, before = 0.0 * t, 0.0 * t
     for j in range(terms - 1, 0, -1):
@@ -143,14 +145,14 @@ def _series(panel: Floats, at: int, terms: int, t: float) -> float:
 
 
 @kernel(contract=True)
-def _place(sums: Sums, panel: Floats, wave: float) -> float:
+def _place(sums: Sums, panel: Panel, wave: float) -> float:
     """Return the place of a wave, or of eight, on the [-1, 1] of its panel."""
     low, high = panel[LOW], panel[HIGH]
     return (2.0 * _variable(sums, panel, wave) - low - high) / (high - low)
 
 
 @kernel(contract=True)
-def _up_to(sums: Sums, panel: Floats, wave: float) -> float:
+def _up_to(sums: Sums, panel: Panel, wave: float) -> float:
     """Return the integral up to a half wave less e'/24 - 7 e'''/5760 + 31 e^(5)/967680 there."""
     total = _series(panel, _INTEGRAL, _TERMS + 1, _place(sums, panel, wave))
     around = _series(panel, _LOSS, _TERMS, _place(sums, panel, wave + load(_AROUND, 0)))
@@ -162,7 +164,7 @@ def _up_to(sums: Sums, panel: Floats, wave: float) -> float:
 
 
 @kernel()
-def _fill(table: Table, curve: Cosine, sums: Sums, panel: Floats, outwards: bool, room: Floats) -> None:
+def _fill(table: Table, curve: Cosine, sums: Sums, panel: Panel, outwards: bool, room: Batch) -> None:
     """Put the coefficients of the loss, in 2 pi l^2 dgamma, and of its integral over waves into a panel of `sums`."""
     low, high = _variable(sums, panel, panel[BEGIN]), _variable(sums, panel, panel[END])
     panel[LOW], panel[HIGH] = low, high
@@ -189,7 +191,7 @@ def _fill(table: Table, curve: Cosine, sums: Sums, panel: Floats, outwards: bool
 
 
 @kernel()
-def _first_waves(table: Table, curve: Cosine, sums: Sums, count: int, outwards: bool, room: Floats) -> float:
+def _first_waves(table: Table, curve: Cosine, sums: Sums, count: int, outwards: bool, room: Batch) -> float:
     """Return the sum over `count` of the first waves, in 2 pi l^2 dgamma; all that are single are found at once."""
     if sums.known == 0 and count > 0:
         last = min(sums.first + (sums.single - 1.0), max(sums.first, sums.outer - _BEFORE))
@@ -204,9 +206,7 @@ def _first_waves(table: Table, curve: Cosine, sums: Sums, count: int, outwards: 
 
 
 @kernel()
-def sum_up_to(
-    table: Table, curve: Cosine, sums: Sums, last: float, outwards: bool, final: float, room: Floats
-) -> float:
+def sum_up_to(table: Table, curve: Cosine, sums: Sums, last: float, outwards: bool, final: float, room: Batch) -> float:
     """Return the sum of what the jumps from the first wave to wave `last` lose, in 2 pi l^2 dgamma.
 
     `last` stands eight waves or more before the outer branch point; `sums` is the record that `begin_sums` has begun

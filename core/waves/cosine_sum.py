@@ -27,7 +27,7 @@ from gradhesion.core.curve.cosine_energy import NODES, WEIGHTS
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.layout import Table
 from gradhesion.core.types import Floats
-from gradhesion.core.waves.cosine_at_once import BATCH, LOSSES, WAVES, jumps_in_a_row, jumps_of_batch
+from gradhesion.core.waves.cosine_at_once import BATCH, LOSSES, WAVES, Batch, jumps_in_a_row, jumps_of_batch
 
 _EDGE: Final = 4
 """Waves at a limit of the integral that are taken one by one: its derivatives there come from eight around it."""
@@ -101,7 +101,7 @@ def inner_limits(begin: float, end: float, inner: float) -> tuple[float, float]:
 
 @kernel()
 def _outer_part(
-    table: Table, curve: Cosine, begin: float, end: float, outer: float, outwards: bool, room: Floats
+    table: Table, curve: Cosine, begin: float, end: float, outer: float, outwards: bool, room: Batch
 ) -> float:
     """Return the integral in y."""
     outer = min(max(outer, end), _REMOTE * end)  # so that 1 - y^2 keeps its digits
@@ -119,7 +119,7 @@ def _outer_part(
 
 @kernel()
 def _inner_part(
-    table: Table, curve: Cosine, begin: float, end: float, inner: float, outwards: bool, room: Floats
+    table: Table, curve: Cosine, begin: float, end: float, inner: float, outwards: bool, room: Batch
 ) -> float:
     """Return the integral in v."""
     inner = min(inner, begin)
@@ -136,7 +136,7 @@ def _inner_part(
 
 @kernel()
 def _integral(
-    table: Table, curve: Cosine, begin: float, end: float, points: tuple[float, float], outwards: bool, room: Floats
+    table: Table, curve: Cosine, begin: float, end: float, points: tuple[float, float], outwards: bool, room: Batch
 ) -> float:
     """Return the integral of what a jump loses over the index of its wave."""
     inner, outer = points
@@ -153,7 +153,7 @@ def _integral(
 
 @kernel()
 def sum_of_waves(
-    table: Table, curve: Cosine, first: float, last: float, outwards: bool, final: float, room: Floats
+    table: Table, curve: Cosine, first: float, last: float, outwards: bool, final: float, room: Batch
 ) -> float:
     """Return the sum of what the jumps from the waves `first` to `last` lose.
 

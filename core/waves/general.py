@@ -21,7 +21,7 @@ from gradhesion.core.compiler.jit import NO, YES, constant, kernel
 from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curve.cells import MOST
 from gradhesion.core.curve.general import Basis, Series, coordinate, slope
-from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL
+from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, Rows
 from gradhesion.core.curve.general_energy import Left, drop, find_landing, place_left
 from gradhesion.core.curve.general_folds import folds_of_cell, refine, room
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
@@ -124,7 +124,7 @@ def falls_at_cut(basis: Basis, curve: Series, cut: float, wave: float) -> bool:
 
 
 @kernel()
-def _branch_of_one_harmonic(basis: Basis, curve: Series, wave: float, low: float, at_low: float, rows: Floats) -> int:
+def _branch_of_one_harmonic(basis: Basis, curve: Series, wave: float, low: float, at_low: float, rows: Rows) -> int:
     """Do what `branches_of_wave` does for one harmonic: D has one crest a wave, and rises and falls monotonously.
 
     Of what else is in D the rise over a wave is a part 3/z, at most, of what the waves themselves rise, or no fold is
@@ -162,7 +162,7 @@ def _between(trough: float, crest: float, below: float, above: float) -> float:
 
 
 @kernel()
-def branches_of_wave(basis: Basis, curve: Series, wave: float, low: float, work: Room, rows: Floats) -> int:
+def branches_of_wave(basis: Basis, curve: Series, wave: float, low: float, work: Room, rows: Rows) -> int:
     """Put the branches between wave + low and wave + low + 1 into `rows`; return their number, -1 if one is cut."""
     _, _, series = basis
     search, zeros, _ = work
@@ -190,7 +190,7 @@ def branches_of_wave(basis: Basis, curve: Series, wave: float, low: float, work:
 
 
 @kernel()
-def highest_end(rows: Floats, count: int) -> int:
+def highest_end(rows: Rows, count: int) -> int:
     """Return the branch that ends highest, -1 without any."""
     best, level = -1, -math.inf
     for i in range(count):
@@ -200,7 +200,7 @@ def highest_end(rows: Floats, count: int) -> int:
 
 
 @kernel()
-def lowest_start(rows: Floats, count: int) -> int:
+def lowest_start(rows: Rows, count: int) -> int:
     """Return the branch that starts lowest, -1 without any."""
     best, level = -1, math.inf
     for i in range(count):
