@@ -24,6 +24,7 @@ from typing import Any, Final, TypeAlias
 
 from gradhesion.core.compiler.dispatch import face
 from gradhesion.core.curve.branches import Trace
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.types import Floats, Slopes, Work
 
 AnyTable: TypeAlias = Any
@@ -99,7 +100,7 @@ def fold_at(table: AnyTable, curve: AnyCurve, x: float) -> tuple[float, float]:
 
 
 @face(*_OF_CONTACT)
-def table_of(table: AnyTable, curve: AnyCurve) -> Any:
+def table_of(table: AnyTable, curve: AnyCurve) -> Table:
     """Return the table of the exponent, the record of struve/layout.py."""
 
 

@@ -9,10 +9,11 @@ in two parts, s and its product with 2/ln 2 being rounded on the way: the expone
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.intrinsics import bits_of, float_of, fma
+from gradhesion.core.types import Floats
 
 _ROOT_HALF: Final = 0x3FE6A09E667F3BCD
 """The bits of sqrt(1/2)."""
@@ -99,7 +100,7 @@ def power(x: float, p: float) -> float:
 
 
 @kernel()
-def fill_powers(count: int, x: Any, p: Any, found: Any) -> None:
-    """Fill the first powers of an array with x^p, each as `power` has it, in vector operations."""
+def fill_powers(count: int, x: Floats, p: Floats, found: Floats) -> None:
+    """Put the first `count` of x^p into `found`, each as `power` has it, in vector operations; all of shape (n,)."""
     for i in range(count):
         found[i] = _power(x[i], p[i])

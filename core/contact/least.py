@@ -54,7 +54,7 @@ def _search(table: AnyTable, curve: AnyCurve, edge: Edge, low: float, high: floa
 
 @kernel()
 def _bottom(openings: Floats, i: int) -> float:
-    """Return the lowest point of the parabola through the openings i - 1, i, i + 1, or the opening i if it is lower."""
+    """Return the least of the parabola through openings i - 1, i and i + 1 of NODES.size + 1, or the one i."""
     count = NODES.size
     here = NODES[i]
     before, after = NODES[i - 1] - here, (NODES[i + 1] if i + 1 < count else 1.0) - here
@@ -67,7 +67,7 @@ def _bottom(openings: Floats, i: int) -> float:
 
 @kernel()
 def _is_low(openings: Floats, i: int, clear: float) -> bool:
-    """Return whether an opening is the least among its neighbours, and not clear of a level."""
+    """Return whether opening i of NODES.size + 1 is the least of its neighbours, and not clear of a level."""
     count = NODES.size
     if (i > 0 and openings[i - 1] < openings[i]) or (i < count and openings[i + 1] < openings[i]):
         return False
@@ -79,7 +79,10 @@ def _is_low(openings: Floats, i: int, clear: float) -> bool:
 def _least_in_window(
     table: AnyTable, curve: AnyCurve, edge: Edge, low: float, high: float, heights: Floats, openings: Floats
 ) -> float:
-    """Return the least opening between two radii, given that there is none below 0 up to `low`.
+    """Return the least opening between two radii x, given that there is none below 0 up to `low`.
+
+    `heights` and `openings` are room for F and the openings at the places of the window (contact/gap.py), of shapes
+    (NODES.size,) and (NODES.size + 1,).
 
     Beyond `low` > a the opening is no less than what the radii from there on contribute, which is taken first. What
     those within contribute, over (x^2 - low^2)^c, falls outwards: at `high` it serves the whole window.
@@ -133,7 +136,7 @@ def _least_in_window(
 
 @kernel()
 def next_window(low: float, high: float, heights: Floats) -> float:
-    """Return where the next window may begin: where the last part begins on which depth_H lies above, or at `high`."""
+    """Return x where the next window may begin: at the last part on which F (NODES.size values) is >= 0, or `high`."""
     i = NODES.size - 1
     while i > 0 and heights[i] < 0.0:
         i -= 1

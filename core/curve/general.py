@@ -13,13 +13,15 @@ so that every control has the folds D = 0 of its own level q (docs/theory.md, se
 """
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import sums
-from gradhesion.core.types import Floats
+from gradhesion.core.struve.series_table import Flat
+from gradhesion.core.types import Harmonics
 
 
 class Series(NamedTuple):
@@ -35,14 +37,14 @@ class Series(NamedTuple):
 class Basis(NamedTuple):
     """What a series is computed from.
 
-    table        the table of the exponent, a record of struve/layout.py
-    cosine_bins  the flat array of struve/series_table.py
-    series       the harmonics, rows (n, cos, sin), of shape (harmonics, 3)
+    table        the table of the exponent
+    cosine_bins  the bins of its cosines, and of a series
+    series       the harmonics
     """
 
-    table: Any
-    cosine_bins: Floats
-    series: Floats
+    table: Table
+    cosine_bins: Flat
+    series: Harmonics
 
 
 @kernel(contract=True)

@@ -10,7 +10,6 @@ so that D > 0 wherever, and D < 0 wherever the level is larger than what is left
 """
 
 import math
-from typing import Any
 
 from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.general import Basis, Series
@@ -46,7 +45,10 @@ def wave_bounds(table: Table, series: Harmonics, gain: float) -> tuple[float, fl
 
 
 @kernel()
-def _surely_falls(level: float, push: float, s: float, n: float, bounds: Any, z: float, far_out: bool) -> bool:
+def _surely_falls(
+    level: float, push: float, s: float, n: float, bounds: tuple[float, float, float, float], z: float, far_out: bool
+) -> bool:
+    """Return whether D < 0 at z, by what `wave_bounds` says of the waves far out or near zero contact."""
     far, correction, near, near_slope = bounds
     waves = far * z + correction / z if far_out else z**n * (near + near_slope * z)
     return level > push * z**s + waves

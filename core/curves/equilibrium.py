@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.branches import END, START
+from gradhesion.core.curve.branches import END, START, Trace
 from gradhesion.core.curves.sampling import sample
 from gradhesion.core.curves.subject import Form, Subject
-from gradhesion.core.types import Floats, Integers
+from gradhesion.core.types import Bits, Floats, Integers
 
 
 def draw_through(form: Form, places: Floats, end: float) -> tuple[Floats, Integers]:
@@ -22,7 +22,7 @@ def draw_through(form: Form, places: Floats, end: float) -> tuple[Floats, Intege
 
 
 def draw_named(subject: Subject, form: Form, places: Floats, name: str) -> dict[str, Floats]:
-    """Return the variables `name_...`: radii, depths and loads of a form through places to the end of the range."""
+    """Return the variables `name_...`, of shape (n,): radii, depths and loads of a form through places to the end."""
     points, _ = draw_through(form, places, subject.end / form.radius_scale)
     radius, depth, load = form.scaled(points)
     radius[-1] = subject.end
@@ -30,14 +30,14 @@ def draw_named(subject: Subject, form: Form, places: Floats, name: str) -> dict[
 
 
 def scales_of(knots: Floats) -> Floats:
-    """Return one over the span of place, depth and load; the extremes are knots."""
+    """Return one over the spans of place, depth and load, of shape (3,), from their rows at knots, of shape (3, n)."""
     spans = np.ptp(knots, axis=1)
     return np.divide(1.0, spans, out=np.zeros(3), where=spans > 0.0)
 
 
 @kernel(entry=True)
-def _mark_stable(trace: Any, places: Any, stable: Any) -> None:
-    """Mark places in the inside of a branch; the start of the first branch of k = 1 is no fold."""
+def _mark_stable(trace: Trace, places: Floats, stable: Bits) -> None:
+    """Mark places x in the inside of a branch with 1, of shape (n,); the first start of k = 1 is no fold."""
     branch = 0
     for i in range(places.size):
         while branch < trace.shape[1] and trace[END, branch] <= places[i]:

@@ -19,12 +19,15 @@ import numpy as np
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve import short_wave as asymptotic
 from gradhesion.core.curve.cosine import wave
-from gradhesion.core.curve.general import state
+from gradhesion.core.curve.general import Basis, state
+from gradhesion.core.face import AnyTable
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Harmonics
 
 Numbers: TypeAlias = tuple[float, float, float, float, float]
+"""The numbers of a form, by its kind; a general one has `GENERAL_NUMBERS`, of which the first five are a `Series`."""
 
 EXACT: Final = 0
 SHORT: Final = 1
@@ -34,7 +37,7 @@ GENERAL_NUMBERS: Final = 7
 
 
 @kernel(contract=True)
-def _exact_point(table: Any, numbers: Numbers, x: float) -> tuple[float, float]:
+def _exact_point(table: Table, numbers: Numbers, x: float) -> tuple[float, float]:
     """Return depth and load of curve/cosine.py."""
     if x == 0.0:
         return (-1.0 if table.k == 1.0 else 0.0), 0.0
@@ -55,7 +58,7 @@ def _plain_point(numbers: Numbers, z: float) -> tuple[float, float]:
 
 
 @kernel()
-def _general_point(basis: Any, numbers: Any, x: float) -> tuple[float, float]:
+def _general_point(basis: Basis, numbers: Any, x: float) -> tuple[float, float]:
     """Return depth and load of curve/general.py."""
     if x == 0.0:
         return (-1.0 if basis[0].k == 1.0 else 0.0), 0.0
@@ -64,14 +67,14 @@ def _general_point(basis: Any, numbers: Any, x: float) -> tuple[float, float]:
 
 
 @kernel()
-def _general_ripple(basis: Any, numbers: Any, x: float) -> tuple[float, float, float]:
+def _general_ripple(basis: Basis, numbers: Any, x: float) -> tuple[float, float, float]:
     """Return what `ripple` does: the waves of all harmonics together."""
     z = TWO_PI * x
     power = amplitude_power(basis[0], z)
     return numbers[5], numbers[6] * z * power, numbers[6] * z / power
 
 
-def general_numbers(k: float, curve: Numbers, amplitude: float, series: Floats) -> tuple[float, ...]:
+def general_numbers(k: float, curve: Numbers, amplitude: float, series: Harmonics) -> tuple[float, ...]:
     """Return the numbers of the general form; `amplitude` is that of S0 (struve/table.py)."""
     _, _, gain, _, _ = curve
     n = series[:, 0]
@@ -81,7 +84,7 @@ def general_numbers(k: float, curve: Numbers, amplitude: float, series: Floats) 
 
 
 @kernel()
-def point(kind: int, table: Any, numbers: Any, place: float) -> tuple[float, float]:
+def point(kind: int, table: AnyTable, numbers: Any, place: float) -> tuple[float, float]:
     """Return the reduced depth and load of a form at a place >= 0."""
     if len(numbers) == GENERAL_NUMBERS:
         return _general_point(table, numbers, place)
@@ -93,7 +96,7 @@ def point(kind: int, table: Any, numbers: Any, place: float) -> tuple[float, flo
 
 
 @kernel()
-def ripple(kind: int, table: Any, numbers: Any, place: float) -> tuple[float, float, float]:
+def ripple(kind: int, table: AnyTable, numbers: Any, place: float) -> tuple[float, float, float]:
     """Return the length of a half wave, and the amplitude of the waves in depth and in load at a place."""
     if len(numbers) == GENERAL_NUMBERS:
         return _general_ripple(table, numbers, place)
@@ -109,7 +112,7 @@ def ripple(kind: int, table: Any, numbers: Any, place: float) -> tuple[float, fl
 
 
 @kernel()
-def fill_points(kind: int, table: Any, numbers: Numbers, knots: Any) -> None:
-    """Put depth and load in the second and third row of `knots`, whose first row holds places."""
+def fill_points(kind: int, table: AnyTable, numbers: Numbers, knots: Floats) -> None:
+    """Put depth and load in the second and third row of `knots`, of shape (3, n), whose first row holds places."""
     for i in range(knots.shape[1]):
         knots[1, i], knots[2, i] = point(kind, table, numbers, knots[0, i])

@@ -1,24 +1,26 @@
 """Where a drawn curve turns: its folds of depth and its extrema of load, met to rounding."""
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.branches import END, START
+from gradhesion.core.curve.branches import END, START, Trace
 from gradhesion.core.curve.cosine import Cosine, slope
 from gradhesion.core.curve.cosine_folds import first_arch, fold_of_arch, last_arch, survey_arch
 from gradhesion.core.curve.short_wave import ShortWave, folds_of_half, half_at, window_end
 from gradhesion.core.path.cosine import COUNTABLE, MOST_ARCHES
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import Table
+from gradhesion.core.types import Floats
 
 MOST_FOLDS: Final = 100_000
 """Folds up to which a curve is drawn."""
 
 
 @kernel()
-def polished(table: Any, curve: Cosine, level: float, x: float) -> float:
+def polished(table: Table, curve: Cosine, level: float, x: float) -> float:
     """Return a zero of D to rounding from one of some twelve digits (two steps of Newton's)."""
     for _ in range(2):
         d, d1, _, _ = slope(table, curve, level, x)
@@ -30,7 +32,7 @@ def polished(table: Any, curve: Cosine, level: float, x: float) -> float:
 
 
 @kernel()
-def landed(table: Any, curve: Cosine, target: float, x: float) -> float:
+def landed(table: Table, curve: Cosine, target: float, x: float) -> float:
     """Return where a branch meets a depth to rounding from a place of some nine digits (two steps of Newton's)."""
     for _ in range(2):
         d, _, _, depth = slope(table, curve, 0.5 * (1.0 - table.k), x)
@@ -42,7 +44,7 @@ def landed(table: Any, curve: Cosine, target: float, x: float) -> float:
 
 
 @kernel()
-def folds_too_often(table: Any, curve: Cosine, furthest: float) -> bool:
+def folds_too_often(table: Table, curve: Cosine, furthest: float) -> bool:
     """Return whether depth or load may have more than `MOST_FOLDS` extrema up to a place, or any without a phase."""
     for level in (0.5 * (1.0 - table.k), 0.5 * (3.0 + table.k)):
         first, last = first_arch(table, curve, level), min(last_arch(table, curve, level), 2.0 * furthest)
@@ -52,7 +54,7 @@ def folds_too_often(table: Any, curve: Cosine, furthest: float) -> bool:
 
 
 @kernel()
-def polish_branches(table: Any, curve: Cosine, count: int, trace: Any) -> None:
+def polish_branches(table: Table, curve: Cosine, count: int, trace: Trace) -> None:
     """Move the ends of the branches of a trace to where the slope is zero to rounding."""
     level = 0.5 * (1.0 - table.k)
     for row in (START, END):
@@ -62,8 +64,8 @@ def polish_branches(table: Any, curve: Cosine, count: int, trace: Any) -> None:
 
 
 @kernel()
-def folds_of_load(table: Any, curve: Cosine, furthest: float) -> Any:
-    """Return where the load of an exact curve is extremal, from inside outwards, up to a place."""
+def folds_of_load(table: Table, curve: Cosine, furthest: float) -> Floats:
+    """Return the x where the load of an exact curve is extremal, outwards up to a place, of shape (n,)."""
     level = 0.5 * (3.0 + table.k)
     first, final = first_arch(table, curve, level), last_arch(table, curve, level)
     places = np.empty(max(8, int(min(final, 2.0 * furthest) - first) + 16))
@@ -88,8 +90,8 @@ def folds_of_load(table: Any, curve: Cosine, furthest: float) -> Any:
 
 
 @kernel()
-def folds_of_wave(wave: ShortWave, level: float, furthest: float) -> tuple[bool, Any]:
-    """Return whether there are few enough folds of the asymptotic form up to a place, and where they are."""
+def folds_of_wave(wave: ShortWave, level: float, furthest: float) -> tuple[bool, Floats]:
+    """Return whether there are few enough folds of the asymptotic form up to z = `furthest`, and where: shape (n,)."""
     chi = wave.chi
     begin = 0.0 if chi >= 1.0 else window_end(wave, level, chi)
     end = min(furthest, window_end(wave, level, -chi))

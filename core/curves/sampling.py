@@ -7,12 +7,14 @@ fold is a knot: there the amplitude of the waves has to be below the tolerance a
 chord: a wave that is as high as the picture but narrower than a line needs no more than its folds.
 """
 
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curves.forms import Numbers, point, ripple
+from gradhesion.core.face import AnyTable
+from gradhesion.core.types import Floats, Integers, Truths
 
 TOLERANCE: Final = 1.2e-4
 """Of the drawn span; elsewhere than at the three places an error may be half as large again, 2e-4 at most."""
@@ -21,8 +23,11 @@ _HALVINGS: Final = 30
 
 
 @kernel()
-def _across(r: float, d: float, p: float, start: Any, end: Any, scales: Any) -> bool:
-    """Return whether a step is no more than the tolerance across the chord from start to end, in all three planes."""
+def _across(r: float, d: float, p: float, start: Floats, end: Floats, scales: Floats) -> bool:
+    """Return whether a step is within the tolerance of the chord from start to end, in all three planes.
+
+    Points are (place, depth, load), of shape (3,); so is what they are multiplied by, the scales.
+    """
     r1, d1, p1 = (end[0] - start[0]) * scales[0], (end[1] - start[1]) * scales[1], (end[2] - start[2]) * scales[2]
     r, d, p = r * scales[0], d * scales[1], p * scales[2]
     r1_squared, d1_squared, p1_squared = r1 * r1, d1 * d1, p1 * p1
@@ -35,8 +40,11 @@ def _across(r: float, d: float, p: float, start: Any, end: Any, scales: Any) -> 
 
 
 @kernel()
-def _is_straight(kind: int, table: Any, numbers: Numbers, start: Any, end: Any, scales: Any) -> bool:
-    """Return whether a piece is near its chord: at three places and, if they may miss its waves, in these."""
+def _is_straight(kind: int, table: AnyTable, numbers: Numbers, start: Floats, end: Floats, scales: Floats) -> bool:
+    """Return whether a piece is near its chord: at three places and, if they may miss its waves, in these.
+
+    Points and scales are those of `_across`, of shape (3,).
+    """
     half_wave, _, _ = ripple(kind, table, numbers, 1.0)
     if abs(end[0] - start[0]) > half_wave:
         _, depth, load = ripple(kind, table, numbers, max(start[0], end[0]))
@@ -51,8 +59,8 @@ def _is_straight(kind: int, table: Any, numbers: Numbers, start: Any, end: Any, 
 
 
 @kernel()
-def _grown(points: Any, owners: Any) -> tuple[Any, Any]:
-    """Return twice the room."""
+def _grown(points: Floats, owners: Integers) -> tuple[Floats, Integers]:
+    """Return points (3, n) and owners (n,) in twice the room."""
     room = owners.size
     more_points, more_owners = np.empty((3, 2 * room)), np.empty(2 * room, np.int64)
     for i in range(room):  # numba checks the shapes of whole arrays, by a text that takes seconds to compile
@@ -63,19 +71,21 @@ def _grown(points: Any, owners: Any) -> tuple[Any, Any]:
 
 
 @kernel()
-def sample(kind: int, table: Any, numbers: Numbers, knots: Any, joined: Any, scales: Any) -> tuple[Any, Any]:
-    """Return points of a form through knots, with the index of the knot that each leads up to.
+def sample(
+    kind: int, table: AnyTable, numbers: Numbers, knots: Floats, joined: Truths, scales: Floats
+) -> tuple[Floats, Integers]:
+    """Return points of a form through knots, of shape (3, n), and the knot that each leads up to.
 
     Parameters
     ----------
     kind, table, numbers
         The form (forms.py).
     knots
-        Rows of place, depth and load, in the order of the path, which may go in- or outwards.
+        Rows of place, depth and load, in the order of the path, which may go in- or outwards; shape (3, knots).
     joined
-        Whether the path comes to a knot along the curve (else by a straight line).
+        Whether the path comes to a knot along the curve (else by a straight line); shape (knots,).
     scales
-        One over the drawn span of place, depth and load.
+        One over the drawn span of place, depth and load; shape (3,).
     """
     count = knots.shape[1]
     room = 4 * count + 64

@@ -1,7 +1,5 @@
 """What one cosine on a paraboloid under displacement control answers (core/face.py)."""
 
-from typing import Any
-
 from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import GAP, RUN, Trace, ends, find_depth
@@ -33,7 +31,7 @@ def loss_to_zero(table: Table, curve: Cosine, x: float, level: float) -> float:
 
 @face.depth_at.answers(Cosine)
 @kernel()
-def depth_at(_table: Any, _curve: Cosine, _x: float, level: float) -> float:
+def depth_at(_table: Table, _curve: Cosine, _x: float, level: float) -> float:
     """Answer that the coordinate is the depth."""
     return level
 

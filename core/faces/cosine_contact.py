@@ -48,7 +48,7 @@ def is_always_one_disc(table: Table, curve: Cosine) -> bool:
 
 @face.touches_at_centre.answers(Cosine)
 @kernel()
-def touches_at_centre(_table: Any, _curve: Cosine, _end: float) -> bool:
+def touches_at_centre(_table: Table, _curve: Cosine, _end: float) -> bool:
     """Answer that it does: the wave has a trough of the gap there, and is no lower anywhere."""
     return True
 
@@ -62,7 +62,7 @@ def waves_are_one_disc(table: Table, curve: Cosine, trace: Trace) -> bool:
 
 @face.panels_of.answers(Cosine)
 @kernel()
-def panels_of(_table: Any, _curve: Cosine) -> tuple[float, float]:
+def panels_of(_table: Table, _curve: Cosine) -> tuple[float, float]:
     """Answer that the paraboloid is a polynomial."""
     return 1.0, math.inf
 

@@ -68,7 +68,10 @@ def _excess(table: Table, curve: Cosine, x: float, target: float) -> float:
 def _work_of_cycle(
     table: Table, curve: Cosine, count: int, trace: Trace, rim: float, rim_depth: float, landings: Floats
 ) -> float:
-    """Return the integral; `landings` has where unloading lands on each branch, and at what depth (-1: nowhere)."""
+    """Return the integral over the cycle up to x = `rim`, in units of load and depth.
+
+    `landings` has where unloading lands on each branch, and at what depth (-1: nowhere), of shape (2, branches).
+    """
     total, level = 0.0, 0.0
     for branch in range(count):
         start = trace[START, branch]

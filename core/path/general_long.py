@@ -197,7 +197,10 @@ def _reaches(basis: Basis, curve: Series, cut: float, wave: float, kind: int, le
 def first_that_reaches(
     basis: Basis, curve: Series, cut: float, places: Floats, now: float, kind: int, level: float, work: Room
 ) -> float:
-    """Return the first wave from `now` on, in the order of `places`, that reaches a level; NaN if none does."""
+    """Return the first wave from `now` on, in the order of `places`, that reaches a level; NaN if none does.
+
+    `places` are waves, of shape (n,): those of `places_between`, inwards for unloading.
+    """
     if _reaches(basis, curve, cut, now, kind, level, work):
         return now
     sign = 1.0 if kind == UP else -1.0
@@ -219,7 +222,7 @@ def first_that_reaches(
 
 @kernel()
 def last_of_climb(basis: Basis, curve: Series, cut: float, places: Floats, now: float, kind: int, work: Room) -> float:
-    """Return the wave up to which loading or unloading goes from wave to wave."""
+    """Return the wave up to which loading or unloading goes from wave to wave; `places` as of `first_that_reaches`."""
     sign = 1.0 if kind == UP else -1.0
     step = 0.0 if kind == UP else -1.0
     end = places[places.size - 1]

@@ -5,16 +5,17 @@ that of one cosine under displacement control, the second that of any profile un
 """
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.struve.layout import Tables
 from gradhesion.core.types import Floats, Integers
 
 
 class Curves(NamedTuple):
     """Curves of one cosine.
 
-    tables      tables of exponents, records of struve/layout.py, of shape (exponents,)
+    tables      tables of exponents
     which       the table of each curve that is to be solved, int64 of shape (n,)
     numbers     the number of each of these curves among all, int64 of shape (n,)
     stiffness   M in dgamma/R^(1+k), of all curves, of shape (curves,)
@@ -23,7 +24,7 @@ class Curves(NamedTuple):
     rims        a_max/R, of shape (curves, rims), or (1, rims) where all curves have the same
     """
 
-    tables: Any
+    tables: Tables
     which: Integers
     numbers: Integers
     stiffness: Floats

@@ -9,16 +9,15 @@
 """
 
 import math
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.current import ready_for_theta
-from gradhesion.core.struve.layout import Table
+from gradhesion.core.struve.layout import Table, Tables
 from gradhesion.core.struve.theta import front_of, gammas_by_table, gammas_of, sinc
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Integers
 
 
 @kernel(entry=True)
@@ -64,12 +63,13 @@ def _theta_by_table(table: Table, k: float, nu: float, wave: float) -> float:
 
 
 @kernel(entry=True)
-def _thetas(k: Any, nu: Any, out: Floats) -> None:
+def _thetas(k: Floats, nu: Floats, out: Floats) -> None:
+    """Put theta of each k and nu into `out`, all of shape (n,)."""
     for i in range(k.size):
         out[i] = theta_of(k[i], nu[i])
 
 
-def theta(k: ArrayLike, nu: ArrayLike) -> Floats:
+def theta(k: ArrayLike, nu: ArrayLike) -> NDArray[np.float64]:
     """Return theta(k, nu), the stiffness of the graded half-space relative to E*/c0^k (3.3).
 
     Parameters
@@ -96,9 +96,20 @@ def theta(k: ArrayLike, nu: ArrayLike) -> Floats:
 
 @kernel()
 def fill_stiffness(
-    tables: Any, which: Any, index: Any, k: Any, nu: Any, modulus: Any, c0_over_R: Any, out: Floats
+    tables: Tables,
+    which: Integers,
+    index: Integers,
+    k: Floats,
+    nu: Floats,
+    modulus: Floats,
+    c0_over_R: Floats,
+    out: Floats,
 ) -> None:
-    """Put M R^(1+k)/dgamma of the scenes `index` into `out`, NaN outside the ranges; `which` are their tables."""
+    """Put M R^(1+k)/dgamma of the curves `index` into `out`, NaN outside the ranges.
+
+    `which` are their tables: both of shape (n,); the rest are numbers of all curves, of
+    shape (curves,), as of `stiffness`.
+    """
     value, power, wave = math.nan, math.nan, math.nan
     before = index[0] if index.size > 0 else 0
     for j in range(index.size):
@@ -114,7 +125,7 @@ def fill_stiffness(
         out[i] = value * modulus[i] / power if valid else math.nan
 
 
-def stiffness(k: ArrayLike, nu: ArrayLike, modulus: ArrayLike, c0_over_R: ArrayLike) -> Floats:
+def stiffness(k: ArrayLike, nu: ArrayLike, modulus: ArrayLike, c0_over_R: ArrayLike) -> NDArray[np.float64]:
     """Return M R^(1+k)/dgamma = theta (E* R/dgamma)/(c0/R)^k (4.6), the one number through which the material acts.
 
     Parameters

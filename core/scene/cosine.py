@@ -183,7 +183,10 @@ def refuse(results: Results) -> None:
 def solve_pull_off(
     table: Table, stretch: float, wavelength: float, amplitude: float, rims: Floats, results: Results
 ) -> None:
-    """Solve a curve as `solve_curve` does where nothing but the pull-off is wanted: no cycle is compiled with it."""
+    """Solve a curve as `solve_curve` does where nothing but the pull-off is wanted: no cycle is compiled with it.
+
+    `rims` are a_max/R, of shape (rims,).
+    """
     k = table.k
     if is_endless_wave(wavelength, amplitude):
         _solve_smooth(k, stretch, rims, results)

@@ -118,7 +118,7 @@ def solve_long(
     """Follow the cycle of a wavy punch for its rims that no walk reaches: they share its beginning and its sums.
 
     Those among regular waves are solved eight at a time. Those beyond the folds, or among the last of them, share all
-    of the trace. The arguments are those of `_solve_cycle` in scene/cosine.py.
+    of the trace. The arguments, and their shapes, are those of `_solve_cycle` in scene/cosine.py.
     """
     losses, final = wants_losses(scene.results.slots), arches[1]
     long = begin_long(table, curve, arches, scratch, losses, 1.0)

@@ -45,7 +45,7 @@ _K, _STRETCH, _IN, _OUT, _RIM, _X, _BASE, _EXPONENT, _FLAGS, _REACH = map(consta
 
 @kernel()
 def _take_curves(index: Integers, k: Floats, curves: Curves, block: Block) -> None:
-    """Put k and s of the curves of some numbers into a block, s being NaN for one that is out of range."""
+    """Put k and s of the curves of some numbers (n,) into a block, s being NaN where out of range; k is (curves,)."""
     before, factor = math.nan, math.nan
     for j in range(index.size):
         i = index[j]
@@ -59,7 +59,10 @@ def _take_curves(index: Integers, k: Floats, curves: Curves, block: Block) -> No
 
 @kernel()
 def _take_scenes(index: Integers, first: int, count: int, rims: Floats, curves: Block, scenes: Block) -> None:
-    """Take the rims of scenes, from number `first` on, and what is known of their curves."""
+    """Put `count` rims a_max/R of curves `index`, from scene `first` on, and what is known of the curves into a block.
+
+    `index` is of shape (n,), `rims` of shape (curves, rims) or (1, rims).
+    """
     number = rims.shape[1]
     if number == 1:  # curves and scenes are the same block
         for e in range(count):
@@ -80,7 +83,7 @@ def _take_scenes(index: Integers, first: int, count: int, rims: Floats, curves: 
 
 @kernel()
 def _store(index: Integers, first: int, count: int, values: Floats, out: Any) -> None:
-    """Store numbers of scenes, from number `first` on, where they belong in `out`, shape (curves, rims)."""
+    """Store values (count,) of scenes, from number `first` on, in `out`, of shape (curves, rims), at curves `index`."""
     number = out.shape[1]
     if number == 1:
         for e in range(count):
@@ -97,7 +100,7 @@ def _store(index: Integers, first: int, count: int, values: Floats, out: Any) ->
 
 @kernel()
 def _find_squares(count: int, block: Block, start: float, slope: float, row: int) -> None:
-    """Find the squares of radii, those where X = start + slope k."""
+    """Put the squares of the radii where X = start + slope k, over R^2, into a row of a block of `count` scenes."""
     for e in range(count):
         k = block[_K, e]
         block[_BASE, e] = smooth.raised_of(k, block[_STRETCH, e], start + slope * k)
@@ -107,7 +110,7 @@ def _find_squares(count: int, block: Block, start: float, slope: float, row: int
 
 @kernel()
 def _are_far_out(count: int, block: Block) -> bool:
-    """Return whether all rims are far beyond the radius to which contacts jump: where X is does not matter then."""
+    """Return whether all rims of a block are far beyond the radius to which contacts jump: X does not matter then."""
     near = 0
     for e in range(count):
         near += 0 if block[_RIM, e] * block[_RIM, e] > 2.0 * block[_IN, e] else 1
@@ -197,7 +200,7 @@ def _solve_block(count: int, block: Block, slots: Slots, far: bool) -> None:
 def _solve_run(
     number: int, rims: Floats, curve: int, place: int, curves: Block, scenes: Block, results: Results
 ) -> int:
-    """Solve the rims of a curve from `number` on that are far out, if they fill a block: none of them matters.
+    """Solve the rims (curves, rims) of a curve from `number` on that are far out, if they fill a block: none matters.
 
     Return how many they are, and 0 if they do not. The curve stands at `place` of the block of curves.
     """
@@ -227,7 +230,7 @@ def _solve_run(
 
 @kernel()
 def _refuse(index: Integers, block: Block, results: Results) -> None:
-    """Give the curves of these numbers that are out of range no value; the block is theirs, in the same order."""
+    """Give the curves of these numbers (n,) that are out of range no value; the block is theirs, in the same order."""
     for j in range(index.size):
         if not block[_STRETCH, j] > 0.0:
             for rim in range(results.status.shape[1]):

@@ -114,7 +114,7 @@ def _integrals_of_run(
 
     Returns
     -------
-    Whether it is done, the pattern, the runs to take instead, rows (first, last), their number, and the steps that it
+    Whether it is done, the pattern, the runs to take instead, of shape (n, 2), their number, and the steps that it
     took.
     """
     first, last = run

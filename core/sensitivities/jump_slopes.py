@@ -46,7 +46,10 @@ _POWER_TERMS: Final = 12
 def _panel_below(
     table: Table, curve: Cosine, start: float, left: Left, begin: float, width: float, nodes: Floats, weights: Floats
 ) -> tuple[float, float, float]:
-    """Integrate -2 z rho d rho over one panel of the x axis, per unit of x, by b, g and the depth."""
+    """Integrate -2 z rho d rho over one panel of the x axis, per unit of x, by b, g and the depth.
+
+    Nodes and weights are those of Gauss on [0, 1], of shape (n,).
+    """
     b, g, lag = curve
     z1, wave1, stretch1 = left
     by_bend, by_gain, by_depth = 0.0, 0.0, 0.0

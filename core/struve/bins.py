@@ -11,7 +11,7 @@ arithmetic the stored coefficients are good to half a unit in the last place.
 """
 
 from fractions import Fraction
-from typing import Any, Final
+from typing import Final, TypeAlias
 
 import numpy as np
 
@@ -20,6 +20,8 @@ from gradhesion.core.struve import double_double as dd
 from gradhesion.core.struve.layout import BIN_TERMS, BIN_WIDTH
 from gradhesion.core.types import Floats
 
+Taylor: TypeAlias = Floats
+"""Taylor coefficients in t, each a sum of two floats: of shape (terms, 2)."""
 TAYLOR: Final = 20
 """Taylor coefficients a bin: h^20/20! and the smallness of S0 leave nothing above 1e-20."""
 _SERIES: Final = 14
@@ -67,8 +69,8 @@ def _start(k: float, z: float) -> tuple[tuple[float, float], tuple[float, float]
 
 
 @kernel()
-def over_z(taylor: Floats, quotient: Floats, centre: float, half: float) -> None:
-    """Divide a Taylor series by z = centre + half t."""
+def over_z(taylor: Taylor, quotient: Taylor, centre: float, half: float) -> None:
+    """Put a Taylor series over z = centre + half t into `quotient`."""
     rest = (taylor[0, 0], taylor[0, 1])
     quotient[0, 0], quotient[0, 1] = dd.shrink(rest, centre)
     for n in range(1, len(taylor)):
@@ -77,14 +79,14 @@ def over_z(taylor: Floats, quotient: Floats, centre: float, half: float) -> None
 
 
 @kernel()
-def differentiate(taylor: Floats, slope: Any, half: float) -> None:
-    """Differentiate a Taylor series with respect to z."""
+def differentiate(taylor: Taylor, slope: Taylor, half: float) -> None:
+    """Put the derivative of a Taylor series with respect to z into `slope`."""
     for n in range(len(taylor) - 1):
         slope[n, 0], slope[n, 1] = dd.scale((taylor[n + 1, 0], taylor[n + 1, 1]), (n + 1.0) / half)
 
 
 @kernel()
-def taylor_of(s: Any, k: float, centre: float, half: float, source: float) -> None:
+def taylor_of(s: Taylor, k: float, centre: float, half: float, source: float) -> None:
     """Continue s[0], s[1] by the recurrence of the equation, whose right side is `source` (1, or 0 for the cosine)."""
     square = half * half
     for n in range(len(s) - 2):
@@ -99,8 +101,8 @@ def taylor_of(s: Any, k: float, centre: float, half: float, source: float) -> No
 
 
 @kernel()
-def at_next_centre(taylor: Floats, terms: int) -> tuple[float, float]:
-    """Sum a Taylor series at t = 2, the centre of the next bin."""
+def at_next_centre(taylor: Taylor, terms: int) -> tuple[float, float]:
+    """Sum `terms` of a Taylor series at t = 2, the centre of the next bin; return a sum of two floats."""
     total = (0.0, 0.0)
     for n in range(terms - 1, -1, -1):
         total = dd.add(dd.scale(total, 2.0), (taylor[n, 0], taylor[n, 1]))
@@ -108,8 +110,8 @@ def at_next_centre(taylor: Floats, terms: int) -> tuple[float, float]:
 
 
 @kernel()
-def economise(taylor: Floats, matrix: Floats, coefficients: Floats) -> None:
-    """Store a Taylor series at the degree of a bin."""
+def economise(taylor: Taylor, matrix: Floats, coefficients: Floats) -> None:
+    """Put a Taylor series at the degree of a bin into `coefficients` (terms,) by a matrix of `economisation`."""
     terms, taylor_terms = matrix.shape
     for j in range(terms):
         rest = 0.0
@@ -120,7 +122,7 @@ def economise(taylor: Floats, matrix: Floats, coefficients: Floats) -> None:
 
 @kernel()
 def build_bins(k: float, bins: Floats, matrix: Floats) -> None:
-    """Fill `bins` (layout.py) with S0/z, S1/z, S0', S1'."""
+    """Fill bins, of shape (BINS, BIN_TERMS, 4), with S0/z, S1/z, S0', S1'; `matrix` is ECONOMISATION."""
     half = 0.5 * BIN_WIDTH
     s0 = np.zeros((TAYLOR + 2, 2))
     s0_slope = np.zeros((TAYLOR + 2, 2))

@@ -58,6 +58,7 @@ def _start(k: float, z: float) -> tuple[tuple[float, float], tuple[float, float]
 
 @kernel(entry=True)
 def _fill(k: float, bins: Floats, matrix: Floats) -> None:
+    """Fill bins, of shape (BINS, BIN_TERMS, 4), with T0, T1 and their slopes; `matrix` is ECONOMISATION of bins.py."""
     half = 0.5 * BIN_WIDTH
     t0 = np.zeros((TAYLOR + 2, 2))
     t0_slope = np.zeros((TAYLOR + 2, 2))

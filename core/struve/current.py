@@ -5,12 +5,12 @@ table of the next exponent before they read it: it takes the place of the last o
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.filling import fill_theta, refill
 from gradhesion.core.struve.intrinsics import bits_of, numbers_at
-from gradhesion.core.struve.layout import Table
+from gradhesion.core.struve.layout import Table, Tables
 from gradhesion.core.struve.table import fill_constants
 
 RECIPE: Final = 3
@@ -26,7 +26,7 @@ def prepare(table: Table, k: float, place: float, source: int) -> None:
 
 
 @kernel()
-def ready(tables: Any, number: int) -> int:
+def ready(tables: Tables, number: int) -> int:
     """Return the number of the record that is now the table of exponent `number` of a task."""
     table = tables[0]
     if table.recipes == 0:
@@ -39,7 +39,7 @@ def ready(tables: Any, number: int) -> int:
 
 
 @kernel()
-def ready_for_theta(tables: Any, number: int) -> int:
+def ready_for_theta(tables: Tables, number: int) -> int:
     """Return the number of the record in which theta, and nothing else, is that of exponent `number` of a task."""
     table = tables[0]
     if table.recipes == 0:

@@ -26,7 +26,7 @@ _BARYCENTRIC: Final = (-1.0) ** np.arange(FRACTIONAL_NODES) * np.sqrt(NODES * (1
 
 @kernel()
 def interpolated(values: Floats, x: float) -> float:
-    """Return at 0 <= x <= 1 the polynomial that has given values at the nodes; such as J F, which is one as F is."""
+    """Return at 0 <= x <= 1 the polynomial of some values at NODES, of shape (FRACTIONAL_NODES,): of J F as of F."""
     total, weights = 0.0, 0.0
     for i in range(NODES.size):
         away = x - NODES[i]
@@ -41,7 +41,7 @@ def interpolated(values: Floats, x: float) -> float:
 
 @kernel()
 def _end_weights(c: float, weights: Floats) -> None:
-    """Fill the weights with which the values at the nodes give c int_0^1 v^(c-1) F(v) dv."""
+    """Fill the weights (FRACTIONAL_NODES,) with which values at NODES give c int_0^1 v^(c-1) F(v) dv."""
     for i in range(weights.size):
         argument = 2.0 * NODES[i] - 1.0
         before, here, moment, total = 0.0, 1.0, 1.0, 0.0
@@ -54,7 +54,7 @@ def _end_weights(c: float, weights: Floats) -> None:
 
 @kernel()
 def build_fractional(k: float, matrix: Floats) -> None:
-    """Fill the columns of J at the nodes, and the last column, J at 1."""
+    """Fill the columns of J at NODES, and the last one, J at 1: of shape (FRACTIONAL_NODES, FRACTIONAL_NODES + 1)."""
     count = NODES.size
     weights = np.empty(count)
     _end_weights(0.5 * (1.0 - k), weights)

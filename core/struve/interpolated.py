@@ -21,7 +21,7 @@ from gradhesion.core.struve.chebyshev import chebyshev_fit
 from gradhesion.core.struve.current import RECIPE, prepare
 from gradhesion.core.struve.filling import ask_for_arches, ask_for_bin, ask_for_moments
 from gradhesion.core.struve.intrinsics import bits_of
-from gradhesion.core.struve.layout import TABLE
+from gradhesion.core.struve.layout import TABLE, Tables
 from gradhesion.core.struve.table import build_table
 from gradhesion.core.types import Floats
 
@@ -68,7 +68,7 @@ def _expansions(terms: int) -> tuple[Floats, Floats]:
 
 
 def _made(piece: int) -> Floats:
-    """Return the coefficients of a piece, block by block (filling.py)."""
+    """Return the coefficients of a piece, block by block (filling.py), of shape (floats,)."""
     exponents, values_of_all = _at_nodes()
     nearest = np.argmin(np.abs(exponents - _CENTRES[piece]))
     parts = []
@@ -88,14 +88,14 @@ _pieces: Final[dict[int, Floats]] = {}
 
 
 def _piece(piece: int) -> Floats:
-    """Return the coefficients of a piece, of many threads' the first one's."""
+    """Return the coefficients of a piece, of shape (floats,), of many threads' the first one's."""
     if piece not in _pieces:
         return _pieces.setdefault(piece, _made(piece))
     return _pieces[piece]
 
 
 @kernel()
-def complete(tables: Any) -> None:
+def complete(tables: Tables) -> None:
     """Fill what some records, shape (n,), lack of bins, moments and arches."""
     for j in range(tables.size):
         for i in range(tables[j].lacks_bin.size):
@@ -107,14 +107,14 @@ def complete(tables: Any) -> None:
 
 
 @kernel(entry=True)
-def _prepare(recipes: Any, tables: Any) -> None:
-    """Make each of some records the table of its recipe."""
+def _prepare(recipes: Floats, tables: Tables) -> None:
+    """Make each of some records the table of its recipe, a row of them."""
     for i in range(tables.size):
         prepare(tables[i], recipes[i, 0], recipes[i, 1], bits_of(recipes[i, 2]))
 
 
 def _fill_recipes(exponents: Floats, recipes: Floats) -> None:
-    """Put the exponents, their places on their pieces, and the bits of the addresses of these into `recipes`."""
+    """Put exponents (n,), their places on their pieces, and bits of the addresses of these into the rows of recipes."""
     pieces = np.searchsorted(_EDGES[1:-1], exponents)
     addresses = np.zeros(_PIECES, dtype=np.int64)
     for piece in np.flatnonzero(np.bincount(pieces)).tolist():

@@ -21,7 +21,7 @@ _OF_PAIR = 4
 
 @kernel()
 def _values(table: Table, t: float, out: Floats) -> None:
-    """Put even1, odd1, even2, odd2 and |P0|^2 at 2 (40/z)^2 - 1 = t into `out`."""
+    """Put even1, odd1, even2, odd2 and |P0|^2 at 2 (40/z)^2 - 1 = t into `out`, of shape (5,)."""
     tail = table.moment_tail
     w = 0.5 * (1.0 + t) / (SWITCH * SWITCH)
     for lane in range(4):
@@ -38,7 +38,7 @@ def _values(table: Table, t: float, out: Floats) -> None:
 
 @kernel()
 def build_jump_tail(table: Table, nodes: Floats, fit: Floats) -> None:
-    """Fill the three fields of a table whose tail and moments are complete; `nodes` and `fit` are those of large.py."""
+    """Fill the three fields of a table whose tail and moments are complete; nodes and fit are those of large.py."""
     terms = nodes.size
     middle, values = np.empty(5), np.empty((terms, 5))
     _values(table, 0.0, middle)

@@ -73,6 +73,7 @@ def _descent_from_zero(alpha: float, z: float) -> tuple[float, float]:
 
 @kernel()
 def _slow_parts(k: float, z: float, out: Floats) -> None:
+    """Put P0, P1, G0, G1 and the slopes of these, as the columns of `tail` (layout.py), at z into `out`, shape (8,)."""
     alpha = 0.5 * (k - 1.0)
     out[0], out[1] = _descent_from_one(alpha, z)
     out[2], out[3] = _descent_from_one(alpha + 1.0, z)
@@ -82,7 +83,10 @@ def _slow_parts(k: float, z: float, out: Floats) -> None:
 
 @kernel()
 def build_tail(k: float, tail: Floats, nodes: Floats, fit: Floats) -> None:
-    """Fill `tail` (layout.py); the value at the middle is taken out of the fit to keep its rounding small."""
+    """Fill `tail`, of shape (TAIL_TERMS, 8), by the values at NODES and the matrix FIT.
+
+    The value at the middle is left out of the fit to keep its rounding small.
+    """
     lanes = tail.shape[1]
     middle = np.empty(lanes)
     values = np.empty((nodes.size, lanes))

@@ -42,6 +42,8 @@ THETA_TERMS: Final = 16
 
 Table: TypeAlias = Any
 """One record `TABLE`; numba knows its fields."""
+Tables: TypeAlias = Any
+"""Records `TABLE`, of shape (exponents,)."""
 TABLE: Final = np.dtype(
     [
         ("k", "f8"),

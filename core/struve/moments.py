@@ -22,7 +22,7 @@ where f_m and F_m are the real coefficients of (z G0) P0 and of P0^2.
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -56,7 +56,7 @@ _bins = make_horner(2, MOMENT_TERMS)
 
 @kernel()
 def _build_series(k: float, series: Floats) -> None:
-    """Integrate S0/z = sum c_n z^(2n) and its square term by term."""
+    """Integrate S0/z = sum c_n z^(2n) and its square term by term, into `series`, of shape (MOMENT_SERIES_TERMS, 2)."""
     terms = len(series)
     c = np.empty(terms)
     c[0] = 1.0 / (1.0 + k)
@@ -71,8 +71,11 @@ def _build_series(k: float, series: Floats) -> None:
 
 
 @kernel()
-def _build_bins(k: float, bins: Floats, pair_bins: Floats, start: Any, matrix: Floats) -> None:
-    """Solve z f' + (k+5) f = right bin by bin, from the value at the lower edge of the first one."""
+def _build_bins(k: float, bins: Floats, pair_bins: Floats, start: Floats, matrix: Floats) -> None:
+    """Solve z f' + (k+5) f = right bin by bin, from the values (2,) at the lower edge of the first one.
+
+    `bins` are those of the moments, `pair_bins` those of the pair (layout.py), `matrix` is ECONOMISATION.
+    """
     half = 0.5 * BIN_WIDTH
     first = len(pair_bins) - len(bins)
     right = np.empty((_TAYLOR, 2))
@@ -112,7 +115,7 @@ def _build_bins(k: float, bins: Floats, pair_bins: Floats, start: Any, matrix: F
 
 @kernel()
 def _build_tail(k: float, amplitude: float, tail: Floats) -> float:
-    """Store the coefficients of the four parts of W and return that of the logarithm."""
+    """Put the coefficients of the parts of W into `tail`, of shape (MOMENT_TAIL_TERMS, 5); return the logarithm's."""
     terms = len(tail)
     alpha, n = 0.5 * (k - 1.0), 0.5 * (k + 1.0)
     descent_zero = np.zeros(terms)  # z G0 in 1/z: only even terms
@@ -178,7 +181,7 @@ def _second_moment_of_square(table: Table, x: float, z: float, power: float) -> 
 
 @kernel()
 def build_moments(table: Table, matrix: Floats) -> None:
-    """Fill the moments of a table whose pair is complete."""
+    """Fill the moments of a table whose pair is complete; `matrix` is ECONOMISATION."""
     _build_series(table.k, table.moment_series)
     start = np.array(_series(table.moment_series, MOMENT_START * MOMENT_START))
     _build_bins(table.k, table.moment_bins, table.bins, start, matrix)

@@ -5,12 +5,13 @@ rounding it would cost |k e ln 2| units in the last place.
 """
 
 import math
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.intrinsics import ROUND, bits_of, float_of, fma, parts_of, scaled
 from gradhesion.core.struve.lanes import Lanes
 from gradhesion.core.struve.layout import EXPONENT_SPAN, MANTISSA_BITS, POWER_TERMS, Table
+from gradhesion.core.types import Floats
 
 _MANTISSA: Final = (1 << 52) - 1
 _ONE: Final = 0x3FF0000000000000
@@ -19,8 +20,8 @@ _ROOT_HALF: Final = math.sqrt(0.5)
 
 
 @kernel()
-def build_power(k: float, mantissa: Any, exponent: Any) -> None:
-    """Fill the two tables (layout.py)."""
+def build_power(k: float, mantissa: Floats, exponent: Floats) -> None:
+    """Fill the two tables, of shapes (2^MANTISSA_BITS, POWER_TERMS) and (2 EXPONENT_SPAN,)."""
     power = -0.5 * (1.0 + k)
     slices = mantissa.shape[0]
     taylor = [0.0] * 10

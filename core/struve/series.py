@@ -12,7 +12,7 @@ lost at 10^6 waves. `whole` is 0, or at least 8 (z > 40); it may be any real num
 wave a smooth function of its number (waves/general.py).
 """
 
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from gradhesion.core.struve.series_table import (
     COSINES,
     PLACES,
     TERMS,
+    Flat,
     build_far,
     fit_powers,
     join_table,
@@ -51,7 +52,7 @@ def highest_harmonic(series: Harmonics) -> float:
 
 @kernel(contract=True, inline=True)
 def integrals(
-    table: Table, cosine_bins: Floats, x: float, x_low: float, whole: float = 0.0, odd: float = 1.0
+    table: Table, cosine_bins: Flat, x: float, x_low: float, whole: float = 0.0, odd: float = 1.0
 ) -> tuple[float, float, float, float, float, float]:
     """Return z, S0, S1, S0', T0, T1 at z = 2 pi (whole + x + x_low) and the phase of x + x_low.
 
@@ -89,7 +90,7 @@ def integrals(
 
 @kernel(contract=True, inline=True)
 def summed(
-    table: Table, waves: Floats, series: Harmonics, x: float, x_low: float, whole: float
+    table: Table, waves: Flat, series: Harmonics, x: float, x_low: float, whole: float
 ) -> tuple[float, float, float, float]:
     """Return what `sums` does, term by term, at whole + x + x_low."""
     k1 = 1.0 + table.k
@@ -125,7 +126,7 @@ def _of_one_cosine(table: Table, even: float, x: float, whole: float) -> tuple[f
 
 @kernel(contract=True)
 def sums(
-    table: Table, waves: Floats, series: Harmonics, x: float, whole: float = 0.0
+    table: Table, waves: Flat, series: Harmonics, x: float, whole: float = 0.0
 ) -> tuple[float, float, float, float]:
     """Return w0, w1, v and v1 at whole + x >= 0; `series` has a row (n, cos, sin) for each harmonic."""
     if waves.size > COSINES and series.shape[0] > 0 and waves[COSINES] * (whole + x) >= 1.0:
@@ -136,8 +137,8 @@ def sums(
 
 
 @kernel(entry=True)
-def _fill_near(table: Table, waves: Floats, series: Harmonics, count: float, near: Any) -> None:
-    """Fill the bins up to z = 40 and a little more, `count` a wavelength."""
+def _fill_near(table: Table, waves: Flat, series: Harmonics, count: float, near: Floats) -> None:
+    """Fill the bins `near`, of shape (bins, TERMS, 4), up to z = 40 and a little more, `count` a wavelength."""
     values = np.empty((TERMS, 4))
     for b in range(near.shape[0]):
         for place in range(TERMS):
@@ -149,7 +150,7 @@ def _fill_near(table: Table, waves: Floats, series: Harmonics, count: float, nea
         fit_powers(values, near[b])
 
 
-def with_table(table: Table, bins: Floats, rows: Floats) -> Floats:
+def with_table(table: Table, bins: Floats, rows: Harmonics) -> Flat:
     """Return the bins of T0 and T1, flat, with the table of a series that has_table (struve/series_table.py)."""
     far, slow = build_far(table, rows)
     near = np.empty((near_bins(far.shape[0]), TERMS, 4))

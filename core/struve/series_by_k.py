@@ -16,13 +16,13 @@ from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.struve.layout import SWITCH, Table
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import _COSINE_BIN, horner2, horner4, horner8
-from gradhesion.core.struve.series_table import COSINES, NEAR, slow_sums, tabulated_sums
+from gradhesion.core.struve.series_table import COSINES, NEAR, Flat, slow_sums, tabulated_sums
 from gradhesion.core.types import Floats, Harmonics
 
 
 @kernel(contract=True)
 def _integrals_by_k(
-    table: Table, cosine_bins: Floats, change: Any, cosine_change: Floats, x: float, x_low: float, whole: float
+    table: Table, cosine_bins: Flat, change: Table, cosine_change: Flat, x: float, x_low: float, whole: float
 ) -> tuple[float, float, float, float, float, float, float, float]:
     """Return S0, S1, T0, T1 and their derivatives by k, at places as in `integrals` of struve/series.py."""
     k1 = table.k + 1.0
@@ -67,7 +67,7 @@ def _integrals_by_k(
 
 @kernel(contract=True)
 def sums_by_k(
-    table: Table, waves: Floats, series: Harmonics, change: Any, wave_change: Floats, x: float, whole: float
+    table: Table, waves: Flat, series: Harmonics, change: Table, wave_change: Flat, x: float, whole: float
 ) -> tuple[float, float, float, float]:
     """Return w0 and w1 of struve/series.py at whole + x > 0, and their derivatives by k.
 

@@ -13,7 +13,7 @@ where there is a table, the number of bins of a wavelength, the slow parts, and 
 """
 
 import math
-from typing import Final
+from typing import Final, TypeAlias
 
 import numpy as np
 
@@ -36,6 +36,8 @@ NEAR: Final = 6.5
 """x up to which the sums themselves are tabulated; z > 40 there."""
 COSINES: Final = COSINE_BINS * BIN_TERMS * 2
 """Numbers before the table of a series."""
+Flat: TypeAlias = Floats
+"""The bins of T0 and T1, flat, of shape (COSINES,), and behind them the table of a series that has one."""
 _SLOW: Final = COSINES + 1
 _NEAR: Final = _SLOW + 4 * TAIL_TERMS
 _ORDERS: Final = 2 * TAIL_TERMS
@@ -55,7 +57,7 @@ _CHEBYSHEV: Final = np.array(
 
 
 def _powers_of_chebyshev() -> Floats:
-    """Return the coefficients of powers, all integers, of Chebyshev polynomials, one a column."""
+    """Return the coefficients of powers, all integers, of Chebyshev polynomials, one a column; shape (TERMS, TERMS)."""
     powers = np.zeros((TERMS, TERMS))
     for j in range(TERMS):
         row = np.polynomial.chebyshev.cheb2poly([0.0] * j + [1.0])
@@ -68,7 +70,7 @@ _POWERS: Final = _powers_of_chebyshev()
 
 @kernel()
 def fit_powers(values: Floats, powers: Floats) -> None:
-    """Turn values at `PLACES`, one column a function, into coefficients of powers.
+    """Put coefficients of powers for values at `PLACES`, one column a function, into `powers`; shapes (TERMS, n).
 
     By way of Chebyshev coefficients: the matrix of both steps has entries of thousands, of opposite signs.
     """
@@ -90,7 +92,7 @@ _FAR_ORDER: Final = _LANES * TERMS
 _FAR_BIN: Final = TAIL_TERMS * _FAR_ORDER
 
 
-def has_table(rows: Floats) -> bool:
+def has_table(rows: Harmonics) -> bool:
     """Return whether a table of the series pays."""
     return bool(len(rows) >= FEWEST and rows[:, 0].max() <= HIGHEST)
 
@@ -129,7 +131,7 @@ def _orders(k: float, tail: Floats) -> tuple[Floats, Floats]:
 
 @kernel(entry=True)
 def _fill_far(table: Table, series: Harmonics, orders: Floats, far: Floats) -> None:
-    """Fill the bins of F_j: those of w0, w1, v/z and v1/z."""
+    """Fill the bins `far` of F_j, those of w0, w1, v/z and v1/z; `orders` are the first array of `_orders`."""
     bins = far.shape[0]
     values = np.zeros((TERMS, TAIL_TERMS, _LANES))
     for b in range(bins):
@@ -171,7 +173,7 @@ def near_bins(bins: int) -> int:
 
 
 @kernel(contract=True)
-def tabulated_sums(table: Table, waves: Floats, x: float, whole: float) -> tuple[float, float, float, float]:
+def tabulated_sums(table: Table, waves: Flat, x: float, whole: float) -> tuple[float, float, float, float]:
     """Return what `sums` of struve/series.py does from the table of a series."""
     place = whole + x
     bins = int(waves[COSINES])
@@ -203,7 +205,7 @@ def tabulated_sums(table: Table, waves: Floats, x: float, whole: float) -> tuple
 
 
 @kernel(contract=True)
-def slow_sums(waves: Floats, z: float) -> tuple[float, float]:
+def slow_sums(waves: Flat, z: float) -> tuple[float, float]:
     """Return the parts of w0 and w1 that have no phase, from the table of a series."""
     inverse = 1.0 / z
     w = SWITCH * inverse
@@ -211,13 +213,13 @@ def slow_sums(waves: Floats, z: float) -> tuple[float, float]:
     return inverse * s0, inverse * s1
 
 
-def join_table(bins: Floats, near: Floats, far: Floats, slow: Floats) -> Floats:
+def join_table(bins: Floats, near: Floats, far: Floats, slow: Floats) -> Flat:
     """Return the flat array of the bins of T0 and T1, and the table of a series."""
     return np.concatenate([bins.ravel(), [float(far.shape[0])], slow.ravel(), near.ravel(), far.ravel()])
 
 
-def build_far(table: Table, rows: Floats) -> tuple[Floats, Floats]:
-    """Return the bins of F_j, and the slow parts."""
+def build_far(table: Table, rows: Harmonics) -> tuple[Floats, Floats]:
+    """Return the bins of F_j and the slow parts of a series, in the shapes that `join_table` makes flat."""
     n, even = rows[:, 0], rows[:, 1]
     orders, slow = _orders(float(table["k"]), table["tail"])
     far = np.empty((BINS * int(n.max()), TAIL_TERMS, TERMS, _LANES))

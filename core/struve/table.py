@@ -6,10 +6,10 @@ each of the four functions is at most 1.0e-15 of the larger of the function and 
 
 import math
 from functools import lru_cache
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve import arches, bins, fractional, jump_tail, large, moments, theta
@@ -44,6 +44,7 @@ def _fill(
     theta_nodes: Floats,
     theta_fit: Floats,
 ) -> None:
+    """Fill the table of k; matrices, nodes and fits are those of bins.py, large.py, moments.py and theta.py."""
     fill_constants(table, k)
     table.rounding = 1.0
     bins.build_bins(k, table.bins, economisation)
@@ -57,7 +58,7 @@ def _fill(
     table.theta_front = theta.front_of(k)
 
 
-def build_table(k: float) -> Any:
+def build_table(k: float) -> Table:
     """Return the table of the gradient exponent 0 <= k <= 1, one record of layout.TABLE."""
     table = np.zeros(1, dtype=TABLE)[0]
     of_bins = (bins.ECONOMISATION, large.NODES, large.FIT, moments.ECONOMISATION)
@@ -70,12 +71,13 @@ _kept: Final = lru_cache(maxsize=16)(build_table)
 
 
 @kernel(entry=True)
-def _pairs(table: Table, x: Any, out: Floats) -> None:
+def _pairs(table: Table, x: Floats, out: Floats) -> None:
+    """Put S0, S1, S0' and S1' at each x (n,) into the rows of `out`, of shape (4, n)."""
     for i in range(x.size):
         out[0, i], out[1, i], out[2, i], out[3, i] = pair(table, x[i])
 
 
-def struve_pair(k: float, x: ArrayLike) -> Floats:
+def struve_pair(k: float, x: ArrayLike) -> NDArray[np.float64]:
     """Return S0, S1, dS0/dz and dS1/dz at z = 2 pi x.
 
     Parameters

@@ -43,7 +43,7 @@ def front_of(k: float) -> float:
 
 @kernel()
 def build_theta(k: float, coefficients: Floats, nodes: Floats, fit: Floats) -> None:
-    """Fill the coefficients of (4 - beta^2) H."""
+    """Fill the coefficients of (4 - beta^2) H, of shape (THETA_TERMS,), by values at NODES and the matrix FIT."""
     coefficients[:] = 0.0
     for j in range(nodes.size):
         square = 0.5 * _LARGEST * (1.0 + nodes[j])

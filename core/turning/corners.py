@@ -59,7 +59,7 @@ def measured_by(curve: Series, by_load: bool) -> Series:
 @kernel()
 def _put(
     basis: Basis, measured: Series, corners: Corners, count: int, x: float, kind: int, whole: float
-) -> tuple[Floats, int]:
+) -> tuple[Corners, int]:
     """Append a corner; return the corners, moved where there was no room, and their number."""
     if count == corners.shape[1]:
         more = np.empty((ROWS, 2 * count))
@@ -79,7 +79,7 @@ def append_corners(
     room: Place,
     corners: Corners,
     count: int,
-) -> tuple[Floats, int]:
+) -> tuple[Corners, int]:
     """Append the corners of what loading passes of one branch.
 
     Parameters
@@ -116,7 +116,7 @@ def append_corners(
 @kernel()
 def corners_of(
     basis: Basis, curve: Series, by_load: bool, branches: int, trace: Trace, furthest: float, room: Place
-) -> tuple[Floats, int]:
+) -> tuple[Corners, int]:
     """Return the corners of all that loading visits up to x = `furthest`, and their number."""
     corners, count = np.empty((ROWS, 2 * branches + 16)), NONE
     for branch in range(branches):

@@ -53,7 +53,7 @@ _REMOTE: Final = 1e8
 
 @kernel()
 def limit_terms(values: Floats) -> float:
-    """Return e'/24 - 7 e'''/5760 + 31 e^(5)/967680 - 127 e^(7)/154828800 in the middle of eight values, or of six."""
+    """Return e'/24 - 7 e'''/5760 + 31 e^(5)/967680 - 127 e^(7)/154828800 in the middle of 8 values, or of 6."""
     half = values.size // 2
     one, two = values[half] - values[half - 1], values[half + 1] - values[half - 2]
     three = values[half + 2] - values[half - 3]
@@ -155,7 +155,7 @@ def _integral(
 def sum_of_waves(
     table: Table, curve: Cosine, first: float, last: float, outwards: bool, final: float, room: Batch
 ) -> float:
-    """Return the sum of what the jumps from the waves `first` to `last` lose.
+    """Return the sum of what the jumps from the waves `first` to `last` lose, in 2 pi l^2 dgamma.
 
     Outwards each goes from the end of a wave's branch to the next wave, inwards from its start to the one before.
     `final` is the last arch on which the curve can fold.

@@ -66,11 +66,13 @@ def _integrate(values: Floats) -> tuple[float, float]:
 
 @kernel()
 def _angle_of(wave: float, low: float, span: float) -> float:
+    """Return theta of a wave; log a = low, log b = low + span."""
     return 2.0 * math.asin(math.sqrt(min(1.0, max(0.0, (math.log(wave) - low) / span))))
 
 
 @kernel()
 def _wave_at(angle: float, low: float, span: float) -> float:
+    """Return the wave at theta."""
     return math.exp(low + span * math.sin(0.5 * angle) ** 2)
 
 
@@ -99,7 +101,7 @@ def _integral_of_run(
     Returns
     -------
     Whether it is done; the integral in 2 pi l^2 dgamma, jumps a wave, pattern; the runs to take instead, rows (first,
-    last), and their number; the scale; the steps that it took.
+    last) of shape (n, 2), and their number; the scale; the steps that it took.
     """
     first, last = run
     low = math.log(first - 0.5)

@@ -236,7 +236,6 @@ def folds_from(table: Any, curve: Cosine, level: float, survey: Any, guesses: An
     return found
 
 
-
 @pytest.mark.parametrize(("k", "b", "g"), [(0.0, 0.237, 0.112), (0.29, 0.575, 0.3645), (0.64, 0.655, 0.454)])
 def test_the_first_fold_is_found_from_any_guess(k: float, b: float, g: float, table_of: Callable[[float], Any]) -> None:
     """From one in some thousands the step of the fourth order vanishes, at places where D D'' = 2 D'^2."""
