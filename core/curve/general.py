@@ -35,16 +35,11 @@ class Series(NamedTuple):
 
 
 class Basis(NamedTuple):
-    """What a series is computed from.
+    """What a series is computed from."""
 
-    table        the table of the exponent
-    cosine_bins  the bins of its cosines, and of a series
-    series       the harmonics
-    """
-
-    table: Table
-    cosine_bins: Flat
-    series: Harmonics
+    table: Table  # the table of the exponent
+    cosine_bins: Flat  # the bins of its cosines, and of a series
+    series: Harmonics  # the harmonics
 
 
 @kernel(contract=True)

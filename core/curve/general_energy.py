@@ -30,22 +30,15 @@ from gradhesion.core.types import Floats
 
 
 class Left(NamedTuple):
-    """A place on the curve that tells the coordinate of a jump; depths in s l^c.
+    """A place on the curve that tells the coordinate of a jump; depths in s l^c."""
 
-    waves, x      whole waves, and x beyond them
-    wave0, wave1  the waves of depth and of load there, g z w0 and g z^(2+k) w1
-    above         by how much the coordinate there exceeds that of the jump, 0 where the jump leaves the curve there
-    bend          B z^m
-    stretch       z^c
-    """
-
-    waves: float
+    waves: float  # whole waves, and x beyond them
     x: float
-    wave0: float
+    wave0: float  # the waves of depth and of load there, g z w0 and g z^(2+k) w1
     wave1: float
-    above: float
-    bend: float
-    stretch: float
+    above: float  # by how much the coordinate there exceeds that of the jump, 0 where the jump leaves the curve there
+    bend: float  # B z^m
+    stretch: float  # z^c
 
 
 _STEPS: Final = 200

@@ -34,18 +34,12 @@ Zeros: TypeAlias = Floats
 
 
 class Search(NamedTuple):
-    """Room for a search for folds (curve/cells.py).
+    """Room for a search for folds (curve/cells.py)."""
 
-    values  D and its slopes at the places of a cell, of shape (DEGREE + 1,)
-    stack   polynomials that are to be looked through, of shape (STACK, DEGREE + 1)
-    spans   where they stand, of shape (STACK, 3)
-    found   what is found, of shape (MOST, 5)
-    """
-
-    values: Floats
-    stack: Floats
-    spans: Floats
-    found: Floats
+    values: Floats  # D and its slopes at the places of a cell, of shape (DEGREE + 1,)
+    stack: Floats  # polynomials that are to be looked through, of shape (STACK, DEGREE + 1)
+    spans: Floats  # where they stand, of shape (STACK, 3)
+    found: Floats  # what is found, of shape (MOST, 5)
 
 
 @kernel()

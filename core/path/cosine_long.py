@@ -56,7 +56,7 @@ from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Floats
 from gradhesion.core.waves.cosine import branch_of_wave, fold_of_wave, landing_of_wave
-from gradhesion.core.waves.cosine_at_once import room_for_batch
+from gradhesion.core.waves.cosine_at_once import Batch, room_for_batch
 from gradhesion.core.waves.cosine_running import begin_sums, room_for_sums, sum_up_to
 from gradhesion.core.waves.cosine_sum import sum_of_waves
 
@@ -98,20 +98,14 @@ SHARED: Final = np.dtype(
 
 
 class Long(NamedTuple):
-    """A long curve: what `begin_long` has made, and what serves all its rims.
+    """A long curve: what `begin_long` has made, and what serves all its rims."""
 
-    arches    the first and the last arch on which the curve can fold
-    trace     the branches of the beginning, and from there on those of one rim; (ROWS, branches): curve/branches.py
-    shared    one record `SHARED`, of shape (1,)
-    sums      the sums over waves outwards and inwards, records of waves/cosine_running.py, of shape (2,)
-    room      room for a batch of waves (waves/cosine_at_once.py)
-    """
-
-    arches: tuple[float, float]
-    trace: Floats
-    shared: Any
-    sums: Any
-    room: Floats
+    arches: tuple[float, float]  # the first and the last arch on which the curve can fold
+    trace: Trace  # the branches of the beginning, and from there on those of one rim; (ROWS, branches):
+    # curve/branches.py
+    shared: Any  # one record `SHARED`, of shape (1,)
+    sums: Any  # the sums over waves outwards and inwards, records of waves/cosine_running.py, of shape (2,)
+    room: Batch  # room for a batch of waves (waves/cosine_at_once.py)
 
 
 @kernel()

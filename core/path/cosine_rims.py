@@ -26,31 +26,19 @@ from gradhesion.core.waves.cosine_at_once import folds_at_once
 
 
 class Stands(NamedTuple):
-    """How eight rims stand among regular waves, each number for all of them; NaN is what takes longer.
+    """How eight rims stand among regular waves, each number for all of them; NaN is what takes longer."""
 
-    branch      the wave of the last branch that starts within the rim
-    on          1 where the rim stands on that branch, else 0
-    reached     1 where loading arrives on it before the rim, else 0
-    here        the depth at the rim, in s l^c
-    value       D there (curve/cosine.py)
-    rate        its derivative by z
-    end, top    x and depth of the end from which loading goes to the rim
-    bottom      the depth at which the branch starts, -inf where the rim stands on it
-    landing     x where unloading lands on it, 0 where the rim stands on it
-    up, down    what the jumps to the rim, and away from it, lose, in 2 pi l^2 dgamma
-    """
-
-    branch: Lanes
-    on: Lanes
-    reached: Lanes
-    here: Lanes
-    value: Lanes
-    rate: Lanes
-    end: Lanes
+    branch: Lanes  # the wave of the last branch that starts within the rim
+    on: Lanes  # 1 where the rim stands on that branch, else 0
+    reached: Lanes  # 1 where loading arrives on it before the rim, else 0
+    here: Lanes  # the depth at the rim, in s l^c
+    value: Lanes  # D there (curve/cosine.py)
+    rate: Lanes  # its derivative by z
+    end: Lanes  # x and depth of the end from which loading goes to the rim
     top: Lanes
-    bottom: Lanes
-    landing: Lanes
-    up: Lanes
+    bottom: Lanes  # the depth at which the branch starts, -inf where the rim stands on it
+    landing: Lanes  # x where unloading lands on it, 0 where the rim stands on it
+    up: Lanes  # what the jumps to the rim, and away from it, lose, in 2 pi l^2 dgamma
     down: Lanes
 
 

@@ -68,38 +68,24 @@ MOST_WAVES: Final = 1e14
 
 
 class Middle(NamedTuple):
-    """What of a long curve is summed.
+    """What of a long curve is summed."""
 
-    kind        IRREGULAR, FEW or REGULAR
-    until       x up to which folds are searched for
-    cut         where waves are cut, 0 .. 1 (waves/general.py)
-    again       the wave from which on folds may begin anew, 0 if they do not cease
-    begin, end  the first and the last wave to be summed
-    ends        whether folds end beyond
-    """
-
-    kind: int
-    until: float
-    cut: float
-    again: float
-    begin: float
+    kind: int  # IRREGULAR, FEW or REGULAR
+    until: float  # x up to which folds are searched for
+    cut: float  # where waves are cut, 0 .. 1 (waves/general.py)
+    again: float  # the wave from which on folds may begin anew, 0 if they do not cease
+    begin: float  # the first and the last wave to be summed
     end: float
-    ends: bool
+    ends: bool  # whether folds end beyond
 
 
 class Tasks(NamedTuple):
-    """What is wanted of a cycle on a long curve.
+    """What is wanted of a cycle on a long curve."""
 
-    losses     whether what it loses is
-    last_loss  whether what the end of contact loses is a part of that
-    test       whether loading is tested for keeping the contact one disc
-    turned     whether the rim is a place that loading surely reaches
-    """
-
-    losses: bool
-    last_loss: bool
-    test: bool
-    turned: bool
+    losses: bool  # whether what it loses is
+    last_loss: bool  # whether what the end of contact loses is a part of that
+    test: bool  # whether loading is tested for keeping the contact one disc
+    turned: bool  # whether the rim is a place that loading surely reaches
 
 
 @kernel()
@@ -276,22 +262,8 @@ def go_through(
 ) -> tuple[State, bool]:
     """Follow loading from the first wave of a run to the last, or unloading back; the loss is NaN if it cannot be.
 
-    Parameters
-    ----------
-    basis, curve, waves
-        The curve, and how its waves add: UP for loading, DOWN for unloading.
-    run
-        The first and the last wave.
-    state
-        How far the cycle has come.
-    losses, test
-        Whether energies are found, and whether loading is tested for keeping the contact one disc.
-    notes
-        Room for notes (path/pieces.py).
-
-    Returns
-    -------
-    The state, and whether the contact stays one disc as far as was tested.
+    With `losses` energies are found and noted; with `test` loading is tested for keeping the contact one disc. Return
+    the state, and whether it does so as far as was tested.
     """
     kind, cut, _, work = waves
     begin, end = run

@@ -16,7 +16,7 @@ import numpy as np
 from gradhesion.core.compiler.jit import NO, YES, constant, kernel
 from gradhesion.core.curve.branches import END, START, ends
 from gradhesion.core.curve.general import Basis, Series, coordinate
-from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, find_level
+from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, Rows, find_level
 from gradhesion.core.path.general_ties import is_near
 from gradhesion.core.types import Floats
 from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
@@ -26,35 +26,22 @@ Notes: TypeAlias = Floats
 
 
 class State(NamedTuple):
-    """How far loading or unloading has come.
+    """How far loading or unloading has come."""
 
-    loss    what it has lost so far, in 2 pi l^2 dgamma
-    jumps   how many it has made
-    level   the coordinate, in s l^c
-    waves   the place that it leaves next: whole waves,
-    left    and x beyond them; both 0 for no contact
-    close   whether a decision was close
-    """
-
-    loss: float
-    jumps: float
-    level: float
-    waves: float
-    left: float
-    close: bool
+    loss: float  # what it has lost so far, in 2 pi l^2 dgamma
+    jumps: float  # how many it has made
+    level: float  # the coordinate, in s l^c
+    waves: float  # the place that it leaves next: whole waves,
+    left: float  # and x beyond them; both 0 for no contact
+    close: bool  # whether a decision was close
 
 
 class Piece(NamedTuple):
-    """Branches of a part of a long curve.
+    """Branches of a part of a long curve."""
 
-    branches  how many they are
-    rows      the branches in the rows of curve/general_branches.py, x beyond some whole waves; (4, branches or more)
-    whole     these waves
-    """
-
-    branches: int
-    rows: Floats
-    whole: float
+    branches: int  # how many they are
+    rows: Rows  # the branches, at x beyond some whole waves
+    whole: float  # these waves
 
 
 NOTED_UP, NOTED_DOWN, NOTED_JUMP, NOTED_IN, NOTED_OUT = map(constant, range(5))

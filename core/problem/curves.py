@@ -13,47 +13,28 @@ from gradhesion.core.types import Floats, Integers
 
 
 class Curves(NamedTuple):
-    """Curves of one cosine.
+    """Curves of one cosine."""
 
-    tables      tables of exponents
-    which       the table of each curve that is to be solved, int64 of shape (n,)
-    numbers     the number of each of these curves among all, int64 of shape (n,)
-    stiffness   M in dgamma/R^(1+k), of all curves, of shape (curves,)
-    wavelength  lambda/R, of shape (curves,)
-    amplitude   A, of shape (curves,)
-    rims        a_max/R, of shape (curves, rims), or (1, rims) where all curves have the same
-    """
-
-    tables: Tables
-    which: Integers
-    numbers: Integers
-    stiffness: Floats
-    wavelength: Floats
-    amplitude: Floats
-    rims: Floats
+    tables: Tables  # tables of exponents
+    which: Integers  # the table of each curve that is to be solved, int64 of shape (n,)
+    numbers: Integers  # the number of each of these curves among all, int64 of shape (n,)
+    stiffness: Floats  # M in dgamma/R^(1+k), of all curves, of shape (curves,)
+    wavelength: Floats  # lambda/R, of shape (curves,)
+    amplitude: Floats  # A, of shape (curves,)
+    rims: Floats  # a_max/R, of shape (curves, rims), or (1, rims) where all curves have the same
 
 
 class GeneralCurves(NamedTuple):
-    """Curves of one profile, control and exponent of the gradient.
+    """Curves of one profile, control and exponent of the gradient."""
 
-    numbers       the number of each curve that is to be solved among all, int64 of shape (n,)
-    exponent      m of the punch r^m/(m R^(m-1))
-    depth_factor  G(m/2) G(n)/(2 G(n + m/2)), n = (1+k)/2
-    stretch       s in R^((1+k)/2), of all curves, of shape (curves,)
-    wavelength    lambda/R, of shape (curves,)
-    amplitude     A, of shape (curves,); 0 for a smooth punch
-    compliance    K/S in 1/R^(1+k), of shape (curves,): 0 under displacement control, inf under load control
-    rims          a_max/R, of shape (curves, rims), or (1, rims) where all curves have the same
-    """
-
-    numbers: Integers
-    exponent: float
-    depth_factor: float
-    stretch: Floats
-    wavelength: Floats
-    amplitude: Floats
-    compliance: Floats
-    rims: Floats
+    numbers: Integers  # the number of each curve that is to be solved among all, int64 of shape (n,)
+    exponent: float  # m of the punch r^m/(m R^(m-1))
+    depth_factor: float  # G(m/2) G(n)/(2 G(n + m/2)), n = (1+k)/2
+    stretch: Floats  # s in R^((1+k)/2), of all curves, of shape (curves,)
+    wavelength: Floats  # lambda/R, of shape (curves,)
+    amplitude: Floats  # A, of shape (curves,); 0 for a smooth punch
+    compliance: Floats  # K/S in 1/R^(1+k), of shape (curves,): 0 under displacement control, inf under load control
+    rims: Floats  # a_max/R, of shape (curves, rims), or (1, rims) where all curves have the same
 
 
 @kernel()

@@ -36,18 +36,12 @@ _UNKNOWN: Final = -1
 
 
 class Cells(NamedTuple):
-    """Cells of a curve from a place inwards, and the troughs of the load in them.
+    """Cells of a curve from a place inwards, and the troughs of the load in them."""
 
-    ends     x between which they stand, falling, of shape (cells + 1,)
-    counts   the troughs of each, _UNKNOWN as long as nobody has searched it, int64 of shape (cells + 1,)
-    troughs  x and load of each trough, of shape (cells + 1, 4, 2)
-    zeros    room for the folds of one cell, of shape (MOST,)
-    """
-
-    ends: Floats
-    counts: Integers
-    troughs: Floats
-    zeros: Floats
+    ends: Floats  # x between which they stand, falling, of shape (cells + 1,)
+    counts: Integers  # the troughs of each, _UNKNOWN as long as nobody has searched it, int64 of shape (cells + 1,)
+    troughs: Floats  # x and load of each trough, of shape (cells + 1, 4, 2)
+    zeros: Floats  # room for the folds of one cell, of shape (MOST,)
 
 
 @kernel()

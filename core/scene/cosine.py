@@ -13,6 +13,7 @@ from typing import Any
 from gradhesion.core.closed import smooth
 from gradhesion.core.closed.power import power
 from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.curve.branches import Trace
 from gradhesion.core.curve.cosine import Cosine, curve_of, force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.path.cosine import (
@@ -124,22 +125,12 @@ def _solve_force(table: Table, curve: Cosine, scale: float, wavelength: float, r
 
 @kernel()
 def _solve_cycle(
-    table: Table, curve: Cosine, arches: tuple[float, float], scene: Scene, rims: Floats, scratch: Floats, sensed: Any
+    table: Table, curve: Cosine, arches: tuple[float, float], scene: Scene, rims: Floats, scratch: Trace, sensed: Any
 ) -> None:
-    """Follow the cycle of a wavy punch for all its rims: those within a walk share one trace.
+    """Follow the cycle of a wavy punch for all its rims a_max/R, of shape (rims,): those within a walk share one trace.
 
-    Parameters
-    ----------
-    table, curve, arches
-        The curve, and the first and the last arch on which it can fold.
-    scene
-        Its units, and where the results go.
-    rims
-        a_max/R, shape (rims,).
-    scratch
-        Room for a trace, shape (ROWS, branches).
-    sensed
-        The record `Sensed` of sensitivities/cosine_slopes.py, or ().
+    `arches` are the first and the last one on which the curve can fold, `scratch` is room for a trace, and `sensed` is
+    the record of sensitivities/cosine_slopes.py, or ().
     """
     furthest, long = 0.0, False
     for i in range(rims.size):
@@ -207,7 +198,7 @@ def solve_curve(
     amplitude: float,
     rims: Floats,
     results: Results,
-    scratch: Floats,
+    scratch: Trace,
     sense: Any,
 ) -> None:
     """Solve one curve for all its rims.

@@ -8,7 +8,7 @@ import numpy as np
 from gradhesion.core.compiler.jit import NO, NONE, ONE, kernel
 from gradhesion.core.contact.disc import is_one_disc, limits_from
 from gradhesion.core.contact.waves import note_run
-from gradhesion.core.curve.branches import GAP, NOWHERE, RUN, RUN_FIRST, RUN_LAST, RUN_LEAST
+from gradhesion.core.curve.branches import GAP, NOWHERE, RUN, RUN_FIRST, RUN_LAST, RUN_LEAST, Trace
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.face import is_always_one_disc
 from gradhesion.core.path.cosine import is_long, is_unresolved
@@ -113,7 +113,7 @@ def _follow_eight(
 
 @kernel()
 def solve_long(
-    table: Table, curve: Cosine, arches: tuple[float, float], scene: Scene, rims: Floats, scratch: Floats, sensed: Any
+    table: Table, curve: Cosine, arches: tuple[float, float], scene: Scene, rims: Floats, scratch: Trace, sensed: Any
 ) -> None:
     """Follow the cycle of a wavy punch for its rims that no walk reaches: they share its beginning and its sums.
 

@@ -29,13 +29,13 @@ from gradhesion.core.path.cosine_loop import loop_energy
 from gradhesion.core.path.loading import loading_to
 from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.curves import Curves
-from gradhesion.core.problem.results import ENERGY, FORCE, RADIUS, Results, put
+from gradhesion.core.problem.results import ENERGY, FORCE, RADIUS, Results, Slots, put
 from gradhesion.core.problem.status import NO_VALUE, TOLERANCE_NOT_MET
 from gradhesion.core.scene.scene import Scene
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.current import ready
 from gradhesion.core.struve.layout import Table
-from gradhesion.core.types import Floats, Integers
+from gradhesion.core.types import Floats
 
 NEEDED: Final = {
     "pull_off_force_error": "pull_off_radius",
@@ -136,7 +136,7 @@ def _report_energy(
     x: float,
     energy: float,
     i: int,
-    scratch: Floats,
+    scratch: Trace,
 ) -> None:
     """Tell how good the energy of rim number i, at x, is, in its status too if it is not as good as promised.
 
@@ -190,7 +190,7 @@ def _report_smooth(k: float, stretch: float, rims: Floats, results: Results) -> 
 
 
 @kernel()
-def _report_gains(k: float, stretch: float, rims: Floats, solved: Integers, results: Results) -> None:
+def _report_gains(k: float, stretch: float, rims: Floats, solved: Slots, results: Results) -> None:
     """Set force and energy in relation to those of the smooth punch of the same material and rim.
 
     `rims` are a_max/R, of shape (rims,), `solved` the slots of force and energy themselves.
@@ -215,26 +215,13 @@ def _report_curve(
     wavelength: float,
     amplitude: float,
     rims: Floats,
-    solved: Integers,
+    solved: Slots,
     results: Results,
-    scratch: Floats,
+    scratch: Trace,
 ) -> None:
-    """Report on one curve for all its rims.
+    """Report on one curve (s, lambda/R, A) for all its rims a_max/R, of shape (rims,).
 
-    Parameters
-    ----------
-    table
-        The table of its exponent.
-    stretch, wavelength, amplitude
-        s in R^((1+k)/2), lambda/R and A.
-    rims
-        a_max/R, shape (rims,).
-    solved
-        The slots of what is solved already, shape (12,).
-    results
-        Where all values stand, with the slots of the reports, shape (7,).
-    scratch
-        Room for a trace, shape (ROWS, branches).
+    `solved` are the slots of what is solved already; `results` holds all values, with the slots of the reports.
     """
     k = table.k
     slots, out, status = results
@@ -264,17 +251,11 @@ def _report_curve(
 
 
 @kernel()
-def report_curves(curves: Curves, solved: Integers, results: Results, scratch: Floats) -> None:
-    """Report on curves that are solved.
+def report_curves(curves: Curves, solved: Slots, results: Results, scratch: Trace) -> None:
+    """Report on curves; `solved` are the slots of what is solved already.
 
-    Parameters
-    ----------
-    curves, scratch
-        As those of `solve_curves` (scene/solvers.py).
-    solved
-        The slots of what is solved already, shape (12,).
-    results
-        Where all values stand, with the slots of the reports, shape (7,).
+    The other arguments are those of `solve_curves` (scene/solvers.py), but the slots of `results`, of shape (7,), which
+    are those of the reports.
     """
     tables, which, index, stiffness, wavelength, amplitude, rims = curves
     for j in range(index.size):

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact.disc import disc_limits, is_one_disc
-from gradhesion.core.curve.branches import ARRIVAL
+from gradhesion.core.curve.branches import ARRIVAL, Trace
 from gradhesion.core.curve.cosine import Cosine, depth
 from gradhesion.core.path.cycle import Cycle
 from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
@@ -36,20 +36,13 @@ from gradhesion.core.types import Floats
 
 
 class Walked(NamedTuple):
-    """A trace with what all rims that are read off it share.
+    """A trace with what all rims that are read off it share."""
 
-    branches    how many the trace has
-    trace       the branches, of shape (ROWS, branches or more): curve/branches.py
-    inner       x up to which loading keeps the contact one disc (contact/disc.py), inf for everywhere
-    outer       x from which on it does not, inf for nowhere
-    tangency    the first x at which a pair of folds is about to be born or to vanish, inf for none
-    """
-
-    branches: int
-    trace: Floats
-    inner: float
-    outer: float
-    tangency: float
+    branches: int  # how many the trace has
+    trace: Trace  # the branches, of shape (ROWS, branches or more): curve/branches.py
+    inner: float  # x up to which loading keeps the contact one disc (contact/disc.py), inf for everywhere
+    outer: float  # x from which on it does not, inf for nowhere
+    tangency: float  # the first x at which a pair of folds is about to be born or to vanish, inf for none
 
 
 @kernel()

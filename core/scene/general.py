@@ -95,18 +95,9 @@ def _put_cycle(
     flags: tuple[bool, bool],
     i: int,
 ) -> None:
-    """Store the cycle of rim number i, and what there is to report.
+    """Store the cycle of rim number i, at x beyond some whole waves (`place`), and what there is to report.
 
-    Parameters
-    ----------
-    basis, curve, scene
-        The curve, its units, and where results go.
-    place
-        The rim: x, beyond some whole waves.
-    cycle
-        What it comes to.
-    flags
-        Whether a decision was close, and whether the contact stays one disc as far as was tested.
+    The flags are whether a decision was close, and whether the contact stays one disc as far as was tested.
     """
     close, one_disc = flags
     x, whole = place
@@ -132,18 +123,10 @@ def _put_cycle(
 def _walked(
     basis: Basis, curve: Series, scene: Scene, bounds: tuple[float, float], rims: Floats, chosen: Truths, own: Any
 ) -> bool:
-    """Solve the chosen rims of a curve on one trace; return whether it could be walked.
+    """Solve the chosen rims of a curve, shape (rims,), in wavelengths, on one trace; return whether it could be walked.
 
-    Parameters
-    ----------
-    basis, curve, scene
-        The curve, its units, and where results go.
-    bounds
-        x between which all folds stand.
-    rims, chosen
-        x of all rims, and which of them are solved; shape (rims,).
-    own
-        The record `Sensed` of sensitivities/general_slopes.py, or ().
+    All folds stand between the two x of `bounds`; `own` is the record `Sensed` of sensitivities/general_slopes.py, or
+    ().
     """
     results = scene.results
     slots = results.slots
@@ -195,18 +178,9 @@ def _walked(
 def _strode(
     basis: Basis, curve: Series, scene: Scene, first: float, middle: Middle, rim: tuple[float, float], i: int, own: Any
 ) -> bool:
-    """Solve rim number i of a long curve; return whether its waves could be summed.
+    """Solve rim number i of a long curve, x and its rounding error; return whether its waves could be summed.
 
-    Parameters
-    ----------
-    basis, curve, scene
-        The curve, its units, and where results go.
-    first, middle
-        x before which there is no fold, and what of the curve is summed.
-    rim
-        x of the rim, and its rounding error.
-    own
-        The record `Sensed` of sensitivities/general_slopes.py, or ().
+    No fold stands before x = `first`; `own` is the record `Sensed` of sensitivities/general_slopes.py, or ().
     """
     slots = scene.results.slots
     tasks = Tasks(wants_losses(slots), curve.alpha > 0.0, slots[CONTACT] >= 0, slots[TURNED] > 0)
@@ -284,22 +258,9 @@ def _pull_offs(
     work: Search,
     deepest: float,
 ) -> None:
-    """Find the pull-off of a curve for all its rims.
+    """Find the pull-off of a curve for all its rims a_max/R, of shape (rims,), that are positive.
 
-    Parameters
-    ----------
-    basis, curve
-        The curve.
-    force, wavelength
-        The unit of its load in 1.5 pi R dgamma, and lambda/R.
-    rims
-        a_max/R, shape (rims,); those that are not positive are left out.
-    results
-        Where values and flags go.
-    work
-        Room for a search of folds (curve/general_folds.py).
-    deepest
-        That of pull_off/general.py, 0 for a smooth punch.
+    `force` is the unit of its load in 1.5 pi R dgamma, `deepest` that of pull_off/general.py, 0 for a smooth punch.
     """
     places, lows, found = np.empty(rims.size), np.empty(rims.size), np.empty((rims.size, 3))
     for i in range(rims.size):

@@ -256,35 +256,20 @@ def _energy_reports(
 
 
 class Solved(NamedTuple):
-    """What is known of scenes that are solved, of all of them, of shape (scenes,).
+    """What is known of scenes that are solved, of all of them, of shape (scenes,)."""
 
-    radius  a/R of the pull-off
-    energy  the dissipated energy in R^2 dgamma
-    status  bits of problem/status.py
-    """
-
-    radius: Floats
-    energy: Floats
-    status: Bits
+    radius: Floats  # a/R of the pull-off
+    energy: Floats  # the dissipated energy in R^2 dgamma
+    status: Bits  # bits of problem/status.py
 
 
 @kernel()
 def report_scenes(basis: Basis, curves: GeneralCurves, solved: Solved, wanted: Truths, out: Floats) -> None:
-    """Report on the scenes of one gradient exponent that have values.
+    """Report on the scenes of one gradient exponent that have values, each a curve with one rim of its own.
 
-    Parameters
-    ----------
-    basis
-        What all of them are computed from.
-    curves
-        The scenes, each a curve with one rim; `rims` are of shape (scenes, 1).
-    solved
-        What is known of them. Their status tells as well where the energy is not as good as promised.
-    wanted
-        Which of ROWS are found, shape (4,).
-    out
-        Where they go, shape (4, scenes): error of the force in 1.5 pi R dgamma, error and residual of the energy in
-        R^2 dgamma, radius of saturation in R.
+    `wanted` are those of ROWS that are found, of shape (4,), and `out` where they go, of shape (4, scenes): the error
+    of the force in 1.5 pi R dgamma, error and residual of the energy in R^2 dgamma, the radius of saturation in R. The
+    status of what is solved tells as well where an energy is not as good as promised.
     """
     numbers, exponent, depth_factor, stretch, wavelength, amplitude, compliance, rims = curves
     table, cosine_bins, series = basis

@@ -6,17 +6,10 @@ from gradhesion.core.problem.results import Results
 
 
 class Scene(NamedTuple):
-    """The units of a curve, and where the results of its rims go.
+    """The units of a curve, and where the results of its rims go."""
 
-    wavelength  lambda/R
-    length      l = lambda/2 pi over R
-    energy      the unit of energy, 2 pi l^2, in R^2 dgamma
-    depth       the unit of depth, s l^c, in R
-    results     slots, values and status of all rims
-    """
-
-    wavelength: float
-    length: float
-    energy: float
-    depth: float
-    results: Results
+    wavelength: float  # lambda/R
+    length: float  # l = lambda/2 pi over R
+    energy: float  # the unit of energy, 2 pi l^2, in R^2 dgamma
+    depth: float  # the unit of depth, s l^c, in R
+    results: Results  # slots, values and status of all rims

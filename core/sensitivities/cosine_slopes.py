@@ -31,6 +31,7 @@ from gradhesion.core.curve.branches import (
     START_DEPTH,
     UNKNOWN,
     UNLOADING_JUMPS,
+    Trace,
 )
 from gradhesion.core.curve.cosine import Cosine, curve_of, depth, load, slope, wave
 from gradhesion.core.problem.results import ENERGY as ENERGY_ROW
@@ -53,41 +54,25 @@ FORCE, ENERGY, DEPTH = 0, 1, 2
 
 
 class Sense(NamedTuple):
-    """What sensitivities need; of all curves for their loop, of one for the rest, without the first axis of curves.
+    """What sensitivities need; of all curves for their loop, of one for the rest, without the first axis of curves."""
 
-    tables    the tables of neighbouring exponents (sensitivities/neighbours.py), of shape (exponents, 4), or (4,)
-    weights   their weights in d/dk, of the same shape
-    found     where the sensitivities go, of shape (3, COUNT, curves, rims), or (3, COUNT, rims)
-    force     whether those of the pull-off force are wanted
-    energy    whether those of the energy are
-    turned    whether the rims are places where cycles turn
-    """
-
-    tables: Any
-    weights: Floats
-    found: Floats
-    force: bool
-    energy: bool
-    turned: bool
+    tables: Any  # the tables of neighbouring exponents (sensitivities/neighbours.py), of shape (exponents, 4), or (4,)
+    weights: Floats  # their weights in d/dk, of the same shape
+    found: Floats  # where the sensitivities go, of shape (3, COUNT, curves, rims), or (3, COUNT, rims)
+    force: bool  # whether those of the pull-off force are wanted
+    energy: bool  # whether those of the energy are
+    turned: bool  # whether the rims are places where cycles turn
 
 
 class Sensed(NamedTuple):
-    """What the sensitivities of one curve need, and where they go.
+    """What the sensitivities of one curve need, and where they go."""
 
-    near      the curve at neighbouring exponents
-    units     the units there: of force over that of the curve, and of depth in R; of shape (2, 4)
-    size      ln L, the size of a contact, in R
-    found     where the sensitivities go, of shape (3, COUNT, rims)
-    energy    whether those of the energy are wanted
-    turned    whether the rims are places where cycles turn
-    """
-
-    near: Near
-    units: Floats
-    size: float
-    found: Floats
-    energy: bool
-    turned: bool
+    near: Near  # the curve at neighbouring exponents
+    units: Floats  # the units there: of force over that of the curve, and of depth in R; of shape (2, 4)
+    size: float  # ln L, the size of a contact, in R
+    found: Floats  # where the sensitivities go, of shape (3, COUNT, rims)
+    energy: bool  # whether those of the energy are wanted
+    turned: bool  # whether the rims are places where cycles turn
 
 
 @kernel()
@@ -170,7 +155,7 @@ def _put_depth(table: Table, curve: Cosine, sensed: Sensed, unit: float, x: floa
 
 
 @kernel()
-def smooth_trace(table: Table, curve: Cosine, trace: Floats) -> int:
+def smooth_trace(table: Table, curve: Cosine, trace: Trace) -> int:
     """Put the one branch of a smooth punch of b = 1 into a trace (curve/branches.py); return the number of branches."""
     _, z_in, z_out, _ = smooth.smooth_places(table.k)
     trace[RUN, GAP] = math.inf
@@ -249,7 +234,7 @@ def put_energy(table: Table, curve: Cosine, sensed: Sensed, slopes: Traced, x: f
 
 
 @kernel()
-def put_smooth(table: Table, stretch: float, rims: Floats, results: Results, sense: Sense, trace: Floats) -> None:
+def put_smooth(table: Table, stretch: float, rims: Floats, results: Results, sense: Sense, trace: Trace) -> None:
     """Store the sensitivities of a smooth punch, whose values are there, for all rims a_max/R, of shape (rims,).
 
     `trace` is room for one branch, of shape (ROWS, 8 or more).

@@ -44,16 +44,11 @@ NOTHING: Final = (0.0, 0.0, 0.0, 0.0)
 
 
 class Jump(NamedTuple):
-    """A jump whose slopes are found.
+    """A jump whose slopes are found."""
 
-    left  the place that it leaves
-    more  by how much the parts of that place exceed those of the jump's coordinate
-    held  the slope of that coordinate by k
-    """
-
-    left: Left
-    more: Parts
-    held: float
+    left: Left  # the place that it leaves
+    more: Parts  # by how much the parts of that place exceed those of the jump's coordinate
+    held: float  # the slope of that coordinate by k
 
 
 NO_JUMP: Final = Jump(NOWHERE, NOTHING, 0.0)

@@ -48,26 +48,17 @@ NOTES: Final = 4096
 
 
 class Sense(NamedTuple):
-    """What the sensitivities of all curves of one exponent need.
+    """What the sensitivities of all curves of one exponent need."""
 
-    change      the change of the tables by k (struve/series_by_k.py): one record, of shape (1,), and the flat array
-    front_by_k  the slope by k of ln of the factor of the punch (`depth_factor` of `curve_of`)
-    k           the exponent of the gradient
-    m           that of the punch
-    found       where the sensitivities go, of shape (3, COUNT, curves, rims)
-    force       whether those of the pull-off force are wanted
-    energy      whether those of the energy are
-    turned      whether the rims are places where cycles turn
-    """
-
-    change: Change
-    front_by_k: float
-    k: float
-    m: float
-    found: Floats
-    force: bool
-    energy: bool
-    turned: bool
+    change: Change  # the change of the tables by k (struve/series_by_k.py): one record, of shape (1,), and the flat
+    # array
+    front_by_k: float  # the slope by k of ln of the factor of the punch (`depth_factor` of `curve_of`)
+    k: float  # the exponent of the gradient
+    m: float  # that of the punch
+    found: Floats  # where the sensitivities go, of shape (3, COUNT, curves, rims)
+    force: bool  # whether those of the pull-off force are wanted
+    energy: bool  # whether those of the energy are
+    turned: bool  # whether the rims are places where cycles turn
 
 
 class ByExponent(NamedTuple):
@@ -84,27 +75,18 @@ class ByExponent(NamedTuple):
 
 
 class Sensed(NamedTuple):
-    """What the sensitivities of one curve need, and where they go.
+    """What the sensitivities of one curve need, and where they go."""
 
-    change      as of `Sense`
-    k, m        the exponents of the gradient and of the punch
-    by_k        how the numbers and units of the curve change with k
-    size        ln L, the size of a contact, in R
-    found       where the sensitivities go, of shape (3, COUNT, rims)
-    force, energy, turned   as of `Sense`
-    wavy        whether the amplitude is positive
-    """
-
-    change: Change
-    k: float
+    change: Change  # as of `Sense`
+    k: float  # the exponents of the gradient and of the punch
     m: float
-    by_k: ByExponent
-    size: float
-    found: Floats
-    force: bool
+    by_k: ByExponent  # how the numbers and units of the curve change with k
+    size: float  # ln L, the size of a contact, in R
+    found: Floats  # where the sensitivities go, of shape (3, COUNT, rims)
+    force: bool  # as of `Sense`
     energy: bool
     turned: bool
-    wavy: bool
+    wavy: bool  # whether the amplitude is positive
 
 
 @kernel()
@@ -245,20 +227,9 @@ def put_energy(basis: Basis, curve: Series, own: Sensed, slopes: Traced, x: floa
 def put_noted(
     basis: Basis, curve: Series, own: Sensed, cut: float, notes: Notes, rim: tuple[float, float], energy: float, i: int
 ) -> None:
-    """Store the sensitivities of the energy of rim number i of a long cycle from the notes of its jumps.
+    """Store the sensitivities of the energy of rim number i of a long cycle, in 2 pi l^2 dgamma, from its notes.
 
-    Parameters
-    ----------
-    basis, curve, own
-        The curve, and what its sensitivities need.
-    cut
-        Where its waves are cut (waves/general.py).
-    notes
-        The notes of the cycle, shape (notes, 5) (path/pieces.py).
-    rim
-        x of the rim, beyond some whole waves.
-    energy
-        In 2 pi l^2 dgamma.
+    Its waves are cut at `cut` (waves/general.py); the rim is x beyond some whole waves.
     """
     if not senses_energy(own):
         return

@@ -19,16 +19,11 @@ _WEIGHTS: Final = np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
 
 
 class Near(NamedTuple):
-    """A curve at neighbouring exponents of the gradient.
+    """A curve at neighbouring exponents of the gradient."""
 
-    tables    their tables, of shape (4,)
-    curves    b and g of each, of shape (4, 2)
-    weights   their weights in d/dk, of shape (4,)
-    """
-
-    tables: Any
-    curves: Floats
-    weights: Floats
+    tables: Any  # their tables, of shape (4,)
+    curves: Floats  # b and g of each, of shape (4, 2)
+    weights: Floats  # their weights in d/dk, of shape (4,)
 
 
 def exponents_beside(k: float) -> tuple[list[float], NDArray[np.float64]]:

@@ -29,6 +29,7 @@ from gradhesion.core.curve.branches import (
     RUN_LOWEST,
     START,
     UNLOADING_JUMPS,
+    Trace,
 )
 from gradhesion.core.face import (
     AnyCurve,
@@ -55,19 +56,13 @@ ROWS = 2 * SLOPES + 1
 
 
 class Traced(NamedTuple):
-    """A trace with the slopes of energies by the numbers of its curve (sensitivities/jump_slopes.py).
+    """A trace with the slopes of energies by the numbers of its curve (sensitivities/jump_slopes.py)."""
 
-    branches  how many the trace has
-    trace     the branches, of shape (core.curve.branches.ROWS, branches or more)
-    final     the last arch on which the curve folds
-    slopes    those of loading and unloading, a column a branch, and whether the latter are there; two rows more are
-              room for a jump and for its slopes; of shape (ROWS + 2, columns)
-    """
-
-    branches: int
-    trace: Floats
-    final: float
-    slopes: Floats
+    branches: int  # how many the trace has
+    trace: Trace  # the branches, of shape (core.curve.branches.ROWS, branches or more)
+    final: float  # the last arch on which the curve folds
+    slopes: Floats  # those of loading and unloading, a column a branch, and whether the latter are there; two rows more
+    # are room for a jump and for its slopes; of shape (ROWS + 2, columns)
 
 
 @kernel()

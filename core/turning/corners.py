@@ -32,16 +32,11 @@ Corners: TypeAlias = Floats
 
 
 class Place(NamedTuple):
-    """Where corners are searched for.
+    """Where corners are searched for."""
 
-    search  room for a search of folds
-    zeros   room for what it finds, of shape (MOST_FOLDS,)
-    whole   the whole waves beyond which places are given
-    """
-
-    search: Search
-    zeros: Floats
-    whole: float
+    search: Search  # room for a search of folds
+    zeros: Floats  # room for what it finds, of shape (MOST_FOLDS,)
+    whole: float  # the whole waves beyond which places are given
 
 
 Found: TypeAlias = tuple[bool, float, bool, bool]

@@ -55,22 +55,14 @@ _AROUND: Final = 1.25
 
 
 class Goal(NamedTuple):
-    """One rim of a curve, and what its cycle turns at.
+    """One rim of a curve, and what its cycle turns at."""
 
-    rim          x = a_max/lambda
-    target       the depth or load, in the units of the curve
-    reach        x within which it turns at the rim or before it, as far as the envelopes tell
-    wavelength   lambda/R
-    by_load      whether the target is a load
-    check        whether the contact that turns is tested for being one disc
-    """
-
-    rim: float
-    target: float
-    reach: float
-    wavelength: float
-    by_load: bool
-    check: bool
+    rim: float  # x = a_max/lambda
+    target: float  # the depth or load, in the units of the curve
+    reach: float  # x within which it turns at the rim or before it, as far as the envelopes tell
+    wavelength: float  # lambda/R
+    by_load: bool  # whether the target is a load
+    check: bool  # whether the contact that turns is tested for being one disc
 
 
 @kernel()
@@ -160,18 +152,7 @@ def _turn_rim(
 ) -> tuple[float, int]:
     """Return x where the cycle of one rim turns, inf for the rim, and its flags.
 
-    Parameters
-    ----------
-    table, curve
-        The curve.
-    count, trace
-        Its branches: how many, and a trace of shape (ROWS, count or more).
-    peaks
-        Under loads, the largest load on each branch (`peaks_of`), shape (count,).
-    long
-        Whether waves stand in a gap of the trace.
-    goal
-        The rim, and what its cycle turns at.
+    The trace has `count` branches; with `long` waves stand in a gap of it. Under loads `peaks` are those of `peaks_of`.
     """
     rim, target, reach, wavelength, by_load, check = goal
     if by_load:
@@ -268,20 +249,11 @@ def _turn_curve(
     wavelength: float,
     unit: float,
     turns: Turns,
-    scratch: Floats,
+    scratch: Trace,
 ) -> None:
     """Turn a wavy punch, all its rims: they share one trace, or the beginning of a long one.
 
-    Parameters
-    ----------
-    table, curve, arches
-        The curve, and the first and the last arch on which it can fold.
-    wavelength, unit
-        lambda/R, and the unit of depth or of load.
-    turns
-        The rims, and what they turn at; what is found goes there.
-    scratch
-        Room for a trace, shape (ROWS, branches).
+    `arches` are the first and the last one on which the curve can fold, `unit` is that of depth or of load.
     """
     rims, targets, by_load, check, radii, flags = turns
     b, g, _ = curve
@@ -339,18 +311,8 @@ def _turn_curve(
 
 
 @kernel()
-def turn_curves(curves: Curves, turns: Turns, scratch: Floats) -> None:
-    """Find where the cycles of curves turn.
-
-    Parameters
-    ----------
-    curves
-        The curves; their rims are those of `turns`.
-    turns
-        The rims and what they turn at, shape (curves, rims) or (1, rims), and what is found, shape (curves, rims).
-    scratch
-        Room for a trace, shape (ROWS, branches).
-    """
+def turn_curves(curves: Curves, turns: Turns, scratch: Trace) -> None:
+    """Find where the cycles of curves turn; their rims are those of `turns`, where also goes what is found."""
     tables, which, index, stiffness, wavelength, amplitude, _ = curves
     rims, targets, by_load, check, radii, flags = turns
     for j in range(index.size):

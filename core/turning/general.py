@@ -73,20 +73,11 @@ def _turn_walked(
     chosen: Truths,
     passed: Truths,
 ) -> bool:
-    """Find the places x where the chosen rims of a curve turn, on one trace; return whether it could be walked.
+    """Find the places where the chosen rims of a curve turn, on one trace; return whether it could be walked.
 
-    Parameters
-    ----------
-    basis, curve, bounds
-        The curve, and the x between which all its folds stand.
-    turns
-        The rims and places, in wavelengths, and what they turn at, in the units of the curve.
-    reaches
-        x within which each of them turns, shape (rims,); moved outwards where it is not so.
-    chosen
-        Which rims are turned, shape (rims,); no longer so of those that are found.
-    passed
-        Found: whether a jump has passed the target, shape (rims,).
+    All folds stand between the two x of `bounds`. Places are in wavelengths, targets in units of the curve. Each rim
+    turns within `reaches`, or these are moved outwards; what is found is no longer chosen, and `passed` says whether a
+    jump has passed the target. All are of shape (rims,).
     """
     first, last = bounds
     rims, targets, by_load, check, places, flags = turns
@@ -227,18 +218,10 @@ def _turn_curve(basis: Basis, curve: Series, unit: float, wavelength: float, tur
 
 @kernel()
 def turn_scenes(basis: Basis, curves: GeneralCurves, turns: Turns, passed: Truths) -> None:
-    """Find where the cycles of curves of one gradient exponent turn.
+    """Find where the cycles of curves of one gradient exponent turn; their rims are those of `turns`.
 
-    Parameters
-    ----------
-    basis
-        What all of them are computed from.
-    curves
-        The curves; their rims are those of `turns`.
-    turns
-        The rims and what they turn at, shape (curves, rims) or (1, rims), and what is found, shape (curves, rims).
-    passed
-        Found: whether a jump has passed the target, so that the cycle turns beyond it; shape (curves, rims).
+    What is found goes there, and to `passed`, of shape (curves, rims): whether a jump has passed the target, so that
+    the cycle turns beyond it.
     """
     numbers, exponent, depth_factor, stretch, wavelength, amplitude, compliance, _ = curves
     table, cosine_bins, series = basis

@@ -6,20 +6,12 @@ from gradhesion.core.types import Bits, Floats
 
 
 class Turns(NamedTuple):
-    """Rims of one curve and what their cycles turn at; a loop over curves has an axis of curves before that of rims.
+    """Rims of one curve and what their cycles turn at; a loop over curves has an axis of curves before that of rims."""
 
-    rims      a_max/R, or in wavelengths, of shape (rims,)
-    targets   what the cycles turn at, of the same shape: depths in R or loads in 1.5 pi R dgamma, or in units of the
-              curve
-    by_load   whether they are loads
-    check     whether the contact that turns is tested for being one disc
-    radii     found: where unloading starts, in units of the rims, 0 without contact, NaN without a value
-    flags     found: bits of the status, int8 of the same shape
-    """
-
-    rims: Floats
-    targets: Floats
-    by_load: bool
-    check: bool
-    radii: Floats
-    flags: Bits
+    rims: Floats  # a_max/R, or in wavelengths, of shape (rims,)
+    targets: Floats  # what the cycles turn at, of the same shape: depths in R or loads in 1.5 pi R dgamma, or in units
+    # of the curve
+    by_load: bool  # whether they are loads
+    check: bool  # whether the contact that turns is tested for being one disc
+    radii: Floats  # found: where unloading starts, in units of the rims, 0 without contact, NaN without a value
+    flags: Bits  # found: bits of the status, int8 of the same shape

@@ -32,31 +32,20 @@ from gradhesion.core.types import Floats
 
 
 class Room(NamedTuple):
-    """Arrays that waves are worked on in.
+    """Arrays that waves are worked on in."""
 
-    search  of a search of folds (curve/general_folds.py)
-    zeros   folds of a cell, of shape (MOST,)
-    rows    the branches of two waves in the rows of curve/general_branches.py, of shape (2, 4, branches)
-    """
-
-    search: Any
-    zeros: Floats
-    rows: Floats
+    search: Any  # of a search of folds (curve/general_folds.py)
+    zeros: Floats  # folds of a cell, of shape (MOST,)
+    rows: Floats  # the branches of two waves in the rows of curve/general_branches.py, of shape (2, 4, branches)
 
 
 class Waves(NamedTuple):
-    """How far waves add to a cycle.
+    """How far waves add to a cycle."""
 
-    kind  UP, DOWN or PASSING
-    cut   where waves are cut, 0 .. 1
-    left  the place that a jump leaves which passes them; NOWHERE else
-    work  room for waves
-    """
-
-    kind: int
-    cut: float
-    left: Left
-    work: Room
+    kind: int  # UP, DOWN or PASSING
+    cut: float  # where waves are cut, 0 .. 1
+    left: Left  # the place that a jump leaves which passes them; NOWHERE else
+    work: Room  # room for waves
 
 
 NOWHERE: Final = Left(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
