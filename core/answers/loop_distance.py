@@ -63,9 +63,9 @@ def feet(points: _Array, chain: _Array) -> Feet:
     Parameters
     ----------
     points
-        Rows of x and y.
+        Rows of x and y, shape (n, 2).
     chain
-        The vertices in order, rows of x and y; two or more.
+        The vertices in order, rows of x and y; two or more, shape (m, 2).
 
     Examples
     --------

@@ -190,7 +190,7 @@ def fit_loop(
 
 
 def _best(misfit: Misfit, begun: _Array, few: slice) -> _Array:
-    """Refine starts with a loss that outliers hardly move, until one leaves no more than the noise."""
+    """Refine starts (n, unknown) by a loss that outliers hardly move, until one leaves no more than the noise."""
     count = misfit.back[few].size
     enough = count * (1.0 + _SIGMAS * math.sqrt(2.0 / count))
     best: _Array = begun[0]
@@ -213,7 +213,7 @@ def _check(
     *,
     unknown: int,
 ) -> None:
-    """Refuse what cannot be fitted."""
+    """Refuse what cannot be fitted: points (n, 2) of depth and load, and whether each unloads, (n,)."""
     if points.shape[0] != back.size or not np.isfinite(points).all():
         raise ValueError("depths, loads and unloading are lists of one length, of finite numbers")
     if points.shape[0] <= unknown:

@@ -32,12 +32,12 @@ def profile_interval(
     misfit
         The loop.
     best
-        The minimum.
+        The minimum, shape (unknown,).
     number
         Which of its numbers is moved.
     along
         How all numbers move with it, by the linear problem: its standard deviation times the correlations; its own item
-        is that standard deviation.
+        is that standard deviation. Shape (unknown,).
     factor
         The quantile that an interval reaches to, in standard deviations.
     unit

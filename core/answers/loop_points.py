@@ -25,7 +25,7 @@ def ways(depth: _Array, cycle: NDArray[np.int32] | None = None) -> tuple[NDArray
     Parameters
     ----------
     depth
-        In the order in which the points were measured, any unit.
+        In the order in which the points were measured, any unit; shape (n,).
     cycle
         The number of the cycle of each point, if known; one cycle loads up to its deepest point. If not known, a new
         one begins where the depth has fallen and rises again, each time by a fifth of its span.
@@ -33,9 +33,9 @@ def ways(depth: _Array, cycle: NDArray[np.int32] | None = None) -> tuple[NDArray
     Returns
     -------
     unloading
-        Whether each point does.
+        Whether each point does, shape (n,).
     cycle
-        The number of its cycle, from 1 if these were found here.
+        The number of its cycle, from 1 if these were found here; shape (n,).
 
     Examples
     --------
@@ -70,9 +70,9 @@ def noise(depth: _Array, load: _Array, unloading: NDArray[np.bool_], cycle: NDAr
     Parameters
     ----------
     depth, load
-        In the order in which the points were measured, in any unit.
+        In the order in which the points were measured, in any unit; shape (n,).
     unloading, cycle
-        The way and the cycle of each point: differences are taken within one.
+        The way and the cycle of each point, shape (n,): differences are taken within one.
 
     Returns
     -------

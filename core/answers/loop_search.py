@@ -40,7 +40,7 @@ def starts_of(misfit: Misfit, candidates: int, seed: int) -> _Array:
 
     Returns
     -------
-    The candidates that have a path, a row each, the best first.
+    The candidates that have a path, shape (n, unknown), the best first.
 
     Raises
     ------
@@ -62,7 +62,7 @@ def starts_of(misfit: Misfit, candidates: int, seed: int) -> _Array:
 
 
 def _apart(misfit: Misfit, vectors: _Array) -> _Array:
-    """Return how far force and depth of the last contact are from those of the data, in parts of the spans."""
+    """Return how far vectors (n, unknown) have force and depth of the last contact from the data's, in spans: (n,)."""
     own = misfit.model.values(vectors)
     given = misfit.model.given({name: values for name, values in own.items() if name not in OFFSETS})
     made = parameters_from(given)

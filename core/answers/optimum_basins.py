@@ -18,7 +18,8 @@ _MOST_BASINS: Final = 12
 def basins_of(heights: Array) -> tuple[tuple[NDArray[np.int64], ...], Array]:
     """Find the highest points of basins that may hold the optimum of their cell: indices, the cells last.
 
-    And what each of them promises: its height, and as much more as it is above its neighbours.
+    And what each of them promises: its height, and as much more as it is above its neighbours, of shape (basins,). The
+    axes of `heights` are those of a sweep, cells last.
     """
     inputs = heights.ndim - 1
     neighbours = maximum_filter(heights, size=(*(3 for _ in range(inputs)), 1), mode="nearest")
@@ -48,7 +49,7 @@ def basins_of(heights: Array) -> tuple[tuple[NDArray[np.int64], ...], Array]:
 
 
 def is_new(heights: Array, places: Array) -> NDArray[np.bool_]:
-    """Report where a sweep at half the resolution has no basin where the optimum is."""
+    """Report for each cell whether a sweep at half the resolution has no basin where its optimum is."""
     inputs = heights.ndim - 1
     coarse = heights[(*(slice(None, None, 2) for _ in range(inputs)), slice(None))]
     peaks = (coarse == maximum_filter(coarse, size=(*(3 for _ in range(inputs)), 1), mode="nearest")) & np.isfinite(

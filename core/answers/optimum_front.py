@@ -9,7 +9,7 @@ from gradhesion.core.answers.optimum_merit import Array
 
 
 def front(values: Sequence[Array]) -> NDArray[np.int64]:
-    """Return the numbers of the points that no other one excels in both values, by falling first value.
+    """Return the numbers, shape (n,), of the points that no other one excels in both values, by falling first value.
 
     Parameters
     ----------

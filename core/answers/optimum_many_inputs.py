@@ -48,7 +48,7 @@ def refine_many(
 def _refined(
     merit: Merit, start: Array, cell: NDArray[np.int64], spacing: float, *, constrained: bool
 ) -> tuple[Array, float]:
-    """Refine one basin of several searched inputs within two spacings of its highest point."""
+    """Refine a basin of several inputs within two spacings of its highest point; return place (inputs,) and merit."""
     bounds = list(zip(np.maximum(start - 2.0 * spacing, 0.0), np.minimum(start + 2.0 * spacing, 1.0), strict=True))
     low, high = np.array(bounds).T
 
@@ -104,7 +104,7 @@ def _along_the_edge(
     best: Array,
     bounds: list[tuple[float, float]],
 ) -> Array:
-    """Move a feasible place to a better one where what is required is met, smooth as far as that goes."""
+    """Move a feasible place (inputs,) to a better one where what is required is met, smooth as far as that goes."""
 
     def plain(place: Array) -> float:
         merits, _ = merit.values(place, cell)

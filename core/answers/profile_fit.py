@@ -175,7 +175,7 @@ def fit_profile(
 
 
 def _in_order(places: _Array, heights: _Array) -> tuple[_Array, _Array]:
-    """Return the points from left to right, each place once."""
+    """Return points, of shape (n,), from left to right, each place once."""
     if places.shape != heights.shape or places.ndim != 1 or not places.size:
         raise ValueError("places and heights are two lists of one length")
     if not (np.isfinite(places).all() and np.isfinite(heights).all()):
@@ -191,14 +191,14 @@ def _in_order(places: _Array, heights: _Array) -> tuple[_Array, _Array]:
 
 
 def _is_lowest_inside(heights: _Array) -> bool:
-    """Tell whether a line has two flanks: at both its ends it is well above its lowest point."""
+    """Tell whether a line, of shape (n,), has two flanks: at both its ends it is well above its lowest point."""
     few = max(1, heights.size // 50)
     ends = min(float(np.median(heights[:few])), float(np.median(heights[-few:])))
     return ends - float(heights.min()) > 0.25 * float(np.ptp(heights))
 
 
 def _vertex(places: _Array, heights: _Array) -> float:
-    """Return the place of the vertex of the parabola that fits best; an end of the line if it has none within."""
+    """Return the vertex of the parabola that fits points (n,) best; an end of the line if it has none within."""
     middle, half = 0.5 * (places[0] + places[-1]), 0.5 * (places[-1] - places[0]) or 1.0
     bend, slope, _ = np.polyfit((places - middle) / half, heights, 2)
     x = -0.5 * slope / bend if bend > 0.0 else (1.0 if slope < 0.0 else -1.0)

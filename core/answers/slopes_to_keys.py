@@ -77,12 +77,12 @@ def slopes_to_keys(
 
 
 def _nonzero(values: _Array) -> _Array:
-    """Give zeros no value."""
+    """Return values of any shape with NaN for 0."""
     return np.where(values == 0.0, np.nan, values)
 
 
 def _influences(given: Mapping[str, _Array], key: str, parameters: Sequence[str]) -> dict[str, _Array]:
-    """Return d ln(parameter)/d ln(key), without the logarithm of k and nu, for all parameters that depend on a key."""
+    """Return d ln(parameter)/d ln(key), without the logarithm of k and nu, of what depends on a key; any shape."""
     others = {way for ways in WAYS.values() for way in ways}
     if key in parameters and not others & given.keys():
         return {key: np.ones(())}

@@ -90,7 +90,7 @@ class Spread:
 
 
 def drawn_shares(inputs: int, count: int, seed: int) -> _Array:
-    """Return quasi-random shares, a scrambled sequence of Sobol's: one row an input.
+    """Return quasi-random shares 0 .. 1, a scrambled sequence of Sobol's, of shape (inputs, count).
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ def drawn_shares(inputs: int, count: int, seed: int) -> _Array:
 
 
 def linear_deviation(slopes: Sequence[ArrayLike], deviations: Sequence[ArrayLike]) -> _Array:
-    """Return the standard deviation of a value by its slopes to independent inputs.
+    """Return the standard deviation of values of any shape by their slopes to independent inputs.
 
     Examples
     --------
@@ -126,7 +126,7 @@ def linear_deviation(slopes: Sequence[ArrayLike], deviations: Sequence[ArrayLike
 
 
 def differ(one: ArrayLike, other: ArrayLike, share: float = TENTH) -> NDArray[np.bool_]:
-    """Return where two deviations differ by more than a share of the larger; where one of them is missing they do.
+    """Return where deviations, of any shape, differ by more than a share of the larger, or one of them is missing.
 
     Examples
     --------
@@ -139,7 +139,7 @@ def differ(one: ArrayLike, other: ArrayLike, share: float = TENTH) -> NDArray[np
 
 
 def statistics_of(samples: _Array, axis: int) -> Mapping[str, _Array]:
-    """Return mean, quantiles and standard deviation ("std") of samples; those without a value (NaN) are left out.
+    """Return mean, quantiles and standard deviation ("std") of samples along an axis, of which NaN are left out.
 
     Examples
     --------
@@ -160,7 +160,7 @@ def statistics_of(samples: _Array, axis: int) -> Mapping[str, _Array]:
 
 
 def _quantile(ordered: _Array, counts: NDArray[np.int64], share: float, axis: int) -> _Array:
-    """Return a quantile of sorted samples of which the first `counts` have values, interpolated between two of them."""
+    """Return a quantile along an axis of sorted samples, of which the first `counts` have values, interpolated."""
     place = share * np.maximum(counts - 1, 0)
     low = np.floor(place).astype(np.int64)
     high = np.minimum(low + 1, np.maximum(counts - 1, 0))

@@ -70,12 +70,12 @@ def run_tasks(
 
 
 def curves_of(curves: Grouped, task: Task, tables: NDArray[Any], stiffness: NDArray[np.float64]) -> Curves:
-    """Return the curves of a task as kernels read them."""
+    """Return the curves of a task as kernels read them; `stiffness` is that of all curves, of shape (curves,)."""
     return Curves(tables, task.which, task.index, stiffness, curves.lambda_over_R, curves.A, curves.rims[0])
 
 
 def _smooth_and_others(curves: Grouped) -> tuple[NDArray[np.int64] | None, NDArray[np.int64] | None]:
-    """Return the numbers of the curves that are solved as smooth ones, and of the others; None for all of them.
+    """Return the numbers (n,) of the curves that are solved as smooth ones, and of the others; None for all of them.
 
     They are those whose waves count for nothing, if they have many scenes: the values are the same either way.
     """
@@ -99,7 +99,7 @@ def solve_cosine(
     turned: bool = False,
     slopes: tuple[bool, bool] | None = None,
 ) -> dict[str, NDArray[Any]]:
-    """Solve all scenes of the broadcast parameters, as `solve` of core/sweep.py.
+    """Solve all scenes of the broadcast parameters, as `solve` of core/sweep.py: results of their shape.
 
     `turned` and `slopes` are as those of `solve_general` (arrays/general.py).
     """

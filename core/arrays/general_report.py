@@ -31,7 +31,7 @@ def report_general(
     loading: Loading,
     threads: int | None,
 ) -> dict[str, NDArray[Any]]:
-    """Report on scenes that `solve_general` has solved; `found` has the results that the reports start from."""
+    """Report on scenes that `solve_general` has solved, from their results; all have the shape of the scenes."""
     scenes = prepared(parameters, loading)
     status = found["status"].ravel()
     n, series = in_own_wavelength(profile)

@@ -31,7 +31,7 @@ def are_few(counts: NDArray[np.int64]) -> NDArray[np.bool_]:
 
 
 def _seem_to_differ(k: NDArray[np.float64]) -> bool:
-    """Report whether nearly all of some curves have an exponent of their own, by the first ones."""
+    """Report whether nearly all of some curves have an exponent k (curves,) of their own, by the first ones."""
     return k.size >= _LOOKED_AT and np.unique(k[:_LOOKED_AT]).size > 0.9 * _LOOKED_AT
 
 
@@ -154,6 +154,7 @@ def _shared_axes(shapes: Sequence[tuple[int, ...]], dimensions: int) -> int:
 
 
 def _flat(array: NDArray[np.float64], shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """Return a new array, broadcast to a shape, of one axis."""
     spread = np.empty(shape)
     spread[...] = array
     return spread.reshape(spread.size)

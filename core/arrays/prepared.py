@@ -27,7 +27,7 @@ def compliance_of(
     material: NDArray[np.float64],
     machine: NDArray[np.float64] | None = None,
 ) -> NDArray[np.float64]:
-    """Return K/S over 1/R^(1+k): 0 under displacement control, inf under load control, NaN where S is out of range."""
+    """Return K/S in 1/R^(1+k), (curves,): 0 under displacement control, inf under load, NaN where S is out of range."""
     if machine is None:
         return np.full(k.shape, math.inf if loading.control == "load" else 0.0)
     with np.errstate(all="ignore"):
@@ -75,7 +75,7 @@ def prepared(parameters: Mapping[str, ArrayLike], loading: Loading, along: Seque
 def run_by_exponent(
     k: NDArray[np.float64], work: Callable[[float, NDArray[np.int64], bool], None], threads: int | None, rims: int = 1
 ) -> None:
-    """Do the work on curves by their numbers, in tasks of one gradient exponent each.
+    """Do the work on curves by their numbers, in tasks of one gradient exponent each; k is of shape (curves,).
 
     It is given the exponent, the curves, and whether a table of its own is not worth its time (arrays/grouping.py).
     """

@@ -34,13 +34,13 @@ def depends_on_contact(outputs: Sequence[str]) -> bool:
 
 
 def slopes_of(radii: NDArray[np.float64], profile: Profile) -> NDArray[np.float64]:
-    """Return the slopes of a punch at radii a/R."""
+    """Return the slopes of a punch at radii a/R, of their shape."""
     slopes: NDArray[np.float64] = radii ** (profile.exponent - 1.0)
     return slopes
 
 
 def is_steep(slopes: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Report which slopes of a punch are no longer small; a slope without value is not."""
+    """Report which slopes of a punch are no longer small, in their shape; a slope without value is not."""
     steep: NDArray[np.bool_] = slopes > SMALL
     return steep
 
@@ -56,7 +56,7 @@ def radius_of(outputs: Sequence[str], parameters: Mapping[str, ArrayLike]) -> st
 def slope_at(
     found: Mapping[str, NDArray[Any]], radius: str, parameters: Mapping[str, ArrayLike], profile: Profile
 ) -> NDArray[np.float64]:
-    """Return the slope of the punch at a radius that is found, 0 where no contact is made and NaN without a value."""
+    """Return the slope of the punch at a radius found in each scene, 0 without contact and NaN without a value."""
     status, values = found["status"].astype(np.int16), found[radius]
     if radius == REACH:
         rim = np.broadcast_to(np.asarray(parameters["a_max_over_R"], dtype=float), status.shape)

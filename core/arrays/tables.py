@@ -18,6 +18,7 @@ from gradhesion.core.struve.table import build_table
 
 @lru_cache(maxsize=128)
 def _own(k: float) -> NDArray[Any]:
+    """Return the table of an exponent as an array of shape (1,)."""
     return np.array([build_table(k)])
 
 
@@ -58,11 +59,13 @@ _NO_SINES: Final = np.zeros(COSINES)
 
 @lru_cache(maxsize=128)
 def _tables(k: float) -> tuple[Any, NDArray[np.float64]]:
+    """Return the table of an exponent and its bins of T0 and T1, of shape (BINS, BIN_TERMS, 4)."""
     return build_table(k), build_cosine_bins(k)
 
 
 @lru_cache(maxsize=16)
 def _waves(k: float, rows: bytes) -> NDArray[np.float64]:
+    """Return the flat array of struve/series_table.py of an exponent and a series, its rows as bytes."""
     table, bins = _tables(k)
     return with_table(table, bins, np.frombuffer(rows).reshape(-1, 3).copy())
 
@@ -84,6 +87,7 @@ def tables_of(
 
 @lru_cache(maxsize=16)
 def _changes(k: float, rows: bytes) -> tuple[NDArray[Any], NDArray[np.float64]]:
+    """Return what `changes_of` does, of a series by its rows as bytes."""
     series = np.frombuffer(rows).reshape(-1, 3).copy()
     exponents, weights = exponents_beside(k)
     return change_of(tables_of(k, series), [tables_of(other, series) for other in exponents], weights)

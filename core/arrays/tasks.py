@@ -62,12 +62,12 @@ class Tasks:
 
 
 def _rises(values: NDArray[np.float64]) -> bool:
-    """Report whether values are sorted; NaN is not."""
+    """Report whether values (n,) are sorted; NaN is not."""
     return bool(np.all(values[1:] >= values[:-1]))
 
 
 def _sorted(k: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Return the stable order of exponents, by the fastest sort that gives it.
+    """Return the stable order of exponents k, both of shape (n,), by the fastest sort that gives it.
 
     Where all differ any sort is stable. Where no two of them are in one of `_PARTS`, that of the parts is the order.
     """
@@ -81,7 +81,7 @@ def _sorted(k: NDArray[np.float64]) -> NDArray[np.int64]:
 
 
 def groups_of(k: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return curves in the order of their exponents, and where in it each exponent begins.
+    """Return the numbers of curves by their exponents k, of shape (n,), and where each exponent begins, (exponents,).
 
     Examples
     --------
