@@ -146,7 +146,7 @@ def _promised(heights: Array) -> Array:
 
 
 def _edges(merit: Merit, inside: Array, outside: Array, cells: NDArray[np.int64]) -> Array:
-    """Return where what is required ceases to be met between places (n,) of two sides, on the one where it is."""
+    """Return where what is required ceases to be met between places (n,) of two sides, where it still is."""
 
     def side(places: Any, cell: Any) -> Any:
         merits, margins = merit.values(places[None], cell.astype(np.int64))
@@ -163,7 +163,7 @@ def to_stationary(merit: Merit, places: Array, cells: NDArray[np.int64]) -> tupl
 
     Returns
     -------
-    The places, and whether each has been moved, of shape (n,): the slope changes its sign there, by a zero or by a jump.
+    The places, and whether each has been moved, shape (n,): the slope changes its sign there, by a zero or by a jump.
     """
     moved, settled = places.copy(), np.zeros(places.shape, bool)
     if merit.slopes(places[None, :1], cells[:1]) is None:

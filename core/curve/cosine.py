@@ -37,6 +37,18 @@ class Cosine(NamedTuple):
     lag: float
 
 
+class Wave(NamedTuple):
+    """The universal pair at a place, and what is made of it (above)."""
+
+    z: float
+    power: float  # z^(-n)
+    s0: float
+    s1: float
+    v: float  # V, and its first two derivatives by z
+    v1: float
+    v2: float
+
+
 @kernel()
 def curve_of(k: float, stretch: float, wavelength: float, mean_height: float) -> tuple[Cosine, float, float]:
     """Return the curve of a scene, l, and the unit of depth s l^c; lengths are in R.
@@ -59,7 +71,7 @@ def force_unit(k: float, length: float, unit: float) -> float:
 
 
 @kernel(contract=True)
-def wave(table: Table, lag: float, x: float) -> tuple[float, float, float, float, float, float, float]:
+def wave(table: Table, lag: float, x: float) -> Wave:
     """Return z, z^(-n), S0, S1, V, V', V'' at x > 0."""
     k = table.k
     z = TWO_PI * x
@@ -68,7 +80,7 @@ def wave(table: Table, lag: float, x: float) -> tuple[float, float, float, float
     v = s0 + z * d0
     v1 = 2.0 * d0 + z * (s1 - s0)
     v2 = (1.0 - k) * s1 - (2.0 - k) * s0 - z * d0
-    return z, power, s0, s1, v, v1, v2
+    return Wave(z, power, s0, s1, v, v1, v2)
 
 
 @kernel(contract=True)

@@ -344,10 +344,22 @@ def folds_before(
     return count, rises, tangency
 
 
+class Strode(NamedTuple):
+    """A cycle on a long curve up to one rim."""
+
+    done: bool  # whether it could be followed
+    loading: State  # at its end: the coordinate that it ends with, the place that its last jump leaves
+    unloading: State  # at its end: the place that it leaves last, 0 if contact ends at a point
+    close: bool  # whether a decision was
+    one_disc: bool  # whether the contact stays one disc as far as was tested
+    whole: float  # the rim: whole waves,
+    x: float  # and x beyond them
+
+
 @kernel()
 def stride(
     basis: Basis, curve: Series, first: float, middle: Middle, rim: tuple[float, float], tasks: Tasks, notes: Notes
-) -> tuple[bool, State, State, bool, bool, float, float]:
+) -> Strode:
     """Follow the cycle on a long curve up to one rim.
 
     The contact is tested on the way into the regular waves and out of them, and on some of these.
@@ -364,12 +376,6 @@ def stride(
         What is wanted.
     notes
         Room for notes of what loses energy (path/pieces.py).
-
-    Returns
-    -------
-    Whether it could be done; the states at the end of loading and of unloading (the coordinate that loading ends with,
-    and the place that the last jump leaves, 0 if contact ends at a point), whether a decision was close, whether
-    the contact stays one disc as far as was tested, and the rim as whole waves and x beyond them.
     """
     losses, last_loss, test, turned = tasks
     _, until, cut, _, begin, end, _ = middle
@@ -378,7 +384,7 @@ def stride(
     zeros = np.empty(MOST_FOLDS)
     count, rises, tangency = folds_before(basis, curve, first, middle, search, zeros)
     if count < 0:
-        return False, nothing, nothing, False, True, 0.0, rim[0]
+        return Strode(False, nothing, nothing, False, True, 0.0, rim[0])
     near = np.empty((4, count // 2 + 2))
     branches = fill_branches(basis, curve, zeros, count, rises, begin + cut, near, 0.0)
     close = tangency < math.inf or first_close_pair(zeros, count, 0.0) < math.inf
@@ -387,7 +393,7 @@ def stride(
     furthest = min(x, until - whole)
     count, rises, tangency = find_folds(basis, curve, cut, furthest, search, zeros, whole)
     if count < 0 or rises:
-        return False, nothing, nothing, False, True, 0.0, rim[0]
+        return Strode(False, nothing, nothing, False, True, 0.0, rim[0])
     far = np.empty((4, count // 2 + 2))
     inner = Piece(branches, near, 0.0)
     outer = Piece(fill_branches(basis, curve, zeros, count, rises, x, far, whole), far, whole)
@@ -410,4 +416,5 @@ def stride(
     unloading = descend(basis, curve, inner, unloading, losses, notes)
     unloading = leave(basis, curve, unloading, losses and last_loss, notes)
     done = not (math.isnan(loading.loss + loading.jumps) or math.isnan(unloading.loss + unloading.jumps))
-    return done, loading, unloading, close or loading.close or unloading.close, one_disc, whole, x
+    close = close or loading.close or unloading.close
+    return Strode(done, loading, unloading, close, one_disc, whole, x)

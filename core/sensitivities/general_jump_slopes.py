@@ -43,6 +43,19 @@ _AREA: Final = TWO_PI * TWO_PI
 NOTHING: Final = (0.0, 0.0, 0.0, 0.0)
 
 
+class Terms(NamedTuple):
+    """What depth and load are made of at a place; the load, and all of it, is over z^(1+k)."""
+
+    stretch: float  # z^c
+    front: float  # beta z^(1+k)
+    logarithm: float  # ln z
+    wave0: float  # the waves of depth, g z w0
+    wave1: float  # and of load, g z w1
+    bend: float  # B z^m
+    by_depth: float  # how depth and load change with k
+    by_load: float
+
+
 class Jump(NamedTuple):
     """A jump whose slopes are found."""
 
@@ -55,13 +68,8 @@ NO_JUMP: Final = Jump(NOWHERE, NOTHING, 0.0)
 
 
 @kernel(contract=True)
-def _terms(
-    basis: Basis, curve: Series, change: Change, x: float, whole: float
-) -> tuple[float, float, float, float, float, float, float, float]:
-    """Return z^c, beta z^(1+k), ln z, the waves of depth and load, B z^m, and how depth and load change with k.
-
-    The load is over z^(1+k), and so is its change.
-    """
+def _terms(basis: Basis, curve: Series, change: Change, x: float, whole: float) -> Terms:
+    """Return the terms of depth and load at whole + x > 0."""
     table, cosine_bins, series = basis
     B, m, g, _, beta = curve
     z = TWO_PI * (whole + x)
@@ -74,7 +82,7 @@ def _terms(
     share = m / (1.0 + table.k + m)
     load = bend * share + g * z * w1 - stretch
     by_load = logarithm * load + g * z * w1_k + pull - bend * share / (1.0 + table.k + m)
-    return stretch, beta / (power * power), logarithm, g * z * w0, g * z * w1, bend, by_depth, by_load
+    return Terms(stretch, beta / (power * power), logarithm, g * z * w0, g * z * w1, bend, by_depth, by_load)
 
 
 @kernel(contract=True)

@@ -15,7 +15,7 @@ last coefficients vanish. Runs are told by their patterns at those points, and w
 """
 
 import math
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -92,17 +92,24 @@ def _last_of_run(basis: Basis, curve: Series, waves: Waves, low: float, high: fl
     return low, steps
 
 
+class Part(NamedTuple):
+    """What is known of a run of waves."""
+
+    done: bool  # whether its integral is: it has one pattern, and the integral settles
+    integral: float  # without its ends, in 2 pi l^2 dgamma
+    jumps: float  # of each wave
+    pattern: int
+    runs: Floats  # else the runs to take instead, rows (first, last), of shape (number or more, 2)
+    number: int
+    scale: float  # the largest part of an integral so far
+    steps: int  # the waves that were looked up
+
+
 @kernel()
 def _integral_of_run(
     basis: Basis, curve: Series, waves: Waves, run: tuple[float, float], scale: float, losses: bool
-) -> tuple[bool, float, float, int, Floats, int, float, int]:
-    """Integrate over a run (first, last wave) without its ends, as long as it has one pattern.
-
-    Returns
-    -------
-    Whether it is done; the integral in 2 pi l^2 dgamma, jumps a wave, pattern; the runs to take instead, rows (first,
-    last) of shape (n, 2), and their number; the scale; the steps that it took.
-    """
+) -> Part:
+    """Integrate over a run (first, last wave) without its ends, as long as it has one pattern."""
     first, last = run
     low = math.log(first - 0.5)
     span = math.log(last + 0.5) - low
@@ -138,7 +145,7 @@ def _integral_of_run(
                 count += 1
         if count > 0:
             runs[count, 0], runs[count, 1] = start, last
-            return False, 0.0, 0.0, 0, runs, count + 1, scale, steps
+            return Part(False, 0.0, 0.0, 0, runs, count + 1, scale, steps)
         part, rest = _integrate(values)
         part, rest = half * part, half * rest
         scale = max(scale, abs(part))
@@ -149,12 +156,12 @@ def _integral_of_run(
             runs[0, 0], runs[0, 1] = first, begin - 1.0
             runs[1, 0], runs[1, 1] = begin, end
             runs[2, 0], runs[2, 1] = end + 1.0, last
-            return False, 0.0, 0.0, 0, runs, 3, scale, steps
+            return Part(False, 0.0, 0.0, 0, runs, 3, scale, steps)
         else:
             panels[top + 1, 0], panels[top + 1, 1] = begin, begin + half
             panels[top + 2, 0], panels[top + 2, 1] = begin + half, end
             top += 2
-    return True, total, jumps, pattern, runs, 0, scale, steps
+    return Part(True, total, jumps, pattern, runs, 0, scale, steps)
 
 
 @kernel()
