@@ -13,6 +13,8 @@ from gradhesion.core import OUTPUTS, SOLVERS, solve
 from gradhesion.core.arrays.tables import table_of
 from gradhesion.core.compiler import cache
 from gradhesion.core.curve.branches import ROWS
+from gradhesion.core.problem.curves import Curves
+from gradhesion.core.problem.results import Results
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene import cosine as scene
 from gradhesion.core.scene import short_wave as asymptotic_cycle
@@ -31,7 +33,8 @@ def run(loop: Any, rims: np.ndarray, curves: int = 3) -> tuple[np.ndarray, np.nd
     index, slots = np.array([0, curves - 1]), np.array([*range(len(OUTPUTS) + 1), -1])
     tables, which = np.array([table_of(0.2)]), np.zeros(2, dtype=np.int64)
     scratch = np.empty((ROWS, 192))
-    loop(tables, which, index, stiffness, wavelength, amplitude, rims, slots, out, status, scratch, ())
+    own = Curves(tables, which, index, stiffness, wavelength, amplitude, rims)
+    loop(own, Results(slots, out, status), scratch, ())
     return out, status
 
 
