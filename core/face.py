@@ -24,8 +24,7 @@ from typing import Any, Final, TypeAlias
 
 from gradhesion.core.compiler.dispatch import face
 from gradhesion.core.curve.branches import Trace
-from gradhesion.core.struve.layout import Table
-from gradhesion.core.types import Floats, Slopes, Work
+from gradhesion.core.types import Floats, Slopes, Table, Work
 
 AnyTable: TypeAlias = Any
 """What a curve is computed from, by its kind (above)."""

@@ -1,6 +1,6 @@
 """Short names of types of arrays, for the arguments of kernels; shapes and units stand with the arguments."""
 
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,3 +16,7 @@ Slopes: TypeAlias = NDArray[np.float64]
 """Slopes of an energy, by the numbers of sensitivities/jump_slopes.py, of shape (SLOPES,), in 2 pi l^2 dgamma."""
 Work: TypeAlias = NDArray[np.float64]
 """Room that a function works in, of shape (floats,); the function says how many it needs."""
+Table: TypeAlias = Any
+"""The table of an exponent, one record `TABLE` of struve/layout.py; numba knows its fields."""
+Tables: TypeAlias = Any
+"""Such records, of shape (exponents,)."""

@@ -28,8 +28,7 @@ from gradhesion.core.closed.smooth import FORCE_SCALE, smooth_length
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.problem.results import OUTERMOST, Results, put, put_all
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import Table
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 
 
 @kernel()

@@ -13,7 +13,7 @@ from gradhesion.core.contact.least import GOLDEN, STEPS, least_opening
 from gradhesion.core.curve.branches import RUN, RUN_FIRST, RUN_LAST, RUN_LEAST, Trace
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.face import is_always_one_disc
-from gradhesion.core.struve.layout import Table
+from gradhesion.core.types import Table
 from gradhesion.core.waves.cosine import end_of_wave
 
 _SAMPLES: Final = 12

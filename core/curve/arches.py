@@ -21,9 +21,8 @@ from gradhesion.core.curve.general import slope as general_slope
 from gradhesion.core.curve.general_folds import Search, Zeros, find_folds, refine
 from gradhesion.core.struve.arches import inner_edge, summit
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.types import Harmonics
+from gradhesion.core.types import Harmonics, Table
 
 _PIECES: Final = 64
 _NARROW: Final = 1e-6

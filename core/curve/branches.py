@@ -26,8 +26,8 @@ from gradhesion.core.curve.cosine_folds import (
 )
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, with_lane
-from gradhesion.core.struve.layout import SWITCH, Table
-from gradhesion.core.types import Floats
+from gradhesion.core.struve.layout import SWITCH
+from gradhesion.core.types import Floats, Table
 
 START, START_DEPTH, END, END_DEPTH = 0, 1, 2, 3
 ARRIVAL, LOADING_LOSS, LOADING_JUMPS = 4, 5, 6

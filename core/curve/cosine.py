@@ -24,9 +24,10 @@ from typing import NamedTuple
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.lanes import Lanes
-from gradhesion.core.struve.layout import SWITCH, Table
+from gradhesion.core.struve.layout import SWITCH
 from gradhesion.core.struve.pair import pair_above, pair_below
 from gradhesion.core.struve.power import amplitude_power, amplitude_powers
+from gradhesion.core.types import Table
 
 
 class Cosine(NamedTuple):

@@ -27,11 +27,11 @@ from gradhesion.core.curve.cosine import Cosine, wave
 from gradhesion.core.curve.cosine_jump import ENOUGH, REACH, beyond_at_once, energy_between, gauss_rule
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.lanes import LANES, Lanes, chosen, load, size_of, sum_of
-from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS, Table
+from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.pair import first_functions
 from gradhesion.core.struve.power import amplitude_power, amplitude_powers
-from gradhesion.core.types import Work
+from gradhesion.core.types import Table, Work
 
 _PANELS: Final = {12: 0.8, 16: 1.25}
 """Gauss nodes, and the longest panel in waves for which they leave 1e-14 of a term cos 2 z, the fastest there is."""

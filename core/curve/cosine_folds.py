@@ -16,8 +16,8 @@ from gradhesion.core.curve.cosine import Cosine, slope, slopes
 from gradhesion.core.struve.arches import inner_edge, summit
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.lanes import chosen, root_of
-from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.types import Table
 
 _STEPS = 100
 """Halving alone ends after 60 steps; 3 is the rule."""

@@ -26,10 +26,11 @@ from gradhesion.core.curve.cosine import Cosine, wave
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.intrinsics import make_horner
 from gradhesion.core.struve.lanes import Lanes, load, rounded, size_of, stand_apart, sum_of
-from gradhesion.core.struve.layout import STRETCH_TERMS, SWITCH, TAIL_TERMS, Table
+from gradhesion.core.struve.layout import STRETCH_TERMS, SWITCH, TAIL_TERMS
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.pair import horner8
 from gradhesion.core.struve.power import amplitude_power, amplitude_powers
+from gradhesion.core.types import Table
 
 
 def gauss_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:

@@ -17,11 +17,10 @@ from typing import NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import sums
 from gradhesion.core.struve.series_table import Flat
-from gradhesion.core.types import Harmonics
+from gradhesion.core.types import Harmonics, Table
 
 
 class Series(NamedTuple):

@@ -14,8 +14,7 @@ import math
 from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.struve.cosine_bins import integral_at_zero
-from gradhesion.core.struve.layout import Table
-from gradhesion.core.types import Harmonics
+from gradhesion.core.types import Harmonics, Table
 
 _EXCESS = 0.35
 _INNERMOST = 1e-30

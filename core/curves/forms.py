@@ -22,9 +22,8 @@ from gradhesion.core.curve.cosine import wave
 from gradhesion.core.curve.general import Basis, state
 from gradhesion.core.face import AnyTable
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.types import Floats, Harmonics
+from gradhesion.core.types import Floats, Harmonics, Table
 
 Numbers: TypeAlias = tuple[float, float, float, float, float]
 """The numbers of a form, by its kind; a general one has `GENERAL_NUMBERS`, of which the first five are a `Series`."""

@@ -12,8 +12,7 @@ from gradhesion.core.curve.cosine_folds import first_arch, fold_of_arch, last_ar
 from gradhesion.core.curve.short_wave import ShortWave, folds_of_half, half_at, window_end
 from gradhesion.core.path.cosine import COUNTABLE, MOST_ARCHES
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import Table
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 
 MOST_FOLDS: Final = 100_000
 """Folds up to which a curve is drawn."""

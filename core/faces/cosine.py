@@ -5,7 +5,7 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import GAP, RUN, Trace, ends, find_depth
 from gradhesion.core.curve.cosine import Cosine, depth_size, most_depth_size, slope
 from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
-from gradhesion.core.struve.layout import Table
+from gradhesion.core.types import Table
 
 
 @face.find_place.answers(Cosine)

@@ -12,10 +12,9 @@ from gradhesion.core.curve.cosine import Cosine, depth, wave
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.fractional import NODES
 from gradhesion.core.struve.lanes import LANES, load, root_of, store
-from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.pair import first_functions
 from gradhesion.core.struve.power import amplitude_power, amplitude_powers
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 
 ALWAYS_ONE: Final = 0.5
 """C g up to which every contact under a depth of 0 or more is one disc."""

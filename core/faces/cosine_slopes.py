@@ -4,7 +4,7 @@ from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Cosine, slope
 from gradhesion.core.sensitivities import jump_slopes, wave_slopes
-from gradhesion.core.struve.layout import Table
+from gradhesion.core.types import Table
 from gradhesion.core.waves.cosine import branch_of_wave
 
 face.rim_slope.answers(Cosine)(jump_slopes.rim_slope)

@@ -20,7 +20,7 @@ from gradhesion.core.curve.cosine_folds import first_arch, last_arch
 from gradhesion.core.path.loading import load_up
 from gradhesion.core.path.ties import note_loading
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import Table
+from gradhesion.core.types import Table
 
 LONGEST_WALK: Final = 160.0
 """Arches, two a wave, up to which a curve is walked."""

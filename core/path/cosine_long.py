@@ -52,9 +52,8 @@ from gradhesion.core.path.loading import arrive, climb, load_up
 from gradhesion.core.path.ties import first_close_pair, note_loading, note_loading_from, scan_inwards, tolerance
 from gradhesion.core.path.unloading import descend, leave
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 from gradhesion.core.waves.cosine import branch_of_wave, fold_of_wave, landing_of_wave
 from gradhesion.core.waves.cosine_at_once import Batch, room_for_batch
 from gradhesion.core.waves.cosine_running import begin_sums, room_for_sums, sum_up_to

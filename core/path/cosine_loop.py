@@ -21,8 +21,7 @@ from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, LANDING, NEX
 from gradhesion.core.curve.cosine import Cosine, depth, load, slope
 from gradhesion.core.path.unloading import descend, leave_rim
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import Table
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(14)
 _PANEL: Final = 0.5

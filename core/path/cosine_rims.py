@@ -21,7 +21,7 @@ from gradhesion.core.path.cycle import Cycle
 from gradhesion.core.path.ties import highest_before, is_within, unloading_is_close
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.lanes import Lanes, any_above, chosen, eight, floor_of, lane_of
-from gradhesion.core.struve.layout import Table
+from gradhesion.core.types import Table
 from gradhesion.core.waves.cosine_at_once import folds_at_once
 
 

@@ -8,8 +8,7 @@ import math
 from typing import NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.struve.layout import Tables
-from gradhesion.core.types import Floats, Integers
+from gradhesion.core.types import Floats, Integers, Tables
 
 
 class Curves(NamedTuple):

@@ -15,9 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.current import ready_for_theta
-from gradhesion.core.struve.layout import Table, Tables
 from gradhesion.core.struve.theta import front_of, gammas_by_table, gammas_of, sinc
-from gradhesion.core.types import Floats, Integers
+from gradhesion.core.types import Floats, Integers, Table, Tables
 
 
 @kernel(entry=True)

@@ -16,8 +16,8 @@ from gradhesion.core.curve.cosine import Cosine, load, wave
 from gradhesion.core.curve.cosine_folds import fold_of_arch, survey_arch
 from gradhesion.core.struve.arches import inner_edge
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.types import Table
 
 PHASELESS: Final = 1e12
 """z from which on the parabola itself is the answer, to 1e-12: a float tells its phase no longer well."""

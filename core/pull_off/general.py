@@ -26,9 +26,8 @@ from gradhesion.core.curve.general_folds import MOST_CELLS, Search, cell_width, 
 from gradhesion.core.pull_off import cosine as pull_off
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.cosine_bins import integral_at_zero
-from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.series import highest_harmonic
-from gradhesion.core.types import Floats, Harmonics
+from gradhesion.core.types import Floats, Harmonics, Table
 from gradhesion.core.waves.general import NEAREST, cut_of, falls_at_cut, room_for_waves
 from gradhesion.core.waves.lowest import Lowest, lower, lowest_of_waves
 

@@ -62,8 +62,7 @@ from gradhesion.core.sensitivities.cosine_slopes import (
 )
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
-from gradhesion.core.struve.layout import Table
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 
 
 @kernel()

@@ -20,8 +20,7 @@ from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC
 from gradhesion.core.scene.cosine_rim import Walked, put_cycle, read_rim, slopes_of, walked_to
 from gradhesion.core.scene.scene import Scene
 from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, next_lane
-from gradhesion.core.struve.layout import Table
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 
 
 @kernel()

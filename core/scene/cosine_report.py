@@ -34,8 +34,7 @@ from gradhesion.core.problem.status import NO_VALUE, TOLERANCE_NOT_MET
 from gradhesion.core.scene.scene import Scene
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.current import ready
-from gradhesion.core.struve.layout import Table
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 
 NEEDED: Final = {
     "pull_off_force_error": "pull_off_radius",

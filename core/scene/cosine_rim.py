@@ -31,8 +31,7 @@ from gradhesion.core.scene.scene import Scene
 from gradhesion.core.sensitivities.cosine_slopes import put_energy
 from gradhesion.core.sensitivities.path_slopes import fill_loading, with_slopes
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import Table
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 
 
 class Walked(NamedTuple):

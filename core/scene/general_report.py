@@ -41,10 +41,9 @@ from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.status import NO_VALUE, TOLERANCE_NOT_MET
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
-from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import integrals
-from gradhesion.core.types import Bits, Floats, Harmonics, Truths
+from gradhesion.core.types import Bits, Floats, Harmonics, Table, Truths
 from gradhesion.core.waves.general import cut_of
 
 ROWS: Final = ("pull_off_force_error", "dissipated_energy_error", "energy_residual", "saturation_radius")

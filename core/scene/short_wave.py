@@ -38,8 +38,7 @@ from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.results import OUTERMOST, Results, put, put_all, wants_folds, wants_force
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import Table
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 
 NOTHING: Final = ()
 """The tables that the leading form needs."""

@@ -42,9 +42,8 @@ from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SLOP
 from gradhesion.core.sensitivities.neighbours import Near
 from gradhesion.core.sensitivities.path_slopes import Traced, energy_slopes, fill_loading, with_slopes
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.types import Floats, Slopes
+from gradhesion.core.types import Floats, Slopes, Table
 
 BY_STIFFNESS, BY_WAVELENGTH, BY_AMPLITUDE, BY_RIM, BY_EXPONENT, BY_MACHINE = map(constant, range(6))
 """Rows of what is found; that of k is at fixed M, and only general scenes have a machine."""

@@ -31,10 +31,10 @@ from gradhesion.core.curve.cosine_energy import (
 )
 from gradhesion.core.sensitivities.neighbours import Near
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
-from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS, Table
+from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.types import Floats, Slopes, Work
+from gradhesion.core.types import Floats, Slopes, Table, Work
 
 BEND, GAIN, EXPONENT, DEPTH, SHARE, SLOPES = 0, 1, 2, 3, 4, 5
 _FURTHEST: Final = 64.0

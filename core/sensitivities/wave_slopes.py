@@ -13,8 +13,7 @@ from gradhesion.core.curve.cosine_energy import LONG, NODES, SHORT_NODES, SHORT_
 from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, EXPONENT, GAIN, SLOPES, panel_slopes_above
 from gradhesion.core.sensitivities.neighbours import Near
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import Table
-from gradhesion.core.types import Slopes, Work
+from gradhesion.core.types import Slopes, Table, Work
 from gradhesion.core.waves.cosine import _fold, _landing, _slope
 from gradhesion.core.waves.cosine_sum import (
     _DIRECT,

@@ -20,9 +20,10 @@ import math
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.filling import ask_for_arches
-from gradhesion.core.struve.layout import ARCHES, ARCHES_AT_ONCE, Table
+from gradhesion.core.struve.layout import ARCHES, ARCHES_AT_ONCE
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.types import Table
 
 _STEPS = 8
 """Newton's method needs 3 steps from the asymptotic place, 5 for the first arch."""

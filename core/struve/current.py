@@ -10,8 +10,8 @@ from typing import Final
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.filling import fill_theta, refill
 from gradhesion.core.struve.intrinsics import bits_of, numbers_at
-from gradhesion.core.struve.layout import Table, Tables
 from gradhesion.core.struve.table import fill_constants
+from gradhesion.core.types import Table, Tables
 
 RECIPE: Final = 3
 """Numbers that an exponent is given by: k, its place t on its piece, and the bits of the address of that."""

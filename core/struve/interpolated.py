@@ -21,9 +21,9 @@ from gradhesion.core.struve.chebyshev import chebyshev_fit
 from gradhesion.core.struve.current import RECIPE, prepare
 from gradhesion.core.struve.filling import ask_for_arches, ask_for_bin, ask_for_moments
 from gradhesion.core.struve.intrinsics import bits_of
-from gradhesion.core.struve.layout import TABLE, Tables
+from gradhesion.core.struve.layout import TABLE
 from gradhesion.core.struve.table import build_table
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Tables
 
 _NODES: Final = 24
 _DEGREES: Final = 16

@@ -12,8 +12,8 @@ z G0 are polynomials in 2 (40/z)^2 - 1 like those of the pair.
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.struve.layout import MOMENT_TAIL_TERMS, SWITCH, Table
-from gradhesion.core.types import Floats
+from gradhesion.core.struve.layout import MOMENT_TAIL_TERMS, SWITCH
+from gradhesion.core.types import Floats, Table
 
 _OF_PAIR = 4
 """Lanes that are copied from the pair's tail: Re P0, z Im P0, Re P1, z Im P1."""

@@ -8,7 +8,7 @@ Below z = 40 it is kept as polynomials in bins of width 1/2. From there on it is
 each a polynomial in (40/z)^2: the contributions of the ends t = 0 and t = 1 of the path of steepest descent.
 """
 
-from typing import Any, Final, TypeAlias
+from typing import Final
 
 import numpy as np
 
@@ -40,10 +40,6 @@ FRACTIONAL_NODES: Final = 16
 """Nodes of the fractional integral over one wave: its polynomial leaves 1e-10 of a cosine."""
 THETA_TERMS: Final = 16
 
-Table: TypeAlias = Any
-"""One record `TABLE`; numba knows its fields."""
-Tables: TypeAlias = Any
-"""Records `TABLE`, of shape (exponents,)."""
 TABLE: Final = np.dtype(
     [
         ("k", "f8"),

@@ -40,11 +40,10 @@ from gradhesion.core.struve.layout import (
     MOMENT_TAIL_TERMS,
     MOMENT_TERMS,
     SWITCH,
-    Table,
 )
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 
 _TAYLOR: Final = 2 * BIN_TERMS - 1
 """The square of a bin's polynomial has this many coefficients."""

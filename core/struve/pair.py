@@ -10,8 +10,9 @@ from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_tur
 from gradhesion.core.struve.filling import ask_for_bin
 from gradhesion.core.struve.intrinsics import fma, make_horner
 from gradhesion.core.struve.lanes import LANES, Lanes, lane_of, with_lane
-from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS, Table
+from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS
 from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.types import Table
 
 horner4 = make_horner(4, BIN_TERMS)
 horner8 = make_horner(8, TAIL_TERMS)

@@ -10,8 +10,8 @@ from typing import Final
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.intrinsics import ROUND, bits_of, float_of, fma, parts_of, scaled
 from gradhesion.core.struve.lanes import Lanes
-from gradhesion.core.struve.layout import EXPONENT_SPAN, MANTISSA_BITS, POWER_TERMS, Table
-from gradhesion.core.types import Floats
+from gradhesion.core.struve.layout import EXPONENT_SPAN, MANTISSA_BITS, POWER_TERMS
+from gradhesion.core.types import Floats, Table
 
 _MANTISSA: Final = (1 << 52) - 1
 _ONE: Final = 0x3FF0000000000000

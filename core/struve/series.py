@@ -19,7 +19,7 @@ import numpy as np
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
 from gradhesion.core.struve.intrinsics import fma, make_horner
-from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS, Table
+from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS
 from gradhesion.core.struve.pair import pair_above, pair_below
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series_table import (
@@ -33,7 +33,7 @@ from gradhesion.core.struve.series_table import (
     near_bins,
     tabulated_sums,
 )
-from gradhesion.core.types import Floats, Harmonics
+from gradhesion.core.types import Floats, Harmonics, Table
 
 _COSINE_BIN: Final = 2 * BIN_TERMS
 horner2 = make_horner(2, BIN_TERMS)

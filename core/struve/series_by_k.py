@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
 from gradhesion.core.struve.intrinsics import fma
-from gradhesion.core.struve.layout import SWITCH, Table
+from gradhesion.core.struve.layout import SWITCH
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import _COSINE_BIN, horner2, horner4, horner8
 from gradhesion.core.struve.series_table import COSINES, NEAR, Flat, slow_sums, tabulated_sums
-from gradhesion.core.types import Floats, Harmonics
+from gradhesion.core.types import Floats, Harmonics, Table
 
 
 @kernel(contract=True)

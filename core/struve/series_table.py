@@ -20,10 +20,10 @@ import numpy as np
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.intrinsics import fma, make_horner
-from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS, Table
+from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS
 from gradhesion.core.struve.layout import BINS as COSINE_BINS
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.types import Floats, Harmonics
+from gradhesion.core.types import Floats, Harmonics, Table
 
 FEWEST: Final = 6
 """Harmonics from which on a table pays."""

@@ -13,10 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve import arches, bins, fractional, jump_tail, large, moments, theta
-from gradhesion.core.struve.layout import TABLE, Table
+from gradhesion.core.struve.layout import TABLE
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.power import build_power
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 
 
 @kernel()

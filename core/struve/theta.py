@@ -13,8 +13,8 @@ from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.struve.chebyshev import chebyshev_fit
-from gradhesion.core.struve.layout import THETA_TERMS, Table
-from gradhesion.core.types import Floats
+from gradhesion.core.struve.layout import THETA_TERMS
+from gradhesion.core.types import Floats, Table
 
 _LARGEST: Final = 3.0
 """beta^2 at k = 1 and Poisson's ratio -1."""

@@ -34,7 +34,6 @@ from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.current import ready
 from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, next_lane
-from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.turning.cosine_at_once import turns_at_once
 from gradhesion.core.turning.cosine_reach import reach, reach_outwards
@@ -47,7 +46,7 @@ from gradhesion.core.turning.first_reached import (
     turn_long_at_load,
 )
 from gradhesion.core.turning.turns import Turns
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 
 _STEPS: Final = 200
 _AROUND: Final = 1.25

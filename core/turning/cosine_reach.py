@@ -13,7 +13,7 @@ from gradhesion.core.compiler.jit import YES, kernel
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.path.cosine import LARGEST
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import Table
+from gradhesion.core.types import Table
 
 _WIDE: Final = 1.06
 """The most by which the waves of the load exceed chi z^c downwards."""

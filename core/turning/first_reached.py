@@ -34,10 +34,9 @@ from gradhesion.core.path.cosine_long import first_wave_above
 from gradhesion.core.path.ties import tolerance
 from gradhesion.core.struve.arches import inner_edge
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.turning.cosine_at_once import SURE
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 from gradhesion.core.waves.cosine import branch_of_wave, fold_of_wave, landing_of_wave
 
 Turn: TypeAlias = tuple[float, bool]

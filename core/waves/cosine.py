@@ -17,10 +17,9 @@ from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import LONG, panel_above
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.pair import pair_above
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.types import Work
+from gradhesion.core.types import Table, Work
 
 Left: TypeAlias = tuple[float, float, float]
 """z, z S0 and z^c at the place that a jump leaves."""

@@ -21,10 +21,10 @@ from gradhesion.core.curve.cosine_folds import half_wave
 from gradhesion.core.curve.cosine_jump import beyond_from, inverse_stretch
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.lanes import LANES, Lanes, any_above, chosen, eight, load, rounded, size_of, store
-from gradhesion.core.struve.layout import SWITCH, Table
+from gradhesion.core.struve.layout import SWITCH
 from gradhesion.core.struve.pair import horner8
 from gradhesion.core.struve.power import amplitude_powers
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 from gradhesion.core.waves.cosine import LAST_LANDING, LAST_STEP, WIDE, Left, jump_of_wave, slope_of
 
 Middle: TypeAlias = tuple[float, Lanes, Lanes]

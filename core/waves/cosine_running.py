@@ -23,8 +23,7 @@ from gradhesion.core.compiler.jit import NONE, constant, kernel
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.struve.chebyshev import chebyshev_fit
 from gradhesion.core.struve.lanes import chosen, lane_of, load, root_of
-from gradhesion.core.struve.layout import Table
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 from gradhesion.core.waves.cosine_at_once import BATCH, LOSSES, WAVES, Batch, jumps_in_a_row, jumps_of_batch
 from gradhesion.core.waves.cosine_sum import branch_points, sum_of_waves
 

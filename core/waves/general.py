@@ -25,10 +25,9 @@ from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, Rows
 from gradhesion.core.curve.general_energy import Left, drop, find_landing, place_left
 from gradhesion.core.curve.general_folds import folds_of_cell, refine, room
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
-from gradhesion.core.struve.layout import Table
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import highest_harmonic
-from gradhesion.core.types import Floats
+from gradhesion.core.types import Floats, Table
 
 
 class Room(NamedTuple):
