@@ -42,7 +42,7 @@ def _square(k: _Array, stretch: _Array, wavelength: _Array, amplitude: _Array, p
 
 
 def chis(k: _Array, stretch: _Array, wavelength: _Array, amplitude: _Array, profile: Profile) -> tuple[_Array, _Array]:
-    """Return chi_+ and chi_-, by which loading and unloading are off the mean of the waves, over s."""
+    """Return chi_+ and chi_-, by which loading and unloading are off the mean of the waves, over s: (curves,)."""
     rows = tuple((float(n), float(even), float(odd)) for n, even, odd in rows_of(profile))
     up, down = np.full(k.shape, np.nan), np.full(k.shape, np.nan)
     known = (k >= 0.0) & (k <= 1.0)

@@ -8,7 +8,6 @@ energy is read off; without them `sense` is an empty tuple, whose length numba k
 """
 
 import math
-from typing import Any
 
 from gradhesion.core.closed import smooth
 from gradhesion.core.closed.power import power
@@ -55,6 +54,8 @@ from gradhesion.core.scene.cosine_long import solve_long
 from gradhesion.core.scene.cosine_rim import read_rim, slopes_of, walked_to
 from gradhesion.core.scene.scene import Scene
 from gradhesion.core.sensitivities.cosine_slopes import (
+    IfSense,
+    IfSensed,
     at_fixed_stiffness,
     put_forces,
     put_smooth,
@@ -124,12 +125,17 @@ def _solve_force(table: Table, curve: Cosine, scale: float, wavelength: float, r
 
 @kernel()
 def _solve_cycle(
-    table: Table, curve: Cosine, arches: tuple[float, float], scene: Scene, rims: Floats, scratch: Trace, sensed: Any
+    table: Table,
+    curve: Cosine,
+    arches: tuple[float, float],
+    scene: Scene,
+    rims: Floats,
+    scratch: Trace,
+    sensed: IfSensed,
 ) -> None:
     """Follow the cycle of a wavy punch for all its rims a_max/R, of shape (rims,): those within a walk share one trace.
 
-    `arches` are the first and the last one on which the curve can fold, `scratch` is room for a trace, and `sensed` is
-    the record of sensitivities/cosine_slopes.py, or ().
+    `arches` are the first and the last one on which the curve can fold, `scratch` is room for a trace.
     """
     furthest, long = 0.0, False
     for i in range(rims.size):
@@ -198,7 +204,7 @@ def solve_curve(
     rims: Floats,
     results: Results,
     scratch: Trace,
-    sense: Any,
+    sense: IfSense,
 ) -> None:
     """Solve one curve for all its rims.
 
@@ -215,7 +221,7 @@ def solve_curve(
     scratch
         Room for a trace, shape (ROWS, branches).
     sense
-        The record `Sense` of the curve (sensitivities/cosine_slopes.py), or () where no sensitivities are wanted.
+        What sensitivities need.
     """
     k, slots = table.k, results.slots
     if is_endless_wave(wavelength, amplitude):  # A = 0 among them
@@ -234,7 +240,7 @@ def solve_curve(
         if len(sense) > 0:
             put_smooth(table, stretch, rims, results, sense, scratch)
         return
-    sensed: Any = sensed_by(table, sense, stretch, wavelength, amplitude) if len(sense) > 0 else ()
+    sensed: IfSensed = sensed_by(table, sense, stretch, wavelength, amplitude) if len(sense) > 0 else ()
     if wants_force(slots):
         _solve_force(table, curve, force_unit(k, length, depth_scale), wavelength, rims, results)
     if folds:

@@ -1,7 +1,6 @@
 """The rims of a punch with one cosine wave that no walk reaches (path/cosine_long.py)."""
 
 import math
-from typing import Any
 
 import numpy as np
 
@@ -19,6 +18,7 @@ from gradhesion.core.problem.results import CONTACT, DEEPEST, TURNED, put, wants
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC
 from gradhesion.core.scene.cosine_rim import Walked, put_cycle, read_rim, slopes_of, walked_to
 from gradhesion.core.scene.scene import Scene
+from gradhesion.core.sensitivities.cosine_slopes import IfSensed
 from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, next_lane
 from gradhesion.core.types import Floats, Table
 
@@ -59,7 +59,7 @@ def _walked_beyond(table: Table, curve: Cosine, count: int, long: Long, rim: flo
 
 
 @kernel()
-def _follow(table: Table, curve: Cosine, scene: Scene, x: float, i: int, long: Long, sensed: Any) -> None:
+def _follow(table: Table, curve: Cosine, scene: Scene, x: float, i: int, long: Long, sensed: IfSensed) -> None:
     """Follow the cycle of rim number i, at x wavelengths, on branches of its own, and store what it reads there."""
     count = stride(table, curve, x, long, wants_losses(scene.results.slots), 1.0)
     walked = _walked_beyond(table, curve, count, long, x, scene)
@@ -84,7 +84,7 @@ def _is_one_disc_among(table: Table, curve: Cosine, x: float, first: float, long
 
 @kernel()
 def _follow_eight(
-    table: Table, curve: Cosine, scene: Scene, waiting: tuple[int, Lanes, Lanes], long: Long, sensed: Any
+    table: Table, curve: Cosine, scene: Scene, waiting: tuple[int, Lanes, Lanes], long: Long, sensed: IfSensed
 ) -> None:
     """Do the same for the rims that wait: at once for those that stand among regular waves, sensitivities apart.
 
@@ -112,7 +112,13 @@ def _follow_eight(
 
 @kernel()
 def solve_long(
-    table: Table, curve: Cosine, arches: tuple[float, float], scene: Scene, rims: Floats, scratch: Trace, sensed: Any
+    table: Table,
+    curve: Cosine,
+    arches: tuple[float, float],
+    scene: Scene,
+    rims: Floats,
+    scratch: Trace,
+    sensed: IfSensed,
 ) -> None:
     """Follow the cycle of a wavy punch for its rims that no walk reaches: they share its beginning and its sums.
 

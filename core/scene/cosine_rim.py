@@ -1,7 +1,7 @@
 """One rim of a punch with one cosine wave, read off the trace of its curve: its cycle, and what there is to report."""
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact.disc import disc_limits, is_one_disc
@@ -28,8 +28,8 @@ from gradhesion.core.problem.results import (
 )
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.scene.scene import Scene
-from gradhesion.core.sensitivities.cosine_slopes import put_energy
-from gradhesion.core.sensitivities.path_slopes import fill_loading, with_slopes
+from gradhesion.core.sensitivities.cosine_slopes import IfSensed, put_energy
+from gradhesion.core.sensitivities.path_slopes import IfTraced, Traced, fill_loading, with_slopes
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats, Table
 
@@ -94,10 +94,10 @@ def walked_to(table: Table, curve: Cosine, count: int, trace: Floats, furthest: 
 
 
 @kernel()
-def slopes_of(table: Table, curve: Cosine, sensed: Any, walked: Walked, final: float) -> Any:
-    """Return the slopes that go with a trace, a `Traced`; those of loading filled in where those of energy are wanted.
+def slopes_of(table: Table, curve: Cosine, sensed: IfSensed, walked: Walked, final: float) -> Traced:
+    """Return the slopes that go with a trace, those of loading filled in where those of the energy are wanted.
 
-    `sensed` is the record of sensitivities/cosine_slopes.py, `final` the last arch on which the curve folds.
+    `final` is the last arch on which the curve folds.
     """
     slopes = with_slopes(walked.branches, walked.trace, final)
     if sensed.energy:
@@ -107,12 +107,9 @@ def slopes_of(table: Table, curve: Cosine, sensed: Any, walked: Walked, final: f
 
 @kernel()
 def read_rim(
-    table: Table, curve: Cosine, walked: Walked, scene: Scene, x: float, i: int, sensed: Any, slopes: Any
+    table: Table, curve: Cosine, walked: Walked, scene: Scene, x: float, i: int, sensed: IfSensed, slopes: IfTraced
 ) -> None:
-    """Store what rim number i, at x wavelengths, reads off a trace: its cycle, and its sensitivities if wanted.
-
-    `sensed` and `slopes` (`slopes_of`) are () where no sensitivities are wanted.
-    """
+    """Store what rim number i, at x wavelengths, reads off a trace: its cycle, and its sensitivities if wanted."""
     _cycle_at_rim(table, curve, walked, scene, x, i)
     if len(sensed) > 0:  # noqa: SIM102 (numba drops the branch by the length alone)
         if sensed.energy:

@@ -6,7 +6,7 @@ an empty tuple, whose length numba knows when it compiles.
 
 import math
 from collections.abc import Callable
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -60,6 +60,8 @@ from gradhesion.core.pull_off.rims import lowest_loads
 from gradhesion.core.scene.scene import Scene
 from gradhesion.core.sensitivities.general_slopes import (
     NOTES,
+    IfSense,
+    IfSensed,
     put_energy,
     put_noted,
     put_rest,
@@ -121,12 +123,11 @@ def _put_cycle(
 
 @kernel()
 def _walked(
-    basis: Basis, curve: Series, scene: Scene, bounds: tuple[float, float], rims: Floats, chosen: Truths, own: Any
+    basis: Basis, curve: Series, scene: Scene, bounds: tuple[float, float], rims: Floats, chosen: Truths, own: IfSensed
 ) -> bool:
     """Solve the chosen rims of a curve, shape (rims,), in wavelengths, on one trace; return whether it could be walked.
 
-    All folds stand between the two x of `bounds`; `own` is the record `Sensed` of sensitivities/general_slopes.py, or
-    ().
+    All folds stand between the two x of `bounds`.
     """
     results = scene.results
     slots = results.slots
@@ -176,11 +177,18 @@ def _walked(
 
 @kernel()
 def _strode(
-    basis: Basis, curve: Series, scene: Scene, first: float, middle: Middle, rim: tuple[float, float], i: int, own: Any
+    basis: Basis,
+    curve: Series,
+    scene: Scene,
+    first: float,
+    middle: Middle,
+    rim: tuple[float, float],
+    i: int,
+    own: IfSensed,
 ) -> bool:
     """Solve rim number i of a long curve, x and its rounding error; return whether its waves could be summed.
 
-    No fold stands before x = `first`; `own` is the record `Sensed` of sensitivities/general_slopes.py, or ().
+    No fold stands before x = `first`.
     """
     slots = scene.results.slots
     tasks = Tasks(wants_losses(slots), curve.alpha > 0.0, slots[CONTACT] >= 0, slots[TURNED] > 0)
@@ -201,10 +209,10 @@ def _strode(
 
 
 @kernel()
-def _cycles(basis: Basis, curve: Series, scene: Scene, rims: Floats, own: Any) -> None:
+def _cycles(basis: Basis, curve: Series, scene: Scene, rims: Floats, own: IfSensed) -> None:
     """Follow the cycles of a curve up to all its rims that are not refused: those within a walk share one trace.
 
-    `rims` are a_max/R, of shape (rims,); `own` is the record `Sensed` of sensitivities/general_slopes.py, or ().
+    `rims` are a_max/R, of shape (rims,).
     """
     series = basis.series
     count = rims.size
@@ -286,7 +294,7 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
     """Return the kernel that solves many scenes; without `cycles` it knows the pull-off alone."""
 
     @kernel()
-    def solve_scenes(basis: Basis, curves: GeneralCurves, results: Results, sense: Any) -> None:
+    def solve_scenes(basis: Basis, curves: GeneralCurves, results: Results, sense: IfSense) -> None:
         """Solve the curves of one gradient exponent, each for all its rims.
 
         Parameters
@@ -298,7 +306,7 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
         results
             Where results go: values of shape (results, curves, rims), flags of shape (curves, rims).
         sense
-            (), or the record `Sense` of sensitivities/general_slopes.py.
+            What sensitivities need.
         """
         numbers, exponent, depth_factor, stretch, wavelength, amplitude, compliance, rims = curves
         table, cosine_bins, series = basis

@@ -7,7 +7,7 @@ closed over its kernel, would be compiled anew in every process.)
 
 import math
 from collections.abc import Callable
-from typing import Any, Final
+from typing import Final
 
 from gradhesion.core.closed import envelope
 from gradhesion.core.compiler.jit import kernel
@@ -15,7 +15,7 @@ from gradhesion.core.problem.curves import Curves, is_in_range
 from gradhesion.core.problem.results import Results
 from gradhesion.core.scene import cosine as scene
 from gradhesion.core.scene import short_wave as asymptotic_cycle
-from gradhesion.core.sensitivities.cosine_slopes import of_curve
+from gradhesion.core.sensitivities.cosine_slopes import IfSense, of_curve
 from gradhesion.core.struve.current import ready
 from gradhesion.core.types import Floats
 
@@ -27,7 +27,7 @@ def loop_of(solver: int) -> Callable[..., None]:
     """Return the kernel that solves many curves by one solver."""
 
     @kernel()
-    def solve_curves(curves: Curves, results: Results, scratch: Floats, sense: Any) -> None:
+    def solve_curves(curves: Curves, results: Results, scratch: Floats, sense: IfSense) -> None:
         """Solve curves, each for all its rims.
 
         Parameters
@@ -39,7 +39,7 @@ def loop_of(solver: int) -> Callable[..., None]:
         scratch
             Room for a trace, of shape (ROWS, branches).
         sense
-            (), or for the exact solver the record `Sense` of all curves (sensitivities/cosine_slopes.py).
+            What the sensitivities of the exact solver need.
         """
         tables, which, index, stiffness, wavelengths, amplitudes, rims = curves
         table = tables[0]

@@ -13,7 +13,7 @@ The pull-off is a minimum of the load, or stands at the rim: its place may be he
 """
 
 import math
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -50,6 +50,12 @@ BY_STIFFNESS, BY_WAVELENGTH, BY_AMPLITUDE, BY_RIM, BY_EXPONENT, BY_MACHINE = map
 COUNT = 6
 FORCE, ENERGY, DEPTH = 0, 1, 2
 """What is differentiated: the last one is the depth at the rim, over R, not its logarithm."""
+
+
+IfSense: TypeAlias = Any
+"""A record `Sense`, or () where no sensitivities are wanted: numba drops what needs it by the length."""
+IfSensed: TypeAlias = Any
+"""A record `Sensed`, or ()."""
 
 
 class Sense(NamedTuple):
@@ -166,7 +172,7 @@ def smooth_trace(table: Table, curve: Cosine, trace: Trace) -> int:
 
 
 @kernel()
-def of_curve(sense: Any, i: int, which: int) -> Any:
+def of_curve(sense: IfSense, i: int, which: int) -> IfSense:
     """Return the record `Sense` of curve i, of exponent `which`, from that of all curves; () if there is none."""
     if len(sense) == 0:
         return ()

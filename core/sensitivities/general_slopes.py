@@ -13,7 +13,7 @@ with S the stiffness of the machine itself; the load does not depend on it. See 
 """
 
 import math
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -45,6 +45,12 @@ from gradhesion.core.waves.general import DOWN, NOWHERE, UP, Waves, room_for_wav
 LN2: Final = math.log(2.0)
 NOTES: Final = 4096
 """Notes of a cycle that there is room for."""
+
+
+IfSense: TypeAlias = Any
+"""A record `Sense`, or () where no sensitivities are wanted: numba drops what needs it by the length."""
+IfSensed: TypeAlias = Any
+"""A record `Sensed`, or ()."""
 
 
 class Sense(NamedTuple):
@@ -90,7 +96,9 @@ class Sensed(NamedTuple):
 
 
 @kernel()
-def sensed_by(sense: Any, i: int, stretch: float, wavelength: float, amplitude: float, compliance: float) -> Any:
+def sensed_by(
+    sense: IfSense, i: int, stretch: float, wavelength: float, amplitude: float, compliance: float
+) -> IfSensed:
     """Return the record `Sensed` of curve i from the record `Sense` of all, () if this is ().
 
     s, lambda/R, A and the compliance of the curve are those of `curve_of` (curve/general.py).
@@ -108,7 +116,7 @@ def sensed_by(sense: Any, i: int, stretch: float, wavelength: float, amplitude: 
 
 
 @kernel()
-def senses_energy(own: Any) -> bool:
+def senses_energy(own: IfSensed) -> bool:
     """Return whether the sensitivities of the energy of a scene are asked for."""
     if len(own) == 0:
         return False

@@ -27,7 +27,7 @@ from gradhesion.core.curve.general_folds import folds_of_cell, refine, room
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import highest_harmonic
-from gradhesion.core.types import Floats, Table
+from gradhesion.core.types import Floats, Harmonics, Table
 
 
 class Room(NamedTuple):
@@ -63,7 +63,7 @@ _MODULUS: Final = 2_147_483_647
 
 
 @kernel()
-def _leading(table: Table, series: Floats, u: float) -> tuple[float, float]:
+def _leading(table: Table, series: Harmonics, u: float) -> tuple[float, float]:
     """Return F and its slope over 2 pi."""
     value, rate = 0.0, 0.0
     power = 0.5 * (3.0 - table.k)
@@ -78,7 +78,7 @@ def _leading(table: Table, series: Floats, u: float) -> tuple[float, float]:
 
 
 @kernel()
-def cut_of(table: Table, series: Floats) -> float:
+def cut_of(table: Table, series: Harmonics) -> float:
     """Return u in 0 .. 1 at which F is least."""
     samples = int(_SAMPLES * highest_harmonic(series))
     least, best = math.inf, 0
@@ -99,7 +99,7 @@ def cut_of(table: Table, series: Floats) -> float:
 
 
 @kernel()
-def room_for_waves(series: Floats) -> Room:
+def room_for_waves(series: Harmonics) -> Room:
     """Return room for the waves of a series, rows (n, cos, sin) of shape (harmonics, 3)."""
     return Room(room(), np.empty(MOST), np.empty((2, 4, 2 * int(highest_harmonic(series)) + 8)))
 
