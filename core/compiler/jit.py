@@ -13,7 +13,7 @@ from numba.core import event
 
 from gradhesion.core.compiler import cache, collecting, keeping, linking
 from gradhesion.core.compiler.borrowed import OrdinaryCompiler
-from gradhesion.core.compiler.probe import LAZY
+from gradhesion.core.compiler.probe import LAZY, folder_of_kernels
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -127,9 +127,10 @@ def kernel(*, contract: bool = False, inline: bool = False, entry: bool = False)
 
 def _kept(function: Function, options: dict[str, Any]) -> Function:
     """Have a function compiled when it is called, and the code kept as numba does where that is possible."""
-    folder = cache.place().folder
+    folder = folder_of_kernels()
     if folder is not None:
         try:
+            folder.mkdir(exist_ok=True)
             with keeping.kept_in(folder):
                 found: Function = numba.njit(cache=True, **options)(function)
         except (OSError, RuntimeError):  # the folder has gone, or is full

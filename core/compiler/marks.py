@@ -6,13 +6,14 @@ from typing import Final
 
 from gradhesion.core.compiler import cache
 from gradhesion.core.compiler.ahead import is_complete
+from gradhesion.core.compiler.probe import folder_of_kernels
 
 _here: Final[set[str]] = set()
 """The kinds of work that this process has done, whose kernels are in memory."""
 
 
 def _mark(kind: str) -> Path | None:
-    folder = cache.place().folder
+    folder = folder_of_kernels()
     return None if folder is None else folder / f"compiled-{kind}-{cache.machine()}"
 
 

@@ -1,11 +1,12 @@
 """Whether this version of numba links kernels as linking.py has it do: tried once, and kept beside the kernels.
 
 Private interfaces may change with any version of numba. Two small kernels, one of which calls the other, are compiled,
-linked, written and read as all kernels are, and called; if anything of this fails, numba links kernels its own way. A
-process that ends within the trial leaves a mark that says so, and the next one does not try again.
+linked, written and read as all kernels are, and called; if anything of this fails, numba links kernels its own way. One
+process tries, others wait for it; where it ends within the trial, its mark says so, and none tries again.
 """
 
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, Final
 
@@ -13,11 +14,11 @@ import numba
 import numpy as np
 from numba.core.registry import cpu_target
 
-from gradhesion.core.compiler import ahead, linking
-from gradhesion.core.compiler.cache import LINKING, machine, place
+from gradhesion.core.compiler import ahead, cache, linking
 
 _WORKS: Final = "as one"
 _FAILS: Final = "one by one"
+_TRYING: Final = "trying"
 
 
 def _options() -> dict[str, Any]:
@@ -65,33 +66,57 @@ def _works() -> bool:
 
 
 def _kept(mark: Path) -> str:
-    """Return what a process has found before; "" if none has."""
+    """Return what a process has found; "" if none has, `_TRYING` if one is trying, or has ended within the trial."""
     try:
         return mark.read_text(encoding="ascii")
     except (OSError, ValueError):
         return ""
 
 
+@contextmanager
+def _alone(lock: Path) -> Iterator[None]:
+    """Hold a lock; nothing where a folder has none."""
+    from filelock import FileLock  # noqa: PLC0415 (10 ms, once)
+
+    held = FileLock(lock)
+    with suppress(OSError, NotImplementedError):
+        held.acquire()
+    try:
+        yield
+    finally:
+        held.release()
+
+
 def _found() -> bool:
     """Have numba link kernels so, if it can; return whether it does."""
-    folder = place().folder
+    folder = cache.place().folder
     if ahead.shipped():  # compiled by the same version
         linking.install()
         return True
     if folder is None:
         return _works()
-    mark = folder / f"linking-{machine()}"
+    mark = folder / f"linking-{cache.machine()}"
     known = _kept(mark)
+    if known not in {_WORKS, _FAILS}:
+        with _alone(mark.with_suffix(".lock")):
+            known = _kept(mark)
+            if not known:
+                with suppress(OSError):
+                    mark.write_text(_TRYING, encoding="ascii")
+                works = _works()
+                with suppress(OSError):
+                    mark.write_text(_WORKS if works else _FAILS, encoding="ascii")
+                return works
     if known == _WORKS:
         linking.install()
-    elif not known:
-        with suppress(OSError):
-            mark.write_text(_FAILS, encoding="ascii")
-        known = _WORKS if _works() else _FAILS
-        with suppress(OSError):
-            mark.write_text(known, encoding="ascii")
     return known == _WORKS
 
 
-LAZY: Final = LINKING != "ordinary" and _found()
+LAZY: Final = cache.LINKING != "ordinary" and _found()
 """Whether kernels are linked so."""
+
+
+def folder_of_kernels() -> Path | None:
+    """Return where this process keeps compiled kernels: those that numba links its own way are apart."""
+    folder = cache.place().folder
+    return folder if LAZY or folder is None else folder / "ordinary"

@@ -15,24 +15,24 @@ from gradhesion.core.types import Bits, Floats, Integers
 
 INTEGERS: Final = ("loading_jumps", "unloading_jumps")
 """Those that count."""
-FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST, LOADED, UNLOADED = map(constant, range(9))
+FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST, LOADED, UNLOADED = map(constant, range(len(RESULTS)))
 """The rows."""
-CONTACT = 9
+CONTACT = len(RESULTS)
 """One more slot, not -1 if `status` reports where loading does not keep the contact one disc."""
-TURNED = 10
+TURNED = CONTACT + 1
 """And another one, 1 if the rims are turning points (turning/cosine.py): places that loading surely reaches."""
-OUTERMOST = constant(11)
+OUTERMOST = constant(TURNED + 1)
 """The last one: the row of the largest end of a jump, REACH of names.py, stored of rims at infinity only."""
 
 
 Slots: TypeAlias = Integers
-"""The row of the values for each result, -1 for what is not wanted, and two flags; of shape (12,): `slots_of`."""
+"""The row of the values for each result, -1 for what is not wanted, and three more; of shape (slots,): `slots_of`."""
 
 
 class Results(NamedTuple):
     """Where the results of one curve go; a loop over curves has one axis more in `out` and `status`, before the last.
 
-    slots       the row of `out` for each result, -1 for what is not wanted, int64 of shape (12,): `slots_of`
+    slots       the row of `out` for each result, -1 for what is not wanted, int64 of shape (slots,)
     out         the values, of shape (rows, rims)
     status      bits of problem/status.py, int8 of shape (rims,)
     """
