@@ -43,7 +43,7 @@ from gradhesion.core.sensitivities.neighbours import Near
 from gradhesion.core.sensitivities.path_slopes import Traced, energy_slopes, fill_loading, with_slopes
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.types import Floats, Slopes, Table
+from gradhesion.core.types import Floats, Table
 
 BY_STIFFNESS, BY_WAVELENGTH, BY_AMPLITUDE, BY_RIM, BY_EXPONENT, BY_MACHINE = map(constant, range(6))
 """Rows of what is found; that of k is at fixed M, and only general scenes have a machine."""
@@ -80,11 +80,21 @@ class Sensed(NamedTuple):
     turned: bool  # whether the rims are places where cycles turn
 
 
-@kernel()
-def _put(found: Slopes, k: float, curve: Cosine, powers: tuple[float, float], by: Floats, value: float, i: int) -> None:
-    """Store the sensitivities of a value of rim number i, into `found` of shape (COUNT, rims).
+class By(NamedTuple):
+    """Slopes of a reduced force or energy."""
 
-    `by` are its slopes by b, g, ln x and k, of shape (4,); `powers` are those of lambda and of M in its unit.
+    bend: float  # by b, of a general curve by ln B
+    gain: float  # by g, or ln g
+    rim: float  # by ln x
+    exponent: float  # by k
+    share: float  # of a general curve by ln(beta/alpha)
+
+
+@kernel()
+def _put(found: Floats, k: float, curve: Cosine, powers: tuple[float, float], by: By, value: float, i: int) -> None:
+    """Store the sensitivities of a value of rim number i, into `found` of shape (COUNT, rims), from its slopes.
+
+    `powers` are those of lambda and of M in its unit.
     """
     unit, half = powers
     b, g, _ = curve
@@ -93,12 +103,12 @@ def _put(found: Slopes, k: float, curve: Cosine, powers: tuple[float, float], by
         found[:, i] = math.nan
         return
     found[BY_MACHINE, i] = 0.0
-    bend, gain, rim = b * by[0] / value, g * by[1] / value, by[2] / value
+    bend, gain, rim = b * by.bend / value, g * by.gain / value, by.rim / value
     found[BY_STIFFNESS, i] = half + 0.5 * (bend + gain)
     found[BY_WAVELENGTH, i] = unit + (2.0 - c) * bend + (1.0 - c) * gain - rim
     found[BY_AMPLITUDE, i] = gain
     found[BY_RIM, i] = rim
-    found[BY_EXPONENT, i] = by[3] / value
+    found[BY_EXPONENT, i] = by.exponent / value
 
 
 @kernel()
@@ -113,27 +123,25 @@ def _lowest_load_at(table: Table, curve: Cosine, x: float) -> float:
 
 
 @kernel()
-def _force_slopes(table: Table, curve: Cosine, sensed: Sensed, x: float, at_rim: bool, by: Floats) -> float:
-    """Put the slopes of the reduced force at x by b, g, ln x and k into `by`, of shape (4,); return the force."""
+def _force_slopes(table: Table, curve: Cosine, sensed: Sensed, x: float, at_rim: bool) -> tuple[float, By]:
+    """Return the reduced force at x, and its slopes."""
     (tables, curves, weights), units = sensed.near, sensed.units[0]
     b, g, _ = curve
     k = table.k
     z, power, s0, s1, v, _, _ = wave(table, 0.0, x)
     front = z / (power * power)
     force = -_lowest_load_at(table, curve, x)
-    by[0] = -front * z / (3.0 + k)
-    by[1] = -front * (s0 - s1) if z <= PHASELESS else z / power * table.amplitude
-    by[2] = 0.0
+    by_gain = -front * (s0 - s1) if z <= PHASELESS else z / power * table.amplitude
+    by_rim, by_exponent = 0.0, 0.0
     if at_rim:
-        by[2] = -front * (b * z + g * v - 0.5 * (3.0 + k) * power)
+        by_rim = -front * (b * z + g * v - 0.5 * (3.0 + k) * power)
         if z > PHASELESS:
             abscissa = z / power
-            by[2] = -abscissa * (b * abscissa - 0.5 * (3.0 + k) * (1.0 + g * table.amplitude))
-    by[3] = 0.0
+            by_rim = -abscissa * (b * abscissa - 0.5 * (3.0 + k) * (1.0 + g * table.amplitude))
     for j in range(weights.size):
         other = Cosine(curves[j, 0], curves[j, 1], 0.0)
-        by[3] -= weights[j] * units[j] * _lowest_load_at(tables[j], other, x)
-    return force
+        by_exponent -= weights[j] * units[j] * _lowest_load_at(tables[j], other, x)
+    return force, By(-front * z / (3.0 + k), by_gain, by_rim, by_exponent, 0.0)
 
 
 @kernel()
@@ -211,14 +219,13 @@ def put_forces(
     Where cycles turn at a depth, those of the depth at the rim as well; `unit` is that of depth in R, `rims` are
     a_max/R, of shape (rims,).
     """
-    by = np.zeros(4)
     powers = (2.0 - 0.5 * (1.0 - table.k), 0.5)
     for i in range(rims.size):
         if results.status[i] & NO_VALUE:
             continue
         at_rim = results.status[i] & PULL_OFF_AT_RIM != 0
         x = (rims[i] if at_rim else results.out[results.slots[RADIUS], i]) / wavelength
-        force = _force_slopes(table, curve, sensed, x, at_rim, by)
+        force, by = _force_slopes(table, curve, sensed, x, at_rim)
         _put(sensed.found[FORCE], table.k, curve, powers, by, force, i)
         if sensed.turned and at_rim:
             _put_depth(table, curve, sensed, unit, x, i)
@@ -230,11 +237,10 @@ def put_energy(table: Table, curve: Cosine, sensed: Sensed, slopes: Traced, x: f
 
     The energy is in 2 pi l^2 dgamma.
     """
-    total, by = np.empty(SLOPES), np.empty(4)
+    total = np.empty(SLOPES)
     rim_depth = depth(table, curve, x) if x < math.inf else math.inf
-    by[2] = energy_slopes(table, curve, sensed.near, slopes, x, rim_depth, total)
-    by[0], by[1] = total[BEND], total[GAIN]
-    by[3] = total[EXPONENT]
+    by_rim = energy_slopes(table, curve, sensed.near, slopes, x, rim_depth, total)
+    by = By(total[BEND], total[GAIN], by_rim, total[EXPONENT], 0.0)
     _put(sensed.found[ENERGY], table.k, curve, (2.0, 0.0), by, energy, i)
 
 

@@ -32,6 +32,7 @@ from gradhesion.core.sensitivities.cosine_slopes import (
     DEPTH,
     ENERGY,
     FORCE,
+    By,
 )
 from gradhesion.core.sensitivities.general_jump_slopes import NO_JUMP, Change, parts_of, rim_slope_of, rise_to
 from gradhesion.core.sensitivities.general_wave_slopes import add_jump, add_jump_from_zero, add_waves
@@ -125,11 +126,10 @@ def senses_energy(own: IfSensed) -> bool:
 
 
 @kernel()
-def _put(own: Sensed, row: int, powers: tuple[float, float, float], by: Floats, value: float, i: int) -> None:
-    """Store the sensitivities of a value of rim number i, in the row FORCE or ENERGY.
+def _put(own: Sensed, row: int, powers: tuple[float, float, float], by: By, value: float, i: int) -> None:
+    """Store the sensitivities of a value of rim number i, in the row FORCE or ENERGY, from its slopes.
 
-    `by` are its slopes by ln B, ln g, the share, ln x and k, of shape (5,); `powers` are those of lambda and of M in
-    its unit, and the slope by k of ln of this.
+    `powers` are those of lambda and of M in its unit, and the slope by k of ln of this.
     """
     unit, half, unit_by_k = powers
     k, m, by_k, found = own.k, own.m, own.by_k, own.found[row]
@@ -137,12 +137,12 @@ def _put(own: Sensed, row: int, powers: tuple[float, float, float], by: Floats, 
     if not value > 0.0:
         found[:, i] = math.nan
         return
-    bend, gain, share, rim = by[0] / value, by[1] / value, by[2] / value, by[3] / value
+    bend, gain, share, rim = by.bend / value, by.gain / value, by.share / value, by.rim / value
     found[BY_STIFFNESS, i] = half + 0.5 * (bend + gain) + share
     found[BY_WAVELENGTH, i] = unit + (m - c) * bend + (1.0 - c) * gain + (1.0 + k) * share - rim
     found[BY_AMPLITUDE, i] = gain
     found[BY_RIM, i] = rim
-    found[BY_EXPONENT, i] = by[4] / value + by_k.bend * bend + by_k.gain * gain + by_k.share * share + unit_by_k
+    found[BY_EXPONENT, i] = by.exponent / value + by_k.bend * bend + by_k.gain * gain + by_k.share * share + unit_by_k
     found[BY_MACHINE, i] = -share
 
 
@@ -176,7 +176,6 @@ def put_rest(
     B, m, g, _, _ = curve
     found = own.found
     pulled = Series(B, m, g, 0.0, 1.0)
-    by = np.zeros(5)
     powers = (2.0 - 0.5 * (1.0 - own.k), 0.5, own.by_k.force)
     for i in range(rims.size):
         if results.status[i] & NO_VALUE or not own.force:
@@ -185,12 +184,11 @@ def put_rest(
         x = (rims[i] if at_rim else results.out[results.slots[RADIUS], i]) / wavelength
         force = -coordinate(basis, pulled, x)
         bend, gain, _, by_k = parts_of(basis, pulled, own.change, x, 0.0)
-        by[0], by[1], by[2], by[3] = -bend, -gain, 0.0, 0.0
+        by_rim = 0.0
         if at_rim:
             _, _, rate = slope(basis, pulled, x)
-            by[3] = -TWO_PI * x * rate
-        by[4] = -by_k
-        _put(own, FORCE, powers, by, force, i)
+            by_rim = -TWO_PI * x * rate
+        _put(own, FORCE, powers, By(-bend, -gain, by_rim, -by_k, 0.0), force, i)
         if own.turned and at_rim:
             _put_depth(basis, curve, own, unit, x, i)
     found[:, BY_EXPONENT, :] += own.size * found[:, BY_STIFFNESS, :]
@@ -202,9 +200,7 @@ def put_rest(
 @kernel()
 def _put_total(own: Sensed, total: Slopes, by_rim: float, energy: float, i: int) -> None:
     """Store the sensitivities of the energy of rim number i, in 2 pi l^2 dgamma, from its slopes (SLOPES,)."""
-    by = np.empty(5)
-    by[0], by[1], by[2], by[3] = total[BEND], total[GAIN], total[SHARE], by_rim
-    by[4] = total[EXPONENT]
+    by = By(total[BEND], total[GAIN], by_rim, total[EXPONENT], total[SHARE])
     _put(own, ENERGY, (2.0, 0.0, 0.0), by, energy, i)
 
 
