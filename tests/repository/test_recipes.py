@@ -1,0 +1,118 @@
+"""The recipes of docs/architecture.md, followed in a copy of the sources: what they say is enough, in as many files."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+ROOMS = ("cli", "configs", "core", "twin")
+
+OUTPUT = {
+    "core/problem/names.py": [
+        ('    "unloading_energy",\n', '    "unloading_energy",\n    "pull_off_area",\n'),
+        (
+            'PULL_OFF: Final = ("pull_off_force", "pull_off_radius")',
+            'PULL_OFF: Final = ("pull_off_force", "pull_off_radius", "pull_off_area")',
+        ),
+    ],
+    "core/problem/results.py": [
+        ("LOADED, UNLOADED = map(", "LOADED, UNLOADED, AREA = map("),
+        ("or slots[RADIUS] >= 0", "or slots[RADIUS] >= 0 or slots[AREA] >= 0"),
+    ],
+    "core/scene/cosine.py": [
+        ("import (\n    DEEPEST,", "import (\n    AREA,\n    DEEPEST,"),
+        (
+            "put(results, RADIUS, i, place * wavelength if place != x else rims[i])",
+            (
+                "put(results, RADIUS, i, place * wavelength if place != x else rims[i])\n"
+                "        put(results, AREA, i, math.pi * (place * wavelength) ** 2)"
+            ),
+        ),
+    ],
+    "core/scene/general.py": [
+        ("import (\n    CONTACT,", "import (\n    AREA,\n    CONTACT,"),
+        (
+            "put(results, RADIUS, i, place * wavelength if place != x else rims[i])",
+            (
+                "put(results, RADIUS, i, place * wavelength if place != x else rims[i])\n"
+                "        put(results, AREA, i, math.pi * (place * wavelength) ** 2)"
+            ),
+        ),
+    ],
+    "cli/names.py": [
+        (
+            '    "pull_off_radius": "contact radius a/R at pull-off",\n',
+            '    "pull_off_radius": "contact radius a/R at pull-off",\n    "pull_off_area": "contact area at pull-off, in R^2",\n',
+        ),
+        (
+            '    "pull_off_radius": "radius at pull-off $a/R$",\n',
+            '    "pull_off_radius": "radius at pull-off $a/R$",\n    "pull_off_area": "area at pull-off $/R^2$",\n',
+        ),
+    ],
+}
+CONTROL = {
+    "core/problem/control.py": [
+        ('("displacement", "load", "machine")', '("displacement", "load", "machine", "own spring")')
+    ],
+    "core/arrays/prepared.py": [
+        (
+            "    if machine is None:",
+            '    if loading.control == "own spring":\n        machine = np.ones(k.shape)\n    if machine is None:',
+        ),
+    ],
+    "cli/study/shape_words.py": [
+        (
+            '        "load": "load, so',
+            '        "own spring": "displacement through a spring of stiffness E* R",\n        "load": "load, so',
+        ),
+    ],
+    "cli/picture/pictured.py": [
+        ('"load": "under controlled load"', '"own spring": "by its own spring", "load": "under controlled load"')
+    ],
+}
+PUNCH = "dict(k=0.3, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.2, A=[0.01, 0.03], a_max_over_R=1.0)"
+ASKED = {
+    "output": f"""
+two = gr.solve({PUNCH}, ["pull_off_area", "pull_off_radius"])
+load = gr.solve({PUNCH}, ["pull_off_area", "pull_off_radius"], control="load")
+for found in (two, load):
+    assert np.allclose(found.pull_off_area, np.pi * found.pull_off_radius**2, rtol=1e-15, atol=0.0)
+    assert found.pull_off_area.attrs["long_name"] == "contact area at pull-off, in R^2"
+""",
+    "control": f"""
+own = gr.solve({PUNCH}, "pull_off_force", control="own spring")
+machine = gr.solve({PUNCH}, "pull_off_force", control="machine", machine_stiffness=1.0)
+assert (own.pull_off_force == machine.pull_off_force).all()
+assert own.attrs["control"] == "own spring"
+""",
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("what", "edits", "most"), [("output", OUTPUT, 6), ("control", CONTROL, 8)])
+def test_a_recipe_is_enough(tmp_path: Path, what: str, edits: dict[str, list[tuple[str, str]]], most: int) -> None:
+    package = tmp_path / "sources" / "gradhesion"
+    ignored = shutil.ignore_patterns("__pycache__")
+    shutil.copytree(ROOT / "api", package, ignore=ignored)
+    for room in ROOMS:
+        shutil.copytree(ROOT / room, package / room, ignore=ignored)
+    for name, changes in edits.items():
+        text = (package / name).read_text(encoding="utf-8")
+        for old, new in changes:
+            assert text.count(old) == 1, (name, old)
+            text = text.replace(old, new)
+        (package / name).write_text(text, encoding="utf-8")
+    environment = os.environ | {"PYTHONPATH": str(package.parent), "NUMBA_CACHE_DIR": str(tmp_path / "kernels")}
+    code = f"import numpy as np, gradhesion as gr\nassert gr.__file__.startswith({str(package)!r})\n{ASKED[what]}"
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert len(edits) < most, "and the page of the manual"
+    page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    (recipe,) = re.findall(rf"### Add an? {what}\n(.*?)(?=\n##|\Z)", page, re.DOTALL)
+    for name in edits:
+        assert f"`{name}`" in recipe
