@@ -5,7 +5,8 @@
 which is (3.5) with the adhesive part (4.10), in one integral. Contact over one disc asks for gap(r) >= 0 for all
 r > a; delta_H(s) >= delta for all s > a is sufficient. The integral is a sum of Gauss rules: Jacobi's in the last
 panel, which takes the singular end r by its weight, and Legendre's in panels that grow from there by a factor of 2 to
-at most half a wave, and likewise from a, where s^k is not smooth at s = 0. Millions of points ask for a faster way.
+at most half a wave, and likewise from a, where s^k is not smooth at s = 0. As k tends to 1 all of the weight moves to
+r: what it takes there is left out of the sum. Millions of points ask for a faster way.
 Source: Jin, Guo & Wan (2013), section 12 of docs/theory.md.
 """
 
@@ -152,20 +153,26 @@ def _gap(k: float, r: float, a: float, shortest: float, opening: Callable[[Array
     """Return the gap at one point r, from delta_H - delta; NaN for r < a."""
     if r < a:
         return math.nan
-    if k == 1.0:  # the surface gives way where it is pressed alone: the integral's weight is all at r
-        return float(opening(np.asarray(r)))
-    if r == a:
-        return 0.0
+    c = 0.5 * (1.0 - k)
+    if r == a:  # at k = 1 the surface gives way where it is pressed alone
+        return float(opening(np.asarray(r))) if c == 0.0 else 0.0
+
+    def density(s: Array) -> Array:
+        """Return the integrand times (r-s)^(1-c)."""
+        return s**k * opening(s) * (r + s) ** (c - 1.0)
+
     edges = _panels(a, r, 0.5 * shortest)
     centre, half = 0.5 * (edges[1:] + edges[:-1]), 0.5 * (edges[1:] - edges[:-1])
     nodes, weights = _LEGENDRE
     s = (centre[:-1, None] + half[:-1, None] * nodes).ravel()
-    total = np.sum((half[:-1, None] * weights).ravel() * s**k * opening(s) * (r * r - s * s) ** (-0.5 * (1.0 + k)))
-    # (r^2-s^2)^(-(1+k)/2) = (r+s)^... half^... (1-t)^..., with s = centre + half t
-    nodes, weights = _abel.jacobi_rule(-0.5 * (1.0 + k), 0.0)
-    s = centre[-1] + half[-1] * nodes
-    total += half[-1] ** (0.5 * (1.0 - k)) * np.sum(weights * s**k * opening(s) * (r + s) ** (-0.5 * (1.0 + k)))
-    return float(2.0 / math.pi * math.cos(0.5 * math.pi * k) * total)
+    total = np.sum((half[:-1, None] * weights).ravel() * density(s) * (r - s) ** (c - 1.0))
+    # the last panel less density(r), with the weight (r-s)^c; density(r) has an integral in closed form
+    nodes, weights = _abel.jacobi_rule(c, 0.0)
+    s, at_end = centre[-1] + half[-1] * nodes, density(np.asarray(r))
+    total -= half[-1] ** (1.0 + c) * np.sum(weights * (at_end - density(s)) / (r - s))
+    wave = math.pi * c
+    share = math.sin(wave) / wave if c > 0.0 else 1.0
+    return float(2.0 / math.pi * math.sin(wave) * total + 2.0 * share * (r - edges[-2]) ** c * at_end)
 
 
 def _panels(a: float, r: float, widest: float) -> Array:

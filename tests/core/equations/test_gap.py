@@ -76,6 +76,27 @@ def test_at_exponent_one_the_surface_is_flat_outside() -> None:
     np.testing.assert_allclose(gap(1 - 1e-7, r, 0.2, depth, 0.1, 0.03), profile.height(r, 0.1, 0.03) - depth, atol=2e-6)
 
 
+@pytest.mark.parametrize("k", [0.9, 1 - 1e-3, 1 - 1e-6, 1 - 1e-9, 1 - 1e-13])
+@pytest.mark.parametrize("amplitude", [0.0, 0.01])
+def test_next_to_exponent_one(k: float, amplitude: float) -> None:
+    """All of the weight is at r, where int (r-s)^(c-1) ds has the closed form (r-a)^c/c; c = (1-k)/2."""
+    a, r, wavelength, depth = 0.2, 0.29, 0.1, 0.013
+    with mpmath.workdps(25):
+        c, end = (1 - mpmath.mpf(k)) / 2, mpmath.mpf(r)
+
+        def density(s: mpmath.mpf) -> mpmath.mpf:
+            wave = float(hertz.wave_indentation(k, float(s), wavelength, amplitude)) if amplitude else 0
+            return s**k * (s * s / (1 + mpmath.mpf(k)) + wave - depth) * (end + s) ** (c - 1)
+
+        def rest(s: mpmath.mpf) -> mpmath.mpf:
+            return (density(s) - density(end)) * (end - s) ** (c - 1) if s < end else mpmath.mpf(0)
+
+        total = mpmath.quad(rest, mpmath.linspace(a, r, 7)) + density(end) * (end - a) ** c / c
+        expected = float(2 / mpmath.pi * mpmath.sin(mpmath.pi * c) * total)
+    largest = float(hertz.indentation(k, r, wavelength, amplitude))
+    assert gap(k, r, a, depth, wavelength, amplitude) == pytest.approx(expected, abs=1e-14 * largest)
+
+
 @pytest.mark.parametrize("k", [0.0, 0.37, 0.9])
 @pytest.mark.parametrize("wavelength", [1.0, 0.04])
 def test_quadrature_of_the_integral(k: float, wavelength: float) -> None:
