@@ -10,7 +10,9 @@ and, for z small, within sum h_n n z T0(0)/(2+k). So the load lies nowhere below
 
 with a chi that falls as z grows. The search starts where this is lowest and goes outwards cell by cell on both sides,
 leaving out what cannot hold anything lower than the best trough found. The bound is too low by some parts in a hundred,
-which may be many waves: of those the lowest is found by bisection (waves/lowest.py).
+which may be many waves: of those the lowest is found by bisection (waves/lowest.py). Beyond some 10^7 waves the lowest
+trough stands next to where the bound of the leading term is lowest, or next to the rim, to all digits of its load, and
+places are whole waves and a part (struve/series.py).
 """
 
 import math
@@ -24,12 +26,13 @@ from gradhesion.core.curve.cells import MOST
 from gradhesion.core.curve.general import Basis, Series, coordinate, slope, state
 from gradhesion.core.curve.general_folds import MOST_CELLS, Search, cell_width, folds_of_cell
 from gradhesion.core.pull_off import cosine as pull_off
+from gradhesion.core.pull_off.lowest_two import Lowest, lower
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.cosine_bins import integral_at_zero
 from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.types import Floats, Harmonics, Table
 from gradhesion.core.waves.general import NEAREST, cut_of, falls_at_cut, room_for_waves
-from gradhesion.core.waves.lowest import Lowest, lower, lowest_of_waves
+from gradhesion.core.waves.lowest import lowest_of_waves
 
 Terms: TypeAlias = tuple[float, float, float, float, float]
 """What `chi_terms` returns."""
@@ -43,9 +46,10 @@ _ROUNDING: Final = 1e-14
 _BLOCK: Final = 0.9
 INWARDS: Final = 0.3
 """Longest cell over the distance of its outer end from zero contact."""
-_PHASELESS: Final = 1e12
 _FAR: Final = 64.0
 """Waves from which on there may be many in question."""
+_ABOUT: Final = 8.0
+"""Waves on either side of where the floor is lowest. Beyond, troughs are higher by the square of their part in all."""
 _MANY: Final = 32.0
 """Waves in question of which the lowest is searched for by their number."""
 
@@ -207,6 +211,24 @@ def _lowest_far(
 
 
 @kernel()
+def _lowest_about(basis: Basis, curve: Series, start: float, x_rim: float, x_rim_low: float, search: Search) -> Lowest:
+    """Do what `lowest_load` does beyond `FURTHEST` waves, where the bounds are lowest at `start`, the rim at most."""
+    _, _, series = basis
+    whole = np.floor(start) - _ABOUT
+    rim = (x_rim - whole) + x_rim_low
+    end = min(rim, 2.0 * _ABOUT)
+    best = (0.0, 0.0, 0.0)
+    if rim == end:
+        best = lower(best, coordinate(basis, curve, rim, whole), x_rim)
+    zeros, place = np.empty(MOST), 0.0
+    while place < end:
+        beyond = min(end, place + cell_width(series, start))
+        best = _better(basis, curve, place, beyond, search, zeros, best, whole)
+        place = beyond
+    return best
+
+
+@kernel()
 def lowest_load(
     basis: Basis, curve: Series, x_rim: float, x_rim_low: float, work: Search, deepest: float
 ) -> tuple[float, float, float]:
@@ -228,8 +250,10 @@ def lowest_load(
     # where the floor of the far field is lowest
     z = ((1.0 + terms[2]) * e / (bend * (power + e))) ** (1.0 / power)
     start = min(z / TWO_PI, x_rim)
-    if not (1e-100 < start < math.inf) or (start > _PHASELESS and series.shape[0] > 0):
+    if not (1e-100 < start < math.inf):
         return math.nan, math.nan, 0.0
+    if start > pull_off.FURTHEST and series.shape[0] > 0:
+        return _lowest_about(basis, controlled, start, x_rim, x_rim_low, work)
     best = (0.0, 0.0, 0.0)
     if x_rim < math.inf:
         at_rim = load_at_rim(basis, controlled, x_rim, x_rim_low)

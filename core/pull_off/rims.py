@@ -25,9 +25,9 @@ from gradhesion.core.pull_off.general import (
     load_at_rim,
     lowest_load,
 )
+from gradhesion.core.pull_off.lowest_two import Lowest, lower
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats, Integers
-from gradhesion.core.waves.lowest import Lowest, lower
 
 _MOST_CELLS: Final = 8192
 _FEW: Final = 4

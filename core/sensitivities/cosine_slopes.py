@@ -13,7 +13,7 @@ The pull-off is a minimum of the load, or stands at the rim: its place may be he
 """
 
 import math
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, Final, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -37,7 +37,6 @@ from gradhesion.core.curve.cosine import Cosine, curve_of, depth, load, slope, w
 from gradhesion.core.problem.results import ENERGY as ENERGY_ROW
 from gradhesion.core.problem.results import RADIUS, Results
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
-from gradhesion.core.pull_off.cosine import PHASELESS
 from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SLOPES
 from gradhesion.core.sensitivities.neighbours import Near
 from gradhesion.core.sensitivities.path_slopes import Traced, energy_slopes, fill_loading, with_slopes
@@ -50,6 +49,8 @@ BY_STIFFNESS, BY_WAVELENGTH, BY_AMPLITUDE, BY_RIM, BY_EXPONENT, BY_MACHINE = map
 COUNT = 6
 FORCE, ENERGY, DEPTH = 0, 1, 2
 """What is differentiated: the last one is the depth at the rim, over R, not its logarithm."""
+_PHASELESS: Final = 1e12
+"""z from which on a place tells no phase; the slopes are those of the lowest troughs then."""
 
 
 IfSense: TypeAlias = Any
@@ -113,9 +114,9 @@ def _put(found: Floats, k: float, curve: Cosine, powers: tuple[float, float], by
 
 @kernel()
 def _lowest_load_at(table: Table, curve: Cosine, x: float) -> float:
-    """Return the load at x, beyond all phases that of the lowest trough there (pull_off/cosine.py)."""
+    """Return the load at x, beyond all phases that of the lowest trough there."""
     z = TWO_PI * x
-    if z <= PHASELESS:
+    if z <= _PHASELESS:
         return load(table, curve, x)
     abscissa = z / amplitude_power(table, z)
     lowest: float = abscissa * (curve.bend * abscissa / (3.0 + table.k) - 1.0 - curve.gain * table.amplitude)
@@ -131,11 +132,11 @@ def _force_slopes(table: Table, curve: Cosine, sensed: Sensed, x: float, at_rim:
     z, power, s0, s1, v, _, _ = wave(table, 0.0, x)
     front = z / (power * power)
     force = -_lowest_load_at(table, curve, x)
-    by_gain = -front * (s0 - s1) if z <= PHASELESS else z / power * table.amplitude
+    by_gain = -front * (s0 - s1) if z <= _PHASELESS else z / power * table.amplitude
     by_rim, by_exponent = 0.0, 0.0
     if at_rim:
         by_rim = -front * (b * z + g * v - 0.5 * (3.0 + k) * power)
-        if z > PHASELESS:
+        if z > _PHASELESS:
             abscissa = z / power
             by_rim = -abscissa * (b * abscissa - 0.5 * (3.0 + k) * (1.0 + g * table.amplitude))
     for j in range(weights.size):

@@ -14,13 +14,11 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import START
 from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.curve.general_branches import START_LEVEL
+from gradhesion.core.pull_off.lowest_two import Lowest, lower
 from gradhesion.core.waves.general import Room, branches_of_wave, lowest_start
 
 _SAMPLES: Final = 25
 _NEIGHBOURS: Final = 2.0
-
-Lowest = tuple[float, float, float]
-"""The lowest load, its place, the second lowest load."""
 
 
 @kernel()
@@ -29,15 +27,6 @@ def _trough(basis: Basis, curve: Series, cut: float, wave: float, work: Room) ->
     rows = work[2][0]
     best = lowest_start(rows, branches_of_wave(basis, curve, wave, cut, work, rows))
     return rows[START_LEVEL, best] if best >= 0 else math.inf
-
-
-@kernel()
-def lower(best: Lowest, value: float, place: float) -> Lowest:
-    """Return the lowest two, another trough taken in."""
-    lowest, where, second = best
-    if value < lowest:
-        return value, place, lowest
-    return lowest, where, min(second, value)
 
 
 @kernel()
