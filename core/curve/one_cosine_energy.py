@@ -10,7 +10,12 @@ in the units of curve/general.py; and from zero contact, where the machine is sl
 belong to the coordinate at z,
 
     e = e_depth(0 -> z) - beta P^2/((1+k) alpha)
+
+A soft machine has so small an alpha that P must be exact to roots of it: there it comes from the coordinate, which it
+nearly is.
 """
+
+from typing import Final
 
 from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.arches import one_cosine
@@ -18,6 +23,9 @@ from gradhesion.core.curve.cosine import wave
 from gradhesion.core.curve.cosine_energy import energy_from_zero
 from gradhesion.core.curve.cosine_jump import ENOUGH, energy_between
 from gradhesion.core.curve.general import Basis, Series
+
+_SOFT: Final = 1e-9
+"""The depth's share of the coordinate over that of the load below which the load comes from the coordinate."""
 
 
 @kernel(contract=True)
@@ -57,6 +65,8 @@ def jump_of_one_cosine_from_zero(basis: Basis, curve: Series, x: float, level: f
     energy, kept = energy_from_zero(table, own, x, depth + shift), 0.0
     if alpha > 0.0:
         load += front * shift
+        if alpha < _SOFT * beta * front:
+            load = (level - alpha * (depth + shift)) / beta
         kept = beta * load * load / ((1.0 + k) * alpha)
     elif level != 0.0:
         return NO, energy

@@ -110,6 +110,9 @@ def _put_cycle(
         results.status[i] |= JUMP_IN_TO_RIM
     if not one_disc:
         results.status[i] |= LOADING_NOT_ONE_DISC
+    if not abs(scene.energy * (cycle.loaded + cycle.unloaded)) < math.inf:  # an overflow
+        _refuse(results, i)
+        return
     put(results, ENERGY, i, scene.energy * (cycle.loaded + cycle.unloaded))
     put(results, LOADED, i, scene.energy * cycle.loaded)
     put(results, UNLOADED, i, scene.energy * cycle.unloaded)

@@ -74,3 +74,27 @@ def test_a_dead_load_has_no_bound() -> None:
     curve = _curve(basis, 0.7, 0.3, 1.0, math.inf)
     assert jump_of_one_cosine_from_zero(basis, curve, 0.7, 0.0)[0]
     assert not jump_of_one_cosine_from_zero(basis, curve, 0.7, -0.1)[0]
+
+
+@pytest.mark.parametrize("share", [1e18, 1e28, 1e34, 1e120, 1e250])
+@pytest.mark.parametrize("k", EXPONENTS)
+def test_very_soft_machines_load_like_a_dead_load(k: float, share: float) -> None:
+    """The first jump is at no load either way; what the machine keeps is the square of its last load over S."""
+    basis = _basis(k)
+    for x in (0.3, 2.7, 40.2):
+        soft, dead = (_curve(basis, x, 0.4, 1.0, beta) for beta in (share, math.inf))
+        expected = jump_of_one_cosine_from_zero(basis, dead, x, 0.0)
+        serves, energy = jump_of_one_cosine_from_zero(basis, soft, x, 0.0)
+        assert serves == expected[0]
+        assert energy == pytest.approx(expected[1], rel=1e-14)
+
+
+@pytest.mark.parametrize("share", [1e18, 1e28, 1e120])
+def test_very_soft_machines_keep_their_spring(share: float) -> None:
+    """From a load that pulls, Y = beta P/alpha is known as well as P; the energy is P^2/2S, in the units of a curve."""
+    k = 0.41
+    basis = _basis(k)
+    curve = _curve(basis, 2.7, 0.4, 1.0, share)
+    level = coordinate(basis, curve, 2.7)
+    _, energy = jump_of_one_cosine_from_zero(basis, curve, 2.7, level)
+    assert energy == pytest.approx(-level * level / ((1.0 + k) * curve.alpha * curve.beta), rel=1e-12)
