@@ -43,7 +43,9 @@ from gradhesion.core.waves.general import (
     cut_of,
     falls_at_cut,
     highest_end,
+    let_reach,
     lowest_start,
+    rises_by,
     room_for_waves,
 )
 from gradhesion.core.waves.general_sum import sum_of_waves
@@ -148,35 +150,30 @@ def regular_waves(
 
 
 @kernel()
-def _highest(basis: Basis, curve: Series, cut: float, wave: float, work: Room) -> float:
-    """Return the highest end of a branch of a wave, -inf without any."""
+def _end_of(basis: Basis, curve: Series, cut: float, wave: float, kind: int, work: Room) -> tuple[float, float]:
+    """Return level and place of the highest end of a branch of a wave (UP), or of the lowest start, or none."""
     rows = work[2][0]
-    best = highest_end(rows, branches_of_wave(basis, curve, wave, cut, work, rows))
-    return rows[END_LEVEL, best] if best >= 0 else -math.inf
-
-
-@kernel()
-def _lowest(basis: Basis, curve: Series, cut: float, wave: float, work: Room) -> float:
-    """Return the lowest start of a branch of a wave, inf without any."""
-    rows = work[2][0]
-    best = lowest_start(rows, branches_of_wave(basis, curve, wave, cut, work, rows))
-    return rows[START_LEVEL, best] if best >= 0 else math.inf
+    count = branches_of_wave(basis, curve, wave, cut, work, rows)
+    if kind == UP:
+        best = highest_end(rows, count)
+        return (rows[END_LEVEL, best], rows[END, best]) if best >= 0 else (-math.inf, cut)
+    best = lowest_start(rows, count)
+    return (rows[START_LEVEL, best], rows[START, best]) if best >= 0 else (math.inf, cut)
 
 
 @kernel()
 def _goes_on(basis: Basis, curve: Series, cut: float, wave: float, kind: int, work: Room) -> bool:
     """Return whether loading goes up from a wave to the next one, or unloading down from the next one to it."""
-    if kind == UP:
-        return _highest(basis, curve, cut, wave + 1.0, work) > _highest(basis, curve, cut, wave, work)
-    return _lowest(basis, curve, cut, wave, work) < _lowest(basis, curve, cut, wave + 1.0, work)
+    level, x = _end_of(basis, curve, cut, wave, kind, work)
+    beyond, _ = _end_of(basis, curve, cut, wave + 1.0, kind, work)
+    return rises_by(basis, curve, x, wave, beyond - level) > 0.0
 
 
 @kernel()
 def _reaches(basis: Basis, curve: Series, cut: float, wave: float, kind: int, level: float, work: Room) -> bool:
-    """Return whether a wave ends above a level, or starts below it."""
-    if kind == UP:
-        return _highest(basis, curve, cut, wave, work) > level
-    return _lowest(basis, curve, cut, wave, work) < level
+    """Return whether a wave ends above a level, or starts below it, that of a wave nearer or further out."""
+    here, x = _end_of(basis, curve, cut, wave, kind, work)
+    return rises_by(basis, curve, x, wave, here - level if kind == UP else level - here) > 0.0
 
 
 @kernel()
@@ -279,6 +276,7 @@ def go_through(
         if math.isnan(now):
             break
         count = branches_of_wave(basis, curve, now, cut, work, rows)
+        let_reach(kind, rows, count, state.level)
         if kind == UP:
             if test and one_disc:
                 left = state.waves + state.left

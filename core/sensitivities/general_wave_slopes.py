@@ -37,7 +37,7 @@ from gradhesion.core.waves.general import (
     room_for_waves,
     step_of_wave,
 )
-from gradhesion.core.waves.general_jump import _INNER, LONG
+from gradhesion.core.waves.general_jump import _INNER, LONG, near_zero
 from gradhesion.core.waves.general_sum import (
     _DIRECT,
     _EDGE,
@@ -287,6 +287,7 @@ def add_jump(
     """Add the slopes of a jump that leaves the curve at whole + start and ends at whole + end > 0."""
     _, _, series = basis
     sign = 1.0 if end > start else -1.0
+    start, end, whole = near_zero(start, end, whole)
     if abs(end - start) <= LONG or series.shape[0] == 0:
         add_drop(basis, curve, change, start, whole, end, sign, total)
         return

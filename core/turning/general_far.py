@@ -14,7 +14,7 @@ from gradhesion.core.path.general_long import Middle, first_that_reaches, folds_
 from gradhesion.core.path.loading import load_up
 from gradhesion.core.turning.corners import ROWS as CORNER_ROWS
 from gradhesion.core.turning.corners import Found, Place, append_corners, corners_of, first_reached
-from gradhesion.core.waves.general import UP, Room, branches_of_wave, highest_end, room_for_waves
+from gradhesion.core.waves.general import UP, Room, branches_of_wave, highest_end, let_reach, room_for_waves
 
 Way: TypeAlias = tuple[bool, float]
 """Whether the load is measured, else the depth, and the target."""
@@ -52,6 +52,7 @@ def _turn_on_wave(basis: Basis, curve: Series, way: Way, cut: float, wave: float
     before = highest_end(rows[0], branches_of_wave(basis, curve, wave - 1.0, cut, work, rows[0]))
     level = rows[0, END_DEPTH, before]
     count = branches_of_wave(basis, curve, wave, cut, work, rows[1])
+    let_reach(UP, rows[1], count, level)
     found, _ = _turn_on_piece(basis, curve, way, count, rows[1], level, math.inf, Place(work.search, zeros, wave))
     return found
 
@@ -123,6 +124,7 @@ def turn_far(
         if math.isnan(wave):
             break
         count = branches_of_wave(basis, curve, wave, cut, work, rows)
+        let_reach(UP, rows, count, level)
         here, level = _turn_on_piece(basis, curve, way, count, rows, level, math.inf, Place(search, zeros, wave))
         close = close or here[2]
         if here[0]:

@@ -20,13 +20,13 @@ import numpy as np
 from gradhesion.core.compiler.jit import NO, YES, constant, kernel
 from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curve.cells import MOST
-from gradhesion.core.curve.general import Basis, Series, coordinate, slope
+from gradhesion.core.curve.general import Basis, Series, coordinate, size, slope
 from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, Rows
 from gradhesion.core.curve.general_energy import Left, drop, find_landing, place_left
 from gradhesion.core.curve.general_folds import folds_of_cell, refine, room
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.struve.series import highest_harmonic
+from gradhesion.core.struve.series import highest_harmonic, sums
 from gradhesion.core.types import Floats, Harmonics, Table
 
 
@@ -54,6 +54,8 @@ UP, DOWN, PASSING = map(constant, range(3))
 """Loading through a wave, unloading through it, and a jump that passes it."""
 NEAREST: Final = 8.0
 """The innermost wave: z > 40 there."""
+_ROUNDING: Final = 32.0 * 2.0**-52
+"""Of the size of a coordinate: what rounding may leave of the difference of two."""
 _SAMPLES: Final = 16
 _HALVINGS: Final = 50
 _STEPS: Final = 8
@@ -198,6 +200,52 @@ def lowest_start(rows: Rows, count: int) -> int:
 
 
 @kernel()
+def let_reach(kind: int, rows: Rows, count: int, level: float) -> None:
+    """Let a wave that reaches a coordinate do so in its branches too, if only just: its highest end or lowest start."""
+    if kind == UP:
+        best = highest_end(rows, count)
+        if best >= 0:
+            rows[END_LEVEL, best] = max(rows[END_LEVEL, best], np.nextafter(level, math.inf))
+    else:
+        best = lowest_start(rows, count)
+        if best >= 0:
+            rows[START_LEVEL, best] = min(rows[START_LEVEL, best], np.nextafter(level, -math.inf))
+
+
+@kernel()
+def _rise_at(basis: Basis, curve: Series, x: float, wave: float) -> float:
+    """Return z dY/dz at a fixed phase, all but the 1/z-th part of its waves.
+
+    The waves z w0 are z^c times a function of the phase and the sum of all cosines, z w1 has the first part alone.
+    """
+    table, cosine_bins, series = basis
+    B, m, g, alpha, beta = curve
+    c = 0.5 * (1.0 - table.k)
+    z = TWO_PI * (wave + x)
+    power = amplitude_power(table, z)
+    w0, w1, _, _ = sums(table, cosine_bins, series, x, wave)
+    bend, stretch, height = m * B * z**m, z * power, 0.0
+    for i in range(series.shape[0]):
+        height += series[i, 1]
+    depth = bend + c * (g * (z * w0 - height) - stretch)
+    return alpha * depth + beta / (power * power) * (bend + (2.0 - c) * (g * z * w1 - stretch))
+
+
+@kernel()
+def rises_by(basis: Basis, curve: Series, x: float, wave: float, difference: float) -> float:
+    """Return the difference of the coordinates of waves about one, where it is lost in rounding another of its sign."""
+    if abs(difference) > _ROUNDING * size(basis, curve, x, wave):
+        return difference
+    return _rise_at(basis, curve, x, wave)
+
+
+@kernel()
+def _is_level(basis: Basis, curve: Series, below: float, above: float, x: float, wave: float) -> bool:
+    """Return whether the coordinate of a wave at x misses that of its neighbour by no more than rounding."""
+    return below - above <= _ROUNDING * size(basis, curve, x, wave)
+
+
+@kernel()
 def _step_up(basis: Basis, curve: Series, cut: float, wave: float, work: Room, losses: bool) -> Step:
     """Load from the highest end of the wave before to that of a wave."""
     _, _, rows = work
@@ -208,8 +256,10 @@ def _step_up(basis: Basis, curve: Series, cut: float, wave: float, work: Room, l
         return 0.0, 0.0, -1
     level, left = rows[0, END_LEVEL, first], rows[0, END, first]
     loss, jumps, pattern = 0.0, 0.0, count * 4099 + first
+    highest = highest_end(rows[1], count)
     for i in range(count):
-        if rows[1, END_LEVEL, i] <= level:
+        top = rows[1, END_LEVEL, i]
+        if top <= level and not (i == highest and _is_level(basis, curve, level, top, rows[1, END, i], before)):
             continue
         if losses:
             place = place_left(basis, curve, left, before)
@@ -232,8 +282,10 @@ def _step_down(basis: Basis, curve: Series, cut: float, wave: float, work: Room,
         return 0.0, 0.0, -1
     level, left = rows[1, START_LEVEL, first], rows[1, START, first]
     loss, jumps, pattern = 0.0, 0.0, count * 4099 + first
+    lowest = lowest_start(rows[0], count)
     for i in range(count - 1, -1, -1):
-        if rows[0, START_LEVEL, i] >= level:
+        bottom = rows[0, START_LEVEL, i]
+        if bottom >= level and not (i == lowest and _is_level(basis, curve, bottom, level, rows[0, START, i], before)):
             continue
         if losses:
             place = place_left(basis, curve, left, before)

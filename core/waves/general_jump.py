@@ -8,6 +8,7 @@ from gradhesion.core.compiler.jit import YES, kernel
 from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.curve.general_energy import Left, drop, energy_from_zero, jump_energy, place_left
 from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.layout import SWITCH
 from gradhesion.core.waves.general import PASSING, Waves, room_for_waves
 from gradhesion.core.waves.general_sum import sum_of_waves
 
@@ -15,6 +16,10 @@ LONG: Final = 512.0
 """Waves up to which a jump is integrated panel by panel."""
 _INNER: Final = 16.0
 """Radius over wavelength up to which a long jump is integrated panel by panel."""
+_FAR: Final = 2.0**25
+_RATIO: Final = 16.0
+"""Waves from which on a jump from zero contact is cut, and the outer over the inner radius of a part: what rounding
+leaves of the coordinate at the outer end is more than all of it where powers of the radius are much smaller."""
 
 
 @kernel()
@@ -30,9 +35,21 @@ def _pass(basis: Basis, curve: Series, left: Left, low: float, high: float, whol
 
 
 @kernel()
+def near_zero(start: float, end: float, whole: float) -> tuple[float, float, float]:
+    """Return two places beyond whole waves, as places alone if one is so near zero contact that it has no whole waves.
+
+    A place at z < 40 is told by x alone (struve/series.py).
+    """
+    if whole > 0.0 and TWO_PI * (whole + min(start, end)) < SWITCH and abs(end - start) <= LONG:
+        return whole + start, whole + end, 0.0
+    return start, end, whole
+
+
+@kernel()
 def jump_between(basis: Basis, curve: Series, start: float, end: float, whole: float) -> float:
     """Return e of a jump from whole + start on the curve to whole + end, both beyond zero contact."""
     _, _, series = basis
+    start, end, whole = near_zero(start, end, whole)
     if abs(end - start) <= LONG or series.shape[0] == 0:
         return jump_energy(basis, curve, start, end, whole)
     left = place_left(basis, curve, start, whole)
@@ -54,6 +71,11 @@ def jump_from_zero(basis: Basis, curve: Series, x: float, level: float, whole: f
     _, _, series = basis
     if whole + x <= LONG or series.shape[0] == 0:
         return energy_from_zero(basis, curve, whole + x, level)
+    total, low = energy_from_zero(basis, curve, _INNER, level), _INNER
+    while whole + x > max(_FAR, _RATIO * low):
+        high = _RATIO * low
+        left = place_left(basis, curve, 0.0, high, coordinate(basis, curve, 0.0, high) - level)
+        total += _pass(basis, curve, left, low, high, 0.0)
+        low = high
     left = place_left(basis, curve, x, whole, coordinate(basis, curve, x, whole) - level)
-    inner = energy_from_zero(basis, curve, _INNER, level)
-    return inner + _pass(basis, curve, left, _INNER - whole, x, whole)
+    return total + _pass(basis, curve, left, low - whole, x, whole)
