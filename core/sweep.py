@@ -196,7 +196,7 @@ def solve(
             return found
         from gradhesion.core.arrays.general_report import report_general  # noqa: PLC0415 (kernels of their own)
 
-        return found | report_general(scenes, reports, found, profile, loading, threads)
+        return found | report_general(scenes, reports, found, profile, loading, threads, turned=turned)
 
     def again(scenes: Mapping[str, ArrayLike], wanted: Sequence[str]) -> Results:
         """Solve other scenes that turn as these do."""

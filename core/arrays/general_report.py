@@ -30,8 +30,13 @@ def report_general(
     profile: Profile,
     loading: Loading,
     threads: int | None,
+    *,
+    turned: bool = False,
 ) -> dict[str, NDArray[Any]]:
-    """Report on scenes that `solve_general` has solved, from their results; all have the shape of the scenes."""
+    """Report on scenes that `solve_general` has solved, from their results; all have the shape of the scenes.
+
+    `turned` is whether a_max is where the cycles turn, not the rim of a punch.
+    """
     scenes = prepared(parameters, loading)
     status = found["status"].ravel()
     n, series = in_own_wavelength(profile)
@@ -51,7 +56,7 @@ def report_general(
         basis = Basis(*tables_of(exponent, series, interpolated=interpolated), series)
         shape = profile.exponent, depth_factor_of(exponent, profile.exponent)
         curves = GeneralCurves(index, *shape, stretch, wavelength / n, n * amplitude, compliance, rim)
-        report_scenes(basis, curves, Solved(radius, energy, status), wanted, out)
+        report_scenes(basis, curves, Solved(radius, energy, turned, status), wanted, out)
 
     if wanted.any():
         run_by_exponent(k, work, threads)

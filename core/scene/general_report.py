@@ -1,6 +1,7 @@
 """What a general scene can tell of itself on request, as core/scene/cosine_report.py does for one cosine wave.
 
-    error of the force   6 eps times the sizes of the terms of the load at pull-off, every wave for itself
+    error of the force   6 eps times the sizes of the terms of the load at pull-off, every wave for itself, and its
+                         change with the logarithm of the radius if that is where a cycle turns
     error of the energy  20 eps [2 pi a^2 chi (1 + chi) dgamma + H], a the outermost radius of a jump and chi that of
                          all waves at their crests: what one wave loses, |1 - rho^2| <= 4 chi (1 + chi), another one may
                          gain, and what the smooth punch loses is a part of H. A soft spring loses P^2/2S: of a machine
@@ -38,7 +39,7 @@ from gradhesion.core.path.loading import highest_depth, loading_to
 from gradhesion.core.path.pieces import notes_for
 from gradhesion.core.path.unloading import descend, leave_rim, unloading_from
 from gradhesion.core.problem.curves import GeneralCurves
-from gradhesion.core.problem.status import NO_VALUE, TOLERANCE_NOT_MET
+from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.struve.power import amplitude_power
@@ -259,6 +260,7 @@ class Solved(NamedTuple):
 
     radius: Floats  # a/R of the pull-off
     energy: Floats  # the dissipated energy in R^2 dgamma
+    turned: bool  # whether their cycles turn at the rims
     status: Bits  # bits of problem/status.py
 
 
@@ -272,7 +274,7 @@ def report_scenes(basis: Basis, curves: GeneralCurves, solved: Solved, wanted: T
     """
     numbers, exponent, depth_factor, stretch, wavelength, amplitude, compliance, rims = curves
     table, cosine_bins, series = basis
-    radius, energy, status = solved
+    radius, energy, turned, status = solved
     smooth = np.zeros((0, 3))
     for j in range(numbers.size):
         i = numbers[j]
@@ -283,8 +285,12 @@ def report_scenes(basis: Basis, curves: GeneralCurves, solved: Solved, wanted: T
             table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
         )
         if wanted[0]:
-            scale = 8.0 / (3.0 * (1.0 + table.k)) * length * length / unit
-            out[0, i] = _FORCE_ROUNDING * table.rounding * scale * _force_terms(waves, curve, radius[i] / wavelength[i])
+            scale, x = 8.0 / (3.0 * (1.0 + table.k)) * length * length / unit, radius[i] / wavelength[i]
+            terms = _force_terms(waves, curve, x)
+            if turned and status[i] & PULL_OFF_AT_RIM:  # x is no number given: what the load changes with ln x
+                _, _, rate = slope(waves, Series(curve.bend, exponent, curve.gain, 0.0, 1.0), x)
+                terms += abs(TWO_PI * x * rate)
+            out[0, i] = _FORCE_ROUNDING * table.rounding * scale * terms
         if wanted[1] or wanted[2]:
             rim, scale = rims[i, 0], TWO_PI * length * length
             x = rim / wavelength[i]

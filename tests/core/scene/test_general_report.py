@@ -1,6 +1,7 @@
 """Reports of general scenes: errors against the twin, the loop integral, saturation, and the gains over a smooth punch."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from gradhesion.core import OUTPUTS, Harmonic, Loading, Profile, solve
 from gradhesion.core.arrays.general import solve_general
 from gradhesion.core.problem.names import REPORTS, RESULTS
-from gradhesion.core.problem.status import FAILED
+from gradhesion.core.problem.status import FAILED, PULL_OFF_AT_RIM
 from gradhesion.twin import stated
 from gradhesion.twin.path import cycle
 from gradhesion.twin.scene import curve_of, waves_to_follow
@@ -128,3 +129,27 @@ def test_a_dead_load_has_no_residual_and_scenes_without_value_no_report() -> Non
     bad = solve(SCENE | {"A": [-1.0, np.nan, 0.02]}, REPORTS, profile=SHAPE)
     for name in REPORTS:
         assert np.isnan(bad[name]).tolist() == [True, True, False], name
+
+
+@pytest.mark.parametrize("profile", [Profile(), Profile(harmonics=(Harmonic(n=1, sin=1.0),))])
+def test_the_force_where_a_cycle_turns_is_as_good_as_its_place(profile: Profile) -> None:
+    """A depth on the first half of the way, in units of 1 and of 5/4: the place where it is reached rounds anew."""
+    k, factor = 0.3, 1.25
+    for waves in (1e3, 1e5, 1e7, 3e8):
+        scene: Any = {"k": k, "nu": 0.3, "c0_over_R": 0.1, "lambda_over_R": 2.0 ** round(math.log2(0.1 / waves))}
+        scene |= {"modulus": 3e4, "a_max_over_R": 0.1, "indentation_max_over_R": np.geomspace(1e-5, 2e-3, 12)}
+        scene["A"] = 0.02 * (0.01 / scene["lambda_over_R"]) ** 0.65
+        powers = {
+            "modulus": -3.0 - k,
+            "indentation_max_over_R": 2.0,
+            "lambda_over_R": 1.0,
+            "a_max_over_R": 1.0,
+            "A": 1.0,
+        }
+        similar = {name: value * factor ** powers.get(name, 0.0) for name, value in scene.items()}
+        names = ("pull_off_force", "pull_off_force_error")
+        (one, error, status), (other, other_error, _) = (
+            solve(each, names, profile=profile).values() for each in (scene, similar)
+        )
+        assert np.any(status & PULL_OFF_AT_RIM)
+        assert np.all(np.abs(one - other) <= error + other_error), waves
