@@ -2,7 +2,8 @@
 
 For each power of ten of waves, punches with and without a rim, on soft and on stiff half-spaces. The two solvers sum by
 different means; where the second has no value (weak waves, from 10^9 on), the limit of short waves remains for punches
-without a rim.
+without a rim. Then scenes of any profile and control against similar ones, and a fiftieth of them a class in ball
+arithmetic (benchmarks/far.py).
 """
 
 import argparse
@@ -11,6 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks import far
 from gradhesion.core import Loading, Profile, solve
 from gradhesion.core.arrays.general import solve_general
 from gradhesion.core.arrays.general_report import report_general
@@ -66,7 +68,7 @@ def compared(scenes: dict[str, Values], ratio: Values) -> dict[str, Values]:
 
 
 def main() -> None:
-    """Print a row for each power of ten."""
+    """Print a row for each power of ten, and what benchmarks/far.py measures."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("count", type=int, nargs="?", default=10_000)
     parser.add_argument("seed", type=int, nargs="?", default=20261)
@@ -86,6 +88,8 @@ def main() -> None:
             f"| {limit.size:,} | {max(limit, default=math.nan):.2g} | {found['alone'].sum():.0f} |",
             flush=True,
         )
+    print(far.report(4, 14, count, seed))
+    print(far.report_of_balls(4, 14, max(1, count // 50), seed))
 
 
 if __name__ == "__main__":
