@@ -120,7 +120,7 @@ def drawn(rng: np.random.Generator, decade: float, name: str, profile: Profile, 
     stretch = np.sqrt(2.0 ** (1.0 + k) * math.pi / M) * rim ** (0.5 * (1.0 - k))
     size = front * rim**m + 4.0 * stretch + wavelength * amplitude
     if turn == "load_max" or (turn is not None and control != "displacement"):  # depths change with the phase there
-        size += 2.0 * math.pi * waves * wavelength * amplitude * steepness
+        size += 2.0 * math.pi * rim * amplitude * sum(h.n * math.hypot(h.cos, h.sin) for h in profile.harmonics)
     return Batch(f"{name}, {control}, {turn}", scenes, similar, profile, Loading(control=control), size)
 
 
