@@ -10,6 +10,7 @@ from gradhesion.core import OUTPUTS, Harmonic, Loading, Profile, solve
 from gradhesion.core.arrays.general import solve_general
 from gradhesion.core.problem.names import REPORTS, RESULTS
 from gradhesion.core.problem.status import FAILED, PULL_OFF_AT_RIM
+from gradhesion.core.variables.similarity import amplitude_of_ratio
 from gradhesion.twin import stated
 from gradhesion.twin.path import cycle
 from gradhesion.twin.scene import curve_of, waves_to_follow
@@ -136,9 +137,10 @@ def test_the_force_where_a_cycle_turns_is_as_good_as_its_place(profile: Profile)
     """A depth on the first half of the way, in units of 1 and of 5/4: the place where it is reached rounds anew."""
     k, factor = 0.3, 1.25
     for waves in (1e3, 1e5, 1e7, 3e8):
-        scene: Any = {"k": k, "nu": 0.3, "c0_over_R": 0.1, "lambda_over_R": 2.0 ** round(math.log2(0.1 / waves))}
-        scene |= {"modulus": 3e4, "a_max_over_R": 0.1, "indentation_max_over_R": np.geomspace(1e-5, 2e-3, 12)}
-        scene["A"] = 0.02 * (0.01 / scene["lambda_over_R"]) ** 0.65
+        wavelength = 2.0 ** round(math.log2(0.1 / waves))
+        scene: Any = {"k": k, "nu": 0.3, "modulus": 3e4, "c0_over_R": 0.1, "lambda_over_R": wavelength}
+        scene["A"] = amplitude_of_ratio(**scene, chi=[[0.7], [1.5]])
+        scene |= {"a_max_over_R": 0.1, "indentation_max_over_R": np.geomspace(1e-7, 2e-3, 100)}
         powers = {
             "modulus": -3.0 - k,
             "indentation_max_over_R": 2.0,
