@@ -137,7 +137,10 @@ STATE_CURVES: Final = ("pressure", "surface")
 """Curves of a state of contact, along the radius, in the place of curves of a scene."""
 
 GENERAL_CURVES: Final = ("equilibrium", "path", "smooth", "jumps", *STATE_CURVES)
-"""Curves of any profile under any control; the others are closed forms of one cosine wave on a paraboloid."""
+"""Curves of any profile under any control."""
+
+CURVES_BY_DEPTH: Final = (*GENERAL_CURVES, "asymptotic")
+"""Those of any profile under displacement control; the others are closed forms of one cosine wave on a paraboloid."""
 
 RAGGED: Final = {"jumps": "jump_count"}
 """Curves kept as contiguous ragged arrays, one scene after the other, with the variable that counts what each has."""

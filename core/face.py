@@ -2,15 +2,15 @@
 
     Cosine      one cosine on a paraboloid under displacement control   curve/cosine.py       faces/cosine.py
     Series      any profile under any control                           curve/general.py      faces/series.py
-    ShortWave   the leading form of a short wave                        curve/short_wave.py   faces/short_wave.py
+    ShortWave   the leading form of any profile's short waves           curve/short_wave.py   faces/short_wave.py
 
 Numba takes the answer by the type of `curve` when it compiles (compiler/dispatch.py); what is written for one kind of
 curve names its functions directly. All declarations share these arguments:
 
     table       what the curve is computed from: the table of the exponent (struve/table.py) for one cosine, the `Basis`
-                of a series, which begins with that table, and () for a short wave
-    x           a place on the curve: the contact radius in wavelengths, for a short wave z = 2 pi a/lambda. A jump
-                leaves the curve at `start` and reaches `end`
+                of a series or of short waves, which begins with that table
+    x           a place on the curve: the contact radius in wavelengths. A jump leaves the curve at `start` and reaches
+                `end`
     level       a value of what is prescribed, the coordinate: the depth, of a series alpha depth + beta load; in units
                 of s l^c
     trace       the branches of the curve, of shape (ROWS, branches or more): curve/branches.py names the rows
@@ -34,6 +34,7 @@ AnyNear: TypeAlias = Any
 """What sensitivities of a curve need, by its kind: `Near` of sensitivities/neighbours.py, or how a basis changes."""
 _OF_PATHS: Final = tuple(f"gradhesion.core.faces.{kind}" for kind in ("cosine", "series", "short_wave"))
 _OF_EXACT: Final = _OF_PATHS[:2]
+_OF_SERIES: Final = _OF_PATHS[1:]
 _OF_CONTACT: Final = tuple(f"gradhesion.core.faces.{kind}_contact" for kind in ("cosine", "series"))
 _OF_SLOPES: Final = tuple(f"gradhesion.core.faces.{kind}_slopes" for kind in ("cosine", "series"))
 
@@ -67,6 +68,22 @@ def loss_to_zero(table: AnyTable, curve: AnyCurve, x: float, level: float) -> fl
 @face(*_OF_PATHS)
 def depth_at(table: AnyTable, curve: AnyCurve, x: float, level: float) -> float:
     """Return the depth at x >= 0, a place where the coordinate is `level`, in units of s l^c."""
+
+
+# the waves of a profile: all kinds but that of one cosine
+
+
+@face(*_OF_SERIES)
+def waves_at(table: Any, curve: Any, x: float, whole: float) -> tuple[float, float, float, float]:
+    """Return w0 and w1, the waves of depth and load, at whole + x > 0, and v, those of D, with dv/dz.
+
+    curve/general.py says what they are; of a curve that prescribes the depth v = d(z w0)/dz.
+    """
+
+
+@face(*_OF_SERIES)
+def depth_of_point(table: Any, curve: Any) -> float:
+    """Return the depth to which that of a contact tends as its radius goes to 0, in units of s l^c."""
 
 
 # waves of a trace that were not walked, its gap: all that is exact

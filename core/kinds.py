@@ -5,8 +5,7 @@
     smooth             both of many punches whose waves count for nothing
     reports            `REPORTS` of it
     turning            where its cycles turn before the rim
-    asymptotic         the two other solvers of it
-    envelope
+    envelope           the envelopes of it
     curves             the curves of it
     sensitivities      how strongly its force and energy depend on its parameters
     general_force      the same of any other profile or control
@@ -16,6 +15,7 @@
     general_sensitivities
     general_envelope
     general_curves
+    asymptotic         the asymptotic solver of any profile
 
 and `tables` is what all of them share.
 """
@@ -36,7 +36,6 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "smooth": ("tables",),
     "reports": ("energy",),
     "turning": ("energy",),
-    "asymptotic": ("tables",),
     "envelope": ("tables",),
     "curves": ("energy",),
     "sensitivities": ("energy",),
@@ -47,17 +46,18 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "general_sensitivities": ("general_energy",),
     "general_envelope": ("tables",),
     "general_curves": ("general_energy",),
+    "asymptotic": ("tables",),
 }
 """The kinds that are compiled before a kind, directly: those of whose entries it needs the same, or others of the same
 name. Processes that compile kinds side by side, each after those that it needs and none beside one of `APART`, compile
 no entry twice, and no two write to one index of the cache."""
 MANY_SMOOTH: Final = 4096
 """Scenes of smooth punches in a call from which on kernels of their own solve them."""
-_OF_COSINE: Final = ("force", "energy", "asymptotic", "envelope", "sensitivities")
+_OF_COSINE: Final = ("force", "energy", "envelope", "sensitivities")
 """Kinds whose loops over curves are entries of the same name (scene/solvers.py)."""
 APART: Final = (
     *({one, other} for one, other in combinations(_OF_COSINE, 2)),
-    *({"smooth", other} for other in ("force", "energy", "asymptotic", "envelope")),
+    *({"smooth", other} for other in ("force", "energy", "envelope")),
     {"curves", "general_curves"},
     *({"general_force", other} for other in ("general_energy", "general_sensitivities")),
 )
@@ -71,7 +71,6 @@ KERNELS: Final[dict[str, int]] = {
     "smooth": 36,
     "reports": 16,
     "turning": 30,
-    "asymptotic": 66,
     "envelope": 16,
     "curves": 43,
     "sensitivities": 48,
@@ -82,6 +81,7 @@ KERNELS: Final[dict[str, int]] = {
     "general_sensitivities": 48,
     "general_envelope": 0,
     "general_curves": 22,
+    "asymptotic": 66,
 }
 """About how many kernels a kind compiles after those that it needs, in one process."""
 
@@ -112,6 +112,8 @@ def kind_of_map(
     >>> kind_of_map(["pull_off_force"]), kind_of_map(["pull_off_force"], profile=Profile(exponent=1.5))
     ('force', 'general_force')
     """
+    if solver == "asymptotic":
+        return solver
     profile, loading = profile or WAVY, loading or BY_DISPLACEMENT
     general = "general_" if loading != BY_DISPLACEMENT or equivalent_wave(profile) is None else ""
     if solver != "exact":

@@ -28,6 +28,7 @@ from gradhesion.core.problem.names import (
     SENSITIVITIES,
     SOLVERS,
     TURNS,
+    WITHOUT_LOAD,
 )
 from gradhesion.core.problem.profile import WAVY, Profile
 from gradhesion.core.problem.shape import equivalent_wave
@@ -35,9 +36,7 @@ from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene.cosine_report import NEEDED
 
 
-def _checked(
-    parameters: Mapping[str, ArrayLike], outputs: Sequence[str], solver: str, profile: Profile, loading: Loading
-) -> str | None:
+def _checked(parameters: Mapping[str, ArrayLike], outputs: Sequence[str], solver: str, loading: Loading) -> str | None:
     """Refuse what cannot be solved; return the name of what the cycles turn at, None if that is the rim."""
     reports = [name for name in outputs if name in REPORTS]
     slopes = [name for name in outputs if name in SENSITIVITIES]
@@ -54,12 +53,8 @@ def _checked(
         raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
     if loading.control == "load" and "energy_residual" in reports:
         raise ValueError("energy_residual: a dead load closes no loop; ask for it under another control")
-    other = solver == "asymptotic" and profile != WAVY
-    if other or (solver != "exact" and loading != BY_DISPLACEMENT):
-        raise ValueError(
-            f"solver {solver!r} is known of the paraboloid with one cosine wave under displacement control only; "
-            "another profile has the exact solver and the envelopes, another control the exact solver"
-        )
+    if solver != "exact" and loading != BY_DISPLACEMENT:
+        raise ValueError(f"solver {solver!r} is known under displacement control only: {WITHOUT_LOAD[solver]}")
     return turns[0] if turns else None
 
 
@@ -122,12 +117,11 @@ def solve(
     threads
         Number of threads; all processors if not given. Results do not depend on it.
     profile
-        The shape of the punch, a paraboloid with one cosine wave if not given. Another control needs the exact solver,
-        another shape that or the envelopes; under load control there is no energy_residual.
+        The shape of the punch, a paraboloid with one cosine wave if not given.
     loading
-        What is prescribed, the displacement if not given. With control "machine" `parameters` also has
-        machine_stiffness, S/(E* R) > 0, which broadcasts with the others. Under load control dissipated_energy leaves
-        the jump-out out: under a dead load it has no bound.
+        What is prescribed, the displacement if not given; another control needs the exact solver. With control
+        "machine" `parameters` also has machine_stiffness, S/(E* R) > 0, which broadcasts with the others. Under load
+        control dissipated_energy leaves the jump-out out, which has no bound, and there is no energy_residual.
 
     Returns
     -------
@@ -139,8 +133,8 @@ def solve(
     Raises
     ------
     ValueError
-        For an unknown output or solver, or parameters that are missing or do not broadcast; for a solver or an output
-        that another profile or control does not have.
+        For an unknown output or solver, or parameters that are missing or do not broadcast; for an output that another
+        solver or control does not have, or a solver that another control does not have.
 
     Notes
     -----
@@ -166,10 +160,10 @@ def solve(
         found = solve(parameters, [*others, radius], **known)
         slope = {CONTACT_SLOPE: slope_at(found, radius, parameters, profile)}
         return {name: (found | slope)[name] for name in (*outputs, "status")}
-    turn = _checked(parameters, outputs, solver, profile, loading)
+    turn = _checked(parameters, outputs, solver, loading)
     asked = outputs
     outputs = wanted_for(outputs, turned=turn is not None)
-    alike = equivalent_wave(profile) if loading == BY_DISPLACEMENT else None
+    alike = equivalent_wave(profile) if solver != "asymptotic" and loading == BY_DISPLACEMENT else None
     if alike is not None and profile != WAVY:
         parameters = _as_one_wave(parameters, *alike)
 
@@ -179,6 +173,10 @@ def solve(
     def solved(scenes: Mapping[str, ArrayLike], wanted: Sequence[str], *, turned: bool = False) -> Results:
         """Solve scenes up to their rims."""
         wanted = [name for name in wanted if name != "turning_radius"]
+        if solver == "asymptotic":
+            from gradhesion.core.arrays.short_wave import solve_short_waves  # noqa: PLC0415 (kernels of their own)
+
+            return solve_short_waves(scenes, wanted, profile, threads)
         if solver == "envelope" and alike is None:
             from gradhesion.core.closed.general_envelope import solve_envelope  # noqa: PLC0415 (SciPy)
 

@@ -39,10 +39,11 @@ def _compile_curves() -> None:
 
 def _compile_general_curves() -> None:
     """Do the same for another profile, by a machine."""
-    from gradhesion.core.curves import GENERAL_CURVES, draw_curves  # noqa: PLC0415 (kernels of their own)
+    from gradhesion.core.curves import CURVES_BY_DEPTH, GENERAL_CURVES, draw_curves  # noqa: PLC0415 (kernels of their own)
 
     for change in ({}, {"a_max_over_R": math.inf}, {"A": 0.0}):
         draw_curves(SCENE | SPRING | change, list(GENERAL_CURVES), MANY, Loading(control="machine"))
+    draw_curves(SCENE, CURVES_BY_DEPTH[-1:], MANY)
 
 
 def compile_kind(kind: str) -> None:

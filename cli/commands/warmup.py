@@ -29,7 +29,7 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:
     from gradhesion.cli.work.compiling import say_why
     from gradhesion.cli.work.warming import warm  # it imports kernels, which need the compiler
 
-    kinds = KINDS if everything else ("energy", "smooth", "envelope", "curves")
+    kinds = KINDS if everything else ("energy", "envelope", "curves")
     missing, folder, count, start = missing_of(kinds), place().folder, 0, time.monotonic()
     say_why()
 

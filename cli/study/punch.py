@@ -6,13 +6,14 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.cli.keys import MACHINE, SPRING, Path
-from gradhesion.cli.names import CURVES, GENERAL_CURVES
+from gradhesion.cli.names import CURVES, CURVES_BY_DEPTH, GENERAL_CURVES
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.form import ProfileTable
 from gradhesion.cli.study.mistakes import Checked, Mistake
 from gradhesion.cli.terminal.wording import did_you_mean, example
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.problem.control import CONTROLS
+from gradhesion.core.problem.names import WITHOUT_LOAD
 from gradhesion.core.problem.profile import MOST_HARMONICS, Harmonic, Profile
 
 _SERIES: Final[Path] = ("profile", "harmonics")
@@ -147,7 +148,8 @@ def _mistakes_of_default_only(checked: Checked, *, sound_series: bool) -> Iterat
         return
     known = "available only for a paraboloid with one cosine wave under displacement control"
     remedy = f"or remove {' and '.join(others)}"
-    special = [name for one, own in CURVES.items() if one not in GENERAL_CURVES for name in (one, *own)]
+    have = GENERAL_CURVES if "[loading]" in others else CURVES_BY_DEPTH
+    special = [name for one, own in CURVES.items() if one not in have for name in (one, *own)]
     for i, name in enumerate(form.outputs):
         if name in special and form.kind == "curve":
             yield Mistake(("outputs", i), name, f"this curve is {known}; remove it, {remedy}")
@@ -157,14 +159,9 @@ def _mistakes_of_default_only(checked: Checked, *, sound_series: bool) -> Iterat
             )
             yield Mistake(("outputs", i), name, sentence)
     for one in form.method.solvers:
-        if one == "envelope" and "[loading]" in others:
-            sentence = (
-                'the solver "envelope" is available only under displacement control: contact through a spring begins '
-                'and ends where there is no closed form; write solver = "exact", or remove [loading]'
-            )
-            yield Mistake(("method", "solver"), form.method.solver, sentence)
-        elif one == "asymptotic":
-            sentence = f'the solver "{one}" is {known}; write solver = "exact", {remedy}'
+        if one in WITHOUT_LOAD and "[loading]" in others:
+            sentence = f'the solver "{one}" is available only under displacement control: {WITHOUT_LOAD[one]}; '
+            sentence += 'write solver = "exact", or remove [loading]'
             yield Mistake(("method", "solver"), form.method.solver, sentence)
     if "[profile]" in others and "a_max_over_a2" in form.entries:
         sentence = (

@@ -13,13 +13,12 @@ so that every control has the folds D = 0 of its own level q (docs/theory.md, se
 """
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.face import waves_at
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.struve.series import sums
-from gradhesion.core.struve.series_table import Flat
 from gradhesion.core.types import Harmonics, Table
 
 
@@ -37,20 +36,20 @@ class Basis(NamedTuple):
     """What a series is computed from."""
 
     table: Table  # the table of the exponent
-    cosine_bins: Flat  # the bins of its cosines, and of a series
+    cosine_bins: Any  # the flat array of struve/series_table.py; of a short wave its mean height over g
     series: Harmonics  # the harmonics
 
 
 @kernel(contract=True)
 def state(basis: Basis, curve: Series, x: float, whole: float = 0.0) -> tuple[float, float, float, float, float]:
     """Return z, z^c, z^(1+k), depth and load at whole + x > 0."""
-    table, cosine_bins, series = basis
+    table, _, _ = basis
     B, m, g, _, _ = curve
     z = TWO_PI * (whole + x)
     power = amplitude_power(table, z)
     stretch, front = z * power, 1.0 / (power * power)
     bend = B * z * z if m == 2.0 else B * z**m
-    w0, w1, _, _ = sums(table, cosine_bins, series, x, whole)
+    w0, w1, _, _ = waves_at(basis, curve, x, whole)
     depth = bend + g * z * w0 - stretch
     load = front * (bend * (m / (1.0 + table.k + m)) + g * z * w1 - stretch)
     return z, stretch, front, depth, load
@@ -85,14 +84,14 @@ def _level(k: float, alpha: float, beta: float, power: float, z: float) -> tuple
 @kernel(contract=True)
 def slope(basis: Basis, curve: Series, x: float, whole: float = 0.0) -> tuple[float, float, float]:
     """Return D, dD/dz, and dY/dz at whole + x > 0."""
-    table, cosine_bins, series = basis
+    table, _, _ = basis
     B, m, g, alpha, beta = curve
     k = table.k
     z = TWO_PI * (whole + x)
     power = amplitude_power(table, z)
     t, q, change = _level(k, alpha, beta, power, z)
     bend = 2.0 * B * z if m == 2.0 else m * B * z ** (m - 1.0)
-    _, _, v, v1 = sums(table, cosine_bins, series, x, whole)
+    _, _, v, v1 = waves_at(basis, curve, x, whole)
     value = bend + g * v - q * power
     return value, (m - 1.0) * bend / z + g * v1 + (0.5 * (1.0 + k) * q / z - change) * power, (alpha + t) * value
 
@@ -100,7 +99,7 @@ def slope(basis: Basis, curve: Series, x: float, whole: float = 0.0) -> tuple[fl
 @kernel(contract=True)
 def rise(basis: Basis, curve: Series, x: float, whole: float = 0.0) -> tuple[float, float, float]:
     """Return Y and its first two derivatives with respect to z at whole + x > 0."""
-    table, cosine_bins, series = basis
+    table, _, _ = basis
     B, m, g, alpha, beta = curve
     k = table.k
     z = TWO_PI * (whole + x)
@@ -109,7 +108,7 @@ def rise(basis: Basis, curve: Series, x: float, whole: float = 0.0) -> tuple[flo
     t, q, change = _level(k, alpha, beta, power, z)
     bend = B * z * z if m == 2.0 else B * z**m
     push = m * bend / z
-    w0, w1, v, v1 = sums(table, cosine_bins, series, x, whole)
+    w0, w1, v, v1 = waves_at(basis, curve, x, whole)
     value = push + g * v - q * power
     rate = (m - 1.0) * push / z + g * v1 + (0.5 * (1.0 + k) * q / z - change) * power
     load = front * (bend * (m / (1.0 + k + m)) + g * z * w1 - stretch)

@@ -7,6 +7,7 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import END, END_DEPTH, START, START_DEPTH
 from gradhesion.core.curve.general import Basis, Series, coordinate, rise
 from gradhesion.core.curve.general_folds import Zeros
+from gradhesion.core.face import depth_of_point
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats
 
@@ -35,8 +36,8 @@ def fill_branches(
     _, _, _, alpha, _ = curve
     branches = 0
     inside = rises
-    if rises:  # k = 1: contact grows from a point, where Y = -alpha
-        trace[START, 0], trace[START_LEVEL, 0] = 0.0, -alpha
+    if rises:  # contact grows from a point (k = 1): without load
+        trace[START, 0], trace[START_LEVEL, 0] = 0.0, alpha * depth_of_point(basis, curve)
     for i in range(count):
         if inside:
             trace[END, branches], trace[END_LEVEL, branches] = zeros[i], coordinate(basis, curve, zeros[i], whole)

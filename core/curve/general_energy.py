@@ -23,9 +23,10 @@ from gradhesion.core.curve.panels import (
     panels_to_zero,
     rule_between,
 )
+from gradhesion.core.face import waves_at
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.struve.series import highest_harmonic, sums
+from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.types import Floats
 
 
@@ -49,10 +50,10 @@ _SURE: Final = 1e-8
 @kernel()
 def place_left(basis: Basis, curve: Series, x: float, whole: float, above: float = 0.0) -> Left:
     """Return a place that a jump leaves, or one at which the coordinate is above that of the jump."""
-    table, cosine_bins, series = basis
+    table, _, _ = basis
     B, m, g, _, _ = curve
     z = TWO_PI * (whole + x)
-    w0, w1, _, _ = sums(table, cosine_bins, series, x, whole)
+    w0, w1, _, _ = waves_at(basis, curve, x, whole)
     power = amplitude_power(table, z)
     bend = B * z * z if m == 2.0 else B * z**m
     return Left(whole, x, g * z * w0, g * z * w1 / (power * power), above, bend, z * power)
@@ -61,7 +62,7 @@ def place_left(basis: Basis, curve: Series, x: float, whole: float, above: float
 @kernel(contract=True)
 def _rise(basis: Basis, curve: Series, left: Left, x: float, whole: float) -> float:
     """Return [Y(z) - Y_j]/((alpha + beta z^(1+k)) z^c); each term's difference first, however large the terms are."""
-    table, cosine_bins, series = basis
+    table, _, _ = basis
     _, m, g, alpha, beta = curve
     whole1, x1, wave0, wave1, above, bend1, stretch1 = left
     k = table.k
@@ -70,7 +71,7 @@ def _rise(basis: Basis, curve: Series, left: Left, x: float, whole: float) -> fl
     stretch = z * amplitude_power(table, z)
     lag = ((whole - whole1) + (x - x1)) / place1  # of z behind the place, over it
     ratio = math.log1p(lag)
-    w0, w1, _, _ = sums(table, cosine_bins, series, x, whole)
+    w0, w1, _, _ = waves_at(basis, curve, x, whole)
     bent = lag * (2.0 + lag) if m == 2.0 else math.expm1(m * ratio)
     stretched = math.expm1(0.5 * (1.0 - k) * ratio)
     rise = above + alpha * (bend1 * bent + g * z * w0 - wave0 - stretch1 * stretched)
@@ -144,12 +145,12 @@ def jump_energy(basis: Basis, curve: Series, start: float, end: float, whole: fl
 @kernel(contract=True)
 def _balance(basis: Basis, curve: Series, x: float) -> tuple[float, float]:
     """Return Y on the curve at a radius, and (alpha + beta z^(1+k)) z^c: rho is 1 + (Y - Y_j) over that."""
-    table, cosine_bins, series = basis
+    table, _, _ = basis
     B, m, g, alpha, beta = curve
     z = TWO_PI * x
     power = amplitude_power(table, z)
     stretch, t = z * power, beta / (power * power)
-    w0, w1, _, _ = sums(table, cosine_bins, series, x, 0.0)
+    w0, w1, _, _ = waves_at(basis, curve, x, 0.0)
     bend = B * z * z if m == 2.0 else B * z**m
     depth, height = bend + g * z * w0 - stretch, bend * (m / (1.0 + table.k + m)) + g * z * w1 - stretch
     return alpha * depth + t * height, (alpha + t) * stretch

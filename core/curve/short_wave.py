@@ -1,253 +1,211 @@
-"""The leading asymptotic form of a short wave, lambda << a: its curve, folds and pull-off.
+"""The leading form of short waves, lambda << a: the curve of any profile whose waves are no more than zeta of them.
 
-In the units of curve/cosine.py, with z = 2 pi a/lambda, c = (1-k)/2, n = (1+k)/2, phi = (1+k) pi/4, X = z^((3+k)/2) and
-chi = r/s, (5.15)-(5.20) of Jin, Guo & Wan (2013) become
+In the units of curve/general.py, with S(z) for C times (5.17) of Jin, Guo & Wan (2013), (5.15) and (5.16) become
 
-    depth = b z^2/2 + g - z^c [1 - chi sin(z - phi)]
-    load  = X { b X/(3+k) - 1 + chi sin(z - phi) }
+    depth(z) = B z^m + g mean - z^c [1 - g S(z)]
+    load(z)  = z^(1+k) { B z^m m/(1+k+m) - z^c [1 - g S(z)] }
+    S(z)     = C sum n^c [cos_n sin(n z - phi) + sin_n cos(n z - phi)],     mean = sum cos_n,   phi = (1+k) pi/4
 
-The term g is the mean height of the wave, which the printed form drops; the load has none to this order. The error is
-of the order lambda/a, and nothing is claimed where the contact is no larger than a wave. At k = 1 the depth is exact.
+One cosine is a series of one. The term g mean is the mean height of the waves, which the printed form drops; the load
+has none to this order. The error is of the order lambda/a, and nothing is claimed where the contact is no larger than a
+wave: there depth tends to g mean, not to 0. At k = 1 the depth is exact.
 
-Both slopes vanish where F = 0, at the levels c and (3+k)/2 of curve/cosine.py:
+Depth and load have slopes of their own: d load/dz is not z^(1+k) d depth_H/dz, as of every exact curve, but off by
+(1+k) z^((1+k)/2) g S, of the order lambda/a. So they belong to no one energy, and depth alone is prescribed here. With
+the level q, (1-k)/2 of the depth and (3+k)/2 of the load, the folds of both are where
 
-    F(z) = chi cos theta - u,   theta = z - phi - atan(level/z),   u = (level - b z^(1+n))/sqrt(z^2 + level^2)
-
-u falls steadily, so that folds stand only where |u| <= chi, and where cos theta rises F rises through zero once at
-most. Half wave i has theta between (i-1) pi and i pi: cos theta rises if i is even.
+    z^n D = m B z^(m-c) + g (q S + z S') - q = 0                    n = (1+k)/2
 """
 
 import math
-from typing import NamedTuple
+from typing import Final, TypeAlias
 
 import numpy as np
 
-from gradhesion.core.closed.envelope import envelope_force
-from gradhesion.core.closed.smooth import FORCE_SCALE
-from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.compiler.jit import NO, kernel
+from gradhesion.core.curve.general import Basis, Series, level_at, slope
+from gradhesion.core.curve.general_folds import Zeros
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.struve.series import highest_harmonic
+from gradhesion.core.types import Harmonics, Table
+
+MOST_WAVES: Final = 2.0**17
+"""Shortest waves that are walked at most: the energy of more, which is that of the envelopes to 1e-5, has no value."""
+SMALLEST: Final = 1e-100
+"""Places from which on, and up to one over which, powers are tabulated with room to spare."""
+_INNERMOST: Final = 1e-9
+"""z where a search for folds begins that may stand anywhere (k = 1)."""
+_OUTERMOST: Final = 1e250
+_NARROW: Final = 1e-7
+"""Least step in shortest waves: where F and its slope are zero to rounding."""
+_MOST_PLACES: Final = 64 * 2**17
+"""Places at which F is looked at: some ten a wave."""
+_SURE: Final = 1e-8
+_STEPS: Final = 100
+_CLOSE: Final = 0.02
+"""Of a bound, by which it may be too wide: a longer search costs less than powers."""
 
 
-class ShortWave(NamedTuple):
-    """The leading form of a short wave under displacement control: k, b, chi, g and phi; its places are z, not x."""
-
-    k: float
-    bend: float
-    chi: float
-    gain: float
-    phase: float
+Sizes: TypeAlias = tuple[float, float, float, float]
+"""What `sizes_of` returns."""
 
 
-MOST_HALVES = 2**18
-"""Half waves that are walked at most: the energy of more, which is that of the envelopes to 1e-5, has no value."""
-FURTHEST = 1e12
-"""z beyond which a double no longer tells the phase well."""
-_STEPS = 100
+class ShortWave(Series):
+    """The leading form of short waves, of the depth (alpha 1, beta 0) or of the load (0, 1)."""
 
-
-@kernel()
-def depth(wave: ShortWave, z: float) -> float:
-    """Return the reduced depth."""
-    k, b, chi, g, phi = wave
-    return 0.5 * b * z * z + g - z ** (0.5 * (1.0 - k)) * (1.0 - chi * math.sin(z - phi))
-
-
-@kernel()
-def load(wave: ShortWave, z: float) -> float:
-    """Return the reduced load."""
-    k, b, chi, _, phi = wave
-    abscissa = z ** (0.5 * (3.0 + k))
-    return abscissa * (b * abscissa / (3.0 + k) - 1.0 + chi * math.sin(z - phi))
-
-
-@kernel()
-def _slow_part(wave: ShortWave, level: float, z: float) -> float:
-    """Return u."""
-    k, b, _, _, _ = wave
-    return (level - b * z ** (0.5 * (3.0 + k))) / math.hypot(z, level)
+    __slots__ = ()
 
 
 @kernel()
-def _fold_function(wave: ShortWave, level: float, z: float) -> tuple[float, float]:
-    """Return F and its slope at z > 0."""
-    k, b, chi, _, phi = wave
-    square = z * z + level * level
-    root = math.sqrt(square)
-    theta = z - phi - math.atan2(level, z)
-    power = b * z ** (0.5 * (1.0 + k))
-    u = (level - power * z) / root
-    u_slope = -0.5 * (3.0 + k) * power / root - u * z / square
-    return chi * math.cos(theta) - u, -chi * math.sin(theta) * (1.0 + level / square) - u_slope
+def waves_of(table: Table, series: Harmonics) -> tuple[float, Harmonics]:
+    """Return what comes after the table of the exponent in the basis of the curve: the mean height over g, and S.
+
+    S has a row (n, sine, cosine) for each row (n, cos, sin) of the series.
+    """
+    rows, mean = np.empty((series.shape[0], 3)), 0.0
+    for i in range(series.shape[0]):
+        n, even, odd = series[i, 0], series[i, 1], series[i, 2]
+        size = n ** (0.5 * (1.0 - table.k))
+        rows[i, 0] = n
+        rows[i, 1] = size * (even * table.cos_phase + odd * table.sin_phase)
+        rows[i, 2] = size * (odd * table.cos_phase - even * table.sin_phase)
+        mean += even
+    return mean, rows
 
 
 @kernel()
-def depth_slope(wave: ShortWave, z: float) -> float:
-    """Return d depth/dz."""
-    k = wave.k
-    level = 0.5 * (1.0 - k)
-    value, _ = _fold_function(wave, level, z)
-    return value * math.hypot(z, level) / z ** (0.5 * (1.0 + k))
-
-
-@kernel()
-def half_at(wave: ShortWave, level: float, z: float) -> float:
-    """Return the half wave in which z lies."""
-    return max(0.0, np.floor((z - wave.phase - math.atan2(level, z)) / math.pi) + 1.0)
-
-
-@kernel()
-def outer_edge(wave: ShortWave, level: float, i: float) -> float:
-    """Return where half wave i ends: z - atan(level/z) = phi + i pi (Newton)."""
-    place = wave.phase + i * math.pi
-    if i < 0.0:
-        return 0.0
-    z = place + math.atan2(level, place + 0.5)
-    for _ in range(3):
-        z -= (z - place - math.atan2(level, z)) / (1.0 + level / (z * z + level * level))
-    return z
-
-
-@kernel()
-def window_end(wave: ShortWave, level: float, target: float) -> float:
-    """Return about where u falls to a target."""
+def _reached(push: float, power: float, rate: float, target: float) -> tuple[float, float]:
+    """Return places, close to one another, before and behind which push z^power + rate z reaches a target > 0."""
     low, high = 0.0, 1.0
-    while _slow_part(wave, level, high) > target and high < FURTHEST:
+    while push * high**power + rate * high < target and high < _OUTERMOST:
         low, high = high, 2.0 * high
-    while high - low > 0.1:
+    while high - low > _CLOSE * high and high > 1.0 / _OUTERMOST:
         middle = 0.5 * (low + high)
-        if _slow_part(wave, level, middle) > target:
+        if push * middle**power + rate * middle < target:
             low = middle
         else:
             high = middle
-    return high
+    return low, high
 
 
 @kernel()
-def _find_zero(wave: ShortWave, level: float, low: float, high: float, rising: bool) -> float:
-    """Return the zero of F between low and high (Newton, kept in the bracket)."""
-    _, _, chi, _, phi = wave
-    middle = 0.5 * (low + high)
-    # where the cosine of the middle's half wave takes the value that the slow part has there
-    theta = middle - phi - math.atan2(level, middle)
-    half = np.floor(theta / math.pi)
-    angle = math.acos(max(-1.0, min(1.0, _slow_part(wave, level, middle) / chi)))
-    z = middle - theta + (half * math.pi + angle if half % 2.0 == 0.0 else (half + 1.0) * math.pi - angle)
+def sizes_of(basis: Basis, curve: ShortWave) -> Sizes:
+    """Return bounds of g times S and its first three derivatives: the sums of the sizes of all waves."""
+    height, steepness, bend, third = 0.0, 0.0, 0.0, 0.0
+    rows = basis.series
+    for i in range(rows.shape[0]):
+        n, size = rows[i, 0], curve.gain * math.hypot(rows[i, 1], rows[i, 2])
+        height += size
+        steepness += n * size
+        bend += n * n * size
+        third += n * n * n * size
+    return height, steepness, bend, third
+
+
+@kernel()
+def window(basis: Basis, curve: ShortWave, sizes: Sizes) -> tuple[float, float]:
+    """Return x before which the coordinate has no fold, and x beyond which it has none, inf if they need not end."""
+    table, _, rows = basis
+    B, m, g, alpha, beta = curve
+    q = level_at(table.k, alpha, beta)
+    height, steepness, _, _ = sizes
+    start = q  # minus F at zero contact, from which its waves differ by (1 + q) z times the bound of the slope of S
+    for i in range(rows.shape[0]):
+        start -= q * g * rows[i, 2]
+    push, power = m * B, m - 0.5 * (1.0 - table.k)
+    low = 0.0
+    if start != 0.0:
+        low, _ = _reached(push, power, (1.0 + q) * steepness, abs(start))
+    if height < 1.0 and q > 0.0:
+        low = max(low, _reached(push, power, steepness, q * (1.0 - height))[0])
+    low = low if low > 0.0 else _INNERMOST
+    if steepness > 0.0 and (power < 1.0 or (power == 1.0 and push <= steepness)):
+        return low / TWO_PI, math.inf
+    _, high = _reached(push, power, -steepness, q * (1.0 + height))
+    return low / TWO_PI, high / TWO_PI
+
+
+@kernel(contract=True)
+def _fold_function(basis: Basis, curve: ShortWave, sizes: Sizes, x: float) -> tuple[float, float, float, float]:
+    """Return F = z^n D, dF/dz, a bound of its second derivative up to a place further out, and how far that is."""
+    table, _, _ = basis
+    B, m, _, alpha, beta = curve
+    z, n = TWO_PI * x, 0.5 * (1.0 + table.k)
+    value, rate, _ = slope(basis, curve, x)
+    front, inverse = 1.0 / amplitude_power(table, z), 1.0 / z
+    power = m - 1.0 + n
+    push = m * B * front * (z if m == 2.0 else z ** (m - 1.0))
+    bow, reach = power * abs(power - 1.0) * push * inverse * inverse, z / power
+    if power > 2.0:
+        bow *= math.e  # (1 + 1/p)^(p-2) is less
+    _, _, bend, third = sizes
+    bow += (level_at(table.k, alpha, beta) + 2.0) * bend + (z + reach) * third
+    return front * value, front * (rate + n * inverse * value), bow, reach
+
+
+@kernel()
+def _refine(basis: Basis, curve: ShortWave, sizes: Sizes, low: float, high: float, share: float, rising: bool) -> float:
+    """Return where F, monotone between two places, goes through zero: about at a share of the way (Newton's method)."""
+    x = low + (high - low) * share
+    enough = _SURE * (high - low)
     for _ in range(_STEPS):
-        if not low < z < high:
-            z = 0.5 * (low + high)
-            if z <= low or z >= high:
-                break
-        value, slope = _fold_function(wave, level, z)
+        value, rate, _, _ = _fold_function(basis, curve, sizes, x)
         if (value < 0.0) == rising:
-            low = z
+            low = x
         else:
-            high = z
-        step = value / slope
-        z -= step
-        if abs(step) < 1e-8 * min(1.0, z):
-            break
-    return z
-
-
-@kernel()
-def _find_extremum(wave: ShortWave, level: float, low: float, high: float) -> float:
-    """Return where the slope of F changes sign (halving)."""
-    _, first = _fold_function(wave, level, low)
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        _, slope = _fold_function(wave, level, middle)
-        if (slope > 0.0) == (first > 0.0):
-            low = middle
-        else:
-            high = middle
-    return 0.5 * (low + high)
-
-
-@kernel()
-def folds_of_half(wave: ShortWave, level: float, i: float) -> tuple[int, float, float, bool]:
-    """Return the number of zeros of F in half wave i, where they are, and if F rises through the first."""
-    low, high = outer_edge(wave, level, i - 1.0), outer_edge(wave, level, i)
-    first = -level  # the sign of F towards z = 0; at k = 1, level 0, it rises from zero
-    if i > 0.0:
-        first, _ = _fold_function(wave, level, low)
-    last, _ = _fold_function(wave, level, high)
-    rising = first < 0.0
-    if rising != (last < 0.0):
-        return 1, _find_zero(wave, level, low, high, rising), math.nan, rising
-    if i % 2.0 == 0.0:
-        return 0, math.nan, math.nan, rising
-    # two where cos theta falls: next to the crest as the window begins, next to the trough as it ends
-    middle = 0.5 * (low + high)
-    peak = _find_extremum(wave, level, low, middle) if rising else _find_extremum(wave, level, middle, high)
-    value, _ = _fold_function(wave, level, peak)
-    if rising == (value < 0.0):
-        return 0, math.nan, math.nan, rising
-    inner, outer = _find_zero(wave, level, low, peak, rising), _find_zero(wave, level, peak, high, not rising)
-    return 2, inner, outer, rising
-
-
-@kernel()
-def _floor(wave: ShortWave, z: float) -> float:
-    """Return the parabola that touches the load from below."""
-    k, b, chi, _, _ = wave
-    abscissa = z ** (0.5 * (3.0 + k))
-    return abscissa * (b * abscissa / (3.0 + k) - 1.0 - chi)
-
-
-@kernel()
-def lowest_load(wave: ShortWave, z_rim: float) -> tuple[float, float]:
-    """Return the lowest reduced load over (0, z_rim] and the z where it is met; far out, those of the envelope."""
-    k, b, chi, _, _ = wave
-    level = 0.5 * (3.0 + k)
-    z = (level * (1.0 + chi) / b) ** (1.0 / level)
-    if min(z, z_rim) > FURTHEST:
-        shrink = (1.0 / b) ** (1.0 / level)  # to the length at which b = 1
-        force, place = envelope_force(k, chi, z_rim / shrink)
-        return -force / (FORCE_SCALE * b), place * shrink
-    best, best_z = 0.0, 0.0
-    if z_rim < math.inf:
-        best, best_z = load(wave, z_rim), z_rim
-    start = half_at(wave, level, min(z, z_rim))
-    for outwards in (True, False):
-        i = start if outwards else start - 1.0
-        while 0.0 <= i < start + MOST_HALVES:
-            edge = outer_edge(wave, level, i - 1.0 if outwards else i)
-            if edge >= z_rim or (i != start and _floor(wave, edge) >= best):
-                break
-            count, inner, outer, rising = folds_of_half(wave, level, i)
-            place = inner if rising else outer
-            if count > 0 and place < z_rim:
-                value = load(wave, place)
-                if value < best:
-                    best, best_z = value, place
-            i += 1.0 if outwards else -1.0
-    return best, best_z
-
-
-@kernel()
-def find_depth(wave: ShortWave, target: float, low: float, high: float) -> float:
-    """Return where the branch between low and high meets a depth, low if it is nowhere so deep."""
-    if depth(wave, low) >= target:
-        return low
-    if high == math.inf:
-        step = 1.0
-        high = low + step
-        while depth(wave, high) <= target:
-            low = high
-            step *= 2.0
-            high += step
-    z = 0.5 * (low + high)
-    for _ in range(_STEPS):
-        rest = depth(wave, z) - target
-        if rest < 0.0:
-            low = z
-        else:
-            high = z
-        new = z - rest / depth_slope(wave, z)
-        if not low < new < high:
+            high = x
+        new = x - value / (TWO_PI * rate)
+        if not low <= new <= high:
             new = 0.5 * (low + high)
-            if new <= low or new >= high:
-                break
-        if abs(new - z) < 1e-9 * min(1.0, z):
+        if abs(new - x) <= enough:  # what is left is its square
             return new
-        z = new
-    return z
+        x = new
+    return x
+
+
+@kernel()
+def folds_between(
+    basis: Basis, curve: ShortWave, sizes: Sizes, first: float, last: float, zeros: Zeros
+) -> tuple[int, bool]:
+    """Put all folds between two places into `zeros`, in order; return their number and whether F >= 0 at the first.
+
+    From a place on, F keeps its sign as far as its slope and the bound of its curvature say, and is monotone as far as
+    its slope outweighs that. Of two folds closer than `_NARROW` of a wave none may be found.
+    """
+    count, x = 0, first
+    value, rate, bow, reach = _fold_function(basis, curve, sizes, x)
+    rises = value >= 0.0
+    shortest = 1.0 / max(1.0, highest_harmonic(basis.series))
+    for _ in range(_MOST_PLACES):
+        if not x < last or count == zeros.size:
+            break
+        outwards = rate if value >= 0.0 else -rate
+        root = math.sqrt(outwards * outwards + 2.0 * bow * abs(value))
+        free = (root + outwards) / bow if outwards > 0.0 else 2.0 * abs(value) / (root - outwards)
+        step = min(max(free, abs(rate) / bow), reach) / TWO_PI
+        beyond = min(x + max(step, _NARROW * min(x, shortest)), last)
+        there, rate, bow, reach = _fold_function(basis, curve, sizes, beyond)
+        if (there < 0.0) != (value < 0.0):
+            zeros[count] = _refine(basis, curve, sizes, x, beyond, value / (value - there), value < 0.0)
+            count += 1
+        x, value = beyond, there
+    return count, rises
+
+
+@kernel()
+def folds_within(basis: Basis, curve: ShortWave, furthest: float) -> tuple[int, bool, Zeros]:
+    """Return all folds up to a place, their number first: -1 if too many waves stand there to be walked.
+
+    The second is whether the coordinate rises at zero contact.
+    """
+    sizes = sizes_of(basis, curve)
+    first, last = window(basis, curve, sizes)
+    last = min(last, furthest)
+    first = min(first, last)
+    waves = highest_harmonic(basis.series) * (last - first)
+    if not (first > SMALLEST and waves < MOST_WAVES):
+        return -1, NO, np.empty(0)
+    zeros = np.empty(64 + 8 * int(waves))
+    count, rises = folds_between(basis, curve, sizes, first, last, zeros)
+    return count, rises, zeros

@@ -3,41 +3,45 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.curve.short_wave import ShortWave
+from gradhesion.core.curve.cosine import force_unit
+from gradhesion.core.curve.general import Basis, curve_of
+from gradhesion.core.curve.short_wave import ShortWave, folds_within, waves_of
+from gradhesion.core.curves import general
 from gradhesion.core.curves.equilibrium import draw_named
-from gradhesion.core.curves.forms import SHORT
-from gradhesion.core.curves.knots import folds_of_wave
-from gradhesion.core.curves.smooth import smooth_places
-from gradhesion.core.curves.subject import Form, Subject, wavy_form
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.curves.forms import GENERAL, general_numbers
+from gradhesion.core.curves.knots import MOST_FOLDS
+from gradhesion.core.curves.smooth import draw_smooth
+from gradhesion.core.curves.subject import Form, Subject
+from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.shape import depth_factor_of, rows_of
 
 
-def draw_asymptotic(subject: Subject) -> dict[str, NDArray[np.float64]] | None:
+def draw_asymptotic(subject: Subject, profile: Profile) -> dict[str, NDArray[np.float64]] | None:
     """Return the asymptotic curve from zero contact to the end of the drawn range, None if it folds too often.
 
     Parameters
     ----------
-    subject
-        Any scene. With A = 0 the curve is that of the smooth punch.
+    subject, profile
+        Any scene under displacement control, and its punch. With A = 0 the curve is that of the smooth punch.
 
     Returns
     -------
-    The variables `asymptotic_...` (draw.CURVES). Depth holds the mean height lambda A that the printed form drops.
-    Nothing is claimed where the contact is no larger than a wave.
+    The variables `asymptotic_...` (draw.CURVES). Depth holds the mean height that the printed form drops, lambda A of
+    one cosine. Nothing is claimed where the contact is no larger than a wave.
     """
-    k = subject.k
-    if subject.chi == 0.0:
-        form: Form = subject.plain(1.0)
-        places = smooth_places(k, (1.0,), subject.end / form.radius_scale)
-    else:
-        form = wavy_form(subject.table, subject.stretch, subject.wavelength, subject.mean_height)
-        bend, gain, _, _, _ = form.numbers
-        wave = ShortWave(k, bend, subject.chi, gain, float(subject.table["phase"]))
-        form = Form(SHORT, subject.table, wave[:], subject.wavelength / TWO_PI, form.depth_scale, form.load_scale)
-        end = subject.end / form.radius_scale
-        few, folds = folds_of_wave(wave, 0.5 * (1.0 - k), end)
-        few_too, load_folds = folds_of_wave(wave, 0.5 * (3.0 + k), end)
-        if not (few and few_too):
-            return None
-        places = np.union1d(folds, load_folds)
-    return draw_named(subject, form, places, "asymptotic")
+    if subject.mean_height == 0.0:
+        smooth = general.draw_smooth if subject.exact.kind == GENERAL else draw_smooth
+        return {name.replace("smooth", "asymptotic"): values for name, values in smooth(subject).items()}
+    k, m, wavelength = subject.k, profile.exponent, subject.wavelength
+    table, amplitude = subject.table, subject.mean_height / wavelength
+    exact, length, unit = curve_of(k, m, depth_factor_of(k, m), subject.stretch, wavelength, amplitude, 0.0)
+    series = rows_of(profile)
+    basis, by_depth = Basis(table, *waves_of(table, series)), ShortWave(*exact)
+    by_load, end = by_depth._replace(alpha=0.0, beta=1.0), subject.end / wavelength
+    found = [folds_within(basis, curve, end) for curve in (by_depth, by_load)]
+    if not all(0 <= count <= MOST_FOLDS for count, _, _ in found):
+        return None
+    places = np.unique(np.concatenate([zeros[:count] for count, _, zeros in found]))
+    numbers = general_numbers(k, by_depth, float(table["amplitude"]), series)
+    form = Form(GENERAL, basis, numbers, wavelength, unit, force_unit(k, length, unit))
+    return draw_named(subject, form, places[places < end], "asymptotic")

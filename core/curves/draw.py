@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any, Final
 
 import numpy as np
@@ -38,21 +39,23 @@ _OF_A_CYCLE: Final = ("path", "jumps", "effective")
 """The curves that turn where the cycle does."""
 _EXACT: Final = {"equilibrium": draw_equilibrium, "path": draw_path, "jumps": list_jumps}
 _CLOSED: Final = {
-    "asymptotic": draw_asymptotic,
     "envelope": draw_envelope,
     "effective": draw_effective,
     "smooth": draw_smooth,
 }
 
 GENERAL_CURVES: Final = ("equilibrium", "path", "smooth", "jumps")
-"""The curves of any profile under any control; the others are closed forms of one cosine wave on a paraboloid."""
+"""The curves of any profile under any control."""
+CURVES_BY_DEPTH: Final = (*GENERAL_CURVES, "asymptotic")
+"""Those of any profile under displacement control; the others are closed forms of one cosine wave on a paraboloid."""
 
 
-def _draw(subject: Subject | None, curve: str) -> dict[str, NDArray[Any]] | None:
+def _draw(subject: Subject | None, curve: str, profile: Profile) -> dict[str, NDArray[Any]] | None:
     """Return the variables of a curve, None where it has no value."""
     if subject is None or (curve in _EXACT and subject.trace is None):
         return None
-    of_curve = _EXACT | ({"smooth": general.draw_smooth} if subject.exact.kind == GENERAL else _CLOSED)
+    of_curve: dict[str, Any] = _EXACT | {"asymptotic": partial(draw_asymptotic, profile=profile)}
+    of_curve |= {"smooth": general.draw_smooth} if subject.exact.kind == GENERAL else _CLOSED
     with np.errstate(all="ignore"):
         variables = of_curve[curve](subject)
     if variables is None or not all(np.isfinite(values).all() for values in variables.values()):
@@ -89,8 +92,8 @@ def draw_curves(
         "envelope", its two envelopes (5.21)-(5.27); "effective", the path along them (5.28)-(5.35); "smooth", the curve
         of A = 0; "jumps", the jumps of the cycle, one by one.
     profile, loading
-        Shape of the punch and what is prescribed, as in `solve`; other ones than the default have the curves of
-        `GENERAL_CURVES` only.
+        Shape of the punch and what is prescribed, as in `solve`; another shape has the curves of `CURVES_BY_DEPTH`
+        only, another control those of `GENERAL_CURVES`.
 
     Returns
     -------
@@ -141,11 +144,12 @@ def draw_curves(
     if ("machine_stiffness" in scene) != (loading.control == "machine"):
         raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
     default = profile == Profile() and loading == Loading()
-    absent = [] if default else [name for name in curves if name not in GENERAL_CURVES]
+    known = tuple(CURVES) if default else CURVES_BY_DEPTH if loading == Loading() else GENERAL_CURVES
+    absent = [name for name in curves if name not in known]
     if absent:
         raise ValueError(
-            f"curves {absent} are known of the paraboloid with one cosine wave under displacement control only; "
-            f"another profile or control has {', '.join(GENERAL_CURVES)}"
+            f"curves {absent} are known of the paraboloid with one cosine wave under displacement control only, but "
+            f"for the asymptotic one, which any profile has; this profile and control have {', '.join(known)}"
         )
     turns = [name for name in TURNS if name in scene]
     if len(turns) > 1:
@@ -172,7 +176,7 @@ def draw_curves(
         if radius == 0.0 and curve in _OF_A_CYCLE:
             variables = _without_contact(curve, scene)
         else:
-            variables = _draw(round_trip if curve in _OF_A_CYCLE else subject, curve)
+            variables = _draw(round_trip if curve in _OF_A_CYCLE else subject, curve, profile)
         if turns and variables is not None and "jump_at_rim" in variables and radius < scene["a_max_over_R"]:
             variables["jump_at_rim"][:] = 0
         if variables is None:

@@ -1,14 +1,14 @@
 """The curves that can be drawn, in reduced form: depth and load at a place.
 
 EXACT      the curve of one wave (curve/cosine.py); a place is x = a/lambda, `numbers` are its bend and gain
-SHORT      its leading asymptotic form (asymptotic.py); a place is z = 2 pi a/lambda, `numbers` are the wave's five
 PLAIN      a smooth punch of any pull (smooth.py, envelope.py), z^2/2 - pull z^((1-k)/2) and X [X/(3+k) - pull] with
            X = z^((3+k)/2); a place is z = a/l with the bend 1, `numbers` are k, the pull and a height that depth gains
-GENERAL    any power and any waves (core/curve/general.py); a place is x = a/lambda, `numbers` are those of its curve
-           with half the shortest wave and the sum of the amplitudes, and its basis stands for the table
+GENERAL    any power and any waves (core/curve/general.py), or their leading form (core/curve/short_wave.py); a place is
+           x = a/lambda, `numbers` are the curve, half the shortest wave and the sum of the amplitudes, and its basis
+           stands for the table
 
-All other numbers are padded to five, so that one compiled sampler serves all forms but the general one, which the
-compiler tells by its seven.
+All other numbers are padded to five, so that one compiled sampler serves all forms but the general ones, which the
+compiler tells by their three.
 """
 
 import math
@@ -17,10 +17,9 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve import short_wave as asymptotic
 from gradhesion.core.curve.cosine import wave
-from gradhesion.core.curve.general import Basis, state
-from gradhesion.core.face import AnyTable
+from gradhesion.core.curve.general import Basis, Series, state
+from gradhesion.core.face import AnyTable, depth_of_point
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Floats, Harmonics, Table
@@ -29,10 +28,9 @@ Numbers: TypeAlias = tuple[float, float, float, float, float]
 """The numbers of a form, by its kind; a general one has `GENERAL_NUMBERS`, of which the first five are a `Series`."""
 
 EXACT: Final = 0
-SHORT: Final = 1
-PLAIN: Final = 2
-GENERAL: Final = 3
-GENERAL_NUMBERS: Final = 7
+PLAIN: Final = 1
+GENERAL: Final = 2
+GENERAL_NUMBERS: Final = 3
 
 
 @kernel(contract=True)
@@ -60,8 +58,8 @@ def _plain_point(numbers: Numbers, z: float) -> tuple[float, float]:
 def _general_point(basis: Basis, numbers: Any, x: float) -> tuple[float, float]:
     """Return depth and load of curve/general.py."""
     if x == 0.0:
-        return (-1.0 if basis[0].k == 1.0 else 0.0), 0.0
-    _, _, _, depth, load = state(basis, numbers[:5], x, 0.0)
+        return depth_of_point(basis, numbers[0]), 0.0
+    _, _, _, depth, load = state(basis, numbers[0], x, 0.0)
     return depth, load
 
 
@@ -70,16 +68,15 @@ def _general_ripple(basis: Basis, numbers: Any, x: float) -> tuple[float, float,
     """Return what `ripple` does: the waves of all harmonics together."""
     z = TWO_PI * x
     power = amplitude_power(basis[0], z)
-    return numbers[5], numbers[6] * z * power, numbers[6] * z / power
+    return numbers[1], numbers[2] * z * power, numbers[2] * z / power
 
 
-def general_numbers(k: float, curve: Numbers, amplitude: float, series: Harmonics) -> tuple[float, ...]:
+def general_numbers(k: float, curve: Series, amplitude: float, series: Harmonics) -> tuple[Series, float, float]:
     """Return the numbers of the general form; `amplitude` is that of S0 (struve/table.py)."""
-    _, _, gain, _, _ = curve
     n = series[:, 0]
     heights = np.hypot(series[:, 1], series[:, 2]) * n ** (0.5 * (1.0 - k))
     half_wave = 0.5 / float(n.max()) if n.size else math.inf
-    return (*curve, half_wave, amplitude * gain * float(heights.sum()))
+    return curve, half_wave, amplitude * curve.gain * float(heights.sum())
 
 
 @kernel()
@@ -89,8 +86,6 @@ def point(kind: int, table: AnyTable, numbers: Any, place: float) -> tuple[float
         return _general_point(table, numbers, place)
     if kind == EXACT:
         return _exact_point(table, numbers, place)
-    if kind == SHORT:
-        return asymptotic.depth(numbers, place), asymptotic.load(numbers, place)
     return _plain_point(numbers, place)
 
 
@@ -104,9 +99,6 @@ def ripple(kind: int, table: AnyTable, numbers: Any, place: float) -> tuple[floa
         power = amplitude_power(table, z)
         height = table.amplitude * numbers[1]
         return 0.5, height * z * power, height * z / power
-    if kind == SHORT:
-        k, _, chi, _, _ = numbers
-        return 0.5 * TWO_PI, chi * place ** (0.5 * (1.0 - k)), chi * place ** (0.5 * (3.0 + k))
     return math.inf, 0.0, 0.0
 
 

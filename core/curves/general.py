@@ -20,7 +20,7 @@ from gradhesion.core.curve.general import Basis, Series, curve_of
 from gradhesion.core.curve.general_folds import room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.curves.equilibrium import draw_named
-from gradhesion.core.curves.forms import GENERAL, Numbers, general_numbers
+from gradhesion.core.curves.forms import GENERAL, general_numbers
 from gradhesion.core.curves.subject import BEYOND, BEYOND_SMOOTH, Form, Subject
 from gradhesion.core.path.general import walk
 from gradhesion.core.problem.control import Loading
@@ -68,15 +68,15 @@ def _trace(
     return trace, others[others < furthest]
 
 
-def _form(basis: Any, curve: Numbers, radius_scale: float, depth_scale: float, load_scale: float) -> Form:
+def _form(basis: Any, curve: Series, radius_scale: float, depth_scale: float, load_scale: float) -> Form:
     table, _, series = basis
-    numbers: Any = general_numbers(float(table["k"]), curve, float(table["amplitude"]), series)
+    numbers = general_numbers(float(table["k"]), curve, float(table["amplitude"]), series)
     return Form(GENERAL, basis, numbers, radius_scale, depth_scale, load_scale)
 
 
 def smooth_place(form: Form, level: float) -> float:
     """Return z where m B z^(m-1) = level z^(-(1+k)/2): a turn of depth or load of the punch without waves."""
-    bend, m = form.numbers[:2]
+    bend, m, _, _, _ = form.curve
     place: float = (level / (m * bend)) ** (1.0 / (m - 0.5 * (1.0 - float(form.table[0]["k"]))))
     return place
 
@@ -127,9 +127,9 @@ def subject_of(scene: Mapping[str, float], profile: Profile, loading: Loading) -
 def draw_smooth(subject: Subject) -> dict[str, NDArray[np.float64]]:
     """Return the variables `smooth_...` (draw.CURVES): the curve of the same power without waves."""
     exact, k = subject.exact, subject.k
-    B, m, _, alpha, beta = exact.numbers[:5]
     basis = (*exact.table[:2], np.zeros((0, 3)))
-    form = _form(basis, (B, m, 0.0, alpha, beta), exact.radius_scale, exact.depth_scale, exact.load_scale)
+    form = _form(basis, exact.curve._replace(gain=0.0), exact.radius_scale, exact.depth_scale, exact.load_scale)
     end = subject.end / form.radius_scale
-    places = np.unique([smooth_place(form, level) / TWO_PI for level in (0.5 * (1.0 - k), m, 0.5 * (3.0 + k))])
+    levels = (0.5 * (1.0 - k), form.curve.exponent, 0.5 * (3.0 + k))
+    places = np.unique([smooth_place(form, level) / TWO_PI for level in levels])
     return draw_named(subject, form, places[(places > 0.0) & (places < end)], "smooth")

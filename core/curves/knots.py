@@ -9,7 +9,6 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import END, START, Trace
 from gradhesion.core.curve.cosine import Cosine, slope
 from gradhesion.core.curve.cosine_folds import first_arch, fold_of_arch, last_arch, survey_arch
-from gradhesion.core.curve.short_wave import ShortWave, folds_of_half, half_at, window_end
 from gradhesion.core.path.cosine import COUNTABLE, MOST_ARCHES
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats, Table
@@ -86,26 +85,3 @@ def folds_of_load(table: Table, curve: Cosine, furthest: float) -> Floats:
             break
         i += 1
     return places[:count]
-
-
-@kernel()
-def folds_of_wave(wave: ShortWave, level: float, furthest: float) -> tuple[bool, Floats]:
-    """Return whether there are few enough folds of the asymptotic form up to z = `furthest`, and where: shape (n,)."""
-    chi = wave.chi
-    begin = 0.0 if chi >= 1.0 else window_end(wave, level, chi)
-    end = min(furthest, window_end(wave, level, -chi))
-    i = max(0.0, half_at(wave, level, begin) - 2.0)
-    last = half_at(wave, level, end) + 2.0
-    if not last - i <= MOST_FOLDS:
-        return False, np.empty(0)
-    places = np.empty(2 * int(max(0.0, last - i)) + 4)
-    count = 0
-    while i <= last:
-        folds, inner, outer, _ = folds_of_half(wave, level, i)
-        for j in range(folds):
-            place = inner if j == 0 else outer
-            if 0.0 < place < furthest:
-                places[count] = place
-                count += 1
-        i += 1.0
-    return True, places[:count]

@@ -12,9 +12,8 @@ from gradhesion.core.arrays.tables import table_of
 from gradhesion.core.closed import smooth
 from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, ROWS, START, START_DEPTH, UNKNOWN, UNLOADING_JUMPS
 from gradhesion.core.curve.cosine import Cosine, curve_of, force_unit
-from gradhesion.core.curve.general import Series
 from gradhesion.core.curves import knots
-from gradhesion.core.curves.forms import EXACT, GENERAL, PLAIN, Numbers, fill_points
+from gradhesion.core.curves.forms import EXACT, GENERAL, PLAIN, fill_points
 from gradhesion.core.path.cosine import extent, is_endless_wave, is_smooth, walk
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import PARAMETERS
@@ -34,7 +33,7 @@ class Form:
 
     kind: int
     table: Any
-    numbers: Numbers
+    numbers: Any
     radius_scale: float
     depth_scale: float
     load_scale: float
@@ -42,12 +41,12 @@ class Form:
     @property
     def curve(self) -> Any:
         """The curve as core/path/ takes it; that of a smooth punch stands for one without waves."""
-        return Series(*self.numbers[:5]) if self.kind == GENERAL else Cosine(self.numbers[0], self.numbers[1], 0.0)
+        return self.numbers[0] if self.kind == GENERAL else Cosine(self.numbers[0], self.numbers[1], 0.0)
 
     @property
     def coordinate(self) -> tuple[float, float]:
         """What is prescribed, as alpha and beta of alpha depth + beta load; the depth for all but general forms."""
-        return (self.numbers[3], self.numbers[4]) if self.kind == GENERAL else (1.0, 0.0)
+        return self.curve[3:] if self.kind == GENERAL else (1.0, 0.0)
 
     def flat_stiffness(self, place: float) -> float:
         """Return the load over the depth of a flat punch as wide as a place, K a^(1+k): of contact pinned there."""

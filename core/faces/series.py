@@ -1,4 +1,4 @@
-"""What any profile under any control answers (core/face.py)."""
+"""What any profile under any control answers (core/face.py), and with it the leading form of its short waves."""
 
 import math
 
@@ -9,11 +9,13 @@ from gradhesion.core.curve.branches import Trace, ends
 from gradhesion.core.curve.general import Basis, Series, size, slope, state
 from gradhesion.core.curve.general_branches import find_level
 from gradhesion.core.curve.one_cosine_energy import jump_of_one_cosine, jump_of_one_cosine_from_zero
+from gradhesion.core.curve.short_wave import ShortWave
+from gradhesion.core.struve.series import sums
 from gradhesion.core.types import Work
 from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
 
 
-@face.find_place.answers(Series)
+@face.find_place.answers(Series, ShortWave)
 @kernel()
 def find_place(basis: Basis, curve: Series, level: float, trace: Trace, branch: int) -> float:
     return find_level(basis, curve, level, ends(trace, branch), 0.0)
@@ -53,14 +55,27 @@ def loss_to_zero(basis: Basis, curve: Series, x: float, level: float) -> float:
     return 0.0 if curve.alpha == 0.0 else -_from_zero(basis, curve, x, level)
 
 
-@face.depth_at.answers(Series)
+@face.depth_at.answers(Series, ShortWave)
 @kernel()
 def depth_at(basis: Basis, curve: Series, x: float, _level: float) -> float:
     """Answer with the depth of the contact, whatever is prescribed."""
-    if x == 0.0:  # k = 1: contact begins in a point
-        return -1.0
+    if x == 0.0:
+        return face.depth_of_point(basis, curve)
     _, _, _, depth, _ = state(basis, curve, x, 0.0)
     return depth
+
+
+@face.waves_at.answers(Series)
+@kernel(contract=True)
+def waves_at(basis: Basis, _curve: Series, x: float, whole: float) -> tuple[float, float, float, float]:
+    table, cosine_bins, series = basis
+    return sums(table, cosine_bins, series, x, whole)
+
+
+@face.depth_of_point.answers(Series)
+@kernel()
+def depth_of_point(basis: Basis, _curve: Series) -> float:
+    return -1.0 if basis[0].k == 1.0 else 0.0
 
 
 @face.size_at.answers(Series)

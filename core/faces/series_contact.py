@@ -12,7 +12,7 @@ from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.fractional import NODES
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.struve.series import highest_harmonic, sums
+from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.types import Floats
 
 face.profile_at.answers(Series)(touch.profile_at)
@@ -59,9 +59,9 @@ def panels_of(basis: Basis, curve: Series) -> tuple[float, float]:
 @face.edge_at.answers(Series)
 @kernel(contract=True)
 def edge_at(basis: Basis, curve: Series, x: float) -> Edge:
-    table, cosine_bins, series = basis
+    table, _, _ = basis
     z = TWO_PI * x
-    w0, _, _, _ = sums(table, cosine_bins, series, x, 0.0)
+    w0, _, _, _ = face.waves_at(basis, curve, x, 0.0)
     return Edge(x, curve.bend * z**curve.exponent, curve.gain * z * w0, z * amplitude_power(table, z))
 
 
@@ -69,9 +69,9 @@ def edge_at(basis: Basis, curve: Series, x: float) -> Edge:
 @kernel(contract=True)
 def excess_at(basis: Basis, curve: Series, edge: Edge, x: float) -> tuple[float, float]:
     """Answer by the differences of the terms, each first, as in curve/general_energy.py."""
-    table, cosine_bins, series = basis
+    table, _, _ = basis
     z = TWO_PI * x
-    w0, _, _, _ = sums(table, cosine_bins, series, x, 0.0)
+    w0, _, _, _ = face.waves_at(basis, curve, x, 0.0)
     bend = edge.bend * math.expm1(curve.exponent * math.log1p((x - edge.x) / edge.x))
     return bend + (curve.gain * z * w0 - edge.wave) + edge.stretch, z * amplitude_power(table, z)
 

@@ -43,7 +43,13 @@ VALIDITY: Final = ("tabor_parameter", "wave_tabor_parameter", "wave_slope", "joh
 RANGE: Final = "adhesion_range_over_R"
 """The parameter of the Tabor parameters: the range of the attraction."""
 SOLVERS: Final = ("exact", "asymptotic", "envelope")
-"""For wavelengths far below the contact radius: the leading term (curve/short_wave.py), and closed/envelope.py."""
+"""For wavelengths far below the contact radius: the leading term (curve/short_wave.py), and its envelopes."""
+WITHOUT_LOAD: Final[dict[str, str]] = {
+    "asymptotic": "the leading terms of depth and load belong to one energy only up to the order of lambda/a, so that "
+    "under a load the work of a cycle would not be what its jumps lose",
+    "envelope": "contact under a load or through a spring begins and ends where there is no closed form",
+}
+"""Why the other solvers know displacement control alone."""
 CURVES: Final[dict[str, tuple[str, ...]]] = {
     "equilibrium": ("contact_radius", "indentation", "load", "stable"),
     "path": (

@@ -1,4 +1,4 @@
-"""The leading asymptotic form of a short wave: a cycle of loading and unloading, and all results of a curve.
+"""The leading form of short waves: from the numbers of scenes to their results, one curve with all its rims at a time.
 
 The path is that of path/loading.py and path/unloading.py, which ask what core/face.py declares; each wave is walked.
 """
@@ -8,134 +8,128 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.core.closed import envelope
 from gradhesion.core.compiler.jit import YES, kernel
-from gradhesion.core.curve.branches import (
-    ARRIVAL,
-    END,
-    END_DEPTH,
-    HIGHEST,
-    ROWS,
-    START,
-    START_DEPTH,
-    UNKNOWN,
-    UNLOADING_JUMPS,
-    Trace,
-)
-from gradhesion.core.curve.cosine import curve_of, force_unit
-from gradhesion.core.curve.short_wave import (
-    FURTHEST,
-    MOST_HALVES,
-    ShortWave,
-    depth,
-    folds_of_half,
-    half_at,
-    lowest_load,
-    window_end,
-)
+from gradhesion.core.curve.branches import ARRIVAL, END_DEPTH, HIGHEST, ROWS, UNKNOWN, UNLOADING_JUMPS, Trace
+from gradhesion.core.curve.cosine import force_unit
+from gradhesion.core.curve.general import Basis, coordinate, curve_of
+from gradhesion.core.curve.general_branches import fill_branches
+from gradhesion.core.curve.short_wave import SMALLEST, ShortWave, folds_within, waves_of
 from gradhesion.core.path.loading import highest_depth, load_up, loading_to
 from gradhesion.core.path.unloading import unloading_from
+from gradhesion.core.problem.curves import Curves, is_in_range
 from gradhesion.core.problem.results import OUTERMOST, Results, put, put_all, wants_folds, wants_force
 from gradhesion.core.problem.status import NO_VALUE
+from gradhesion.core.pull_off.general import deepest_wave
+from gradhesion.core.pull_off.short_wave import lowest_load
+from gradhesion.core.scene.cosine import refuse
+from gradhesion.core.scene.scene import Scene
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.types import Floats, Table
+from gradhesion.core.struve.current import ready
+from gradhesion.core.types import Floats, Harmonics
 
-NOTHING: Final = ()
-"""The tables that the leading form needs."""
+_ROOM: Final = 16
+"""Floats that a jump has room for (core/face.py)."""
 
 
 @kernel()
-def trace_branches(wave: ShortWave, furthest: float) -> tuple[int, Trace]:
-    """Return the rising branches that begin within `furthest`, their number first: -1 if there are too many."""
-    k, _, chi, _, _ = wave
-    level = 0.5 * (1.0 - k)
-    begin = 0.0 if chi >= 1.0 else window_end(wave, level, chi)
-    end = window_end(wave, level, -chi)
-    i = max(0.0, half_at(wave, level, begin) - 2.0)
-    last = half_at(wave, level, min(end, furthest)) + 2.0
-    if not (min(end, furthest) < FURTHEST and last - i <= MOST_HALVES):
-        return -1, np.empty((ROWS, 0))
-    trace = np.empty((ROWS, int(max(0.0, last - i)) + 4))
-    count = 0
-    inside = level == 0.0
-    if inside:  # k = 1: depth rises from zero contact
-        trace[START, 0], trace[START_DEPTH, 0] = 0.0, depth(wave, 0.0)
-        i = 0.0
-    while i <= last:
-        folds, z, outer, rising = folds_of_half(wave, level, i)
-        for _ in range(folds):
-            if rising and z > furthest:
-                return count, trace
-            row = START if rising else END
-            trace[row, count], trace[row + 1, count] = z, depth(wave, z)
-            count += 0 if rising else 1
-            inside = rising
-            rising = not rising
-            z = outer
-        i += 1.0
-    if inside:
-        trace[END, count] = trace[END_DEPTH, count] = math.inf
-        count += 1
+def walk(basis: Basis, curve: ShortWave, furthest: float) -> tuple[int, Trace]:
+    """Return the branches that begin within x = `furthest`, with the cycle on them; their number first, -1 if too many.
+
+    The last one ends at `furthest` if no fold ends it before.
+    """
+    folds, rises, zeros = folds_within(basis, curve, furthest)
+    trace = np.empty((ROWS, max(_ROOM, folds // 2 + 2)))
+    if folds < 0:
+        return -1, trace
+    count = fill_branches(basis, curve, zeros, folds, rises, furthest, trace, 0.0)
+    trace[UNLOADING_JUMPS, :count] = UNKNOWN
+    load_up(basis, curve, count, trace, furthest, YES)
+    highest = 0.0
+    for branch in range(count):
+        highest = max(highest, trace[END_DEPTH, branch])
+        trace[HIGHEST, branch] = highest
     return count, trace
 
 
 @kernel()
-def _follow(wave: ShortWave, count: int, trace: Trace, furthest: float) -> None:
-    """Fill the records of the cycle on the branches."""
-    load_up(NOTHING, wave, count, trace, furthest, YES)
-    highest = 0.0
-    for branch in range(count):
-        highest = max(highest, trace[END_DEPTH, branch])
-        trace[HIGHEST, branch], trace[UNLOADING_JUMPS, branch] = highest, UNKNOWN
+def _solve_curve(basis: Basis, curve: ShortWave, scene: Scene, unit: float, deepest: float, rims: Floats) -> None:
+    """Solve a curve for all its rims a_max/R, of shape (rims,).
 
-
-@kernel()
-def solve_curve(
-    table: Table, stretch: float, wavelength: float, amplitude: float, rims: Floats, results: Results
-) -> None:
-    """Solve one curve (s, lambda/R, A) for all its rims a_max/R, of shape (rims,)."""
-    if amplitude == 0.0:
-        envelope.solve_curve(table, stretch, wavelength, amplitude, rims, results)
-        return
-    k = table.k
-    (bend, gain, _), length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
-    wave = ShortWave(k, bend, table.amplitude * gain, gain, table.phase)
-    force_scale = force_unit(k, length, depth_scale)
-    energy_scale = TWO_PI * length * length
+    `unit` is that of load in 1.5 pi R dgamma, `deepest` is max(-S).
+    """
+    results = scene.results
     force, folds = wants_force(results.slots), wants_folds(results.slots)
+    furthest = rims.max() / scene.wavelength
     count, trace = -1, np.empty((ROWS, 0))
     if folds:
-        count, trace = trace_branches(wave, rims.max() / length)
-        _follow(wave, max(0, count), trace, rims.max() / length)
+        count, trace = walk(basis, curve, furthest)
     shared = count >= 0 or rims.size == 1  # else a rim with fewer waves may still have its own
     for i in range(rims.size):
-        z_rim = rims[i] / length
-        lowest = place = loss = loss_back = loading = unloading = deepest = last = math.nan
-        if force:
-            lowest, place = lowest_load(wave, z_rim)
-        if folds and not shared:
-            count, trace = trace_branches(wave, z_rim)
-            _follow(wave, max(0, count), trace, z_rim)
-        if folds and count >= 0:
-            rim_depth = depth(wave, z_rim) if z_rim < math.inf else math.inf
-            loss, loading = loading_to(NOTHING, wave, count, trace, z_rim, YES)
-            loss_back, unloading, last = unloading_from(NOTHING, wave, count, trace, z_rim, rim_depth, YES)
-            deepest = highest_depth(count, trace, z_rim, rim_depth)
+        x = rims[i] / scene.wavelength
+        sound = SMALLEST < x < 1.0 / SMALLEST or x == math.inf
+        lowest = place = loss = loss_back = loading = unloading = highest = last = math.nan
+        if force and sound:
+            lowest, place = lowest_load(basis, curve, curve.gain * deepest, x)
+        if folds and sound and not shared:
+            count, trace = walk(basis, curve, x)
+        if folds and sound and count >= 0:
+            level = coordinate(basis, curve, x) if x < math.inf else math.inf
+            loss, loading = loading_to(basis, curve, count, trace, x, YES)
+            loss_back, unloading, last = unloading_from(basis, curve, count, trace, x, level, YES)
+            highest = highest_depth(count, trace, x, level)
             if loss + loss_back < 0.0:  # no cycle gains energy: the contact is no larger than a wave, out of range here
-                loss = loss_back = loading = unloading = deepest = last = math.nan
+                loss = loss_back = loading = unloading = highest = last = math.nan
         fine = (loss + loss_back >= 0.0 or not folds) and (lowest < 0.0 or not force)
         results.status[i] = 0 if fine else NO_VALUE
         values = (
-            -force_scale * lowest,
-            place * length if place < z_rim else rims[i],
-            energy_scale * (loss + loss_back),
+            -unit * lowest,
+            place * scene.wavelength if place < x else rims[i],
+            scene.energy * (loss + loss_back),
             loading,
             unloading,
-            depth_scale * deepest,
-            depth_scale * last,
-            energy_scale * loss,
-            energy_scale * loss_back,
+            scene.depth * highest,
+            scene.depth * last,
+            scene.energy * loss,
+            scene.energy * loss_back,
         )
         put_all(results, i, values)
         if folds:
-            put(results, OUTERMOST, i, trace[ARRIVAL, count - 1] * length if count > 0 else math.nan)
+            put(results, OUTERMOST, i, trace[ARRIVAL, count - 1] * scene.wavelength if count > 0 else math.nan)
+
+
+@kernel()
+def solve_curves(curves: Curves, harmonics: Harmonics, exponent: float, factors: Floats, results: Results) -> None:
+    """Solve some curves, each for all its rims.
+
+    Parameters
+    ----------
+    curves
+        The curves; lambda and A are those of the longest wave.
+    harmonics, exponent, factors
+        The series, rows (n, cos, sin), the power m, and the factor of depth of each exponent (problem/shape.py), of
+        shape (exponents,).
+    results
+        Where results go: values of shape (results, curves, rims), flags of shape (curves, rims).
+    """
+    tables, which, index, stiffness, wavelengths, amplitudes, rims = curves
+    smooth = np.zeros((0, 3))
+    deepest, before = 0.0, -1
+    for j in range(index.size):
+        i = index[j]
+        table = tables[ready(tables, which[j])]
+        if which[j] != before:
+            before, deepest = which[j], table.amplitude * deepest_wave(table, harmonics)
+        stretch = math.sqrt(2.0 ** (1.0 + table.k) * math.pi / stiffness[i])  # s = sqrt(2^(1+k) pi dgamma/M)
+        wavelength, amplitude = wavelengths[i], amplitudes[i]
+        wavy = amplitude > 0.0
+        mean, rows = waves_of(table, harmonics if wavy else smooth)
+        basis = Basis(table, mean, rows)
+        exact, length, depth = curve_of(table.k, exponent, factors[which[j]], stretch, wavelength, amplitude, 0.0)
+        curve = ShortWave(exact.bend, exponent, exact.gain, 1.0, 0.0)
+        own = Results(results.slots, results.out[:, i], results.status[i])
+        if not (is_in_range(stretch, wavelength, amplitude) and 0.0 < curve.bend < math.inf and curve.gain < math.inf):
+            refuse(own)
+            continue
+        row = rims[i if rims.shape[0] > 1 else 0]
+        scene = Scene(wavelength, length, TWO_PI * length * length, depth, own)
+        _solve_curve(basis, curve, scene, force_unit(table.k, length, depth), deepest if wavy else 0.0, row)

@@ -1,4 +1,4 @@
-"""The solvers, and the one loop over curves that they share.
+"""The solvers of one cosine, and the one loop over curves that they share.
 
 The solver is a constant of the loop: numba drops the branches of the others before it looks at them, so that only the
 solver in use is compiled, and keeps one version of the loop for each. (A loop that took the solver as an argument, or
@@ -14,12 +14,11 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.problem.curves import Curves, is_in_range
 from gradhesion.core.problem.results import Results
 from gradhesion.core.scene import cosine as scene
-from gradhesion.core.scene import short_wave as asymptotic_cycle
 from gradhesion.core.sensitivities.cosine_slopes import IfSense, of_curve
 from gradhesion.core.struve.current import ready
 from gradhesion.core.types import Floats
 
-EXACT, ASYMPTOTIC, ENVELOPE, PULL_OFF = 0, 1, 2, 3
+EXACT, ENVELOPE, PULL_OFF = 0, 1, 2
 """The last one is the exact solver where nothing but the pull-off is asked for: a third of the code to compile."""
 
 
@@ -63,14 +62,12 @@ def loop_of(solver: int) -> Callable[..., None]:
                 scene.solve_curve(table, stretch, wavelength, amplitude, row, own, scratch, sense_of_it)
             elif solver == PULL_OFF:
                 scene.solve_pull_off(table, stretch, wavelength, amplitude, row, own)
-            elif solver == ASYMPTOTIC:
-                asymptotic_cycle.solve_curve(table, stretch, wavelength, amplitude, row, own)
             else:
                 envelope.solve_curve(table, stretch, wavelength, amplitude, row, own)
 
     return solve_curves
 
 
-LOOPS: Final = {"exact": loop_of(EXACT), "asymptotic": loop_of(ASYMPTOTIC), "envelope": loop_of(ENVELOPE)}
-"""The loop of each of names.SOLVERS."""
+LOOPS: Final = {"exact": loop_of(EXACT), "envelope": loop_of(ENVELOPE)}
+"""The loop of each of names.SOLVERS that is one of one cosine alone."""
 PULL_OFF_LOOP: Final = loop_of(PULL_OFF)

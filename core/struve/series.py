@@ -124,7 +124,7 @@ def _of_one_cosine(table: Table, even: float, x: float, whole: float) -> tuple[f
     return even * s0, even * (s0 - s1), even * (s0 + z * d0), even * (2.0 * d0 + z * (s1 - s0))
 
 
-@kernel(contract=True)
+@kernel(contract=True, inline=True)
 def sums(
     table: Table, waves: Flat, series: Harmonics, x: float, whole: float = 0.0
 ) -> tuple[float, float, float, float]:

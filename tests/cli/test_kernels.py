@@ -68,8 +68,9 @@ def test_each_kind_comes_once_and_after_those_that_it_needs(compiled: list[str])
         ({"outputs": ["energy_residual"]}, ("reports",)),
         (SMOOTH, ("energy", "smooth")),
         (SMOOTH | {"outputs": ["energy_residual"]}, ("reports", "smooth")),
-        (SMOOTH | {"outputs": ["pull_off_force_sensitivity"]}, ("energy", "sensitivities")),
         (SMOOTH | {"method": {"solver": "envelope"}}, ("envelope",)),
+        (SMOOTH | {"outputs": ["pull_off_force_sensitivity"]}, ("energy", "sensitivities")),
+        ({"method": {"solver": "asymptotic"}, "profile": {"exponent": 1.5}}, ("asymptotic",)),
         (SMOOTH | {"loading": {"control": "load"}}, ("general_energy",)),
         ({"profile": {"exponent": 1.5}}, ("general_energy",)),
         ({"loading": {"control": "load"}, "outputs": ["pull_off_force"]}, ("general_force",)),
@@ -117,7 +118,7 @@ def test_processes_side_by_side_keep_each_kernel_once(tmp_path: Path) -> None:
         "from gradhesion.cli.work.warming import warm\n"
         "if __name__ == '__main__':\n"
         "    found = {}\n"
-        "    warm(['force', 'general_envelope'], 2, lambda kind, names: found.update({kind: names}), kept=True)\n"
+        "    warm(['force', 'asymptotic'], 2, lambda kind, names: found.update({kind: names}), kept=True)\n"
         "    print(list(found), sum(map(len, found.values())))\n"
     )
     script = tmp_path / "warm.py"
@@ -126,5 +127,5 @@ def test_processes_side_by_side_keep_each_kernel_once(tmp_path: Path) -> None:
     done = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True, env=environment)
     kinds, _, count = done.stdout.strip().rpartition(" ")
     assert kinds.startswith("['tables', ")
-    assert sorted(eval(kinds)) == ["force", "general_envelope", "tables"]  # noqa: S307 (of our own)
+    assert sorted(eval(kinds)) == ["asymptotic", "force", "tables"]  # noqa: S307 (of our own)
     assert int(count) == len(list(tmp_path.rglob("*.nbc"))) > 3

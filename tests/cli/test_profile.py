@@ -184,8 +184,8 @@ MISTAKES = {
     "stiffness twice": ("loading.machine_stiffness=[1, 1]", "the axis repeats the value 1.0 (items 0 and 1)"),
     "stiffness text": ("loading.machine_stiffness='1'", "this must be a number, a list of numbers or a range table, with machine_stiffness > 0"),
     "stiffness elsewhere": ("parameters.machine_stiffness=1", "this key belongs under [loading]; move it there"),
-    "solver": ("method.solver='asymptotic'", 'the solver "asymptotic" is available only for a paraboloid with one cosine wave under displacement control'),
-    "envelopes of a machine": ("method.solver=['exact', 'envelope']", 'the solver "envelope" is available only under displacement control: contact through a spring'),
+    "solver": ("method.solver='asymptotic'", 'the solver "asymptotic" is available only under displacement control: the leading terms of depth and load belong to one energy only up to the order of lambda/a'),
+    "envelopes of a machine": ("method.solver=['exact', 'envelope']", 'the solver "envelope" is available only under displacement control: contact under a load or through a spring'),
     "jump-in radius": ("parameters.a_max_over_a2=2.0", "a_2 is that of a paraboloid with one cosine wave"),
 }  # fmt: skip
 
@@ -235,7 +235,7 @@ def test_curves_of_any_shape_and_control_are_drawn(shaped: dict[str, Any], contr
 def test_curves_of_one_cosine_are_refused(shaped: dict[str, Any]) -> None:
     from gradhesion.cli.errors import StudyError
 
-    outputs = ["path", "envelope", "asymptotic_load"]
+    outputs = ["path", "envelope", "asymptotic_load"]  # under a machine, which the asymptotic curve does not know
     with pytest.raises(StudyError) as caught:
         study_from(shaped | {"kind": "curve", "outputs": outputs})
     known = "this curve is available only for a paraboloid with one cosine wave under displacement control; remove it, "

@@ -23,7 +23,7 @@ from gradhesion.core.curve.short_wave import ShortWave
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.path import cosine as cosine_path
 from gradhesion.core.path import general as general_path
-from gradhesion.core.scene.short_wave import trace_branches
+from gradhesion.core.scene.short_wave import walk as walk_short
 from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, GAIN, SLOPES
 from gradhesion.core.sensitivities.wave_slopes import ROOM
 from gradhesion.core.struve.circle import TWO_PI
@@ -43,20 +43,20 @@ OF_CONTACT = {
     "waves_are_one_disc",
 }
 OF_CONTACT |= {"panels_of", "profile_at", "edge_at", "excess_at", "fill_heights"}
+OF_PROFILES = {"waves_at", "depth_of_point"}
 OF_SLOPES = {"steepness_at", "rim_slope", "add_slopes", "add_slopes_to_zero", "start_of_wave", "add_slopes_of_waves"}
 DECLARED = {name: value for name, value in vars(face).items() if isinstance(value, Face)}
 
 
 @dataclass(frozen=True)
 class Case:
-    """A curve with its branches: `unit` is the length of a wave in its places, `near` what sensitivities need."""
+    """A curve with its branches: `near` is what sensitivities need."""
 
     table: Any
     curve: Any
     count: int
     trace: Any
     coordinate: Callable[[float], float]
-    unit: float = 1.0
     near: Any = ()
 
     def ask(self, name: str, *arguments: Any) -> Any:
@@ -89,12 +89,12 @@ def _series(rows: Any, exponent: float, alpha: float, beta: float) -> Case:
     )
 
 
-def _short_wave() -> Case:
+def _short_wave(rows: Any) -> Case:
     one = _cosine()
-    table = one.table
-    curve = ShortWave(K, one.curve.bend, CHI, one.curve.gain, float(table["phase"]))
-    count, trace = trace_branches(curve, TWO_PI * FURTHEST)
-    return Case((), curve, count, trace, lambda z: float(short_wave.depth(curve, z)), unit=TWO_PI)
+    basis = Basis(one.table, *short_wave.waves_of(one.table, rows))
+    curve = ShortWave(0.5 * one.curve.bend, 2.0, one.curve.gain, 1.0, 0.0)
+    count, trace = walk_short(basis, curve, FURTHEST)
+    return Case(basis, curve, count, trace, lambda x: float(general.coordinate(basis, curve, x)))
 
 
 CASES = {
@@ -103,7 +103,8 @@ CASES = {
     "series": lambda: _series(TWO, 2.3, 1.0, 0.0),
     "series by a machine": lambda: _series(TWO, 2.3, 0.7, 0.3),
     "series under a load": lambda: _series(TWO, 2.3, 0.0, 1.0),
-    "short wave": _short_wave,
+    "short wave": lambda: _short_wave(ONE),
+    "short waves": lambda: _short_wave(TWO),
 }
 
 
@@ -113,7 +114,7 @@ def case(request: pytest.FixtureRequest) -> Case:
     return CASES[request.param]()
 
 
-@pytest.fixture(scope="module", params=[name for name in CASES if name != "short wave"])
+@pytest.fixture(scope="module", params=[name for name in CASES if not name.startswith("short")])
 def exact(request: pytest.FixtureRequest) -> Case:
     """Give a curve of every kind that is exact."""
     return CASES[request.param]()
@@ -124,15 +125,16 @@ def jumps_of(case: Case) -> list[tuple[float, float]]:
     arrived = [branch for branch in range(case.count) if case.trace[START, branch] > 0.0]
     inner, outer = arrived[1], arrived[-2]
     return [
-        (case.trace[END, inner], case.trace[START, outer] + 0.1 * case.unit),
-        (case.trace[START, outer], case.trace[START, inner] + 0.1 * case.unit),
+        (case.trace[END, inner], case.trace[START, outer] + 0.1),
+        (case.trace[START, outer], case.trace[START, inner] + 0.1),
     ]
 
 
 @pytest.mark.parametrize("name", DECLARED)
 def test_each_function_is_answered_by_each_kind(name: str) -> None:
-    """A short wave answers what a path asks: nothing else is computed of its leading form."""
+    """Short waves answer what a path asks, as a profile does: nothing else is computed of their leading form."""
     kinds = {Cosine, Series} if name in EXACT | OF_CONTACT | OF_SLOPES else {Cosine, Series, ShortWave}
+    kinds -= {Cosine} if name in OF_PROFILES else set()
     assert {*DECLARED[name].answered()} == kinds
     declared = [*inspect.signature(DECLARED[name]).parameters]
     for kind in kinds:
@@ -166,7 +168,7 @@ def test_a_jump_loses_the_difference_of_two_that_end_in_zero_contact(case: Case)
 
 
 def test_the_depth_is_the_coordinate_unless_a_load_has_a_share(case: Case) -> None:
-    for x in (0.4 * case.unit, 3.3 * case.unit):
+    for x in (0.4, 3.3):
         level = case.coordinate(x)
         depth = case.ask("depth_at", x, level)
         if not isinstance(case.curve, Series):
@@ -353,14 +355,10 @@ def test_two_kinds_that_describe_one_curve_answer_the_same() -> None:
 
 def test_short_waves_come_to_the_exact_answers() -> None:
     """By one order in lambda over the radius."""
-    short, one = _short_wave(), _cosine()
-    for z in (60.0, 600.0):
-        for name, arguments, exact in [
-            ("loss_from_zero", (z,), (z / TWO_PI,)),
-            ("loss_to_zero", (z, 0.4), (z / TWO_PI, 0.4)),
-        ]:
-            found, expected = short.ask(name, *arguments), one.ask(name, *exact)
-            assert found == pytest.approx(expected, rel=3.0 / z), name
+    for short, exact in ((_short_wave(ONE), _cosine()), (_short_wave(TWO), _series(TWO, 2.0, 1.0, 0.0))):
+        for x in (10.0, 100.0):
+            for name, arguments in (("loss_from_zero", (x,)), ("loss_to_zero", (x, 0.4))):
+                assert short.ask(name, *arguments) == pytest.approx(exact.ask(name, *arguments), rel=0.5 / x), name
 
 
 def test_a_curve_of_no_kind() -> None:

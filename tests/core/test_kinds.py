@@ -27,10 +27,10 @@ def test_by_outputs(outputs: tuple[str, ...], kind: str) -> None:
     assert kind_of_map(outputs, loading=Loading(control="load")) == f"general_{kind}"
 
 
-@pytest.mark.parametrize("solver", ["asymptotic", "envelope"])
-def test_by_solver(solver: str) -> None:
+@pytest.mark.parametrize(("solver", "other"), [("asymptotic", "asymptotic"), ("envelope", "general_envelope")])
+def test_by_solver(solver: str, other: str) -> None:
     assert kind_of_map(OUTPUTS, solver) == solver
-    assert kind_of_map(OUTPUTS, solver, Profile(exponent=1.5)) == f"general_{solver}"
+    assert kind_of_map(OUTPUTS, solver, Profile(exponent=1.5)) == other
 
 
 def test_another_profile_may_be_one_wave() -> None:

@@ -46,7 +46,6 @@ NOT_OF_A_LOAD = tuple(name for name in REPORTS if name != "energy_residual")
         ("smooth", [lambda s: solve(s | FLAT, OUTPUTS), lambda s: solve(s | FLAT, ["delta_max"])]),
         ("reports", [lambda s: solve(s, REPORTS), lambda s: solve(s, ["roughness_parameter"])]),
         ("turning", [lambda s: solve(s | {"load_max": [0.1, 3.0]}, OUTPUTS), lambda s: solve(s | DEEP, OUTPUTS)]),
-        ("asymptotic", [lambda s: solve(s, solver="asymptotic")]),
         ("envelope", [lambda s: solve(s, solver="envelope")]),
         ("curves", [lambda s: draw_curves(s, list(CURVES))]),
         ("sensitivities", [lambda s: solve(s, SENSITIVITIES), lambda s: solve(s | DEEP, SENSITIVITIES[:1])]),
@@ -67,6 +66,14 @@ NOT_OF_A_LOAD = tuple(name for name in REPORTS if name != "energy_residual")
             [
                 lambda s: draw_curves(s, list(GENERAL_CURVES), **OTHERS),
                 lambda s: draw_curves(s | SPRING, list(GENERAL_CURVES), None, Loading(control="machine")),
+            ],
+        ),
+        (
+            "asymptotic",
+            [
+                lambda s: solve(s, solver="asymptotic"),
+                lambda s: solve(s, solver="asymptotic", **OTHERS),
+                lambda s: solve(s | {"k": np.linspace(0.1, 0.9, 300)}, ["pull_off_force"], solver="asymptotic"),
             ],
         ),
     ],

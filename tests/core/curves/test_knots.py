@@ -7,10 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core.curve import short_wave as asymptotic
 from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curve.cosine import Cosine, slope, wave
-from gradhesion.core.curve.short_wave import ShortWave
 from gradhesion.core.curves import knots
 from gradhesion.core.curves.subject import Subject, subject_of
 
@@ -97,35 +95,3 @@ def test_too_many_folds(scene: dict[str, float]) -> None:
     assert not knots.folds_too_often(form.table, curve, 49_900.0)
     assert knots.folds_too_often(form.table, curve, 50_100.0)
     assert not knots.folds_too_often(form.table, Cosine(*form.numbers[:2], 0.0), math.inf)
-
-
-@pytest.mark.parametrize(
-    "short",
-    [
-        ShortWave(0.3, 0.02, 0.4, 0.5, 1.02),
-        ShortWave(0.0, 0.003, 1.6, 2.0, 0.785),
-        ShortWave(1.0, 0.01, 0.3, 0.3, 1.57),
-    ],
-)
-def test_folds_of_the_asymptotic_form(short: Any) -> None:
-    k = short[0]
-    z = np.linspace(1e-3, 150.0, 60_000)
-    for level, function in ((0.5 * (1 - k), asymptotic.depth), (0.5 * (3 + k), asymptotic.load)):
-        values = np.array([function(short, place) for place in z])
-        turns = z[1:-1][np.diff(np.sign(np.diff(values))) != 0]
-        few, folds = knots.folds_of_wave(short, level, 150.0)
-        assert few
-        assert folds.size == turns.size > 3
-        assert np.abs(folds - turns).max() <= 2 * (z[1] - z[0])
-        for fold in folds:  # a turn is where the function does not change to first order
-            step = 1e-4
-            change = function(short, fold + step) - function(short, fold - step)
-            assert abs(change) <= 1e-3 * abs(function(short, fold + step) - function(short, fold)) + 1e-12
-
-
-def test_too_many_folds_of_the_asymptotic_form() -> None:
-    short = ShortWave(0.3, 1e-9, 0.4, 0.5, 1.02)
-    assert knots.folds_of_wave(short, 0.35, 1e5)[0]
-    few, folds = knots.folds_of_wave(short, 0.35, 1e6)
-    assert not few
-    assert folds.size == 0

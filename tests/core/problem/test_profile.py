@@ -38,10 +38,12 @@ def test_controls() -> None:
 
 def test_what_another_profile_does_not_have(scene: dict[str, float]) -> None:
     cone = Profile(exponent=1.0)
-    with pytest.raises(ValueError, match="asymptotic"):
-        solve(scene, solver="asymptotic", profile=cone)
-    with pytest.raises(ValueError, match="envelope"):
-        solve(scene, solver="envelope", loading=Loading(control="load"))
+    for solver, reason in (("asymptotic", "belong to one energy only up to"), ("envelope", "no closed form")):
+        solve(scene, solver=solver, profile=cone)
+        for loading in (Loading(control="load"), Loading(control="machine")):
+            spring = {"machine_stiffness": 1.0} if loading.control == "machine" else {}
+            with pytest.raises(ValueError, match=f"{solver}.*displacement control only.*{reason}"):
+                solve(scene | spring, solver=solver, profile=cone, loading=loading)
     with pytest.raises(ValueError, match="energy_residual"):
         solve(scene, ["energy_residual"], loading=Loading(control="load"))
     with pytest.raises(ValueError, match="machine_stiffness"):

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gradhesion.core import OUTPUTS, solve
+from gradhesion.core import OUTPUTS, Harmonic, Profile, solve
+from gradhesion.core.equations import short_waves
 from gradhesion.core.problem.material import stiffness
 
 NU, C0 = 0.23, 0.17
@@ -174,3 +175,83 @@ def test_hostile_scenes_end_with_a_value_or_a_status() -> None:
     assert np.all(result["dissipated_energy"][good] >= 0)
     assert np.all(np.isfinite(result["dissipated_energy"][good]))
     assert np.all(np.isnan(result["dissipated_energy"][~good]))
+
+
+TWO = Profile(harmonics=(Harmonic(n=1, cos=1.0), Harmonic(n=3, cos=-0.1, sin=0.15)))
+SINE = Profile(exponent=1.0, harmonics=(Harmonic(n=1, sin=1.0),))
+
+
+def test_one_cosine_is_a_series_of_one() -> None:
+    """However it is named: as three waves in a wavelength three times as long, and with a harmonic of no amplitude."""
+    scene = scene_of(0.37, 110.0, 0.05, 0.4, 0.97)
+    expected = asymptotic(scene)
+    third = Profile(harmonics=(Harmonic(n=3, cos=2.0),))
+    named = scene | {"lambda_over_R": 3 * scene["lambda_over_R"], "A": scene["A"] / 6}
+    for found in (
+        solve(named, OUTPUTS, solver="asymptotic", profile=third),
+        solve(scene, OUTPUTS, solver="asymptotic", profile=Profile(harmonics=(Harmonic(n=1), Harmonic(n=2, cos=0.0)))),
+        solve(
+            scene, OUTPUTS, solver="asymptotic", profile=Profile(harmonics=(Harmonic(n=1), Harmonic(n=5, sin=1e-18)))
+        ),
+    ):
+        for name, value in expected.items():
+            assert found[name] == pytest.approx(value, rel=1e-12), name
+
+
+@pytest.mark.parametrize("k", [0.0, 0.51, 1.0])
+@pytest.mark.parametrize(("waves", "exponent"), [(TWO, 1.0), (TWO, 2.0), (TWO, 3.7), (TWO, 8.0), (SINE, 1.0)])
+def test_any_punch_solves_its_own_curve(k: float, waves: Profile, exponent: float) -> None:
+    """Running maxima and minima of (5.15), (5.16) on a dense grid."""
+    profile = Profile(exponent=exponent, harmonics=waves.harmonics)
+    M, wavelength, rim, points = 110.0, 0.06, 0.97, 100_000
+    scene = scene_of(k, M, wavelength, 0.4, rim)
+    s, c = stretch_of(k, M), (1 - k) / 2
+    count = max(one.n for one in profile.harmonics)
+    cosines, sines = np.zeros(count), np.zeros(count)
+    for one in profile.harmonics:
+        cosines[one.n - 1], sines[one.n - 1] = -scene["A"] * one.cos, scene["A"] * one.sin
+    t = np.arange(1, points + 1) / points
+    a, da = rim * t**1.5, 1.5 * rim * np.sqrt(t) / points
+    da[-1] /= 2
+    waves_of = (wavelength, cosines.tolist(), sines.tolist())
+    depth = short_waves.indentation(k, M, a, *waves_of, exponent=exponent)
+    load = short_waves.load(k, M, a, *waves_of, exponent=exponent)
+    far = depth + s * a**c
+    rising = np.flatnonzero(np.diff(depth) > 0)
+    loading = np.maximum(0, np.maximum.accumulate(np.where(np.arange(points) < rising[0], -np.inf, depth)))
+    unloading = np.minimum.accumulate(depth[::-1])[::-1]
+    lost = 2 * np.pi * a * (((far - unloading) / (s * a**c)) ** 2 - ((far - loading) / (s * a**c)) ** 2)
+    result = solve(scene, OUTPUTS, solver="asymptotic", profile=profile)
+    assert result["status"] == 0
+    assert result["pull_off_force"] == pytest.approx(-load.min(), rel=1e-5)
+    assert result["pull_off_radius"] == pytest.approx(a[load.argmin()], rel=1e-3)
+    assert result["dissipated_energy"] == pytest.approx(np.sum(lost * da), rel=1e-4)
+    assert result["loading_energy"] + result["unloading_energy"] == pytest.approx(
+        result["dissipated_energy"], rel=1e-12
+    )
+    assert result["delta_max"] == pytest.approx(loading[-1], abs=1e-5)
+    assert result["delta_jump_out"] == pytest.approx(unloading[0], abs=1e-5)
+
+
+@pytest.mark.parametrize(("profile", "k"), [(TWO, 0.3), (TWO, 0.0), (SINE, 0.68), (Profile(exponent=4.0), 0.2)])
+def test_any_punch_tends_to_the_exact_solution(profile: Profile, k: float) -> None:
+    """The error falls at least as the wavelength: the leading term of the depth is off by lambda/a of its waves."""
+    wavelengths, errors = [0.016, 0.004, 0.001], []
+    for wavelength in wavelengths:
+        scene = scene_of(k, 110.0, wavelength, 0.3, 0.97)
+        exact, result = (solve(scene, OUTPUTS, solver=one, profile=profile) for one in ("exact", "asymptotic"))
+        errors.append([abs(float(result[name] / exact[name] - 1)) for name in ("pull_off_force", "dissipated_energy")])
+        assert abs(result["delta_max"] - exact["delta_max"]) <= 0.1 * wavelength**1.5
+    force, energy = np.array(errors).T
+    assert np.all(force <= 0.2 * np.array(wavelengths))
+    assert np.all(energy <= 0.2 * np.array(wavelengths))
+    assert energy[2] < 0.1 * energy[0]
+
+
+def test_a_contact_may_begin_in_a_point() -> None:
+    """Where the slope of a sine at its apex is steep: the depth rises from that of a point on."""
+    profile = Profile(harmonics=(Harmonic(n=1, sin=-1.0),))
+    for chi in (0.5, 2.0, 6.0):
+        result = solve(scene_of(0.4, 110.0, 0.02, chi, 0.97), OUTPUTS, solver="asymptotic", profile=profile)
+        assert result["status"] == 0
+        assert result["dissipated_energy"] > 0.0

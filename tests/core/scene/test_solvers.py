@@ -1,4 +1,4 @@
-"""The loop of the solvers: what each compiles, what is kept on disk, and curves that no solver takes."""
+"""The loops over curves: what each compiles, what is kept on disk, and curves that no solver takes."""
 
 import math
 import subprocess
@@ -14,10 +14,10 @@ from gradhesion.core.arrays.tables import table_of
 from gradhesion.core.compiler import cache
 from gradhesion.core.curve.branches import ROWS
 from gradhesion.core.problem.curves import Curves
+from gradhesion.core.problem.names import PULL_OFF
 from gradhesion.core.problem.results import Results
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene import cosine as scene
-from gradhesion.core.scene import short_wave as asymptotic_cycle
 from gradhesion.core.scene import solvers
 
 SCENE = {"k": 0.2, "nu": 0.3, "modulus": 90.0, "c0_over_R": 1.1, "lambda_over_R": 0.1, "A": 0.01, "a_max_over_R": 0.7}
@@ -38,42 +38,36 @@ def run(loop: Any, rims: np.ndarray, curves: int = 3) -> tuple[np.ndarray, np.nd
     return out, status
 
 
-def test_the_order_is_that_of_the_codes() -> None:
-    assert SOLVERS[solvers.EXACT] == "exact"
-    assert SOLVERS[solvers.ASYMPTOTIC] == "asymptotic"
-    assert SOLVERS[solvers.ENVELOPE] == "envelope"
-
-
-def test_a_loop_compiles_its_own_solver_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_loop_compiles_its_own_curves_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cache, "place", lambda: cache.Place(tmp_path))
     monkeypatch.setattr(scene, "solve_curve", None)  # to compile this would be an error
-    monkeypatch.setattr(asymptotic_cycle, "solve_curve", None)
     out, _ = run(solvers.loop_of(solvers.ENVELOPE), np.array([[0.3, 0.7]]))
     assert np.isfinite(out[:, [0, 2]]).all()
 
 
 def test_loops_are_kept_on_disk() -> None:
-    for solver in SOLVERS:
-        solve(SCENE, OUTPUTS, solver=solver)
+    for outputs in (PULL_OFF, OUTPUTS):
+        solve(SCENE, outputs)
     if not cache.CACHE_FOLDER.is_dir():
         pytest.skip("no folder for compiled code")
     code = (
         "from gradhesion.core import OUTPUTS, solve\n"
         "from gradhesion.core.scene import solvers\n"
-        f"for name, loop in solvers.LOOPS.items(): solve({SCENE!r}, OUTPUTS, solver=name, threads=1)\n"
-        "print([sum(loop.stats.cache_misses.values()) for loop in solvers.LOOPS.values()])\n"
+        f"for outputs in (OUTPUTS, {PULL_OFF!r}): solve({SCENE!r}, outputs, threads=1)\n"
+        "loops = (solvers.LOOPS['exact'], solvers.PULL_OFF_LOOP)\n"
+        "print([sum(loop.stats.cache_misses.values()) for loop in loops])\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout == "[0, 0, 0]\n"
+    assert done.stdout == "[0, 0]\n"
 
 
-@pytest.mark.parametrize("solver", SOLVERS)
-def test_only_the_curves_of_the_index_are_solved(solver: str) -> None:
-    out, status = run(solvers.LOOPS[solver], np.array([[0.3, 0.7]]))
+@pytest.mark.parametrize("loop", [*solvers.LOOPS.values(), solvers.PULL_OFF_LOOP], ids=[*solvers.LOOPS, "pull-off"])
+def test_only_the_curves_of_the_index_are_solved(loop: Any) -> None:
+    out, status = run(loop, np.array([[0.3, 0.7]]))
     assert np.all(out[:, 1] == -7.0)
     np.testing.assert_array_equal((status & NO_VALUE) != 0, [[False, False], [True, True], [False, False]])
     # rims of their own, the same for all curves
-    own, _ = run(solvers.LOOPS[solver], np.array([[0.3, 0.7]] * 3))
+    own, _ = run(loop, np.array([[0.3, 0.7]] * 3))
     np.testing.assert_array_equal(out, own)
 
 
