@@ -12,6 +12,7 @@ from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.study.reading import load_study, study_from
+from gradhesion.core import PARAMETERS, solve
 
 Call = Callable[..., Result]
 SEVERAL = ["envelope", "exact", "asymptotic"]
@@ -86,3 +87,19 @@ def test_the_contact_is_checked_unless_the_study_says_no(
     assert not (unchecked["status"] & 1).any()
     xarray.testing.assert_equal(checked["status"] & ~1, unchecked["status"])
     xarray.testing.assert_equal(checked["dissipated_energy"], unchecked["dissipated_energy"])
+
+
+def test_every_solver_knows_other_punches(data: dict[str, Any]) -> None:
+    """The same numbers as in Python, realisations of a random waviness among them."""
+    shape = {"exponent": 3.0, "harmonics": [{"n": 1, "cos": 1.0}, {"n": 3, "sin": 0.2}]}
+    study = study_from(data | {"method": {"solver": SEVERAL}, "profile": shape})
+    dataset = compute(study)
+    scene = {name: dataset[name].values.ravel()[0] for name in PARAMETERS}
+    for solver in SEVERAL:
+        expected = solve(scene, ["pull_off_force"], solver=solver, profile=study.profile)["pull_off_force"]
+        found = dataset["pull_off_force"].sel(solver=solver).values.ravel()[0]
+        assert found == pytest.approx(float(expected), rel=1e-14)
+    drawn = {"spectrum": {"hurst": 0.8, "first": 1, "last": 8, "realisations": 3, "seed": 1}}
+    rough = compute(study_from(data | {"method": {"solver": "asymptotic"}, "profile": drawn}))
+    assert rough["pull_off_force"].sizes["realisation"] == 3
+    assert np.isfinite(rough["pull_off_force"]).all()
