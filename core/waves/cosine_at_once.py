@@ -179,7 +179,8 @@ def _by_nodes(
 ) -> Lanes:
     """Return what the jumps lose by Gauss's rule, as `panel_above` of curve/cosine_energy.py, with m for the middle.
 
-    Its nodes and weights on [0, 1] are of shape (n,).
+    A jump leaves the curve at a fold and lands at x = `landing`; `start` has the x of the folds, where their waves
+    begin, the curve there, and by how much it has risen. Nodes and weights, of shape (n,), are those on [0, 1].
 
     With (1 + eta)^(-c) = 1 + s it is (1 + s) [(depth_H - depth_j - stretch_m)/stretch_m] + s that is rho - 1, and in it
     the wave at z has the factor 1: nothing is divided by the stretch there.
