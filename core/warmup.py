@@ -5,6 +5,8 @@ from typing import Any, Final
 
 import numpy as np
 
+from gradhesion.core.arrays.cosine import run_tasks
+from gradhesion.core.arrays.grouping import grouped
 from gradhesion.core.compiler.marks import note_compiled
 from gradhesion.core.kinds import KINDS, MANY_SMOOTH
 from gradhesion.core.problem.control import Loading
@@ -70,6 +72,7 @@ def compile_kind(kind: str) -> None:
             stiffness(0.3, 0.3, 500.0, 0.01)
             build_table(0.3)
             interpolated_tables(np.array([0.3]), whole=True)
+            run_tasks(grouped(SCENE), 1, lambda *_: None)
         case "force":
             solve(scene, ["pull_off_force"], threads=1, **driven)
         case "energy":

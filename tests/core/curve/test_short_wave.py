@@ -122,7 +122,7 @@ def test_the_folds_of_a_cone_need_not_end() -> None:
     """Its slope is the same everywhere, that of the waves in the depth grows as a^((1-k)/2)."""
     basis, curve = short_wave(0.2, ONE, 1.0, 0.4, 60.0)
     assert window(basis, curve, sizes_of(basis, curve))[1] == math.inf
-    smooth = (basis[0], *waves_of(basis[0], np.zeros((0, 3))))
+    smooth = Basis(basis[0], *waves_of(basis[0], np.zeros((0, 3))))
     low, high = window(smooth, curve, sizes_of(smooth, curve))
     assert low == pytest.approx(high, rel=0.05)
     assert slope(smooth, curve, low)[0] <= 0.0 <= slope(smooth, curve, high)[0]

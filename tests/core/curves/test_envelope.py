@@ -11,6 +11,7 @@ from gradhesion.core.curves.envelope import draw_envelope
 from gradhesion.core.curves.forms import fill_points
 from gradhesion.core.curves.path import draw_path
 from gradhesion.core.curves.subject import Subject, subject_of
+from gradhesion.core.problem.profile import WAVY
 
 
 def test_points_lie_on_the_envelopes_of_the_paper(scene: dict[str, float]) -> None:
@@ -57,7 +58,7 @@ def _at(subject: Subject, sign: int, radii: Any) -> tuple[Any, Any]:
 def test_the_asymptotic_curve_lies_between_and_touches_both(scene: dict[str, float]) -> None:
     subject = subject_of(scene | {"A": 0.05})
     assert subject is not None
-    curve = draw_asymptotic(subject)
+    curve = draw_asymptotic(subject, WAVY)
     assert curve is not None
     radii = curve["asymptotic_contact_radius"]
     far = radii > 0.3 * subject.end

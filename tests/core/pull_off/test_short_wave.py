@@ -8,7 +8,7 @@ import pytest
 
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.general import state
+from gradhesion.core.curve.general import Basis, state
 from gradhesion.core.curve.short_wave import ShortWave, waves_of
 from gradhesion.core.pull_off.general import deepest_wave
 from gradhesion.core.pull_off.short_wave import lowest_load
@@ -27,7 +27,7 @@ def curve_of(k: float, waves: Any, exponent: float, size: float, lowest: float) 
     chi = gain * float(table["amplitude"]) * deepest_wave(table, rows)
     power = exponent - 0.5 * (1 - k)
     bend = 0.5 * (3 + k) * (1 + chi) / (exponent * (2 * math.pi * lowest) ** power)
-    return (table, *waves_of(table, rows)), ShortWave(bend, exponent, gain, 1.0, 0.0), chi
+    return Basis(table, *waves_of(table, rows)), ShortWave(bend, exponent, gain, 1.0, 0.0), chi
 
 
 @kernel()

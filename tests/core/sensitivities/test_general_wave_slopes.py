@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core.arrays.tables import changes_of, tables_of
-from gradhesion.core.curve.general import Basis, coordinate
+from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.sensitivities.general_jump_slopes import NO_JUMP, NOTHING, add_drop, add_from_zero, parts_of
 from gradhesion.core.sensitivities.general_wave_slopes import (
     add_jump,
@@ -24,7 +24,7 @@ CONTROLS = {"displacement": (1.0, 0.0), "machine": (0.999, 0.001), "load": (0.0,
 def made(control: str) -> tuple[Any, Any, Any]:
     """Give the basis, a curve on which some thousand waves have folds, and the change of the tables."""
     k = 0.41
-    return Basis(*tables_of(k, PAIR), PAIR), (3e-5, 2.0, 0.4, *CONTROLS[control]), changes_of(k, PAIR)
+    return Basis(*tables_of(k, PAIR), PAIR), Series(3e-5, 2.0, 0.4, *CONTROLS[control]), changes_of(k, PAIR)
 
 
 @pytest.mark.parametrize("control", CONTROLS)
