@@ -76,41 +76,41 @@ CONTROL = {
     ],
 }
 PUNCH = "dict(k=0.3, nu=0.3, modulus=500.0, c0_over_R=0.01, lambda_over_R=0.2, A=[0.01, 0.03], a_max_over_R=1.0)"
-ASKED = {
-    "output": f"""
+CHECKED = f"""
 two = gr.solve({PUNCH}, ["pull_off_area", "pull_off_radius"])
 load = gr.solve({PUNCH}, ["pull_off_area", "pull_off_radius"], control="load")
 for found in (two, load):
     assert np.allclose(found.pull_off_area, np.pi * found.pull_off_radius**2, rtol=1e-15, atol=0.0)
     assert found.pull_off_area.attrs["long_name"] == "contact area at pull-off, in R^2"
-""",
-    "control": f"""
 own = gr.solve({PUNCH}, "pull_off_force", control="own spring")
 machine = gr.solve({PUNCH}, "pull_off_force", control="machine", machine_stiffness=1.0)
 assert (own.pull_off_force == machine.pull_off_force).all()
 assert own.attrs["control"] == "own spring"
-""",
-}
+"""
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("what", "edits", "most"), [("output", OUTPUT, 6), ("control", CONTROL, 8)])
-def test_a_recipe_is_enough(tmp_path: Path, what: str, edits: dict[str, list[tuple[str, str]]], most: int) -> None:
+def test_the_recipes_are_enough(tmp_path: Path) -> None:
+    """Both are followed in one copy, so that it is compiled once."""
     package = tmp_path / "sources" / "gradhesion"
     ignored = shutil.ignore_patterns("__pycache__")
     shutil.copytree(ROOT / "api", package, ignore=ignored)
     for room in ROOMS:
         shutil.copytree(ROOT / room, package / room, ignore=ignored)
-    for name, changes in edits.items():
+    for name, changes in (*OUTPUT.items(), *CONTROL.items()):
         text = (package / name).read_text(encoding="utf-8")
         for old, new in changes:
             assert text.count(old) == 1, (name, old)
             text = text.replace(old, new)
         (package / name).write_text(text, encoding="utf-8")
     environment = os.environ | {"PYTHONPATH": str(package.parent), "NUMBA_CACHE_DIR": str(tmp_path / "kernels")}
-    code = f"import numpy as np, gradhesion as gr\nassert gr.__file__.startswith({str(package)!r})\n{ASKED[what]}"
+    code = f"import numpy as np, gradhesion as gr\nassert gr.__file__.startswith({str(package)!r})\n{CHECKED}"
     done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize(("what", "edits", "most"), [("output", OUTPUT, 6), ("control", CONTROL, 8)])
+def test_the_page_names_their_files(what: str, edits: dict[str, list[tuple[str, str]]], most: int) -> None:
     assert len(edits) < most, "and the page of the manual"
     page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
     (recipe,) = re.findall(rf"### Add an? {what}\n(.*?)(?=\n##|\Z)", page, re.DOTALL)
