@@ -6,7 +6,7 @@ What solves other profiles and controls is imported when it is asked for: it tak
 from __future__ import annotations  # those of inner functions would be made anew in every call: 15 us each
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -76,6 +76,55 @@ def wanted_for(outputs: Sequence[str], *, turned: bool) -> Sequence[str]:
     from gradhesion.core.sensitivities.sensitivity import wanted_for as all_wanted  # noqa: PLC0415 (kernels of their own)
 
     return all_wanted(outputs, turned=turned)
+
+
+class How(NamedTuple):
+    """How scenes are solved, beside their parameters: `solver` to `loading` are arguments of `solve`."""
+
+    solver: str
+    check_contact: bool
+    threads: int | None
+    profile: Profile
+    loading: Loading
+    is_one_wave: bool  # whether the parameters are those of a paraboloid with one cosine under displacement control
+
+
+def up_to_rims(
+    scenes: Mapping[str, ArrayLike],
+    wanted: Sequence[str],
+    how: How,
+    slopes: tuple[bool, bool] | None = None,
+    *,
+    turned: bool = False,
+) -> Results:
+    """Solve scenes up to a_max: results by name and `status`, of the broadcast shape.
+
+    `slopes` and `turned` are as those of `solve_general` (arrays/general.py).
+    """
+    solver, check_contact, threads, profile, loading, is_one_wave = how
+    wanted = [name for name in wanted if name != "turning_radius"]
+    if solver == "asymptotic":
+        from gradhesion.core.arrays.short_wave import solve_short_waves  # noqa: PLC0415 (kernels of their own)
+
+        return solve_short_waves(scenes, wanted, profile, threads)
+    if solver == "envelope" and not is_one_wave:
+        from gradhesion.core.closed.general_envelope import solve_envelope  # noqa: PLC0415 (SciPy)
+
+        return solve_envelope(scenes, PARAMETERS, wanted, profile)
+    checks: Any = {"check_contact": check_contact, "turned": turned, "slopes": slopes}
+    if is_one_wave:
+        return solve_cosine(scenes, wanted, solver, threads, **checks)
+    from gradhesion.core.arrays.general import solve_general  # noqa: PLC0415 (kernels of their own)
+
+    results = [name for name in wanted if name in (*RESULTS, REACH)]
+    reports = [name for name in wanted if name in REPORTS]
+    results += [NEEDED[name] for name in reports if name in NEEDED]
+    found = solve_general(scenes, results, profile, loading, threads, **checks)
+    if not reports:
+        return found
+    from gradhesion.core.arrays.general_report import report_general  # noqa: PLC0415 (kernels of their own)
+
+    return found | report_general(scenes, reports, found, profile, loading, threads, turned=turned)
 
 
 def solve(
@@ -170,31 +219,11 @@ def solve(
     senses = tuple(name in asked for name in SENSITIVITIES)
     slopes = (senses[0], senses[1]) if any(senses) else None
 
+    how = How(solver, check_contact, threads, profile, loading, alike is not None)
+
     def solved(scenes: Mapping[str, ArrayLike], wanted: Sequence[str], *, turned: bool = False) -> Results:
         """Solve scenes up to their rims."""
-        wanted = [name for name in wanted if name != "turning_radius"]
-        if solver == "asymptotic":
-            from gradhesion.core.arrays.short_wave import solve_short_waves  # noqa: PLC0415 (kernels of their own)
-
-            return solve_short_waves(scenes, wanted, profile, threads)
-        if solver == "envelope" and alike is None:
-            from gradhesion.core.closed.general_envelope import solve_envelope  # noqa: PLC0415 (SciPy)
-
-            return solve_envelope(scenes, PARAMETERS, wanted, profile)
-        checks: Any = {"check_contact": check_contact, "turned": turned, "slopes": slopes}
-        if alike is not None:
-            return solve_cosine(scenes, wanted, solver, threads, **checks)
-        from gradhesion.core.arrays.general import solve_general  # noqa: PLC0415 (kernels of their own)
-
-        results = [name for name in wanted if name in (*RESULTS, REACH)]
-        reports = [name for name in wanted if name in REPORTS]
-        results += [NEEDED[name] for name in reports if name in NEEDED]
-        found = solve_general(scenes, results, profile, loading, threads, **checks)
-        if not reports:
-            return found
-        from gradhesion.core.arrays.general_report import report_general  # noqa: PLC0415 (kernels of their own)
-
-        return found | report_general(scenes, reports, found, profile, loading, threads, turned=turned)
+        return up_to_rims(scenes, wanted, how, slopes, turned=turned)
 
     def again(scenes: Mapping[str, ArrayLike], wanted: Sequence[str]) -> Results:
         """Solve other scenes that turn as these do."""

@@ -16,6 +16,8 @@ RESULTS: Final = (
     "unloading_energy",
 )
 """The results of a cycle that the kernels compute, in the order of their rows (problem/results.py)."""
+EDGE: Final = ("front_energy", "snap_in_force", "pinned_depth")
+"""What a cycle has besides whose edge opens at a larger work of adhesion than it closes at (works/cycle.py)."""
 OUTPUTS: Final = (*RESULTS, "turning_radius")
 """All results of a scene: those of its cycle, and where it turns."""
 REACH: Final = "reach"
@@ -24,6 +26,8 @@ CONTACT_SLOPE: Final = "contact_slope"
 """The slope (a/R)^(m-1) of the punch at the largest radius on which the other outputs depend (arrays/reach.py)."""
 TURNS: Final = ("indentation_max_over_R", "load_max")
 """Where the cycle turns before the rim, at most one of them: a depth in R, or a load in 1.5 pi R dgamma."""
+CLOSING: Final = "closing_ratio"
+"""The parameter w_c/w_o in [0, 1]: the work of adhesion of closing over that of opening; 1 where it is not given."""
 PULL_OFF: Final = ("pull_off_force", "pull_off_radius")
 """The results that need no path of loading and unloading."""
 REPORTS: Final = (
