@@ -18,7 +18,9 @@ from gradhesion.core.compiler.marks import note_compiled
 from gradhesion.core.kinds import kind_of_map, kind_of_sensitivities, kind_of_turning
 from gradhesion.core.problem.control import BY_DISPLACEMENT, Loading
 from gradhesion.core.problem.names import (
+    CLOSING,
     CONTACT_SLOPE,
+    EDGE,
     OUTPUTS,
     PARAMETERS,
     PULL_OFF,
@@ -40,7 +42,7 @@ def _checked(parameters: Mapping[str, ArrayLike], outputs: Sequence[str], solver
     """Refuse what cannot be solved; return the name of what the cycles turn at, None if that is the rim."""
     reports = [name for name in outputs if name in REPORTS]
     slopes = [name for name in outputs if name in SENSITIVITIES]
-    unknown = [name for name in outputs if name not in (*OUTPUTS, REACH, *reports, *slopes)]
+    unknown = [name for name in outputs if name not in (*OUTPUTS, *EDGE, REACH, *reports, *slopes)]
     missing = [name for name in PARAMETERS if name not in parameters]
     if unknown or missing or solver not in SOLVERS:
         raise ValueError(f"unknown outputs {unknown}, missing parameters {missing}, solver {solver!r}")
@@ -210,16 +212,20 @@ def solve(
         slope = {CONTACT_SLOPE: slope_at(found, radius, parameters, profile)}
         return {name: (found | slope)[name] for name in (*outputs, "status")}
     turn = _checked(parameters, outputs, solver, loading)
-    asked = outputs
-    outputs = wanted_for(outputs, turned=turn is not None)
     alike = equivalent_wave(profile) if solver != "asymptotic" and loading == BY_DISPLACEMENT else None
     if alike is not None and profile != WAVY:
         parameters = _as_one_wave(parameters, *alike)
+    how = How(solver, check_contact, threads, profile if alike is None else WAVY, loading, alike is not None)
+    if CLOSING in parameters or {*outputs} & {*EDGE}:
+        from gradhesion.core.works.cycle import solve_two_works  # noqa: PLC0415 (seldom wanted)
 
+        found = solve_two_works(parameters, outputs, how)
+        return {name: found[name] for name in (*outputs, "status")}
+    asked = outputs
+    outputs = wanted_for(outputs, turned=turn is not None)
     senses = tuple(name in asked for name in SENSITIVITIES)
     slopes = (senses[0], senses[1]) if any(senses) else None
 
-    how = How(solver, check_contact, threads, profile, loading, alike is not None)
 
     def solved(scenes: Mapping[str, ArrayLike], wanted: Sequence[str], *, turned: bool = False) -> Results:
         """Solve scenes up to their rims."""

@@ -1,0 +1,1 @@
+"""Cycles whose edge opens at a larger work of adhesion than it closes at."""

@@ -1,0 +1,78 @@
+"""The pull just after the jump into contact, on the curve of closing.
+
+The jump starts from zero contact at the coordinate 0 and ends at the radius a on the closing curve, or at the rim,
+where the contact is pinned: P = K [a^(1+k) depth - I(a)] (docs/theory.md, section 13).
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gradhesion.core.arrays.prepared import prepared, run_by_exponent
+from gradhesion.core.arrays.tables import tables_of
+from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.curve.cosine import force_unit
+from gradhesion.core.curve.general import Basis, curve_of, state
+from gradhesion.core.problem.curves import GeneralCurves
+from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
+from gradhesion.core.sweep import How, solve
+from gradhesion.core.types import Floats
+from gradhesion.core.works.cycle import LEAST, closing_parameters
+
+
+@kernel()
+def fill_pulls(basis: Basis, curves: GeneralCurves, out: Floats) -> None:
+    """Put the pulls at the coordinate 0 of contacts up to the rims of curves into `out`, of shape (curves, rims).
+
+    They are in 1.5 pi R dgamma. The rims are radii of contact.
+    """
+    numbers, exponent, depth_factor, stretch, wavelength, amplitude, compliance, rims = curves
+    table, cosine_bins, series = basis
+    smooth = np.zeros((0, 3))
+    for i in numbers:
+        curve, length, unit = curve_of(
+            table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
+        )
+        waves = Basis(table, cosine_bins, series if amplitude[i] > 0.0 else smooth)
+        row = rims[i if rims.shape[0] > 1 else 0]
+        for rim in range(row.size):
+            _, _, front, depth, load = state(waves, curve, row[rim] / wavelength[i])
+            level = curve.alpha * depth + curve.beta * load
+            load -= front * level / (curve.alpha + curve.beta * front)
+            out[i, rim] = -force_unit(table.k, length, unit) * load
+
+
+def snap_in_force(scenes: Mapping[str, ArrayLike], ratio: NDArray[np.float64], how: How) -> NDArray[np.float64]:
+    """Return the pulls in 1.5 pi R w_o, of the broadcast shape: 0 under load control, NaN at ratio 0.
+
+    Parameters
+    ----------
+    scenes
+        Their parameters, without the ratio.
+    ratio
+        w_c/w_o, which broadcasts with them.
+    how
+        How they are solved.
+    """
+    shape = np.broadcast_shapes(ratio.shape, *(np.shape(value) for value in scenes.values()))
+    if how.loading.control == "load":
+        return np.where(np.broadcast_to(ratio, shape) > 0.0, 0.0, np.nan)
+    closing = {name: value for name, value in closing_parameters(scenes, ratio).items() if name != "load_max"}
+    start = closing | {"indentation_max_over_R": 0.0}
+    profile, loading = how.profile, how.loading
+    known = {"threads": how.threads, "profile": profile, "loading": loading, "check_contact": False}
+    radius = solve(start, ["turning_radius"], **known)["turning_radius"]
+    found = prepared(closing | {"a_max_over_R": radius}, loading)
+    n, series = in_own_wavelength(profile)
+    wavelength, amplitude = found.wavelength / n, n * found.amplitude if series.size else 0.0 * found.amplitude
+    out = np.full((found.k.size, found.rim.shape[1]), np.nan)
+
+    def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
+        basis = Basis(*tables_of(exponent, series, interpolated=interpolated), series)
+        form = profile.exponent, depth_factor_of(exponent, profile.exponent)
+        fill_pulls(basis, GeneralCurves(index, *form, found.stretch, wavelength, amplitude, found.compliance, found.rim), out)
+
+    run_by_exponent(found.k, work, how.threads, found.rim.shape[1])
+    pulls = np.maximum(ratio, LEAST) * out.reshape(found.shape)
+    return np.where((ratio > 0.0) & (pulls > 0.0), pulls, np.nan)
