@@ -33,6 +33,7 @@ from gradhesion.core.problem.names import (
     WITHOUT_LOAD,
 )
 from gradhesion.core.problem.profile import WAVY, Profile
+from gradhesion.core.problem.results import WHOLE_CYCLE
 from gradhesion.core.problem.shape import equivalent_wave
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene.cosine_report import NEEDED
@@ -95,7 +96,7 @@ def up_to_rims(
     scenes: Mapping[str, ArrayLike],
     wanted: Sequence[str],
     how: How,
-    slopes: tuple[bool, bool] | None = None,
+    slopes: tuple[bool, int] | None = None,
     *,
     turned: bool = False,
 ) -> Results:
@@ -224,8 +225,7 @@ def solve(
     asked = outputs
     outputs = wanted_for(outputs, turned=turn is not None)
     senses = tuple(name in asked for name in SENSITIVITIES)
-    slopes = (senses[0], senses[1]) if any(senses) else None
-
+    slopes = (senses[0], WHOLE_CYCLE if senses[1] else 0) if any(senses) else None
 
     def solved(scenes: Mapping[str, ArrayLike], wanted: Sequence[str], *, turned: bool = False) -> Results:
         """Solve scenes up to their rims."""

@@ -97,7 +97,7 @@ def solve_cosine(
     *,
     check_contact: bool = True,
     turned: bool = False,
-    slopes: tuple[bool, bool] | None = None,
+    slopes: tuple[bool, int] | None = None,
 ) -> dict[str, NDArray[Any]]:
     """Solve all scenes of the broadcast parameters, as `solve` of core/sweep.py: results of their shape.
 
@@ -119,7 +119,7 @@ def solve_cosine(
     only_force = solver == "exact" and slopes is None and set(outputs) <= set(PULL_OFF)
     solve_curves = PULL_OFF_LOOP if only_force else LOOPS[solver]
     sensed = np.full((3, COUNT, *curves.size), math.nan) if slopes else None
-    of_force, of_energy = slopes or (False, False)
+    of_force, of_energy = slopes or (False, 0)
 
     def work(tables: NDArray[Any], task: Task, stiffness: NDArray[np.float64]) -> None:
         scratch = np.empty((ROWS, BRANCHES))

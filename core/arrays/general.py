@@ -33,15 +33,16 @@ def solve_general(
     *,
     check_contact: bool = True,
     turned: bool = False,
-    slopes: tuple[bool, bool] | None = None,
+    slopes: tuple[bool, int] | None = None,
 ) -> dict[str, NDArray[Any]]:
     """Solve all scenes of broadcast parameters for one profile and control, as `solve` of core/sweep.py.
 
     Scenes that differ along the last axes in a_max alone are solved on one trace.
     `turned` is whether a_max is where the cycles turn, not the rim of a punch. `slopes` is whether the sensitivities of
-    force and of energy are asked for, whose values and whose place are then among `outputs`: the result has `SLOPES`
-    more, of shape (3, COUNT, *scenes), those of the force, of the energy, and of the depth where a cycle turns to what
-    sensitivities/cosine_slopes.py names (NaN where there is no positive value).
+    force are wanted, and of the energy of which parts of the cycle (`part_of` of problem/results.py); values and place
+    are then among `outputs`: the result has `SLOPES` more, of shape (3, COUNT, *scenes), those of the force, of the
+    energy, and of the depth where a cycle turns to what sensitivities/cosine_slopes.py names (NaN where there is no
+    positive value).
     """
     scenes = prepared(parameters, loading)
     rows = list(dict.fromkeys(outputs))

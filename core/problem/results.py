@@ -17,6 +17,8 @@ INTEGERS: Final = ("loading_jumps", "unloading_jumps")
 """Those that count."""
 FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST, LOADED, UNLOADED = map(constant, range(len(RESULTS)))
 """The rows."""
+LOADING_PART, UNLOADING_PART, WHOLE_CYCLE = 1, 2, 3
+"""Parts of a cycle whose energy is differentiated."""
 CONTACT = len(RESULTS)
 """One more slot, not -1 if `status` reports where loading does not keep the contact one disc."""
 TURNED = CONTACT + 1
@@ -78,6 +80,21 @@ def wants_cycle(slots: Slots) -> bool:
 def wants_folds(slots: Slots) -> bool:
     """Return whether anything is wanted that needs the folds, the jumps or the largest depth; `slots` of `Results`."""
     return wants_cycle(slots) or slots[DEEPEST] >= 0
+
+
+@kernel()
+def part_of(parts: int, loaded: float, unloaded: float) -> float:
+    """Return the energy of the parts of a cycle: 1 for loading, 2 for unloading, 3 for both."""
+    if parts == LOADING_PART:
+        return loaded
+    return unloaded if parts == UNLOADING_PART else loaded + unloaded
+
+
+@kernel()
+def energy_of(results: Results, parts: int, rim: int) -> float:
+    """Return the stored energy of the parts of a cycle (`part_of`) of a rim."""
+    row = LOADED if parts == LOADING_PART else UNLOADED if parts == UNLOADING_PART else ENERGY
+    return float(results.out[results.slots[row], rim])
 
 
 @kernel()

@@ -22,6 +22,7 @@ from gradhesion.core.problem.results import (
     TURNED,
     UNLOADED,
     UNLOADING,
+    energy_of,
     put,
     wants_cycle,
     wants_losses,
@@ -113,5 +114,5 @@ def read_rim(
     _cycle_at_rim(table, curve, walked, scene, x, i)
     if len(sensed) > 0:  # noqa: SIM102 (numba drops the branch by the length alone)
         if sensed.energy:
-            energy = scene.results.out[scene.results.slots[ENERGY], i] / scene.energy
+            energy = energy_of(scene.results, sensed.energy, i) / scene.energy
             put_energy(table, curve, sensed, slopes, x, energy, i)

@@ -43,6 +43,7 @@ from gradhesion.core.problem.results import (
     UNLOADED,
     UNLOADING,
     Results,
+    part_of,
     put,
     wants_folds,
     wants_force,
@@ -174,7 +175,7 @@ def _walked(
         if x == math.inf:  # the last branch has no end, and loading arrives on it
             put(results, OUTERMOST, i, TWO_PI * scene.length * trace[ARRIVAL, count - 1])
         if len(own) > 0:
-            put_energy(basis, curve, own, slopes, x, loaded + unloaded, i)
+            put_energy(basis, curve, own, slopes, x, part_of(own.energy, loaded, unloaded), i)
     return True
 
 
@@ -207,7 +208,7 @@ def _strode(
     if x == math.inf:
         put(scene.results, OUTERMOST, i, TWO_PI * scene.length * (up.waves + up.left))
     if len(own) > 0:
-        put_noted(basis, curve, own, middle.cut, notes, (x, waves), up.loss + down.loss, i)
+        put_noted(basis, curve, own, middle.cut, notes, (x, waves), part_of(own.energy, up.loss, down.loss), i)
     return True
 
 

@@ -34,8 +34,7 @@ from gradhesion.core.curve.branches import (
     Trace,
 )
 from gradhesion.core.curve.cosine import Cosine, curve_of, depth, load, slope, wave
-from gradhesion.core.problem.results import ENERGY as ENERGY_ROW
-from gradhesion.core.problem.results import RADIUS, Results
+from gradhesion.core.problem.results import RADIUS, Results, energy_of
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SLOPES
 from gradhesion.core.sensitivities.neighbours import Near
@@ -66,7 +65,7 @@ class Sense(NamedTuple):
     weights: Floats  # their weights in d/dk, of the same shape
     found: Floats  # where the sensitivities go, of shape (3, COUNT, curves, rims), or (3, COUNT, rims)
     force: bool  # whether those of the pull-off force are wanted
-    energy: bool  # whether those of the energy are
+    energy: int  # the parts of the cycle of whose energy they are wanted (`part_of` of problem/results.py), 0 for none
     turned: bool  # whether the rims are places where cycles turn
 
 
@@ -77,7 +76,7 @@ class Sensed(NamedTuple):
     units: Floats  # the units there: of force over that of the curve, and of depth in R; of shape (2, 4)
     size: float  # ln L, the size of a contact, in R
     found: Floats  # where the sensitivities go, of shape (3, COUNT, rims)
-    energy: bool  # whether those of the energy are wanted
+    energy: int  # as of `Sense`
     turned: bool  # whether the rims are places where cycles turn
 
 
@@ -240,7 +239,7 @@ def put_energy(table: Table, curve: Cosine, sensed: Sensed, slopes: Traced, x: f
     """
     total = np.empty(SLOPES)
     rim_depth = depth(table, curve, x) if x < math.inf else math.inf
-    by_rim = energy_slopes(table, curve, sensed.near, slopes, x, rim_depth, total)
+    by_rim = energy_slopes(table, curve, sensed.near, slopes, x, rim_depth, sensed.energy, total)
     by = By(total[BEND], total[GAIN], by_rim, total[EXPONENT], 0.0)
     _put(sensed.found[ENERGY], table.k, curve, (2.0, 0.0), by, energy, i)
 
@@ -261,7 +260,7 @@ def put_smooth(table: Table, stretch: float, rims: Floats, results: Results, sen
         fill_loading(table, curve, sensed.near, slopes)
         scale = TWO_PI * length * length
         for i in range(rims.size):
-            energy = results.out[results.slots[ENERGY_ROW], i] / scale
+            energy = energy_of(results, sense.energy, i) / scale
             put_energy(table, curve, sensed, slopes, rims[i] / wavelength, energy, i)
     at_fixed_stiffness(sensed)
     found = sensed.found

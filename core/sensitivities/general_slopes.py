@@ -19,8 +19,8 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series, coordinate, slope, state
-from gradhesion.core.path.pieces import NOTED_DOWN, NOTED_JUMP, NOTED_OUT, NOTED_UP, Notes
-from gradhesion.core.problem.results import RADIUS, Results
+from gradhesion.core.path.pieces import NOTED_DOWN, NOTED_IN, NOTED_JUMP, NOTED_OUT, NOTED_UP, Notes
+from gradhesion.core.problem.results import LOADING_PART, RADIUS, UNLOADING_PART, Results
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.sensitivities.cosine_slopes import (
     BY_AMPLITUDE,
@@ -64,7 +64,7 @@ class Sense(NamedTuple):
     m: float  # that of the punch
     found: Floats  # where the sensitivities go, of shape (3, COUNT, curves, rims)
     force: bool  # whether those of the pull-off force are wanted
-    energy: bool  # whether those of the energy are
+    energy: int  # the parts of the cycle of whose energy they are wanted (`part_of` of problem/results.py), 0 for none
     turned: bool  # whether the rims are places where cycles turn
 
 
@@ -91,7 +91,7 @@ class Sensed(NamedTuple):
     size: float  # ln L, the size of a contact, in R
     found: Floats  # where the sensitivities go, of shape (3, COUNT, rims)
     force: bool  # as of `Sense`
-    energy: bool
+    energy: int
     turned: bool
     wavy: bool  # whether the amplitude is positive
 
@@ -121,8 +121,7 @@ def senses_energy(own: IfSensed) -> bool:
     """Return whether the sensitivities of the energy of a scene are asked for."""
     if len(own) == 0:
         return False
-    energy: bool = own.energy
-    return energy
+    return bool(own.energy > 0)
 
 
 @kernel()
@@ -223,7 +222,7 @@ def put_energy(basis: Basis, curve: Series, own: Sensed, slopes: Traced, x: floa
         return
     total = np.empty(SLOPES)
     level = coordinate(basis, curve, x) if x < math.inf else math.inf
-    by_rim = energy_slopes(basis, curve, own.change, slopes, x, level, total)
+    by_rim = energy_slopes(basis, curve, own.change, slopes, x, level, own.energy, total)
     _put_total(own, total, by_rim, energy, i)
 
 
@@ -247,6 +246,9 @@ def put_noted(
         count = 0
     for n in range(1, count + 1):
         kind, waves, start, end = int(notes[n, 0]), notes[n, 1], notes[n, 2], notes[n, 3]
+        outwards = kind in (NOTED_UP, NOTED_IN) or (kind == NOTED_JUMP and end > start)
+        if not own.energy & (LOADING_PART if outwards else UNLOADING_PART):
+            continue
         before = total[BY_LEVEL]
         if kind in (NOTED_UP, NOTED_DOWN):
             run = Waves(UP if kind == NOTED_UP else DOWN, cut, NOWHERE, work)

@@ -45,6 +45,7 @@ from gradhesion.core.face import (
     steepness_at,
 )
 from gradhesion.core.path.unloading import descend, leave_rim, next_lower
+from gradhesion.core.problem.results import LOADING_PART, UNLOADING_PART
 from gradhesion.core.sensitivities.jump_slopes import DEPTH, SLOPES
 from gradhesion.core.sensitivities.wave_slopes import ROOM
 from gradhesion.core.struve.circle import TWO_PI
@@ -221,7 +222,14 @@ def _add_unloading(
 
 @kernel()
 def energy_slopes(
-    table: AnyTable, curve: AnyCurve, near: AnyNear, traced: Traced, rim: float, rim_depth: float, total: Slopes
+    table: AnyTable,
+    curve: AnyCurve,
+    near: AnyNear,
+    traced: Traced,
+    rim: float,
+    rim_depth: float,
+    parts: int,
+    total: Slopes,
 ) -> float:
     """Put the slopes of the reduced energy of a rim into `total`; return that by ln x of the rim.
 
@@ -233,9 +241,15 @@ def energy_slopes(
         Its trace, with the slopes that `fill_loading` has put there and those found for other rims.
     rim, rim_depth
         The rim x, and what is prescribed there, in s l^c.
+    parts
+        The parts of the cycle whose energy it is (`part_of` of problem/results.py).
     total
         The slopes by the numbers of sensitivities/jump_slopes.py, shape (SLOPES,), in 2 pi l^2 dgamma.
     """
     total[:] = 0.0
-    by_rim = _add_loading(table, curve, near, traced, rim, total)
-    return float(by_rim + _add_unloading(table, curve, near, traced, rim, rim_depth, total))
+    by_rim = 0.0
+    if parts & LOADING_PART:
+        by_rim += _add_loading(table, curve, near, traced, rim, total)
+    if parts & UNLOADING_PART:
+        by_rim += _add_unloading(table, curve, near, traced, rim, rim_depth, total)
+    return by_rim

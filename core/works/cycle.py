@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.arrays.turned import Results
-from gradhesion.core.problem.names import CLOSING, EDGE, PARAMETERS, PULL_OFF, REACH, TURNS
+from gradhesion.core.problem.names import CLOSING, EDGE, REACH, SENSITIVITIES, TURNS
 from gradhesion.core.problem.status import (
     CLOSE_TO_A_JUMP,
     JUMP_IN_TO_RIM,
@@ -74,9 +74,7 @@ def _solve_in_front(
     arrays = {name: array.reshape((1,) * (dimensions - array.ndim) + array.shape) for name, array in arrays.items()}
     moved = {name: np.moveaxis(array, axes, first) for name, array in arrays.items()}
     found = solve(moved, wanted, **known)
-    return {
-        name: np.moveaxis(values, first, [axis + dimensions for axis in axes]) for name, values in found.items()
-    }
+    return {name: np.moveaxis(values, first, [axis + dimensions for axis in axes]) for name, values in found.items()}
 
 
 def starts_downwards(parameters: Mapping[str, ArrayLike], how: How) -> NDArray[np.bool_]:
@@ -94,7 +92,9 @@ def _without_adhesion(found: Results, ratio: NDArray[np.float64], jumps: NDArray
     """Take the jump of a point from the loading of scenes that close without adhesion."""
     bare = (ratio == 0.0) & ~jumps
     if "loading_jumps" in found:
-        found["loading_jumps"] = np.where(bare & (found["loading_jumps"] > 0), found["loading_jumps"] - 1, found["loading_jumps"])
+        found["loading_jumps"] = np.where(
+            bare & (found["loading_jumps"] > 0), found["loading_jumps"] - 1, found["loading_jumps"]
+        )
         if "loading_energy" in found:
             none = bare & (found["loading_jumps"] == 0)
             found["loading_energy"] = np.where(none, 0.0, found["loading_energy"])
@@ -146,6 +146,7 @@ def _of_two_curves(
     opened = _opened(scenes, radius, opening, how, turn) if one is None or turn else one
     held = np.maximum(ratio, LEAST)
     found = {name: values for name, values in (closed | opened).items() if name not in _OF_BOTH}
+    found["turning_radius"] = radius
     front = front_energy(ratio, radius)
     with np.errstate(all="ignore"):
         if "loading_energy" in closed:
@@ -175,7 +176,7 @@ def solve_two_works(parameters: Mapping[str, ArrayLike], outputs: Sequence[str],
         As those of `solve` of core/sweep.py, and closing_ratio in [0, 1], which broadcasts with them (1 if it is not
         given). `modulus` is E* R/w_o, loads are in 1.5 pi R w_o.
     outputs
-        Those of `solve` but sensitivities and `contact_slope`, and those of `EDGE`: front_energy in R^2 w_o,
+        Those of `solve` but `contact_slope`, and those of `EDGE`: front_energy in R^2 w_o,
         snap_in_force in 1.5 pi R w_o (0 under load control, NaN at ratio 0 and without contact), pinned_depth in R.
     how
         How the scenes are solved.
@@ -191,7 +192,9 @@ def solve_two_works(parameters: Mapping[str, ArrayLike], outputs: Sequence[str],
     shape = np.broadcast_shapes(ratio.shape, *(np.shape(value) for value in scenes.values()))
     turn = next((name for name in TURNS if name in scenes), None)
     gains = [name for name in outputs if name in _GAINS]
-    wanted = list(dict.fromkeys([*(name for name in outputs if name not in (*EDGE, *gains)), *(_GAINS[name] for name in gains)]))
+    slopes = [name for name in outputs if name in SENSITIVITIES]
+    others = [name for name in outputs if name not in (*EDGE, *gains, *slopes)]
+    wanted = list(dict.fromkeys([*others, *(_GAINS[name] for name in gains)]))
     even = ratio == 1.0
     names = list(dict.fromkeys([*wanted, "turning_radius", *(_PARTS if "dissipated_energy" in wanted else ())]))
     one = solve(scenes, names, **_known(how)) if even.any() else None
@@ -211,7 +214,12 @@ def solve_two_works(parameters: Mapping[str, ArrayLike], outputs: Sequence[str],
         away = (found["status"].astype(np.int16) & (NO_VALUE | NO_CONTACT)) != 0
         found["snap_in_force"] = np.where(away, np.nan, snap_in_force(scenes, ratio, how))
     if gains:
-        plain = solve_two_works({**parameters, "A": 0.0 * np.asarray(parameters["A"], float)}, [_GAINS[name] for name in gains], how)
+        smooth = {**parameters, "A": 0.0 * np.asarray(parameters["A"], dtype=float)}
+        plain = solve_two_works(smooth, [_GAINS[name] for name in gains], how)
         with np.errstate(all="ignore"):
             found |= {name: found[_GAINS[name]] / plain[_GAINS[name]] for name in gains}
+    if slopes:
+        from gradhesion.core.works.slopes import two_work_sensitivities  # noqa: PLC0415 (kernels of their own)
+
+        found = two_work_sensitivities({CLOSING: 1.0, **parameters}, slopes, how) | found
     return found

@@ -5,6 +5,7 @@ where the contact is pinned: P = K [a^(1+k) depth - I(a)] (docs/theory.md, secti
 """
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -61,7 +62,7 @@ def snap_in_force(scenes: Mapping[str, ArrayLike], ratio: NDArray[np.float64], h
     closing = {name: value for name, value in closing_parameters(scenes, ratio).items() if name != "load_max"}
     start = closing | {"indentation_max_over_R": 0.0}
     profile, loading = how.profile, how.loading
-    known = {"threads": how.threads, "profile": profile, "loading": loading, "check_contact": False}
+    known: dict[str, Any] = {"threads": how.threads, "profile": profile, "loading": loading, "check_contact": False}
     radius = solve(start, ["turning_radius"], **known)["turning_radius"]
     found = prepared(closing | {"a_max_over_R": radius}, loading)
     n, series = in_own_wavelength(profile)
@@ -71,7 +72,9 @@ def snap_in_force(scenes: Mapping[str, ArrayLike], ratio: NDArray[np.float64], h
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
         basis = Basis(*tables_of(exponent, series, interpolated=interpolated), series)
         form = profile.exponent, depth_factor_of(exponent, profile.exponent)
-        fill_pulls(basis, GeneralCurves(index, *form, found.stretch, wavelength, amplitude, found.compliance, found.rim), out)
+        fill_pulls(
+            basis, GeneralCurves(index, *form, found.stretch, wavelength, amplitude, found.compliance, found.rim), out
+        )
 
     run_by_exponent(found.k, work, how.threads, found.rim.shape[1])
     pulls = np.maximum(ratio, LEAST) * out.reshape(found.shape)
