@@ -4,6 +4,8 @@ from typing import Final
 
 from gradhesion.cli.keys.inputs import (
     ADHESION_RANGE,
+    CLOSING,
+    CLOSING_WORK,
     INPUTS,
     INTERACTION,
     MACHINE,
@@ -18,6 +20,8 @@ from gradhesion.cli.keys.settings import SETTINGS
 
 __all__ = [
     "ADHESION_RANGE",
+    "CLOSING",
+    "CLOSING_WORK",
     "FILE_KEYS",
     "INPUTS",
     "INTERACTION",

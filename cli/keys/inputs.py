@@ -67,6 +67,10 @@ SPRING: Final = "spring_constant"
 
 TURNS: Final = ("indentation_max_over_R", "load_max")
 """The parameters at which a cycle may turn before the rim: those of a scene that need not be there."""
+CLOSING: Final = "closing_ratio"
+"""The parameter of an edge that closes at a smaller work of adhesion than it opens at."""
+CLOSING_WORK: Final = "work_of_adhesion_closing"
+"""The key of [physical] that gives the same with its unit."""
 ADHESION_RANGE: Final = "adhesion_range_over_R"
 """The parameter that the Tabor parameters need alone: its dimension is the last, since nothing is solved for it."""
 INTERACTION: Final = "adhesion_range"
@@ -208,6 +212,22 @@ _ALL_INPUTS: Final = (
         "2.0",
         r"$P_{\max}/\frac{3}{2}\pi R\Delta\gamma$",
     ),
+    _quantity(
+        CLOSING_WORK,
+        CLOSING,
+        "J/m^2",
+        "work of adhesion w_c at which the edge closes; it opens at work_of_adhesion",
+        '"5 mJ/m^2"',
+        "$w_c$",
+        bounds=NOT_NEGATIVE,
+    ),
+    _parameter(
+        CLOSING,
+        "work of adhesion of closing over that of opening, w_c/dgamma",
+        "0.5",
+        r"$w_c/\Delta\gamma$",
+        bounds={"ge": 0.0, "le": 1.0},
+    ),
     _quantity(INTERACTION, ADHESION_RANGE, "m", "range z0 of the attraction", '"0.3 nm"', "$z_0$"),
     _parameter(ADHESION_RANGE, "range z0/R of the attraction, for the Tabor parameters", "3e-7", "$z_0/R$"),
 )
@@ -223,7 +243,7 @@ turns at are the last that scenes are solved for, since all of one curve share i
 PARAMETERS: Final[dict[str, Key]] = {
     name: key
     for name, key in INPUTS.items()
-    if key.table == "parameters" and key.is_parameter and name not in (*TURNS, ADHESION_RANGE)
+    if key.table == "parameters" and key.is_parameter and name not in (*TURNS, CLOSING, ADHESION_RANGE)
 }
 """Every parameter that all scenes have, in the order of a dataset's dimensions."""
 

@@ -20,12 +20,13 @@ from gradhesion.cli.study.states import mistakes_of_states
 from gradhesion.cli.study.turn import mistakes_of_turn
 from gradhesion.cli.study.uncertainty import mistakes_of_uncertainty
 from gradhesion.cli.study.validity import mistakes_of_range
+from gradhesion.cli.study.works import mistakes_of_works
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core import REPORTS, SENSITIVITIES, SOLVERS
 
 LAYOUTS: Final = ("grid", "points")
 
-EXACT_ONLY: Final = (*REPORTS, *SENSITIVITIES)
+EXACT_ONLY: Final = (*REPORTS, *SENSITIVITIES, "snap_in_force")
 """The outputs that come with the exact solver alone."""
 
 
@@ -52,6 +53,7 @@ def mistakes_between_keys(checked: Checked, points: Points, sought: Sought) -> t
     mistakes += mistakes_of_roles(checked, sound)
     mistakes += mistakes_of_punch(checked, sound)
     mistakes += mistakes_of_turn(checked)
+    mistakes += mistakes_of_works(checked, sound, points=is_points)
     mistakes += mistakes_of_states(checked, sound)
     mistakes += mistakes_of_range(checked)
     mistakes += mistakes_of_uncertainty(checked, sound)

@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.keys import INPUTS, MACHINE, TURNS
+from gradhesion.cli.keys import CLOSING, INPUTS, MACHINE, TURNS
 from gradhesion.cli.names import (
     BEST,
     OF_PHYSICAL,
@@ -191,7 +191,9 @@ class Study:
         """What its sensitivities are to, by the dimension along which they stand; nothing if it has none."""
         asked = {labels_of(name) for name in self.variables} - {""}
         more = [MACHINE] if self.loading.control == "machine" else []
-        keys = (*PARAMETERS, *more, *([self.turn] if self.turn else []))
+        last = [self.turn] if self.turn else []
+        last += [CLOSING] if self.has_two_works else []
+        keys = (*PARAMETERS, *more, *last)
         given = [INPUTS[name] for name in self.parameters]
         units = tuple(
             key.name
@@ -216,6 +218,11 @@ class Study:
     def turn(self) -> str:
         """The parameter at which its cycles turn before the rim; empty if they turn there."""
         return next((INPUTS[name].gives for name in self.given if INPUTS[name].gives in TURNS), "")
+
+    @property
+    def has_two_works(self) -> bool:
+        """Whether its edges close at a work of adhesion of their own."""
+        return any(INPUTS[name].gives == CLOSING for name in self.given)
 
     @cached_property
     def sizes(self) -> dict[str, int]:

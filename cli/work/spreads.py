@@ -7,6 +7,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.cli.keys import CLOSING_WORK
 from gradhesion.cli.names import PARAMETER, SI, SPREADABLE, STEEP
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, shape_of
@@ -153,6 +154,8 @@ def _samples_of(
     for part in _pieces(centre, count):
         given = {key: _cut(values, part)[None] for key, values in centre.given.items()}
         for (key, spread), own in zip(centre.spreads.items(), shares, strict=True):
+            if key == CLOSING_WORK:  # an edge opens at no less than it closes at
+                spread = replace(spread, high=np.minimum(spread.high, given["work_of_adhesion"]))  # noqa: PLW2901
             given[key] = spread.quantiles(given[key], own.reshape(-1, *(1 for _ in part)))
         found = centre.solve(given, outputs)
         yield part, given, {name: values for name, values in found.items() if name != "status"}

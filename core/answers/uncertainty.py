@@ -10,7 +10,7 @@ itself, at a few samples: there the straight line and the value are to have the 
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -43,7 +43,7 @@ class Spread:
     relative
         Whether that is a share of the value of the scene.
     low, high
-        Where the normal distribution is truncated, or between which the input is `uniform`, whatever the scene.
+        Where the normal distribution is truncated (`high` may be an array that broadcasts to samples), or between which the input is `uniform`, whatever the scene.
     uniform
         Whether all values between `low` and `high` are equally likely.
 
@@ -57,7 +57,7 @@ class Spread:
     deviation: float = 1.0
     relative: bool = False
     low: float = -np.inf
-    high: float = np.inf
+    high: Any = np.inf
     uniform: bool = False
 
     def _normal(self, values: ArrayLike) -> tuple[_Array, _Array, _Array, _Array]:

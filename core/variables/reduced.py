@@ -15,10 +15,12 @@ Each of the parameters of `solve` may be left out where others tell it:
     machine_stiffness    spring_constant, E_star, R
     indentation_max_over_R    indentation_max, R
     load_max        preload, R, work_of_adhesion    P/(1.5 pi R dgamma)
+    closing_ratio   work_of_adhesion_closing, work_of_adhesion
     adhesion_range_over_R    adhesion_range, R
 
+a_2 is that of loading, at the work of closing; all else in reduced variables is at work_of_adhesion, that of opening.
 R, c0, wavelength, amplitude, a_max, indentation_max and adhesion_range are in m, E_star and E in Pa, work_of_adhesion
-in J/m^2, spring_constant in N/m, preload in N.
+and that of closing in J/m^2, spring_constant in N/m, preload in N.
 """
 
 import math
@@ -28,7 +30,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.problem.names import PARAMETERS, RANGE, TURNS
+from gradhesion.core.problem.names import CLOSING, PARAMETERS, RANGE, TURNS
 from gradhesion.core.variables.jump_in_radius import jump_in_radius_of_envelope
 from gradhesion.core.variables.similarity import amplitude_of_ratio, similarity_length
 
@@ -46,11 +48,12 @@ WAYS: Final[dict[str, dict[str, tuple[str, ...]]]] = {
     _MACHINE: {"spring_constant": ("E_star", "R")},
     "indentation_max_over_R": {"indentation_max": ("R",)},
     "load_max": {"preload": ("R", "work_of_adhesion")},
+    CLOSING: {"work_of_adhesion_closing": ("work_of_adhesion",)},
     RANGE: {"adhesion_range": ("R",)},
 }
 """By what a parameter can be told, and what else that takes; in the order in which they follow from one another."""
 
-_OPTIONAL: Final = (_MACHINE, *TURNS, RANGE)
+_OPTIONAL: Final = (_MACHINE, *TURNS, CLOSING, RANGE)
 """What not every scene has."""
 
 _FOLLOWS: Final[dict[str, Callable[..., Any]]] = {
@@ -67,6 +70,7 @@ _FOLLOWS: Final[dict[str, Callable[..., Any]]] = {
     "adhesion_range": lambda adhesion_range, R: adhesion_range / R,
     "spring_constant": lambda spring_constant, E_star, R: spring_constant / (E_star * R),
     "indentation_max": lambda indentation_max, R: indentation_max / R,
+    "work_of_adhesion_closing": lambda closing, opening: closing / opening,
     "preload": lambda preload, R, work_of_adhesion: preload / (1.5 * math.pi * R * work_of_adhesion),
 }
 
@@ -78,8 +82,9 @@ def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
     ----------
     given
         Arrays by name, all broadcastable: for each parameter of `solve` itself, or one of those above in its place.
-        Others stay as they are; machine_stiffness, indentation_max_over_R, load_max and adhesion_range_over_R are made
-        if spring_constant, indentation_max, preload or adhesion_range is given; R, E_star and the like are left out.
+        Others stay as they are; machine_stiffness, indentation_max_over_R, load_max, closing_ratio and
+        adhesion_range_over_R are made if spring_constant, indentation_max, preload, work_of_adhesion_closing or
+        adhesion_range is given; R, E_star and the like are left out.
 
     Returns
     -------
@@ -102,11 +107,15 @@ def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
     """
     known = {name: np.asarray(values, dtype=float) for name, values in given.items()}
     wanted = (*PARAMETERS, *(name for name in _OPTIONAL if {name, *WAYS[name]} & known.keys()))
-    for parameter in ("E_star", *wanted) if "E" in known else wanted:
+    closing = (CLOSING,) if CLOSING in wanted else ()
+    for parameter in (*closing, *(("E_star",) if "E" in known else ()), *wanted):
         if parameter not in known:
             way, needed = _way(parameter, known)
+            others = [known[name] for name in needed]
             with np.errstate(all="ignore"):  # what overflows has no value
-                known[parameter] = np.asarray(_FOLLOWS[way](known[way], *(known[name] for name in needed)))
+                if way == "a_max_over_a2" and closing:
+                    others[needed.index("modulus")] = known["modulus"] / known[CLOSING]
+                known[parameter] = np.asarray(_FOLLOWS[way](known[way], *others))
     ways = {name for alternatives in WAYS.values() for way, needed in alternatives.items() for name in (way, *needed)}
     return {name: known[name] for name in (*wanted, *(name for name in given if name not in {*ways, *wanted}))}
 
@@ -117,7 +126,7 @@ def sources_of(parameter: str, given: Mapping[str, Any]) -> tuple[str, ...]:
     Parameters
     ----------
     parameter
-        One of `PARAMETERS` or `TURNS`, machine_stiffness or adhesion_range_over_R.
+        One of `PARAMETERS` or `TURNS`, machine_stiffness, closing_ratio or adhesion_range_over_R.
     given
         As in `parameters_from`; only its names count.
 
@@ -138,6 +147,8 @@ def sources_of(parameter: str, given: Mapping[str, Any]) -> tuple[str, ...]:
     if parameter in given:
         return (parameter,)
     way, needed = _way(parameter, given)
+    if way == "a_max_over_a2" and {CLOSING, *WAYS[CLOSING]} & given.keys():
+        needed = (*needed, CLOSING)
     return tuple(dict.fromkeys(source for name in (way, *needed) for source in _given_for(name, given)))
 
 
