@@ -38,7 +38,7 @@ OUTPUTS: Final = {
     "loading_energy": "energy dissipated on loading, H/(R^2 dgamma)",
     "unloading_energy": "energy dissipated on unloading, H/(R^2 dgamma)",
     "turning_radius": "contact radius a/R at which unloading starts (0: no contact is made)",
-    "front_energy": "energy that the edge takes up in a cycle since it opens at more work than it closes at, H/(R^2 dgamma)",
+    "front_energy": "energy of the edge, which opens at more work than it closes at, in a cycle, H/(R^2 dgamma)",
     "snap_in_force": "pull just after the jump into contact P/(1.5 pi R dgamma)",
     "pinned_depth": "depth delta/R by which the punch moves back before the edge opens",
     "pull_off_force_error": "estimate of the error of the pull-off force F/(1.5 pi R dgamma)",
@@ -119,6 +119,7 @@ def value_of(variable: str) -> str:
 
 EXTENTS: Final = {
     "equilibrium": "point",
+    "closing_equilibrium": "closing_point",
     "path": "path_point",
     "asymptotic": "asymptotic_point",
     "envelope": "envelope_point",
@@ -139,7 +140,7 @@ NAMED_STATES: Final = ("turning_point", "pull_off", "jump_out")
 STATE_CURVES: Final = ("pressure", "surface")
 """Curves of a state of contact, along the radius, in the place of curves of a scene."""
 
-GENERAL_CURVES: Final = ("equilibrium", "path", "smooth", "jumps", *STATE_CURVES)
+GENERAL_CURVES: Final = ("equilibrium", "closing_equilibrium", "path", "smooth", "jumps", *STATE_CURVES)
 """Curves of any profile under any control."""
 
 CURVES_BY_DEPTH: Final = (*GENERAL_CURVES, "asymptotic")
@@ -154,6 +155,12 @@ CURVES: Final = {
         "indentation": "indentation depth delta/R in equilibrium",
         "load": "load P/(1.5 pi R dgamma) in equilibrium, negative if it pulls",
         "stable": "whether the equilibrium is stable under the control in force",
+    },
+    "closing_equilibrium": {
+        "closing_contact_radius": "contact radius a/R of an edge that closes",
+        "closing_indentation": "indentation depth delta/R in equilibrium of an edge that closes",
+        "closing_load": "load P/(1.5 pi R dgamma) in equilibrium of an edge that closes",
+        "closing_stable": "whether the equilibrium of an edge that closes is stable under the control in force",
     },
     "path": {
         "path_contact_radius": "contact radius a/R on the path of a loading cycle",
@@ -252,6 +259,7 @@ def long_name_in_si(long_name: str) -> str:
 
 INTEGERS: Final = {
     "stable": "i1",
+    "closing_stable": "i1",
     "path_branch": "i4",
     "path_jump": "i1",
     "path_unloading": "i1",
@@ -264,6 +272,7 @@ INTEGERS: Final = {
 
 MEANINGS: Final = {
     "stable": "unstable stable",
+    "closing_stable": "unstable stable",
     "path_jump": "along_a_branch by_a_jump",
     "path_unloading": "loading unloading",
     "effective_jump": "along_an_envelope by_a_jump",

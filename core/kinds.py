@@ -15,6 +15,7 @@
     general_sensitivities
     general_envelope
     general_curves
+    edge               where an edge that closes at less work jumps in, and how its turning point moves
     asymptotic         the asymptotic solver of any profile
 
 and `tables` is what all of them share.
@@ -46,6 +47,7 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "general_sensitivities": ("general_energy",),
     "general_envelope": ("tables",),
     "general_curves": ("general_energy",),
+    "edge": ("tables",),
     "asymptotic": ("tables",),
 }
 """The kinds that are compiled before a kind, directly: those of whose entries it needs the same, or others of the same
@@ -65,23 +67,24 @@ APART: Final = (
 KINDS: Final = tuple(NEEDS)
 """All kinds, each after those that it needs."""
 KERNELS: Final[dict[str, int]] = {
-    "tables": 52,
-    "force": 54,
-    "energy": 223,
-    "smooth": 36,
-    "reports": 16,
+    "tables": 56,
+    "force": 55,
+    "energy": 229,
+    "smooth": 33,
+    "reports": 17,
     "turning": 30,
-    "envelope": 16,
-    "curves": 43,
-    "sensitivities": 48,
-    "general_force": 87,
-    "general_energy": 248,
+    "envelope": 13,
+    "curves": 51,
+    "sensitivities": 46,
+    "general_force": 92,
+    "general_energy": 261,
     "general_reports": 11,
     "general_turning": 17,
-    "general_sensitivities": 48,
+    "general_sensitivities": 52,
     "general_envelope": 0,
-    "general_curves": 22,
-    "asymptotic": 68,
+    "general_curves": 49,
+    "edge": 30,
+    "asymptotic": 66,
 }
 """About how many kernels a kind compiles after those that it needs, in one process."""
 

@@ -9,10 +9,10 @@ from gradhesion.core.arrays.cosine import run_tasks
 from gradhesion.core.arrays.grouping import grouped
 from gradhesion.core.compiler.marks import note_compiled
 from gradhesion.core.kinds import KINDS, MANY_SMOOTH
-from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.control import BY_DISPLACEMENT, Loading
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import OUTPUTS, REPORTS, SENSITIVITIES
-from gradhesion.core.problem.profile import Harmonic, Profile
+from gradhesion.core.problem.profile import WAVY, Harmonic, Profile
 from gradhesion.core.struve.interpolated import interpolated_tables
 from gradhesion.core.struve.table import build_table
 from gradhesion.core.sweep import solve
@@ -46,6 +46,17 @@ def _compile_general_curves() -> None:
     for change in ({}, {"a_max_over_R": math.inf}, {"A": 0.0}):
         draw_curves(SCENE | SPRING | change, list(GENERAL_CURVES), MANY, Loading(control="machine"))
     draw_curves(SCENE, CURVES_BY_DEPTH[-1:], MANY)
+
+
+def _compile_edge() -> None:
+    """Find a pull after a jump, and how a turning point moves."""
+    from gradhesion.core.sweep import How  # noqa: PLC0415 (kernels of their own)
+    from gradhesion.core.works.snap_in import pulls_at  # noqa: PLC0415
+    from gradhesion.core.works.turn_slopes import turn_slopes  # noqa: PLC0415
+
+    how = How("exact", False, 1, WAVY, BY_DISPLACEMENT, is_one_wave=True)
+    pulls_at(SCENE, how)
+    turn_slopes(SCENE, False, how)
 
 
 def compile_kind(kind: str) -> None:
@@ -91,6 +102,8 @@ def compile_kind(kind: str) -> None:
             _compile_general_curves()
         case "curves":
             _compile_curves()
+        case "edge":
+            _compile_edge()
         case "sensitivities":
             solve(scene, SENSITIVITIES, threads=1, **driven)
         case _:

@@ -54,7 +54,10 @@ def kinds_of(study: Study) -> tuple[str, ...]:
     kinds = dict.fromkeys(kind_of_map(outputs, solver, study.profile, study.loading) for solver in solvers)
     many = study.scenes >= MANY_SMOOTH and _smooth_scenes(study) >= MANY_SMOOTH
     smooth = ("smooth",) if many and {*kinds} & _WITH_SMOOTH and not slopes else ()
-    return (*kinds, *smooth, *turning, *slopes)
+    snaps = "snap_in_force" in outputs
+    edge = ("edge",) if snaps or (slopes and study.has_two_works and study.turn) else ()
+    jump = (kind_of_turning(study.profile, study.loading),) if snaps else ()
+    return tuple(dict.fromkeys((*kinds, *smooth, *turning, *jump, *slopes, *edge)))
 
 
 def _smooth_scenes(study: Study) -> float:

@@ -155,7 +155,7 @@ def _samples_of(
         given = {key: _cut(values, part)[None] for key, values in centre.given.items()}
         for (key, spread), own in zip(centre.spreads.items(), shares, strict=True):
             if key == CLOSING_WORK:  # an edge opens at no less than it closes at
-                spread = replace(spread, high=np.minimum(spread.high, given["work_of_adhesion"]))  # noqa: PLW2901
+                spread = replace(spread, high=np.minimum(spread.high, given["work_of_adhesion"]))
             given[key] = spread.quantiles(given[key], own.reshape(-1, *(1 for _ in part)))
         found = centre.solve(given, outputs)
         yield part, given, {name: values for name, values in found.items() if name != "status"}

@@ -43,7 +43,8 @@ class Spread:
     relative
         Whether that is a share of the value of the scene.
     low, high
-        Where the normal distribution is truncated (`high` may be an array that broadcasts to samples), or between which the input is `uniform`, whatever the scene.
+        Where the normal distribution is truncated, or between which the input is `uniform`, whatever the scene; `high`
+        may be an array that broadcasts with the values.
     uniform
         Whether all values between `low` and `high` are equally likely.
 

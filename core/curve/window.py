@@ -19,6 +19,8 @@ from gradhesion.core.types import Harmonics, Table
 _EXCESS = 0.35
 _INNERMOST = 1e-30
 """z where a search begins if depth rises from zero contact on (k = 1)."""
+_WITHOUT_ADHESION = 1e-60
+"""And where it begins if waves outweigh adhesion even there: a cone among them, or sines, and next to no adhesion."""
 _PLACES = (1.0, 1e-1, 1e-2, 1e-4, 1e-8, 1e-16)
 """Where the search begins if the coordinate surely falls there, and so before."""
 _BISECTIONS = 200
@@ -63,9 +65,11 @@ def first_fold_bound(basis: Basis, curve: Series) -> float:
     n = 0.5 * (1.0 + k)
     s, push = m - 1.0 + n, m * B
     bounds = wave_bounds(table, series, g)
-    if not _surely_falls(level, push, s, n, bounds, _INNERMOST, NO):
-        return _INNERMOST
     low = _INNERMOST
+    if not _surely_falls(level, push, s, n, bounds, low, NO):
+        if not (level > 0.0 and _surely_falls(level, push, s, n, bounds, _WITHOUT_ADHESION, NO)):
+            return _INNERMOST
+        low = _WITHOUT_ADHESION
     for place in _PLACES:
         if _surely_falls(level, push, s, n, bounds, place, NO):
             low = place

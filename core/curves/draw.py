@@ -19,13 +19,14 @@ from gradhesion.core.curves.path import draw_path
 from gradhesion.core.curves.smooth import draw_smooth
 from gradhesion.core.curves.subject import BEYOND, Subject, subject_of
 from gradhesion.core.problem.control import Loading
-from gradhesion.core.problem.names import CURVES, PARAMETERS, TURNS
+from gradhesion.core.problem.names import CLOSING, CURVES, PARAMETERS, TURNS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.status import FAILED, NO_VALUE
 from gradhesion.core.sweep import solve
 
 _TYPES: Final[dict[str, type[np.signedinteger[Any]]]] = {
     "stable": np.int8,
+    "closing_stable": np.int8,
     "path_branch": np.int32,
     "path_jump": np.int8,
     "path_unloading": np.int8,
@@ -44,7 +45,7 @@ _CLOSED: Final = {
     "smooth": draw_smooth,
 }
 
-GENERAL_CURVES: Final = ("equilibrium", "path", "smooth", "jumps")
+GENERAL_CURVES: Final = ("equilibrium", "closing_equilibrium", "path", "smooth", "jumps")
 """The curves of any profile under any control."""
 CURVES_BY_DEPTH: Final = (*GENERAL_CURVES, "asymptotic")
 """Those of any profile under displacement control; the others are closed forms of one cosine wave on a paraboloid."""
@@ -84,10 +85,11 @@ def draw_curves(
     ----------
     scene
         A number for each name of `PARAMETERS`, in the ranges of `solve`; a_max/R may be inf. Machine control takes
-        `machine_stiffness`, S/(E* R) > 0, besides. With one of `TURNS` path, jumps and the effective path turn where
-        the cycle of `solve` does.
+        `machine_stiffness`, S/(E* R) > 0, besides, and `closing_ratio` may be there (works/curves.py). With one of
+        `TURNS` path, jumps and the effective path turn where the cycle of `solve` does.
     curves
-        Names out of `CURVES`: "equilibrium", the whole equilibrium curve, stable and unstable; "path", the cycle of
+        Names out of `CURVES`: "equilibrium", the whole equilibrium curve, stable and unstable; "closing_equilibrium",
+        that of closing; "path", the cycle of
         loading and unloading; "asymptotic", the curve for short waves (5.15)-(5.20);
         "envelope", its two envelopes (5.21)-(5.27); "effective", the path along them (5.28)-(5.35); "smooth", the curve
         of A = 0; "jumps", the jumps of the cycle, one by one.
@@ -151,6 +153,10 @@ def draw_curves(
             f"curves {absent} are known of the paraboloid with one cosine wave under displacement control only, but "
             f"for the asymptotic one, which any profile has; this profile and control have {', '.join(known)}"
         )
+    if CLOSING in scene or "closing_equilibrium" in curves:
+        from gradhesion.core.works.curves import draw_two_works  # noqa: PLC0415 (seldom wanted)
+
+        return draw_two_works({CLOSING: 1.0, **scene}, curves, profile, loading)
     turns = [name for name in TURNS if name in scene]
     if len(turns) > 1:
         raise ValueError(f"{' and '.join(turns)} are given: a cycle turns at one of them")

@@ -56,6 +56,12 @@ WITHOUT_LOAD: Final[dict[str, str]] = {
 """Why the other solvers know displacement control alone."""
 CURVES: Final[dict[str, tuple[str, ...]]] = {
     "equilibrium": ("contact_radius", "indentation", "load", "stable"),
+    "closing_equilibrium": (
+        "closing_contact_radius",
+        "closing_indentation",
+        "closing_load",
+        "closing_stable",
+    ),
     "path": (
         "path_contact_radius",
         "path_indentation",

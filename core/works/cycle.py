@@ -9,8 +9,8 @@ is that of today's punch with its rim there. With energies in R^2 w_o
 and the pull-off force is that of the opening curve up to a_t. At ratio 1 both are one curve, solved as ever.
 
 Without adhesion on approach (ratio 0) the edge closes along the contact without adhesion. sqrt(Gamma) is what enters
-its depth and load, and Gamma = 2^-120 leaves 1e-18 of it, which no double keeps; what is left of the jump-in, from a
-point to 1e-24 R, is no jump. Smaller ratios than that have the same curve.
+its depth and load, and Gamma = 2^-120 leaves 1e-18 of it, which no double keeps; what is left of the jump-in, to a
+radius at which neither depth nor load is more than that, is no jump. Smaller ratios than that have the same curve.
 """
 
 from __future__ import annotations  # those of inner functions would be made anew in every call: 15 us each

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core.arrays.prepared import prepared, run_by_exponent
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.compiler.marks import note_compiled
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.general import Basis, curve_of, state
 from gradhesion.core.problem.curves import GeneralCurves
@@ -61,10 +62,16 @@ def snap_in_force(scenes: Mapping[str, ArrayLike], ratio: NDArray[np.float64], h
         return np.where(np.broadcast_to(ratio, shape) > 0.0, 0.0, np.nan)
     closing = {name: value for name, value in closing_parameters(scenes, ratio).items() if name != "load_max"}
     start = closing | {"indentation_max_over_R": 0.0}
-    profile, loading = how.profile, how.loading
-    known: dict[str, Any] = {"threads": how.threads, "profile": profile, "loading": loading, "check_contact": False}
-    radius = solve(start, ["turning_radius"], **known)["turning_radius"]
-    found = prepared(closing | {"a_max_over_R": radius}, loading)
+    known: dict[str, Any] = {"threads": how.threads, "profile": how.profile, "loading": how.loading}
+    radius = solve(start, ["turning_radius"], check_contact=False, **known)["turning_radius"]
+    pulls = np.maximum(ratio, LEAST) * pulls_at(closing | {"a_max_over_R": radius}, how)
+    return np.where((ratio > 0.0) & (pulls > 0.0), pulls, np.nan)
+
+
+def pulls_at(scenes: Mapping[str, ArrayLike], how: How) -> NDArray[np.float64]:
+    """Return the pulls in 1.5 pi R dgamma of contacts up to a_max at the coordinate 0, of the broadcast shape."""
+    profile = how.profile
+    found = prepared(scenes, how.loading)
     n, series = in_own_wavelength(profile)
     wavelength, amplitude = found.wavelength / n, n * found.amplitude if series.size else 0.0 * found.amplitude
     out = np.full((found.k.size, found.rim.shape[1]), np.nan)
@@ -77,5 +84,5 @@ def snap_in_force(scenes: Mapping[str, ArrayLike], ratio: NDArray[np.float64], h
         )
 
     run_by_exponent(found.k, work, how.threads, found.rim.shape[1])
-    pulls = np.maximum(ratio, LEAST) * out.reshape(found.shape)
-    return np.where((ratio > 0.0) & (pulls > 0.0), pulls, np.nan)
+    note_compiled("edge")
+    return out.reshape(found.shape)
