@@ -16,6 +16,8 @@ class Contact(Protocol):
     """The control whose tilt vanishes at the extrema of P."""
     starts_rising: bool
     """Whether Y rises from a = 0 on."""
+    work: arb
+    """The work of adhesion over dgamma."""
     shortest: int
     """Waves of the shortest kind in a wavelength."""
     innermost: float
@@ -50,7 +52,15 @@ class Contact(Protocol):
         ...
 
     def ratio(self, z: arb, level: arb) -> arb:
-        """Rho = x/Delta at a coordinate that is held, 1 in equilibrium: the drop of energy is 1 - rho^2."""
+        """Rho = x/Delta at a coordinate that is held, Delta that of dgamma: the drop of energy is `work` - rho^2."""
+        ...
+
+    def pinned(self, z: arb) -> arb:
+        """Return what is prescribed, a depth under a load, between the curve of dgamma and that of the work."""
+        ...
+
+    def force_at_zero(self, z: arb) -> arb:
+        """Load of a contact of this radius at the coordinate 0, in equilibrium or not."""
         ...
 
     def depth_at_full_contact(self, level: arb) -> arb:

@@ -30,8 +30,8 @@ class Curve:
     shortest = 1
     innermost = 1.5
 
-    def __init__(self, parameters: Mapping[str, float]) -> None:
-        """Derive M and the coefficients of the curve."""
+    def __init__(self, parameters: Mapping[str, float], work: float = 1.0) -> None:
+        """Derive M and the coefficients of the curve, whose work of adhesion is `work` dgamma."""
         k, nu = arb(parameters["k"]), arb(parameters["nu"])
         pi = arb.pi()
         self.k, self.sine = k, sine_of(parameters["k"])
@@ -39,7 +39,9 @@ class Curve:
         self.theta = theta(k, nu)
         self.modulus = self.theta * arb(parameters["modulus"]) / arb(parameters["c0_over_R"]) ** k
         self.stiffness = 2 ** (1 - k) * self.modulus / (1 + k)
-        self.adhesion = (2 ** (1 + k) * pi / self.modulus).sqrt()
+        self.strength = (2 ** (1 + k) * pi / self.modulus).sqrt()
+        self.work = arb(work)
+        self.adhesion = self.strength * self.work.sqrt()
         self.wavelength = arb(parameters["lambda_over_R"]) if self.amplitude > 0 else self._natural_wavelength()
         self.waviness = 4 * pi * pi * self.amplitude / self.wavelength
         unit = self.adhesion * (2 * pi / self.wavelength) ** ((3 + k) / 2)
@@ -51,7 +53,7 @@ class Curve:
 
     def _natural_wavelength(self) -> arb:
         """Give a smooth punch, which has none, a wavelength at which the phase of its jump-in is about 1."""
-        jump_in = ((1 + self.k) * self.adhesion) ** (2 / (3 + self.k))
+        jump_in = ((1 + self.k) * self.strength) ** (2 / (3 + self.k))
         return 2 * arb.pi() * arb(2) ** round(math.log2(float(jump_in)))
 
     def phase(self, a: arb) -> arb:
@@ -80,8 +82,16 @@ class Curve:
     coordinate = delta
 
     def ratio(self, z: arb, level: arb) -> arb:
-        """Rho = (delta_H - level)/Delta at a depth that is held."""
-        return (self.hertz(z) - level) / self.gap(z)
+        """Rho = (delta_H - level)/Delta at a depth that is held, Delta that of dgamma."""
+        return (self.hertz(z) - level) / (self.strength * self.radius(z) ** ((1 - self.k) / 2))
+
+    def pinned(self, z: arb) -> arb:
+        """Depth between the curve of dgamma and that of the work of adhesion."""
+        return (self.strength - self.adhesion) * self.radius(z) ** ((1 - self.k) / 2)
+
+    def force_at_zero(self, z: arb) -> arb:
+        """Load of a contact of this radius at the coordinate 0, in equilibrium or not."""
+        return self.force(z) - self.stiffness * self.radius(z) ** (1 + self.k) * self.delta(z)
 
     def depth_at_full_contact(self, level: arb) -> arb:
         """Depth at the rim is what is prescribed."""

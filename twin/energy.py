@@ -68,7 +68,7 @@ def dissipated(curve: Contact, jump: Jump) -> arb:
 
     def density(z: arb) -> arb:
         ratio = curve.ratio(z, jump.level)
-        return curve.radius(z) * (1 - ratio * ratio)
+        return curve.radius(z) * (curve.work - ratio * ratio)
 
     lo, hi = (jump.start, jump.end) if jump.start < jump.end else (jump.end, jump.start)
     drop = 2 * arb.pi() * scale * integral(curve, density, lo, hi)

@@ -75,7 +75,8 @@ def load(curve: Contact, made: list[Branch]) -> tuple[list[Jump], arb, arb]:
     for branch in made:
         if branch.top is not None and not branch.top > level:
             continue
-        jumps.append(Jump(at, crossing(curve, branch, level), level))
+        if not (branch.lo == 0 and branch.bottom == level):  # without adhesion contact grows from a point
+            jumps.append(Jump(at, crossing(curve, branch, level), level))
         if branch.hi is None or branch.top is None:
             return jumps, arb("inf"), arb("inf")
         at, level = branch.hi, branch.top

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Final
 
 from flint import arb
 
@@ -17,6 +18,7 @@ from gradhesion.twin.roots import extrema
 from gradhesion.twin.turning import TURNS, turning
 from gradhesion.twin.window import window
 
+ZERO: Final = arb(0)
 PARAMETERS = ("k", "nu", "modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R")
 
 
@@ -64,13 +66,20 @@ class Solution:
     """None for an unbounded punch that does not turn before."""
     turning_condition: float = 0.0
     """The relative change of the turning radius for one of the terms of the depth or load at which it turns."""
+    front_energy: arb = ZERO
+    pinned_depth: arb = ZERO
+    snap_in_force: arb = ZERO
+    """NaN where there is no jump into contact."""
     turning_slope: float = 0.0
     """The relative change of the force for one of the turning radius; 0 where the pull-off is not there."""
 
 
-def curve_of(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Contact:
-    """Return the equilibrium curve of a scene; one cosine on a paraboloid under displacement control has its own."""
-    return Curve(parameters) if shape == PLAIN else GeneralCurve(parameters, shape)
+def curve_of(parameters: Mapping[str, float], shape: Shape = PLAIN, work: float = 1.0) -> Contact:
+    """Return the equilibrium curve of a scene at some work of adhesion, over dgamma.
+
+    One cosine on a paraboloid under displacement control has its own.
+    """
+    return Curve(parameters, work) if shape == PLAIN else GeneralCurve(parameters, shape, work)
 
 
 def waves_to_follow(parameters: Mapping[str, float], shape: Shape = PLAIN, *, cycle: bool) -> float:
@@ -88,43 +97,59 @@ def waves_to_follow(parameters: Mapping[str, float], shape: Shape = PLAIN, *, cy
 
 
 def solve(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Solution:
-    """Solve one scene; under a dead load its energy is without the jump-out, which has no bound."""
-    curve = curve_of(parameters, shape)
-    turn = next((turning(curve, name, parameters[name]) for name in TURNS if name in parameters), None)
+    """Solve one scene; under a dead load its energy is without the jump-out, which has no bound.
+
+    Its edge closes at `closing_ratio` dgamma, dgamma if that is not given, and opens at dgamma: loading goes along one
+    curve, unloading along another one.
+    """
+    ratio = parameters.get("closing_ratio", 1.0)
+    curve, closing = curve_of(parameters, shape), curve_of(parameters, shape, ratio)
+    turn = next((turning(closing, name, parameters[name]) for name in TURNS if name in parameters), None)
     if turn is not None and turn.place is not None and not turn.place > 0:
         return _without_contact(parameters["indentation_max_over_R"], turn.margin)
     if turn is not None and turn.place is not None:
-        curve.rim = turn.place.mid()
+        curve.rim = closing.rim = turn.place.mid()
     held = _pull_off(curve)
     path, made = cycle(curve)
+    up, made_up = (path, made) if ratio == 1.0 else cycle(closing)
     turned = turn is not None and turn.place is not None
     turns_at = None if curve.rim is None else curve.radius(curve.rim)
-    jumps = path.loading + path.unloading
-    if shape.control == "load":
-        jumps = [jump for jump in jumps if jump.end > 0]
-    drops = [energy.dissipated(curve, jump) for jump in jumps]
-    lost = sum(drops, arb(0))
+    leaving = [jump for jump in path.unloading if jump.end > 0 or shape.control != "load"]
+    gained = [energy.dissipated(closing, jump) for jump in up.loading]
+    drops = [energy.dissipated(curve, jump) for jump in leaving]
+    area = arb(0) if turns_at is None else arb.pi() * turns_at * turns_at
+    front = (1 - closing.work) * area if ratio < 1.0 else arb(0)
+    if turns_at is None and ratio < 1.0:
+        front = arb("inf")
+    terms = [*gained, *drops, front]
+    lost = sum(terms, arb(0))
+    margins = [_margin_jumps(closing, up, made_up, turned=turned)]
+    if ratio < 1.0:
+        margins.append(_margin_jumps(curve, path, made, turned=True))
     return Solution(
         pull_off_force=held.pull_off_force,
         pull_off_radius=held.pull_off_radius,
         dissipated_energy=lost,
-        loading_jumps=len(path.loading),
+        loading_jumps=len(up.loading),
         unloading_jumps=len(path.unloading),
-        delta_max=None if curve.rim is None else curve.depth_at_full_contact(path.largest),
+        delta_max=None if curve.rim is None else closing.depth_at_full_contact(up.largest),
         delta_jump_out=curve.delta(path.last),
-        loading_energy=sum(drops[: len(path.loading)], arb(0)),
-        unloading_energy=sum(drops[len(path.loading) :], arb(0)),
-        margin_jumps=min(turn.margin if turn else 1.0, _margin_jumps(curve, path, made, turned=turned)),
+        loading_energy=sum(gained, arb(0)),
+        unloading_energy=sum(drops, arb(0)),
+        margin_jumps=min(turn.margin if turn else 1.0, *margins),
         margin_radius=held.margin_radius,
-        energy_condition=float(sum((abs(drop) for drop in drops), arb(0)) / abs(lost)) if drops else 1.0,
+        energy_condition=_condition(terms, lost),
         radius_condition=held.radius_condition,
         force_condition=held.force_condition,
-        delta_max_size=curve.full_depth_size(path.deepest) if curve.rim is not None else math.inf,
+        delta_max_size=closing.full_depth_size(up.deepest) if curve.rim is not None else math.inf,
         delta_jump_out_size=curve.depth_size(path.last),
         folded_waves=curve.shortest * _folded_waves(made),
         turning_radius=turns_at,
         turning_condition=turn.condition if turn else 0.0,
         turning_slope=_turning_slope(curve) if turned and held.pull_off_radius == turns_at else 0.0,
+        front_energy=front,
+        pinned_depth=_pinned(closing),
+        snap_in_force=_snap_in_force(closing, up, shape),
     )
 
 
@@ -150,7 +175,28 @@ def _without_contact(depth: float, margin: float) -> Solution:
         delta_jump_out_size=0.0,
         folded_waves=0.0,
         turning_radius=nothing,
+        snap_in_force=nowhere,
     )
+
+
+def _pinned(closing: Contact) -> arb:
+    """Return how far the curve of closing is above that of dgamma where the edge turns."""
+    if closing.work == 1:
+        return ZERO
+    return arb("inf") if closing.rim is None else closing.pinned(closing.rim)
+
+
+def _condition(terms: list[arb], total: arb) -> float:
+    """Return the sum of the sizes of some terms over that of their sum."""
+    return float(sum((abs(term) for term in terms), arb(0)) / abs(total)) if total.is_finite() and total != 0 else 1.0
+
+
+def _snap_in_force(closing: Contact, path: Path, shape: Shape) -> arb:
+    """Return the pull just after the jump into contact, in 1.5 pi; a dead load holds none."""
+    first = path.loading[0] if path.loading else None
+    if first is None or first.start != 0 or not closing.work > 0:
+        return arb("nan")
+    return ZERO if shape.control == "load" else -closing.force_at_zero(first.end) / (3 * arb.pi() / 2)
 
 
 def _turning_slope(curve: Contact) -> float:

@@ -44,6 +44,9 @@ CYCLE: Final = frozenset(
         "delta_max",
         "delta_jump_out",
         "turning_radius",
+        "front_energy",
+        "pinned_depth",
+        "snap_in_force",
     )
 )
 """Outputs for which the cycle must be followed."""
@@ -158,6 +161,8 @@ def _ratios(parameters: Mapping[str, float]) -> dict[str, arb]:
     for length, name in lengths.items():
         if length in parameters:
             ratios[name] = parameters[length] / radius
+    if "work_of_adhesion_closing" in parameters:
+        ratios["closing_ratio"] = parameters["work_of_adhesion_closing"] / arb(parameters["work_of_adhesion"])
     if "preload" in parameters:
         unit = 3 * arb.pi() / 2 * radius * arb(parameters["work_of_adhesion"])
         ratios["load_max"] = parameters["preload"] / unit
@@ -193,6 +198,9 @@ def in_si(found: Mapping[str, Expected], parameters: Mapping[str, float]) -> dic
         "delta_max": radius,
         "delta_jump_out": radius,
         "turning_radius": radius,
+        "front_energy": radius * radius * work,
+        "pinned_depth": radius,
+        "snap_in_force": 1.5 * arb.pi() * radius * work,
     }
     return {
         f"{name}_si": Expected(
@@ -228,10 +236,15 @@ def _of_cycle(solution: Solution) -> dict[str, Expected]:
     share = WALKED if solution.folded_waves < MOST_WALKED else SUMMED
     near = "a fold is about to be passed" if solution.margin_jumps < NEAR else ""
     error = _share(share * solution.energy_condition, solution.dissipated_energy)  # of the sizes of all jumps
+    moved = ROUNDED + DEPTH * solution.turning_condition  # of the radius at which the edge turns
+    edge = _share(2 * moved, solution.front_energy)
     return {
-        "dissipated_energy": Expected(solution.dissipated_energy, error),
+        "dissipated_energy": Expected(solution.dissipated_energy, error + edge),
         "loading_energy": Expected(solution.loading_energy, error),
-        "unloading_energy": Expected(solution.unloading_energy, error),
+        "unloading_energy": Expected(solution.unloading_energy, error + edge),
+        "front_energy": Expected(solution.front_energy, edge, near),
+        "pinned_depth": Expected(solution.pinned_depth, _share(2 * ROUNDED + 3 * moved, solution.pinned_depth), near),
+        "snap_in_force": Expected(solution.snap_in_force, _share(DEPTH, solution.snap_in_force)),
         "loading_jumps": Expected(arb(solution.loading_jumps), 0.0, near),
         "unloading_jumps": Expected(arb(solution.unloading_jumps), 0.0, near),
         "delta_max": _depth(solution.delta_max, solution.delta_max_size),

@@ -73,15 +73,15 @@ def turning(curve: Contact, turn: str, target: float) -> Turn:
     """Find where a cycle turns."""
     measured, wanted = Measured(curve, turn), arb(target)
     if turn == TURNS[0] and target < 0.0:
-        return Turn(arb(0), min(1.0, -target / measured.size(_first_place(curve))), 0.0)
+        return Turn(arb(0), min(1.0, -target / (measured.size(_first_place(curve)) or -target)), 0.0)
     margins = [1.0]
     if turn == TURNS[0]:
-        margins.append(target / measured.size(_first_place(curve)))
+        margins.append(target / (measured.size(_first_place(curve)) or target))
     level = arb(0)
     for branch in branches(curve, zeros(curve, curve.fold, curve.rim)):
         if branch.top is not None and not branch.top > level:
             continue
-        arrival = crossing(curve, branch, level)
+        arrival = branch.lo if branch.bottom == level else crossing(curve, branch, level)
         places = measured.pieces(arrival, _end(branch, measured, wanted))
         values = [measured.value(z) for z in places]
         if branch.hi is not None and branch.hi is not curve.rim:
@@ -103,7 +103,7 @@ def _first_place(curve: Contact) -> arb:
     """Return where the first branch is met at the coordinate 0, or the rim."""
     for branch in branches(curve, zeros(curve, curve.fold, curve.rim)):
         if branch.top is None or branch.top > 0:
-            return crossing(curve, branch, arb(0))
+            return branch.lo if branch.bottom == 0 else crossing(curve, branch, arb(0))
     assert curve.rim is not None
     return curve.rim
 

@@ -80,7 +80,7 @@ def _mistakes_without_a_turn(checked: Checked, sound: Mapping[str, Values]) -> I
     turn = "indentation_max" if "physical" in checked.data else "indentation_max_over_R"
     about = OUTPUTS[name.removesuffix(SI)].split(",")[0]
     sentence = (
-        f"an unbounded punch that does not turn opens from ever larger radii, and its "
-        f"{about} has no bound where it closes at less work; give {turn} or a finite radius of the punch, or remove this output"
+        f"an unbounded punch that does not turn opens from ever larger radii, and {about} has no bound where it closes "
+        f"at less work; give {turn} or a finite radius of the punch, or remove this output"
     )
     yield Mistake(path, name, sentence)

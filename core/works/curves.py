@@ -1,7 +1,7 @@
 """Curves of one scene that opens at a larger work of adhesion than it closes at: one is drawn for each, and joined.
 
 The path climbs the closing curve and descends the opening one; between them it is pinned, a straight line at the radius
-at which the edge turns. Equilibrium, the smooth curve and states are those of opening, `closing_equilibrium` of closing.
+at which the edge turns. Equilibrium, the smooth curve and states belong to opening, `closing_equilibrium` to closing.
 """
 
 import math

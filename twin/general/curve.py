@@ -34,15 +34,20 @@ class Control(NamedTuple):
 class GeneralCurve:
     """Coordinate, depth, load and tilt of one scene; parameters are exact doubles under the keys of a study."""
 
-    def __init__(self, parameters: Mapping[str, float], shape: Shape) -> None:
-        """Derive M and the coefficients of the curve; with the control "machine" there is a `machine_stiffness`."""
+    def __init__(self, parameters: Mapping[str, float], shape: Shape, work: float = 1.0) -> None:
+        """Derive M and the coefficients of the curve, whose work of adhesion is `work` dgamma.
+
+        With the control "machine" there is a `machine_stiffness`.
+        """
         k, m = arb(parameters["k"]), arb(shape.exponent)
         self.k, self.m, self.c = k, m, (1 - k) / 2
         self.theta = theta(k, arb(parameters["nu"]))
         modulus = arb(parameters["modulus"])
         self.modulus = self.theta * modulus / arb(parameters["c0_over_R"]) ** k
         self.stiffness = 2 ** (1 - k) * self.modulus / (1 + k)
-        self.adhesion = (2 ** (1 + k) * arb.pi() / self.modulus).sqrt()
+        self.strength = (2 ** (1 + k) * arb.pi() / self.modulus).sqrt()
+        self.work = arb(work)
+        self.adhesion = self.strength * self.work.sqrt()
         self.front = (m / 2).gamma() * ((1 + k) / 2).gamma() / (2 * ((1 + k + m) / 2).gamma())
         waves = tuple(wave for wave in shape.harmonics if wave[1] != 0.0 or wave[2] != 0.0)
         self.amplitude = arb(parameters["A"]) if waves else arb(0)
@@ -61,7 +66,7 @@ class GeneralCurve:
 
     def _natural_wavelength(self) -> arb:
         """Give a smooth punch, which has none, a wavelength at which the phase of its jump-in is about 1."""
-        jump_in = (self.adhesion / self.front) ** (1 / (self.m - self.c))
+        jump_in = (self.strength / self.front) ** (1 / (self.m - self.c))
         return 2 * arb.pi() * arb(2) ** round(float(jump_in.log() / arb(2).log()))
 
     def _innermost(self) -> float:
@@ -114,10 +119,24 @@ class GeneralCurve:
         return alpha * (depth - gap) + beta * area * (load - gap)
 
     def ratio(self, z: arb, level: arb) -> arb:
-        """Rho = x/Delta at a coordinate that is held: 1 in equilibrium."""
-        area, depth, load, gap = self._state(z)
+        """Rho = x/Delta at a coordinate that is held, Delta that of dgamma."""
+        area, depth, load, _ = self._state(z)
         alpha, beta, _ = self.fold
+        gap = self.strength * self.radius(z) ** self.c
         return (alpha * depth + beta * area * load - level) / ((alpha + beta * area) * gap)
+
+    def pinned(self, z: arb) -> arb:
+        """Return what is prescribed, a depth under a load, between the curve of dgamma and that of the work."""
+        area, _, _, _ = self._state(z)
+        alpha, beta, _ = self.fold
+        depth = (self.strength - self.adhesion) * self.radius(z) ** self.c
+        return depth if alpha == 0 else (alpha + beta * area) * depth
+
+    def force_at_zero(self, z: arb) -> arb:
+        """Load of a contact of this radius at the coordinate 0, in equilibrium or not."""
+        area, _, _, _ = self._state(z)
+        alpha, beta, _ = self.fold
+        return self.force(z) - self.stiffness * area * self.coordinate(z) / (alpha + beta * area)
 
     def _level(self, area: arb, control: Control) -> tuple[arb, arb]:
         """Return q and a dq/da."""
