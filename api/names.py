@@ -36,5 +36,7 @@ class Given(TypedDict, total=False):
     indentation_max_over_R: Any
     preload: Any
     load_max: Any
+    work_of_adhesion_closing: Any
+    closing_ratio: Any
     adhesion_range: Any
     adhesion_range_over_R: Any

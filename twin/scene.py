@@ -70,6 +70,8 @@ class Solution:
     pinned_depth: arb = ZERO
     snap_in_force: arb = ZERO
     """NaN where there is no jump into contact."""
+    snap_in_size: float = 0.0
+    """The size of its terms."""
     turning_slope: float = 0.0
     """The relative change of the force for one of the turning radius; 0 where the pull-off is not there."""
 
@@ -150,6 +152,7 @@ def solve(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Solution:
         front_energy=front,
         pinned_depth=_pinned(closing),
         snap_in_force=_snap_in_force(closing, up, shape),
+        snap_in_size=float(closing.force_size(up.loading[0].end)) if up.loading else 0.0,
     )
 
 
@@ -196,7 +199,10 @@ def _snap_in_force(closing: Contact, path: Path, shape: Shape) -> arb:
     first = path.loading[0] if path.loading else None
     if first is None or first.start != 0 or not closing.work > 0:
         return arb("nan")
-    return ZERO if shape.control == "load" else -closing.force_at_zero(first.end) / (3 * arb.pi() / 2)
+    pull = -closing.force_at_zero(first.end) / (3 * arb.pi() / 2)
+    if shape.control == "machine" and pull < 0:  # it presses
+        return arb("nan")
+    return ZERO if shape.control == "load" else pull
 
 
 def _turning_slope(curve: Contact) -> float:

@@ -141,7 +141,8 @@ def _made(parameters: Mapping[str, float]) -> dict[str, Expected]:
     if "a_max_over_L" in parameters:
         made["a_max_over_R"] = parameters["a_max_over_L"] * similarity_length(parameters), 1.0
     if "a_max_over_a2" in parameters:
-        radius, condition = jump_in_radius(parameters)
+        closing = parameters["modulus"] / parameters.get("closing_ratio", 1.0)  # of loading
+        radius, condition = jump_in_radius({**parameters, "modulus": closing})
         made["a_max_over_R"] = parameters["a_max_over_a2"] * radius, condition
     if "R" in parameters:
         made |= {name: (value, 1.0) for name, value in _ratios(parameters).items()}
@@ -243,8 +244,8 @@ def _of_cycle(solution: Solution) -> dict[str, Expected]:
         "loading_energy": Expected(solution.loading_energy, error),
         "unloading_energy": Expected(solution.unloading_energy, error + edge),
         "front_energy": Expected(solution.front_energy, edge, near),
-        "pinned_depth": Expected(solution.pinned_depth, _share(2 * ROUNDED + 3 * moved, solution.pinned_depth), near),
-        "snap_in_force": Expected(solution.snap_in_force, _share(DEPTH, solution.snap_in_force)),
+        "pinned_depth": Expected(solution.pinned_depth, _share(DEPTH + 3 * moved, solution.pinned_depth), near),
+        "snap_in_force": Expected(solution.snap_in_force, DEPTH * solution.snap_in_size),
         "loading_jumps": Expected(arb(solution.loading_jumps), 0.0, near),
         "unloading_jumps": Expected(arb(solution.unloading_jumps), 0.0, near),
         "delta_max": _depth(solution.delta_max, solution.delta_max_size),

@@ -46,7 +46,7 @@ class Planes {
   runs(track, along, up, number) {
     const jumps = this.row(track.flag, number);
     const unloading = track.unloading === null ? undefined : this.row("path_unloading", number);
-    const depths = track.curve === "equilibrium" ? this.row(track.indentation, number) : undefined;
+    const depths = track.curve.endsWith("equilibrium") ? this.row(track.indentation, number) : undefined;
     const found = [];
     let run = null;
     for (let i = 1; i < along.length; i++) {

@@ -80,6 +80,7 @@ TRACKS: Final = (
     _track("smooth", "without waviness", "smooth_", (0, (7, 2)), 0.8, 0.9),
     _track("envelope", "loading envelope", "loading_envelope_", (0, (5, 1.5, 1, 1.5)), 0.9, 0.75),
     _track("envelope", "unloading envelope", "unloading_envelope_", (0, (5, 1.5, 1, 1.5, 1, 1.5)), 0.9, 0.6),
+    _track("closing_equilibrium", "equilibrium, closing", "closing_", (0, (6, 1)), 0.9, 0.55),
     _track("equilibrium", "equilibrium, stable", "", "-", 0.9, 0.4),
     _track("asymptotic", "asymptotic", "asymptotic_", (0, (1, 1.2)), 1.0, 0.7),
     _track("effective", "effective path", "effective_", (0, (3, 1)), 1.1, 0.3),
@@ -219,7 +220,7 @@ def jumps_of(track: Track, scene: Mapping[str, Values]) -> Steps:
 
 def falls_of(track: Track, scene: Mapping[str, Values]) -> Steps:
     """Report which steps of the equilibrium curve are unstable: the depth falls (none if the dataset does not know)."""
-    depths = scene.get(track.indentation) if track.curve == "equilibrium" else None
+    depths = scene.get(track.indentation) if track.curve.endswith("equilibrium") else None
     return np.zeros(1, bool) if depths is None else np.diff(depths) < 0.0
 
 

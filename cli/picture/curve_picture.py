@@ -299,7 +299,8 @@ def _handles(scenes: Sequence[Scene], tracks: Sequence[Track]) -> list[Artist]:
     for track in tracks:
         made.append(entry(track.label, INK if inked else track.colour, track.dash, track.width))
         if any(falls_of(track, scene.values).any() for scene in scenes):
-            made.append(entry("equilibrium, unstable", faded(INK if inked else track.colour), track.dash, track.width))
+            name = "closing" if track.curve.startswith("closing") else "equilibrium"
+            made.append(entry(f"{name}, unstable", faded(INK if inked else track.colour), track.dash, track.width))
     if any(jumps_of(track, scene.values).any() for track in tracks for scene in scenes):
         made.append(entry("jump", INK, JUMP, THIN))
     if any(track.curve == "path" for track in tracks):

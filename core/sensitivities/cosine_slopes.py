@@ -99,7 +99,7 @@ def _put(found: Floats, k: float, curve: Cosine, powers: tuple[float, float], by
     unit, half = powers
     b, g, _ = curve
     c = 0.5 * (1.0 - k)
-    if not value > 0.0:
+    if not abs(value) > 0.0:
         found[:, i] = math.nan
         return
     found[BY_MACHINE, i] = 0.0

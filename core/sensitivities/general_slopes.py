@@ -133,7 +133,7 @@ def _put(own: Sensed, row: int, powers: tuple[float, float, float], by: By, valu
     unit, half, unit_by_k = powers
     k, m, by_k, found = own.k, own.m, own.by_k, own.found[row]
     c = 0.5 * (1.0 - k)
-    if not value > 0.0:
+    if not abs(value) > 0.0:
         found[:, i] = math.nan
         return
     bend, gain, share, rim = by.bend / value, by.gain / value, by.share / value, by.rim / value

@@ -64,7 +64,7 @@ def _joined_jumps(up: Curves, down: Curves, grows: bool) -> Curves:
     return {name: np.concatenate([up[name][loading], down[name][unloading]]) for name in CURVES["jumps"]}
 
 
-def _joined_envelopes(closing: Mapping[str, float], opening: Mapping[str, float]) -> Curves | None:
+def _joined_envelopes(closing: Mapping[str, float], opening: Mapping[str, float], ratio: float) -> Curves | None:
     """Return the loading envelope at the work of closing, and the unloading one at that of opening."""
     down = subject_of(opening)
     up = None if down is None else subject_of({**closing, "a_max_over_R": down.end})
@@ -72,14 +72,14 @@ def _joined_envelopes(closing: Mapping[str, float], opening: Mapping[str, float]
         return None
     radii = np.union1d(*(draw_envelope(one)["envelope_contact_radius"] for one in (up, down)))
     found: Curves = {"envelope_contact_radius": radii}
-    for name, one, sign in (("loading", up, -1.0), ("unloading", down, 1.0)):
+    for name, one, sign, unit in (("loading", up, -1.0, max(ratio, LEAST)), ("unloading", down, 1.0, 1.0)):
         form = one.plain(1.0 + sign * one.chi, one.mean_height)
         _, depth, load = form.scaled(form.states(radii / form.radius_scale))
-        found |= {f"{name}_envelope_indentation": depth, f"{name}_envelope_load": load}
+        found |= {f"{name}_envelope_indentation": depth, f"{name}_envelope_load": unit * load}
     return found
 
 
-def _joined_effective(closing: Mapping[str, float], opening: Mapping[str, float]) -> Curves:
+def _joined_effective(closing: Mapping[str, float], opening: Mapping[str, float], ratio: float) -> Curves:
     """Return loading of the effective path at the work of closing, and unloading at that of opening."""
     rims = {}
     if not opening["a_max_over_R"] < math.inf:
@@ -87,6 +87,7 @@ def _joined_effective(closing: Mapping[str, float], opening: Mapping[str, float]
         turns = [turning_place(one) * one.plain(1.0).radius_scale for one in subjects if one is not None]
         rims = {"a_max_over_R": max(turns, default=math.nan)}
     up, down = (draw_curves({**scene, **rims}, ["effective"])[0] for scene in (closing, opening))
+    up = _in_opening_units(up, ratio)
     first = int(np.argmax(up["effective_contact_radius"]))
     radii = down["effective_contact_radius"]
     last = radii.size - 1 - int(np.argmax(radii[::-1]))
@@ -104,6 +105,11 @@ def draw_two_works(
     ratio = float(scene[CLOSING])
     plain = {name: value for name, value in scene.items() if name != CLOSING}
     shape: dict[str, Any] = {"profile": profile, "loading": loading}
+    if ratio == 1.0:
+        own = [curve for curve in curves if curve not in (_CLOSING, "equilibrium")]
+        found, flags = draw_curves(plain, [*own, "equilibrium"], profile, loading)
+        found |= {name.replace("", "closing_", 1): found[name] for name in CURVES["equilibrium"]}
+        return {name: found[name] for curve in curves for name in CURVES[curve]}, flags
     turn = next((name for name in TURNS if name in scene), None)
     bare = {name: value for name, value in plain.items() if name != turn}
     made = closing_parameters(plain, np.asarray(ratio))
@@ -141,11 +147,11 @@ def draw_two_works(
         elif radius == 0.0:
             found |= drawn(plain, curve)
         elif curve == "envelope":
-            joined = _joined_envelopes({**bare_closing, **end}, {**bare, **end})
+            joined = _joined_envelopes({**bare_closing, **end}, {**bare, **end}, ratio)
             found |= drawn(bare, curve, a_max_over_R=math.nan) if joined is None else joined
         elif curve == "effective":
             rims = {"a_max_over_R": radius} if turn else {}
-            found |= _joined_effective({**bare_closing, **rims}, {**bare, **rims})
+            found |= _joined_effective({**bare_closing, **rims}, {**bare, **rims}, ratio)
         else:
             up = _in_opening_units(drawn(bare_closing, curve, a_max_over_R=radius), ratio)
             down = drawn(bare, curve, a_max_over_R=radius)

@@ -177,7 +177,8 @@ def solve_two_works(parameters: Mapping[str, ArrayLike], outputs: Sequence[str],
         given). `modulus` is E* R/w_o, loads are in 1.5 pi R w_o.
     outputs
         Those of `solve` but `contact_slope`, and those of `EDGE`: front_energy in R^2 w_o,
-        snap_in_force in 1.5 pi R w_o (0 under load control, NaN at ratio 0 and without contact), pinned_depth in R.
+        snap_in_force in 1.5 pi R w_o (0 under load control, NaN at ratio 0 and without contact;
+        negative where waves press at the depth 0), pinned_depth in R.
     how
         How the scenes are solved.
 

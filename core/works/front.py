@@ -36,7 +36,8 @@ def adhesive_depth(
         for values in (scenes.k, scenes.stretch, scenes.compliance)
     )
     with np.errstate(all="ignore"):
-        return stretch * radius ** (0.5 * (1.0 - k)), compliance * radius ** (1.0 + k)
+        spring = np.where(compliance == 0.0, 0.0, compliance * radius ** (1.0 + k))
+        return stretch * radius ** (0.5 * (1.0 - k)), spring
 
 
 def pinned_depth(
@@ -48,5 +49,5 @@ def pinned_depth(
     """
     depth, spring = adhesive_depth(parameters, loading, radius)
     with np.errstate(all="ignore"):
-        apart = (1.0 - np.sqrt(ratio)) * depth * (1.0 if loading.control == "load" else 1.0 + spring)
-    return np.where(ratio == 1.0, 0.0 * ratio, apart)
+        apart = (1.0 - ratio) / (1.0 + np.sqrt(ratio)) * depth * (1.0 if loading.control == "load" else 1.0 + spring)
+    return np.where((ratio == 1.0) | (radius == 0.0), 0.0, apart)

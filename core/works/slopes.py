@@ -135,10 +135,10 @@ def two_work_sensitivities(
             by_ratio = np.zeros(shape)
         else:
             loss, gain = np.maximum(ratio, LEAST) * loaded["loading_energy"], opened["unloading_energy"]
-            front = front_energy(ratio, radius)
+            front, signs = front_energy(ratio, radius), np.ones(shape)  # either part may gain energy
             value = loss + gain + front
-            by_loss = _times(by_parameters(up, material, loaded[SLOPES][ENERGY], loss), loss)
-            by = by_loss + _times(by_parameters(down, material, opened[SLOPES][ENERGY], gain), gain)
+            by_loss = _times(by_parameters(up, material, loaded[SLOPES][ENERGY], signs), loss)
+            by = by_loss + _times(by_parameters(down, material, opened[SLOPES][ENERGY], signs), gain)
             with np.errstate(invalid="ignore"):
                 by_ratio = loss - by_loss[..., _MODULUS] - np.pi * ratio * radius * radius
             by[..., _RIM] += 2.0 * front

@@ -48,6 +48,8 @@ def fill_pulls(basis: Basis, curves: GeneralCurves, out: Floats) -> None:
 def snap_in_force(scenes: Mapping[str, ArrayLike], ratio: NDArray[np.float64], how: How) -> NDArray[np.float64]:
     """Return the pulls in 1.5 pi R w_o, of the broadcast shape: 0 under load control, NaN at ratio 0.
 
+    Negative where waves press at the depth 0, so that the contact is not one disc; by a machine NaN there.
+
     Parameters
     ----------
     scenes
@@ -65,7 +67,10 @@ def snap_in_force(scenes: Mapping[str, ArrayLike], ratio: NDArray[np.float64], h
     known: dict[str, Any] = {"threads": how.threads, "profile": how.profile, "loading": how.loading}
     radius = solve(start, ["turning_radius"], check_contact=False, **known)["turning_radius"]
     pulls = np.maximum(ratio, LEAST) * pulls_at(closing | {"a_max_over_R": radius}, how)
-    return np.where((ratio > 0.0) & (pulls > 0.0), pulls, np.nan)
+    presses = (pulls < 0.0) & (
+        how.loading.control == "machine"
+    )  # whose depth is not 0 there, and another one was found
+    return np.where((ratio > 0.0) & ~presses, pulls, np.nan)
 
 
 def pulls_at(scenes: Mapping[str, ArrayLike], how: How) -> NDArray[np.float64]:
