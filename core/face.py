@@ -3,6 +3,7 @@
     Cosine      one cosine on a paraboloid under displacement control   curve/cosine.py       faces/cosine.py
     Series      any profile under any control                           curve/general.py      faces/series.py
     ShortWave   the leading form of any profile's short waves           curve/short_wave.py   faces/short_wave.py
+    Patterned   any profile and control on a patterned interface        curve/patterned.py    faces/patterned.py
 
 Numba takes the answer by the type of `curve` when it compiles (compiler/dispatch.py); what is written for one kind of
 curve names its functions directly. All declarations share these arguments:
@@ -32,10 +33,12 @@ AnyCurve: TypeAlias = Any
 """A curve of any kind."""
 AnyNear: TypeAlias = Any
 """What sensitivities of a curve need, by its kind: `Near` of sensitivities/neighbours.py, or how a basis changes."""
-_OF_PATHS: Final = tuple(f"gradhesion.core.faces.{kind}" for kind in ("cosine", "series", "short_wave"))
-_OF_EXACT: Final = _OF_PATHS[:2]
+_OF_PATHS: Final = tuple(f"gradhesion.core.faces.{kind}" for kind in ("cosine", "series", "short_wave", "patterned"))
+_OF_EXACT: Final = (*_OF_PATHS[:2], _OF_PATHS[3])
 _OF_SERIES: Final = _OF_PATHS[1:]
-_OF_CONTACT: Final = tuple(f"gradhesion.core.faces.{kind}_contact" for kind in ("cosine", "series"))
+_OF_CONTACT: Final = tuple(
+    f"gradhesion.core.faces.{kind}" for kind in ("cosine_contact", "series_contact", "patterned")
+)
 _OF_SLOPES: Final = tuple(f"gradhesion.core.faces.{kind}_slopes" for kind in ("cosine", "series"))
 
 

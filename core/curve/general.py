@@ -72,7 +72,7 @@ def level_at(k: float, alpha: float, t: float) -> float:
 
 
 @kernel(contract=True)
-def _level(k: float, alpha: float, beta: float, power: float, z: float) -> tuple[float, float, float]:
+def level_with_rate(k: float, alpha: float, beta: float, power: float, z: float) -> tuple[float, float, float]:
     """Return t, q and dq/dz, with power = z^(-n)."""
     if beta == 0.0:
         return 0.0, 0.5 * (1.0 - k), 0.0
@@ -89,7 +89,7 @@ def slope(basis: Basis, curve: Series, x: float, whole: float = 0.0) -> tuple[fl
     k = table.k
     z = TWO_PI * (whole + x)
     power = amplitude_power(table, z)
-    t, q, change = _level(k, alpha, beta, power, z)
+    t, q, change = level_with_rate(k, alpha, beta, power, z)
     bend = 2.0 * B * z if m == 2.0 else m * B * z ** (m - 1.0)
     _, _, v, v1 = waves_at(basis, curve, x, whole)
     value = bend + g * v - q * power
@@ -105,7 +105,7 @@ def rise(basis: Basis, curve: Series, x: float, whole: float = 0.0) -> tuple[flo
     z = TWO_PI * (whole + x)
     power = amplitude_power(table, z)
     stretch, front = z * power, 1.0 / (power * power)
-    t, q, change = _level(k, alpha, beta, power, z)
+    t, q, change = level_with_rate(k, alpha, beta, power, z)
     bend = B * z * z if m == 2.0 else B * z**m
     push = m * bend / z
     w0, w1, v, v1 = waves_at(basis, curve, x, whole)

@@ -60,7 +60,7 @@ def place_left(basis: Basis, curve: Series, x: float, whole: float, above: float
 
 
 @kernel(contract=True)
-def _rise(basis: Basis, curve: Series, left: Left, x: float, whole: float) -> float:
+def rise_from(basis: Basis, curve: Series, left: Left, x: float, whole: float) -> float:
     """Return [Y(z) - Y_j]/((alpha + beta z^(1+k)) z^c); each term's difference first, however large the terms are."""
     table, _, _ = basis
     _, m, g, alpha, beta = curve
@@ -97,7 +97,7 @@ def find_landing(basis: Basis, curve: Series, left: Left, low: float, high: floa
     """
     x = 0.5 * (low + high)
     for _ in range(_STEPS):
-        rest = _rise(basis, curve, left, x, whole)
+        rest = rise_from(basis, curve, left, x, whole)
         if rest == 0.0:
             return x
         if rest < 0.0:
@@ -127,7 +127,7 @@ def drop(basis: Basis, curve: Series, left: Left, low: float, high: float, whole
         part = 0.0
         for i in range(begin, end):
             x = low + width * PLACES[i]
-            u = _rise(basis, curve, left, x, whole)
+            u = rise_from(basis, curve, left, x, whole)
             part -= SHARES[i] * (whole + x) * u * (2.0 + u)
         total += width * part
         low = beyond
@@ -143,7 +143,7 @@ def jump_energy(basis: Basis, curve: Series, start: float, end: float, whole: fl
 
 
 @kernel(contract=True)
-def _balance(basis: Basis, curve: Series, x: float) -> tuple[float, float]:
+def balance(basis: Basis, curve: Series, x: float) -> tuple[float, float]:
     """Return Y on the curve at a radius, and (alpha + beta z^(1+k)) z^c: rho is 1 + (Y - Y_j) over that."""
     table, _, _ = basis
     B, m, g, alpha, beta = curve
@@ -159,7 +159,7 @@ def _balance(basis: Basis, curve: Series, x: float) -> tuple[float, float]:
 @kernel(contract=True)
 def _from_zero(basis: Basis, curve: Series, x: float, level: float) -> float:
     """Return x (1 - rho^2) at a radius of a jump from or to zero contact."""
-    value, scale = _balance(basis, curve, x)
+    value, scale = balance(basis, curve, x)
     u = (value - level) / scale
     return -x * u * (2.0 + u)
 
@@ -188,7 +188,7 @@ def energy_from_zero(basis: Basis, curve: Series, x: float, level: float) -> flo
 @kernel(contract=True)
 def _parts(basis: Basis, curve: Series, x: float) -> tuple[float, float, float]:
     """Return x (1 - rho^2) at a radius of a jump from or to zero contact as a polynomial of the coordinate Y_j."""
-    value, scale = _balance(basis, curve, x)
+    value, scale = balance(basis, curve, x)
     share = 1.0 / scale
     u = value * share
     return -x * u * (2.0 + u), 2.0 * x * (1.0 + u) * share, -x * share * share

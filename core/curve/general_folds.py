@@ -19,7 +19,7 @@ MOST_CELLS: Final = 333_000
 MOST_FOLDS: Final = 400_000
 _SHARE: Final = 0.7
 """Longest cell over its distance from zero contact, where powers of z have a branch point."""
-_WAVES: Final = 0.75
+WAVES: Final = 0.75
 """Longest cell in shortest waves."""
 _STEPS: Final = 80
 _SURE: Final = 1e-15
@@ -52,7 +52,7 @@ def room() -> Search:
 def cell_width(series: Harmonics, x: float) -> float:
     """Return the width of the cell that begins or ends at x."""
     shortest = highest_harmonic(series)
-    return min(_WAVES / shortest, _SHARE * x) if shortest > 0.0 else _SHARE * x
+    return min(WAVES / shortest, _SHARE * x) if shortest > 0.0 else _SHARE * x
 
 
 @kernel()

@@ -116,14 +116,14 @@ def chi_terms(table: Table, series: Harmonics, gain: float, deepest: float) -> T
 
 
 @kernel()
-def _chi(terms: Terms, z: float) -> float:
+def chi_at(terms: Terms, z: float) -> float:
     """Return a bound of the waves over z^c that holds from z on outwards."""
     first, second, deepest, third, _ = terms
     return min(first + second / (z * z), deepest + third / z)
 
 
 @kernel()
-def _floor(bend: float, power: float, k: float, chi: float, low: float, high: float) -> float:
+def floor_between(bend: float, power: float, k: float, chi: float, low: float, high: float) -> float:
     """Return the lowest of X [bend z^power - 1 - chi] for z in low .. high: X = z^e falls and then rises."""
     e = 0.5 * (3.0 + k)
     lowest = ((1.0 + chi) * e / (bend * (power + e))) ** (1.0 / power)
@@ -140,7 +140,7 @@ def load_at_rim(basis: Basis, curve: Series, x: float, x_low: float) -> float:
 
 
 @kernel()
-def _better(
+def better(
     basis: Basis, curve: Series, low: float, high: float, work: Search, cell_zeros: Floats, best: Lowest, whole: float
 ) -> Lowest:
     """Return the lowest load so far, its place, and the second lowest, a cell taken in."""
@@ -161,16 +161,16 @@ def _in_question(terms: Terms, curve: Series, k: float, start: float, rim: float
     bend, power = B * m / (1.0 + k + m), m - 0.5 * (1.0 - k)
     inner, low = 0.0, start
     outer, high = rim, start
-    if _floor(bend, power, k, _chi(terms, _BLOCK * rim), _BLOCK * rim, rim) < load:
+    if floor_between(bend, power, k, chi_at(terms, _BLOCK * rim), _BLOCK * rim, rim) < load:
         high = rim
     for _ in range(_HALVINGS):
         middle = 0.5 * (inner + low)
-        if _floor(bend, power, k, _chi(terms, _BLOCK * middle), _BLOCK * middle, middle) < load:
+        if floor_between(bend, power, k, chi_at(terms, _BLOCK * middle), _BLOCK * middle, middle) < load:
             low = middle
         else:
             inner = middle
         middle = 0.5 * (high + outer) if outer < math.inf else 2.0 * high
-        if _floor(bend, power, k, _chi(terms, _BLOCK * middle), middle, math.inf) < load:
+        if floor_between(bend, power, k, chi_at(terms, _BLOCK * middle), middle, math.inf) < load:
             high = middle
         else:
             outer = middle
@@ -205,7 +205,7 @@ def _lowest_far(
         place = cut
         while place < end:
             beyond = min(end, place + cell_width(series, x_rim))
-            best = _better(basis, curve, place, beyond, search, work[1], best, whole)
+            best = better(basis, curve, place, beyond, search, work[1], best, whole)
             place = beyond
     return True, best
 
@@ -223,7 +223,7 @@ def _lowest_about(basis: Basis, curve: Series, start: float, x_rim: float, x_rim
     zeros, place = np.empty(MOST), 0.0
     while place < end:
         beyond = min(end, place + cell_width(series, start))
-        best = _better(basis, curve, place, beyond, search, zeros, best, whole)
+        best = better(basis, curve, place, beyond, search, zeros, best, whole)
         place = beyond
     return best
 
@@ -267,10 +267,10 @@ def lowest_load(
     low, left = start, MOST_CELLS
     while low < x_rim and left > 0:
         z_low = TWO_PI * low
-        if _floor(bend, power, k, _chi(terms, z_low), z_low, math.inf) >= best[0] * WORTH and low > start:
+        if floor_between(bend, power, k, chi_at(terms, z_low), z_low, math.inf) >= best[0] * WORTH and low > start:
             break
         high = min(x_rim, low + cell_width(series, low))
-        best = _better(basis, controlled, low, high, work, cell_zeros, best, 0.0)
+        best = better(basis, controlled, low, high, work, cell_zeros, best, 0.0)
         low = high
         left -= 1
     high = start
@@ -280,15 +280,15 @@ def lowest_load(
             break
         low = _BLOCK * high
         near = terms[4] * z_high ** (1.0 - c)
-        chi = min(near, _chi(terms, TWO_PI * low))
-        if best[0] < 0.0 and _floor(bend, power, k, chi, TWO_PI * low, z_high) >= best[0] * WORTH:
+        chi = min(near, chi_at(terms, TWO_PI * low))
+        if best[0] < 0.0 and floor_between(bend, power, k, chi, TWO_PI * low, z_high) >= best[0] * WORTH:
             high = low
             continue
         low = high - min(cell_width(series, high), INWARDS * high)
         left -= 1
-        chi = min(near, _chi(terms, TWO_PI * low))
-        if not (best[0] < 0.0 and _floor(bend, power, k, chi, TWO_PI * low, z_high) >= best[0] * WORTH):
-            best = _better(basis, controlled, low, high, work, cell_zeros, best, 0.0)
+        chi = min(near, chi_at(terms, TWO_PI * low))
+        if not (best[0] < 0.0 and floor_between(bend, power, k, chi, TWO_PI * low, z_high) >= best[0] * WORTH):
+            best = better(basis, controlled, low, high, work, cell_zeros, best, 0.0)
         if high < 1e-100:
             return math.nan, math.nan, 0.0
         high = low
@@ -313,5 +313,5 @@ def floor_of_cell(terms: Terms, curve: Series, k: float, low: float, high: float
     """Return a bound below the load between two z."""
     B, m, _, _, _ = curve
     c = 0.5 * (1.0 - k)
-    chi = min(terms[4] * high ** (1.0 - c), _chi(terms, low))
-    return _floor(B * m / (1.0 + k + m), m - c, k, chi, low, high)
+    chi = min(terms[4] * high ** (1.0 - c), chi_at(terms, low))
+    return floor_between(B * m / (1.0 + k + m), m - c, k, chi, low, high)

@@ -176,7 +176,7 @@ def outermost_fold(basis: Basis, curve: Series) -> float:
 
 
 @kernel()
-def _last_left(basis: Basis, curve: Series, count: int, trace: Trace, rim: float) -> float:
+def last_left(basis: Basis, curve: Series, count: int, trace: Trace, rim: float) -> float:
     """Return the place that unloading leaves last."""
     level = coordinate(basis, curve, rim) if rim < math.inf else math.inf
     now, _ = leave_rim(basis, curve, count, trace, rim, level)
@@ -221,7 +221,7 @@ def _other_sum(basis: Basis, curve: Series, first: float, last: float, rim: tupl
             level = coordinate(basis, curve, x) if x < math.inf else math.inf
             loss, _ = loading_to(basis, curve, count, trace, x, YES)
             unloaded, _, _ = unloading_from(basis, curve, count, trace, x, level, YES)
-            return loss + unloaded, _last_left(basis, curve, count, trace, x)
+            return loss + unloaded, last_left(basis, curve, count, trace, x)
     return math.nan, math.nan
 
 
@@ -248,7 +248,7 @@ def _energy_reports(
         count, trace, _ = walk(basis, curve, first, last, rim, NO)
         if count >= 0:
             total, outermost = loop(basis, curve, count, trace, rim)
-            left = _last_left(basis, curve, count, trace, rim)
+            left = last_left(basis, curve, count, trace, rim)
     residual = 2.0 / (1.0 + table.k) * total / alpha if alpha > 0.0 else math.nan
     chi = _crests(table, series, g)
     terms = (TWO_PI * outermost) ** 2 * chi * (1.0 + chi) + _spring(basis, curve, left) * abs(energy)

@@ -1,0 +1,159 @@
+"""What a patterned interface answers (core/face.py): the path as any profile, the gap by the profile alone."""
+
+import math
+
+
+from gradhesion.core import face
+from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.contact import touch
+from gradhesion.core.contact.gap import GROWTH, Edge
+from gradhesion.core.curve.general import Basis, Series, coordinate, level_with_rate
+from gradhesion.core.curve.patterned import Patterned, toughness_at
+from gradhesion.core.curve.patterned_energy import energy_between, energy_to
+from gradhesion.core.faces import series, series_contact
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.fractional import NODES
+from gradhesion.core.struve.power import amplitude_power
+from gradhesion.core.struve.series import highest_harmonic, sums
+from gradhesion.core.types import Floats, Work
+
+face.find_place.answers(Patterned)(series.find_place)
+face.depth_at.answers(Patterned)(series.depth_at)
+face.most_size_at.answers(Patterned)(series.most_size_at)
+face.fold_at.answers(Patterned)(series.fold_at)
+face.gap_in.answers(Patterned)(series.gap_in)
+face.coordinate_at.answers(Patterned)(coordinate)
+face.table_of.answers(Patterned)(series_contact.table_of)
+face.waves_are_one_disc.answers(Patterned)(series_contact.waves_are_one_disc)
+face.edge_at.answers(Patterned)(series_contact.edge_at)
+
+
+@face.waves_at.answers(Patterned)
+@kernel(contract=True)
+def waves_at(basis: Basis, curve: Patterned, x: float, whole: float) -> tuple[float, float, float, float]:
+    """Answer with the waves of the profile, and what kappa is short of 1; `whole` is added to x."""
+    table, pattern, _ = basis
+    x += whole
+    z = TWO_PI * x
+    c = 0.5 * (1.0 - table.k)
+    power = amplitude_power(table, z)
+    _, q, change = level_with_rate(table.k, curve.alpha, curve.beta, power, z)
+    own, rate, bend = toughness_at(basis, x)
+    lack = 1.0 - own
+    w0, w1, v, v1 = 0.0, 0.0, 0.0, 0.0
+    if pattern.gain > 0.0:
+        w0, w1, v, v1 = sums(table, pattern.cosine_bins, pattern.waves, x, 0.0)
+    g = pattern.gain
+    return (
+        g * w0 + power * lack,
+        g * w1 + power * lack,
+        g * v + power * (q * lack - z * rate),
+        g * v1 + power * (lack * (change - (1.0 - c) * q / z) - (q + c) * rate - z * bend),
+    )
+
+
+@face.depth_of_point.answers(Patterned)
+@kernel()
+def depth_of_point(basis: Basis, _curve: Patterned) -> float:
+    own, _, _ = toughness_at(basis, 0.0)
+    return -own if basis.table.k == 1.0 else 0.0
+
+
+@face.loss_between.answers(Patterned)
+@kernel()
+def loss_between(basis: Basis, curve: Patterned, start: float, end: float, _work: Work) -> float:
+    return energy_between(basis, curve, start, end)
+
+
+@face.loss_from_zero.answers(Patterned)
+@kernel()
+def loss_from_zero(basis: Basis, curve: Patterned, x: float) -> float:
+    return energy_to(basis, curve, x, 0.0)
+
+
+@face.loss_to_zero.answers(Patterned)
+@kernel()
+def loss_to_zero(basis: Basis, curve: Patterned, x: float, level: float) -> float:
+    return 0.0 if curve.alpha == 0.0 else -energy_to(basis, curve, x, level)
+
+
+@face.size_at.answers(Patterned)
+@kernel()
+def size_at(basis: Basis, curve: Patterned, x: float) -> float:
+    """Answer with the terms of the profile, and those of kappa with what a rounded place changes of it."""
+    table, pattern, _ = basis
+    z = TWO_PI * x
+    power = amplitude_power(table, z)
+    waves = 0.0
+    for i in range(pattern.waves.shape[0]):
+        n = pattern.waves[i, 0]
+        waves += math.hypot(pattern.waves[i, 1], pattern.waves[i, 2]) * n ** (0.5 * (1.0 - table.k))
+    height = waves * (1.0 + z * power * table.amplitude)
+    share = curve.alpha + curve.beta / (power * power)
+    return share * (curve.bend * z**curve.exponent + pattern.gain * height + z * power * pattern.most)
+
+
+@kernel()
+def _bare(basis: Basis, curve: Patterned) -> tuple[Basis, Series]:
+    """Return the curve of the same profile on a plain interface."""
+    table, pattern, _ = basis
+    B, m, _, alpha, beta = curve
+    return Basis(table, pattern.cosine_bins, pattern.waves), Series(B, m, pattern.gain, alpha, beta)
+
+
+@face.profile_at.answers(Patterned)
+@kernel()
+def profile_at(basis: Basis, curve: Patterned, x: float) -> float:
+    bare, own = _bare(basis, curve)
+    return touch.profile_at(bare, own, x)
+
+
+@face.touches_at_centre.answers(Patterned)
+@kernel()
+def touches_at_centre(basis: Basis, curve: Patterned, end: float) -> bool:
+    bare, own = _bare(basis, curve)
+    return touch.touches_at_centre(bare, own, end)
+
+
+@face.surely_open.answers(Patterned)
+@kernel()
+def surely_open(basis: Basis, curve: Patterned, x: float) -> float:
+    """Answer with the least stretch there is outside: depth_H exceeds the depth by that of where it is."""
+    low = basis.cosine_bins.least
+    own = math.sqrt(low) if basis.cosine_bins.of_work else low
+    return own * series_contact.surely_open(basis, curve, x)
+
+
+@face.is_always_one_disc.answers(Patterned)
+@kernel()
+def is_always_one_disc(basis: Basis, _curve: Patterned) -> bool:
+    """Answer that it is where the punch is smooth: depth_H rises with the radius, whatever the edge holds."""
+    return basis.cosine_bins.waves.shape[0] == 0
+
+
+@face.panels_of.answers(Patterned)
+@kernel()
+def panels_of(basis: Basis, curve: Patterned) -> tuple[float, float]:
+    highest = highest_harmonic(basis.cosine_bins.waves)
+    return 1.0 / highest if highest > 0.0 else math.inf, math.exp(GROWTH / curve.exponent)
+
+
+@face.excess_at.answers(Patterned)
+@kernel(contract=True)
+def excess_at(basis: Basis, curve: Patterned, edge: Edge, x: float) -> tuple[float, float]:
+    """Answer as any profile: what the edge's kappa is short of 1 stands in its wave."""
+    table, pattern, _ = basis
+    z = TWO_PI * x
+    w0, _, _, _ = sums(table, pattern.cosine_bins, pattern.waves, x, 0.0)
+    bend = edge.bend * math.expm1(curve.exponent * math.log1p((x - edge.x) / edge.x))
+    return bend + (pattern.gain * z * w0 - edge.wave) + edge.stretch, z * amplitude_power(table, z)
+
+
+@face.fill_heights.answers(Patterned)
+@kernel(contract=True)
+def fill_heights(basis: Basis, curve: Patterned, edge: Edge, low: float, width: float, heights: Floats) -> None:
+    for i in range(NODES.size):
+        over, stretch = excess_at(basis, curve, edge, math.sqrt(low * low + width * NODES[i]))
+        heights[i] = over * edge.stretch / (stretch * stretch)
+
+

@@ -1,0 +1,175 @@
+"""A toughness that varies with the radius: a Fourier series that multiplies the toughness, or the work of adhesion.
+
+    t(r) = 1 + toughness_amplitude sum_n [ cos_n cos(2 pi n r/lambda_t) + sin_n sin(2 pi n r/lambda_t) ]
+
+of="toughness": K_c(r) = K_c t, t >= 0;   of="work": w(r) = w t, t > 0. Either way the edge of a contact of radius r has
+the toughness kappa(r) K_c, with kappa = t or its root.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.core.problem.profile import HIGHEST, MOST_HARMONICS
+
+OF: Final = ("toughness", "work")
+"""What a pattern multiplies."""
+_SAMPLES: Final = 16
+"""Parts of the shortest wave that the search for the lowest value begins with."""
+_ROUNDING: Final = 8.0 * 2.0**-52
+"""Of the sum of the sizes of all terms, by which a sum of them may be off."""
+_NARROW: Final = 1e-15
+"""Part of the wavelength below which the search ends."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ToughnessHarmonic:
+    """One wave of a pattern, n times shorter than its wavelength.
+
+    Parameters
+    ----------
+    n
+        Waves a wavelength, a whole number from 1 to 10,000.
+    cos, sin
+        Amplitudes in units of `toughness_amplitude`; finite, 0 if left out.
+
+    Raises
+    ------
+    ValueError
+        For a number out of range.
+
+    Examples
+    --------
+    >>> ToughnessHarmonic(n=3, sin=0.2)
+    ToughnessHarmonic(n=3, cos=0.0, sin=0.2)
+    """
+
+    n: int
+    cos: float = 0.0
+    sin: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not (1 <= self.n <= HIGHEST and self.n == int(self.n)):
+            raise ValueError(f"toughness harmonic n = {self.n}: n is a whole number from 1 on, {HIGHEST:,} at most")
+        if not (math.isfinite(self.cos) and math.isfinite(self.sin)):
+            raise ValueError(f"toughness harmonic n = {self.n}: cos = {self.cos} and sin = {self.sin} must be finite")
+
+
+@dataclass(frozen=True)
+class Toughness:
+    """How the toughness of the interface, or its work of adhesion, varies with the radius.
+
+    Parameters
+    ----------
+    harmonics
+        1 to 64 waves, each n once.
+    of
+        "toughness" or "work": what the series multiplies.
+
+    Raises
+    ------
+    ValueError
+        For a series out of range, or an unknown `of`.
+
+    Examples
+    --------
+    >>> Toughness((ToughnessHarmonic(n=1, cos=0.2),)).of
+    'toughness'
+    """
+
+    harmonics: tuple[ToughnessHarmonic, ...]
+    of: str = "toughness"
+
+    def __post_init__(self) -> None:
+        if self.of not in OF:
+            raise ValueError(f"of = {self.of!r}: it is one of {', '.join(OF)}")
+        numbers = [harmonic.n for harmonic in self.harmonics]
+        if not 1 <= len(numbers) <= MOST_HARMONICS:
+            raise ValueError(f"{len(numbers)} toughness harmonics: a series has 1 to {MOST_HARMONICS}")
+        repeated = sorted({n for n in numbers if numbers.count(n) > 1})
+        if repeated:
+            raise ValueError(f"toughness harmonics n = {repeated} are given more than once")
+
+
+def rows_of_pattern(toughness: Toughness) -> NDArray[np.float64]:
+    """Return the harmonics that have an amplitude, as rows (n, cos, sin)."""
+    chosen = [(h.n, h.cos, h.sin) for h in sorted(toughness.harmonics, key=lambda h: h.n) if h.cos or h.sin]
+    return np.array(chosen, dtype=float).reshape(-1, 3)
+
+
+def _sum(rows: NDArray[np.float64], u: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the series at some wavelengths u, of their shape."""
+    total = np.zeros(u.shape)
+    for n, even, odd in rows:
+        phase = 2.0 * math.pi * ((n * u) % 1.0)
+        total += even * np.cos(phase) + odd * np.sin(phase)
+    return total
+
+
+def lowest(rows: NDArray[np.float64], end: float = 1.0, below: float = -math.inf) -> tuple[float, float]:
+    """Return the lowest value of a series from 0 to `end` wavelengths, 1 at most, or one `below`, and its place.
+
+    The place is the first with such a value. Parts of the wavelength are halved as long as the bound of the curvature
+    lets the series be lower in them than anything that has been met: no minimum is missed, and rounding is left.
+    """
+    sizes = np.hypot(rows[:, 1], rows[:, 2])
+    if not sizes.any():
+        return 0.0, 0.0
+    bend, error = float(np.sum((2.0 * math.pi * rows[:, 0]) ** 2 * sizes)), _ROUNDING * float(sizes.sum())
+    ends = np.linspace(0.0, end, 2 + math.ceil(_SAMPLES * float(rows[:, 0].max()) * end))
+    left, width, values = ends[:-1], ends[1], _sum(rows, ends)
+    first, last = values[:-1], values[1:]
+    best, place = math.inf, 0.0
+    while True:
+        low = np.concatenate([first, last[-1:]])
+        at = np.concatenate([left, left[-1:] + width])
+        i = int(np.argmax(low < below)) if (low < below).any() else int(np.argmin(low))
+        if best >= below and low[i] < best:
+            best, place = float(low[i]), float(at[i])
+        elif low[i] < below and at[i] < place:
+            best, place = float(low[i]), float(at[i])
+        worth = np.minimum(first, last) - bend * width**2 / 8.0 < (best - error if best >= below else below)
+        worth &= (left < place) | (best >= below)
+        if not worth.any() or width < _NARROW:
+            return best, place
+        width *= 0.5
+        middle = left[worth] + width
+        here = _sum(rows, middle)
+        left = np.stack([left[worth], middle], axis=-1).ravel()
+        first, last = (
+            np.stack(pair, axis=-1).ravel() for pair in ((first[worth], here), (here, last[worth]))
+        )
+
+
+def violation(toughness: Toughness, amplitude: float, wavelength: float, rim: float) -> float | None:
+    """Return the first radius up to a rim at which a pattern has not the sign that it must have, None if there is none.
+
+    Parameters
+    ----------
+    toughness
+        The pattern: t < 0 is no toughness, t <= 0 no work of adhesion.
+    amplitude, wavelength
+        `toughness_amplitude`, any finite number, and `toughness_wavelength_over_R` > 0.
+    rim
+        a_max/R > 0, which may be inf; in the unit of the wavelength.
+
+    Examples
+    --------
+    >>> pattern = Toughness((ToughnessHarmonic(n=1, sin=1.0),))
+    >>> violation(pattern, 1.0, 0.1, 1.0), round(violation(pattern, 1.25, 0.1, 1.0), 6)
+    (None, 0.064758)
+    """
+    place = first_violation(toughness, amplitude, min(1.0, rim / wavelength))
+    return place * wavelength if place < math.inf else None
+
+
+def first_violation(toughness: Toughness, amplitude: float, end: float = 1.0) -> float:
+    """Return the first place up to `end` wavelengths, 1 at most, at which the sign is wrong, inf if there is none."""
+    rows = rows_of_pattern(toughness) * np.array([1.0, amplitude, amplitude])
+    error = _ROUNDING * (1.0 + float(np.hypot(rows[:, 1], rows[:, 2]).sum()))
+    limit = -1.0 + (error if toughness.of == "work" else -error)
+    value, place = lowest(rows, end, limit)
+    return place if value < limit else math.inf

@@ -1,0 +1,113 @@
+"""The pull-off on a patterned interface: the search of pull_off/general.py with kappa at most its bound.
+
+    load >= X [ B m/(1+k+m) z^(m-c) - kappa_most - chi(z) ],   X = z^((3+k)/2)
+"""
+
+import math
+
+import numpy as np
+
+from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.curve.cells import MOST
+from gradhesion.core.curve.cosine_folds import CLOSE
+from gradhesion.core.curve.general import Basis
+from gradhesion.core.curve.general_folds import Search, cell_width
+from gradhesion.core.curve.patterned import MOST_CELLS, Patterned
+from gradhesion.core.pull_off.general import (
+    INWARDS,
+    WORTH,
+    Terms,
+    better,
+    chi_at,
+    chi_terms,
+    floor_between,
+    innermost,
+    load_at_rim,
+)
+from gradhesion.core.pull_off.lowest_two import Lowest
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.types import Floats
+
+
+@kernel()
+def _floor(terms: Terms, curve: Patterned, k: float, more: float, low: float, high: float) -> float:
+    """Return a bound below the load between two z; `more` is kappa_most - 1."""
+    m, c = curve.exponent, 0.5 * (1.0 - k)
+    chi = chi_at(terms, low)
+    if high < math.inf:
+        chi = min(chi, terms[4] * high ** (1.0 - c))
+    return floor_between(curve.bend * m / (1.0 + k + m), m - c, k, more + chi, low, high)
+
+
+@kernel()
+def lowest_load(
+    basis: Basis, curve: Patterned, rim: tuple[float, float], work: Search, deepest: float
+) -> tuple[float, float, float]:
+    """Return the lowest reduced load up to a rim, the x where it is met, and the second lowest trough (or 0).
+
+    NaN if there are too many waves to look at. `rim` is x and its rounding error, `deepest` what `deepest_wave`
+    (pull_off/general.py) returns.
+    """
+    table, pattern, series = basis
+    k, (x_rim, x_rim_low) = table.k, rim
+    B, m, g, _, _ = curve
+    by_load = Patterned(B, m, g, 0.0, 1.0)
+    terms = chi_terms(table, pattern.waves, pattern.gain, deepest)
+    more, e, power = pattern.most - 1.0, 0.5 * (3.0 + k), m - 0.5 * (1.0 - k)
+    z = ((pattern.most + terms[2]) * e / (B * m / (1.0 + k + m) * (power + e))) ** (1.0 / power)
+    start = min(z / TWO_PI, x_rim)
+    best: Lowest = (0.0, 0.0, 0.0)
+    if not 1e-100 < start < math.inf:
+        return math.nan, math.nan, 0.0
+    if x_rim < math.inf:
+        at_rim = load_at_rim(basis, by_load, x_rim, x_rim_low)
+        if at_rim < 0.0:
+            best = (at_rim, x_rim, 0.0)
+    zeros, low, left = np.empty(MOST), start, MOST_CELLS
+    while low < x_rim and left > 0:
+        if _floor(terms, by_load, k, more, TWO_PI * low, math.inf) >= best[0] * WORTH and low > start:
+            break
+        high = min(x_rim, low + cell_width(series, low))
+        best = better(basis, by_load, low, high, work, zeros, best, 0.0)
+        low = high
+        left -= 1
+    high = start
+    while left > 0 and high > 1e-100:
+        z_high = TWO_PI * high
+        if best[0] < 0.0 and innermost(terms, k, z_high) - more * z_high**e >= best[0] * WORTH:
+            return best
+        low = 0.9 * high
+        if best[0] < 0.0 and _floor(terms, by_load, k, more, TWO_PI * low, z_high) >= best[0] * WORTH:
+            high = low
+            continue
+        low = high - min(cell_width(series, high), INWARDS * high)
+        left -= 1
+        if not (best[0] < 0.0 and _floor(terms, by_load, k, more, TWO_PI * low, z_high) >= best[0] * WORTH):
+            best = better(basis, by_load, low, high, work, zeros, best, 0.0)
+        high = low
+    return math.nan, math.nan, 0.0
+
+
+@kernel()
+def lowest_loads(
+    basis: Basis, curve: Patterned, rims: Floats, rims_low: Floats, work: Search, deepest: float, found: Floats
+) -> None:
+    """Put what `lowest_load` returns for each rim x + its rounding error into a row of `found`, of shape (rims, 3).
+
+    Rims and rounding errors are of shape (rims,); those that are not above 0 are left out. That of the largest one
+    serves all beyond its place.
+    """
+    furthest = 0
+    for i in range(rims.size):
+        if rims[i] > rims[furthest] or not rims[furthest] > 0.0:
+            furthest = i
+    free: Lowest = (math.nan, math.nan, 0.0)
+    if rims[furthest] > 0.0:
+        free = lowest_load(basis, curve, (rims[furthest], rims_low[furthest]), work, deepest)
+    shared = free[0] < 0.0 and free[2] >= free[0] * (1.0 - CLOSE)
+    for i in range(rims.size):
+        if rims[i] > 0.0:
+            best = free
+            if i != furthest and not (shared and free[1] < rims[i]):
+                best = lowest_load(basis, curve, (rims[i], rims_low[i]), work, deepest)
+            found[i, 0], found[i, 1], found[i, 2] = best
