@@ -17,6 +17,7 @@
     general_curves
     edge               where an edge that closes at less work jumps in, and how its turning point moves
     asymptotic         the asymptotic solver of any profile
+    patterned          anything on an interface whose toughness varies with the radius
 
 and `tables` is what all of them share.
 """
@@ -29,6 +30,7 @@ from gradhesion.core.problem.control import BY_DISPLACEMENT, Loading
 from gradhesion.core.problem.names import PULL_OFF, REPORTS
 from gradhesion.core.problem.profile import WAVY, Profile
 from gradhesion.core.problem.shape import equivalent_wave
+from gradhesion.core.problem.toughness import Toughness
 
 NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "tables": (),
@@ -49,6 +51,7 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "general_curves": ("general_energy",),
     "edge": ("tables",),
     "asymptotic": ("tables",),
+    "patterned": ("tables",),
 }
 """The kinds that are compiled before a kind, directly: those of whose entries it needs the same, or others of the same
 name. Processes that compile kinds side by side, each after those that it needs and none beside one of `APART`, compile
@@ -64,6 +67,7 @@ APART: Final = (
     *({"general_force", other} for other in ("general_energy", "general_sensitivities")),
 )
 """Kinds that do not need each other, and yet compile entries of the same name: not to be compiled side by side."""
+PATTERNED: Final = "patterned"
 KINDS: Final = tuple(NEEDS)
 """All kinds, each after those that it needs."""
 KERNELS: Final[dict[str, int]] = {
@@ -85,6 +89,7 @@ KERNELS: Final[dict[str, int]] = {
     "general_curves": 49,
     "edge": 30,
     "asymptotic": 66,
+    "patterned": 170,
 }
 """About how many kernels a kind compiles after those that it needs, in one process."""
 
@@ -101,13 +106,17 @@ def before(kind: str) -> set[str]:
 
 
 def kind_of_map(
-    outputs: Sequence[str], solver: str = "exact", profile: Profile | None = None, loading: Loading | None = None
+    outputs: Sequence[str],
+    solver: str = "exact",
+    profile: Profile | None = None,
+    loading: Loading | None = None,
+    toughness: Toughness | None = None,
 ) -> str:
     """Return the kind of work that `solve` does.
 
     Parameters
     ----------
-    outputs, solver, profile, loading
+    outputs, solver, profile, loading, toughness
         As those of `solve`.
 
     Examples
@@ -115,6 +124,8 @@ def kind_of_map(
     >>> kind_of_map(["pull_off_force"]), kind_of_map(["pull_off_force"], profile=Profile(exponent=1.5))
     ('force', 'general_force')
     """
+    if toughness is not None:
+        return PATTERNED
     if solver == "asymptotic":
         return solver
     profile, loading = profile or WAVY, loading or BY_DISPLACEMENT
@@ -126,12 +137,14 @@ def kind_of_map(
     return general + ("force" if set(outputs) <= set(PULL_OFF) else "energy")
 
 
-def kind_of_turning(profile: Profile | None = None, loading: Loading | None = None) -> str:
+def kind_of_turning(
+    profile: Profile | None = None, loading: Loading | None = None, toughness: Toughness | None = None
+) -> str:
     """Return the kind of work that `solve` does besides where cycles turn before the rim.
 
     Parameters
     ----------
-    profile, loading
+    profile, loading, toughness
         As those of `solve`.
 
     Examples
@@ -139,16 +152,20 @@ def kind_of_turning(profile: Profile | None = None, loading: Loading | None = No
     >>> kind_of_turning(), kind_of_turning(loading=Loading(control="load"))
     ('turning', 'general_turning')
     """
+    if toughness is not None:
+        return PATTERNED
     profile, loading = profile or WAVY, loading or BY_DISPLACEMENT
     return "turning" if loading == BY_DISPLACEMENT and equivalent_wave(profile) is not None else "general_turning"
 
 
-def kind_of_sensitivities(profile: Profile | None = None, loading: Loading | None = None) -> str:
+def kind_of_sensitivities(
+    profile: Profile | None = None, loading: Loading | None = None, toughness: Toughness | None = None
+) -> str:
     """Return the kind of work that `solve` does besides where sensitivities are asked for.
 
     Parameters
     ----------
-    profile, loading
+    profile, loading, toughness
         As those of `solve`.
 
     Examples
@@ -156,15 +173,17 @@ def kind_of_sensitivities(profile: Profile | None = None, loading: Loading | Non
     >>> kind_of_sensitivities(), kind_of_sensitivities(loading=Loading(control="load"))
     ('sensitivities', 'general_sensitivities')
     """
-    return kind_of_turning(profile, loading).replace("turning", "sensitivities")
+    return kind_of_turning(profile, loading, toughness).replace("turning", "sensitivities")
 
 
-def kind_of_curves(profile: Profile | None = None, loading: Loading | None = None) -> str:
+def kind_of_curves(
+    profile: Profile | None = None, loading: Loading | None = None, toughness: Toughness | None = None
+) -> str:
     """Return the kind of work that `draw_curves` does.
 
     Parameters
     ----------
-    profile, loading
+    profile, loading, toughness
         As those of `draw_curves`.
 
     Examples
@@ -172,5 +191,7 @@ def kind_of_curves(profile: Profile | None = None, loading: Loading | None = Non
     >>> kind_of_curves(), kind_of_curves(loading=Loading(control="load"))
     ('curves', 'general_curves')
     """
+    if toughness is not None:
+        return PATTERNED
     default = (profile or WAVY) == WAVY and (loading or BY_DISPLACEMENT) == BY_DISPLACEMENT
     return "curves" if default else "general_curves"

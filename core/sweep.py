@@ -23,6 +23,7 @@ from gradhesion.core.problem.names import (
     EDGE,
     OUTPUTS,
     PARAMETERS,
+    PATTERN,
     PULL_OFF,
     REACH,
     REPORTS,
@@ -36,10 +37,13 @@ from gradhesion.core.problem.profile import WAVY, Profile
 from gradhesion.core.problem.results import WHOLE_CYCLE
 from gradhesion.core.problem.shape import equivalent_wave
 from gradhesion.core.problem.status import NO_VALUE
+from gradhesion.core.problem.toughness import Toughness
 from gradhesion.core.scene.cosine_report import NEEDED
 
 
-def _checked(parameters: Mapping[str, ArrayLike], outputs: Sequence[str], solver: str, loading: Loading) -> str | None:
+def _checked(
+    parameters: Mapping[str, ArrayLike], outputs: Sequence[str], solver: str, loading: Loading, toughness: Any
+) -> str | None:
     """Refuse what cannot be solved; return the name of what the cycles turn at, None if that is the rim."""
     reports = [name for name in outputs if name in REPORTS]
     slopes = [name for name in outputs if name in SENSITIVITIES]
@@ -58,6 +62,10 @@ def _checked(parameters: Mapping[str, ArrayLike], outputs: Sequence[str], solver
         raise ValueError("energy_residual: a dead load closes no loop; ask for it under another control")
     if solver != "exact" and loading != BY_DISPLACEMENT:
         raise ValueError(f"solver {solver!r} is known under displacement control only: {WITHOUT_LOAD[solver]}")
+    if (PATTERN[0] in parameters) != (toughness is not None) or (toughness is None and PATTERN[1] in parameters):
+        raise ValueError(f"{' and '.join(PATTERN)} belong to a pattern of toughness, which needs the first of them")
+    if toughness is not None and solver != "exact":
+        raise ValueError(f"solver {solver!r} knows no pattern of toughness: use the exact one")
     return turns[0] if turns else None
 
 
@@ -90,6 +98,7 @@ class How(NamedTuple):
     profile: Profile
     loading: Loading
     is_one_wave: bool  # whether the parameters are those of a paraboloid with one cosine under displacement control
+    toughness: Toughness | None = None
 
 
 def up_to_rims(
@@ -104,7 +113,7 @@ def up_to_rims(
 
     `slopes` and `turned` are as those of `solve_general` (arrays/general.py).
     """
-    solver, check_contact, threads, profile, loading, is_one_wave = how
+    solver, check_contact, threads, profile, loading, is_one_wave, _ = how
     wanted = [name for name in wanted if name != "turning_radius"]
     if solver == "asymptotic":
         from gradhesion.core.arrays.short_wave import solve_short_waves  # noqa: PLC0415 (kernels of their own)
@@ -115,6 +124,10 @@ def up_to_rims(
 
         return solve_envelope(scenes, PARAMETERS, wanted, profile)
     checks: Any = {"check_contact": check_contact, "turned": turned, "slopes": slopes}
+    if how.toughness is not None:
+        from gradhesion.core.arrays.patterned import solve_patterned  # noqa: PLC0415 (kernels of their own)
+
+        return solve_patterned(scenes, wanted, how, slopes, turned=turned)
     if is_one_wave:
         return solve_cosine(scenes, wanted, solver, threads, **checks)
     from gradhesion.core.arrays.general import solve_general  # noqa: PLC0415 (kernels of their own)
@@ -139,6 +152,7 @@ def solve(
     threads: int | None = None,
     profile: Profile | None = None,
     loading: Loading | None = None,
+    toughness: Toughness | None = None,
 ) -> dict[str, NDArray[Any]]:
     """Solve all scenes of the broadcast parameters.
 
@@ -206,17 +220,18 @@ def solve(
     loading = BY_DISPLACEMENT if loading is None else loading
     if CONTACT_SLOPE in outputs:
         known: Any = {"solver": solver, "check_contact": check_contact, "threads": threads}
-        known |= {"profile": profile, "loading": loading}
+        known |= {"profile": profile, "loading": loading, "toughness": toughness}
         others = [name for name in outputs if name != CONTACT_SLOPE]
         radius = radius_of(others, parameters)
         found = solve(parameters, [*others, radius], **known)
         slope = {CONTACT_SLOPE: slope_at(found, radius, parameters, profile)}
         return {name: (found | slope)[name] for name in (*outputs, "status")}
-    turn = _checked(parameters, outputs, solver, loading)
-    alike = equivalent_wave(profile) if solver != "asymptotic" and loading == BY_DISPLACEMENT else None
+    turn = _checked(parameters, outputs, solver, loading, toughness)
+    plain = solver != "asymptotic" and loading == BY_DISPLACEMENT and toughness is None
+    alike = equivalent_wave(profile) if plain else None
     if alike is not None and profile != WAVY:
         parameters = _as_one_wave(parameters, *alike)
-    how = How(solver, check_contact, threads, profile if alike is None else WAVY, loading, alike is not None)
+    how = How(solver, check_contact, threads, profile if alike is None else WAVY, loading, alike is not None, toughness)
     if CLOSING in parameters or {*outputs} & {*EDGE}:
         from gradhesion.core.works.cycle import solve_two_works  # noqa: PLC0415 (seldom wanted)
 
@@ -233,7 +248,7 @@ def solve(
 
     def again(scenes: Mapping[str, ArrayLike], wanted: Sequence[str]) -> Results:
         """Solve other scenes that turn as these do."""
-        asked: Any = {"threads": threads, "profile": profile, "loading": loading}
+        asked: Any = {"threads": threads, "profile": profile, "loading": loading, "toughness": toughness}
         return solve(scenes, wanted, check_contact=False, **asked)
 
     passed: NDArray[np.bool_] = np.array(False)
@@ -248,15 +263,20 @@ def solve(
         if alike is not None:
             radii, flags = turning_cosine(parameters, turn, threads, **arguments)
             passed = np.full(radii.shape, False)  # displacement is prescribed: jumps leave it as it is
+        elif toughness is not None:
+            from gradhesion.core.arrays.patterned import turning_patterned  # noqa: PLC0415 (kernels of their own)
+
+            radii, flags, passed = turning_patterned(parameters, turn, how, **arguments)
+            passed &= loading != Loading()
         else:
             from gradhesion.core.arrays.general_turning import turning_general  # noqa: PLC0415 (kernels of their own)
 
             radii, flags, passed = turning_general(parameters, turn, profile, loading, threads, **arguments)
             passed &= loading != Loading()  # under displacement control it lands at the same depth, but for roundings
         found = turned_results(parameters, turn, outputs, radii, flags, passed, solved, again)
-        note_compiled(kind_of_turning(profile, loading))
+        note_compiled(kind_of_turning(profile, loading, toughness))
     if not slopes:
-        note_compiled(kind_of_map(outputs, solver, profile, loading))
+        note_compiled(kind_of_map(outputs, solver, profile, loading, toughness))
     else:
         from gradhesion.core.sensitivities.sensitivity import sensitivities  # noqa: PLC0415 (SciPy)
 

@@ -4,7 +4,7 @@ from __future__ import annotations  # those of inner functions would be made ane
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -42,6 +42,7 @@ class Scenes:
 
     `rim`, and `target` at which cycles turn, have the shape (curves, rims), or (1, rims) where all curves have the
     same; the others have the shape (curves,). `shape` is that of the parameters, in the order of curves and rims.
+    `others` are further parameters of the curves.
     """
 
     shape: tuple[int, ...]
@@ -52,24 +53,33 @@ class Scenes:
     compliance: NDArray[np.float64]
     rim: NDArray[np.float64]
     target: NDArray[np.float64] | None = None
+    others: tuple[NDArray[np.float64], ...] = ()
 
     def of_each(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the values of the curves for each scene, flat."""
         return np.repeat(values, self.rim.shape[1])
 
 
-def prepared(parameters: Mapping[str, ArrayLike], loading: Loading, along: Sequence[str] = PARAMETERS[-1:]) -> Scenes:
+def prepared(
+    parameters: Mapping[str, ArrayLike],
+    loading: Loading,
+    along: Sequence[str] = PARAMETERS[-1:],
+    more: tuple[str, ...] = (),
+) -> Scenes:
     """Return the scenes of broadcast parameters.
 
     Those that differ along the last axes only in what is named by `along` (a_max, and where the cycle turns) are one
-    curve.
+    curve. `more` names further parameters of the curves.
     """
-    curves = grouped(parameters, along, ("machine_stiffness",) if loading.control == "machine" else ())
+    machine = ("machine_stiffness",) if loading.control == "machine" else ()
+    curves = grouped(parameters, along, (*machine, *more))
+    spring, others = curves.others[: len(machine)], curves.others[len(machine) :]
     material = stiffness(curves.k, curves.nu, curves.modulus, curves.c0_over_R)
     with np.errstate(all="ignore"):
         stretch = np.sqrt(2.0 ** (1.0 + curves.k) * math.pi / material)
-    compliance = compliance_of(loading, curves.k, curves.modulus, material, *curves.others)
-    return Scenes(curves.shape, curves.k, stretch, curves.lambda_over_R, curves.A, compliance, *curves.rims)
+    compliance = compliance_of(loading, curves.k, curves.modulus, material, *spring)
+    scenes = Scenes(curves.shape, curves.k, stretch, curves.lambda_over_R, curves.A, compliance, *curves.rims)
+    return replace(scenes, others=others) if others else scenes
 
 
 def run_by_exponent(

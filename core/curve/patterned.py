@@ -15,9 +15,10 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.general import Basis, Series
+from gradhesion.core.curve.general import Basis, Series, curve_of
 from gradhesion.core.curve.general_folds import WAVES, Zeros, cell_width, find_folds, room
 from gradhesion.core.curve.window import wave_bounds
+from gradhesion.core.problem.curves import GeneralCurves, Patterns, is_in_range
 from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.struve.series import highest_harmonic
@@ -104,10 +105,10 @@ def smooth_part(rows: Harmonics, least: float) -> float:
 
 
 @kernel()
-def patterned_basis(
-    table: Table, cosine_bins: Any, waves: Harmonics, gain: float, pattern: Harmonics, of_work: bool, least: float
-) -> Basis:
-    """Return the basis of a curve; `pattern` has t - 1 as rows (waves a unit length, cos, sin), and t is >= `least`."""
+def pattern_of(
+    cosine_bins: Any, waves: Harmonics, gain: float, pattern: Harmonics, of_work: bool, least: float
+) -> tuple[Pattern, Harmonics]:
+    """Return the second and the third place of a basis; t - 1 is `pattern`, (waves a unit length, cos, sin), or more."""
     total, slope, bend = 0.0, 0.0, 0.0
     for i in range(pattern.shape[0]):
         n, size = pattern[i, 0], math.hypot(pattern[i, 1], pattern[i, 2])
@@ -121,7 +122,36 @@ def patterned_basis(
         shortest = max(shortest, WAVES * TWO_PI * (_ELLIPSE - 1.0 / _ELLIPSE) / (4.0 * smooth_part(pattern, least)))
     rows = np.zeros((1, 3))
     rows[0, 0] = shortest
-    return Basis(table, Pattern(cosine_bins, waves, gain, pattern, of_work, least, most, steepest), rows)
+    return Pattern(cosine_bins, waves, gain, pattern, of_work, least, most, steepest), rows
+
+
+@kernel()
+def patterned_curve(
+    table: Table, cosine_bins: Any, series: Harmonics, curves: GeneralCurves, patterns: Patterns, i: int
+) -> tuple[bool, Pattern, Harmonics, Patterned, tuple[float, float, float]]:
+    """Return whether curve number i is in range, its basis but the table, the curve, and the units in R.
+
+    They are those of x, of z, and of depth.
+    """
+    _, exponent, depth_factor, stretch, wavelength, amplitude, compliance, _ = curves
+    wavy = amplitude[i] > 0.0 and series.shape[0] > 0
+    unit = wavelength[i] if wavy else patterns.wavelength[i]
+    rows = patterns.rows.copy()
+    for j in range(rows.shape[0]):
+        rows[j, 0] *= unit / patterns.wavelength[i]
+        rows[j, 1] *= patterns.amplitude[i]
+        rows[j, 2] *= patterns.amplitude[i]
+    valid = is_in_range(stretch[i], wavelength[i], amplitude[i]) and compliance[i] >= 0.0
+    valid = valid and 0.0 < patterns.wavelength[i] < math.inf and abs(patterns.amplitude[i]) < math.inf
+    one, length, depth = curve_of(
+        table.k, exponent, depth_factor, stretch[i], unit, amplitude[i] if wavy else 0.0, compliance[i]
+    )
+    valid = valid and 0.0 < one.bend < math.inf and one.gain < math.inf and highest_harmonic(rows) < math.inf
+    least = patterns.least[i] if valid else 1.0
+    waves = series if wavy else np.zeros((0, 3))
+    pattern, finest = pattern_of(cosine_bins, waves, one.gain, rows, patterns.of_work, least)
+    curve = Patterned(one.bend, exponent, 1.0, one.alpha, one.beta)
+    return valid, pattern, finest, curve, (unit, length, depth)
 
 
 @kernel()

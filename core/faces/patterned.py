@@ -94,25 +94,23 @@ def size_at(basis: Basis, curve: Patterned, x: float) -> float:
 
 
 @kernel()
-def _bare(basis: Basis, curve: Patterned) -> tuple[Basis, Series]:
+def _bare(basis: Basis, curve: Patterned) -> Series:
     """Return the curve of the same profile on a plain interface."""
-    table, pattern, _ = basis
-    B, m, _, alpha, beta = curve
-    return Basis(table, pattern.cosine_bins, pattern.waves), Series(B, m, pattern.gain, alpha, beta)
+    return Series(curve.bend, curve.exponent, basis.cosine_bins.gain, curve.alpha, curve.beta)
 
 
 @face.profile_at.answers(Patterned)
 @kernel()
 def profile_at(basis: Basis, curve: Patterned, x: float) -> float:
-    bare, own = _bare(basis, curve)
-    return touch.profile_at(bare, own, x)
+    table, pattern, _ = basis
+    return touch.profile_at(Basis(table, pattern.cosine_bins, pattern.waves), _bare(basis, curve), x)
 
 
 @face.touches_at_centre.answers(Patterned)
 @kernel()
 def touches_at_centre(basis: Basis, curve: Patterned, end: float) -> bool:
-    bare, own = _bare(basis, curve)
-    return touch.touches_at_centre(bare, own, end)
+    table, pattern, _ = basis
+    return touch.touches_at_centre(Basis(table, pattern.cosine_bins, pattern.waves), _bare(basis, curve), end)
 
 
 @face.surely_open.answers(Patterned)

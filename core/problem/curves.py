@@ -8,7 +8,7 @@ import math
 from typing import NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.types import Floats, Integers, Tables
+from gradhesion.core.types import Floats, Harmonics, Integers, Tables
 
 
 class Curves(NamedTuple):
@@ -34,6 +34,17 @@ class GeneralCurves(NamedTuple):
     amplitude: Floats  # A, of shape (curves,); 0 for a smooth punch
     compliance: Floats  # K/S in 1/R^(1+k), of shape (curves,): 0 under displacement control, inf under load control
     rims: Floats  # a_max/R, of shape (curves, rims), or (1, rims) where all curves have the same
+
+
+class Patterns(NamedTuple):
+    """The patterns of toughness of such curves (problem/toughness.py)."""
+
+    rows: Harmonics  # (n, cos, sin) in units of the amplitude
+    of_work: bool  # whether they multiply the work of adhesion
+    wavelength: Floats  # lambda_t/R, of shape (curves,)
+    amplitude: Floats  # of shape (curves,)
+    least: Floats  # a bound below t within the rims, of shape (curves,)
+    limit: Floats  # a/R from which on t has a wrong sign, of shape (curves,), inf where it has none
 
 
 @kernel()

@@ -26,6 +26,8 @@ CONTACT_SLOPE: Final = "contact_slope"
 """The slope (a/R)^(m-1) of the punch at the largest radius on which the other outputs depend (arrays/reach.py)."""
 TURNS: Final = ("indentation_max_over_R", "load_max")
 """Where the cycle turns before the rim, at most one of them: a depth in R, or a load in 1.5 pi R dgamma."""
+PATTERN: Final = ("toughness_wavelength_over_R", "toughness_amplitude")
+"""The parameters of a pattern of toughness (problem/toughness.py); the amplitude is 1 where it is not given."""
 CLOSING: Final = "closing_ratio"
 """The parameter w_c/w_o in [0, 1]: the work of adhesion of closing over that of opening; 1 where it is not given."""
 PULL_OFF: Final = ("pull_off_force", "pull_off_radius")

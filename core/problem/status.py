@@ -22,6 +22,9 @@ NO_VALUE: Final = 64
 NO_CONTACT: Final = 1024
 """The depth at which the cycle turns is below first contact: force, energies and jumps are 0, radii NaN. In studies
 that turn at a depth only, whose `status` is int16."""
+TOO_MANY_WAVES: Final = 8192
+"""More waves stand within the contact than are followed one by one: the values are NaN. In studies of patterns of
+toughness or of a speed only, whose `status` is int16."""
 
 FLAGS: Final = {
     "loading_contact_not_one_disc": LOADING_NOT_ONE_DISC,
@@ -32,6 +35,7 @@ FLAGS: Final = {
     "tolerance_not_met": TOLERANCE_NOT_MET,
     "no_value": NO_VALUE,
     "no_contact": NO_CONTACT,
+    "too_many_waves": TOO_MANY_WAVES,
 }
 """Name of every flag, with its bit; not every solver sets every one."""
 OF_EVERY_MAP: Final = {name: bit for name, bit in FLAGS.items() if bit < 2**7}

@@ -45,7 +45,8 @@ def lowest_load(
 ) -> tuple[float, float, float]:
     """Return the lowest reduced load up to a rim, the x where it is met, and the second lowest trough (or 0).
 
-    NaN if there are too many waves to look at. `rim` is x and its rounding error, `deepest` what `deepest_wave`
+    NaN if there are too many waves to look at, 0 without a place where no load is below zero: the centre may have no
+    adhesion. `rim` is x and its rounding error, `deepest` what `deepest_wave`
     (pull_off/general.py) returns.
     """
     table, pattern, series = basis
@@ -85,7 +86,7 @@ def lowest_load(
         if not (best[0] < 0.0 and _floor(terms, by_load, k, more, TWO_PI * low, z_high) >= best[0] * WORTH):
             best = better(basis, by_load, low, high, work, zeros, best, 0.0)
         high = low
-    return math.nan, math.nan, 0.0
+    return (0.0, math.nan, 0.0) if left > 0 else (math.nan, math.nan, 0.0)
 
 
 @kernel()

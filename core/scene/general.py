@@ -81,7 +81,7 @@ _STATIONS: Final = 64
 
 
 @kernel()
-def _refuse(results: Results, i: int) -> None:
+def refuse(results: Results, i: int) -> None:
     """Give rim number i, out of range, no value."""
     for row in range(CONTACT):
         put(results, row, i, math.nan)
@@ -89,7 +89,7 @@ def _refuse(results: Results, i: int) -> None:
 
 
 @kernel()
-def _put_cycle(
+def put_cycle(
     basis: Basis,
     curve: Series,
     scene: Scene,
@@ -112,7 +112,7 @@ def _put_cycle(
     if not one_disc:
         results.status[i] |= LOADING_NOT_ONE_DISC
     if not abs(scene.energy * (cycle.loaded + cycle.unloaded)) < math.inf:  # an overflow
-        _refuse(results, i)
+        refuse(results, i)
         return
     put(results, ENERGY, i, scene.energy * (cycle.loaded + cycle.unloaded))
     put(results, LOADED, i, scene.energy * cycle.loaded)
@@ -171,7 +171,7 @@ def _walked(
         close = is_close_to_a_jump(basis, curve, count, trace, tangency, x, level, turned)
         flags = (close, is_one_disc(basis, curve, limits, x))
         cycle = Cycle(loaded, jumps, unloaded, jumps_back, last, highest)
-        _put_cycle(basis, curve, scene, (x, 0.0), cycle, flags, i)
+        put_cycle(basis, curve, scene, (x, 0.0), cycle, flags, i)
         if x == math.inf:  # the last branch has no end, and loading arrives on it
             put(results, OUTERMOST, i, TWO_PI * scene.length * trace[ARRIVAL, count - 1])
         if len(own) > 0:
@@ -204,7 +204,7 @@ def _strode(
     if down.waves + down.left > 0.0:
         _, _, _, depth, _ = state(basis, curve, down.left, down.waves)
     cycle = Cycle(up.loss, up.jumps, down.loss, down.jumps, depth, up.level)
-    _put_cycle(basis, curve, scene, (x, waves), cycle, (close, one_disc), i)
+    put_cycle(basis, curve, scene, (x, waves), cycle, (close, one_disc), i)
     if x == math.inf:
         put(scene.results, OUTERMOST, i, TWO_PI * scene.length * (up.waves + up.left))
     if len(own) > 0:
@@ -241,11 +241,11 @@ def _cycles(basis: Basis, curve: Series, scene: Scene, rims: Floats, own: IfSens
                 continue
             alone[i] = False
         if not waves * highest < MOST_CELLS:
-            _refuse(scene.results, i)
+            refuse(scene.results, i)
         elif waves > LONGEST_WALK:
             alone[i] = True
             if not _walked(basis, curve, scene, (first, last), places, alone, own):
-                _refuse(scene.results, i)
+                refuse(scene.results, i)
             alone[i] = False
         else:
             together[i] = shared = True
@@ -255,7 +255,7 @@ def _cycles(basis: Basis, curve: Series, scene: Scene, rims: Floats, own: IfSens
         if together[i]:
             alone[i] = True
             if not _walked(basis, curve, scene, (first, last), places, alone, own):
-                _refuse(scene.results, i)
+                refuse(scene.results, i)
             alone[i] = False
 
 
@@ -328,7 +328,7 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
             valid = valid and 0.0 < curve.bend < math.inf and 0.0 <= curve.gain < math.inf
             for rim in range(row.size):
                 if not (valid and row[rim] > 0.0):
-                    _refuse(own, rim)
+                    refuse(own, rim)
             if not valid:
                 continue
             sensed = sensed_by(sense, i, stretch[i], wavelength[i], amplitude[i], compliance[i])

@@ -35,14 +35,14 @@ _LONGER: Final = 1.5
 
 
 @kernel()
-def _is_first_contact(k: float, curve: Series, target: float) -> bool:
+def is_first_contact(k: float, curve: Series, target: float) -> bool:
     """Return whether a depth is that of the first contact, 0, as far as anybody can tell: against that of the punch."""
     B, m, _, _, _ = curve
     return abs(target) <= CLOSE * B ** (-0.5 * (1.0 - k) / (m - 0.5 * (1.0 - k)))
 
 
 @kernel()
-def _is_one_disc(basis: Basis, curve: Series, count: int, trace: Trace, x: float, rim: float) -> bool:
+def is_one_disc(basis: Basis, curve: Series, count: int, trace: Trace, x: float, rim: float) -> bool:
     """Return whether the contact that turns at x is one disc, out to the rim of the punch."""
     level = coordinate(basis, curve, x)
     lowest, end = math.inf, math.inf
@@ -104,7 +104,7 @@ def _turn_walked(
             if not x < rims[i]:
                 level = coordinate(basis, curve, rims[i]) if rims[i] < math.inf else math.inf
                 close = close or rim_is_close(basis, curve, count, trace, rims[i], level)
-            elif check and not _is_one_disc(basis, curve, count, trace, x, rims[i]):
+            elif check and not is_one_disc(basis, curve, count, trace, x, rims[i]):
                 flags[i] |= LOADING_NOT_ONE_DISC
             if close:
                 flags[i] |= CLOSE_TO_A_JUMP
@@ -138,7 +138,7 @@ def _turn_one_far(
         if found and whole + x < rim:
             if turns.check:
                 empty = np.empty((1, 0))
-                if not _is_one_disc(basis, curve, NONE, empty, whole + x, rim):
+                if not is_one_disc(basis, curve, NONE, empty, whole + x, rim):
                     flags |= LOADING_NOT_ONE_DISC
             return True, whole + x, flags, jumped
         if furthest >= rim:
@@ -175,7 +175,7 @@ def _turn_curve(basis: Basis, curve: Series, unit: float, wavelength: float, tur
         edges[i], reduced[i], places[i] = rims[i] / wavelength, target, math.nan
         if not (rims[i] > 0.0 and abs(target) < math.inf and (target > 0.0 or not by_load)):
             continue
-        if not by_load and _is_first_contact(table.k, curve, target):
+        if not by_load and is_first_contact(table.k, curve, target):
             flags[i] |= CLOSE_TO_A_JUMP
         if target < 0.0:
             places[i] = 0.0

@@ -7,14 +7,14 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.struve.circle import TWO_PI
 
-_WAVES: Final = 1.06
+WAVES: Final = 1.06
 """The most by which the waves of depth and load exceed their leading terms, far out."""
 _OUTERMOST: Final = 1e100
 _HALVINGS: Final = 8
 
 
 @kernel()
-def _envelope(curve: Series, k: float, pull: float, height: float, z: float) -> float:
+def envelope_at(curve: Series, k: float, pull: float, height: float, z: float) -> float:
     """Return about the least that Y can be at z."""
     B, m, _, alpha, beta = curve
     power, front = z ** (0.5 * (1.0 - k)), z ** (1.0 + k)
@@ -36,20 +36,20 @@ def reach(basis: Basis, curve: Series, target: float) -> float:
         h = math.hypot(series[i, 1], series[i, 2])
         swing += h * series[i, 0] ** (0.5 * (1.0 - table.k))
         height += h
-    pull, height = 1.0 + _WAVES * g * table.amplitude * swing, g * height
+    pull, height = 1.0 + WAVES * g * table.amplitude * swing, g * height
     low, high = 0.0, 1.0
-    while _envelope(curve, table.k, pull, height, high) <= target:
+    while envelope_at(curve, table.k, pull, height, high) <= target:
         low, high = high, 2.0 * high
         if high > _OUTERMOST:
             return math.inf
     while low == 0.0:
-        if _envelope(curve, table.k, pull, height, 0.5 * high) <= target or high * _OUTERMOST < 1.0:
+        if envelope_at(curve, table.k, pull, height, 0.5 * high) <= target or high * _OUTERMOST < 1.0:
             low = 0.5 * high
         else:
             high *= 0.5
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        if _envelope(curve, table.k, pull, height, middle) <= target:
+        if envelope_at(curve, table.k, pull, height, middle) <= target:
             low = middle
         else:
             high = middle

@@ -1,0 +1,115 @@
+"""Arrays of scenes on interfaces whose toughness varies with the radius, in tasks of one gradient exponent."""
+
+from __future__ import annotations  # those of inner functions would be made anew in every call: 15 us each
+
+import math
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gradhesion.core.arrays.prepared import Scenes, prepared, run_by_exponent
+from gradhesion.core.arrays.tables import tables_of
+from gradhesion.core.problem.curves import GeneralCurves, Patterns
+from gradhesion.core.problem.names import PARAMETERS, PATTERN, REACH, REPORTS, RESULTS
+from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.results import Results, slots_of, typed
+from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
+from gradhesion.core.problem.toughness import Toughness, first_violation, lowest, rows_of_pattern
+from gradhesion.core.scene.cosine_report import NEEDED
+from gradhesion.core.scene.patterned import solve_scenes
+from gradhesion.core.turning.patterned import turn_scenes
+from gradhesion.core.turning.turns import Turns
+
+if TYPE_CHECKING:
+    from gradhesion.core.sweep import How
+
+_BEYOND: Final = 0.25
+"""Of the least t within a rim beyond which it has the wrong sign: cells reach a little further."""
+
+
+@lru_cache(maxsize=32)
+def _extremes(toughness: Toughness) -> tuple[float, float]:
+    """Return the lowest and the highest value of the series."""
+    rows = rows_of_pattern(toughness)
+    return lowest(rows)[0], -lowest(rows * np.array([1.0, -1.0, -1.0]))[0]
+
+
+def patterns_of(toughness: Toughness, scenes: Scenes) -> Patterns:
+    """Return the patterns of curves."""
+    rims = scenes.rim
+    wavelength, amplitude = scenes.others
+    rows, (low, high) = rows_of_pattern(toughness), _extremes(toughness)
+    least = 1.0 + np.minimum(amplitude * low, amplitude * high)
+    limit = np.full(least.shape, math.inf)
+    within = rims if rims.shape[0] > 1 else np.broadcast_to(rims, (least.size, rims.shape[1]))
+    for i in np.nonzero(least < (1e-12 if toughness.of == "work" else 0.0))[0].tolist():
+        place = first_violation(toughness, float(amplitude[i]))
+        if place < math.inf:
+            limit[i] = place * wavelength[i] * (1.0 - 1e-12)
+            furthest = np.max(np.where(within[i] <= limit[i], within[i], 0.0)) / wavelength[i]
+            least[i] = _BEYOND * (1.0 + lowest(rows * np.array([1.0, amplitude[i], amplitude[i]]), furthest)[0])
+    return Patterns(rows, toughness.of == "work", wavelength, amplitude, np.maximum(least, 0.0), limit)
+
+
+def _curves(scenes: Scenes, profile: Profile) -> tuple[NDArray[np.float64], Any]:
+    """Return the series of a profile, and what makes the curves of one exponent from their numbers."""
+    n, series = in_own_wavelength(profile)
+    wavelength, amplitude = scenes.wavelength / n, n * scenes.amplitude if series.size else 0.0 * scenes.amplitude
+
+    def curves_of(exponent: float, index: NDArray[np.int64]) -> GeneralCurves:
+        shape = profile.exponent, depth_factor_of(exponent, profile.exponent)
+        return GeneralCurves(index, *shape, scenes.stretch, wavelength, amplitude, scenes.compliance, scenes.rim)
+
+    return series, curves_of
+
+
+def solve_patterned(
+    parameters: Mapping[str, ArrayLike],
+    wanted: Sequence[str],
+    how: How,
+    slopes: tuple[bool, bool] | None = None,
+    *,
+    turned: bool = False,
+) -> dict[str, NDArray[Any]]:
+    """Solve all scenes of broadcast parameters up to their rims, as `up_to_rims` (core/sweep.py)."""
+    scenes = prepared({PATTERN[1]: 1.0, **parameters}, how.loading, more=PATTERN)
+    outputs = [name for name in wanted if name in (*RESULTS, REACH)]
+    reports = [name for name in wanted if name in REPORTS]
+    outputs += [NEEDED[name] for name in reports if name in NEEDED]
+    rows = list(dict.fromkeys(outputs))
+    slots = slots_of(rows, check_contact=how.check_contact, turned=turned)
+    out = np.full((len(rows), scenes.k.size, scenes.rim.shape[1]), np.nan)
+    status = np.zeros(out.shape[1:], dtype=np.int16)
+    series, curves_of = _curves(scenes, how.profile)
+    patterns = patterns_of(how.toughness, scenes)
+
+    def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
+        tables = tables_of(exponent, series, interpolated=interpolated)
+        solve_scenes(*tables, series, curves_of(exponent, index), patterns, Results(slots, out, status))
+
+    run_by_exponent(scenes.k, work, how.threads, scenes.rim.shape[1])
+    found = {name: typed(name, out[rows.index(name)]).reshape(scenes.shape) for name in outputs}
+    return found | {"status": status.reshape(scenes.shape)}
+
+
+def turning_patterned(
+    parameters: Mapping[str, ArrayLike], turn: str, how: How, *, check_contact: bool = True
+) -> tuple[NDArray[np.float64], NDArray[np.int16], NDArray[np.bool_]]:
+    """Return where the cycles turn, and the rest, as `turning_general` (arrays/general_turning.py)."""
+    scenes = prepared({PATTERN[1]: 1.0, **parameters}, how.loading, (*PARAMETERS[-1:], turn), PATTERN)
+    assert scenes.target is not None  # noqa: S101 -- it was asked for
+    series, curves_of = _curves(scenes, how.profile)
+    patterns = patterns_of(how.toughness, scenes)
+    radii = np.empty((scenes.k.size, scenes.rim.shape[1]))
+    flags, passed = np.zeros(radii.shape, dtype=np.int16), np.zeros(radii.shape, dtype=np.bool_)
+    turns = Turns(scenes.rim, scenes.target, turn == "load_max", check_contact, radii, flags)
+
+    def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
+        tables = tables_of(exponent, series, interpolated=interpolated)
+        turn_scenes(*tables, series, curves_of(exponent, index), patterns, turns, passed)
+
+    run_by_exponent(scenes.k, work, how.threads, scenes.rim.shape[1])
+    return radii.reshape(scenes.shape), flags.reshape(scenes.shape), passed.reshape(scenes.shape)
