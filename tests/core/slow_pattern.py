@@ -6,8 +6,7 @@ are found by bisection and by quadrature there. R = dgamma = 1.
 """
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -33,15 +32,16 @@ class SlowScene:
     waves: Any = ((1.0, 1.0, 0.0),)
     spring: float = math.inf
     points: int = 400_000
-    memory: dict[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Find M and K."""
         k, nu = self.k, self.nu
         b = math.sqrt((1 + k) * (1 - k * nu / (1 - nu)))
         C = 2 ** (1 + k) * gamma((3 + k + b) / 2) * gamma((3 + k - b) / 2) / (math.pi * gamma(2 + k))
-        theta = 2 ** (1 + k) * (1 + k) * math.cos(k * math.pi / 2) * gamma(1 + k / 2)
-        theta /= math.sqrt(math.pi) * C * b * math.sin(b * math.pi / 2) * gamma((1 + k) / 2)
+        theta = math.pi
+        if k < 1.0:
+            theta = 2 ** (1 + k) * (1 + k) * math.cos(k * math.pi / 2) * gamma(1 + k / 2)
+            theta /= math.sqrt(math.pi) * C * b * math.sin(b * math.pi / 2) * gamma((1 + k) / 2)
         self.M = theta * self.modulus / self.c0**k
         self.K = 2 ** (1 - k) * self.M / (1 + k)
 
@@ -105,18 +105,21 @@ class SlowScene:
         return total if end > start else -total
 
     def _crossing(self, level: float, low: float, high: float) -> float:
+        if not (float(self.prescribed(low)) - level) * (float(self.prescribed(high)) - level) < 0.0:
+            return low if abs(float(self.prescribed(low)) - level) < abs(float(self.prescribed(high)) - level) else high
         return float(brentq(lambda a: float(self.prescribed(a)) - level, low, high, xtol=1e-15, rtol=1e-14))
 
-    def _extremum(self, grid: Any, i: int, sign: float) -> float:
-        """Radius of a maximum (sign -1) or a minimum (1) of Y beside grid[i]."""
-        low, high = grid[max(i - 1, 0)], grid[min(i + 1, grid.size - 1)]
-        if i == 0 or i == grid.size - 1:
-            ends = sign * self.prescribed(np.array([grid[i]]))
-            del ends
-        found = minimize_scalar(
-            lambda a: sign * float(self.prescribed(a)), bounds=(low, high), method="bounded", options={"xatol": 1e-12 * high}
-        )
-        return float(found.x) if sign * float(self.prescribed(found.x)) <= sign * float(self.prescribed(grid[i])) else float(grid[i])
+    def _extremum(self, grid: Any, i: int) -> float:
+        """Radius of a maximum or a minimum of Y beside grid[i], where differences of the fourth order vanish."""
+        low, high = float(grid[max(i - 1, 0)]), float(grid[min(i + 1, grid.size - 1)])
+        step = 0.2 * (high - low)
+
+        def slope(a: float) -> float:
+            return float(self.prescribed(a + np.array([-2, -1, 1, 2]) * step) @ [1, -8, 8, -1])
+
+        if slope(low) * slope(high) < 0.0:
+            return float(brentq(slope, low, high, xtol=1e-15, rtol=1e-14))
+        return float(grid[i])
 
     def grid(self, rim: float) -> Any:
         """Radii, dense towards zero as well."""
@@ -131,15 +134,18 @@ class SlowScene:
         depth, load = self.state(grid)
         on = (top <= Y) & (Y > 0.0)
         measured = load if by_load else depth
-        i = int(np.argmax(on & (measured >= target)))
-        if not on[i - 1]:  # within a jump, or just landed: the level left decides
-            peak = int(np.argmax(Y >= top[i - 1])) if top[i - 1] > 0 else 0
-            level = float(self.prescribed(self._extremum(grid, peak, -1.0))) if top[i - 1] > 0 else 0.0
-            landing = self._crossing(level, grid[i - 1], grid[i + 1])
-            if float(self.state(landing)[1 if by_load else 0]) >= target - 1e-9 * abs(target):
-                return landing
-        which = 1 if by_load else 0
-        return float(brentq(lambda a: float(self.state(a)[which]) - target, grid[i - 1], grid[i], xtol=1e-15, rtol=1e-14))
+        if not np.any(on & (measured >= target)):
+            return search
+        i, which = int(np.argmax(on & (measured >= target))), 1 if by_load else 0
+        low = grid[i - 1]
+        if not on[i - 1]:  # within a jump
+            level = 0.0
+            if top[i - 1] > 0.0:
+                level = float(self.prescribed(self._extremum(grid, int(np.argmax(Y >= top[i - 1])))))
+            low = self._crossing(level, grid[i - 1], grid[i])
+            if float(self.state(low)[which]) >= target - 1e-12 * abs(target):
+                return float(low)
+        return float(brentq(lambda a: float(self.state(a)[which]) - target, low, grid[i], xtol=1e-15, rtol=1e-14))
 
     def cycle(self, rim: float) -> dict[str, float]:
         """All results of a cycle up to a rim."""
@@ -160,7 +166,7 @@ class SlowScene:
                 highest = max(highest, float(Y[-1]))
                 break
             i = reached + int(falls[0])
-            left = self._extremum(grid, i, -1.0)
+            left = self._extremum(grid, i)
             level = float(self.prescribed(left))
             highest = max(highest, level)
             i += 1
@@ -168,16 +174,13 @@ class SlowScene:
         if Y[-2] < Y[-1]:
             rises = np.nonzero(np.diff(Y) < 0)[0]
             i = int(rises[-1]) + 1 if rises.size else 0
-            left = self._extremum(grid, i, 1.0)
+            left = self._extremum(grid, i)
             level = float(self.prescribed(left))
         last = left
         while i > 0:
             below = np.nonzero(Y[:i] < level)[0]
             reached = int(below[-1]) if below.size else -1
-            # the innermost stretch of Y belongs to no stable branch
             end = self._crossing(level, grid[reached], grid[reached + 1]) if below.size else 0.0
-            if below.size and not np.any(np.diff(Y[: reached + 2]) < 0):
-                end = end if self.k == 1.0 or self.kappa(0.0) == 0.0 else end
             jumps_back += 1
             last = left
             if end == 0.0:
@@ -189,7 +192,7 @@ class SlowScene:
                 last = 0.0
                 break
             i = int(drops[-1]) + 1
-            left = self._extremum(grid, i, 1.0)
+            left = self._extremum(grid, i)
             level = float(self.prescribed(left))
         load = self.state(grid)[1]
         i = int(np.argmin(load))
@@ -217,5 +220,3 @@ class SlowScene:
             "unloading_energy": unloaded,
         }
 
-
-Measure = Callable[[float], float]
