@@ -4,6 +4,7 @@ from __future__ import annotations  # those of inner functions would be made ane
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
@@ -17,6 +18,7 @@ from gradhesion.core.problem.names import PARAMETERS, PATTERN, REACH, REPORTS, R
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.results import Results, slots_of, typed
 from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
+from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.problem.toughness import Toughness, first_violation, lowest, rows_of_pattern
 from gradhesion.core.scene.cosine_report import NEEDED
 from gradhesion.core.scene.patterned import solve_scenes
@@ -26,6 +28,9 @@ from gradhesion.core.turning.turns import Turns
 if TYPE_CHECKING:
     from gradhesion.core.sweep import How
 
+_OF_CURVES: Final = ("k", "stretch", "wavelength", "amplitude", "compliance")
+_GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
+"""What is compared with the smooth punch on the same interface."""
 _BEYOND: Final = 0.25
 """Of the least t within a rim beyond which it has the wrong sign: cells reach a little further."""
 
@@ -92,7 +97,52 @@ def solve_patterned(
 
     run_by_exponent(scenes.k, work, how.threads, scenes.rim.shape[1])
     found = {name: typed(name, out[rows.index(name)]).reshape(scenes.shape) for name in outputs}
-    return found | {"status": status.reshape(scenes.shape)}
+    found |= {"status": status.reshape(scenes.shape)}
+    return found | (_reports(parameters, reports, found, how, turned=turned) if reports else {})
+
+
+def _reports(
+    parameters: Mapping[str, ArrayLike],
+    reports: Sequence[str],
+    found: Mapping[str, NDArray[Any]],
+    how: How,
+    *,
+    turned: bool,
+) -> dict[str, NDArray[Any]]:
+    """Report on scenes that are solved, as `report_general` (arrays/general_report.py)."""
+    from gradhesion.core.closed.general_envelope import chis  # noqa: PLC0415 (SciPy)
+    from gradhesion.core.scene.general_report import ROWS, Solved  # noqa: PLC0415 (kernels of their own)
+    from gradhesion.core.scene.patterned_report import report_scenes  # noqa: PLC0415
+
+    together = prepared({PATTERN[1]: 1.0, **parameters}, how.loading, more=PATTERN)
+    of_each = {name: together.of_each(getattr(together, name)) for name in _OF_CURVES}
+    rims = np.broadcast_to(together.rim, (together.k.size, together.rim.shape[1])).reshape(-1, 1)
+    scenes = replace(together, rim=rims, others=tuple(map(together.of_each, together.others)), **of_each)
+    status, none = found["status"].ravel(), np.full(scenes.k.size, np.nan)
+    radius, energy = (found[name].ravel() if name in found else none for name in (RESULTS[1], RESULTS[2]))
+    solved, out = Solved(radius, energy, turned, status), np.full((len(ROWS), scenes.k.size), np.nan)
+    wanted = np.array([name in reports for name in ROWS])
+    series, curves_of = _curves(scenes, how.profile)
+    patterns = patterns_of(how.toughness, scenes)
+
+    def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
+        tables = tables_of(exponent, series, interpolated=interpolated)
+        report_scenes(*tables, series, curves_of(exponent, index), patterns, solved, wanted, out)
+
+    if wanted.any():
+        run_by_exponent(scenes.k, work, how.threads)
+    made = {name: row.reshape(together.shape) for name, row in zip(ROWS, out, strict=True) if name in reports}
+    if "roughness_parameter" in reports:
+        k = np.where(status & NO_VALUE, np.nan, scenes.k)
+        _, down = chis(k, scenes.stretch, scenes.wavelength, scenes.amplitude, how.profile)
+        made["roughness_parameter"] = down.reshape(together.shape)
+    gains = {name: value for name, value in _GAINS.items() if name in reports}
+    if gains:
+        even = {**parameters, "A": 0.0 * np.asarray(parameters["A"], dtype=float)}
+        smooth = solve_patterned(even, [*gains.values()], how, turned=turned)
+        with np.errstate(all="ignore"):
+            made |= {name: found[value] / smooth[value] for name, value in gains.items()}
+    return made
 
 
 def turning_patterned(

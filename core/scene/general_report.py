@@ -49,26 +49,26 @@ from gradhesion.core.waves.general import cut_of
 
 ROWS: Final = ("pull_off_force_error", "dissipated_energy_error", "energy_residual", "saturation_radius")
 """What the kernel finds; the others are ratios of what is known."""
-_FORCE_ROUNDING: Final = 6.0 * 2.0**-52
-_ENERGY_ROUNDING: Final = 20.0 * 2.0**-52
+FORCE_ROUNDING: Final = 6.0 * 2.0**-52
+ENERGY_ROUNDING: Final = 20.0 * 2.0**-52
 """The true errors on scenes of the twin are at most 4.2 and 15 eps (docs/accuracy.md)."""
-_OF_LOAD: Final = 0.2
+OF_LOAD: Final = 0.2
 """Of the terms of the load over the load: the true errors of soft machines are at most 2.5 eps of that and H."""
 _PANEL: Final = 0.6
 """Waves a panel of 16 nodes of the loop."""
 _INWARDS: Final = 0.3
 _APART: Final = 5.0
 """Waves by which the other sum begins later and ends earlier."""
-_LOOPED: Final = 2048.0
+LOOPED: Final = 2048.0
 """Waves up to which a loop is integrated."""
-_PROMISED: Final = 1e-9
+PROMISED: Final = 1e-9
 """Error of the energy, in parts of its terms, above which a scene does not meet the tolerance (docs/accuracy.md)."""
 _NEGLIGIBLE: Final = 1e-8
 """Of the outer end of a branch that begins in a point (k = 1), up to where its work is about the cube of it."""
 
 
 @kernel()
-def _crests(table: Table, series: Harmonics, gain: float) -> float:
+def crests(table: Table, series: Harmonics, gain: float) -> float:
     """Return chi of all waves at their crests."""
     total = 0.0
     for i in range(series.shape[0]):
@@ -77,7 +77,7 @@ def _crests(table: Table, series: Harmonics, gain: float) -> float:
 
 
 @kernel()
-def _force_terms(basis: Basis, curve: Series, x: float) -> float:
+def force_terms(basis: Basis, curve: Series, x: float) -> float:
     """Return the size of the terms of the load at x."""
     table, cosine_bins, series = basis
     B, m, g, _, _ = curve
@@ -198,7 +198,7 @@ def _spring(basis: Basis, curve: Series, place: float) -> float:
     if not (alpha > 0.0 and beta > 0.0 and 0.0 < place < math.inf):
         return 1.0
     _, _, _, _, load = state(basis, curve, place, 0.0)
-    return max(1.0, _OF_LOAD * _force_terms(basis, curve, place) / abs(load)) if load != 0.0 else 1.0
+    return max(1.0, OF_LOAD * force_terms(basis, curve, place) / abs(load)) if load != 0.0 else 1.0
 
 
 @kernel()
@@ -244,13 +244,13 @@ def _energy_reports(
     if series.shape[0] > 0 and waves > LONGEST_WALK:
         other, left = _other_sum(basis, curve, first, last, (rim, rim_low))
         apart = 4.0 * abs(energy - other)
-    if not waves > _LOOPED:
+    if not waves > LOOPED:
         count, trace, _ = walk(basis, curve, first, last, rim, NO)
         if count >= 0:
             total, outermost = loop(basis, curve, count, trace, rim)
             left = last_left(basis, curve, count, trace, rim)
     residual = 2.0 / (1.0 + table.k) * total / alpha if alpha > 0.0 else math.nan
-    chi = _crests(table, series, g)
+    chi = crests(table, series, g)
     terms = (TWO_PI * outermost) ** 2 * chi * (1.0 + chi) + _spring(basis, curve, left) * abs(energy)
     return terms, apart, residual
 
@@ -286,19 +286,19 @@ def report_scenes(basis: Basis, curves: GeneralCurves, solved: Solved, wanted: T
         )
         if wanted[0]:
             scale, x = 8.0 / (3.0 * (1.0 + table.k)) * length * length / unit, radius[i] / wavelength[i]
-            terms = _force_terms(waves, curve, x)
+            terms = force_terms(waves, curve, x)
             if turned and status[i] & PULL_OFF_AT_RIM:  # x is no number given: what the load changes with ln x
                 _, _, rate = slope(waves, Series(curve.bend, exponent, curve.gain, 0.0, 1.0), x)
                 terms += abs(TWO_PI * x * rate)
-            out[0, i] = _FORCE_ROUNDING * table.rounding * scale * terms
+            out[0, i] = FORCE_ROUNDING * table.rounding * scale * terms
         if wanted[1] or wanted[2]:
             rim, scale = rims[i, 0], TWO_PI * length * length
             x = rim / wavelength[i]
             x_low = fma(-x, wavelength[i], rim) / wavelength[i] if x < math.inf else 0.0
             terms, apart, total = _energy_reports(waves, curve, x, x_low, energy[i] / scale)
-            out[1, i] = scale * (_ENERGY_ROUNDING * table.rounding * terms + apart)
+            out[1, i] = scale * (ENERGY_ROUNDING * table.rounding * terms + apart)
             out[2, i] = energy[i] - scale * total
-            if out[1, i] > _PROMISED * scale * terms:
+            if out[1, i] > PROMISED * scale * terms:
                 status[i] |= TOLERANCE_NOT_MET
         if wanted[3]:
             out[3, i] = outermost_fold(waves, curve) * wavelength[i]
