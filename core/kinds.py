@@ -22,15 +22,19 @@
 and `tables` is what all of them share.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from itertools import combinations
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from gradhesion.core.problem.control import BY_DISPLACEMENT, Loading
 from gradhesion.core.problem.names import PULL_OFF, REPORTS
 from gradhesion.core.problem.profile import WAVY, Profile
 from gradhesion.core.problem.shape import equivalent_wave
-from gradhesion.core.problem.toughness import Toughness
+
+if TYPE_CHECKING:
+    from gradhesion.core.problem.toughness import Toughness
 
 NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "tables": (),

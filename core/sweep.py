@@ -6,7 +6,7 @@ What solves other profiles and controls is imported when it is asked for: it tak
 from __future__ import annotations  # those of inner functions would be made anew in every call: 15 us each
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -37,8 +37,10 @@ from gradhesion.core.problem.profile import WAVY, Profile
 from gradhesion.core.problem.results import WHOLE_CYCLE
 from gradhesion.core.problem.shape import equivalent_wave
 from gradhesion.core.problem.status import NO_VALUE
-from gradhesion.core.problem.toughness import Toughness
 from gradhesion.core.scene.cosine_report import NEEDED
+
+if TYPE_CHECKING:
+    from gradhesion.core.problem.toughness import Toughness
 
 
 def _checked(

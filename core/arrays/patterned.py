@@ -42,7 +42,7 @@ def _extremes(toughness: Toughness) -> tuple[float, float]:
     return lowest(rows)[0], -lowest(rows * np.array([1.0, -1.0, -1.0]))[0]
 
 
-def patterns_of(toughness: Toughness, scenes: Scenes) -> Patterns:
+def _patterns_of(toughness: Toughness, scenes: Scenes) -> Patterns:
     """Return the patterns of curves."""
     rims = scenes.rim
     wavelength, amplitude = scenes.others
@@ -59,8 +59,10 @@ def patterns_of(toughness: Toughness, scenes: Scenes) -> Patterns:
     return Patterns(rows, toughness.of == "work", wavelength, amplitude, np.maximum(least, 0.0), limit)
 
 
-def _curves(scenes: Scenes, profile: Profile) -> tuple[NDArray[np.float64], Any]:
-    """Return the series of a profile, and what makes the curves of one exponent from their numbers."""
+def curves_of_scenes(
+    scenes: Scenes, profile: Profile, toughness: Toughness
+) -> tuple[NDArray[np.float64], Any, Patterns]:
+    """Return the series of a profile, what makes the curves of one exponent from their numbers, and the patterns."""
     n, series = in_own_wavelength(profile)
     wavelength, amplitude = scenes.wavelength / n, n * scenes.amplitude if series.size else 0.0 * scenes.amplitude
 
@@ -68,7 +70,7 @@ def _curves(scenes: Scenes, profile: Profile) -> tuple[NDArray[np.float64], Any]
         shape = profile.exponent, depth_factor_of(exponent, profile.exponent)
         return GeneralCurves(index, *shape, scenes.stretch, wavelength, amplitude, scenes.compliance, scenes.rim)
 
-    return series, curves_of
+    return series, curves_of, _patterns_of(toughness, scenes)
 
 
 def solve_patterned(
@@ -88,8 +90,7 @@ def solve_patterned(
     slots = slots_of(rows, check_contact=how.check_contact, turned=turned)
     out = np.full((len(rows), scenes.k.size, scenes.rim.shape[1]), np.nan)
     status = np.zeros(out.shape[1:], dtype=np.int16)
-    series, curves_of = _curves(scenes, how.profile)
-    patterns = patterns_of(how.toughness, scenes)
+    series, curves_of, patterns = curves_of_scenes(scenes, how.profile, how.toughness)
 
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
         tables = tables_of(exponent, series, interpolated=interpolated)
@@ -122,8 +123,7 @@ def _reports(
     radius, energy = (found[name].ravel() if name in found else none for name in (RESULTS[1], RESULTS[2]))
     solved, out = Solved(radius, energy, turned, status), np.full((len(ROWS), scenes.k.size), np.nan)
     wanted = np.array([name in reports for name in ROWS])
-    series, curves_of = _curves(scenes, how.profile)
-    patterns = patterns_of(how.toughness, scenes)
+    series, curves_of, patterns = curves_of_scenes(scenes, how.profile, how.toughness)
 
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
         tables = tables_of(exponent, series, interpolated=interpolated)
@@ -151,8 +151,7 @@ def turning_patterned(
     """Return where the cycles turn, and the rest, as `turning_general` (arrays/general_turning.py)."""
     scenes = prepared({PATTERN[1]: 1.0, **parameters}, how.loading, (*PARAMETERS[-1:], turn), PATTERN)
     assert scenes.target is not None  # noqa: S101 -- it was asked for
-    series, curves_of = _curves(scenes, how.profile)
-    patterns = patterns_of(how.toughness, scenes)
+    series, curves_of, patterns = curves_of_scenes(scenes, how.profile, how.toughness)
     radii = np.empty((scenes.k.size, scenes.rim.shape[1]))
     flags, passed = np.zeros(radii.shape, dtype=np.int16), np.zeros(radii.shape, dtype=np.bool_)
     turns = Turns(scenes.rim, scenes.target, turn == "load_max", check_contact, radii, flags)

@@ -210,9 +210,7 @@ def are_too_many(basis: Basis, first: float, last: float) -> bool:
 
 
 @kernel()
-def folds_up_to(
-    basis: Basis, curve: Patterned, first: float, last: float, zeros: Zeros
-) -> tuple[int, bool, float]:
+def folds_up_to(basis: Basis, curve: Patterned, first: float, last: float, zeros: Zeros) -> tuple[int, bool, float]:
     """Do what `find_folds` (curve/general_folds.py) does, in parts: a root of t has many cells a wave."""
     count, rises, tangency, begin = 0, False, math.inf, first
     work = room()

@@ -1,9 +1,11 @@
 """Curves of one scene, by name."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,10 +21,13 @@ from gradhesion.core.curves.path import draw_path
 from gradhesion.core.curves.smooth import draw_smooth
 from gradhesion.core.curves.subject import BEYOND, Subject, subject_of
 from gradhesion.core.problem.control import Loading
-from gradhesion.core.problem.names import CLOSING, CURVES, PARAMETERS, TURNS
+from gradhesion.core.problem.names import CLOSING, CURVES, PARAMETERS, PATTERN, TURNS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.status import FAILED, NO_VALUE
 from gradhesion.core.sweep import solve
+
+if TYPE_CHECKING:
+    from gradhesion.core.problem.toughness import Toughness
 
 _TYPES: Final[dict[str, type[np.signedinteger[Any]]]] = {
     "stable": np.int8,
@@ -78,6 +83,7 @@ def draw_curves(
     curves: Sequence[str],
     profile: Profile | None = None,
     loading: Loading | None = None,
+    toughness: Toughness | None = None,
 ) -> tuple[dict[str, NDArray[Any]], int]:
     """Return curves of one scene at points that adapt to them.
 
@@ -96,6 +102,9 @@ def draw_curves(
     profile, loading
         Shape of the punch and what is prescribed, as in `solve`; another shape has the curves of `CURVES_BY_DEPTH`
         only, another control those of `GENERAL_CURVES`.
+    toughness
+        How the toughness varies with the radius, as in `solve`: with it there are "equilibrium", "path" and "jumps",
+        and `scene` has the parameters of the pattern.
 
     Returns
     -------
@@ -145,8 +154,14 @@ def draw_curves(
     profile, loading = profile or Profile(), loading or Loading()
     if ("machine_stiffness" in scene) != (loading.control == "machine"):
         raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
-    default = profile == Profile() and loading == Loading()
+    if (PATTERN[0] in scene) != (toughness is not None):
+        raise ValueError(f"{PATTERN[0]} belongs to a pattern of toughness, which needs it")
+    default = profile == Profile() and loading == Loading() and toughness is None
     known = tuple(CURVES) if default else CURVES_BY_DEPTH if loading == Loading() else GENERAL_CURVES
+    if toughness is not None:
+        from gradhesion.core.curves import patterned  # noqa: PLC0415 (kernels of their own)
+
+        known = patterned.PATTERN_CURVES
     absent = [name for name in curves if name not in known]
     if absent:
         raise ValueError(
@@ -164,9 +179,11 @@ def draw_curves(
 
     def of(scene: Mapping[str, float]) -> Subject | None:
         """Make a scene ready for drawing."""
+        if toughness is not None:
+            return patterned.subject_of(scene, profile, loading, toughness)
         return subject_of(scene) if default else general.subject_of(scene, profile, loading)
 
-    driven: dict[str, Any] = {"threads": 1, "profile": profile, "loading": loading}
+    driven: dict[str, Any] = {"threads": 1, "profile": profile, "loading": loading, "toughness": toughness}
     subject = round_trip = of(plain)
     radius = math.inf
     if turns:

@@ -2,7 +2,6 @@
 
 import math
 
-
 from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact import touch
@@ -153,5 +152,3 @@ def fill_heights(basis: Basis, curve: Patterned, edge: Edge, low: float, width: 
     for i in range(NODES.size):
         over, stretch = excess_at(basis, curve, edge, math.sqrt(low * low + width * NODES[i]))
         heights[i] = over * edge.stretch / (stretch * stretch)
-
-

@@ -139,9 +139,7 @@ def lowest(rows: NDArray[np.float64], end: float = 1.0, below: float = -math.inf
         middle = left[worth] + width
         here = _sum(rows, middle)
         left = np.stack([left[worth], middle], axis=-1).ravel()
-        first, last = (
-            np.stack(pair, axis=-1).ravel() for pair in ((first[worth], here), (here, last[worth]))
-        )
+        first, last = (np.stack(pair, axis=-1).ravel() for pair in ((first[worth], here), (here, last[worth])))
 
 
 def violation(toughness: Toughness, amplitude: float, wavelength: float, rim: float) -> float | None:

@@ -1,6 +1,6 @@
 """The pull-off on a patterned interface: the search of pull_off/general.py with kappa at most its bound.
 
-    load >= X [ B m/(1+k+m) z^(m-c) - kappa_most - chi(z) ],   X = z^((3+k)/2)
+load >= X [ B m/(1+k+m) z^(m-c) - kappa_most - chi(z) ],   X = z^((3+k)/2)
 """
 
 import math

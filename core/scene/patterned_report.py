@@ -1,9 +1,9 @@
 """What a scene on a patterned interface can tell of itself on request, as scene/general_report.py.
 
-    error of the force   6 eps times the sizes of the terms of the load at pull-off, with what a rounded place changes
-                         of kappa, and its change with the radius if that is where a cycle turns
-    error of the energy  20 eps [2 pi a^2 chi (1 + chi) dgamma + H], chi that of all waves at their crests and of kappa
-                         at its furthest from 1, with what rounded numbers of waves change of kappa
+error of the force   6 eps times the sizes of the terms of the load at pull-off, with what a rounded place changes
+                     of kappa, and its change with the radius if that is where a cycle turns
+error of the energy  20 eps [2 pi a^2 chi (1 + chi) dgamma + H], chi that of all waves at their crests and of kappa
+                     at its furthest from 1, with what rounded numbers of waves change of kappa
 """
 
 import math

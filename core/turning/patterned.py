@@ -93,9 +93,7 @@ def _first_reached(
 
 
 @kernel()
-def _is_one_disc(
-    basis: Basis, curve: Patterned, count: int, trace: Trace, last: float, x: float, rim: float
-) -> bool:
+def _is_one_disc(basis: Basis, curve: Patterned, count: int, trace: Trace, last: float, x: float, rim: float) -> bool:
     """Return whether the contact that turns at x is one disc, out to the rim; no fold stands beyond x = `last`."""
     if is_always_one_disc(basis, curve):
         return True

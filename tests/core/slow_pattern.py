@@ -15,6 +15,14 @@ from scipy.optimize import brentq, minimize_scalar
 from scipy.special import gamma, jv, struve
 
 
+def _struve(order: float, z: Any) -> Any:
+    """SciPy's, which is not a number at some places, and is beside them."""
+    value = struve(order, z)
+    for step in (1.0 + 2e-15, 1.0 - 2e-15, 1.0 + 1e-13):
+        value = np.where(np.isnan(value), struve(order, z * step), value)
+    return value
+
+
 @dataclass
 class SlowScene:
     """A scene; `waves` and `pattern` are rows (n, cos, sin), `spring` is S in dgamma, inf and 0 for depth and load."""
@@ -67,8 +75,8 @@ class SlowScene:
             first = math.sqrt(math.pi) / 2 * gamma((1 + k) / 2) * (z / 2) ** (-k / 2)
             second = math.sqrt(math.pi) / 2 * gamma((3 + k) / 2) * (z / 2) ** (-1 - k / 2)
             front = 2 * math.pi * self.amplitude * a * n
-            depth = depth + front * first * (even * struve(k / 2, z) + odd * jv(k / 2, z))
-            rest = rest + front * a ** (1 + k) * second * (even * struve(1 + k / 2, z) + odd * jv(1 + k / 2, z))
+            depth = depth + front * first * (even * _struve(k / 2, z) + odd * jv(k / 2, z))
+            rest = rest + front * a ** (1 + k) * second * (even * _struve(1 + k / 2, z) + odd * jv(1 + k / 2, z))
         return depth, self.K * (a ** (1 + k) * depth - rest)
 
     def state(self, a: Any) -> tuple[Any, Any]:
