@@ -285,9 +285,9 @@ def solve(
         def force_of(scenes: Mapping[str, ArrayLike]) -> NDArray[np.float64]:
             """Return the force of other scenes that turn as these do."""
             own = None if alike is not None else profile  # the scenes are of the wave already
-            found = solve(scenes, PULL_OFF, check_contact=False, threads=threads, profile=own, loading=loading)
-            return found["pull_off_force"]
+            known: Any = {"threads": threads, "profile": own, "loading": loading, "toughness": toughness}
+            return solve(scenes, PULL_OFF, check_contact=False, **known)["pull_off_force"]
 
         found |= sensitivities(parameters, asked, found, found[SLOPES], turn, passed, force_of)
-        note_compiled(kind_of_sensitivities(profile, loading))
+        note_compiled(kind_of_sensitivities(profile, loading, toughness))
     return {name: found[name] for name in (*asked, "status")}

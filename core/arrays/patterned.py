@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gradhesion.core.arrays.cosine import SLOPES
 from gradhesion.core.arrays.prepared import Scenes, prepared, run_by_exponent
-from gradhesion.core.arrays.tables import tables_of
+from gradhesion.core.arrays.tables import changes_of, tables_of
 from gradhesion.core.problem.curves import GeneralCurves, Patterns
 from gradhesion.core.problem.names import PARAMETERS, PATTERN, REACH, REPORTS, RESULTS
 from gradhesion.core.problem.profile import Profile
@@ -22,6 +23,8 @@ from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.problem.toughness import Toughness, first_violation, lowest, rows_of_pattern
 from gradhesion.core.scene.cosine_report import NEEDED
 from gradhesion.core.scene.patterned import solve_scenes
+from gradhesion.core.sensitivities.neighbours import exponents_beside
+from gradhesion.core.sensitivities.patterned_slopes import COUNT, Sense
 from gradhesion.core.turning.patterned import turn_scenes
 from gradhesion.core.turning.turns import Turns
 
@@ -90,15 +93,23 @@ def solve_patterned(
     slots = slots_of(rows, check_contact=how.check_contact, turned=turned)
     out = np.full((len(rows), scenes.k.size, scenes.rim.shape[1]), np.nan)
     status = np.zeros(out.shape[1:], dtype=np.int16)
+    sensed = np.full((3, COUNT, *status.shape), np.nan)
     series, curves_of, patterns = curves_of_scenes(scenes, how.profile, how.toughness)
 
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
-        tables = tables_of(exponent, series, interpolated=interpolated)
-        solve_scenes(*tables, series, curves_of(exponent, index), patterns, Results(slots, out, status))
+        tables = tables_of(exponent, series, interpolated=interpolated and slopes is None)
+        sense: Any = ()
+        if slopes is not None:
+            exponents, weights = exponents_beside(exponent)
+            by_k = float(weights @ np.log([depth_factor_of(k, how.profile.exponent) for k in exponents]))
+            sense = Sense(changes_of(exponent, series), by_k, sensed, *slopes, turned)
+        solve_scenes(*tables, series, curves_of(exponent, index), patterns, Results(slots, out, status), sense)
 
     run_by_exponent(scenes.k, work, how.threads, scenes.rim.shape[1])
     found = {name: typed(name, out[rows.index(name)]).reshape(scenes.shape) for name in outputs}
     found |= {"status": status.reshape(scenes.shape)}
+    if slopes is not None:
+        found[SLOPES] = sensed.reshape((3, COUNT, *scenes.shape))
     return found | (_reports(parameters, reports, found, how, turned=turned) if reports else {})
 
 

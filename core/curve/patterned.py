@@ -83,6 +83,12 @@ def toughness_at(basis: Basis, x: float) -> tuple[float, float, float]:
 
 
 @kernel()
+def shortest_of(basis: Basis) -> float:
+    """Return the number of the shortest wave of profile and pattern in a unit length."""
+    return max(highest_harmonic(basis.cosine_bins.waves), highest_harmonic(basis.cosine_bins.rows))
+
+
+@kernel()
 def smooth_part(rows: Harmonics, least: float) -> float:
     """Return how far from the real axis, in units of 1/z, t has no zero: where its waves grow by no more than `least`.
 

@@ -18,15 +18,8 @@ from gradhesion.core.curve.panels import (
     panel_outwards,
     panels_to_zero,
 )
-from gradhesion.core.curve.patterned import Patterned, toughness_at
+from gradhesion.core.curve.patterned import Patterned, shortest_of, toughness_at
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.series import highest_harmonic
-
-
-@kernel()
-def _shortest(basis: Basis) -> float:
-    """Return the number of the shortest wave of profile and pattern."""
-    return max(highest_harmonic(basis.cosine_bins.waves), highest_harmonic(basis.cosine_bins.rows))
 
 
 @kernel()
@@ -34,7 +27,7 @@ def energy_between(basis: Basis, curve: Patterned, start: float, end: float) -> 
     """Return e of a jump from x = start > 0 on the curve to x = end >= 0."""
     if end == 0.0:
         return -energy_to(basis, curve, start, coordinate(basis, curve, start))
-    left, shortest = place_left(basis, curve, start, 0.0), _shortest(basis)
+    left, shortest = place_left(basis, curve, start, 0.0), shortest_of(basis)
     total, low, high = 0.0, min(start, end), max(start, end)
     while low < high:
         width, beyond, first, last = panel_outwards(low, high, 0.0, shortest)
@@ -63,7 +56,7 @@ def energy_to(basis: Basis, curve: Patterned, x: float, level: float) -> float:
     """Return e of a jump at Y = level from zero contact to x >= 0; the way back has the other sign."""
     if x == 0.0:
         return 0.0
-    shortest = _shortest(basis)
+    shortest = shortest_of(basis)
     inner, growth = panels_to_zero(basis.table.k, curve.alpha, curve.beta, x, shortest)
     total, high = 0.0, x
     while high > inner:

@@ -39,6 +39,7 @@ from gradhesion.core.pull_off.general import deepest_wave
 from gradhesion.core.pull_off.patterned import lowest_loads
 from gradhesion.core.scene.general import put_cycle, refuse
 from gradhesion.core.scene.scene import Scene
+from gradhesion.core.sensitivities.patterned_slopes import IfSense, put_energy, put_forces
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.types import Floats, Harmonics, Table, Truths
@@ -46,7 +47,14 @@ from gradhesion.core.types import Floats, Harmonics, Table, Truths
 
 @kernel()
 def _walked(
-    basis: Basis, curve: Patterned, scene: Scene, bounds: tuple[float, float], rims: Floats, chosen: Truths
+    basis: Basis,
+    curve: Patterned,
+    scene: Scene,
+    bounds: tuple[float, float],
+    rims: Floats,
+    chosen: Truths,
+    sense: IfSense,
+    number: int,
 ) -> bool:
     """Solve the chosen rims of a curve, shape (rims,), in its wavelengths, on one trace; return whether it is walked."""
     slots = scene.results.slots
@@ -72,6 +80,9 @@ def _walked(
         put_cycle(basis, curve, scene, (x, 0.0), cycle, (close, is_one_disc(basis, curve, limits, x)), i)
         if x == math.inf:
             put(scene.results, OUTERMOST, i, TWO_PI * scene.length * trace[ARRIVAL, count - 1])
+        if len(sense) > 0:
+            own = math.log(scene.length), number
+            put_energy(basis, curve, sense, own, (count, trace), x, loaded + unloaded, i)
     return True
 
 
@@ -83,7 +94,9 @@ def _refuse_waves(results: Results, i: int) -> None:
 
 
 @kernel()
-def _cycles(basis: Basis, curve: Patterned, scene: Scene, rims: Floats) -> None:
+def _cycles(
+    basis: Basis, curve: Patterned, scene: Scene, rims: Floats, sense: IfSense, number: int
+) -> None:
     """Follow the cycles of a curve up to all its rims a_max/R that are not refused, of shape (rims,)."""
     bounds = window(basis, curve)
     places, together, alone = np.empty(rims.size), np.zeros(rims.size, np.bool_), np.zeros(rims.size, np.bool_)
@@ -94,12 +107,12 @@ def _cycles(basis: Basis, curve: Patterned, scene: Scene, rims: Floats) -> None:
         together[i] = not are_too_many(basis, bounds[0], min(places[i], bounds[1]))
         if not together[i]:
             _refuse_waves(scene.results, i)
-    if not together.any() or _walked(basis, curve, scene, bounds, places, together):
+    if not together.any() or _walked(basis, curve, scene, bounds, places, together, sense, number):
         return
     for i in range(rims.size):  # too many folds up to the largest of them
         if together[i]:
             alone[i] = True
-            if not _walked(basis, curve, scene, bounds, places, alone):
+            if not _walked(basis, curve, scene, bounds, places, alone, sense, number):
                 _refuse_waves(scene.results, i)
             alone[i] = False
 
@@ -133,7 +146,13 @@ def _pull_offs(
 
 @kernel()
 def solve_scenes(
-    table: Table, cosine_bins: Any, series: Harmonics, curves: GeneralCurves, patterns: Patterns, results: Results
+    table: Table,
+    cosine_bins: Any,
+    series: Harmonics,
+    curves: GeneralCurves,
+    patterns: Patterns,
+    results: Results,
+    sense: IfSense,
 ) -> None:
     """Solve the curves of one gradient exponent on patterned interfaces, each for all its rims.
 
@@ -145,6 +164,8 @@ def solve_scenes(
         The curves, and the patterns.
     results
         Where results go: values of shape (results, curves, rims), flags, int16 of shape (curves, rims).
+    sense
+        What sensitivities need.
     """
     work, deepest = room(), deepest_wave(table, series) if wants_force(results.slots) else 0.0
     for j in range(curves.numbers.size):
@@ -163,4 +184,6 @@ def solve_scenes(
             trough = deepest if basis.cosine_bins.gain > 0.0 else 0.0
             _pull_offs(basis, curve, scene, force_unit(table.k, length, depth), rims, work, trough)
         if wants_folds(own.slots):
-            _cycles(basis, curve, scene, rims)
+            _cycles(basis, curve, scene, rims, sense, i)
+        if len(sense) > 0:
+            put_forces(basis, curve, sense, i, units, rims, own)

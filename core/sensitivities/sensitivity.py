@@ -16,9 +16,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.problem.names import PARAMETERS, SENSITIVITIES, TURNS
+from gradhesion.core.problem.names import PARAMETERS, PATTERN, SENSITIVITIES, TURNS
 from gradhesion.core.problem.status import PULL_OFF_AT_RIM
-from gradhesion.core.sensitivities.cosine_slopes import BY_EXPONENT, BY_MACHINE, BY_RIM
+from gradhesion.core.sensitivities.cosine_slopes import BY_RIM, COUNT
 from gradhesion.core.sensitivities.material_slopes import theta_slopes
 
 NEEDED: Final = {
@@ -47,12 +47,13 @@ def by_parameters(
     slopes
         What `theta_slopes` gives of their k and nu.
     reduced
-        The sensitivities to M, lambda, A, a_max, that to k at fixed M, and that to the machine; shape (6, *scenes).
+        The sensitivities to M, lambda, A, a_max, that to k at fixed M, and that to the machine; shape (6 or more,
+        *scenes).
     values
         Those whose sensitivities they are; shape `scenes`.
     """
     k, _, _, c0_over_R, _, amplitude, rim = (np.asarray(parameters[name], dtype=float) for name in PARAMETERS)
-    stiffness, wavelength, height, radius, exponent, machine = reduced
+    stiffness, wavelength, height, radius, exponent, machine = reduced[:COUNT]
     by_k, by_nu = slopes
     driven = MACHINE in parameters
     found = np.empty((*values.shape, len(PARAMETERS) + driven))
@@ -107,7 +108,7 @@ def _move_with_turn(
         by_place = np.where(held, force[BY_RIM], 0.0)
         shift = by_place / depth[BY_RIM]
         by_turn = np.where(held, shift * target, 0.0)
-        for row in (*range(int(BY_RIM)), int(BY_EXPONENT), int(BY_MACHINE)):
+        for row in (row for row in range(len(force)) if row != BY_RIM):
             force[row] = np.where(held, force[row] - shift * depth[row], force[row])
     force[BY_RIM] = np.where(moves, 0.0, force[BY_RIM])
     return by_turn, moves & ~held
@@ -122,7 +123,7 @@ def _by_differences(
     given = {name: np.asarray(value, dtype=float) for name, value in parameters.items()}
     scenes = {name: np.broadcast_to(value, where.shape)[where] for name, value in given.items()}
     found = np.zeros((int(where.sum()), len(scenes)))
-    names = [name for name in (*PARAMETERS, MACHINE, *TURNS) if name in scenes]
+    names = [name for name in (*PARAMETERS, MACHINE, *TURNS, *PATTERN) if name in scenes]
     for i, name in enumerate(names):
         if name == "a_max_over_R":  # beyond where the cycle turns
             continue
@@ -163,8 +164,8 @@ def sensitivities(
 
     Returns
     -------
-    Arrays of shape (*scenes, 7), and one item more for the stiffness of a machine and for the turn, if there are such:
-    they are the last ones. NaN where the value is not positive, and at k = 1 that to nu.
+    Arrays of shape (*scenes, 7), and one item more for the stiffness of a machine, for the turn, and for each of
+    `PATTERN`, if there are such: they are the last ones. NaN where the value is not positive, and at k = 1 that to nu.
     """
     asked = [name for name in SENSITIVITIES if name in outputs]
     given = [name for name in (*PARAMETERS, MACHINE) if name in parameters]
@@ -188,6 +189,9 @@ def sensitivities(
         if turn is not None:
             to_turn = np.where(values > 0.0, to_turn, np.nan)
             one = np.concatenate([one, to_turn[..., None]], axis=-1)
+        for row in (row for row, key in enumerate(PATTERN, COUNT) if key in parameters):
+            own = np.where(values > 0.0, reduced[part, row], np.nan)
+            one = np.concatenate([one, own[..., None]], axis=-1)
         if unknown.any():
             one[unknown] = _by_differences(parameters, unknown, force_of)
         found[name] = one
