@@ -42,7 +42,7 @@ _BEYOND: Final = 0.25
 def _extremes(toughness: Toughness) -> tuple[float, float]:
     """Return the lowest and the highest value of the series."""
     rows = rows_of_pattern(toughness)
-    return lowest(rows)[0], -lowest(rows * np.array([1.0, -1.0, -1.0]))[0]
+    return lowest(rows), -lowest(rows * np.array([1.0, -1.0, -1.0]))
 
 
 def _patterns_of(toughness: Toughness, scenes: Scenes) -> Patterns:
@@ -58,7 +58,7 @@ def _patterns_of(toughness: Toughness, scenes: Scenes) -> Patterns:
         if place < math.inf:
             limit[i] = place * wavelength[i] * (1.0 - 1e-12)
             furthest = np.max(np.where(within[i] <= limit[i], within[i], 0.0)) / wavelength[i]
-            least[i] = _BEYOND * (1.0 + lowest(rows * np.array([1.0, amplitude[i], amplitude[i]]), furthest)[0])
+            least[i] = _BEYOND * (1.0 + lowest(rows * np.array([1.0, amplitude[i], amplitude[i]]), furthest))
     return Patterns(rows, toughness.of == "work", wavelength, amplitude, np.maximum(least, 0.0), limit)
 
 

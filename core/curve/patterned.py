@@ -5,8 +5,8 @@ In the units of curve/general.py the edge pulls with kappa(z) times the toughnes
     depth(z) = B z^m + g z w0 - kappa z^c,     load(z) = z^(1+k) [B z^m m/(1+k+m) + g z w1 - kappa z^c]
     D = m B z^(m-1) + g v - (q kappa + z kappa') z^(-n)
 
-(docs/theory.md): the curve of a series whose waves are g w0 + (1 - kappa) z^(-n) and so on. Its `gain` is 1, and g stands
-with the pattern. The unit of length is the wavelength of the profile, or that of the pattern where the punch is smooth.
+(docs/theory.md): the curve of a series whose waves are g w0 + (1 - kappa) z^(-n) and so on. Its `gain` is 1, and g
+stands with the pattern. The unit of length is the wavelength of the profile, or that of the pattern if there is none.
 """
 
 import math
@@ -114,7 +114,7 @@ def smooth_part(rows: Harmonics, least: float) -> float:
 def pattern_of(
     cosine_bins: Any, waves: Harmonics, gain: float, pattern: Harmonics, of_work: bool, least: float
 ) -> tuple[Pattern, Harmonics]:
-    """Return the second and the third place of a basis; t - 1 is `pattern`, (waves a unit length, cos, sin), or more."""
+    """Return the second and the third place of a basis; `pattern` is t - 1 as rows (waves a unit length, cos, sin)."""
     total, slope, bend = 0.0, 0.0, 0.0
     for i in range(pattern.shape[0]):
         n, size = pattern[i, 0], math.hypot(pattern[i, 1], pattern[i, 2])

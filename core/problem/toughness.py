@@ -109,37 +109,40 @@ def _sum(rows: NDArray[np.float64], u: NDArray[np.float64]) -> NDArray[np.float6
     return total
 
 
-def lowest(rows: NDArray[np.float64], end: float = 1.0, below: float = -math.inf) -> tuple[float, float]:
-    """Return the lowest value of a series from 0 to `end` wavelengths, 1 at most, or one `below`, and its place.
+def lowest(rows: NDArray[np.float64], end: float = 1.0) -> float:
+    """Return the lowest value of a series from 0 to `end` wavelengths, 1 at most."""
+    return _searched(rows, end, -math.inf)[0]
 
-    The place is the first with such a value. Parts of the wavelength are halved as long as the bound of the curvature
-    lets the series be lower in them than anything that has been met: no minimum is missed, and rounding is left.
+
+def _searched(rows: NDArray[np.float64], end: float, limit: float) -> tuple[float, float]:
+    """Return the lowest value of a series up to `end` wavelengths, or the first one below a limit; and its place.
+
+    Parts of the wavelength are halved as long as the bound of the curvature lets the series be lower in them than what
+    has been met, or lower than the limit before that: no minimum is missed, and rounding is left.
     """
     sizes = np.hypot(rows[:, 1], rows[:, 2])
     if not sizes.any():
         return 0.0, 0.0
     bend, error = float(np.sum((2.0 * math.pi * rows[:, 0]) ** 2 * sizes)), _ROUNDING * float(sizes.sum())
-    ends = np.linspace(0.0, end, 2 + math.ceil(_SAMPLES * float(rows[:, 0].max()) * end))
-    left, width, values = ends[:-1], ends[1], _sum(rows, ends)
-    first, last = values[:-1], values[1:]
-    best, place = math.inf, 0.0
-    while True:
-        low = np.concatenate([first, last[-1:]])
-        at = np.concatenate([left, left[-1:] + width])
-        i = int(np.argmax(low < below)) if (low < below).any() else int(np.argmin(low))
-        if best >= below and low[i] < best:
-            best, place = float(low[i]), float(at[i])
-        elif low[i] < below and at[i] < place:
-            best, place = float(low[i]), float(at[i])
-        worth = np.minimum(first, last) - bend * width**2 / 8.0 < (best - error if best >= below else below)
-        worth &= (left < place) | (best >= below)
-        if not worth.any() or width < _NARROW:
-            return best, place
+    left = np.linspace(0.0, end, 2 + math.ceil(_SAMPLES * float(rows[:, 0].max()) * end))
+    width, values = left[1], _sum(rows, left)
+    best, place = float(values[-1]), end
+    left, first, last = left[:-1], values[:-1], values[1:]
+    while left.size and width > _NARROW:
+        below = np.flatnonzero(first < limit)
+        i = int(below[0]) if below.size else int(np.argmin(first))
+        if first[i] < max(best, limit) and (best >= limit or left[i] < place):
+            best, place = float(first[i]), float(left[i])
+        worth = np.minimum(first, last) - bend * width**2 / 8.0 < (limit if best < limit else best - error)
+        worth &= (best >= limit) | (left < place)
         width *= 0.5
         middle = left[worth] + width
         here = _sum(rows, middle)
-        left = np.stack([left[worth], middle], axis=-1).ravel()
-        first, last = (np.stack(pair, axis=-1).ravel() for pair in ((first[worth], here), (here, last[worth])))
+        left, first, last = (
+            np.stack(pair, axis=-1).ravel()
+            for pair in ((left[worth], middle), (first[worth], here), (here, last[worth]))
+        )
+    return best, place
 
 
 def violation(toughness: Toughness, amplitude: float, wavelength: float, rim: float) -> float | None:
@@ -169,5 +172,5 @@ def first_violation(toughness: Toughness, amplitude: float, end: float = 1.0) ->
     rows = rows_of_pattern(toughness) * np.array([1.0, amplitude, amplitude])
     error = _ROUNDING * (1.0 + float(np.hypot(rows[:, 1], rows[:, 2]).sum()))
     limit = -1.0 + (error if toughness.of == "work" else -error)
-    value, place = lowest(rows, end, limit)
+    value, place = _searched(rows, end, limit)
     return place if value < limit else math.inf

@@ -56,7 +56,10 @@ def _walked(
     sense: IfSense,
     number: int,
 ) -> bool:
-    """Solve the chosen rims of a curve, shape (rims,), in its wavelengths, on one trace; return whether it is walked."""
+    """Solve the chosen rims of a curve, shape (rims,), in its wavelengths, on one trace; return whether that was done.
+
+    The curve is number `number` of those whose sensitivities are found.
+    """
     slots = scene.results.slots
     losses, furthest = wants_losses(slots), 0.0
     for i in range(rims.size):
@@ -94,9 +97,7 @@ def _refuse_waves(results: Results, i: int) -> None:
 
 
 @kernel()
-def _cycles(
-    basis: Basis, curve: Patterned, scene: Scene, rims: Floats, sense: IfSense, number: int
-) -> None:
+def _cycles(basis: Basis, curve: Patterned, scene: Scene, rims: Floats, sense: IfSense, number: int) -> None:
     """Follow the cycles of a curve up to all its rims a_max/R that are not refused, of shape (rims,)."""
     bounds = window(basis, curve)
     places, together, alone = np.empty(rims.size), np.zeros(rims.size, np.bool_), np.zeros(rims.size, np.bool_)

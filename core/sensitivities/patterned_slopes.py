@@ -125,7 +125,9 @@ def _slopes_of_level(curve: Patterned, at: At, parts: Floats, level: Floats) -> 
 
 
 @kernel()
-def _add_density(curve: Patterned, at: At, parts: Floats, level: Floats, u: float, weight: float, total: Floats) -> None:
+def _add_density(
+    curve: Patterned, at: At, parts: Floats, level: Floats, u: float, weight: float, total: Floats
+) -> None:
     """Add `weight` times the integrand; u is rho - kappa."""
     rho, over = at.toughness + u, 1.0 / ((curve.alpha + at.share) * at.stretch)
     for p in range(COUNT):
