@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+import mpmath
 import numpy as np
 from scipy.integrate import quad
 from scipy.optimize import brentq, minimize_scalar
@@ -16,10 +17,11 @@ from scipy.special import gamma, jv, struve
 
 
 def _struve(order: float, z: Any) -> Any:
-    """SciPy's, which is not a number at some places, and is beside them."""
-    value = struve(order, z)
-    for step in (1.0 + 2e-15, 1.0 - 2e-15, 1.0 + 1e-13):
-        value = np.where(np.isnan(value), struve(order, z * step), value)
+    """SciPy's, and mpmath's where that is not a number."""
+    value = np.array(struve(order, z))
+    for i in np.argwhere(np.isnan(value)):
+        place = tuple(i)
+        value[place] = float(mpmath.struveh(order, np.asarray(z)[place]))
     return value
 
 
