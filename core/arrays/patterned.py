@@ -80,7 +80,7 @@ def solve_patterned(
     parameters: Mapping[str, ArrayLike],
     wanted: Sequence[str],
     how: How,
-    slopes: tuple[bool, bool] | None = None,
+    slopes: tuple[bool, int] | None = None,
     *,
     turned: bool = False,
 ) -> dict[str, NDArray[Any]]:

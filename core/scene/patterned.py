@@ -29,6 +29,7 @@ from gradhesion.core.problem.results import (
     RADIUS,
     TURNED,
     Results,
+    part_of,
     put,
     wants_folds,
     wants_force,
@@ -83,9 +84,9 @@ def _walked(
         put_cycle(basis, curve, scene, (x, 0.0), cycle, (close, is_one_disc(basis, curve, limits, x)), i)
         if x == math.inf:
             put(scene.results, OUTERMOST, i, TWO_PI * scene.length * trace[ARRIVAL, count - 1])
-        if len(sense) > 0:
-            own = math.log(scene.length), number
-            put_energy(basis, curve, sense, own, (count, trace), x, loaded + unloaded, i)
+        if len(sense) > 0 and sense.energy > 0:
+            energy = part_of(sense.energy, loaded, unloaded)
+            put_energy(basis, curve, sense, (math.log(scene.length), number), (count, trace), x, energy, i)
     return True
 
 

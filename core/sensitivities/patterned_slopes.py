@@ -30,7 +30,7 @@ from gradhesion.core.curve.panels import (
 )
 from gradhesion.core.curve.patterned import Patterned, shortest_of, toughness_at
 from gradhesion.core.path.unloading import descend, leave_rim
-from gradhesion.core.problem.results import RADIUS, Results
+from gradhesion.core.problem.results import LOADING_PART, RADIUS, UNLOADING_PART, Results
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.sensitivities.cosine_slopes import (
     BY_AMPLITUDE,
@@ -59,6 +59,8 @@ BY_DEPTH, BY_LOAD, BY_TOUGHNESS, BY_STRETCH, BY_SHARE = map(constant, range(5))
 """Rows of `parts`: depth, load, kappa, and the logarithms of Delta and of t, by all p."""
 LN2: Final = math.log(2.0)
 
+Walked: TypeAlias = tuple[int, Trace]
+"""The number of branches, and the trace (path/patterned.py)."""
 IfSense: TypeAlias = Any
 """A record `Sense`, or () where no sensitivities are wanted: numba drops what needs it by the length."""
 
@@ -70,7 +72,7 @@ class Sense(NamedTuple):
     front_by_k: float  # the slope by k of ln of the factor of the punch
     found: Floats  # where the sensitivities go, of shape (3, COUNT, curves, rims)
     force: bool  # whether those of the pull-off force are wanted
-    energy: bool  # whether those of the energy are
+    energy: int  # the parts of the cycle of whose energy they are wanted (`part_of` of problem/results.py), 0 for none
     turned: bool  # whether the rims are places where cycles turn
 
 
@@ -186,11 +188,18 @@ def add_jump(
 
 
 @kernel()
-def energy_slopes(
-    basis: Basis, curve: Patterned, sense: Sense, log_length: float, count: int, trace: Trace, rim: float
-) -> Floats:
-    """Return the slopes of the energy of a cycle up to a rim, of shape (COUNT + 1,), in 2 pi l^2 dgamma."""
-    total, room = np.zeros(COUNT + 1), Room(np.empty((5, COUNT)), np.empty(COUNT))
+def _add_loading(
+    basis: Basis,
+    curve: Patterned,
+    sense: Sense,
+    log_length: float,
+    walked: Walked,
+    rim: float,
+    room: Room,
+    total: Floats,
+) -> None:
+    """Add the slopes of loading up to a rim."""
+    count, trace = walked
     left, level = 0.0, 0.0
     for branch in range(count):
         if trace[ARRIVAL, branch] <= rim and trace[ARRIVAL, branch] < math.inf:
@@ -203,8 +212,23 @@ def energy_slopes(
         own, _, _ = toughness_at(basis, rim)
         u = (value - level) / over
         total[BY_RIM] -= (TWO_PI * rim) ** 2 * u * (2.0 * own + u)
-    own_level = coordinate(basis, curve, rim) if rim < math.inf else math.inf
-    now, landing = leave_rim(basis, curve, count, trace, rim, own_level)
+
+
+@kernel()
+def _add_unloading(
+    basis: Basis,
+    curve: Patterned,
+    sense: Sense,
+    log_length: float,
+    walked: Walked,
+    rim: float,
+    room: Room,
+    total: Floats,
+) -> None:
+    """Add the slopes of unloading from a rim; under a dead load the jump-out has no energy."""
+    count, trace = walked
+    level = coordinate(basis, curve, rim) if rim < math.inf else math.inf
+    now, landing = leave_rim(basis, curve, count, trace, rim, level)
     if now < 0 or landing != rim:
         before = total[LEVEL]
         if now >= 0 or curve.alpha > 0.0:
@@ -219,7 +243,6 @@ def energy_slopes(
             end = trace[LANDING, now] if lower >= 0 else 0.0
             add_jump(basis, curve, sense, log_length, trace[START, now], end, room, total)
         now = lower
-    return total
 
 
 @kernel()
@@ -228,17 +251,18 @@ def put_energy(
     curve: Patterned,
     sense: IfSense,
     of_curve: tuple[float, int],
-    walked: tuple[int, Trace],
+    walked: Walked,
     x: float,
     energy: float,
     rim: int,
 ) -> None:
     """Store the sensitivities of the energy, in 2 pi l^2 dgamma, of a rim at x: ln l and number of the curve first."""
-    if not sense.energy:
-        return
     log_length, i = of_curve
-    count, trace = walked
-    total = energy_slopes(basis, curve, sense, log_length, count, trace, x)
+    total, room = np.zeros(COUNT + 1), Room(np.empty((5, COUNT)), np.empty(COUNT))
+    if sense.energy & LOADING_PART:
+        _add_loading(basis, curve, sense, log_length, walked, x, room, total)
+    if sense.energy & UNLOADING_PART:
+        _add_unloading(basis, curve, sense, log_length, walked, x, room, total)
     for p in range(COUNT):
         sense.found[ENERGY, p, i, rim] = total[p] / energy if energy > 0.0 else math.nan
 
