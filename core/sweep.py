@@ -262,6 +262,7 @@ def solve(
             found["turning_radius"] = np.where(found["status"] & NO_VALUE, np.nan, rim)
     else:
         arguments: dict[str, Any] = {"check_contact": check_contact and not set(outputs) <= set(PULL_OFF)}
+        flags: NDArray[Any]
         if alike is not None:
             radii, flags = turning_cosine(parameters, turn, threads, **arguments)
             passed = np.full(radii.shape, False)  # displacement is prescribed: jumps leave it as it is

@@ -10,6 +10,8 @@ Integers: TypeAlias = NDArray[np.int64]
 Truths: TypeAlias = NDArray[np.bool_]
 Bits: TypeAlias = NDArray[np.int8]
 """Bits of problem/status.py."""
+AnyBits: TypeAlias = NDArray[np.int8] | NDArray[np.int16]
+"""The same, in studies that have more of them as well."""
 Harmonics: TypeAlias = NDArray[np.float64]
 """The waves of a profile: rows (n, cos, sin), of shape (harmonics, 3); all cosines and sines are in units of A."""
 Slopes: TypeAlias = NDArray[np.float64]

@@ -63,7 +63,7 @@ def _patterns_of(toughness: Toughness, scenes: Scenes) -> Patterns:
 
 
 def curves_of_scenes(
-    scenes: Scenes, profile: Profile, toughness: Toughness
+    scenes: Scenes, profile: Profile, toughness: Toughness | None
 ) -> tuple[NDArray[np.float64], Any, Patterns]:
     """Return the series of a profile, what makes the curves of one exponent from their numbers, and the patterns."""
     n, series = in_own_wavelength(profile)
@@ -73,6 +73,7 @@ def curves_of_scenes(
         shape = profile.exponent, depth_factor_of(exponent, profile.exponent)
         return GeneralCurves(index, *shape, scenes.stretch, wavelength, amplitude, scenes.compliance, scenes.rim)
 
+    assert toughness is not None  # noqa: S101 -- else these are not the scenes
     return series, curves_of, _patterns_of(toughness, scenes)
 
 
@@ -127,7 +128,7 @@ def _reports(
     from gradhesion.core.scene.patterned_report import report_scenes  # noqa: PLC0415
 
     together = prepared({PATTERN[1]: 1.0, **parameters}, how.loading, more=PATTERN)
-    of_each = {name: together.of_each(getattr(together, name)) for name in _OF_CURVES}
+    of_each: dict[str, Any] = {name: together.of_each(getattr(together, name)) for name in _OF_CURVES}
     rims = np.broadcast_to(together.rim, (together.k.size, together.rim.shape[1])).reshape(-1, 1)
     scenes = replace(together, rim=rims, others=tuple(map(together.of_each, together.others)), **of_each)
     status, none = found["status"].ravel(), np.full(scenes.k.size, np.nan)

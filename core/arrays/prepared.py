@@ -4,7 +4,7 @@ from __future__ import annotations  # those of inner functions would be made ane
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -78,8 +78,8 @@ def prepared(
     with np.errstate(all="ignore"):
         stretch = np.sqrt(2.0 ** (1.0 + curves.k) * math.pi / material)
     compliance = compliance_of(loading, curves.k, curves.modulus, material, *spring)
-    scenes = Scenes(curves.shape, curves.k, stretch, curves.lambda_over_R, curves.A, compliance, *curves.rims)
-    return replace(scenes, others=others) if others else scenes
+    own = curves.k, stretch, curves.lambda_over_R, curves.A, compliance
+    return Scenes(curves.shape, *own, curves.rims[0], curves.rims[1] if len(along) > 1 else None, others)
 
 
 def run_by_exponent(

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.problem.names import TURNS
-from gradhesion.core.problem.status import JUMP_IN_TO_RIM, NO_CONTACT, NO_VALUE
+from gradhesion.core.problem.status import JUMP_IN_TO_RIM, NO_CONTACT, NO_VALUE, TOO_MANY_WAVES
 
 Results: TypeAlias = dict[str, NDArray[Any]]
 _GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
@@ -34,7 +34,7 @@ def turned_results(
     turn: str,
     outputs: Sequence[str],
     radii: NDArray[np.float64],
-    flags: NDArray[np.int8],
+    flags: NDArray[Any],
     passed: NDArray[np.bool_],
     solve: Solver,
     smooth: Callable[[Mapping[str, ArrayLike], Sequence[str]], Results],
@@ -81,8 +81,9 @@ def turned_results(
         with np.errstate(all="ignore"):
             found |= {name: found[_GAINS[name]] / plain[_GAINS[name]] for name in gains}
     status = np.where(short, found["status"] & ~JUMP_IN_TO_RIM, found["status"]).astype(np.int16)
-    status = np.where(none & ~away, NO_VALUE, np.where(away, NO_CONTACT, status) | flags)
+    refused = NO_VALUE | ((status | flags) & TOO_MANY_WAVES)
+    status = np.where(none & ~away, refused, np.where(away, NO_CONTACT, status) | flags)
     return found | {
-        "status": status.astype(np.int16 if turn == TURNS[0] else np.int8),
+        "status": status.astype(np.int16 if turn == TURNS[0] else found["status"].dtype),
         "turning_radius": np.where(none & ~away, np.nan, radii),
     }

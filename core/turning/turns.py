@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from gradhesion.core.types import Bits, Floats
+from gradhesion.core.types import AnyBits, Floats
 
 
 class Turns(NamedTuple):
@@ -14,4 +14,4 @@ class Turns(NamedTuple):
     by_load: bool  # whether they are loads
     check: bool  # whether the contact that turns is tested for being one disc
     radii: Floats  # found: where unloading starts, in units of the rims, 0 without contact, NaN without a value
-    flags: Bits  # found: bits of the status, int8 of the same shape
+    flags: AnyBits  # found: bits of the status, int8 or int16 of the same shape
