@@ -3,7 +3,7 @@
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any, Final
 
 import numpy as np
@@ -19,6 +19,8 @@ from gradhesion.cli.study.reading import study_from, text_of
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.rate import Rate
+from gradhesion.core.problem.toughness import Toughness
 from gradhesion.values import array_of, numbers_of
 from gradhesion.wording import without_tables
 
@@ -26,6 +28,8 @@ ARGUMENTS: Final = (
     "outputs",
     "profile",
     "control",
+    "toughness",
+    "rate",
     "contact_radius_over_R",
     "solver",
     "check_contact",
@@ -269,6 +273,11 @@ def _settings(settings: Mapping[str, Any]) -> dict[str, Any]:
     if isinstance(profile := found.get("profile"), Profile):
         waves = [{"n": wave.n, "cos": wave.cos, "sin": wave.sin} for wave in profile.harmonics]
         found["profile"] = {"exponent": profile.exponent, "harmonics": waves}
+    if isinstance(toughness := found.get("toughness"), Toughness):
+        waves = [{"n": wave.n, "cos": wave.cos, "sin": wave.sin} for wave in toughness.harmonics]
+        found["toughness"] = {"harmonics": waves, "of": toughness.of}
+    if isinstance(rate := found.get("rate"), Rate):
+        found["rate"] = asdict(rate)
     if "contact_radius_over_R" in found:
         radii = as_written(found["contact_radius_over_R"])
         found["contact_radius_over_R"] = radii if isinstance(radii, list) else [radii]

@@ -38,5 +38,11 @@ class Given(TypedDict, total=False):
     load_max: Any
     work_of_adhesion_closing: Any
     closing_ratio: Any
+    toughness_wavelength: Any
+    toughness_wavelength_over_R: Any
+    toughness_amplitude: Any
+    speed: Any
+    reference_speed: Any
+    speed_over_reference: Any
     adhesion_range: Any
     adhesion_range_over_R: Any

@@ -14,6 +14,8 @@ from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.kernels import kinds_of
 from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.rate import Rate
+from gradhesion.core.problem.toughness import Toughness
 from gradhesion.given import given_in
 from gradhesion.names import Given
 from gradhesion.solved import solved
@@ -27,6 +29,8 @@ def solve(
     *,
     profile: Profile | Mapping[str, Any] | None = None,
     control: str | None = None,
+    toughness: Toughness | Mapping[str, Any] | None = None,
+    rate: Rate | Mapping[str, Any] | None = None,
     solver: str | Sequence[str] | None = None,
     check_contact: bool | None = None,
     threads: int | None = None,
@@ -61,6 +65,11 @@ def solve(
         The shape of the punch, a `Profile` or the table of a study; by default a paraboloid with one cosine wave.
     control
         "displacement" (the default), "load" or "machine".
+    toughness
+        How the toughness varies with the radius, a `Toughness` or the table of a study; by default it does not.
+    rate
+        How the work of adhesion grows with the speed of the edge, a `Rate` or the table of a study; not at all by
+        default.
     solver
         One of `SOLVERS`, "exact" by default; a list puts several side by side along the dimension `solver`.
     check_contact
@@ -111,7 +120,7 @@ def solve(
     True
     """
     settings: dict[str, Any] = {"outputs": outputs, "profile": profile, "control": control, "solver": solver}
-    settings |= {"check_contact": check_contact, "title": title}
+    settings |= {"check_contact": check_contact, "title": title, "toughness": toughness, "rate": rate}
     given = given_in("gr.solve", parameters, more, settings)
     given.check_threads(threads)
     study = given.study()
@@ -125,6 +134,8 @@ def curves(
     *,
     profile: Profile | Mapping[str, Any] | None = None,
     control: str | None = None,
+    toughness: Toughness | Mapping[str, Any] | None = None,
+    rate: Rate | Mapping[str, Any] | None = None,
     contact_radius_over_R: Sequence[float] | float | None = None,
     threads: int | None = None,
     title: str | None = None,
@@ -143,7 +154,7 @@ def curves(
     contact_radius_over_R
         For "pressure" and "surface": the radii of states of equilibrium, ratios; None for turning point, pull-off and
         jump-out.
-    profile, control, threads, title
+    profile, control, toughness, rate, threads, title
         As in `solve`.
 
     Returns
@@ -165,8 +176,9 @@ def curves(
     >>> bool(abs(lowest / -force - 1.0) < 1e-12)
     True
     """
-    settings = {"kind": "curve", "outputs": outputs, "profile": profile, "control": control}
-    more_settings = {"contact_radius_over_R": contact_radius_over_R, "title": title}
+    settings: dict[str, Any] = {"kind": "curve", "outputs": outputs, "profile": profile, "control": control}
+    more_settings: dict[str, Any] = {"contact_radius_over_R": contact_radius_over_R, "title": title}
+    more_settings |= {"toughness": toughness, "rate": rate}
     given = given_in("gr.curves", parameters, more, settings | more_settings)
     given.check_threads(threads)
     for name, array in given.arrays.items():

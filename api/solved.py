@@ -15,7 +15,7 @@ from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import PHYSICAL_PARAMETER, REALISATION, SI, SOLVER, STEEP, UNITS, labels_of
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import messages
-from gradhesion.cli.work.given import physical_of, solved_by
+from gradhesion.cli.work.given import driven_by, physical_of, solved_by
 from gradhesion.core import PARAMETERS
 from gradhesion.core.variables.reduced import parameters_from, scales_in_si, sources_of
 
@@ -132,7 +132,7 @@ def _along(sizes: Mapping[str, int], value: float | xarray.DataArray) -> NDArray
 def _outputs(study: Study, scenes: Mapping[str, NDArray[np.float64]], threads: int | None) -> dict[str, NDArray[Any]]:
     """Solve the scenes, by one solver or by each of several."""
     settings: dict[str, Any] = {"check_contact": study.method.check_contact, "threads": threads}
-    settings |= {"loading": study.loading, "watch": study.may_reach(scenes["a_max_over_R"])}
+    settings |= {**driven_by(study), "watch": study.may_reach(scenes["a_max_over_R"])}
     solvers = study.method.solver
     asked = (solvers,) if isinstance(solvers, str) else solvers
     *_, profiles = study.apart(tuple(slice(0, size) for size in study.shape))

@@ -41,6 +41,8 @@ OUTPUTS: Final = {
     "front_energy": "energy of the edge, which opens at more work than it closes at, in a cycle, H/(R^2 dgamma)",
     "snap_in_force": "pull just after the jump into contact P/(1.5 pi R dgamma)",
     "pinned_depth": "depth delta/R by which the punch moves back before the edge opens",
+    "edge_speed_at_pull_off": "speed of the edge over its reference speed at the pull-off, v/v*",
+    "rate_coefficient": "gain of the pull-off force over (V/v*)^n as the speed tends to 0",
     "pull_off_force_error": "estimate of the error of the pull-off force F/(1.5 pi R dgamma)",
     "dissipated_energy_error": "estimate of the error of the dissipated energy H/(R^2 dgamma)",
     "energy_residual": "dissipated energy less the loop integral of the load over the depth, in R^2 dgamma",
@@ -299,6 +301,7 @@ FLAGS: Final = {
     "resolution_too_coarse": "a sweep finer than the resolution finds another optimum",
     "nothing_feasible": "no point of the sweep meets what is required",
     "no_contact": "the cycle turns before first contact",
+    "too_many_waves": "more waves stand within the contact than are followed",
 }
 """Every flag of `status`, in words."""
 
@@ -329,6 +332,8 @@ SYMBOLS: Final[dict[str, str]] = {
     "front_energy": r"energy of the edge $H\,/\,(R^2\Delta\gamma)$",
     "snap_in_force": r"snap-in force $P\,/\,(\frac{3}{2}\pi R\Delta\gamma)$",
     "pinned_depth": r"pinned depth $\delta/R$",
+    "edge_speed_at_pull_off": "speed of the edge at pull-off $v/v^*$",
+    "rate_coefficient": "rate coefficient",
     "pull_off_force_error": r"error of the force $/\,(\frac{3}{2}\pi R\Delta\gamma)$",
     "dissipated_energy_error": r"error of the energy $/\,(R^2\Delta\gamma)$",
     "energy_residual": r"residual of the energy $/\,(R^2\Delta\gamma)$",

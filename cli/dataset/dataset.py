@@ -16,7 +16,7 @@ from gradhesion.cli.dataset.contents import CONTENTS
 from gradhesion.cli.dataset.coordinates import coordinates
 from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.study.fit_study import FitStudy
-from gradhesion.cli.study.shape_words import profile_table, shape_in_words
+from gradhesion.cli.study.shape_words import profile_table, rate_in_words, shape_in_words, toughness_in_words
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.work import curves
@@ -88,6 +88,8 @@ def attributes(study: Study, history: str) -> dict[str, Any]:
         "profile": shape_in_words(study.profile, study.spectrum),
         **_of_fit(study),
         "control": study.loading.control,
+        **({} if study.toughness is None else {"toughness": toughness_in_words(study.toughness)}),
+        **({} if study.rate is None else {"rate": rate_in_words(study.rate)}),
     }
     return origin(study, history, own)
 

@@ -71,6 +71,10 @@ CLOSING: Final = "closing_ratio"
 """The parameter of an edge that closes at a smaller work of adhesion than it opens at."""
 CLOSING_WORK: Final = "work_of_adhesion_closing"
 """The key of [physical] that gives the same with its unit."""
+PATTERN: Final = ("toughness_wavelength_over_R", "toughness_amplitude")
+"""The parameters of a toughness that varies with the radius."""
+SPEED: Final = "speed_over_reference"
+"""The parameter of an edge whose work grows with its speed."""
 ADHESION_RANGE: Final = "adhesion_range_over_R"
 """The parameter that the Tabor parameters need alone: its dimension is the last, since nothing is solved for it."""
 INTERACTION: Final = "adhesion_range"
@@ -228,6 +232,27 @@ _ALL_INPUTS: Final = (
         r"$w_c/\Delta\gamma$",
         bounds={"ge": 0.0, "le": 1.0},
     ),
+    _quantity(
+        "toughness_wavelength",
+        PATTERN[0],
+        "m",
+        "wavelength of the pattern of toughness",
+        '"50 um"',
+        r"$\lambda_t$",
+    ),
+    _parameter(PATTERN[0], "wavelength lambda_t/R of the pattern of toughness", "0.1", r"$\lambda_t/R$"),
+    _parameter(PATTERN[1], "amplitude of the pattern of toughness", "0.5", "$t$", bounds={}),
+    _quantity("speed", SPEED, "m/s", "speed V of the machine", '"1 um/s"', "$V$", bounds=NOT_NEGATIVE),
+    _quantity(
+        "reference_speed", SPEED, "m/s", "speed v* of the edge at which its work is doubled", '"1 mm/s"', "$v^*$"
+    ),
+    _parameter(
+        SPEED,
+        "speed of the machine over the reference speed of the edge, V/v*",
+        "0.1",
+        "$V/v^*$",
+        bounds=NOT_NEGATIVE,
+    ),
     _quantity(INTERACTION, ADHESION_RANGE, "m", "range z0 of the attraction", '"0.3 nm"', "$z_0$"),
     _parameter(ADHESION_RANGE, "range z0/R of the attraction, for the Tabor parameters", "3e-7", "$z_0/R$"),
 )
@@ -243,7 +268,7 @@ turns at are the last that scenes are solved for, since all of one curve share i
 PARAMETERS: Final[dict[str, Key]] = {
     name: key
     for name, key in INPUTS.items()
-    if key.table == "parameters" and key.is_parameter and name not in (*TURNS, CLOSING, ADHESION_RANGE)
+    if key.table == "parameters" and key.is_parameter and name not in (*TURNS, CLOSING, *PATTERN, SPEED, ADHESION_RANGE)
 }
 """Every parameter that all scenes have, in the order of a dataset's dimensions."""
 

@@ -99,6 +99,7 @@ _WITHIN: Final = (
     Key(
         name="exponent",
         table="profile",
+        also=("rate",),
         about='power m of the punch without waves: 2 is a paraboloid, 1 a cone; "fit" fits it to the file',
         example="exponent = 2.0",
     ),
@@ -207,6 +208,7 @@ _WITHIN: Final = (
     Key(
         name="harmonics",
         table="profile",
+        also=("toughness",),
         about="waves of the series [one cosine]",
         example="harmonics = [{ n = 1, cos = 1.0 }, { n = 2, sin = 0.3 }]",
     ),
@@ -222,6 +224,18 @@ _WITHIN: Final = (
         table="harmonics",
         about="sine of the wave, in units of the amplitude",
         example="sin = 0.3",
+    ),
+    Key(
+        name="of",
+        table="toughness",
+        about="what the series multiplies: the toughness K_c, or the work of adhesion",
+        example='of = "work"',
+    ),
+    Key(
+        name="closing",
+        table="rate",
+        about="how the edge closes: at its work whatever the speed, or by the same law as it opens",
+        example='closing = "same"',
     ),
     Key(
         name="control",

@@ -47,6 +47,16 @@ TOP: Final = (
         example='a table [loading] with control = "displacement", "load" or "machine"',
     ),
     Key(
+        name="toughness",
+        about="a toughness that varies with the radius: a series of waves",
+        example="a table [toughness] with harmonics = [{ n = 1, cos = 0.2 }]",
+    ),
+    Key(
+        name="rate",
+        about="a work of adhesion that grows with the speed of the edge",
+        example="a table [rate] with exponent = 0.6",
+    ),
+    Key(
         name="states",
         about='states of contact for pressure and surface, for kind = "curve"',
         example="a table [states] with contact_radius_over_R",

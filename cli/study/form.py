@@ -17,10 +17,14 @@ from gradhesion.cli.study.deviation import Deviation, deviation_of
 from gradhesion.cli.study.quantities import si_value
 from gradhesion.cli.terminal.wording import example
 from gradhesion.core.problem.profile import MOST_HARMONICS
+from gradhesion.core.problem.rate import EXPONENTS
 
 MOST_WAVES: Final = 10_000
 """The shortest wave of a series, in waves a wavelength: beyond it hardly any scene can be followed."""
 
+
+SLOWEST, FASTEST = EXPONENTS
+"""The range of the power of the speed."""
 
 MOST_REALISATIONS: Final = 100_000
 """Profiles of one study: each is solved by itself."""
@@ -288,6 +292,33 @@ class StatesTable(Table):
         return tuple(self.contact_radius_over_R or ())
 
 
+class ToughnessWave(Table):
+    """One wave of a pattern of toughness."""
+
+    n: Annotated[int, Field(ge=1, le=MOST_WAVES, description=KEYS["n"].about)]
+    cos: Annotated[float, Field(allow_inf_nan=False, description="cosine of the wave, in units of the amplitude")] = 0.0
+    sin: Annotated[float, Field(allow_inf_nan=False, description=KEYS["sin"].about)] = 0.0
+
+
+class ToughnessTable(Table):
+    """A toughness that varies with the radius."""
+
+    harmonics: Annotated[
+        list[ToughnessWave],
+        Field(min_length=1, max_length=MOST_HARMONICS, description="waves of the series, a sum that is added to 1"),
+    ]
+    of: Annotated[str, Field(description=KEYS["of"].about)] = "toughness"
+
+
+class RateTable(Table):
+    """An edge whose work grows with its speed."""
+
+    exponent: Annotated[
+        float, Field(ge=SLOWEST, le=FASTEST, description="power n of the speed of the edge in its work, 1 + (v/v*)^n")
+    ]
+    closing: Annotated[str, Field(description=KEYS["closing"].about)] = "quasi-static"
+
+
 class Form(Table):
     """A whole study, each key for itself."""
 
@@ -299,6 +330,8 @@ class Form(Table):
     physical: Annotated[PhysicalTable, Field(description=KEYS["physical"].about, default_factory=PhysicalTable)]
     profile: Annotated[ProfileTable, Field(description=KEYS["profile"].about, default_factory=ProfileTable)]
     loading: Annotated[LoadingTable, Field(description=KEYS["loading"].about, default_factory=LoadingTable)]
+    toughness: Annotated[ToughnessTable | None, Field(description=KEYS["toughness"].about)] = None
+    rate: Annotated[RateTable | None, Field(description=KEYS["rate"].about)] = None
     states: Annotated[StatesTable, Field(description=KEYS["states"].about, default_factory=StatesTable)]
     optimum: Annotated[OptimumTable | None, Field(description=KEYS["optimum"].about)] = None
     uncertainty: Annotated[

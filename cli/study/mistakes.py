@@ -9,7 +9,15 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from gradhesion.cli.keys import FILE_KEYS, INPUTS, Path, keys_of
-from gradhesion.cli.study.form import MOST_REALISATIONS, MOST_RESOLUTION, MOST_STATES, MOST_WAVES, Form
+from gradhesion.cli.study.form import (
+    FASTEST,
+    MOST_REALISATIONS,
+    MOST_RESOLUTION,
+    MOST_STATES,
+    MOST_WAVES,
+    SLOWEST,
+    Form,
+)
 from gradhesion.cli.study.places import dotted
 from gradhesion.cli.study.quantities import ratio_sentence
 from gradhesion.cli.terminal.wording import MEANT, did_you_mean, example, nearest
@@ -26,6 +34,8 @@ _TABLES: Final = (
     "physical",
     "profile",
     "loading",
+    "toughness",
+    "rate",
     "states",
     "optimum",
     "uncertainty",
@@ -138,7 +148,13 @@ def _unknown_key(path: Path) -> tuple[Path, str]:
     if table == ("uncertainty",):
         return path, f"not an input of a study; {did_you_mean(key, (*INPUTS, *keys_of('uncertainty')))}"
     files = FILE_KEYS if table == ("parameters", "points") else ()
-    inner = "spectrum" if table == ("profile", "spectrum") else "harmonics" if table[:1] == ("profile",) else "range"
+    inner = (
+        "spectrum"
+        if table == ("profile", "spectrum")
+        else "harmonics"
+        if table[:1] in (("profile",), ("toughness",))
+        else "range"
+    )
     inner = "require" if table == ("optimum", "require") else inner
     known = files or tables.get(table, keys_of(inner))
     for other, keys in tables.items():
@@ -168,6 +184,8 @@ def _sentence(detail: ErrorDetails, path: Path) -> str:
         return str(detail["ctx"]["error"])
     if path[0] == "profile" and len(path) > 1:
         return _profile_sentence(kind, path)
+    if path[0] in ("toughness", "rate") and len(path) > 1:
+        return _edge_sentence(kind, path)
     if path[0] == "optimum" and len(path) > 1:
         return _optimum_sentence(kind, path)
     if path[0] == "states" and len(path) > 1 and kind != "too_short":
@@ -260,6 +278,24 @@ def _optimum_sentence(kind: str, path: Path) -> str:
     word = str(path[2]) if path[1] == "require" and len(path) > 2 else str(path[1])
     required = "this key is required" if kind == "missing" else allowed.get(word, "this must be a table")
     return f"{required}; {example((*path[:1], word))}"
+
+
+def _edge_sentence(kind: str, path: Path) -> str:
+    """Say what is wrong with a pattern of toughness, or with the law of a moving edge."""
+    last = path[-1]
+    if path == ("rate", "exponent"):
+        missing = "this key is required" if kind == "missing" else "the power n of the speed is a number"
+        return f"{missing}, from {SLOWEST:g} to {FASTEST:g}; write for example exponent = 0.6"
+    if last == "n" and kind == "missing":
+        return "a wave needs its number n; write for example { n = 1, cos = 0.2 }"
+    if last in ("of", "closing"):
+        return f"this must be a string in quotes; {example(path)}"
+    if path[1] == "harmonics" and len(path) < 4:
+        if kind == "too_long":
+            return f"a series has {MOST_HARMONICS} terms at most; leave the smallest out"
+        required = "this key is required: a" if kind == "missing" else "this must be a"
+        return f"{required} list of tables, one for each wave; write for example harmonics = [{{ n = 1, cos = 0.2 }}]"
+    return _profile_sentence(kind, path)
 
 
 def _states_sentence(kind: str, path: Path) -> str:

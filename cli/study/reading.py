@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.study import places
+from gradhesion.cli.study.edge import rate_of, toughness_of
 from gradhesion.cli.study.fit_study import FitStudy
 from gradhesion.cli.study.foreign import as_written
 from gradhesion.cli.study.kinds import KINDS
@@ -157,6 +158,8 @@ def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = N
         profile=measured.profile() or profile_of(form.profile),
         spectrum=spectrum_of(form.profile),
         loading=Loading(control=form.loading.control),
+        toughness=toughness_of(form.toughness),
+        rate=rate_of(form.rate),
         states=form.states.radii,
         search=search_of(found, sought),
         uncertainty=uncertainty_of(found),

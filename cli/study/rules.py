@@ -9,6 +9,7 @@ import numpy as np
 from gradhesion.cli.keys import INPUTS, Path
 from gradhesion.cli.names import CURVES
 from gradhesion.cli.study.axes import Values, expanded, mistake_of_range, mistakes_of_grid, mistakes_of_points
+from gradhesion.cli.study.edge import mistakes_of_rate, mistakes_of_toughness
 from gradhesion.cli.study.form import Range
 from gradhesion.cli.study.kinds import KINDS
 from gradhesion.cli.study.mistakes import Checked, Mistake
@@ -54,6 +55,8 @@ def mistakes_between_keys(checked: Checked, points: Points, sought: Sought) -> t
     mistakes += mistakes_of_punch(checked, sound)
     mistakes += mistakes_of_turn(checked)
     mistakes += mistakes_of_works(checked, sound, points=is_points)
+    mistakes += mistakes_of_toughness(checked, sound, points=is_points)
+    mistakes += mistakes_of_rate(checked, sound)
     mistakes += mistakes_of_states(checked, sound)
     mistakes += mistakes_of_range(checked)
     mistakes += mistakes_of_uncertainty(checked, sound)

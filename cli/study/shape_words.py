@@ -3,6 +3,8 @@
 from gradhesion.core.answers.spectrum import Spectrum
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Harmonic, Profile
+from gradhesion.core.problem.rate import Rate
+from gradhesion.core.problem.toughness import Toughness
 
 
 def shape_in_words(profile: Profile, spectrum: Spectrum | None = None) -> str:
@@ -57,6 +59,41 @@ def control_in_words(loading: Loading) -> str:
         "load": "load, so that the energy of the jump-out, which has no bound, is left out",
         "machine": "displacement through a machine of finite stiffness",
     }[loading.control]
+
+
+def toughness_in_words(toughness: Toughness) -> str:
+    """
+    Write how the toughness varies with the radius as a formula.
+
+    >>> toughness_in_words(Toughness((ToughnessHarmonic(n=1, cos=0.5), ToughnessHarmonic(n=2, sin=-0.1))))
+    'K_c times 1 + t [0.5 cos(2 pi y) - 0.1 sin(4 pi y)], y = r/lambda_t'
+    """
+    terms = [
+        (size, f"{wave}({2 * one.n} pi y)")
+        for one in toughness.harmonics
+        for size, wave in ((one.cos, "cos"), (one.sin, "sin"))
+        if size != 0.0
+    ]
+    what = {"toughness": "K_c", "work": "w"}[toughness.of]
+    if not terms:
+        return f"{what} times 1"
+    (size, wave), *others = terms
+    written = ("-" if size < 0.0 else "") + _term(size, wave, alone=True)
+    for size, wave in others:
+        written += (" - " if size < 0.0 else " + ") + _term(size, wave, alone=False)
+    return f"{what} times 1 + t [{written}], y = r/lambda_t"
+
+
+def rate_in_words(rate: Rate) -> str:
+    """
+    Write how the work of adhesion grows with the speed of the edge.
+
+    >>> rate_in_words(Rate(exponent=0.6))
+    'G = w_o [1 + (v/v*)^0.6] while the edge opens, G = w_c while it closes'
+    """
+    power = f"(v/v*)^{rate.exponent:.15g}"
+    closing = f"G = w_c/[1 + {power}]" if rate.closing == "same" else "G = w_c"
+    return f"G = w_o [1 + {power}] while the edge opens, {closing} while it closes"
 
 
 def _terms(harmonic: Harmonic) -> list[tuple[float, str]]:

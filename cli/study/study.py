@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.keys import CLOSING, INPUTS, MACHINE, TURNS
+from gradhesion.cli.keys import CLOSING, INPUTS, MACHINE, PATTERN, TURNS
 from gradhesion.cli.names import (
     BEST,
     OF_PHYSICAL,
@@ -37,6 +37,8 @@ from gradhesion.core.arrays.reach import depends_on_contact
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import PARAMETERS, RANGE, SENSITIVITIES
 from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.rate import Rate
+from gradhesion.core.problem.toughness import Toughness
 
 FEW_SAMPLES: Final = 32
 """Samples of each scene that check a linear standard deviation."""
@@ -78,6 +80,10 @@ class Study:
     method: Method
     profile: Profile = field(default_factory=Profile)
     loading: Loading = field(default_factory=Loading)
+    toughness: Toughness | None = None
+    """How its toughness varies with the radius, if it does."""
+    rate: Rate | None = None
+    """How the work of its edge grows with the speed, if it does."""
     search: Search = field(default_factory=Search)
     """What is sought in the place of values; the inputs that are searched are no parameters of it."""
     uncertainty: Uncertainty = field(default_factory=Uncertainty)
@@ -107,12 +113,12 @@ class Study:
     @property
     def linear(self) -> tuple[str, ...]:
         """The outputs whose standard deviation follows from sensitivities."""
-        return self.uncertainty.linear(self.outputs, exact=self.method.solver == "exact")
+        return self.uncertainty.linear(self.outputs, exact=self._knows_slopes)
 
     @property
     def spreads(self) -> tuple[str, ...]:
         """The variables with the spread of its outputs, those in SI units last."""
-        own = self.uncertainty.spreads(self.outputs, exact=self.method.solver == "exact")
+        own = self.uncertainty.spreads(self.outputs, exact=self._knows_slopes)
         return (*own, *(name + SI for name in own if name in UNITS and "R" in self.parameters))
 
     @cached_property
@@ -135,7 +141,12 @@ class Study:
     @property
     def has_slopes(self) -> bool:
         """Whether the exact slopes of what is sought are known."""
-        return bool(self.search.slope) and self.method.solver == "exact"
+        return bool(self.search.slope) and self._knows_slopes
+
+    @property
+    def _knows_slopes(self) -> bool:
+        """Whether there are sensitivities."""
+        return self.method.solver == "exact" and self.rate is None
 
     @property
     def given(self) -> tuple[str, ...]:
@@ -162,7 +173,8 @@ class Study:
     @property
     def status_type(self) -> str:
         """The type of `status`: as many bits as its flags need."""
-        return "i2" if self.has_answers or self.turns_at_a_depth else "i1"
+        follows = self.toughness is not None or self.rate is not None
+        return "i2" if self.has_answers or self.turns_at_a_depth or follows else "i1"
 
     @property
     def watches_slope(self) -> bool:
@@ -192,7 +204,7 @@ class Study:
         asked = {labels_of(name) for name in self.variables} - {""}
         more = [MACHINE] if self.loading.control == "machine" else []
         last = [self.turn] if self.turn else []
-        last += [CLOSING] if self.has_two_works else []
+        last += [name for name in (CLOSING, *PATTERN) if self.gives(name)]
         keys = (*PARAMETERS, *more, *last)
         given = [INPUTS[name] for name in self.parameters]
         units = tuple(
@@ -219,10 +231,9 @@ class Study:
         """The parameter at which its cycles turn before the rim; empty if they turn there."""
         return next((INPUTS[name].gives for name in self.given if INPUTS[name].gives in TURNS), "")
 
-    @property
-    def has_two_works(self) -> bool:
-        """Whether its edges close at a work of adhesion of their own."""
-        return any(INPUTS[name].gives == CLOSING for name in self.given)
+    def gives(self, parameter: str) -> bool:
+        """Report whether it gives a parameter that not every scene has."""
+        return any(INPUTS[name].gives == parameter for name in self.given)
 
     @cached_property
     def sizes(self) -> dict[str, int]:

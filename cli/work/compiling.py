@@ -22,11 +22,18 @@ WORDS = {
     "envelope": "the envelope solver",
     "curves": "curves",
     "sensitivities": "sensitivities",
+    "edge": "edges that close at less work",
+    "patterned": "patterns of toughness",
+    "patterned_turning": "turning points on patterns of toughness",
+    "patterned_curves": "curves on patterns of toughness",
+    "patterned_sensitivities": "sensitivities on patterns of toughness",
+    "patterned_reports": "errors and gains on patterns of toughness",
+    "rate": "edges with a speed",
 }
 """The kinds of work, in words."""
 
-SECONDS: Final = 0.15
-"""Processor time to compile a kernel, about: 40 s for the 275 of cycles and energies."""
+SECONDS: Final = 0.07
+"""Processor time to compile a kernel, about: 20 s for the 285 of cycles and energies; 0.05 to 0.15 on other machines."""
 
 
 def prepare(kinds: Sequence[str], *, quiet: bool = False) -> None:

@@ -13,7 +13,7 @@ from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, RAGGED, SI, STATE_CU
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work.blocks import awaited
-from gradhesion.cli.work.given import scales_of, scenes_of
+from gradhesion.cli.work.given import driven_by, scales_of, scenes_of
 from gradhesion.core.arrays.processors import processors
 from gradhesion.core.arrays.reach import is_steep, slopes_of
 from gradhesion.core.problem.status import NO_VALUE
@@ -80,7 +80,7 @@ def _draw(study: Study, block: Block) -> Drawing:
     scene = {name: float(values.item()) for name, values in scenes_of(study, block).items()}
     asked = [curve for curve, own in CURVES.items() if any(name in own for name in study.outputs)]
     curves = [curve for curve in asked if curve not in STATE_CURVES]
-    found, status = core.draw_curves(scene, curves, study.profile, study.loading)
+    found, status = core.draw_curves(scene, curves, study.profile, **driven_by(study))
     if curves != asked:
         of_states, more = _of_states(study, scene, [curve for curve in asked if curve in STATE_CURVES])
         found |= of_states

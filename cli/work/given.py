@@ -103,12 +103,18 @@ def scales_from(study: Study, given: Mapping[str, NDArray[np.float64]]) -> dict[
     return scales
 
 
+def driven_by(study: Study) -> dict[str, Any]:
+    """Give the arguments of the core that say how the punch is driven, and what its edge meets."""
+    more = {"toughness": study.toughness, "rate": study.rate}
+    return {"loading": study.loading} | {name: one for name, one in more.items() if one is not None}
+
+
 def _solved(
     study: Study, scenes: Mapping[str, NDArray[np.float64]], several: Block, block: Block, **how: Any
 ) -> dict[str, NDArray[Any]]:
     """Solve scenes for the outputs of a study, and `status`."""
     solvers = study.method.solver
-    settings: dict[str, Any] = {"check_contact": study.method.check_contact, "loading": study.loading, **how}
+    settings: dict[str, Any] = {"check_contact": study.method.check_contact, **driven_by(study), **how}
     _, _, profiles = study.apart(block)
     asked = (solvers,) if isinstance(solvers, str) else solvers[several[0]]
     return solved_by(scenes, study, asked, profiles, **settings)

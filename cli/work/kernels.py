@@ -15,6 +15,7 @@ import numba
 import numpy as np
 
 from gradhesion.cli.errors import CompilerError
+from gradhesion.cli.keys import CLOSING
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import interrupts
 from gradhesion.cli.work.locks import closing, try_lock
@@ -44,20 +45,22 @@ _one_of_us: Final = threading.Lock()
 
 def kinds_of(study: Study) -> tuple[str, ...]:
     """Give the kinds of work of a study, each of which has kernels of its own (core/kinds.py)."""
-    turning = (kind_of_turning(study.profile, study.loading),) if study.turn else ()
+    driven = (study.profile, study.loading, study.toughness)
+    turning = (kind_of_turning(*driven),) if study.turn else ()
+    moving = () if study.rate is None else ("rate",)
     if study.kind == "curve":
-        return (*turning, kind_of_curves(study.profile, study.loading))
+        return (*turning, kind_of_curves(*driven), *moving)
     solvers = study.method.solver
     solvers = (solvers,) if isinstance(solvers, str) else solvers
     outputs = [name for name in study.solved if name not in (*VALIDITY, CONTACT_SLOPE)]
-    slopes = (kind_of_sensitivities(study.profile, study.loading),) if {*outputs} & {*SENSITIVITIES} else ()
-    kinds = dict.fromkeys(kind_of_map(outputs, solver, study.profile, study.loading) for solver in solvers)
+    slopes = (kind_of_sensitivities(*driven),) if {*outputs} & {*SENSITIVITIES} else ()
+    kinds = dict.fromkeys(kind_of_map(outputs, solver, *driven) for solver in solvers)
     many = study.scenes >= MANY_SMOOTH and _smooth_scenes(study) >= MANY_SMOOTH
     smooth = ("smooth",) if many and {*kinds} & _WITH_SMOOTH and not slopes else ()
     snaps = "snap_in_force" in outputs
-    edge = ("edge",) if snaps or (slopes and study.has_two_works and study.turn) else ()
-    jump = (kind_of_turning(study.profile, study.loading),) if snaps else ()
-    return tuple(dict.fromkeys((*kinds, *smooth, *turning, *jump, *slopes, *edge)))
+    edge = ("edge",) if snaps or (slopes and study.gives(CLOSING) and study.turn) else ()
+    jump = (kind_of_turning(*driven),) if snaps else ()
+    return tuple(dict.fromkeys((*kinds, *smooth, *turning, *jump, *slopes, *edge, *moving)))
 
 
 def _smooth_scenes(study: Study) -> float:

@@ -63,3 +63,25 @@ def pattern_area(
             total = total + factor * (value.real * even - value.imag * odd)
     area: NDArray[np.float64] = 2.0 * math.pi * a * a * total
     return area
+
+
+def toughness_at(
+    toughness: Toughness, amplitude: ArrayLike, wavelength: ArrayLike, radius: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Return kappa at radii a/R, and its slopes by ln a and by ln of the amplitude, of the broadcast shape.
+
+    By the logarithm of the wavelength it changes as by that of the radius, with the other sign. The arguments are those
+    of `pattern_area`.
+    """
+    size, length, a = np.broadcast_arrays(*(np.asarray(one, dtype=float) for one in (amplitude, wavelength, radius)))
+    waves, outwards = np.zeros(a.shape), np.zeros(a.shape)
+    for n, even, odd in rows_of_pattern(toughness):
+        turns = n * a / length
+        phase = 2.0 * math.pi * (turns % 1.0)
+        waves = waves + even * np.cos(phase) + odd * np.sin(phase)
+        outwards = outwards + 2.0 * math.pi * turns * (odd * np.cos(phase) - even * np.sin(phase))
+    series = 1.0 + size * waves
+    if toughness.of == "toughness":
+        return series, size * outwards, size * waves
+    kappa = np.sqrt(series)
+    return kappa, 0.5 * size * outwards / kappa, 0.5 * size * waves / kappa

@@ -18,6 +18,8 @@ RESULTS: Final = (
 """The results of a cycle that the kernels compute, in the order of their rows (problem/results.py)."""
 EDGE: Final = ("front_energy", "snap_in_force", "pinned_depth")
 """What a cycle has besides whose edge opens at a larger work of adhesion than it closes at (works/cycle.py)."""
+RATE: Final = ("edge_speed_at_pull_off", "rate_coefficient")
+"""What a cycle has besides whose edge opens at a work that grows with its speed (rate/cycle.py)."""
 OUTPUTS: Final = (*RESULTS, "turning_radius")
 """All results of a scene: those of its cycle, and where it turns."""
 REACH: Final = "reach"
@@ -28,6 +30,8 @@ TURNS: Final = ("indentation_max_over_R", "load_max")
 """Where the cycle turns before the rim, at most one of them: a depth in R, or a load in 1.5 pi R dgamma."""
 PATTERN: Final = ("toughness_wavelength_over_R", "toughness_amplitude")
 """The parameters of a pattern of toughness (problem/toughness.py); the amplitude is 1 where it is not given."""
+SPEED: Final = "speed_over_reference"
+"""The parameter V/v* of an edge whose work grows with its speed (problem/rate.py); 0 where it is not given."""
 CLOSING: Final = "closing_ratio"
 """The parameter w_c/w_o in [0, 1]: the work of adhesion of closing over that of opening; 1 where it is not given."""
 PULL_OFF: Final = ("pull_off_force", "pull_off_radius")

@@ -16,11 +16,13 @@ Each of the parameters of `solve` may be left out where others tell it:
     indentation_max_over_R    indentation_max, R
     load_max        preload, R, work_of_adhesion    P/(1.5 pi R dgamma)
     closing_ratio   work_of_adhesion_closing, work_of_adhesion
+    toughness_wavelength_over_R    toughness_wavelength, R
+    speed_over_reference    speed, reference_speed
     adhesion_range_over_R    adhesion_range, R
 
 a_2 is that of loading, at the work of closing; all else in reduced variables is at work_of_adhesion, that of opening.
-R, c0, wavelength, amplitude, a_max, indentation_max and adhesion_range are in m, E_star and E in Pa, work_of_adhesion
-and that of closing in J/m^2, spring_constant in N/m, preload in N.
+R, c0, wavelength, amplitude, a_max, indentation_max, toughness_wavelength and adhesion_range are in m, E_star and E in
+Pa, work_of_adhesion and that of closing in J/m^2, spring_constant in N/m, preload in N, speeds in m/s.
 """
 
 import math
@@ -30,7 +32,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.problem.names import CLOSING, PARAMETERS, RANGE, TURNS
+from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, RANGE, SPEED, TURNS
 from gradhesion.core.variables.jump_in_radius import jump_in_radius_of_envelope
 from gradhesion.core.variables.similarity import amplitude_of_ratio, similarity_length
 
@@ -49,11 +51,13 @@ WAYS: Final[dict[str, dict[str, tuple[str, ...]]]] = {
     "indentation_max_over_R": {"indentation_max": ("R",)},
     "load_max": {"preload": ("R", "work_of_adhesion")},
     CLOSING: {"work_of_adhesion_closing": ("work_of_adhesion",)},
+    PATTERN[0]: {"toughness_wavelength": ("R",)},
+    SPEED: {"speed": ("reference_speed",)},
     RANGE: {"adhesion_range": ("R",)},
 }
 """By what a parameter can be told, and what else that takes; in the order in which they follow from one another."""
 
-_OPTIONAL: Final = (_MACHINE, *TURNS, CLOSING, RANGE)
+_OPTIONAL: Final = (_MACHINE, *TURNS, CLOSING, *PATTERN, SPEED, RANGE)
 """What not every scene has."""
 
 _FOLLOWS: Final[dict[str, Callable[..., Any]]] = {
@@ -70,6 +74,8 @@ _FOLLOWS: Final[dict[str, Callable[..., Any]]] = {
     "adhesion_range": lambda adhesion_range, R: adhesion_range / R,
     "spring_constant": lambda spring_constant, E_star, R: spring_constant / (E_star * R),
     "indentation_max": lambda indentation_max, R: indentation_max / R,
+    "toughness_wavelength": lambda wavelength, R: wavelength / R,
+    "speed": lambda speed, reference_speed: speed / reference_speed,
     "work_of_adhesion_closing": lambda closing, opening: closing / opening,
     "preload": lambda preload, R, work_of_adhesion: preload / (1.5 * math.pi * R * work_of_adhesion),
 }
@@ -106,7 +112,7 @@ def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
     {'k': 0.5, 'nu': 0.3, 'modulus': 20000.0, 'c0_over_R': 0.01, 'lambda_over_R': 0.1, 'A': 0.02, 'a_max_over_R': inf}
     """
     known = {name: np.asarray(values, dtype=float) for name, values in given.items()}
-    wanted = (*PARAMETERS, *(name for name in _OPTIONAL if {name, *WAYS[name]} & known.keys()))
+    wanted = (*PARAMETERS, *(name for name in _OPTIONAL if {name, *WAYS.get(name, ())} & known.keys()))
     closing = (CLOSING,) if CLOSING in wanted else ()
     for parameter in (*closing, *(("E_star",) if "E" in known else ()), *wanted):
         if parameter not in known:

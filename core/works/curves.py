@@ -106,10 +106,10 @@ def draw_two_works(
     plain = {name: value for name, value in scene.items() if name != CLOSING}
     shape: dict[str, Any] = {"profile": profile, "loading": loading}
     if ratio == 1.0:
-        own = [curve for curve in curves if curve not in (_CLOSING, "equilibrium")]
-        found, flags = draw_curves(plain, [*own, "equilibrium"], profile, loading)
-        found |= {name.replace("", "closing_", 1): found[name] for name in CURVES["equilibrium"]}
-        return {name: found[name] for curve in curves for name in CURVES[curve]}, flags
+        others = [curve for curve in curves if curve not in (_CLOSING, "equilibrium")]
+        alike, status = draw_curves(plain, [*others, "equilibrium"], profile, loading)
+        alike |= {f"closing_{name}": alike[name] for name in CURVES["equilibrium"]}
+        return {name: alike[name] for curve in curves for name in CURVES[curve]}, status
     turn = next((name for name in TURNS if name in scene), None)
     bare = {name: value for name, value in plain.items() if name != turn}
     made = closing_parameters(plain, np.asarray(ratio))

@@ -4,7 +4,7 @@ dgamma is the work of opening w_o; w_c = Gamma w_o that of closing. Loading is t
 which modulus stands as modulus/Gamma and a load in units of w_o as load/Gamma; it turns at a radius a_t, and unloading
 is that of today's punch with its rim there. With energies in R^2 w_o
 
-    dissipated = Gamma loading_energy(modulus/Gamma) + unloading_energy(modulus; rim a_t) + pi a_t^2 (1 - Gamma)
+    dissipated = Gamma loading_energy(modulus/Gamma) + unloading_energy(modulus; rim a_t) + front_energy
 
 and the pull-off force is that of the opening curve up to a_t. At ratio 1 both are one curve, solved as ever.
 
@@ -31,9 +31,10 @@ from gradhesion.core.problem.status import (
     NO_VALUE,
     PULL_OFF_AT_RIM,
     TOLERANCE_NOT_MET,
+    TOO_MANY_WAVES,
 )
 from gradhesion.core.sweep import How, solve, up_to_rims
-from gradhesion.core.works.front import front_energy, pinned_depth
+from gradhesion.core.works.front import edge_area, front_energy, pinned_depth
 
 LEAST: Final = 2.0**-120
 """The ratio below which closing is that without adhesion."""
@@ -47,8 +48,10 @@ _RADII: Final = ("pull_off_radius", "delta_jump_out")
 _GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
 _OF_THE_PUNCH: Final = ("roughness_parameter", "saturation_radius")
 """What belongs to the opening curve, whether or not contact is made."""
-_LOADING_BITS: Final = LOADING_NOT_ONE_DISC | JUMP_IN_TO_RIM | CLOSE_TO_A_JUMP | TOLERANCE_NOT_MET | NO_CONTACT
-_UNLOADING_BITS: Final = PULL_OFF_AT_RIM | CLOSE_TO_A_JUMP | TOLERANCE_NOT_MET
+_LOADING_BITS: Final = (
+    LOADING_NOT_ONE_DISC | JUMP_IN_TO_RIM | CLOSE_TO_A_JUMP | TOLERANCE_NOT_MET | NO_CONTACT | TOO_MANY_WAVES
+)
+_UNLOADING_BITS: Final = PULL_OFF_AT_RIM | CLOSE_TO_A_JUMP | TOLERANCE_NOT_MET | TOO_MANY_WAVES
 _ROUNDING: Final = 16.0 * 2.0**-52
 """Error of the energy of the edge over its value, that of the radius at which it turns among it."""
 
@@ -147,7 +150,7 @@ def _of_two_curves(
     held = np.maximum(ratio, LEAST)
     found = {name: values for name, values in (closed | opened).items() if name not in _OF_BOTH}
     found["turning_radius"] = radius
-    front = front_energy(ratio, radius)
+    front = front_energy(ratio, edge_area(scenes, how, radius))
     with np.errstate(all="ignore"):
         if "loading_energy" in closed:
             found["loading_energy"] = held * closed["loading_energy"]
@@ -159,8 +162,10 @@ def _of_two_curves(
             found["dissipated_energy_error"] += _ROUNDING * front
     bits = closed["status"].astype(np.int16), opened["status"].astype(np.int16)
     none = ((bits[0] | bits[1]) & NO_VALUE) != 0 | ~((ratio >= 0.0) & (ratio <= 1.0))
-    status = np.where(none, NO_VALUE, (bits[0] & _LOADING_BITS) | (bits[1] & _UNLOADING_BITS))
-    found["status"] = status.astype(np.int16 if turn == TURNS[0] else np.int8)
+    waves = (bits[0] | bits[1]) & TOO_MANY_WAVES
+    status = np.where(none, NO_VALUE | waves, (bits[0] & _LOADING_BITS) | (bits[1] & _UNLOADING_BITS))
+    wide = turn == TURNS[0] or how.toughness is not None
+    found["status"] = status.astype(np.int16 if wide else np.int8)
     for name in names:
         empty = -1 if found[name].dtype.kind == "i" else np.nan
         found[name] = np.where(none, empty, found[name]).astype(found[name].dtype)
@@ -206,9 +211,9 @@ def solve_two_works(parameters: Mapping[str, ArrayLike], outputs: Sequence[str],
         found = {name: np.where(even, values, found[name]).astype(values.dtype) for name, values in one.items()}
     found = {name: np.broadcast_to(values, shape) for name, values in found.items()}
     if "front_energy" in outputs:
-        found["front_energy"] = front_energy(ratio, found["turning_radius"])
+        found["front_energy"] = front_energy(ratio, edge_area(scenes, how, found["turning_radius"]))
     if "pinned_depth" in outputs:
-        found["pinned_depth"] = pinned_depth(scenes, how.loading, ratio, found["turning_radius"])
+        found["pinned_depth"] = pinned_depth(scenes, how, ratio, found["turning_radius"])
     if "snap_in_force" in outputs:
         from gradhesion.core.works.snap_in import snap_in_force  # noqa: PLC0415 (kernels of its own)
 

@@ -17,6 +17,7 @@ from gradhesion.core.compiler.marks import note_compiled
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.general import Basis, curve_of, state
 from gradhesion.core.problem.curves import GeneralCurves
+from gradhesion.core.problem.names import PATTERN
 from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
 from gradhesion.core.sweep import How, solve
 from gradhesion.core.types import Floats
@@ -65,18 +66,19 @@ def snap_in_force(scenes: Mapping[str, ArrayLike], ratio: NDArray[np.float64], h
     closing = {name: value for name, value in closing_parameters(scenes, ratio).items() if name != "load_max"}
     start = closing | {"indentation_max_over_R": 0.0}
     known: dict[str, Any] = {"threads": how.threads, "profile": how.profile, "loading": how.loading}
+    known |= {"toughness": how.toughness}
     radius = solve(start, ["turning_radius"], check_contact=False, **known)["turning_radius"]
     pulls = np.maximum(ratio, LEAST) * pulls_at(closing | {"a_max_over_R": radius}, how)
-    presses = (pulls < 0.0) & (
-        how.loading.control == "machine"
-    )  # whose depth is not 0 there, and another one was found
-    return np.where((ratio > 0.0) & ~presses, pulls, np.nan)
+    if how.loading.control == "machine":  # the depth is not 0 there where the punch is pressed
+        pulls = np.where(pulls < 0.0, np.nan, pulls)
+    return np.where(ratio > 0.0, pulls, np.nan)
 
 
 def pulls_at(scenes: Mapping[str, ArrayLike], how: How) -> NDArray[np.float64]:
     """Return the pulls in 1.5 pi R dgamma of contacts up to a_max at the coordinate 0, of the broadcast shape."""
     profile = how.profile
-    found = prepared(scenes, how.loading)
+    plain = {name: value for name, value in scenes.items() if name not in PATTERN}  # at the depth 0 it is no part
+    found = prepared(plain, how.loading)
     n, series = in_own_wavelength(profile)
     wavelength, amplitude = found.wavelength / n, n * found.amplitude if series.size else 0.0 * found.amplitude
     out = np.full((found.k.size, found.rim.shape[1]), np.nan)
@@ -84,9 +86,8 @@ def pulls_at(scenes: Mapping[str, ArrayLike], how: How) -> NDArray[np.float64]:
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
         basis = Basis(*tables_of(exponent, series, interpolated=interpolated), series)
         form = profile.exponent, depth_factor_of(exponent, profile.exponent)
-        fill_pulls(
-            basis, GeneralCurves(index, *form, found.stretch, wavelength, amplitude, found.compliance, found.rim), out
-        )
+        own = GeneralCurves(index, *form, found.stretch, wavelength, amplitude, found.compliance, found.rim)
+        fill_pulls(basis, own, out)
 
     run_by_exponent(found.k, work, how.threads, found.rim.shape[1])
     note_compiled("edge")
