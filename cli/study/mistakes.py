@@ -116,8 +116,8 @@ def checked(data: Mapping[str, Any], model: Any = Form, required: Mapping[Path, 
 
 
 def _depth(path: Path) -> int:
-    """Report how much of a path is the key whose value is wrong."""
-    return 2 if len(path) > 1 and isinstance(path[1], str) else 1
+    """Report how much of a path is the key whose value is wrong; tables of what an edge meets are so as a whole."""
+    return 2 if path[0] not in ("toughness", "rate") and len(path) > 1 and isinstance(path[1], str) else 1
 
 
 def _without(data: Mapping[str, Any], wrong: Iterable[Path], required: Mapping[Path, Any]) -> dict[str, Any]:

@@ -33,7 +33,7 @@ WORDS = {
 """The kinds of work, in words."""
 
 SECONDS: Final = 0.07
-"""Processor time to compile a kernel, about: 20 s for the 285 of cycles and energies; 0.05 to 0.15 on other machines."""
+"""Processor time to compile a kernel, about: 20 s for the 285 of cycles and energies; 0.05 to 0.15 elsewhere."""
 
 
 def prepare(kinds: Sequence[str], *, quiet: bool = False) -> None:
