@@ -1,0 +1,265 @@
+"""One step of the edge: the lag over ln a by Radau's collocation, with the slowness of the edge as unknown if stiff.
+
+    d lag/ds = f,   f = q0 rho - q_hat + drag pace u^(-1/n),   s = |ln a/a_0|
+
+is the same for opening (a falls) and closing (a grows). Near lag = 0 the last term is as steep as it can be. Newton's
+method is for the lags at the nodes; a lag is changed by way of its u^(-1/n) where that stays positive: slowly moving
+edges have a known slowness, that of the equilibrium curve, and quickly moving ones a known lag. The curve does not
+depend on the lag, so that it is evaluated once a node.
+"""
+
+import math
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.curve.general import Basis, Series
+from gradhesion.core.rate.law import Law, lag_of, slowness
+from gradhesion.core.rate.place import Place, place_at
+from gradhesion.core.rate.radau import INTEGRALS, NODES, ORDER, SPARED, STAGES, TAIL
+from gradhesion.core.types import Floats
+
+_MOST: Final = 16
+"""Newton's steps."""
+_CLOSE: Final = 1e-7
+"""A change whose square is below rounding."""
+_MUCH: Final = 0.9
+"""Of the slowness, what it may lose at once."""
+_EPS: Final = 2.0**-52
+TOLERANCE: Final = 1e-13
+"""Of rho, and of the energy over that of the largest radius, in a step."""
+_SAFE: Final = 0.9
+_SHORTER: Final = 0.15
+_LONGER: Final = 4.0
+_SHORTEST: Final = 1e-40
+LONGEST: Final = 2.0
+PART: Final = 0.25
+"""Of the shortest wave: a slow edge follows the curve whose nodes it has been given, and would pass a fold unseen."""
+
+
+class Start(NamedTuple):
+    """Where an edge starts, and how the step's variable y counts its way: s = scale y^power."""
+
+    x: float  # in wavelengths
+    sign: float  # -1 inwards, 1 outwards
+    scale: float
+    power: float
+
+
+class Room(NamedTuple):
+    """Numbers of the nodes of a step."""
+
+    curve: Floats  # rows of `Place`, and ds/dy; shape (9, STAGES)
+    lags: Floats  # shape (STAGES,)
+    slow: Floats  # u^(-1/n)
+    rates: Floats  # d lag/dy
+    matrix: Floats  # shape (STAGES, STAGES + 2)
+
+
+@kernel()
+def room_for_steps() -> Room:
+    """Return room for the numbers of a step."""
+    shape = (STAGES, STAGES + 2)
+    return Room(np.empty((9, STAGES)), np.empty(STAGES), np.empty(STAGES), np.empty(STAGES), np.empty(shape))
+
+
+@kernel()
+def way(start: Start, y: float) -> tuple[float, float]:
+    """Return s and ds/dy."""
+    if start.power == 1.0:
+        return start.scale * y, start.scale
+    s = start.scale * y**start.power
+    return s, start.power * s / y if y > 0.0 else 0.0
+
+
+@kernel()
+def place_in(room: Room, i: int) -> Place:
+    """Return the curve at node i."""
+    c = room.curve
+    return Place(c[0, i], c[1, i], c[2, i], c[3, i], c[4, i], c[5, i], c[6, i], c[7, i])
+
+
+@kernel()
+def _set_curve(basis: Basis, curve: Series, start: Start, y: float, h: float, room: Room) -> None:
+    """Evaluate the curve at the nodes."""
+    for i in range(STAGES):
+        s, rate = way(start, y + h * NODES[i])
+        place = place_at(basis, curve, start.x * math.exp(start.sign * s))
+        for j in range(8):
+            room.curve[j, i] = place[j]
+        room.curve[8, i] = rate
+
+
+@kernel()
+def _solve(matrix: Floats) -> bool:
+    """Replace the last two columns by the solutions of the equations in the others; shape (n, n + 2)."""
+    n = matrix.shape[0]
+    for i in range(n):
+        best = i
+        for j in range(i + 1, n):
+            if abs(matrix[j, i]) > abs(matrix[best, i]):
+                best = j
+        if not abs(matrix[best, i]) > 0.0:
+            return False
+        if best != i:
+            for j in range(i, n + 2):
+                matrix[i, j], matrix[best, j] = matrix[best, j], matrix[i, j]
+        inverse = 1.0 / matrix[i, i]
+        for j in range(i + 1, n):
+            factor = matrix[j, i] * inverse
+            for column in range(i + 1, n + 2):
+                matrix[j, column] -= factor * matrix[i, column]
+    for i in range(n - 1, -1, -1):
+        first, second = matrix[i, n], matrix[i, n + 1]
+        for j in range(i + 1, n):
+            first -= matrix[i, j] * matrix[j, n]
+            second -= matrix[i, j] * matrix[j, n + 1]
+        matrix[i, n], matrix[i, n + 1] = first / matrix[i, i], second / matrix[i, i]
+    return True
+
+
+@kernel()
+def _set_equations(law: Law, lag: float, h: float, room: Room) -> None:
+    """Set the equations of a step of Newton's method from the lags at the nodes, and of how a change of lag grows."""
+    c, lags, slow, rates, matrix = room
+    for j in range(STAGES):
+        force = law.pace * c[7, j]
+        value, slope = slowness(law, lags[j])
+        rates[j] = c[8, j] * (c[6, j] * (law.root + law.sense * lags[j]) - c[5, j] + force * value)
+        slow[j] = value
+        steep = h * c[8, j] * (c[6, j] * law.sense + force * slope * value)
+        for i in range(STAGES):
+            matrix[i, j] = -INTEGRALS[i, j] * steep
+        matrix[j, STAGES + 1] = 1.0
+    for i in range(STAGES):
+        total = 0.0
+        for j in range(STAGES):
+            total += INTEGRALS[i, j] * rates[j]
+        matrix[i, STAGES] = lag + h * total - lags[i]
+        matrix[i, i] += 1.0
+
+
+@kernel()
+def advance(
+    basis: Basis, curve: Series, law: Law, start: Start, state: tuple[float, float], h: float, room: Room
+) -> bool:
+    """Solve a step of length h from the state (y, lag); `room` then has what is at the nodes.
+
+    Return whether Newton's method converged.
+    """
+    y, lag = state
+    _set_curve(basis, curve, start, y, h, room)
+    _, lags, slow, _, matrix = room
+    if lag > 0.0:
+        lags[:] = lag
+    else:
+        _guess_first(law, start, y, h, room)
+    for _ in range(_MOST):
+        _set_equations(law, lag, h, room)
+        if not _solve(matrix):
+            return False
+        done = True
+        for i in range(STAGES):
+            change = matrix[i, STAGES]
+            if not abs(change) < math.inf:
+                return False
+            _, slope = slowness(law, lags[i])
+            part = slope * change  # of the slowness
+            if max(abs(part), abs(change)) > _CLOSE and abs(change) > 4.0 * _EPS * (1.0 + lags[i]):
+                done = False
+            if slow[i] > 0.0 and part > -_MUCH:
+                slow[i] *= 1.0 + part
+                lags[i] = lag_of(law, slow[i])
+            else:
+                lags[i] = max(lags[i] + change, 0.5 * lags[i])
+        if done:
+            return True
+    return False
+
+
+@kernel()
+def _guess_first(law: Law, start: Start, y: float, h: float, room: Room) -> None:
+    """Guess the lags of a step from lag = 0, by their leading term."""
+    n = law.exponent
+    for i in range(STAGES):
+        s, _ = way(start, y + h * NODES[i])
+        room.lags[i] = ((1.0 + n) / n * law.pace * room.curve[7, i] * 2.0 ** (-1.0 / n) * s) ** (n / (1.0 + n))
+
+
+@kernel()
+def energy_of(law: Law, h: float, room: Room) -> float:
+    """Return int z rho^2 dz over the step: the work of the edge in 2 pi l^2 dgamma."""
+    c, total = room.curve, 0.0
+    for j in range(STAGES):
+        rho = law.root + law.sense * room.lags[j]
+        total += INTEGRALS[STAGES - 1, j] * c[8, j] * (c[0, j] * rho) ** 2
+    return h * total
+
+
+@kernel()
+def _spared(first: float, second: float, most: float) -> float:
+    """Return what is wrong of an integral, by the last two coefficients of its values, the largest of which is most."""
+    tail = max(abs(first), 0.1 * abs(second))
+    return tail * (tail / most) ** SPARED if tail > 0.0 else 0.0
+
+
+@kernel()
+def errors_of(law: Law, h: float, scale: float, room: Room) -> tuple[float, float]:
+    """Return about what the step gets wrong: of rho over its size, and of the energy over z^2 = `scale`."""
+    c = room.curve
+    a0, a1, a_most, e0, e1, e_most = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for j in range(STAGES):
+        rho = law.root + law.sense * room.lags[j]
+        rate, work = room.rates[j], c[8, j] * (c[0, j] * rho) ** 2 / scale
+        a0, a1, a_most = a0 + TAIL[0, j] * rate, a1 + TAIL[1, j] * rate, max(a_most, abs(rate))
+        e0, e1, e_most = e0 + TAIL[0, j] * work, e1 + TAIL[1, j] * work, max(e_most, work)
+    size = 1.0 + room.lags[STAGES - 1]
+    return h * _spared(a1, a0, a_most) / size, h * _spared(e1, e0, e_most)
+
+
+class Stride(NamedTuple):
+    """A step that was taken."""
+
+    good: bool
+    h: float
+    next: float  # the length to try after it
+    lag: float  # at its end
+    growth: float  # of a small change of the lag over it
+    energy: float
+    of_rho: float  # errors, as those of `errors_of`
+    of_energy: float
+
+
+@kernel()
+def stride(
+    basis: Basis,
+    curve: Series,
+    law: Law,
+    start: Start,
+    state: tuple[float, float],
+    lengths: tuple[float, float],
+    scale: float,
+    room: Room,
+) -> Stride:
+    """Take a step as long as `TOLERANCE` allows, from the state (y, lag); `lengths` are one to try and the longest."""
+    h, most = lengths
+    h = min(h, most)
+    while h > _SHORTEST * most:
+        good = advance(basis, curve, law, start, state, h, room)
+        first, second = errors_of(law, h, scale, room) if good else (math.inf, math.inf)
+        error = max(first, second)
+        if error <= TOLERANCE:
+            longer = h * min(_LONGER, _SAFE * (TOLERANCE / max(error, _EPS * TOLERANCE)) ** (1.0 / ORDER))
+            growth = abs(room.matrix[STAGES - 1, STAGES + 1])
+            lag, energy = room.lags[STAGES - 1], energy_of(law, h, room)
+            return Stride(True, h, longer, lag, growth, energy, first, second)  # noqa: FBT003
+        h *= max(_SHORTER, _SAFE * (TOLERANCE / error) ** (1.0 / ORDER)) if good else _SHORTER
+    return Stride(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)  # noqa: FBT003
+
+
+@kernel()
+def longest(x: float, sign: float, shortest: float) -> float:
+    """Return the longest step in ln a from x wavelengths: by a part of the shortest wave, and of the radius."""
+    part = sign * PART * shortest / x
+    return min(LONGEST, abs(math.log1p(part))) if part > -1.0 else LONGEST
