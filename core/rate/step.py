@@ -29,6 +29,10 @@ _MUCH: Final = 0.9
 _EPS: Final = 2.0**-52
 TOLERANCE: Final = 1e-13
 """Of rho, and of the energy over that of the largest radius, in a step."""
+_LOST: Final = 0.01
+_STIFF: Final = 10.0
+"""Where the edge relaxes within a step, collocation loses its higher order (order reduction): from about such a rate on
+by this part of the last coefficients. Both from experiment: without, 1e-11 of the force."""
 _SAFE: Final = 0.9
 _SHORTER: Final = 0.15
 _LONGER: Final = 4.0
@@ -55,13 +59,14 @@ class Room(NamedTuple):
     slow: Floats  # u^(-1/n)
     rates: Floats  # d lag/dy
     matrix: Floats  # shape (STAGES, STAGES + 2)
+    stiff: Floats  # the largest relaxation within the step; shape (1,)
 
 
 @kernel()
 def room_for_steps() -> Room:
     """Return room for the numbers of a step."""
     shape = (STAGES, STAGES + 2)
-    return Room(np.empty((9, STAGES)), np.empty(STAGES), np.empty(STAGES), np.empty(STAGES), np.empty(shape))
+    return Room(np.empty((9, STAGES)), np.empty(STAGES), np.empty(STAGES), np.empty(STAGES), np.empty(shape), np.empty(1))
 
 
 @kernel()
@@ -122,13 +127,15 @@ def _solve(matrix: Floats) -> bool:
 @kernel()
 def _set_equations(law: Law, lag: float, h: float, room: Room) -> None:
     """Set the equations of a step of Newton's method from the lags at the nodes, and of how a change of lag grows."""
-    c, lags, slow, rates, matrix = room
+    c, lags, slow, rates, matrix, stiff = room
+    stiff[0] = 0.0
     for j in range(STAGES):
         force = law.pace * c[7, j]
         value, slope = slowness(law, lags[j])
         rates[j] = c[8, j] * (c[6, j] * (law.root + law.sense * lags[j]) - c[5, j] + force * value)
         slow[j] = value
         steep = h * c[8, j] * (c[6, j] * law.sense + force * slope * value)
+        stiff[0] = max(stiff[0], -steep)
         for i in range(STAGES):
             matrix[i, j] = -INTEGRALS[i, j] * steep
         matrix[j, STAGES + 1] = 1.0
@@ -150,7 +157,7 @@ def advance(
     """
     y, lag = state
     _set_curve(basis, curve, start, y, h, room)
-    _, lags, slow, _, matrix = room
+    _, lags, slow, _, matrix, _ = room
     if lag > 0.0:
         lags[:] = lag
     else:
@@ -198,10 +205,10 @@ def energy_of(law: Law, h: float, room: Room) -> float:
 
 
 @kernel()
-def _spared(first: float, second: float, most: float) -> float:
-    """Return what is wrong of an integral, by the last two coefficients of its values, the largest of which is most."""
+def spared(first: float, second: float, most: float, stiff: float) -> float:
+    """Return what is wrong of an integral, by the last two coefficients of its values, the largest of which is `most`."""
     tail = max(abs(first), 0.1 * abs(second))
-    return tail * (tail / most) ** SPARED if tail > 0.0 else 0.0
+    return tail * ((tail / most) ** SPARED + stiff) if tail > 0.0 else 0.0
 
 
 @kernel()
@@ -215,7 +222,8 @@ def errors_of(law: Law, h: float, scale: float, room: Room) -> tuple[float, floa
         a0, a1, a_most = a0 + TAIL[0, j] * rate, a1 + TAIL[1, j] * rate, max(a_most, abs(rate))
         e0, e1, e_most = e0 + TAIL[0, j] * work, e1 + TAIL[1, j] * work, max(e_most, work)
     size = 1.0 + room.lags[STAGES - 1]
-    return h * _spared(a1, a0, a_most) / size, h * _spared(e1, e0, e_most)
+    stiff = _LOST * min(1.0, (room.stiff[0] / _STIFF) ** (STAGES - 1))
+    return h * spared(a1, a0, a_most, stiff) / size, h * spared(e1, e0, e_most, 0.0)
 
 
 class Stride(NamedTuple):

@@ -1,0 +1,174 @@
+"""From the numbers of scenes to what their edges come to: one scene at a time."""
+
+import math
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.curve.cosine import force_unit
+from gradhesion.core.curve.general import Basis, Series, curve_of
+from gradhesion.core.problem.curves import is_in_range
+from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET, TOO_MANY_WAVES
+from gradhesion.core.rate.law import Law
+from gradhesion.core.rate.closing import close_edge
+from gradhesion.core.rate.opening import open_edge
+from gradhesion.core.rate.place import coordinate_of, load_of, place_at
+from gradhesion.core.rate.step import Room, room_for_steps
+from gradhesion.core.rate.stopping import stop_edge
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.series import highest_harmonic
+from gradhesion.core.types import Floats, Integers
+
+MOST_WAVES: Final = 100_000.0
+"""Waves of the shortest harmonic that are followed: about a second."""
+PROMISED: Final = 1e-9
+"""Estimated error of force and energy above which a scene is reported."""
+_AT_RIM: Final = 1e-9
+"""An edge that has moved less than this, over a_t, is where it was."""
+OPENED: Final = (
+    "pull_off_force",
+    "pull_off_radius",
+    "opening_energy",
+    "delta_jump_out",
+    "edge_speed_at_pull_off",
+    "pull_off_force_error",
+    "opening_energy_error",
+)
+"""What opening comes to, in the order of the rows."""
+CLOSED: Final = (
+    "turning_radius",
+    "closing_energy",
+    "radius_at_turn",
+    "depth_at_turn",
+    "coordinate_at_turn",
+    "load_at_turn",
+    "depth_edge_stops",
+    "coordinate_edge_stops",
+    "load_edge_stops",
+    "rho_edge_stops",
+    "closing_energy_error",
+)
+"""What closing comes to, in the order of the rows."""
+
+
+class Edges(NamedTuple):
+    """Scenes of one profile, control, exponent of the gradient and law; arrays have the shape (scenes,)."""
+
+    numbers: Integers  # the number of each scene that is to be solved
+    exponent: float  # m of the punch
+    depth_factor: float  # that of problem/curves.py
+    stretch: Floats  # s in R^((1+k)/2)
+    wavelength: Floats  # lambda/R
+    amplitude: Floats  # A
+    compliance: Floats  # K/S in 1/R^(1+k)
+    rims: Floats  # a_t/R of opening, a_max/R of closing
+    speeds: Floats  # V/v*
+    power: float  # n of the law
+    ratios: Floats  # Gamma of closing; opening does not read it
+    turns: Floats  # Y/R at which the machine turns, inf where it does at the rim; opening does not read it
+
+
+class Scene(NamedTuple):
+    """The curve of a scene, and its units."""
+
+    valid: bool
+    curve: Series
+    length: float  # l/R
+    unit: float  # of depth, in R
+    shortest: float  # wave, in wavelengths; inf of a smooth punch
+
+
+@kernel()
+def _scene_of(basis: Basis, edges: Edges, i: int) -> Scene:
+    """Return the curve of scene number i."""
+    wavelength, amplitude = edges.wavelength[i], edges.amplitude[i]
+    curve, length, unit = curve_of(
+        basis[0].k, edges.exponent, edges.depth_factor, edges.stretch[i], wavelength, amplitude, edges.compliance[i]
+    )
+    valid = is_in_range(edges.stretch[i], wavelength, amplitude) and 0.0 <= edges.compliance[i] < math.inf
+    valid = valid and 0.0 < curve.bend < math.inf and 0.0 <= curve.gain < math.inf
+    valid = valid and edges.rims[i] > 0.0 and 0.0 < edges.speeds[i] < math.inf
+    highest = highest_harmonic(basis[2])
+    return Scene(valid, curve, length, unit, 1.0 / highest if highest > 0.0 else math.inf)
+
+
+@kernel()
+def _open(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Floats) -> int:
+    """Solve scene number i; return its status."""
+    curve, length, unit = scene.curve, scene.length, scene.unit
+    x = edges.rims[i] / edges.wavelength[i]
+    if not scene.valid or not x < math.inf:
+        return NO_VALUE
+    if x > MOST_WAVES * scene.shortest:
+        return NO_VALUE | TOO_MANY_WAVES
+    law = Law(edges.power, 1.0, 1.0, edges.speeds[i] * length * curve.alpha / unit)
+    opened = open_edge(waves, curve, law, x, scene.shortest, room)
+    force, area = force_unit(waves[0].k, length, unit), TWO_PI * length * length
+    if not abs(area * opened.energy) < math.inf or not abs(force * opened.load) < math.inf:
+        return NO_VALUE
+    out[0, i], out[1, i] = -force * opened.load, length * opened.z
+    out[2, i], out[3, i], out[4, i] = area * opened.energy, unit * opened.depth, opened.speed
+    out[5, i], out[6, i] = force * opened.of_load, area * opened.of_energy
+    status = PULL_OFF_AT_RIM if opened.z >= (1.0 - _AT_RIM) * TWO_PI * x else 0
+    if opened.of_load > PROMISED * abs(opened.load) or opened.of_energy > PROMISED * opened.energy:
+        status |= TOLERANCE_NOT_MET
+    return status
+
+
+@kernel()
+def open_scenes(basis: Basis, edges: Edges, out: Floats, status: Integers) -> None:
+    """Solve scenes; `out` has the rows of `OPENED`, shape (rows, scenes), NaN where nothing is stored."""
+    room, smooth = room_for_steps(), np.zeros((0, 3))
+    for j in range(edges.numbers.size):
+        i = edges.numbers[j]
+        waves = Basis(basis[0], basis[1], basis[2] if edges.amplitude[i] > 0.0 else smooth)
+        status[i] = _open(waves, _scene_of(waves, edges, i), edges, i, room, out)
+
+
+@kernel()
+def _put_state(waves: Basis, scene: Scene, x: float, rho: float, out: Floats, row: int, i: int) -> None:
+    """Store depth and coordinate in R, and the load in 1.5 pi R dgamma, of a state."""
+    curve, unit = scene.curve, scene.unit
+    place = place_at(waves, curve, x)
+    out[row, i] = unit * (place.depth - place.adhesion * rho)
+    out[row + 1, i] = unit / curve.alpha * coordinate_of(curve, place, rho)
+    out[row + 2, i] = force_unit(waves[0].k, scene.length, unit) * load_of(place, rho)
+
+
+@kernel()
+def _close(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Floats) -> int:
+    """Solve scene number i; return its status."""
+    curve, length, unit = scene.curve, scene.length, scene.unit
+    wavelength, ratio, shortest = edges.wavelength[i], edges.ratios[i], scene.shortest
+    rim, target = edges.rims[i] / wavelength, edges.turns[i] * curve.alpha / unit
+    if not scene.valid or not 0.0 < ratio <= 1.0 or not target == target or (rim == math.inf and target == math.inf):
+        return NO_VALUE
+    if target < 0.0:
+        out[1, i], out[10, i] = 0.0, 0.0
+        return NO_CONTACT
+    law = Law(edges.power, math.sqrt(ratio), -1.0, edges.speeds[i] * length * curve.alpha / unit)
+    size = edges.stretch[i] ** (2.0 / (3.0 + waves[0].k)) / wavelength
+    furthest = MOST_WAVES * shortest
+    if rim < math.inf and rim > furthest and target == math.inf:
+        return NO_VALUE | TOO_MANY_WAVES
+    turn = close_edge(waves, curve, law, rim, shortest, (size, furthest, target), room)
+    end = stop_edge(waves, curve, law, rim, shortest, turn, furthest) if turn.turned else turn
+    if not end.x > 0.0:
+        return NO_VALUE | (TOO_MANY_WAVES if end.furthest > furthest else 0)
+    area = TWO_PI * length * length
+    out[0, i], out[1, i], out[2, i] = wavelength * end.x, area * end.energy, wavelength * turn.x
+    _put_state(waves, scene, turn.x, law.root - turn.lag, out, 3, i)
+    _put_state(waves, scene, end.x, law.root - end.lag, out, 6, i)
+    out[9, i], out[10, i] = law.root - end.lag, area * end.of_energy
+    return TOLERANCE_NOT_MET if end.of_energy > PROMISED * end.energy else 0
+
+
+@kernel()
+def close_scenes(basis: Basis, edges: Edges, out: Floats, status: Integers) -> None:
+    """Solve scenes; `out` has the rows of `CLOSED`, shape (rows, scenes), NaN where nothing is stored."""
+    room, smooth = room_for_steps(), np.zeros((0, 3))
+    for j in range(edges.numbers.size):
+        i = edges.numbers[j]
+        waves = Basis(basis[0], basis[1], basis[2] if edges.amplitude[i] > 0.0 else smooth)
+        status[i] = _close(waves, _scene_of(waves, edges, i), edges, i, room, out)

@@ -1,0 +1,133 @@
+"""Closing after the machine has turned: Y falls, and the edge goes on outwards until it has caught up, or to the rim.
+
+    ds/dy = w,  d lag/dy = -w [need + force],  need = q_hat - q0 rho,  force = drag pace u^(-1/n),
+    1/w = sqrt(1 + need^2) + force
+
+has no steep term on the way to lag = 0, where s settles as lag^(1 + 1/n): each step leaves a part of the lag. Collocation
+as in step.py, its equations solved by repetition.
+"""
+
+import math
+from typing import Final
+
+import numpy as np
+
+from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.curve.general import Basis, Series
+from gradhesion.core.rate.closing import Reached
+from gradhesion.core.rate.law import Law, slowness
+from gradhesion.core.rate.place import place_at
+from gradhesion.core.rate.radau import INTEGRALS, ORDER, STAGES, TAIL
+from gradhesion.core.rate.step import PART, TOLERANCE, spared
+from gradhesion.core.types import Floats
+
+_MOST: Final = 40
+"""Repetitions."""
+_SAME: Final = 1e-15
+_LEFT: Final = 1e-13
+"""Of ln a, what is left to the leading term of the way to lag = 0."""
+_STEPS: Final = 1_000_000
+_TRIALS: Final = 60
+
+
+@kernel()
+def _rates(basis: Basis, curve: Series, law: Law, x: float, lag: float) -> tuple[float, float, float]:
+    """Return ds/dy, d lag/dy and d energy/dy at a place."""
+    place, rho = place_at(basis, curve, x), law.root - lag
+    need = place.push - place.level * rho
+    slow, _ = slowness(law, lag)
+    force = law.pace * place.drag * slow
+    w = 1.0 / (math.sqrt(1.0 + need * need) + force)
+    return w, -(need + force) * w, w * (place.z * rho) ** 2
+
+
+@kernel()
+def _step(
+    basis: Basis, curve: Series, law: Law, x: float, state: tuple[float, float], h: float, nodes: Floats
+) -> tuple[float, float, float, float]:
+    """Solve a step of length h from the state (s, lag), with room for nodes, shape (5, STAGES).
+
+    Return s, lag and energy at its end, and about what it gets wrong of s and lag: inf where it cannot be solved.
+    """
+    s, lag = state
+    failed = (s, lag, 0.0, math.inf)
+    nodes[0], nodes[1] = s, lag
+    change = math.inf
+    for _ in range(_MOST):
+        for i in range(STAGES):
+            if not nodes[1, i] > 0.0:
+                return failed
+            nodes[2, i], nodes[3, i], nodes[4, i] = _rates(basis, curve, law, x * math.exp(nodes[0, i]), nodes[1, i])
+        change = 0.0
+        for i in range(STAGES):
+            first, second = s, lag
+            for j in range(STAGES):
+                first += h * INTEGRALS[i, j] * nodes[2, j]
+                second += h * INTEGRALS[i, j] * nodes[3, j]
+            change = max(change, abs(first - nodes[0, i]), abs(second - nodes[1, i]))
+            nodes[0, i], nodes[1, i] = first, second
+        if not _SAME < change < math.inf:
+            break
+    energy, error = 0.0, 0.0
+    for row in (2, 3):
+        first, second, most = 0.0, 0.0, 0.0
+        for j in range(STAGES):
+            first, second = first + TAIL[0, j] * nodes[row, j], second + TAIL[1, j] * nodes[row, j]
+            most = max(most, abs(nodes[row, j]))
+        error = max(error, h * spared(second, first, most, 0.0))
+    for j in range(STAGES):
+        energy += h * INTEGRALS[STAGES - 1, j] * nodes[4, j]
+    if not change <= _SAME or not nodes[1, STAGES - 1] > 0.0:
+        return failed
+    return nodes[0, STAGES - 1], nodes[1, STAGES - 1], energy, error
+
+
+@kernel()
+def stop_edge(
+    basis: Basis, curve: Series, law: Law, rim: float, shortest: float, turn: Reached, furthest: float
+) -> Reached:
+    """Follow the edge from where it is when the machine turns to where it stops, at a lag of 0 or at the rim.
+
+    Parameters
+    ----------
+    rim, shortest, furthest
+        The rim, the shortest wave and the largest place, in wavelengths, inf where there is none.
+    turn
+        Where the edge is then.
+    """
+    nodes = np.empty((5, STAGES))
+    x, end = turn.x, math.log(rim / turn.x)
+    s, lag, energy, wrong = 0.0, turn.lag, turn.energy, turn.of_rho
+    h = 0.1 * lag
+    for _ in range(_STEPS):
+        w, fall, spent = _rates(basis, curve, law, x * math.exp(s), lag)
+        left = lag * w * law.exponent / (1.0 + law.exponent)
+        if lag * w < _LEFT and fall < -0.5 and s + left < end:
+            x *= math.exp(s + left)
+            return Reached(x, 0.0, energy + spent / w * left, wrong, turn.of_energy, True, x)  # noqa: FBT003
+        h = min(h, PART * shortest / (x * math.exp(s)) / w)
+        s1, lag1, part, error = _step(basis, curve, law, x, (s, lag), h, nodes)
+        if error > TOLERANCE:
+            h *= max(0.3, 0.9 * (TOLERANCE / error) ** (1.0 / ORDER))
+            continue
+        if s1 >= end:  # a step that ends at the rim, by the rule of false position
+            low, high, first, second, side = 0.0, h, s - end, s1 - end, 0
+            for _ in range(_TRIALS):
+                middle = (low * second - high * first) / (second - first)
+                s1, lag1, part, _ = _step(basis, curve, law, x, (s, lag), middle, nodes)
+                if abs(s1 - end) <= 4.0 * _SAME * max(end, _LEFT) or high - low < _SAME * high:
+                    break
+                if s1 < end:
+                    low, first = middle, s1 - end
+                    second *= 0.5 if side < 0 else 1.0
+                    side = -1
+                else:
+                    high, second = middle, s1 - end
+                    first *= 0.5 if side > 0 else 1.0
+                    side = 1
+            return Reached(rim, lag1, energy + part, wrong, turn.of_energy, True, rim)  # noqa: FBT003
+        s, lag, energy, wrong = s1, lag1, energy + part, wrong + error
+        h *= min(2.0, 0.9 * (TOLERANCE / max(error, 1e-3 * TOLERANCE)) ** (1.0 / ORDER))
+        if x * math.exp(s) > furthest:
+            break
+    return Reached(math.nan, math.nan, math.nan, math.nan, math.nan, True, x * math.exp(s))  # noqa: FBT003
