@@ -161,7 +161,7 @@ def _close(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Fl
     _put_state(waves, scene, turn.x, law.root - turn.lag, out, 3, i)
     _put_state(waves, scene, end.x, law.root - end.lag, out, 6, i)
     out[9, i], out[10, i] = law.root - end.lag, area * end.of_energy
-    return TOLERANCE_NOT_MET if end.of_energy > PROMISED * end.energy else 0
+    return TOLERANCE_NOT_MET if end.of_energy > PROMISED * (TWO_PI * end.x) ** 2 else 0
 
 
 @kernel()

@@ -59,14 +59,14 @@ class Room(NamedTuple):
     slow: Floats  # u^(-1/n)
     rates: Floats  # d lag/dy
     matrix: Floats  # shape (STAGES, STAGES + 2)
-    stiff: Floats  # the largest relaxation within the step; shape (1,)
+    sizes: Floats  # the largest relaxation within the step, and the largest change of the lag by a term; shape (2,)
 
 
 @kernel()
 def room_for_steps() -> Room:
     """Return room for the numbers of a step."""
     shape = (STAGES, STAGES + 2)
-    return Room(np.empty((9, STAGES)), np.empty(STAGES), np.empty(STAGES), np.empty(STAGES), np.empty(shape), np.empty(1))
+    return Room(np.empty((9, STAGES)), np.empty(STAGES), np.empty(STAGES), np.empty(STAGES), np.empty(shape), np.empty(2))
 
 
 @kernel()
@@ -127,15 +127,16 @@ def _solve(matrix: Floats) -> bool:
 @kernel()
 def _set_equations(law: Law, lag: float, h: float, room: Room) -> None:
     """Set the equations of a step of Newton's method from the lags at the nodes, and of how a change of lag grows."""
-    c, lags, slow, rates, matrix, stiff = room
-    stiff[0] = 0.0
+    c, lags, slow, rates, matrix, sizes = room
+    sizes[:] = 0.0
     for j in range(STAGES):
         force = law.pace * c[7, j]
         value, slope = slowness(law, lags[j])
         rates[j] = c[8, j] * (c[6, j] * (law.root + law.sense * lags[j]) - c[5, j] + force * value)
         slow[j] = value
         steep = h * c[8, j] * (c[6, j] * law.sense + force * slope * value)
-        stiff[0] = max(stiff[0], -steep)
+        sizes[0] = max(sizes[0], -steep)
+        sizes[1] = max(sizes[1], h * c[8, j] * (abs(c[5, j]) + force * value))
         for i in range(STAGES):
             matrix[i, j] = -INTEGRALS[i, j] * steep
         matrix[j, STAGES + 1] = 1.0
@@ -157,7 +158,7 @@ def advance(
     """
     y, lag = state
     _set_curve(basis, curve, start, y, h, room)
-    _, lags, slow, _, matrix, _ = room
+    _, lags, slow, _, matrix, sizes = room
     if lag > 0.0:
         lags[:] = lag
     else:
@@ -173,7 +174,7 @@ def advance(
                 return False
             _, slope = slowness(law, lags[i])
             part = slope * change  # of the slowness
-            if max(abs(part), abs(change)) > _CLOSE and abs(change) > 4.0 * _EPS * (1.0 + lags[i]):
+            if max(abs(part), abs(change)) > _CLOSE and abs(change) > 4.0 * _EPS * (1.0 + lags[i] + sizes[1]):
                 done = False
             if slow[i] > 0.0 and part > -_MUCH:
                 slow[i] *= 1.0 + part
@@ -222,7 +223,7 @@ def errors_of(law: Law, h: float, scale: float, room: Room) -> tuple[float, floa
         a0, a1, a_most = a0 + TAIL[0, j] * rate, a1 + TAIL[1, j] * rate, max(a_most, abs(rate))
         e0, e1, e_most = e0 + TAIL[0, j] * work, e1 + TAIL[1, j] * work, max(e_most, work)
     size = 1.0 + room.lags[STAGES - 1]
-    stiff = _LOST * min(1.0, (room.stiff[0] / _STIFF) ** (STAGES - 1))
+    stiff = _LOST * min(1.0, (room.sizes[0] / _STIFF) ** (STAGES - 1))
     return h * spared(a1, a0, a_most, stiff) / size, h * spared(e1, e0, e_most, 0.0)
 
 

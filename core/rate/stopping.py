@@ -18,12 +18,14 @@ from gradhesion.core.rate.closing import Reached
 from gradhesion.core.rate.law import Law, slowness
 from gradhesion.core.rate.place import place_at
 from gradhesion.core.rate.radau import INTEGRALS, ORDER, STAGES, TAIL
-from gradhesion.core.rate.step import PART, TOLERANCE, spared
+from gradhesion.core.rate.step import PART, spared
 from gradhesion.core.types import Floats
 
 _MOST: Final = 40
 """Repetitions."""
-_SAME: Final = 1e-15
+_SAME: Final = 4.0 * 2.0**-52
+_TOLERANCE: Final = 1e-15
+"""Of ln a and of the lag, in a step: there are few."""
 _LEFT: Final = 1e-13
 """Of ln a, what is left to the leading term of the way to lag = 0."""
 _STEPS: Final = 1_000_000
@@ -66,7 +68,7 @@ def _step(
                 second += h * INTEGRALS[i, j] * nodes[3, j]
             change = max(change, abs(first - nodes[0, i]), abs(second - nodes[1, i]))
             nodes[0, i], nodes[1, i] = first, second
-        if not _SAME < change < math.inf:
+        if not _SAME * (s + lag) < change < math.inf:
             break
     energy, error = 0.0, 0.0
     for row in (2, 3):
@@ -77,7 +79,7 @@ def _step(
         error = max(error, h * spared(second, first, most, 0.0))
     for j in range(STAGES):
         energy += h * INTEGRALS[STAGES - 1, j] * nodes[4, j]
-    if not change <= _SAME or not nodes[1, STAGES - 1] > 0.0:
+    if not change <= _SAME * (s + lag) or not nodes[1, STAGES - 1] > 0.0:
         return failed
     return nodes[0, STAGES - 1], nodes[1, STAGES - 1], energy, error
 
@@ -107,8 +109,8 @@ def stop_edge(
             return Reached(x, 0.0, energy + spent / w * left, wrong, turn.of_energy, True, x)  # noqa: FBT003
         h = min(h, PART * shortest / (x * math.exp(s)) / w)
         s1, lag1, part, error = _step(basis, curve, law, x, (s, lag), h, nodes)
-        if error > TOLERANCE:
-            h *= max(0.3, 0.9 * (TOLERANCE / error) ** (1.0 / ORDER))
+        if error > _TOLERANCE:
+            h *= max(0.3, 0.9 * (_TOLERANCE / error) ** (1.0 / ORDER))
             continue
         if s1 >= end:  # a step that ends at the rim, by the rule of false position
             low, high, first, second, side = 0.0, h, s - end, s1 - end, 0
@@ -127,7 +129,7 @@ def stop_edge(
                     side = 1
             return Reached(rim, lag1, energy + part, wrong, turn.of_energy, True, rim)  # noqa: FBT003
         s, lag, energy, wrong = s1, lag1, energy + part, wrong + error
-        h *= min(2.0, 0.9 * (TOLERANCE / max(error, 1e-3 * TOLERANCE)) ** (1.0 / ORDER))
+        h *= min(2.0, 0.9 * (_TOLERANCE / max(error, 1e-3 * _TOLERANCE)) ** (1.0 / ORDER))
         if x * math.exp(s) > furthest:
             break
     return Reached(math.nan, math.nan, math.nan, math.nan, math.nan, True, x * math.exp(s))  # noqa: FBT003
