@@ -11,7 +11,8 @@ from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.rate.law import Law
 from gradhesion.core.rate.place import coordinate_of, place_at
 from gradhesion.core.rate.radau import STAGES
-from gradhesion.core.rate.step import Room, Start, Stride, advance, energy_of, longest, place_in, stride
+from gradhesion.core.rate.step import Room, Start, advance, energy_of, longest, place_in, stride
+from gradhesion.core.struve.circle import TWO_PI
 
 _INNERMOST: Final = 1e-12
 """Where the edge starts, over the shortest of wave, rim and the length of a smooth contact."""
@@ -100,14 +101,13 @@ def close_edge(
         return Reached(x, lag, 0.0, 0.0, 0.0, True, x)  # noqa: FBT003
     while y < end:
         here = x * math.exp(y)
-        most = min(end - y, longest(here, 1.0, shortest))
-        step = stride(basis, curve, law, start, (y, lag), (h, most), 0.0, room)
+        most, area = min(end - y, longest(here, 1.0, shortest)), (TWO_PI * here) ** 2
+        step = stride(basis, curve, law, start, (y, lag), (h, most), area, room)
         if not step.good or here > furthest:
             break
-        area = place_in(room, STAGES - 1).z ** 2
         after = _level(curve, law, room)
         error = step.growth * error + step.of_rho * (1.0 + step.lag)
-        of_energy += area * (step.of_energy + 2.0 * error * step.h)
+        of_energy += area * step.of_energy + 2.0 * place_in(room, STAGES - 1).z ** 2 * error * step.h
         if after >= target:
             length, lag, spent = _turned(basis, curve, law, start, (y, lag), (step.h, level, after, target), room)
             x *= math.exp(y + length)

@@ -71,12 +71,14 @@ def _step(
         if not _SAME * (s + lag) < change < math.inf:
             break
     energy, error = 0.0, 0.0
+    low, high = law.root - np.max(nodes[1]), law.root - np.min(nodes[1])
+    near = 1.0 if 2.0 * low < high - low and high > 0.0 else 0.0  # to rho = 0, where u^(-1/n) is not smooth
     for row in (2, 3):
         first, second, most = 0.0, 0.0, 0.0
         for j in range(STAGES):
             first, second = first + TAIL[0, j] * nodes[row, j], second + TAIL[1, j] * nodes[row, j]
             most = max(most, abs(nodes[row, j]))
-        error = max(error, h * spared(second, first, most, 0.0))
+        error = max(error, h * spared(second, first, most, near))
     for j in range(STAGES):
         energy += h * INTEGRALS[STAGES - 1, j] * nodes[4, j]
     if not change <= _SAME * (s + lag) or not nodes[1, STAGES - 1] > 0.0:
