@@ -6,7 +6,7 @@ The edge starts at an a where rho is next to 0: it follows the equilibrium of Y 
 import math
 from typing import Final, NamedTuple
 
-from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.rate.law import Law
 from gradhesion.core.rate.place import coordinate_of, place_at
@@ -33,28 +33,37 @@ class Reached(NamedTuple):
 
 
 @kernel()
-def _level(curve: Series, law: Law, room: Room) -> float:
-    """Return Y at the end of a step."""
-    return coordinate_of(curve, place_in(room, STAGES - 1), law.root - room.lags[STAGES - 1])
+def _value(curve: Series, law: Law, room: Room, of_rho: bool) -> float:
+    """Return Y at the end of a step, or rho."""
+    rho = law.root - room.lags[STAGES - 1]
+    return rho if of_rho else coordinate_of(curve, place_in(room, STAGES - 1), rho)
+
+
+class _Target(NamedTuple):
+    """What a step is to end with, and what it has at the start and at the end of one that goes too far."""
+
+    before: float
+    after: float
+    target: float
+    of_rho: bool  # what it is: rho, not Y
 
 
 @kernel()
-def _turned(
+def _step_to(
     basis: Basis,
     curve: Series,
     law: Law,
     start: Start,
     state: tuple[float, float],
-    ends: tuple[float, float, float, float],
+    h: float,
+    ends: _Target,
     room: Room,
 ) -> tuple[float, float, float]:
-    """Return length, lag and energy of the step from the state (y, lag) that ends where Y is what it is to be.
+    """Return length, lag and energy of the step from the state (y, lag) that meets its target, shorter than h.
 
-    `ends` are the length of a step that goes too far, and Y at the start and at the end of that step, and there. It is
-    found by the rule of false position (Illinois).
+    It is found by the rule of false position (Illinois).
     """
-    high, before, after, target = ends
-    low, first, second, side = 0.0, before - target, after - target, 0
+    low, high, first, second, side = 0.0, h, ends.before - ends.target, ends.after - ends.target, 0
     length = high
     for _ in range(_TRIALS):
         length = (low * second - high * first) / (second - first)
@@ -62,10 +71,10 @@ def _turned(
             length = 0.5 * (low + high)
         if not advance(basis, curve, law, start, state, length, room):
             return math.nan, math.nan, math.nan
-        value = _level(curve, law, room) - target
+        value = _value(curve, law, room, ends.of_rho) - ends.target
         if value == 0.0 or high - low < _SURE * high:
             break
-        if value < 0.0:
+        if (value < 0.0) == (first < 0.0):
             low, first = length, value
             second *= 0.5 if side < 0 else 1.0
             side = -1
@@ -98,22 +107,29 @@ def close_edge(
     start, y, end = Start(x, 1.0, 1.0, 1.0), 0.0, math.log(rim / x)
     h, level, error, energy, of_energy = 1.0, 0.0, 0.0, 0.0, 0.0
     if target <= 0.0:
-        return Reached(x, lag, 0.0, 0.0, 0.0, True, x)  # noqa: FBT003
+        return Reached(x, lag, 0.0, 0.0, 0.0, True, x)
     while y < end:
         here = x * math.exp(y)
         most, area = min(end - y, longest(here, 1.0, shortest)), (TWO_PI * here) ** 2
         step = stride(basis, curve, law, start, (y, lag), (h, most), area, room)
         if not step.good or here > furthest:
             break
-        after = _level(curve, law, room)
+        after, place = _value(curve, law, room, NO), place_in(room, STAGES - 1)
         error = step.growth * error + step.of_rho * (1.0 + step.lag)
-        of_energy += area * step.of_energy + 2.0 * place_in(room, STAGES - 1).z ** 2 * error * step.h
+        of_energy += area * step.of_energy + 2.0 * place.z**2 * error * step.h
         if after >= target:
-            length, lag, spent = _turned(basis, curve, law, start, (y, lag), (step.h, level, after, target), room)
+            ends = _Target(level, after, target, NO)
+            length, lag, spent = _step_to(basis, curve, law, start, (y, lag), step.h, ends, room)
             x *= math.exp(y + length)
-            return Reached(x, lag, energy + spent, error, of_energy, True, x)  # noqa: FBT003
-        energy += step.energy
-        y, lag, h, level = y + step.h if step.h < end - y else end, step.lag, step.next, after
+            return Reached(x, lag, energy + spent, error, of_energy, True, x)
+        h, length, spent, last = step.next, step.h, step.energy, step.lag
+        if (lag - law.root) * (last - law.root) < 0.0:  # u^(-1/n) is not smooth at rho = 0: a step ends there
+            ends = _Target(law.root - lag, law.root - last, 0.0, YES)
+            length, last, spent = _step_to(basis, curve, law, start, (y, lag), step.h, ends, room)
+            after = _value(curve, law, room, NO)
+            h, last = step.h - length, law.root
+        energy += spent
+        y, lag, level = y + length if length < end - y else end, last, after
     if y < end:
-        return Reached(math.nan, math.nan, math.nan, math.nan, math.nan, False, x * math.exp(y))  # noqa: FBT003
-    return Reached(rim, lag, energy, error, of_energy, False, rim)  # noqa: FBT003
+        return Reached(math.nan, math.nan, math.nan, math.nan, math.nan, False, x * math.exp(y))
+    return Reached(rim, lag, energy, error, of_energy, False, rim)

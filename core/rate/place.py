@@ -3,7 +3,8 @@
 With rho = (delta_H - delta)/Delta the state at a radius is any rho, in equilibrium 1:
 
     depth = depth_H - Delta rho,   load = load_H - z^(1+k) Delta rho,   Y = alpha depth + beta load
-    a d rho/da = q_hat - q0 rho - drag pace u^(-1/n),   q_hat = a delta_H'/Delta,   drag = z/((alpha + beta z^(1+k)) Delta)
+    a d rho/da = q_hat - q0 rho - drag pace u^(-1/n)
+    q_hat = a delta_H'/Delta,   drag = z/((alpha + beta z^(1+k)) Delta)
 """
 
 from typing import NamedTuple

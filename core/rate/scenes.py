@@ -10,8 +10,8 @@ from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.general import Basis, Series, curve_of
 from gradhesion.core.problem.curves import is_in_range
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET, TOO_MANY_WAVES
-from gradhesion.core.rate.law import Law
 from gradhesion.core.rate.closing import close_edge
+from gradhesion.core.rate.law import Law
 from gradhesion.core.rate.opening import open_edge
 from gradhesion.core.rate.place import coordinate_of, load_of, place_at
 from gradhesion.core.rate.step import Room, room_for_steps
@@ -142,7 +142,7 @@ def _close(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Fl
     curve, length, unit = scene.curve, scene.length, scene.unit
     wavelength, ratio, shortest = edges.wavelength[i], edges.ratios[i], scene.shortest
     rim, target = edges.rims[i] / wavelength, edges.turns[i] * curve.alpha / unit
-    if not scene.valid or not 0.0 < ratio <= 1.0 or not target == target or (rim == math.inf and target == math.inf):
+    if not scene.valid or not 0.0 < ratio <= 1.0 or not (rim < math.inf or target < math.inf):
         return NO_VALUE
     if target < 0.0:
         out[1, i], out[10, i] = 0.0, 0.0
@@ -154,10 +154,12 @@ def _close(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Fl
         return NO_VALUE | TOO_MANY_WAVES
     turn = close_edge(waves, curve, law, rim, shortest, (size, furthest, target), room)
     end = stop_edge(waves, curve, law, rim, shortest, turn, furthest) if turn.turned else turn
-    if not end.x > 0.0:
+    if not (end.x > 0.0 and turn.x > 0.0 and end.energy < math.inf):
         return NO_VALUE | (TOO_MANY_WAVES if end.furthest > furthest else 0)
     area = TWO_PI * length * length
-    out[0, i], out[1, i], out[2, i] = wavelength * end.x, area * end.energy, wavelength * turn.x
+    out[0, i] = edges.rims[i] if end.x == rim else wavelength * end.x
+    out[1, i] = area * end.energy
+    out[2, i] = edges.rims[i] if turn.x == rim else wavelength * turn.x
     _put_state(waves, scene, turn.x, law.root - turn.lag, out, 3, i)
     _put_state(waves, scene, end.x, law.root - end.lag, out, 6, i)
     out[9, i], out[10, i] = law.root - end.lag, area * end.of_energy

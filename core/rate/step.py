@@ -33,6 +33,7 @@ _LOST: Final = 0.01
 _STIFF: Final = 10.0
 """Where the edge relaxes within a step, collocation loses its higher order (order reduction): from about such a rate on
 by this part of the last coefficients. Both from experiment: without, 1e-11 of the force."""
+_KINK: Final = 8.0
 _SAFE: Final = 0.9
 _SHORTER: Final = 0.15
 _LONGER: Final = 4.0
@@ -66,7 +67,9 @@ class Room(NamedTuple):
 def room_for_steps() -> Room:
     """Return room for the numbers of a step."""
     shape = (STAGES, STAGES + 2)
-    return Room(np.empty((9, STAGES)), np.empty(STAGES), np.empty(STAGES), np.empty(STAGES), np.empty(shape), np.empty(2))
+    return Room(
+        np.empty((9, STAGES)), np.empty(STAGES), np.empty(STAGES), np.empty(STAGES), np.empty(shape), np.empty(2)
+    )
 
 
 @kernel()
@@ -207,7 +210,7 @@ def energy_of(law: Law, h: float, room: Room) -> float:
 
 @kernel()
 def spared(first: float, second: float, most: float, stiff: float) -> float:
-    """Return what is wrong of an integral, by the last two coefficients of its values, the largest of which is `most`."""
+    """Return what is wrong of an integral, by the last two coefficients of its values, the largest `most`."""
     tail = max(abs(first), 0.1 * abs(second))
     return tail * ((tail / most) ** SPARED + stiff) if tail > 0.0 else 0.0
 
@@ -222,7 +225,7 @@ def _nearly_followed(law: Law, room: Room) -> float:
         rho, force = law.root - room.lags[j], room.curve[8, j] * room.curve[7, j] * room.slow[j]
         low, high = min(low, rho), max(high, rho)
         first, second = first + TAIL[0, j] * force, second + TAIL[1, j] * force
-    return law.pace * max(abs(first), abs(second)) if 2.0 * low < high - low else 0.0
+    return _KINK * law.pace * max(abs(first), abs(second)) if low < high - low else 0.0
 
 
 @kernel()
@@ -265,20 +268,28 @@ def stride(
     scale: float,
     room: Room,
 ) -> Stride:
-    """Take a step as long as `TOLERANCE` allows, from the state (y, lag); `lengths` are one to try and the longest."""
+    """Take a step as long as `TOLERANCE` allows, from the state (y, lag); `lengths` are one to try and the longest.
+
+    One that rounding lets be no shorter is taken as it is, with its errors.
+    """
     h, most = lengths
-    h = min(h, most)
-    while h > _SHORTEST * most:
+    least = max(_SHORTEST * most, 4.0 * _EPS * state[0])
+    h = min(max(h, least), most)
+    while True:
         good = advance(basis, curve, law, start, state, h, room)
         first, second = errors_of(law, h, scale, room) if good else (math.inf, math.inf)
         error = max(first, second)
-        if error <= TOLERANCE:
+        good = good and error < math.inf
+        if error <= TOLERANCE or (good and h <= least):
             longer = h * min(_LONGER, _SAFE * (TOLERANCE / max(error, _EPS * TOLERANCE)) ** (1.0 / ORDER))
             growth = abs(room.matrix[STAGES - 1, STAGES + 1])
             lag, energy = room.lags[STAGES - 1], energy_of(law, h, room)
-            return Stride(True, h, longer, lag, growth, energy, first, second)  # noqa: FBT003
-        h *= max(_SHORTER, _SAFE * (TOLERANCE / error) ** (1.0 / ORDER)) if good else _SHORTER
-    return Stride(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)  # noqa: FBT003
+            return Stride(True, h, longer, lag, growth, energy, first, second)
+        shorter = h * (max(_SHORTER, _SAFE * (TOLERANCE / error) ** (1.0 / ORDER)) if good else _SHORTER)
+        if not good and h <= least:
+            break
+        h = max(shorter, least)
+    return Stride(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @kernel()

@@ -3,8 +3,8 @@
     ds/dy = w,  d lag/dy = -w [need + force],  need = q_hat - q0 rho,  force = drag pace u^(-1/n),
     1/w = sqrt(1 + need^2) + force
 
-has no steep term on the way to lag = 0, where s settles as lag^(1 + 1/n): each step leaves a part of the lag. Collocation
-as in step.py, its equations solved by repetition.
+has no steep term on the way to lag = 0, where s settles as lag^(1 + 1/n): each step leaves a part of the lag.
+Collocation as in step.py, its equations solved by repetition.
 """
 
 import math
@@ -28,7 +28,7 @@ _TOLERANCE: Final = 1e-15
 """Of ln a and of the lag, in a step: there are few."""
 _LEFT: Final = 1e-13
 """Of ln a, what is left to the leading term of the way to lag = 0."""
-_STEPS: Final = 1_000_000
+_STEPS: Final = 200_000
 _TRIALS: Final = 60
 
 
@@ -108,7 +108,7 @@ def stop_edge(
         left = lag * w * law.exponent / (1.0 + law.exponent)
         if lag * w < _LEFT and fall < -0.5 and s + left < end:
             x *= math.exp(s + left)
-            return Reached(x, 0.0, energy + spent / w * left, wrong, turn.of_energy, True, x)  # noqa: FBT003
+            return Reached(x, 0.0, energy + spent / w * left, wrong, turn.of_energy, True, x)
         h = min(h, PART * shortest / (x * math.exp(s)) / w)
         s1, lag1, part, error = _step(basis, curve, law, x, (s, lag), h, nodes)
         if error > _TOLERANCE:
@@ -129,9 +129,9 @@ def stop_edge(
                     high, second = middle, s1 - end
                     first *= 0.5 if side > 0 else 1.0
                     side = 1
-            return Reached(rim, lag1, energy + part, wrong, turn.of_energy, True, rim)  # noqa: FBT003
+            return Reached(rim, lag1, energy + part, wrong, turn.of_energy, True, rim)
         s, lag, energy, wrong = s1, lag1, energy + part, wrong + error
         h *= min(2.0, 0.9 * (_TOLERANCE / max(error, 1e-3 * _TOLERANCE)) ** (1.0 / ORDER))
         if x * math.exp(s) > furthest:
             break
-    return Reached(math.nan, math.nan, math.nan, math.nan, math.nan, True, x * math.exp(s))  # noqa: FBT003
+    return Reached(math.nan, math.nan, math.nan, math.nan, math.nan, True, x * math.exp(s))
