@@ -55,7 +55,8 @@ def _start_of(law: Law, place: Place, x: float, shortest: float) -> Start:
     force, need = law.pace * place.drag, place.push - place.level
     far = min(0.1, PART * shortest / x)
     if need > 0.0:
-        lag = math.sqrt(1.0 + (force / need) ** n) - 1.0
+        u = (force / need) ** n
+        lag = u / (1.0 + math.sqrt(1.0 + u))
         far = min(far, n / (1.0 + n) * lag * (2.0 * lag) ** (1.0 / n) / force)
     return Start(x, -1.0, far, smooth_power(n) * (1.0 + n) / n)
 

@@ -55,7 +55,7 @@ class Start(NamedTuple):
 class Room(NamedTuple):
     """Numbers of the nodes of a step."""
 
-    curve: Floats  # rows of `Place`, and ds/dy; shape (9, STAGES)
+    curve: Floats  # rows of `Place`, ds/dy, and how an edge relaxes over the step; shape (10, STAGES)
     lags: Floats  # shape (STAGES,)
     slow: Floats  # u^(-1/n)
     rates: Floats  # d lag/dy
@@ -68,7 +68,7 @@ def room_for_steps() -> Room:
     """Return room for the numbers of a step."""
     shape = (STAGES, STAGES + 2)
     return Room(
-        np.empty((9, STAGES)), np.empty(STAGES), np.empty(STAGES), np.empty(STAGES), np.empty(shape), np.empty(2)
+        np.empty((10, STAGES)), np.empty(STAGES), np.empty(STAGES), np.empty(STAGES), np.empty(shape), np.empty(2)
     )
 
 
@@ -138,6 +138,7 @@ def _set_equations(law: Law, lag: float, h: float, room: Room) -> None:
         rates[j] = c[8, j] * (c[6, j] * (law.root + law.sense * lags[j]) - c[5, j] + force * value)
         slow[j] = value
         steep = h * c[8, j] * (c[6, j] * law.sense + force * slope * value)
+        c[9, j] = steep
         sizes[0] = max(sizes[0], -steep)
         sizes[1] = max(sizes[1], h * c[8, j] * (abs(c[5, j]) + force * value))
         for i in range(STAGES):
@@ -161,7 +162,7 @@ def advance(
     """
     y, lag = state
     _set_curve(basis, curve, start, y, h, room)
-    _, lags, slow, _, matrix, sizes = room
+    c, lags, slow, _, matrix, sizes = room
     if lag > 0.0:
         lags[:] = lag
     else:
@@ -177,7 +178,8 @@ def advance(
                 return False
             _, slope = slowness(law, lags[i])
             part = slope * change  # of the slowness
-            if max(abs(part), abs(change)) > _CLOSE and abs(change) > 4.0 * _EPS * (1.0 + lags[i] + sizes[1]):
+            rounding = 4.0 * _EPS * (1.0 + lags[i] + sizes[1])
+            if max(abs(part), abs(change)) > _CLOSE and abs(change) * (1.0 + abs(c[9, i])) > rounding:
                 done = False
             if slow[i] > 0.0 and part > -_MUCH:
                 slow[i] *= 1.0 + part
