@@ -25,11 +25,13 @@ from gradhesion.core.problem.names import (
     PARAMETERS,
     PATTERN,
     PULL_OFF,
+    RATE,
     REACH,
     REPORTS,
     RESULTS,
     SENSITIVITIES,
     SOLVERS,
+    SPEED,
     TURNS,
     WITHOUT_LOAD,
 )
@@ -40,6 +42,7 @@ from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene.cosine_report import NEEDED
 
 if TYPE_CHECKING:
+    from gradhesion.core.problem.rate import Rate
     from gradhesion.core.problem.toughness import Toughness
 
 
@@ -49,7 +52,7 @@ def _checked(
     """Refuse what cannot be solved; return the name of what the cycles turn at, None if that is the rim."""
     reports = [name for name in outputs if name in REPORTS]
     slopes = [name for name in outputs if name in SENSITIVITIES]
-    unknown = [name for name in outputs if name not in (*OUTPUTS, *EDGE, REACH, *reports, *slopes)]
+    unknown = [name for name in outputs if name not in (*OUTPUTS, *EDGE, *RATE, REACH, *reports, *slopes)]
     missing = [name for name in PARAMETERS if name not in parameters]
     if unknown or missing or solver not in SOLVERS:
         raise ValueError(f"unknown outputs {unknown}, missing parameters {missing}, solver {solver!r}")
@@ -155,6 +158,7 @@ def solve(
     profile: Profile | None = None,
     loading: Loading | None = None,
     toughness: Toughness | None = None,
+    rate: Rate | None = None,
 ) -> dict[str, NDArray[Any]]:
     """Solve all scenes of the broadcast parameters.
 
@@ -222,13 +226,24 @@ def solve(
     loading = BY_DISPLACEMENT if loading is None else loading
     if CONTACT_SLOPE in outputs:
         known: Any = {"solver": solver, "check_contact": check_contact, "threads": threads}
-        known |= {"profile": profile, "loading": loading, "toughness": toughness}
+        known |= {"profile": profile, "loading": loading, "toughness": toughness, "rate": rate}
         others = [name for name in outputs if name != CONTACT_SLOPE]
         radius = radius_of(others, parameters)
         found = solve(parameters, [*others, radius], **known)
         slope = {CONTACT_SLOPE: slope_at(found, radius, parameters, profile)}
         return {name: (found | slope)[name] for name in (*outputs, "status")}
     turn = _checked(parameters, outputs, solver, loading, toughness)
+    if rate is not None:
+        from gradhesion.core.rate.cycle import KNOWN, solve_at_speed  # noqa: PLC0415 (seldom wanted)
+
+        absent = [name for name in outputs if name not in KNOWN]
+        if absent or SPEED not in parameters or loading.control == "load" or toughness is not None:
+            raise ValueError(
+                f"an edge with a speed needs {SPEED}, control 'displacement' or 'machine' and no pattern of toughness, "
+                f"and {absent} are not known of it"
+            )
+        how = How(solver, check_contact, threads, profile, loading, is_one_wave=False)
+        return solve_at_speed(parameters, outputs, how, rate)
     plain = solver != "asymptotic" and loading == BY_DISPLACEMENT and toughness is None
     alike = equivalent_wave(profile) if plain else None
     if alike is not None and profile != WAVY:

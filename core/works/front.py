@@ -16,10 +16,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.arrays.prepared import prepared
-from gradhesion.core.problem.names import PATTERN
+from gradhesion.core.problem.names import CLOSING, PATTERN
 
 if TYPE_CHECKING:
     from gradhesion.core.sweep import How
+
+Array = NDArray[np.float64]
 
 
 def pattern_of(parameters: Mapping[str, ArrayLike]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -45,24 +47,33 @@ def front_energy(ratio: NDArray[np.float64], area: NDArray[np.float64]) -> NDArr
         return np.where(ratio == 1.0, 0.0, area * (1.0 - ratio))
 
 
-def pinned_depth(
-    parameters: Mapping[str, ArrayLike], how: How, ratio: NDArray[np.float64], radius: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return how far, in R, the depth or the far end of a machine moves back before the edge opens; 0 at ratio 1.
+def adhesive_depth(parameters: Mapping[str, ArrayLike], how: How, radius: Array) -> tuple[Array, Array]:
+    """Return kappa Delta/R at the radii a/R of scenes, and what a machine's far end moves beside the depth over that.
 
-    Under a load it is the depth. `parameters` are those of `solve` of core/sweep.py without the ratio, `radius` is
-    a_t/R; all broadcast.
+    The second is K a^(1+k)/S, 0 under displacement control and under a load, whose depth is what is asked for.
+    `parameters` are those of `solve` of core/sweep.py but for the ratio; all broadcast.
     """
-    scenes = prepared({name: value for name, value in parameters.items() if name not in PATTERN}, how.loading)
+    others = (*PATTERN, CLOSING)
+    scenes = prepared({name: value for name, value in parameters.items() if name not in others}, how.loading)
     k, stretch, compliance = (
         scenes.of_each(values).reshape(scenes.shape) for values in (scenes.k, scenes.stretch, scenes.compliance)
     )
     with np.errstate(all="ignore"):
-        depth = (1.0 - ratio) / (1.0 + np.sqrt(ratio)) * stretch * radius ** (0.5 * (1.0 - k))
+        depth = stretch * radius ** (0.5 * (1.0 - k))
         if how.toughness is not None:
             from gradhesion.core.closed.pattern import toughness_at  # noqa: PLC0415 (seldom wanted)
 
             depth = depth * toughness_at(how.toughness, *pattern_of(parameters), radius)[0]
-        if how.loading.control == "machine":
-            depth = depth * (1.0 + compliance * radius ** (1.0 + k))
-    return np.where((ratio == 1.0) | (radius == 0.0), 0.0, depth)
+        driven = how.loading.control == "machine"
+        return depth, compliance * radius ** (1.0 + k) if driven else np.zeros(())
+
+
+def pinned_depth(parameters: Mapping[str, ArrayLike], how: How, ratio: Array, radius: Array) -> Array:
+    """Return how far, in R, the depth or the far end of a machine moves back before the edge opens; 0 at ratio 1.
+
+    Under a load it is the depth. Arguments are as those of `adhesive_depth`; all broadcast.
+    """
+    depth, spring = adhesive_depth(parameters, how, radius)
+    with np.errstate(all="ignore"):
+        apart = (1.0 - ratio) / (1.0 + np.sqrt(ratio)) * depth * (1.0 + spring)
+    return np.where((ratio == 1.0) | (radius == 0.0), 0.0, apart)
