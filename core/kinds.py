@@ -18,6 +18,7 @@
     edge               where an edge that closes at less work jumps in, and how its turning point moves
     asymptotic         the asymptotic solver of any profile
     patterned          anything on an interface whose toughness varies with the radius
+    rate               opening and closing at a speed, of any profile and control
 
 and `tables` is what all of them share.
 """
@@ -56,6 +57,7 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "edge": ("tables",),
     "asymptotic": ("tables",),
     "patterned": ("tables",),
+    "rate": ("general_force",),
 }
 """The kinds that are compiled before a kind, directly: those of whose entries it needs the same, or others of the same
 name. Processes that compile kinds side by side, each after those that it needs and none beside one of `APART`, compile
@@ -94,6 +96,7 @@ KERNELS: Final[dict[str, int]] = {
     "edge": 30,
     "asymptotic": 66,
     "patterned": 170,
+    "rate": 38,
 }
 """About how many kernels a kind compiles after those that it needs, in one process."""
 

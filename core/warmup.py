@@ -59,6 +59,15 @@ def _compile_edge() -> None:
     turn_slopes(SCENE, False, how)
 
 
+def _compile_rate() -> None:
+    """Open and close a wavy punch at a speed."""
+    from gradhesion.core.arrays.rate import close_at_speed, open_at_speed  # noqa: PLC0415 (kernels of their own)
+    from gradhesion.core.problem.rate import Rate  # noqa: PLC0415
+
+    for solve_at_speed in (open_at_speed, close_at_speed):
+        solve_at_speed(SCENE | {"speed_over_reference": 0.1}, Rate(exponent=0.6), WAVY, Loading(), 1)
+
+
 def compile_kind(kind: str) -> None:
     """Compile the kernels of a kind of work, or read them from the cache.
 
@@ -104,6 +113,8 @@ def compile_kind(kind: str) -> None:
             _compile_curves()
         case "edge":
             _compile_edge()
+        case "rate":
+            _compile_rate()
         case "sensitivities":
             solve(scene, SENSITIVITIES, threads=1, **driven)
         case _:

@@ -102,7 +102,7 @@ def open_at_speed(
     rate_coefficient, the factor of (V/v*)^n in F/F_0 - 1 of a slow edge (NaN where the pull-off at rest is at a_t);
     pull_off_force_error and opening_energy_error, estimates in the unit of the value, mostly above what is wrong.
     `status` (int16) has pull_off_at_rim (the edge has moved by less than 1e-9 of a_t), tolerance_not_met (an estimate
-    above 1e-9 of its value), no_value (all values are NaN), and too_many_waves with it.
+    above 1e-9 of its value, or (V/v*)^n below 1e-15), no_value (all values are NaN), and too_many_waves with it.
 
     Raises
     ------

@@ -141,7 +141,7 @@ def open_edge(basis: Basis, curve: Series, law: Law, x: float, shortest: float, 
             node = _node(k, law, room, i)
             if before.turning > 0.0 >= node.turning:
                 bound = _bound(before, node) if before.load < math.inf else -math.inf
-                if bound < floor:
+                if not bound >= floor:  # nor where two nodes are one to rounding
                     found, ends, floor = 1, (before, node), bound
             before = node
         before = _Node(0.0, before.z, before.load, before.slope, before.turning)

@@ -22,14 +22,24 @@ from gradhesion.core import (
     solve,
     watch_compilation,
 )
+from gradhesion.core.arrays.rate import close_at_speed, open_at_speed
 from gradhesion.core.curves import GENERAL_CURVES
+from gradhesion.core.problem.rate import Rate
 from gradhesion.core.warmup import SCENE, SPRING
 
 OTHERS = {"profile": Profile(exponent=1.0, harmonics=(Harmonic(n=2, cos=0.3, sin=0.4), Harmonic(n=5, cos=0.1)))}
+LAW = Rate(exponent=0.6)
 BY_LOAD = {"profile": Profile(exponent=2.5), "loading": Loading(control="load")}
 FLAT = {"A": 0.0, "modulus": np.linspace(1.0, 100.0, MANY_SMOOTH)}
+BY_MACHINE = {"profile": OTHERS["profile"], "loading": Loading(control="machine")}
 DEEP = {"indentation_max_over_R": 0.04}
 NOT_OF_A_LOAD = tuple(name for name in REPORTS if name != "energy_residual")
+
+
+def at_speed(scene: dict[str, Any], profile: Profile, loading: Loading) -> None:
+    """Open and close a scene at a speed."""
+    for solve_at_speed in (open_at_speed, close_at_speed):
+        solve_at_speed(scene | {"speed_over_reference": 0.1, "delta_max": 0.01}, LAW, profile, loading, 1)
 
 
 @pytest.mark.parametrize(
@@ -76,6 +86,7 @@ NOT_OF_A_LOAD = tuple(name for name in REPORTS if name != "energy_residual")
                 lambda s: solve(s | {"k": np.linspace(0.1, 0.9, 300)}, ["pull_off_force"], solver="asymptotic"),
             ],
         ),
+        ("rate", [lambda s: at_speed(s, Profile(), Loading()), lambda s: at_speed(s | SPRING, **BY_MACHINE)]),
     ],
 )
 def test_nothing_is_left_to_compile(kind: str, works: list[Any]) -> None:

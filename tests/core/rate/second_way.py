@@ -19,8 +19,10 @@ from gradhesion.core import Loading, Profile
 from gradhesion.core.problem.material import stiffness
 
 _END = math.log(1e9)
-_FIRST = 1e-8
+_FIRST = 1e-11
+_LAST = 1e-8
 _EXACT = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-14}
+_FINER = {"method": "DOP853", "rtol": 3e-14, "atol": 1e-17}  # where a state is read off the dense output
 
 
 @dataclass
@@ -39,7 +41,8 @@ class Punch:
         self.stretch = math.sqrt(2.0 ** (1.0 + k) * math.pi / M)
         spring = s["machine_stiffness"] * s["modulus"] if self.loading.control == "machine" else math.inf
         self.compliance = self.K / spring
-        t, weights = roots_jacobi(120, 0.5 * (k - 1.0), 0.0)
+        waves = max(0.8, s["a_max_over_R"]) * max(h.n for h in self.profile.harmonics) / s["lambda_over_R"]
+        t, weights = roots_jacobi(60 + int(4.0 * waves), 0.5 * (k - 1.0), 0.0)
         self.t = 0.5 * (1.0 + t)
         self.weights = weights * 0.5 ** (0.5 * (1.0 + k)) * (1.0 + self.t) ** (0.5 * (k - 1.0))
 
@@ -82,7 +85,7 @@ def opened(punch: Punch, eps: float, n: float, radius: float) -> dict[str, float
     """Return what opening from a radius comes to, in the units of `open_at_speed`."""
 
     def slow(lag: float) -> float:
-        return float((lag * (2.0 + lag)) ** (-1.0 / n))
+        return float((lag * (2.0 + lag)) ** (-1.0 / n)) if lag > 0.0 else 1e300
 
     def rates(_y: float, state: Any) -> list[float]:
         s, lag, _ = state
@@ -144,19 +147,29 @@ def closed(punch: Punch, eps: float, n: float, ratio: float, turn: float) -> dic
         return punch.coordinate(inner * math.exp(state[0]), root - state[1]) - turn
 
     def stopped(_y: float, state: Any) -> float:
-        return float(state[1] - _FIRST)
+        return float(state[1] - _LAST)
 
-    turned.terminal = stopped.terminal = True  # type: ignore[attr-defined]
-    lag = root - punch.at(inner)[0] / punch.adhesion(inner)
-    up = solve_ivp(rates_of(1.0), (0.0, 1e9), [0.0, lag, 0.0], events=[turned], **_EXACT)
-    on = solve_ivp(rates_of(-1.0), (0.0, 1e9), up.y[:, -1], events=[stopped], max_step=0.02, **_EXACT)
-    s, lag, energy = on.y[:, -1]
+    def followed(_y: float, state: Any) -> float:
+        return float(state[1] - root)
+
+    def until(end: Any, sign: float, state: Any) -> Any:
+        """Go on to an end, by way of places where rho = 0: the rates have a kink there."""
+        while True:
+            found = solve_ivp(rates_of(sign), (0.0, 1e9), state, events=[end, followed], **_FINER)
+            state = found.y[:, -1]
+            if found.t_events[0].size > 0:
+                return state
+            state[1] = root - math.copysign(1e-15, punch.terms(inner * math.exp(state[0]), 0.0)[0])
+
+    turned.terminal = stopped.terminal = followed.terminal = True  # type: ignore[attr-defined]
+    up = until(turned, 1.0, [0.0, root - punch.at(inner)[0] / punch.adhesion(inner), 0.0])
+    s, lag, energy = until(stopped, -1.0, up)
     a = inner * math.exp(s)
     force = punch.terms(a, root)[1] * eps * slow(lag)
     a *= math.exp(n / (1.0 + n) * lag / force)
     return {
         "turning_radius": a,
         "closing_energy": energy,
-        "radius_at_turn": inner * math.exp(up.y[0, -1]),
+        "radius_at_turn": inner * math.exp(up[0]),
         "coordinate_edge_stops": punch.coordinate(a, root),
     }
