@@ -118,14 +118,14 @@ def close_edge(
         error = step.growth * error + step.of_rho * (1.0 + step.lag)
         of_energy += area * step.of_energy + 2.0 * place.z**2 * error * step.h
         if after >= target:
-            ends = _Target(level, after, target, NO)
-            length, lag, spent = _step_to(basis, curve, law, start, (y, lag), step.h, ends, room)
+            turn = _Target(level, after, target, NO)
+            length, lag, spent = _step_to(basis, curve, law, start, (y, lag), step.h, turn, room)
             x *= math.exp(y + length)
             return Reached(x, lag, energy + spent, error, of_energy, True, x)
         h, length, spent, last = step.next, step.h, step.energy, step.lag
         if (lag - law.root) * (last - law.root) < 0.0:  # u^(-1/n) is not smooth at rho = 0: a step ends there
-            ends = _Target(law.root - lag, law.root - last, 0.0, YES)
-            length, last, spent = _step_to(basis, curve, law, start, (y, lag), step.h, ends, room)
+            zero = _Target(law.root - lag, law.root - last, 0.0, YES)
+            length, last, spent = _step_to(basis, curve, law, start, (y, lag), step.h, zero, room)
             after = _value(curve, law, room, NO)
             h, last = step.h - length, law.root
         energy += spent
