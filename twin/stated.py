@@ -239,13 +239,14 @@ def _of_cycle(solution: Solution) -> dict[str, Expected]:
     error = _share(share * solution.energy_condition, solution.dissipated_energy)  # of the sizes of all jumps
     moved = ROUNDED + DEPTH * solution.turning_condition  # of the radius at which the edge turns
     edge = _share(2 * moved, solution.front_energy)
+    snaps = solution.snap_in_force.is_finite()
     return {
         "dissipated_energy": Expected(solution.dissipated_energy, error + edge),
         "loading_energy": Expected(solution.loading_energy, error),
         "unloading_energy": Expected(solution.unloading_energy, error + edge),
         "front_energy": Expected(solution.front_energy, edge, near),
         "pinned_depth": Expected(solution.pinned_depth, _share(DEPTH + 3 * moved, solution.pinned_depth), near),
-        "snap_in_force": Expected(solution.snap_in_force, DEPTH * solution.snap_in_size),
+        "snap_in_force": Expected(solution.snap_in_force, DEPTH * solution.snap_in_size if snaps else 0.0),
         "loading_jumps": Expected(arb(solution.loading_jumps), 0.0, near),
         "unloading_jumps": Expected(arb(solution.unloading_jumps), 0.0, near),
         "delta_max": _depth(solution.delta_max, solution.delta_max_size),

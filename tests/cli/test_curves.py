@@ -210,11 +210,11 @@ def test_what_stood_there_stays_until_all_is_drawn(
     (folder / "x.nc").write_text("precious")
     drawn = []
 
-    def failing(*arguments: Any) -> Any:
+    def failing(*arguments: Any, **driven: Any) -> Any:
         drawn.append(arguments)
         if len(drawn) == 5:
             raise MemoryError
-        return draw_curves(*arguments)
+        return draw_curves(*arguments, **driven)
 
     monkeypatch.setattr("gradhesion.core.draw_curves", failing)
     with pytest.raises(MemoryError):

@@ -36,7 +36,7 @@ CURVE = (
 # What is replaced, by what, and what the message must say: line, key, value, remedy.
 MISTAKES = {
     "unknown key": ('title = "Good"', 'titel = "x"', r':1: titel = "x": .*did you mean "title"'),
-    "unknown parameter": ("A = 0.1", "A = 0.1\nspeed = 1", r":13: parameters.speed = 1: unknown key; choose from"),
+    "unknown parameter": ("A = 0.1", "A = 0.1\ncolour = 1", r":13: parameters.colour = 1: unknown key; choose from"),
     "unknown table": ("[method]", "[methods]", r':15: methods = .*did you mean "method"'),
     "quantity in the wrong table": (
         "A = 0.1",

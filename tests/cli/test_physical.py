@@ -22,6 +22,7 @@ from gradhesion.cli.names import CONTACT_SLOPE, CURVES, OUTPUTS, SI, SYMBOLS, UN
 from gradhesion.cli.picture.curve_picture import drawn_curves
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.core import SENSITIVITIES, VALIDITY
+from gradhesion.core.problem.names import RATE
 
 Call = Callable[..., Result]
 EPS = 2.0**-52
@@ -33,7 +34,7 @@ SCALES = {
 ALL = [
     name
     for name in OUTPUTS
-    if not name.endswith("_residual") and name not in (*VALIDITY, CONTACT_SLOPE, *SENSITIVITIES)
+    if not name.endswith("_residual") and name not in (*VALIDITY, CONTACT_SLOPE, *SENSITIVITIES, *RATE)
 ]
 
 
@@ -238,7 +239,7 @@ def test_a_page_of_curves_in_units_has_rows_of_them(curves_in_units: xarray.Data
 
 def test_every_output_over_something_has_its_unit_and_every_variable_its_symbol() -> None:
     plain = {"loading_jumps", "unloading_jumps", "roughness_parameter", "adhesion_gain", "energy_gain"}
-    assert {*OUTPUTS} - {*UNITS} == {*plain, *VALIDITY, CONTACT_SLOPE, *SENSITIVITIES}
+    assert {*OUTPUTS} - {*UNITS} == {*plain, *VALIDITY, CONTACT_SLOPE, *SENSITIVITIES, *RATE}
     assert {name + SI for name in OUTPUTS if name in UNITS} <= {*SYMBOLS}
     for own in CURVES.values():
         for name in own:

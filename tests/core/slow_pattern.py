@@ -104,12 +104,16 @@ class SlowScene:
             return float(2 * math.pi * a * (self.kappa(a) ** 2 - (x / self.delta(a)) ** 2))
 
         low, high = min(start, end), max(start, end)
-        wave = min(self.pattern_wavelength / max(n for n, _, _ in self.pattern), self.wavelength if self.amplitude else 9.0)
+        wave = min(
+            self.pattern_wavelength / max(n for n, _, _ in self.pattern), self.wavelength if self.amplitude else 9.0
+        )
         ends = np.linspace(low, high, 2 + math.ceil((high - low) / wave))
         total = 0.0
         for left, right in zip(ends[:-1], ends[1:], strict=True):
             if left == 0.0:  # powers of the radius
-                total += quad(lambda t, r=right: 7 * r * t**6 * integrand(r * t**7), 0, 1, epsabs=0, epsrel=1e-13, limit=500)[0]
+                total += quad(
+                    lambda t, r=right: 7 * r * t**6 * integrand(r * t**7), 0, 1, epsabs=0, epsrel=1e-13, limit=500
+                )[0]
             else:
                 total += quad(integrand, left, right, epsabs=1e-16, epsrel=1e-13, limit=500)[0]
         return total if end > start else -total
@@ -151,7 +155,7 @@ class SlowScene:
         if not on[i - 1]:  # within a jump
             level = 0.0
             if top[i - 1] > 0.0:
-                level = float(self.prescribed(self._extremum(grid, int(np.argmax(Y >= top[i - 1])))))
+                level = float(self.prescribed(self._extremum(grid, int(np.argmax(top[i - 1] <= Y)))))
             low = self._crossing(level, grid[i - 1], grid[i])
             if float(self.state(low)[which]) >= target - 1e-12 * abs(target):
                 return float(low)
@@ -225,8 +229,9 @@ class SlowScene:
             "loading_jumps": jumps,
             "unloading_jumps": jumps_back,
             "delta_max": float(depth) + max(0.0, rise) * share,
-            "delta_jump_out": float(self.state(last)[0]) if last > 0.0 else (-float(self.kappa(0.0) * self.delta(0.0)) if self.k == 1.0 else 0.0),
+            "delta_jump_out": float(self.state(last)[0])
+            if last > 0.0
+            else (-float(self.kappa(0.0) * self.delta(0.0)) if self.k == 1.0 else 0.0),
             "loading_energy": loaded,
             "unloading_energy": unloaded,
         }
-

@@ -88,9 +88,14 @@ def test_scenes_that_cannot_be_drawn() -> None:
 def test_curves_of_one_cosine_are_refused() -> None:
     for curve in ("asymptotic", "envelope", "effective"):
         if curve != "asymptotic":
-            with pytest.raises(ValueError, match=rf"\['{curve}'\].*have equilibrium, path, smooth, jumps, asymptotic"):
+            with pytest.raises(
+                ValueError,
+                match=rf"\['{curve}'\].*have equilibrium, closing_equilibrium, path, smooth, jumps, asymptotic",
+            ):
                 draw_curves(SCENE, ["path", curve], ROUGH)
-        with pytest.raises(ValueError, match=rf"\['{curve}'\].*have equilibrium, path, smooth, jumps$"):
+        with pytest.raises(
+            ValueError, match=rf"\['{curve}'\].*have equilibrium, closing_equilibrium, path, smooth, jumps$"
+        ):
             draw_curves(SCENE, [curve], loading=Loading(control="load"))
     with pytest.raises(ValueError, match="machine_stiffness"):
         draw_curves(SCENE, ["path"], loading=Loading(control="machine"))

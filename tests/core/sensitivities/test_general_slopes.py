@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from gradhesion.core import PARAMETERS, SENSITIVITIES, TURNS, Harmonic, Loading, Profile, solve
 from gradhesion.core.arrays.cosine import SLOPES, solve_cosine
 from gradhesion.core.arrays.general import solve_general
+from gradhesion.core.problem.results import WHOLE_CYCLE
 from gradhesion.core.sensitivities.sensitivity import NEEDED
 
 VALUES = ("pull_off_force", "dissipated_energy")
@@ -114,8 +115,8 @@ def test_the_solver_of_one_cosine_has_the_same(random_scenes: Scenes) -> None:
     """By antiderivatives and sums of its own."""
     scenes = random_scenes(60, 5, -4.0, 0.0) | {"k": 0.41}
     outputs = [one for names in NEEDED.values() for one in names]
-    one = solve_cosine(scenes, outputs, "exact", 1, slopes=(True, True))
-    other = solve_general(scenes, outputs, Profile(), Loading(), 1, slopes=(True, True))
+    one = solve_cosine(scenes, outputs, "exact", 1, slopes=(True, WHOLE_CYCLE))
+    other = solve_general(scenes, outputs, Profile(), Loading(), 1, slopes=(True, WHOLE_CYCLE))
     same = np.isclose(one["dissipated_energy"], other["dissipated_energy"], rtol=1e-11)
     assert same.sum() > 55
     sizes = 1 + np.abs(one[SLOPES][:2, :, same])
