@@ -91,7 +91,7 @@ def test_closing_to_the_rim_against_the_reference(name: str) -> None:
 
 
 def drawn(seed: int) -> tuple[dict[str, float], Profile, Loading, float, float]:
-    """A scene at random, with eps and n."""
+    """A scene at random, with eps and n; slower edges take explicit steps minutes."""
     rng = np.random.default_rng(seed)
     scene = {
         "k": float(rng.choice([0.0, 0.95, *rng.uniform(0.0, 1.0, 2)])),
@@ -108,7 +108,8 @@ def drawn(seed: int) -> tuple[dict[str, float], Profile, Loading, float, float]:
     if rng.random() < 0.3:
         loading, scene["machine_stiffness"] = BY_MACHINE, float(10.0 ** rng.uniform(-1.5, 1.0))
     profile = Profile(exponent=float(rng.choice([1.0, 2.0, 2.5, 4.0])), harmonics=waves)
-    return scene, profile, loading, float(10.0 ** rng.uniform(-2.5, 2.0)), float(rng.uniform(0.1, 2.0))
+    n = float(rng.uniform(0.1, 2.0))
+    return scene, profile, loading, float(10.0 ** rng.uniform(-2.5 / max(1.0, n), 2.0)), n
 
 
 @pytest.mark.parametrize("seed", range(20))
