@@ -8,16 +8,16 @@ from typing import Final, NamedTuple
 
 from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.general import Basis, Series
+from gradhesion.core.rate.bracket import TRIALS, Bracket, is_found, narrowed, place_to_try
 from gradhesion.core.rate.law import Law
 from gradhesion.core.rate.place import coordinate_of, place_at
 from gradhesion.core.rate.radau import STAGES
-from gradhesion.core.rate.step import Room, Start, advance, energy_of, longest, place_in, stride
+from gradhesion.core.rate.step import Room, Start, advance, place_in
+from gradhesion.core.rate.stride import energy_of, longest, stride
 from gradhesion.core.struve.circle import TWO_PI
 
 _INNERMOST: Final = 1e-12
 """Where the edge starts, over the shortest of wave, rim and the length of a smooth contact."""
-_TRIALS: Final = 60
-_SURE: Final = 2e-15
 
 
 class Reached(NamedTuple):
@@ -59,29 +59,16 @@ def _step_to(
     ends: _Target,
     room: Room,
 ) -> tuple[float, float, float]:
-    """Return length, lag and energy of the step from the state (y, lag) that meets its target, shorter than h.
-
-    It is found by the rule of false position (Illinois).
-    """
-    low, high, first, second, side = 0.0, h, ends.before - ends.target, ends.after - ends.target, 0
-    length = high
-    for _ in range(_TRIALS):
-        length = (low * second - high * first) / (second - first)
-        if not low < length < high:
-            length = 0.5 * (low + high)
+    """Return length, lag and energy of the step from the state (y, lag) that meets its target, shorter than h."""
+    bracket, length = Bracket(0.0, h, ends.before - ends.target, ends.after - ends.target, 0), h
+    for _ in range(TRIALS):
+        length = place_to_try(bracket)
         if not advance(basis, curve, law, start, state, length, room):
             return math.nan, math.nan, math.nan
         value = _value(curve, law, room, ends.of_rho) - ends.target
-        if value == 0.0 or high - low < _SURE * high:
+        if is_found(bracket, value, 0.0):
             break
-        if (value < 0.0) == (first < 0.0):
-            low, first = length, value
-            second *= 0.5 if side < 0 else 1.0
-            side = -1
-        else:
-            high, second = length, value
-            first *= 0.5 if side > 0 else 1.0
-            side = 1
+        bracket = narrowed(bracket, length, value)
     return length, room.lags[STAGES - 1], energy_of(law, length, room)
 
 

@@ -9,14 +9,15 @@ from typing import Final, NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series
+from gradhesion.core.rate.bracket import TRIALS, Bracket, is_found, narrowed, place_to_try
 from gradhesion.core.rate.law import Law
 from gradhesion.core.rate.place import Place, coordinate_of, load_of, place_at
 from gradhesion.core.rate.radau import NODES, STAGES
-from gradhesion.core.rate.step import PART, Room, Start, advance, longest, place_in, stride, way
+from gradhesion.core.rate.step import Room, Start, advance, place_in, way
+from gradhesion.core.rate.stride import PART, longest, stride
 
 _END: Final = math.log(1e12)
 """How far inwards the edge is followed, in ln a: what is left of the energy is 1e-12 of it, or less."""
-_TRIALS: Final = 60
 _SURE: Final = 1e-14
 
 
@@ -92,28 +93,18 @@ def _trough(
 ) -> tuple[float, float, float]:
     """Return load, z and speed where dP/da = 0 between two nodes of a step of length h from the state (y, lag).
 
-    The place is found by the rule of false position (Illinois), with a step up to each place that is tried.
+    Each place that is tried is reached by a step of its own.
     """
-    k = basis[0].k
-    low, high, first, second = h * ends[0].part, h * ends[1].part, ends[0].turning, ends[1].turning
-    side, node = 0, ends[1]
-    for _ in range(_TRIALS):
-        middle = (low * second - high * first) / (second - first) if first < math.inf else 0.5 * low + 0.5 * high
-        if not low < middle < high:
-            middle = 0.5 * low + 0.5 * high
-        if not advance(basis, curve, law, start, state, middle, room):
+    k, node = basis[0].k, ends[1]
+    bracket = Bracket(h * ends[0].part, h * ends[1].part, ends[0].turning, ends[1].turning, 0)
+    for _ in range(TRIALS):
+        length = place_to_try(bracket)
+        if not advance(basis, curve, law, start, state, length, room):
             return math.nan, math.nan, math.nan
         node = _node(k, law, room, STAGES - 1)
-        if abs(node.turning) < _SURE or high - low < _SURE * high:
+        if is_found(bracket, node.turning, _SURE):
             break
-        if node.turning > 0.0:
-            low, first = middle, node.turning
-            second *= 0.5 if side > 0 else 1.0
-            side = 1
-        else:
-            high, second = middle, node.turning
-            first *= 0.5 if side < 0 else 1.0
-            side = -1
+        bracket = narrowed(bracket, length, node.turning)
     return node.load, node.z, 1.0 / room.slow[STAGES - 1]
 
 

@@ -17,7 +17,7 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.rate.law import Law, lag_of, slowness
 from gradhesion.core.rate.place import Place, place_at
-from gradhesion.core.rate.radau import INTEGRALS, NODES, ORDER, SPARED, STAGES, TAIL
+from gradhesion.core.rate.radau import INTEGRALS, NODES, STAGES
 from gradhesion.core.types import Floats
 
 _MOST: Final = 16
@@ -27,20 +27,6 @@ _CLOSE: Final = 1e-7
 _MUCH: Final = 0.9
 """Of the slowness, what it may lose at once."""
 _EPS: Final = 2.0**-52
-TOLERANCE: Final = 1e-13
-"""Of rho, and of the energy over that of the largest radius, in a step."""
-_LOST: Final = 0.01
-_STIFF: Final = 10.0
-"""Where the edge relaxes within a step, collocation loses its higher order (order reduction): from about such a rate on
-by this part of the last coefficients. Both from experiment: without, 1e-11 of the force."""
-_KINK: Final = 8.0
-_SAFE: Final = 0.9
-_SHORTER: Final = 0.15
-_LONGER: Final = 4.0
-_SHORTEST: Final = 1e-40
-LONGEST: Final = 2.0
-PART: Final = 0.25
-"""Of the shortest wave: a slow edge follows the curve whose nodes it has been given, and would pass a fold unseen."""
 
 
 class Start(NamedTuple):
@@ -198,104 +184,3 @@ def _guess_first(law: Law, start: Start, y: float, h: float, room: Room) -> None
     for i in range(STAGES):
         s, _ = way(start, y + h * NODES[i])
         room.lags[i] = ((1.0 + n) / n * law.pace * room.curve[7, i] * 2.0 ** (-1.0 / n) * s) ** (n / (1.0 + n))
-
-
-@kernel()
-def energy_of(law: Law, h: float, room: Room) -> float:
-    """Return int z rho^2 dz over the step: the work of the edge in 2 pi l^2 dgamma."""
-    c, total = room.curve, 0.0
-    for j in range(STAGES):
-        rho = law.root + law.sense * room.lags[j]
-        total += INTEGRALS[STAGES - 1, j] * c[8, j] * (c[0, j] * rho) ** 2
-    return h * total
-
-
-@kernel()
-def spared(first: float, second: float, most: float, stiff: float) -> float:
-    """Return what is wrong of an integral, by the last two coefficients of its values, the largest `most`."""
-    tail = max(abs(first), 0.1 * abs(second))
-    return tail * ((tail / most) ** SPARED + stiff) if tail > 0.0 else 0.0
-
-
-@kernel()
-def _nearly_followed(law: Law, room: Room) -> float:
-    """Return about what the step gets wrong of rho if it passes rho = 0 near by, where u^(-1/n) is not smooth."""
-    if law.sense > 0.0 or room.slow[0] + room.slow[STAGES - 1] == 0.0:
-        return 0.0
-    low, high, first, second = math.inf, -math.inf, 0.0, 0.0
-    for j in range(STAGES):
-        rho, force = law.root - room.lags[j], room.curve[8, j] * room.curve[7, j] * room.slow[j]
-        low, high = min(low, rho), max(high, rho)
-        first, second = first + TAIL[0, j] * force, second + TAIL[1, j] * force
-    return _KINK * law.pace * max(abs(first), abs(second)) if low < high - low else 0.0
-
-
-@kernel()
-def errors_of(law: Law, h: float, scale: float, room: Room) -> tuple[float, float]:
-    """Return about what the step gets wrong: of rho over its size, and of the energy over z^2 = `scale`."""
-    c = room.curve
-    a0, a1, a_most, e0, e1, e_most = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    for j in range(STAGES):
-        rho = law.root + law.sense * room.lags[j]
-        rate, work = room.rates[j], c[8, j] * (c[0, j] * rho) ** 2 / scale
-        a0, a1, a_most = a0 + TAIL[0, j] * rate, a1 + TAIL[1, j] * rate, max(a_most, abs(rate))
-        e0, e1, e_most = e0 + TAIL[0, j] * work, e1 + TAIL[1, j] * work, max(e_most, work)
-    size = 1.0 + room.lags[STAGES - 1]
-    stiff = _LOST * min(1.0, (room.sizes[0] / _STIFF) ** (STAGES - 1))
-    of_rho = spared(a1, a0, a_most, stiff) + _nearly_followed(law, room)
-    return h * of_rho / size, h * spared(e1, e0, e_most, 0.0)
-
-
-class Stride(NamedTuple):
-    """A step that was taken."""
-
-    good: bool
-    h: float
-    next: float  # the length to try after it
-    lag: float  # at its end
-    growth: float  # of a small change of the lag over it
-    energy: float
-    of_rho: float  # errors, as those of `errors_of`
-    of_energy: float
-
-
-@kernel()
-def stride(
-    basis: Basis,
-    curve: Series,
-    law: Law,
-    start: Start,
-    state: tuple[float, float],
-    lengths: tuple[float, float],
-    scale: float,
-    room: Room,
-) -> Stride:
-    """Take a step as long as `TOLERANCE` allows, from the state (y, lag); `lengths` are one to try and the longest.
-
-    One that rounding lets be no shorter is taken as it is, with its errors.
-    """
-    h, most = lengths
-    least = max(_SHORTEST * most, 4.0 * _EPS * state[0])
-    h = min(max(h, least), most)
-    while True:
-        good = advance(basis, curve, law, start, state, h, room)
-        first, second = errors_of(law, h, scale, room) if good else (math.inf, math.inf)
-        error = max(first, second)
-        good = good and error < math.inf
-        if error <= TOLERANCE or (good and h <= least):
-            longer = h * min(_LONGER, _SAFE * (TOLERANCE / max(error, _EPS * TOLERANCE)) ** (1.0 / ORDER))
-            growth = abs(room.matrix[STAGES - 1, STAGES + 1])
-            lag, energy = room.lags[STAGES - 1], energy_of(law, h, room)
-            return Stride(True, h, longer, lag, growth, energy, first, second)
-        shorter = h * (max(_SHORTER, _SAFE * (TOLERANCE / error) ** (1.0 / ORDER)) if good else _SHORTER)
-        if not good and h <= least:
-            break
-        h = max(shorter, least)
-    return Stride(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-
-
-@kernel()
-def longest(x: float, sign: float, shortest: float) -> float:
-    """Return the longest step in ln a from x wavelengths: by a part of the shortest wave, and of the radius."""
-    part = sign * PART * shortest / x
-    return min(LONGEST, abs(math.log1p(part))) if part > -1.0 else LONGEST

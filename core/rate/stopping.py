@@ -14,11 +14,12 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series
+from gradhesion.core.rate.bracket import TRIALS, Bracket, is_found, narrowed, place_to_try
 from gradhesion.core.rate.closing import Reached
 from gradhesion.core.rate.law import Law, slowness
 from gradhesion.core.rate.place import place_at
 from gradhesion.core.rate.radau import INTEGRALS, ORDER, STAGES, TAIL
-from gradhesion.core.rate.step import PART, spared
+from gradhesion.core.rate.stride import PART, spared
 from gradhesion.core.types import Floats
 
 _MOST: Final = 40
@@ -29,7 +30,6 @@ _TOLERANCE: Final = 1e-15
 _LEFT: Final = 1e-13
 """Of ln a, what is left to the leading term of the way to lag = 0."""
 _STEPS: Final = 200_000
-_TRIALS: Final = 60
 
 
 @kernel()
@@ -114,21 +114,14 @@ def stop_edge(
         if error > _TOLERANCE:
             h *= max(0.3, 0.9 * (_TOLERANCE / error) ** (1.0 / ORDER))
             continue
-        if s1 >= end:  # a step that ends at the rim, by the rule of false position
-            low, high, first, second, side = 0.0, h, s - end, s1 - end, 0
-            for _ in range(_TRIALS):
-                middle = (low * second - high * first) / (second - first)
-                s1, lag1, part, _ = _step(basis, curve, law, x, (s, lag), middle, nodes)
-                if abs(s1 - end) <= 4.0 * _SAME * max(end, _LEFT) or high - low < _SAME * high:
+        if s1 >= end:  # a step that ends at the rim
+            bracket = Bracket(0.0, h, s - end, s1 - end, 0)
+            for _ in range(TRIALS):
+                length = place_to_try(bracket)
+                s1, lag1, part, _ = _step(basis, curve, law, x, (s, lag), length, nodes)
+                if is_found(bracket, s1 - end, _SAME * end):
                     break
-                if s1 < end:
-                    low, first = middle, s1 - end
-                    second *= 0.5 if side < 0 else 1.0
-                    side = -1
-                else:
-                    high, second = middle, s1 - end
-                    first *= 0.5 if side > 0 else 1.0
-                    side = 1
+                bracket = narrowed(bracket, length, s1 - end)
             return Reached(rim, lag1, energy + part, wrong, turn.of_energy, True, rim)
         s, lag, energy, wrong = s1, lag1, energy + part, wrong + error
         h *= min(2.0, 0.9 * (_TOLERANCE / max(error, 1e-3 * _TOLERANCE)) ** (1.0 / ORDER))
