@@ -50,10 +50,12 @@ def _patterns_of(toughness: Toughness, scenes: Scenes) -> Patterns:
     rims = scenes.rim
     wavelength, amplitude = scenes.others
     rows, (low, high) = rows_of_pattern(toughness), _extremes(toughness)
-    least = 1.0 + np.minimum(amplitude * low, amplitude * high)
+    with np.errstate(all="ignore"):  # what is out of range has no value
+        least = 1.0 + np.minimum(amplitude * low, amplitude * high)
     limit = np.full(least.shape, math.inf)
     within = rims if rims.shape[0] > 1 else np.broadcast_to(rims, (least.size, rims.shape[1]))
-    for i in np.nonzero(least < (1e-12 if toughness.of == "work" else 0.0))[0].tolist():
+    doubtful = (least < (1e-12 if toughness.of == "work" else 0.0)) & np.isfinite(amplitude) & (wavelength > 0.0)
+    for i in np.flatnonzero(doubtful).tolist():
         place = first_violation(toughness, float(amplitude[i]))
         if place < math.inf:
             limit[i] = place * wavelength[i] * (1.0 - 1e-12)

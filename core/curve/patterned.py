@@ -30,6 +30,8 @@ _TOGETHER: Final = 250_000
 """Cells of one call."""
 _INNERMOST: Final = 1e-30
 """z where a search for folds begins if the coordinate need not fall there."""
+_NOISE: Final = 1e-13
+"""kappa at zero contact below which D there is no more than rounding, and what it must be where a search begins."""
 _OUTERMOST: Final = 1e100
 _CLOSE: Final = 1.02
 _STEPS: Final = 200
@@ -180,33 +182,33 @@ def window(basis: Basis, curve: Patterned) -> tuple[float, float]:
     B, m, _, alpha, beta = curve
     k = table.k
     start, _, _ = toughness_at(basis, 0.0)
-    low = 1.0
-    while low > _INNERMOST and not _surely_falls(
-        basis, curve, 0.5 * (1.0 - k) if alpha > 0.0 else 0.5 * (3.0 + k), start, low
-    ):
-        low *= 0.25
-    level = (0.5 * (1.0 - k) if beta == 0.0 else 0.5 * (3.0 + k)) * pattern.most
     s, push = m - 1.0 + 0.5 * (1.0 + k), m * B
+    innermost = max(_INNERMOST, (_NOISE / push) ** (1.0 / s)) if start < _NOISE else _INNERMOST
+    low, level = 1.0, 0.5 * (1.0 - k) if alpha > 0.0 else 0.5 * (3.0 + k)
+    while low > innermost and not _surely_falls(basis, curve, level, start, low):
+        low *= 0.25
+    first = max(low, innermost) / TWO_PI
+    level = (0.5 * (1.0 - k) if beta == 0.0 else 0.5 * (3.0 + k)) * pattern.most
     far, correction, _, _ = wave_bounds(table, pattern.waves, pattern.gain)
     far += pattern.steepest
     inner = _INNERMOST
     if far > 0.0:
         if s < 1.0 or (s == 1.0 and push <= far):
-            return max(low, _INNERMOST) / TWO_PI, math.inf
+            return first, math.inf
         if s > 1.0:
             inner = max(inner, math.exp(min(200.0, math.log(far / push) / (s - 1.0))))
     high = 2.0 * inner
     while not push * high**s > level + far * high + correction / high:
         inner, high = high, 2.0 * high
         if high > _OUTERMOST:
-            return max(low, _INNERMOST) / TWO_PI, math.inf
+            return first, math.inf
     while high > _CLOSE * inner:
         middle = math.sqrt(inner * high)
         if push * middle**s > level + far * middle + correction / middle:
             high = middle
         else:
             inner = middle
-    return max(low, _INNERMOST) / TWO_PI, high / TWO_PI
+    return first, high / TWO_PI
 
 
 @kernel()

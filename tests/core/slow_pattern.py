@@ -7,6 +7,7 @@ are found by bisection and by quadrature there. R = dgamma = 1.
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import mpmath
@@ -109,7 +110,7 @@ class SlowScene:
         )
         ends = np.linspace(low, high, 2 + math.ceil((high - low) / wave))
         total = 0.0
-        for left, right in zip(ends[:-1], ends[1:], strict=True):
+        for left, right in pairwise(ends):
             if left == 0.0:  # powers of the radius
                 total += quad(
                     lambda t, r=right: 7 * r * t**6 * integrand(r * t**7), 0, 1, epsabs=0, epsrel=1e-13, limit=500
