@@ -19,10 +19,13 @@ from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, ROWS, RUN, R
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_folds import last_arch
 from gradhesion.core.curve.general import Basis, Series
+from gradhesion.core.curve.patterned import Patterned, pattern_of, toughness_at
+from gradhesion.core.curve.patterned import window as window_of_pattern
 from gradhesion.core.curve.short_wave import ShortWave
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.path import cosine as cosine_path
 from gradhesion.core.path import general as general_path
+from gradhesion.core.path import patterned as patterned_path
 from gradhesion.core.scene.short_wave import walk as walk_short
 from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, GAIN, SLOPES
 from gradhesion.core.sensitivities.wave_slopes import ROOM
@@ -97,6 +100,15 @@ def _short_wave(rows: Any) -> Case:
     return Case(basis, curve, count, trace, lambda x: float(general.coordinate(basis, curve, x)))
 
 
+def _patterned(rows: Any, of_work: bool, alpha: float, beta: float) -> Case:
+    one, (table, bins) = _cosine().curve, tables_of(K, rows)
+    waves = np.array([[1.7, 0.15, -0.1], [0.4, 0.0, 0.1]])
+    pattern, finest = pattern_of(bins, rows, one.gain, waves, of_work, 0.7)
+    basis, curve = Basis(table, pattern, finest), Patterned(0.5 * one.bend, 2.0, 1.0, alpha, beta)
+    count, trace, _ = patterned_path.walk(basis, curve, window_of_pattern(basis, curve), FURTHEST, True)
+    return Case(basis, curve, count, trace, lambda x: float(general.coordinate(basis, curve, x)))
+
+
 CASES = {
     "cosine": _cosine,
     "same cosine as a series": lambda: _series(ONE, 2.0, 1.0, 0.0),
@@ -105,6 +117,9 @@ CASES = {
     "series under a load": lambda: _series(TWO, 2.3, 0.0, 1.0),
     "short wave": lambda: _short_wave(ONE),
     "short waves": lambda: _short_wave(TWO),
+    "patterned toughness": lambda: _patterned(ONE, False, 1.0, 0.0),
+    "patterned work by a machine": lambda: _patterned(TWO, True, 0.7, 0.3),
+    "patterned toughness under a load": lambda: _patterned(TWO, False, 0.0, 1.0),
 }
 
 
@@ -120,6 +135,17 @@ def exact(request: pytest.FixtureRequest) -> Case:
     return CASES[request.param]()
 
 
+@pytest.fixture(scope="module", params=[name for name in CASES if not name.startswith(("short", "patterned"))])
+def sensed(request: pytest.FixtureRequest) -> Case:
+    """Give a curve of every kind whose sensitivities the face knows."""
+    return CASES[request.param]()
+
+
+def toughness(case: Case, x: float) -> float:
+    """Give kappa, 1 where the interface is plain."""
+    return float(toughness_at(case.table, x)[0]) if isinstance(case.curve, Patterned) else 1.0
+
+
 def jumps_of(case: Case) -> list[tuple[float, float]]:
     """Give the ends of some jumps: from the end of a branch outwards, and from the start of one inwards."""
     arrived = [branch for branch in range(case.count) if case.trace[START, branch] > 0.0]
@@ -132,8 +158,12 @@ def jumps_of(case: Case) -> list[tuple[float, float]]:
 
 @pytest.mark.parametrize("name", DECLARED)
 def test_each_function_is_answered_by_each_kind(name: str) -> None:
-    """Short waves answer what a path asks, as a profile does: nothing else is computed of their leading form."""
+    """Short waves answer what a path asks, as a profile does: nothing else is computed of their leading form.
+
+    Patterned interfaces have slopes of their own (sensitivities/patterned_slopes.py).
+    """
     kinds = {Cosine, Series} if name in EXACT | OF_CONTACT | OF_SLOPES else {Cosine, Series, ShortWave}
+    kinds |= {Patterned} if name not in OF_SLOPES else set()
     kinds -= {Cosine} if name in OF_PROFILES else set()
     assert {*DECLARED[name].answered()} == kinds
     declared = [*inspect.signature(DECLARED[name]).parameters]
@@ -200,35 +230,41 @@ def test_folds_are_zeros_of_the_slope(exact: Case) -> None:
             value, rate = exact.ask("fold_at", x)
             assert abs(value) <= 1e-9 * abs(rate)
             assert (rate > 0.0) == (row == START)
-            assert abs(exact.ask("steepness_at", x)) <= 1e-8
     for x in (0.3, 4.4):
         step = 1e-5
-        slope = (exact.coordinate(x + step) - exact.coordinate(x - step)) / (2.0 * TWO_PI * step)
-        assert exact.ask("steepness_at", x) == pytest.approx(slope, rel=1e-6, abs=1e-8)
         (low, _), (high, _) = exact.ask("fold_at", x - step), exact.ask("fold_at", x + step)
         assert exact.ask("fold_at", x)[1] == pytest.approx((high - low) / (2.0 * TWO_PI * step), rel=1e-6, abs=1e-8)
 
 
-def test_the_slope_at_a_rim_is_that_of_the_loss(exact: Case) -> None:
+def test_the_steepness_is_that_of_the_coordinate(sensed: Case) -> None:
+    for branch in range(1, sensed.count - 1):
+        assert abs(sensed.ask("steepness_at", sensed.trace[START, branch])) <= 1e-8
+    for x in (0.3, 4.4):
+        step = 1e-5
+        slope = (sensed.coordinate(x + step) - sensed.coordinate(x - step)) / (2.0 * TWO_PI * step)
+        assert sensed.ask("steepness_at", x) == pytest.approx(slope, rel=1e-6, abs=1e-8)
+
+
+def test_the_slope_at_a_rim_is_that_of_the_loss(sensed: Case) -> None:
     step = 1e-4
     for x in (0.6, 3.7):
-        ends = [exact.ask("loss_from_zero", x * math.exp(i * step)) for i in (-2, -1, 1, 2)]
+        ends = [sensed.ask("loss_from_zero", x * math.exp(i * step)) for i in (-2, -1, 1, 2)]
         expected = np.dot([1, -8, 8, -1], ends) / (12 * step)
-        assert exact.ask("rim_slope", 0.0, x) == pytest.approx(expected, rel=1e-7)
+        assert sensed.ask("rim_slope", 0.0, x) == pytest.approx(expected, rel=1e-7)
 
 
-def test_slopes_are_those_of_the_losses(exact: Case) -> None:
+def test_slopes_are_those_of_the_losses(sensed: Case) -> None:
     """By bend and gain, in which a loss is a polynomial of degree 2; one cosine has its slope by b, a series by ln B."""
-    curve = exact.curve
+    curve = sensed.curve
     units = (curve.bend, curve.gain) if isinstance(curve, Cosine) else (1.0, 1.0)
 
     def other(share: float, gain: float) -> Case:
         changed = curve._replace(bend=share * curve.bend, gain=gain * curve.gain)
-        return Case(exact.table, changed, 0, None, exact.coordinate)
+        return Case(sensed.table, changed, 0, None, sensed.coordinate)
 
-    for start, end in jumps_of(exact):
+    for start, end in jumps_of(sensed):
         total = np.zeros(SLOPES)
-        exact.ask("add_slopes", exact.near, start, end, np.empty(ROOM), total)
+        sensed.ask("add_slopes", sensed.near, start, end, np.empty(ROOM), total)
         for row, factors in ((BEND, (1, 0)), (GAIN, (0, 1))):
             above, below = (
                 other(*(1.0 + sign * factor for factor in factors)).ask("loss_between", start, end, np.empty(16))
@@ -236,7 +272,7 @@ def test_slopes_are_those_of_the_losses(exact: Case) -> None:
             )
             assert units[row] * total[row] == pytest.approx(above - below, rel=1e-8, abs=1e-10)
     total = np.zeros(SLOPES)
-    exact.ask("add_slopes_to_zero", exact.near, 2.3, False, total)
+    sensed.ask("add_slopes_to_zero", sensed.near, 2.3, False, total)
     for row, factors in ((BEND, (1, 0)), (GAIN, (0, 1))):
         above, below = (
             other(*(1.0 + sign * factor for factor in factors)).ask("loss_from_zero", 2.3) for sign in (0.5, -0.5)
@@ -257,7 +293,7 @@ def test_the_edge_of_a_contact(exact: Case) -> None:
         assert edge.bend + edge.wave - edge.stretch == pytest.approx(depth, rel=1e-12, abs=1e-14)
         excess, stretch = exact.ask("excess_at", edge, other)
         assert stretch == pytest.approx((TWO_PI * other) ** (0.5 * (1.0 - K)), rel=1e-14)
-        assert excess == pytest.approx(further + stretch - depth, rel=1e-11, abs=1e-12)
+        assert excess == pytest.approx(further + toughness(exact, other) * stretch - depth, rel=1e-11, abs=1e-12)
     heights = np.empty(16)
     low, width = 3.5, 3.7**2 - 3.5**2
     edge = exact.ask("edge_at", 3.3)
@@ -280,12 +316,16 @@ def test_the_profile_is_that_of_the_depths(exact: Case) -> None:
 def test_what_is_known_of_the_contact_beforehand(exact: Case) -> None:
     series = isinstance(exact.curve, Series)
     short, growth = exact.ask("panels_of")
-    assert short == (1.0 / exact.table[2][:, 0].max() if series else 1.0)
+    patterned = isinstance(exact.curve, Patterned)
+    waves = exact.table[1].waves if patterned else exact.table[2] if series else ONE
+    assert short == 1.0 / waves[:, 0].max()
     assert growth > 1.0
     for x in (0.7, 5.2):
         stretch = (TWO_PI * x) ** (0.5 * (1.0 - K))
         share = exact.curve.alpha + exact.curve.beta * (TWO_PI * x) ** (1.0 + K) if series else 1.0
-        assert exact.ask("surely_open", x) == pytest.approx(share * stretch, rel=1e-13)
+        surely = exact.ask("surely_open", x)
+        assert surely < share * stretch if patterned else surely == pytest.approx(share * stretch, rel=1e-13)
+        assert surely <= share * stretch * toughness(exact, x) * (1.0 + 1e-13)
     for x, whole in ((0.7, 0.0), (0.2, 12.0)):
         coordinate = exact.ask("coordinate_at", x, whole)
         assert coordinate == pytest.approx(exact.coordinate(whole + x), rel=1e-11, abs=1e-12)
