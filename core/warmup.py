@@ -48,6 +48,19 @@ def _compile_general_curves() -> None:
     draw_curves(SCENE, CURVES_BY_DEPTH[-1:], MANY)
 
 
+def _compile_patterned() -> None:
+    """Solve and draw a wavy punch on an interface with a pattern of toughness."""
+    from gradhesion.core.curves import draw_curves  # noqa: PLC0415 (kernels of their own)
+    from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic  # noqa: PLC0415
+
+    pattern = Toughness((ToughnessHarmonic(n=1, cos=0.2, sin=0.1),))
+    scene = SCENE | {"toughness_wavelength_over_R": 0.07}
+    for turn in ({}, {"indentation_max_over_R": 0.05}, {"load_max": 1.0}):
+        solve(scene | turn, (*OUTPUTS, *REPORTS), toughness=pattern, threads=1)
+        solve(scene | turn, SENSITIVITIES, toughness=pattern, threads=1)
+    draw_curves(scene, ("equilibrium", "path", "jumps"), toughness=pattern)
+
+
 def _compile_edge() -> None:
     """Find a pull after a jump, and how a turning point moves."""
     from gradhesion.core.sweep import How  # noqa: PLC0415 (kernels of their own)
@@ -115,6 +128,8 @@ def compile_kind(kind: str) -> None:
             _compile_edge()
         case "rate":
             _compile_rate()
+        case "patterned":
+            _compile_patterned()
         case "sensitivities":
             solve(scene, SENSITIVITIES, threads=1, **driven)
         case _:
