@@ -3,9 +3,10 @@
 A paraboloid, smooth or with a wave of its own that has no common measure with the pattern; force, energy and counts.
 """
 
+from functools import partial
 from typing import Final
 
-from benchmarks.clock import best_of, table
+from benchmarks.clock import seconds_of, table
 from gradhesion.core import solve
 from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 
@@ -23,7 +24,9 @@ def main() -> None:
             times = []
             for waves in WAVES:
                 scene = SCENE | {"A": amplitude, "toughness_wavelength_over_R": 0.5 / waves}
-                times.append(best_of(3, lambda s=scene, t=Toughness(HARMONICS, of): solve(s, OUTPUTS, toughness=t, threads=1)))
+                run = partial(solve, scene, OUTPUTS, toughness=Toughness(HARMONICS, of), threads=1)
+                run()
+                times.append(seconds_of(run, repeat=3))
             rows.append([of, f"{amplitude:g}", *(f"{1e3 * time:.3g}" for time in times)])
     print(table(["pattern of", "A", *(f"{waves:,} waves" for waves in WAVES)], rows))
 

@@ -17,7 +17,11 @@
     general_curves
     edge               where an edge that closes at less work jumps in, and how its turning point moves
     asymptotic         the asymptotic solver of any profile
-    patterned          anything on an interface whose toughness varies with the radius
+    patterned          maps of interfaces whose toughness varies with the radius
+    patterned_reports  `REPORTS` of them
+    patterned_turning  where their cycles turn before the rim
+    patterned_sensitivities
+    patterned_curves
     rate               opening and closing at a speed, of any profile and control
 
 and `tables` is what all of them share.
@@ -57,6 +61,10 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "edge": ("tables",),
     "asymptotic": ("tables",),
     "patterned": ("tables",),
+    "patterned_reports": ("patterned",),
+    "patterned_turning": ("patterned",),
+    "patterned_sensitivities": ("patterned",),
+    "patterned_curves": ("patterned",),
     "rate": ("general_force",),
 }
 """The kinds that are compiled before a kind, directly: those of whose entries it needs the same, or others of the same
@@ -69,11 +77,10 @@ _OF_COSINE: Final = ("force", "energy", "envelope", "sensitivities")
 APART: Final = (
     *({one, other} for one, other in combinations(_OF_COSINE, 2)),
     *({"smooth", other} for other in ("force", "energy", "envelope")),
-    {"curves", "general_curves"},
+    *({one, other} for one, other in combinations(("curves", "general_curves", "patterned_curves"), 2)),
     *({"general_force", other} for other in ("general_energy", "general_sensitivities")),
 )
 """Kinds that do not need each other, and yet compile entries of the same name: not to be compiled side by side."""
-PATTERNED: Final = "patterned"
 KINDS: Final = tuple(NEEDS)
 """All kinds, each after those that it needs."""
 KERNELS: Final[dict[str, int]] = {
@@ -95,7 +102,11 @@ KERNELS: Final[dict[str, int]] = {
     "general_curves": 49,
     "edge": 30,
     "asymptotic": 66,
-    "patterned": 170,
+    "patterned": 143,
+    "patterned_reports": 12,
+    "patterned_turning": 7,
+    "patterned_sensitivities": 15,
+    "patterned_curves": 19,
     "rate": 41,
 }
 """About how many kernels a kind compiles after those that it needs, in one process."""
@@ -132,7 +143,7 @@ def kind_of_map(
     ('force', 'general_force')
     """
     if toughness is not None:
-        return PATTERNED
+        return "patterned_reports" if any(name in REPORTS for name in outputs) else "patterned"
     if solver == "asymptotic":
         return solver
     profile, loading = profile or WAVY, loading or BY_DISPLACEMENT
@@ -160,7 +171,7 @@ def kind_of_turning(
     ('turning', 'general_turning')
     """
     if toughness is not None:
-        return PATTERNED
+        return "patterned_turning"
     profile, loading = profile or WAVY, loading or BY_DISPLACEMENT
     return "turning" if loading == BY_DISPLACEMENT and equivalent_wave(profile) is not None else "general_turning"
 
@@ -199,6 +210,6 @@ def kind_of_curves(
     ('curves', 'general_curves')
     """
     if toughness is not None:
-        return PATTERNED
+        return "patterned_curves"
     default = (profile or WAVY) == WAVY and (loading or BY_DISPLACEMENT) == BY_DISPLACEMENT
     return "curves" if default else "general_curves"

@@ -48,17 +48,20 @@ def _compile_general_curves() -> None:
     draw_curves(SCENE, CURVES_BY_DEPTH[-1:], MANY)
 
 
-def _compile_patterned() -> None:
-    """Solve and draw a wavy punch on an interface with a pattern of toughness."""
+def _compile_patterned(what: str) -> None:
+    """Do some work of a kind on an interface with a pattern of toughness: "" is a map."""
     from gradhesion.core.curves import draw_curves  # noqa: PLC0415 (kernels of their own)
     from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic  # noqa: PLC0415
 
     pattern = Toughness((ToughnessHarmonic(n=1, cos=0.2, sin=0.1),))
     scene = SCENE | {"toughness_wavelength_over_R": 0.07}
-    for turn in ({}, {"indentation_max_over_R": 0.05}, {"load_max": 1.0}):
-        solve(scene | turn, (*OUTPUTS, *REPORTS), toughness=pattern, threads=1)
-        solve(scene | turn, SENSITIVITIES, toughness=pattern, threads=1)
-    draw_curves(scene, ("equilibrium", "path", "jumps"), toughness=pattern)
+    if what == "curves":
+        draw_curves(scene, ("equilibrium", "path", "jumps"), toughness=pattern)
+        return
+    turns = ({"indentation_max_over_R": 0.05}, {"load_max": 1.0}) if what == "turning" else ({},)
+    outputs = {"reports": (*OUTPUTS, *REPORTS), "sensitivities": SENSITIVITIES}.get(what, OUTPUTS)
+    for turn in turns:
+        solve(scene | turn, outputs, toughness=pattern, threads=1)
 
 
 def _compile_edge() -> None:
@@ -128,8 +131,8 @@ def compile_kind(kind: str) -> None:
             _compile_edge()
         case "rate":
             _compile_rate()
-        case "patterned":
-            _compile_patterned()
+        case _ if kind.partition("_")[0] == "patterned":
+            _compile_patterned(kind.partition("_")[2])
         case "sensitivities":
             solve(scene, SENSITIVITIES, threads=1, **driven)
         case _:
