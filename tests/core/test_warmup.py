@@ -24,7 +24,9 @@ from gradhesion.core import (
 )
 from gradhesion.core.arrays.rate import close_at_speed, open_at_speed
 from gradhesion.core.curves import GENERAL_CURVES
+from gradhesion.core.curves.patterned import PATTERN_CURVES
 from gradhesion.core.problem.rate import Rate
+from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 from gradhesion.core.warmup import SCENE, SPRING
 
 OTHERS = {"profile": Profile(exponent=1.0, harmonics=(Harmonic(n=2, cos=0.3, sin=0.4), Harmonic(n=5, cos=0.1)))}
@@ -33,6 +35,8 @@ BY_LOAD = {"profile": Profile(exponent=2.5), "loading": Loading(control="load")}
 FLAT = {"A": 0.0, "modulus": np.linspace(1.0, 100.0, MANY_SMOOTH)}
 BY_MACHINE = {"profile": OTHERS["profile"], "loading": Loading(control="machine")}
 DEEP = {"indentation_max_over_R": 0.04}
+LENGTH = {"toughness_wavelength_over_R": 0.3}
+OVER = {"toughness": Toughness((ToughnessHarmonic(n=1, cos=0.1), ToughnessHarmonic(n=4, sin=-0.2)), "work")}
 NOT_OF_A_LOAD = tuple(name for name in REPORTS if name != "energy_residual")
 
 
@@ -86,6 +90,20 @@ def at_speed(scene: dict[str, Any], profile: Profile, loading: Loading) -> None:
                 lambda s: solve(s | {"k": np.linspace(0.1, 0.9, 300)}, ["pull_off_force"], solver="asymptotic"),
             ],
         ),
+        (
+            "patterned",
+            [
+                lambda s: solve(s | LENGTH, OUTPUTS, **OVER),
+                lambda s: solve(s | LENGTH | SPRING, OUTPUTS, **OVER, **BY_MACHINE),
+            ],
+        ),
+        ("patterned_reports", [lambda s: solve(s | LENGTH, REPORTS, **OVER)]),
+        (
+            "patterned_turning",
+            [lambda s, turn=turn: solve(s | LENGTH | turn, OUTPUTS, **OVER) for turn in ({"load_max": 1.0}, DEEP)],
+        ),
+        ("patterned_sensitivities", [lambda s: solve(s | LENGTH, SENSITIVITIES, **OVER, **OTHERS)]),
+        ("patterned_curves", [lambda s: draw_curves(s | LENGTH, list(PATTERN_CURVES), **OVER, **OTHERS)]),
         ("rate", [lambda s: at_speed(s, Profile(), Loading()), lambda s: at_speed(s | SPRING, **BY_MACHINE)]),
     ],
 )
