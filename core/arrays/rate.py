@@ -20,7 +20,7 @@ from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
-from gradhesion.core.rate.scenes import CLOSED, OPENED, Edges, close_scenes, open_scenes
+from gradhesion.core.rate.scenes import CLOSED, OPENED, Edges, close_scenes, open_scenes, track_edge
 
 SPEED: Final = "speed_over_reference"
 """The parameter V/v*: the speed of the depth, or of the far end of the spring, over the speed of the law."""
@@ -28,6 +28,8 @@ OPENING: Final = (*OPENED, "unloading_energy", "rate_coefficient")
 """What `open_at_speed` returns."""
 _MORE: Final = {"displacement": (), "machine": ("machine_stiffness",)}
 _OF_CLOSING: Final = {"closing_ratio": 1.0, "delta_max": math.inf}
+MOST_POINTS: Final = 2**18
+"""Points of a track at most."""
 Results: TypeAlias = dict[str, NDArray[Any]]
 
 
@@ -175,3 +177,23 @@ def close_at_speed(
         Under load control.
     """
     return _solved(parameters, rate, profile, loading, threads, CLOSED, close_scenes)
+
+
+def tracked(
+    parameters: Mapping[str, ArrayLike], rate: Rate, profile: Profile, loading: Loading, *, inwards: bool
+) -> NDArray[np.float64]:
+    """Return where the edge of one scene is as it opens (inwards) or closes, step by step.
+
+    The parameters are numbers, those of `open_at_speed` or `close_at_speed`. The array has the shape (3, points): radii
+    and depths in R, loads in 1.5 pi R dgamma; without points where there is no value.
+    """
+    found = [np.empty((3, 0))]
+
+    def follow(basis: Basis, edges: Edges, _out: NDArray[np.float64], status: NDArray[np.int64]) -> None:
+        status[0], states = track_edge(basis, edges, inwards, MOST_POINTS)
+        if not status[0] & NO_VALUE:
+            found[0] = states
+
+    one = {name: np.full(1, value, dtype=float) for name, value in parameters.items()}
+    _solved(one, rate, profile, loading, 1, (), follow)
+    return found[0]

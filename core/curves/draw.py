@@ -27,6 +27,7 @@ from gradhesion.core.problem.status import FAILED, NO_VALUE
 from gradhesion.core.sweep import solve
 
 if TYPE_CHECKING:
+    from gradhesion.core.problem.rate import Rate
     from gradhesion.core.problem.toughness import Toughness
 
 _TYPES: Final[dict[str, type[np.signedinteger[Any]]]] = {
@@ -84,6 +85,7 @@ def draw_curves(
     profile: Profile | None = None,
     loading: Loading | None = None,
     toughness: Toughness | None = None,
+    rate: Rate | None = None,
 ) -> tuple[dict[str, NDArray[Any]], int]:
     """Return curves of one scene at points that adapt to them.
 
@@ -95,16 +97,18 @@ def draw_curves(
         `TURNS` path, jumps and the effective path turn where the cycle of `solve` does.
     curves
         Names out of `CURVES`: "equilibrium", the whole equilibrium curve, stable and unstable; "closing_equilibrium",
-        that of closing; "path", the cycle of
-        loading and unloading; "asymptotic", the curve for short waves (5.15)-(5.20);
-        "envelope", its two envelopes (5.21)-(5.27); "effective", the path along them (5.28)-(5.35); "smooth", the curve
-        of A = 0; "jumps", the jumps of the cycle, one by one.
+        that of closing; "path", the cycle of loading and unloading; "asymptotic", the curve for short waves
+        (5.15)-(5.20); "envelope", its two envelopes (5.21)-(5.27); "effective", the path along them (5.28)-(5.35);
+        "smooth", the curve of A = 0; "jumps", the jumps of the cycle, one by one.
     profile, loading
         Shape of the punch and what is prescribed, as in `solve`; another shape has the curves of `CURVES_BY_DEPTH`
         only, another control those of `GENERAL_CURVES`.
     toughness
         How the toughness varies with the radius, as in `solve`: with it there are "equilibrium", "path" and "jumps",
         and `scene` has the parameters of the pattern.
+    rate
+        How the work of adhesion grows with the speed, as in `solve`: the path is that of the moving edge then
+        (rate/curves.py), and `scene` has speed_over_reference.
 
     Returns
     -------
@@ -168,10 +172,14 @@ def draw_curves(
             f"curves {absent} are known of the paraboloid with one cosine wave under displacement control only, but "
             f"for the asymptotic one, which any profile has; this profile and control have {', '.join(known)}"
         )
+    if rate is not None:
+        from gradhesion.core.rate.curves import draw_at_speed  # noqa: PLC0415 (seldom wanted)
+
+        return draw_at_speed(scene, curves, profile, loading, rate)
     if CLOSING in scene or "closing_equilibrium" in curves:
         from gradhesion.core.works.curves import draw_two_works  # noqa: PLC0415 (seldom wanted)
 
-        return draw_two_works({CLOSING: 1.0, **scene}, curves, profile, loading)
+        return draw_two_works({CLOSING: 1.0, **scene}, curves, profile, loading, toughness)
     turns = [name for name in TURNS if name in scene]
     if len(turns) > 1:
         raise ValueError(f"{' and '.join(turns)} are given: a cycle turns at one of them")

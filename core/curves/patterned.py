@@ -24,7 +24,7 @@ from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Toughness
 from gradhesion.core.struve.circle import TWO_PI
 
-PATTERN_CURVES: Final = ("equilibrium", "path", "jumps")
+PATTERN_CURVES: Final = ("equilibrium", "closing_equilibrium", "path", "jumps")
 """The curves that are known of a patterned interface."""
 
 

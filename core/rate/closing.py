@@ -12,7 +12,7 @@ from gradhesion.core.rate.bracket import TRIALS, Bracket, is_found, narrowed, pl
 from gradhesion.core.rate.law import Law
 from gradhesion.core.rate.place import coordinate_of, place_at
 from gradhesion.core.rate.radau import STAGES
-from gradhesion.core.rate.step import Room, Start, advance, place_in
+from gradhesion.core.rate.step import Room, Start, advance, note_nodes, place_in
 from gradhesion.core.rate.stride import energy_of, longest, stride
 from gradhesion.core.struve.circle import TWO_PI
 
@@ -107,6 +107,7 @@ def close_edge(
         if after >= target:
             turn = _Target(level, after, target, NO)
             length, lag, spent = _step_to(basis, curve, law, start, (y, lag), step.h, turn, room)
+            note_nodes(law, room)
             x *= math.exp(y + length)
             return Reached(x, lag, energy + spent, error, of_energy, True, x)
         h, length, spent, last = step.next, step.h, step.energy, step.lag
@@ -115,6 +116,7 @@ def close_edge(
             length, last, spent = _step_to(basis, curve, law, start, (y, lag), step.h, zero, room)
             after = _value(curve, law, room, NO)
             h, last = step.h - length, law.root
+        note_nodes(law, room)
         energy += spent
         y, lag, level = y + length if length < end - y else end, last, after
     if y < end:

@@ -89,6 +89,16 @@ def _closed(parameters: dict[str, Array], ratio: Array, how: How, rate: Rate) ->
     }
 
 
+def far_end_at_depth(scene: Mapping[str, float], how: How, rate: Rate) -> float:
+    """Return where the far end of a machine is, in R, when the depth of one scene reaches that at which it turns."""
+    arrays = {name: np.full(1, value, dtype=float) for name, value in scene.items() if name != TURNS[0]}
+    return float(
+        _turned_at_a_depth({CLOSING: np.ones(1), **arrays}, np.full(1, scene[TURNS[0]]), how, rate)[
+            "coordinate_at_turn"
+        ][0]
+    )
+
+
 def solve_at_speed(parameters: Mapping[str, ArrayLike], outputs: Sequence[str], how: How, rate: Rate) -> Results:
     """Solve scenes whose edge moves at a speed.
 

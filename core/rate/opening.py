@@ -13,7 +13,7 @@ from gradhesion.core.rate.bracket import TRIALS, Bracket, is_found, narrowed, pl
 from gradhesion.core.rate.law import Law
 from gradhesion.core.rate.place import Place, coordinate_of, load_of, place_at
 from gradhesion.core.rate.radau import NODES, STAGES
-from gradhesion.core.rate.step import Room, Start, advance, place_in, way
+from gradhesion.core.rate.step import Room, Start, advance, note_nodes, place_in, way
 from gradhesion.core.rate.stride import PART, longest, stride
 
 _END: Final = math.log(1e12)
@@ -127,6 +127,7 @@ def open_edge(basis: Basis, curve: Series, law: Law, x: float, shortest: float, 
         step = stride(basis, curve, law, start, (y, lag), (h, most), area, room)
         if not step.good:
             return failed
+        note_nodes(law, room)
         found, ends, floor = 0, (before, before), low
         for i in range(STAGES):
             node = _node(k, law, room, i)

@@ -156,7 +156,7 @@ def _close(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Fl
     if rim < math.inf and rim > furthest and target == math.inf:
         return NO_VALUE | TOO_MANY_WAVES
     turn = close_edge(waves, curve, law, rim, shortest, (size, furthest, target), room)
-    end = stop_edge(waves, curve, law, rim, shortest, turn, furthest) if turn.turned else turn
+    end = stop_edge(waves, curve, law, rim, shortest, turn, furthest, room.track) if turn.turned else turn
     if not (end.x > 0.0 and turn.x > 0.0 and end.energy < math.inf):
         return NO_VALUE | (TOO_MANY_WAVES if end.furthest > furthest else 0)
     area = TWO_PI * length * length
@@ -178,3 +178,24 @@ def close_scenes(basis: Basis, edges: Edges, out: Floats, status: Integers) -> N
         i = edges.numbers[j]
         waves = Basis(basis[0], basis[1], basis[2] if edges.amplitude[i] > 0.0 else smooth)
         status[i] = _close(waves, _scene_of(waves, edges, i), edges, i, room, out)
+
+
+@kernel()
+def track_edge(basis: Basis, edges: Edges, inwards: bool, points: int) -> tuple[int, Floats]:
+    """Follow the edge of the one scene that there is; return its status, and where it has been.
+
+    That is an array of shape (3, points): radii and depths in R, loads in 1.5 pi R dgamma.
+    """
+    room, out, i = room_for_steps(points), np.empty((len(CLOSED), 1)), 0
+    waves = Basis(basis[0], basis[1], basis[2] if edges.amplitude[i] > 0.0 else np.zeros((0, 3)))
+    scene = _scene_of(waves, edges, i)
+    status = _open(waves, scene, edges, i, room, out) if inwards else _close(waves, scene, edges, i, room, out)
+    number = int(room.track[0, 0])
+    found, force = np.empty((3, number)), force_unit(waves[0].k, scene.length, scene.unit)
+    for j in range(number):
+        x, rho = room.track[0, j + 1], room.track[1, j + 1]
+        place = place_at(waves, scene.curve, x)
+        found[0, j] = x * edges.wavelength[i]
+        found[1, j] = scene.unit * (place.depth - place.adhesion * rho)
+        found[2, j] = force * load_of(place, rho)
+    return status, found

@@ -18,6 +18,7 @@ from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.rate.law import Law, lag_of, slowness
 from gradhesion.core.rate.place import Place, place_at
 from gradhesion.core.rate.radau import INTEGRALS, NODES, STAGES
+from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats
 
 _MOST: Final = 16
@@ -47,15 +48,32 @@ class Room(NamedTuple):
     rates: Floats  # d lag/dy
     matrix: Floats  # shape (STAGES, STAGES + 2)
     sizes: Floats  # the largest relaxation within the step, and the largest change of the lag by a term; shape (2,)
+    track: Floats  # where an edge has been: places in wavelengths and rho; shape (2, points), their number in [0, 0]
 
 
 @kernel()
-def room_for_steps() -> Room:
-    """Return room for the numbers of a step."""
-    shape = (STAGES, STAGES + 2)
-    return Room(
-        np.empty((10, STAGES)), np.empty(STAGES), np.empty(STAGES), np.empty(STAGES), np.empty(shape), np.empty(2)
-    )
+def room_for_steps(points: int = 0) -> Room:
+    """Return room for the numbers of a step, and for a track of an edge if it has points."""
+    track = np.zeros((2, points))
+    rows, matrix = np.empty((10, STAGES)), np.empty((STAGES, STAGES + 2))
+    return Room(rows, np.empty(STAGES), np.empty(STAGES), np.empty(STAGES), matrix, np.empty(2), track)
+
+
+@kernel()
+def note(track: Floats, x: float, rho: float) -> None:
+    """Note that an edge is at x wavelengths, in a track that has room for it."""
+    if track.shape[1] > 0:
+        number = int(track[0, 0]) + 1
+        if number < track.shape[1]:
+            track[0, number], track[1, number], track[0, 0] = x, rho, number
+
+
+@kernel()
+def note_nodes(law: Law, room: Room) -> None:
+    """Note the nodes of a step that has been made."""
+    if room.track.shape[1] > 0:
+        for i in range(STAGES):
+            note(room.track, room.curve[0, i] / TWO_PI, law.root + law.sense * room.lags[i])
 
 
 @kernel()
@@ -116,7 +134,7 @@ def _solve(matrix: Floats) -> bool:
 @kernel()
 def _set_equations(law: Law, lag: float, h: float, room: Room) -> None:
     """Set the equations of a step of Newton's method from the lags at the nodes, and of how a change of lag grows."""
-    c, lags, slow, rates, matrix, sizes = room
+    c, lags, slow, rates, matrix, sizes, _ = room
     sizes[:] = 0.0
     for j in range(STAGES):
         force = law.pace * c[7, j]
@@ -148,7 +166,7 @@ def advance(
     """
     y, lag = state
     _set_curve(basis, curve, start, y, h, room)
-    c, lags, slow, _, matrix, sizes = room
+    c, lags, slow, _, matrix, sizes, _ = room
     if lag > 0.0:
         lags[:] = lag
     else:

@@ -19,6 +19,7 @@ from gradhesion.core.rate.closing import Reached
 from gradhesion.core.rate.law import Law, slowness
 from gradhesion.core.rate.place import place_at
 from gradhesion.core.rate.radau import INTEGRALS, ORDER, STAGES, TAIL
+from gradhesion.core.rate.step import note
 from gradhesion.core.rate.stride import PART, spared
 from gradhesion.core.types import Floats
 
@@ -88,7 +89,14 @@ def _step(
 
 @kernel()
 def stop_edge(
-    basis: Basis, curve: Series, law: Law, rim: float, shortest: float, turn: Reached, furthest: float
+    basis: Basis,
+    curve: Series,
+    law: Law,
+    rim: float,
+    shortest: float,
+    turn: Reached,
+    furthest: float,
+    track: Floats,
 ) -> Reached:
     """Follow the edge from where it is when the machine turns to where it stops, at a lag of 0 or at the rim.
 
@@ -98,6 +106,8 @@ def stop_edge(
         The rim, the shortest wave and the largest place, in wavelengths, inf where there is none.
     turn
         Where the edge is then.
+    track
+        Where it goes is noted there (rate/step.py).
     """
     nodes = np.empty((5, STAGES))
     x, end = turn.x, math.log(rim / turn.x)
@@ -108,6 +118,7 @@ def stop_edge(
         left = lag * w * law.exponent / (1.0 + law.exponent)
         if lag * w < _LEFT and fall < -0.5 and s + left < end:
             x *= math.exp(s + left)
+            note(track, x, law.root)
             return Reached(x, 0.0, energy + spent / w * left, wrong, turn.of_energy, True, x)
         h = min(h, PART * shortest / (x * math.exp(s)) / w)
         s1, lag1, part, error = _step(basis, curve, law, x, (s, lag), h, nodes)
@@ -122,7 +133,9 @@ def stop_edge(
                 if is_found(bracket, s1 - end, _SAME * end):
                     break
                 bracket = narrowed(bracket, length, s1 - end)
+            note(track, rim, law.root - lag1)
             return Reached(rim, lag1, energy + part, wrong, turn.of_energy, True, rim)
+        note(track, x * math.exp(s1), law.root - lag1)
         s, lag, energy, wrong = s1, lag1, energy + part, wrong + error
         h *= min(2.0, 0.9 * (_TOLERANCE / max(error, 1e-3 * _TOLERANCE)) ** (1.0 / ORDER))
         if x * math.exp(s) > furthest:

@@ -19,6 +19,7 @@ from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import CLOSING, CURVES, TURNS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.status import FAILED, NO_VALUE
+from gradhesion.core.problem.toughness import Toughness
 from gradhesion.core.sweep import How, solve
 from gradhesion.core.works.cycle import LEAST, closing_parameters, starts_downwards
 
@@ -95,7 +96,11 @@ def _joined_effective(closing: Mapping[str, float], opening: Mapping[str, float]
 
 
 def draw_two_works(
-    scene: Mapping[str, float], curves: Sequence[str], profile: Profile, loading: Loading
+    scene: Mapping[str, float],
+    curves: Sequence[str],
+    profile: Profile,
+    loading: Loading,
+    toughness: Toughness | None = None,
 ) -> tuple[Curves, int]:
     """Return curves of one scene that has a `closing_ratio`, as `draw_curves` (curves/draw.py) those of other scenes.
 
@@ -104,10 +109,10 @@ def draw_two_works(
     """
     ratio = float(scene[CLOSING])
     plain = {name: value for name, value in scene.items() if name != CLOSING}
-    shape: dict[str, Any] = {"profile": profile, "loading": loading}
+    shape: dict[str, Any] = {"profile": profile, "loading": loading, "toughness": toughness}
     if ratio == 1.0:
         others = [curve for curve in curves if curve not in (_CLOSING, "equilibrium")]
-        alike, status = draw_curves(plain, [*others, "equilibrium"], profile, loading)
+        alike, status = draw_curves(plain, [*others, "equilibrium"], **shape)
         alike |= {f"closing_{name}": alike[name] for name in CURVES["equilibrium"]}
         return {name: alike[name] for curve in curves for name in CURVES[curve]}, status
     turn = next((name for name in TURNS if name in scene), None)
@@ -118,12 +123,12 @@ def draw_two_works(
     solved = solve(scene, ["turning_radius", "pull_off_radius", "loading_jumps"], **shape, threads=1)
     radius, status = float(solved["turning_radius"]), int(solved["status"])
     if status & NO_VALUE:
-        return draw_curves({**bare, "a_max_over_R": math.nan}, curves, profile, loading)
+        return draw_curves({**bare, "a_max_over_R": math.nan}, curves, **shape)
     rim, end = scene["a_max_over_R"], {}
     if not rim < math.inf:
         reached = BEYOND * max(radius, float(solved["pull_off_radius"]))
         if not reached < math.inf:
-            both = (draw_curves(one, ["equilibrium"], profile, loading)[0] for one in (bare, bare_closing))
+            both = (draw_curves(one, ["equilibrium"], **shape)[0] for one in (bare, bare_closing))
             radius = reached = float(max(one["contact_radius"][-1] for one in both))
         end = {"a_max_over_R": reached}
     how = How("exact", False, 1, profile, loading, is_one_wave=False)
@@ -134,7 +139,7 @@ def draw_two_works(
     def drawn(which: Mapping[str, float], curve: str, **change: float) -> Curves:
         """Draw one curve of a scene, and note what is reported of it."""
         nonlocal flags
-        variables, own = draw_curves({**which, **change}, [curve], profile, loading)
+        variables, own = draw_curves({**which, **change}, [curve], **shape)
         flags |= own & FAILED
         return variables
 
