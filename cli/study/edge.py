@@ -6,13 +6,14 @@ from typing import Final
 import numpy as np
 
 from gradhesion.cli.keys import CLOSING, INPUTS, PATTERN, SPEED, Path
+from gradhesion.cli.names import CURVES
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.form import RateTable, ToughnessTable
 from gradhesion.cli.study.mistakes import Checked, Mistake
 from gradhesion.cli.study.roles import has_units, is_given, mixed
 from gradhesion.cli.study.turn import KEYS as TURN_KEYS
 from gradhesion.cli.terminal.wording import did_you_mean, line_of
-from gradhesion.core.problem.names import RATE, REPORTS, SENSITIVITIES
+from gradhesion.core.problem.names import PATTERN_CURVES, RATE, REPORTS, SENSITIVITIES
 from gradhesion.core.problem.rate import CLOSINGS, Rate
 from gradhesion.core.problem.toughness import OF, Toughness, ToughnessHarmonic, violation
 
@@ -103,6 +104,12 @@ def mistakes_of_toughness(checked: Checked, sound: Mapping[str, Values], *, poin
     if "rate" in checked.data:
         sentence = "a toughness that varies with the radius is not known with a speed; remove [toughness] or [rate]"
         yield Mistake(("toughness",), None, sentence)
+    if checked.form.kind == "curve":
+        own = {name for curve in PATTERN_CURVES for name in (curve, *CURVES[curve])}
+        for i, name in enumerate(checked.form.outputs):
+            if name not in own:
+                sentence = f"with [toughness] there are the curves {', '.join(PATTERN_CURVES)}; remove this one"
+                yield Mistake(("outputs", i), name, sentence)
     yield from _mistakes_of_sign(checked, sound, points=points)
 
 

@@ -21,7 +21,7 @@ from gradhesion.core.curves.path import draw_path
 from gradhesion.core.curves.smooth import draw_smooth
 from gradhesion.core.curves.subject import BEYOND, Subject, subject_of
 from gradhesion.core.problem.control import Loading
-from gradhesion.core.problem.names import CLOSING, CURVES, PARAMETERS, PATTERN, TURNS
+from gradhesion.core.problem.names import CLOSING, CURVES, PARAMETERS, PATTERN, PATTERN_CURVES, TURNS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.status import FAILED, NO_VALUE
 from gradhesion.core.sweep import solve
@@ -165,7 +165,7 @@ def draw_curves(
     if toughness is not None:
         from gradhesion.core.curves import patterned  # noqa: PLC0415 (kernels of their own)
 
-        known = patterned.PATTERN_CURVES
+        known = PATTERN_CURVES
     absent = [name for name in curves if name not in known]
     if absent:
         raise ValueError(

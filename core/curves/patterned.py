@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,9 +22,6 @@ from gradhesion.core.problem.names import PATTERN
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Toughness
 from gradhesion.core.struve.circle import TWO_PI
-
-PATTERN_CURVES: Final = ("equilibrium", "closing_equilibrium", "path", "jumps")
-"""The curves that are known of a patterned interface."""
 
 
 def _turns(basis: Basis, curve: Patterned, furthest: float) -> NDArray[np.float64] | None:

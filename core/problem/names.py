@@ -60,6 +60,8 @@ WITHOUT_LOAD: Final[dict[str, str]] = {
     "envelope": "contact under a load or through a spring begins and ends where there is no closed form",
 }
 """Why the other solvers know displacement control alone."""
+PATTERN_CURVES: Final = ("equilibrium", "closing_equilibrium", "path", "jumps")
+"""The curves of an interface whose toughness varies with the radius."""
 CURVES: Final[dict[str, tuple[str, ...]]] = {
     "equilibrium": ("contact_radius", "indentation", "load", "stable"),
     "closing_equilibrium": (

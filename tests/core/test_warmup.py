@@ -24,7 +24,7 @@ from gradhesion.core import (
 )
 from gradhesion.core.arrays.rate import close_at_speed, open_at_speed
 from gradhesion.core.curves import GENERAL_CURVES
-from gradhesion.core.curves.patterned import PATTERN_CURVES
+from gradhesion.core.problem.names import PATTERN_CURVES
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 from gradhesion.core.warmup import SCENE, SPRING

@@ -7,6 +7,7 @@ import pytest
 
 from gradhesion.core import Harmonic, Loading, Profile, solve
 from gradhesion.core.curves import draw_curves
+from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 
 BALL: dict[str, Any] = {"k": 0.1, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "A": 0.02}
 CHORDS = 1e-3
@@ -16,6 +17,10 @@ DRIVEN: list[tuple[dict[str, float], dict[str, Any]]] = [
     ({"a_max_over_R": np.inf, "indentation_max_over_R": 0.05}, {}),
     ({"a_max_over_R": np.inf, "load_max": 2.0}, {}),
     ({"a_max_over_R": 0.6, "machine_stiffness": 0.05}, {"loading": Loading(control="machine")}),
+    (
+        {"a_max_over_R": 0.5, "toughness_wavelength_over_R": 0.15},
+        {"toughness": Toughness((ToughnessHarmonic(n=1, cos=0.2, sin=0.1),))},
+    ),
     ({"a_max_over_R": 0.7}, {"profile": Profile(exponent=3.0, harmonics=(Harmonic(n=1), Harmonic(n=2, sin=0.3)))}),
 ]
 
