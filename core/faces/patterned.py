@@ -79,7 +79,7 @@ def loss_to_zero(basis: Basis, curve: Patterned, x: float, level: float) -> floa
 @face.size_at.answers(Patterned)
 @kernel()
 def size_at(basis: Basis, curve: Patterned, x: float) -> float:
-    """Answer with the terms of the profile, and those of kappa with what a rounded place changes of it."""
+    """Answer with the terms of the profile, and that of the largest kappa."""
     table, pattern, _ = basis
     z = TWO_PI * x
     power = amplitude_power(table, z)

@@ -140,15 +140,19 @@ def _turn_curve(basis: Basis, curve: Patterned, units: tuple[float, float], turn
         if target < 0.0:
             radii[i] = 0.0
             continue
-        reach = longest
+        reach, own = longest, min(rim, _reach(basis, measured, target))
         if are_too_many(basis, bounds[0], min(longest, bounds[1])):
-            reach = min(rim, _reach(basis, measured, target))
+            reach = own
+        radii[i] = math.nan
         for _ in range(_TRIALS):
             if reach != furthest:
                 count, trace, _ = walk(basis, curve, bounds, reach, NO)
                 furthest = reach
+            if count < 0 and own < reach:  # too many folds up to where another rim turns
+                reach = own
+                continue
             if count < 0 or reach == math.inf:
-                radii[i], flags[i] = math.nan, NO_VALUE | TOO_MANY_WAVES
+                flags[i] = TOO_MANY_WAVES
                 break
             found, x, close, jumped = _first_reached(basis, curve, measured, trace, count, reach, target)
             if not found and reach < rim:
@@ -164,6 +168,8 @@ def _turn_curve(basis: Basis, curve: Patterned, units: tuple[float, float], turn
             if close:
                 flags[i] |= CLOSE_TO_A_JUMP
             break
+        if math.isnan(radii[i]):
+            flags[i] = NO_VALUE | (flags[i] & TOO_MANY_WAVES)
 
 
 @kernel()

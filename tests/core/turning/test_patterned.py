@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import OUTPUTS, Loading, solve
-from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, NO_CONTACT, NO_VALUE
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, NO_CONTACT, NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 
 HARMONICS = (ToughnessHarmonic(n=1, cos=0.4, sin=0.3), ToughnessHarmonic(n=2, sin=-0.2))
@@ -58,3 +58,12 @@ def test_turns_without_contact_or_beyond_the_rim() -> None:
     assert solve(SCENE | {"load_max": -1.0}, OUTPUTS, toughness=pattern)["status"] == NO_VALUE
     strong = SCENE | {"toughness_amplitude": 3.0, "indentation_max_over_R": 0.05}
     assert solve(strong, OUTPUTS, toughness=pattern)["status"] == NO_VALUE, "t < 0 somewhere on the punch"
+
+
+def test_a_turn_that_is_too_far_leaves_the_others() -> None:
+    fine = SCENE | {"A": 0.0, "toughness_wavelength_over_R": 5e-6, "indentation_max_over_R": np.array([0.003, 1.5])}
+    found = solve(fine, ["dissipated_energy", "turning_radius"], toughness=Toughness(HARMONICS))
+    assert found["status"][1] == NO_VALUE | TOO_MANY_WAVES
+    alone = solve(fine | {"indentation_max_over_R": 0.003}, ["dissipated_energy"], toughness=Toughness(HARMONICS))
+    assert not alone["status"] & NO_VALUE
+    assert found["dissipated_energy"][0] == pytest.approx(float(alone["dissipated_energy"]), rel=1e-13)
