@@ -113,12 +113,12 @@ class Study:
     @property
     def linear(self) -> tuple[str, ...]:
         """The outputs whose standard deviation follows from sensitivities."""
-        return self.uncertainty.linear(self.outputs, exact=self._knows_slopes)
+        return self.uncertainty.linear(self.outputs, exact=self.knows_slopes)
 
     @property
     def spreads(self) -> tuple[str, ...]:
         """The variables with the spread of its outputs, those in SI units last."""
-        own = self.uncertainty.spreads(self.outputs, exact=self._knows_slopes)
+        own = self.uncertainty.spreads(self.outputs, exact=self.knows_slopes)
         return (*own, *(name + SI for name in own if name in UNITS and "R" in self.parameters))
 
     @cached_property
@@ -141,10 +141,10 @@ class Study:
     @property
     def has_slopes(self) -> bool:
         """Whether the exact slopes of what is sought are known."""
-        return bool(self.search.slope) and self._knows_slopes
+        return bool(self.search.slope) and self.knows_slopes
 
     @property
-    def _knows_slopes(self) -> bool:
+    def knows_slopes(self) -> bool:
         """Whether there are sensitivities."""
         return self.method.solver == "exact" and self.rate is None
 

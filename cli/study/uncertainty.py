@@ -118,7 +118,7 @@ def _mistakes_of_outputs(checked: Checked, asked: Uncertainty) -> Iterator[Mista
         names = ", ".join(f'"{name}"' for name in OF_LINEAR)
         place: Path = ("outputs",)
         yield Mistake(place, list(form.outputs), f"none of these has a spread; add for example {names}")
-    elif not asked.samples and not asked.linear(own, exact=form.method.solver == "exact"):
+    elif not asked.samples and not asked.linear(own, exact=form.method.solver == "exact" and form.rate is None):
         why = "are not those of the exact solver" if form.method.solver != "exact" else "have no sensitivities"
         sentence = f"the outputs {why}, and their spread needs samples; write samples = 1024 under [uncertainty]"
         yield Mistake(path, 0, sentence)

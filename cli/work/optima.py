@@ -84,7 +84,7 @@ class _Cells:
         """Return the slopes of merits to the places, where they are known."""
         study, goal = self.study, self.study.search.goals[self.goal]
         name = f"{goal.removesuffix(SI)}_sensitivity"
-        if study.method.solver != "exact" or name not in POWERS:
+        if not study.knows_slopes or name not in POWERS:
             return None
         given = self.at(places, cells)
         found = self.solve(given, (goal.removesuffix(SI), name))
