@@ -48,7 +48,7 @@ def _solved(
     names = (*PARAMETERS, SPEED, *_MORE[loading.control], *(name for name in _OF_CLOSING if name in parameters))
     arrays = np.broadcast_arrays(*(np.asarray(parameters[name], dtype=float) for name in names))
     shape = arrays[0].shape
-    flat = dict(zip(names, (array.ravel() for array in arrays), strict=True))
+    flat = dict(zip(names, (np.array(array).ravel() for array in arrays), strict=True))
     k, modulus = flat["k"], flat["modulus"]
     material = stiffness(k, flat["nu"], modulus, flat["c0_over_R"])
     with np.errstate(all="ignore"):
