@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator, Field, StringConstraints, WithJsonSchema, create_model
 
-from gradhesion.cli.keys import ADHESION_RANGE, INPUTS, INTERACTION, KEYS, MACHINE, Key
+from gradhesion.cli.keys import ADHESION_RANGE, CLOSING, INPUTS, KEYS, MACHINE, PATTERN, SPEED, Key
 from gradhesion.cli.study.form import ProfileTable, Table
 from gradhesion.cli.study.quantities import ratio_sentence, si_value
 from gradhesion.cli.terminal.wording import did_you_mean, example
@@ -17,7 +17,10 @@ INTERVALS: Final = ("profile", "linear")
 """Where the intervals of a fit come from."""
 MOST_STARTS: Final = 4096
 """Refinements of one fit."""
-LEFT_OUT: Final = (MACHINE, ADHESION_RANGE, INTERACTION)
+LEFT_OUT: Final = (
+    MACHINE,
+    *(key.name for key in INPUTS.values() if key.gives in (CLOSING, *PATTERN, SPEED, ADHESION_RANGE)),
+)
 """Inputs that a fit has no use for: the ratio of a stiffness that has a unit, and what nothing is solved for."""
 AT_THE_TOP: Final = ("title", "kind", "data", "parameters", "physical", "profile", "fit")
 """The keys of such a study."""

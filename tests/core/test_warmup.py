@@ -27,7 +27,10 @@ from gradhesion.core.curves import GENERAL_CURVES
 from gradhesion.core.problem.names import PATTERN_CURVES
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
+from gradhesion.core.sweep import How
 from gradhesion.core.warmup import SCENE, SPRING
+from gradhesion.core.works.snap_in import pulls_at
+from gradhesion.core.works.turn_slopes import turn_slopes
 
 OTHERS = {"profile": Profile(exponent=1.0, harmonics=(Harmonic(n=2, cos=0.3, sin=0.4), Harmonic(n=5, cos=0.1)))}
 LAW = Rate(exponent=0.6)
@@ -38,6 +41,14 @@ DEEP = {"indentation_max_over_R": 0.04}
 LENGTH = {"toughness_wavelength_over_R": 0.3}
 OVER = {"toughness": Toughness((ToughnessHarmonic(n=1, cos=0.1), ToughnessHarmonic(n=4, sin=-0.2)), "work")}
 NOT_OF_A_LOAD = tuple(name for name in REPORTS if name != "energy_residual")
+
+
+def of_an_edge(scene: dict[str, Any], profile: Profile, loading: Loading) -> None:
+    """Find the pull at a rim, and how a turning point there moves."""
+    how = How("exact", check_contact=False, threads=1, profile=profile, loading=loading, is_one_wave=False)
+    pulls_at(scene, how)
+    for by_load in (False, True):
+        turn_slopes(scene, by_load, how)
 
 
 def at_speed(scene: dict[str, Any], profile: Profile, loading: Loading) -> None:
@@ -82,6 +93,7 @@ def at_speed(scene: dict[str, Any], profile: Profile, loading: Loading) -> None:
                 lambda s: draw_curves(s | SPRING, list(GENERAL_CURVES), None, Loading(control="machine")),
             ],
         ),
+        ("edge", [lambda s: of_an_edge(s, Profile(), Loading()), lambda s: of_an_edge(s | SPRING, **BY_MACHINE)]),
         (
             "asymptotic",
             [
