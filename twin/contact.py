@@ -52,7 +52,11 @@ class Contact(Protocol):
         ...
 
     def ratio(self, z: arb, level: arb) -> arb:
-        """Rho = x/Delta at a coordinate that is held, Delta that of dgamma: the drop of energy is `work` - rho^2."""
+        """Rho = x/Delta at a coordinate that is held, Delta that of dgamma: the drop of energy is `release` - rho^2."""
+        ...
+
+    def release(self, z: arb) -> arb:
+        """Return the work of adhesion at a radius, over dgamma."""
         ...
 
     def pinned(self, z: arb) -> arb:

@@ -85,6 +85,10 @@ class Curve:
         """Rho = (delta_H - level)/Delta at a depth that is held, Delta that of dgamma."""
         return (self.hertz(z) - level) / (self.strength * self.radius(z) ** ((1 - self.k) / 2))
 
+    def release(self, _z: arb) -> arb:
+        """Work of adhesion, over dgamma."""
+        return self.work
+
     def pinned(self, z: arb) -> arb:
         """Depth between the curve of dgamma and that of the work of adhesion."""
         return (self.strength - self.adhesion) * self.radius(z) ** ((1 - self.k) / 2)

@@ -68,7 +68,7 @@ def dissipated(curve: Contact, jump: Jump) -> arb:
 
     def density(z: arb) -> arb:
         ratio = curve.ratio(z, jump.level)
-        return curve.radius(z) * (curve.work - ratio * ratio)
+        return curve.radius(z) * (curve.release(z) - ratio * ratio)
 
     lo, hi = (jump.start, jump.end) if jump.start < jump.end else (jump.end, jump.start)
     drop = 2 * arb.pi() * scale * integral(curve, density, lo, hi)
@@ -97,3 +97,16 @@ def loop(curve: Contact, path: Path) -> arb:
             result -= work(jump.start, at)
         at = jump.end
     return result - work(arb(0), at) if at > 0 else result
+
+
+def area(curve: Contact) -> arb:
+    """Return the area within the rim, each part by its work of adhesion over dgamma; inf without a rim."""
+    if curve.rim is None:
+        return arb("inf")
+    scale = curve.wavelength / (2 * arb.pi())
+    return (
+        2
+        * arb.pi()
+        * scale
+        * integral(curve, lambda z: curve.radius(z) * curve.release(z) / curve.work, arb(0), curve.rim)
+    )

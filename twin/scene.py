@@ -119,10 +119,7 @@ def solve(parameters: Mapping[str, float], shape: Shape = PLAIN) -> Solution:
     leaving = [jump for jump in path.unloading if jump.end > 0 or shape.control != "load"]
     gained = [energy.dissipated(closing, jump) for jump in up.loading]
     drops = [energy.dissipated(curve, jump) for jump in leaving]
-    area = arb(0) if turns_at is None else arb.pi() * turns_at * turns_at
-    front = (1 - closing.work) * area if ratio < 1.0 else arb(0)
-    if turns_at is None and ratio < 1.0:
-        front = arb("inf")
+    front = ZERO if ratio == 1.0 else (1 - closing.work) * energy.area(curve)
     terms = [*gained, *drops, front]
     lost = sum(terms, arb(0))
     margins = [_margin_jumps(closing, up, made_up, turned=turned)]

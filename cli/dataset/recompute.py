@@ -101,6 +101,10 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
         )
     if study.method != Method(solver=solvers, check_contact=study.method.check_contact):  # that changes no value
         raise DatasetError(f"{path}: its study has settings that `gradhesion verify` cannot recompute")
+    if study.rate is not None:
+        raise DatasetError(
+            f"{path}: edges with a speed have no independent twin; `gradhesion verify` takes those at rest"
+        )
     if seed is None:
         seed = random.SystemRandom().randrange(10**6)
     found = Recomputed(seed=seed, total=study.scenes // len(asked) * len(known), solvers=known)
@@ -129,7 +133,10 @@ def shape_of(study: Study, realisation: int = 0) -> Shape:
     drawn = study.spectrum
     profile = study.profile if drawn is None else random_profile(drawn, realisation, study.profile.exponent)
     harmonics = tuple((wave.n, wave.cos, wave.sin) for wave in profile.harmonics)
-    return Shape(exponent=study.profile.exponent, harmonics=harmonics, control=study.loading.control)
+    pattern = () if study.toughness is None else study.toughness.harmonics
+    waves = tuple((wave.n, wave.cos, wave.sin) for wave in pattern if wave.cos != 0.0 or wave.sin != 0.0)
+    of = "toughness" if study.toughness is None else study.toughness.of
+    return Shape(study.profile.exponent, harmonics, study.loading.control, waves, of)
 
 
 def _drawn(

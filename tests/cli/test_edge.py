@@ -74,6 +74,20 @@ def test_curves_over_a_pattern(gradhesion: Call, write_study: Write) -> None:
     assert gradhesion("plot", path.with_suffix(".nc")).exit_code == 0
 
 
+def test_a_pattern_is_verified_and_a_speed_is_refused(gradhesion: Call, write_study: Write) -> None:
+    path = write_study(
+        TEXT + "toughness_wavelength_over_R = [0.1, 0.2]\n[toughness]\nharmonics = [{ n = 1, cos = 0.3 }]\n"
+    )
+    assert gradhesion("run", path, "-o", path.with_suffix(".nc")).exit_code == 0
+    result = gradhesion("verify", path.with_suffix(".nc"), "--sample", "2")
+    assert result.exit_code == 0, result.output
+    path = write_study(TEXT + "speed_over_reference = 0.1\n[rate]\nexponent = 0.6\n")
+    assert gradhesion("run", path, "-o", path.with_suffix(".rate.nc")).exit_code == 0
+    result = gradhesion("verify", path.with_suffix(".rate.nc"))
+    assert result.exit_code != 0
+    assert "edges with a speed have no independent twin" in result.output
+
+
 def test_a_speed_in_units_gives_its_ratio() -> None:
     physical = {
         "R": "1 mm",

@@ -14,6 +14,9 @@ class Shape:
     exponent: float = 2.0
     harmonics: tuple[Harmonic, ...] = ((1, 1.0, 0.0),)
     control: str = "displacement"
+    pattern: tuple[Harmonic, ...] = ()
+    """The waves of a toughness that varies with the radius, and what they multiply: "toughness" or "work"."""
+    pattern_of: str = "toughness"
 
 
 PLAIN: Final = Shape()

@@ -60,10 +60,16 @@ def _powers_at_zero(curve: "GeneralCurve", control: "Control") -> tuple[dict[flo
         add(powers, 1.0, wave * 2 / (1 + curve.k) * series.moment(2, sine=False))
         add(rest, 2.0, wave * arb(3) / 2 * series.start * series.moment(3, sine=True, sizes=True))
         add(rest, 3.0, wave * arb(2) / 3 / (1 + curve.k) * series.moment(4, sine=False, sizes=True))
+    kappa, steepest = curve.pattern.at(arb(0))[0], arb(curve.pattern.steepest)
+    if steepest > 0 and (k == 1.0 or not kappa > 0):
+        message = "the tilt next to zero contact has no certain sign over this pattern of toughness"
+        raise ArithmeticError(message)
     pull = curve.adhesion * length ** (curve.c - 1)
     if k < 1.0 or alpha == 0:
         level = curve.c if alpha > 0 else (3 + curve.k) / 2  # the least
-        add(powers, c - 1, -level * pull)
+        add(powers, c - 1, -level * kappa * pull)
+        if steepest > 0:
+            add(rest, c, ((3 + curve.k) / 2 + 1) * steepest * length * pull)
     elif beta > 0:  # 2 tau/(alpha + tau) with tau = beta a^2
         add(powers, 1.0, -2 * beta / alpha * length**2 * pull)
         add(rest, 3.0, 2 * (beta / alpha) ** 2 * length**4 * pull)
@@ -78,7 +84,7 @@ def first(curve: "GeneralCurve", control: "Control") -> arb:
     lowest = min(powers)
     others = [(power - lowest, abs(size)) for power, size in powers.items() if power != lowest]
     others += [(power - lowest, size) for power, size in rest.items()]
-    z = 1.0 / curve.series.shortest
+    z = 1.0 / curve.shortest
     while z > SMALLEST:
         if abs(powers[lowest]) > sum((size * arb(z) ** power for power, size in others), arb(0)):
             return arb(z)
@@ -97,6 +103,7 @@ def _rises(curve: "GeneralCurve", control: "Control", z: float) -> bool:
     a = curve.radius(arb(z))
     level = curve.c if control.beta == 0 else (3 + curve.k) / 2
     bend = curve.m * curve.front * a ** (curve.m - 1)
+    level = level * curve.pattern.greatest + a * curve.pattern.steepest
     return bool(bend > 1.001 * (2 * arb.pi() * curve.amplitude * waves + level * curve.adhesion * a ** (curve.c - 1)))
 
 
@@ -109,7 +116,7 @@ def _presses(curve: "GeneralCurve", z: float) -> bool:
         waves += n * math.hypot(even, odd) * (2 / y**3 + front * y ** (-1 - e) * (1 + (1 + e) * (2 + e) / (y * y)))
     a = curve.radius(arb(z))
     bend = curve.m / (1 + curve.k + curve.m) * curve.front * a**curve.m
-    pull = curve.adhesion * a**curve.c + 2 * arb.pi() * curve.amplitude * a * waves
+    pull = curve.pattern.greatest * curve.adhesion * a**curve.c + 2 * arb.pi() * curve.amplitude * a * waves
     return bool(bend > 1.001 * pull)
 
 
@@ -134,7 +141,7 @@ def grid(curve: "GeneralCurve", control: "Control", end: arb | None) -> list[arb
         raise ArithmeticError(message)
     stop = arb(high) if high < math.inf else end
     assert stop is not None
-    widest = 0.5 / curve.series.shortest
+    widest = 0.5 / curve.shortest
     edges, z = [arb(low)], low
     while True:
         z += min(widest, (FACTOR - 1) * z)
@@ -153,4 +160,4 @@ def waves_within(curve: "GeneralCurve", *, cycle: bool) -> float:
         furthest = max(furthest, last(curve, curve.fold), float(curve.phase(held)))
     if curve.rim is not None:
         furthest = min(furthest, float(curve.rim))
-    return furthest / (2 * math.pi) * curve.series.shortest * (1 + len(curve.series.harmonics) / 16)
+    return furthest / (2 * math.pi) * curve.shortest * (1 + len(curve.series.harmonics) / 16)

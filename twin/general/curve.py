@@ -19,6 +19,7 @@ from typing import NamedTuple
 from flint import arb
 
 from gradhesion.twin.general import Shape, bounds
+from gradhesion.twin.general.pattern import Pattern
 from gradhesion.twin.general.series import series_of
 from gradhesion.twin.special import theta
 
@@ -60,8 +61,9 @@ class GeneralCurve:
         self.fold = Control(arb(0), arb(1)) if shape.control == "load" else Control(arb(1), self.compliance)
         rim = parameters["a_max_over_R"]
         self.rim = self.phase(arb(rim)).mid() if rim != float("inf") else None
+        self.pattern = Pattern(parameters, shape)
+        self.shortest = max(self.series.shortest, self.pattern.waves_in(self.wavelength))
         self.starts_rising = bool(self.tilt(bounds.first(self, self.fold), self.fold)[0] > 0)
-        self.shortest = self.series.shortest
         self.innermost = self._innermost()
 
     def _natural_wavelength(self) -> arb:
@@ -72,7 +74,7 @@ class GeneralCurve:
     def _innermost(self) -> float:
         """Return a phase below which the energy of a jump has a branch point at 0 and is smooth besides."""
         alpha, beta, _ = self.fold
-        nearest = 1.5 / self.series.shortest
+        nearest = 1.5 / self.shortest
         if alpha > 0 and beta > 0:  # the machine's share of the stiffness changes where tau = alpha
             nearest = min(nearest, 0.25 * float(self.phase((alpha / beta) ** (1 / (1 + self.k)))))
         return nearest
@@ -88,8 +90,8 @@ class GeneralCurve:
     def _powers(self, a: arb) -> tuple[arb, arb, arb]:
         """a^(1+k), F a^m and Delta; at a = 0 too."""
         if a == 0:
-            return arb(0), arb(0), self.adhesion if self.k == 1 else arb(0)
-        return a ** (1 + self.k), self.front * a**self.m, self.adhesion * a**self.c
+            return arb(0), arb(0), self.pattern.at(a)[0] * self.adhesion if self.k == 1 else arb(0)
+        return a ** (1 + self.k), self.front * a**self.m, self.pattern.at(a)[0] * self.adhesion * a**self.c
 
     def _state(self, z: arb) -> tuple[arb, arb, arb, arb]:
         """a^(1+k), delta_H, P_H/(K a^(1+k)) and Delta."""
@@ -125,11 +127,16 @@ class GeneralCurve:
         gap = self.strength * self.radius(z) ** self.c
         return (alpha * depth + beta * area * load - level) / ((alpha + beta * area) * gap)
 
+    def release(self, z: arb) -> arb:
+        """Work of adhesion at a radius, over dgamma."""
+        kappa, _, _ = self.pattern.at(self.radius(z))
+        return self.work * kappa * kappa
+
     def pinned(self, z: arb) -> arb:
         """Return what is prescribed, a depth under a load, between the curve of dgamma and that of the work."""
         area, _, _, _ = self._state(z)
         alpha, beta, _ = self.fold
-        depth = (self.strength - self.adhesion) * self.radius(z) ** self.c
+        depth = self.pattern.at(self.radius(z))[0] * (self.strength - self.adhesion) * self.radius(z) ** self.c
         return depth if alpha == 0 else (alpha + beta * area) * depth
 
     def force_at_zero(self, z: arb) -> arb:
@@ -154,7 +161,10 @@ class GeneralCurve:
             q, change = self._level(a ** (1 + self.k), control)
         bend = self.m * self.front * a ** (self.m - 1)
         pull = self.adhesion * a ** (self.c - 1)
-        value, slope = bend - q * pull, ((self.m - 1) * bend + (q * (1 - self.c) - change) * pull) / z
+        kappa, first, second = self.pattern.at(a)
+        grown = q * kappa + first
+        value = bend - grown * pull
+        slope = ((self.m - 1) * bend + (grown * (1 - self.c) - change * kappa - q * first - second) * pull) / z
         if self.amplitude > 0:
             v, rate = self.series.v(z)
             wave = 2 * arb.pi() * self.amplitude
@@ -229,4 +239,5 @@ class GeneralCurve:
         """Return the size of the terms of T but the waves."""
         a = self.radius(z)
         q, _ = self._level(a ** (1 + self.k), control)
-        return self.m * self.front * a ** (self.m - 1) + q * self.adhesion * a ** (self.c - 1)
+        pull = q * self.pattern.greatest + float(a) * self.pattern.steepest
+        return self.m * self.front * a ** (self.m - 1) + pull * self.adhesion * a ** (self.c - 1)
