@@ -14,8 +14,17 @@ from gradhesion.cli.study.quantities import WORDS
 from gradhesion.cli.study.roles import ABSENT
 from gradhesion.cli.study.rules import LAYOUTS
 from gradhesion.core import CONTROLS, SOLVERS
+from gradhesion.core.problem.rate import CLOSINGS
+from gradhesion.core.problem.toughness import OF
 
-CHOICES: Final = {"kind": tuple(KINDS), "layout": LAYOUTS, "solver": tuple(SOLVERS), "control": tuple(CONTROLS)}
+CHOICES: Final = {
+    "kind": tuple(KINDS),
+    "layout": LAYOUTS,
+    "solver": tuple(SOLVERS),
+    "control": tuple(CONTROLS),
+    "of": OF,
+    "closing": CLOSINGS,
+}
 """The words that a key takes."""
 
 TYPES: Final = {"string": "string", "number": "number", "integer": "integer", "boolean": "true or false"}
@@ -51,6 +60,14 @@ def _sections() -> Iterator[str]:
     yield "The table `spectrum` ([random roughness](../measured.md#random-roughness)):"
     yield table(HEADS, _rows(schema["$defs"]["SpectrumTable"]))
     yield from _of_table("loading", tables["loading"])
+    yield from _of_table("toughness", tables["toughness"])
+    yield (
+        "The series multiplies the toughness or the work of both closing and opening "
+        "([a moving edge](../moving_edge.md#a-pattern-of-toughness)). Each item of `harmonics`:"
+    )
+    yield table(HEADS, _rows(schema["$defs"]["ToughnessWave"]))
+    yield from _of_table("rate", tables["rate"])
+    yield "[A moving edge](../moving_edge.md#a-speed) describes it."
     yield from _of_table("states", tables["states"])
     yield from _of_optimum(tables["optimum"], schema["$defs"]["RequireTable"])
     yield from _of_uncertainty(tables["uncertainty"])
@@ -219,7 +236,7 @@ def _allowed(name: str, entry: Mapping[str, Any]) -> str:
     if name == "outputs":
         return f"{len(OUTPUTS)} names of a map, or curves"
     least, most = entry.get("minimum"), entry.get("maximum")
-    items = [form["maxItems"] for form in entry.get("anyOf", ()) if "maxItems" in form]
+    items = [form["maxItems"] for form in (entry, *entry.get("anyOf", ())) if "maxItems" in form]
     if items:
         return f"1 to {items[0]} waves" if name == "harmonics" else f"1 to {items[0]} values > 0"
     if least is None:

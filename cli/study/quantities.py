@@ -34,6 +34,7 @@ WORDS: Final = {
     "J/m^2": "an energy per area (J/m^2)",
     "N/m": "a force per length (N/m)",
     "N": "a force (N)",
+    "m/s": "a speed (m/s)",
 }
 """What is expected of a quantity, by its unit in SI."""
 _NO_UNIT: Final = (
