@@ -8,17 +8,24 @@ from typing import Final
 import xarray
 from matplotlib.figure import Figure
 
-from figures import extras, fig1, fig2, fig3, fig4, fig5, fig6, fig7, fig8, fig9
+from figures import extras, fig1, fig2, fig3, fig4, fig5, fig6, fig7, fig8, fig9, moving_edge
 from figures.style import styled
 
 PICTURES: Final[dict[str, Callable[..., None]]] = {
     name: draw
-    for module in (fig1, fig2, fig3, fig4, fig5, fig6, fig7, fig8, fig9, extras)
+    for module in (fig1, fig2, fig3, fig4, fig5, fig6, fig7, fig8, fig9, extras, moving_edge)
     for name, draw in module.PICTURES.items()
 }
 """What draws each picture into the axes that it is given: one, or as many as it has panels."""
 
-PANELS: Final = {"fig4a": 3, "fig9": 2, "extra_roughness": 2, "extra_best_wavelength": 2}
+PANELS: Final = {
+    "fig4a": 3,
+    "fig9": 2,
+    "extra_roughness": 2,
+    "extra_best_wavelength": 2,
+    "extra_split": 2,
+    "extra_speed": 2,
+}
 """The pictures of several panels, side by side."""
 
 STUDIES: Final = Path(__file__).resolve().parents[1] / "configs"

@@ -45,7 +45,7 @@ def test_every_picture_is_drawn_and_its_axes_are_named(name: str, computed: Comp
 
 def test_every_study_has_a_picture_and_every_picture_a_study() -> None:
     assert {study_of(name) for name in PICTURES} == STUDIES
-    assert len(STUDIES) == 22
+    assert len(STUDIES) == 25
 
 
 @pytest.mark.parametrize("name", ["fig4a", "fig8"])
