@@ -69,6 +69,9 @@ def speed(force: Axes, energy: Axes, dataset: xarray.Dataset) -> None:
         ends = dataset["speed_over_reference"].values[[0, -1]]
         axes.set(xscale="log", yscale="log", xlabel=SPEED, ylabel=label, xlim=ends)
         axes.xaxis.set_major_locator(LogLocator(numticks=5))
+        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axes.yaxis.set_major_formatter("{x:g}")
+        axes.yaxis.set_minor_formatter("")
         axes.legend(loc="upper left")
 
 
