@@ -47,7 +47,18 @@ def test_every_key_output_and_flag_stands_in_the_manual() -> None:
     study, dataset = (
         (FOLDER / "reference" / f"{name}.md").read_text(encoding="utf-8") for name in ("study", "dataset")
     )
-    tables = ("parameters", "physical", "profile", "loading", "states", "optimum", "uncertainty", "method")
+    tables = (
+        "parameters",
+        "physical",
+        "profile",
+        "loading",
+        "toughness",
+        "rate",
+        "states",
+        "optimum",
+        "uncertainty",
+        "method",
+    )
     of_a_fit = ("data", "fit")
     assert all(f"\n| `{key}` |" in study for key in (*INPUTS, *SETTINGS) if key not in (*tables, *of_a_fit))
     assert all(f"\n## [{name}]\n" in study for name in tables)

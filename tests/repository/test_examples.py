@@ -1,5 +1,6 @@
 """Each study that shows a feature runs, and gives what is known of it by other means."""
 
+import json
 import math
 import tomllib
 from collections.abc import Callable
@@ -15,6 +16,9 @@ CONFIGS = Path(__file__).parents[2] / "configs"
 FEATURES: dict[str, tuple[str, ...]] = {
     "another profile": ("cone", "series"),
     "another control": ("dead_load", "spring"),
+    "two works": ("closing", "extra_split"),
+    "a pattern": ("crackfront", "rings"),
+    "a speed": ("rate", "extra_speed"),
     "points": ("points", "materials", "specimens"),
     "units": ("physical", "jkr"),
     "reduced variables": ("reduced", "reduced_rim"),
@@ -25,7 +29,14 @@ FEATURES: dict[str, tuple[str, ...]] = {
     "fits": ("fit", "fit_spring"),
 }
 WITHOUT_FORCE = {*FEATURES["optima"], *FEATURES["fits"]}
-ELSEWHERE = {"points", "physical", "jkr", "extra_error_bars"}  # in test_repository and tests/figures
+ELSEWHERE = {
+    "points",
+    "physical",
+    "jkr",
+    "extra_error_bars",
+    "extra_split",
+    "extra_speed",
+}  # in test_repository and tests/figures
 EXAMPLES = sorted({name for names in FEATURES.values() for name in names} - WITHOUT_FORCE - ELSEWHERE)
 
 Run = Callable[..., xarray.Dataset]
@@ -49,6 +60,11 @@ def test_two_studies_show_each_feature() -> None:
             shown = {
                 "another profile": "profile" in study,
                 "another control": study.get("loading", {}).get("control", "displacement") != "displacement",
+                "two works": bool(
+                    {"closing_ratio", "work_of_adhesion_closing"} & {*parameters, *study.get("physical", ())}
+                ),
+                "a pattern": "toughness" in study,
+                "a speed": "rate" in study,
                 "points": study.get("layout") == "points" or "points" in parameters,
                 "units": "physical" in study,
                 "reduced variables": {"chi", "lambda_over_L"} <= parameters.keys(),
@@ -102,6 +118,58 @@ def test_a_softer_spring_costs_more_energy_and_pulls_off_at_the_same_force(run: 
     force = spring["pull_off_force"]
     np.testing.assert_allclose(force, force.isel(machine_stiffness=-1).broadcast_like(force), rtol=1e-12)
     assert (spring["dissipated_energy"].diff("machine_stiffness") < 0.0).all()
+
+
+def test_a_lens_closes_and_opens_at_the_forces_of_its_two_works(run: Run) -> None:
+    lens = run("closing")
+    radius, opening = lens["R"].item(), lens["work_of_adhesion"].item()
+    closing, area = lens["work_of_adhesion_closing"], math.pi * lens["turning_radius_si"] ** 2
+    pull = (4.0 / 3.0 * math.pi * radius * closing).broadcast_like(area)
+    np.testing.assert_allclose(lens["pull_off_force_si"], 1.5 * math.pi * radius * opening, rtol=1e-12)
+    np.testing.assert_allclose(lens["snap_in_force_si"][..., 1:], pull.transpose(*area.dims)[..., 1:], rtol=1e-11)
+    assert lens["snap_in_force"].isel(work_of_adhesion_closing=0).isnull().all()
+    front = ((opening - closing) * area).transpose(*area.dims)
+    np.testing.assert_allclose(lens["front_energy_si"], front, rtol=1e-12)
+    parts = lens["loading_energy"] + lens["unloading_energy"] + lens["front_energy"]
+    np.testing.assert_allclose(parts, lens["dissipated_energy"], rtol=1e-12)
+
+
+def test_the_rings_of_crackfront_have_the_stored_cycle_in_other_units(run: Run) -> None:
+    reference = Path(__file__).parents[1] / "reference" / "moving_edge.json"
+    expected = json.loads(reference.read_text())["patterns"]["crackfront_axisymmetric"]["result"]
+    found = run("crackfront").sel(toughness_amplitude=0.2)
+    for name, scale in (
+        ("pull_off_force", 1.0),
+        ("snap_in_force", 1.0),
+        ("turning_radius", 10.0),
+        ("dissipated_energy", 100.0),
+    ):
+        assert scale * found[name].item() == pytest.approx(float(expected[name]), rel=1e-12), name
+    for name in ("loading_jumps", "unloading_jumps"):
+        assert found[name].item() == expected[name]
+
+
+def test_short_rings_hold_as_the_toughest_of_them(run: Run) -> None:
+    force = run("rings")["pull_off_force"]
+    np.testing.assert_allclose(force.sel(toughness_amplitude=0.0), 1.0, rtol=1e-12)
+    toughest = 1.0 + 0.75 * force["toughness_amplitude"]  # cos x - cos(2 x)/4 is at most 3/4, at x = 0
+    assert bool((force <= toughest**2 * (1.0 + 1e-12)).all())
+    np.testing.assert_allclose(force.isel(toughness_wavelength=0), toughest**2, rtol=0.003)
+
+
+def test_slow_speeds_are_the_cycle_at_rest_and_fast_ones_hide_the_waves(run: Run) -> None:
+    rate = run("rate", speed_over_reference=[0.0, 1e-7, 10.0])
+    force, energy = rate["pull_off_force"], rate["dissipated_energy"]
+    rest = gr.solve(
+        {name: rate[name].item() for name in ("k", "nu", "modulus", "lambda_over_R", "a_max_over_R")}, A=[0.0, 0.02]
+    )
+    for name in ("pull_off_force", "dissipated_energy"):
+        np.testing.assert_array_equal(rate[name].isel(speed_over_reference=0), rest[name])
+    slow = 1.0 + rate["rate_coefficient"].isel(speed_over_reference=1) * 1e-7**0.6
+    np.testing.assert_allclose(force.isel(speed_over_reference=1), rest["pull_off_force"] * slow, rtol=1e-7)
+    gain = force.sel(A=0.02) / force.sel(A=0.0)
+    assert [float(gain[0]), float(gain[2])] == pytest.approx([1.342, 1.011], abs=5e-4)  # docs/theory.md, section 20
+    assert bool((energy.diff("speed_over_reference") > 0.0).all())
 
 
 def test_points_in_units_are_johnson_kendall_and_roberts_where_they_are_smooth(run: Run) -> None:
