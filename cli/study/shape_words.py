@@ -65,6 +65,7 @@ def toughness_in_words(toughness: Toughness) -> str:
     """
     Write how the toughness varies with the radius as a formula.
 
+    >>> from gradhesion.core.problem.toughness import ToughnessHarmonic
     >>> toughness_in_words(Toughness((ToughnessHarmonic(n=1, cos=0.5), ToughnessHarmonic(n=2, sin=-0.1))))
     'K_c times 1 + t [0.5 cos(2 pi y) - 0.1 sin(4 pi y)], y = r/lambda_t'
     """
