@@ -4,7 +4,7 @@ import ast
 import inspect
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
-from typing import Final
+from typing import Any, Final
 
 from docs.tables import code, table
 from gradhesion.cli import names
@@ -30,6 +30,8 @@ ATTRIBUTES: Final = {
     "references": "the theory behind the values",
     "profile": "the shape of the punch, in words",
     "control": "what was prescribed",
+    "toughness": "how the toughness varies with the radius, in words; with `[toughness]` only",
+    "rate": "how the work grows with the speed, in words; with `[rate]` only",
     "study": "the whole study in TOML: `gradhesion run` of it makes the dataset again",
     "study_sha256": "its fingerprint",
     "python_version": "the versions that computed it",
@@ -182,4 +184,12 @@ def _named(bits: int) -> str:
 def _attributes() -> list[str]:
     """List the global attributes of a dataset."""
     parameters = dict.fromkeys(PARAMETERS, 0.5)
-    return list(attributes(study_from({"outputs": ["pull_off_force"], "parameters": parameters}), ""))
+    laws: dict[str, dict[str, Any]] = {
+        "toughness_wavelength_over_R": {"toughness": {"harmonics": [{"n": 1, "cos": 0.5}]}},
+        "speed_over_reference": {"rate": {"exponent": 0.6}},
+    }
+    studies = [
+        {"outputs": ["pull_off_force"], "parameters": {**parameters, key: 0.5}, **law} for key, law in laws.items()
+    ]
+    found = {name for study in studies for name in attributes(study_from(study), "")}
+    return [name for name in ATTRIBUTES if name in found] + sorted(found - ATTRIBUTES.keys())

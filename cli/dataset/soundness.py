@@ -42,7 +42,7 @@ PACKED: Final = 2**14
 _WORDS: Final = (SOLVER, PARAMETER, PHYSICAL_PARAMETER, OTHER_PARAMETER, PARAMETER_UNITS)
 """The variables that hold words."""
 
-_TEXTS: Final = ("title", "source", "history", "profile", "control", "study", "study_sha256")
+_TEXTS: Final = ("title", "source", "history", "profile", "control", "toughness", "rate", "study", "study_sha256")
 
 
 def check_size(file: "netCDF4.Dataset", path: Path) -> None:

@@ -37,6 +37,7 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
         yield f"profile: {dataset.attrs['profile']}"
         yield from _fit(dataset)
         yield f"control: {control_in_words(Loading(control=dataset.attrs.get('control', 'displacement')))}"
+        yield from (f"{law}: {dataset.attrs[law]}" for law in ("toughness", "rate") if law in dataset.attrs)
     yield from _parameters(dataset)
     yield from uncertainty_told(dataset)
     yield from points_told(dataset)

@@ -48,6 +48,28 @@ def test_a_pattern_has_its_dimensions_after_the_ratio() -> None:
     assert float(dataset["dissipated_energy"][0, 1, 1]) == float(found["dissipated_energy"])
 
 
+@pytest.mark.parametrize(
+    ("key", "table", "line"),
+    [
+        (
+            "toughness_wavelength_over_R",
+            '[toughness]\nharmonics = [{ n = 1, sin = 0.2 }]\nof = "work"',
+            "toughness: w times 1 + t [0.2 sin(2 pi y)], y = r/lambda_t",
+        ),
+        (
+            "speed_over_reference",
+            "[rate]\nexponent = 0.6",
+            "rate: G = w_o [1 + (v/v*)^0.6] while the edge opens, G = w_c while it closes",
+        ),
+    ],
+)
+def test_info_names_the_law_of_the_edge(key: str, table: str, line: str, gradhesion: Call, write_study: Write) -> None:
+    study = write_study(f"{TEXT}{key} = 0.1\n{table}\n")
+    output = study.parent / "law.nc"
+    assert gradhesion("run", study, "-o", output, "--quiet").exit_code == 0
+    assert line in gradhesion("info", output).stdout.splitlines()
+
+
 def test_amplitude_0_is_no_pattern() -> None:
     scene = PLAIN | {"a_max_over_R": 0.5, "toughness_wavelength_over_R": 0.1, "toughness_amplitude": 0.0}
     flat = gr.solve(scene, ["pull_off_force", "dissipated_energy"], toughness=WAVES)
