@@ -12,6 +12,7 @@ import tomllib
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import click
 import numpy as np
@@ -266,7 +267,12 @@ def test_shipped_studies_stay_where_slopes_are_small_or_say_why_not() -> None:
             }
             given = replace(study, parameters=few)
             scenes = scenes_of(given, given.apart(tuple(slice(0, size) for size in given.shape))[1])
-            own = {"profile": study.profile, "loading": study.loading, "toughness": study.toughness, "rate": study.rate}
+            own: dict[str, Any] = {
+                "profile": study.profile,
+                "loading": study.loading,
+                "toughness": study.toughness,
+                "rate": study.rate,
+            }
             asked = [*(name for name in study.outputs if name not in VALIDITY), "contact_slope"]
             assert np.nanmax(solve(scenes, asked, **own)["contact_slope"]) <= 1.0
 
