@@ -100,7 +100,7 @@ KERNELS: Final[dict[str, int]] = {
     "general_sensitivities": 52,
     "general_envelope": 0,
     "general_curves": 49,
-    "edge": 30,
+    "edge": 24,
     "asymptotic": 66,
     "patterned": 143,
     "patterned_reports": 12,

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from gradhesion.cli.keys import CLOSING, INPUTS, PATTERN, SPEED, Path
-from gradhesion.cli.names import CURVES
+from gradhesion.cli.names import CURVES, STATE_CURVES
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.form import RateTable, ToughnessTable
 from gradhesion.cli.study.mistakes import Checked, Mistake
@@ -17,7 +17,10 @@ from gradhesion.core.problem.names import PATTERN_CURVES, RATE, REPORTS, SENSITI
 from gradhesion.core.problem.rate import CLOSINGS, Rate
 from gradhesion.core.problem.toughness import OF, Toughness, ToughnessHarmonic, violation
 
-_WITHOUT_RATE: Final = ("loading_jumps", "unloading_jumps", "jumps", *SENSITIVITIES, *REPORTS)
+_WITHOUT_RATE: Final = (
+    *("loading_jumps", "unloading_jumps", *SENSITIVITIES, *REPORTS),
+    *(name for curve in ("jumps", *STATE_CURVES) for name in (curve, *CURVES[curve])),
+)
 """What is known of an edge without a speed alone."""
 _PATTERN_PATHS: Final[tuple[Path, ...]] = (
     ("physical", "toughness_wavelength"),
@@ -177,7 +180,7 @@ def mistakes_of_rate(checked: Checked, sound: Mapping[str, Values]) -> Iterator[
     for i, name in enumerate(form.outputs):
         if name in _WITHOUT_RATE:
             sentence = "an edge with a speed passes every radius once and has no jumps, and this is not known of it"
-            sentence = sentence if "jumps" in name else "this is not known of an edge with a speed"
+            sentence = sentence if "jump" in name else "this is not known of an edge with a speed"
             yield Mistake(("outputs", i), name, f"{sentence}; remove it, or remove [rate]")
     yield from _mistakes_of_closing(checked, table, sound)
     turned = any(is_given(checked, path) for path in TURN_KEYS)
