@@ -3,6 +3,7 @@
 A paraboloid, smooth or with a wave of its own that has no common measure with the pattern; force, energy and counts.
 """
 
+import argparse
 from functools import partial
 from typing import Final
 
@@ -18,6 +19,7 @@ WAVES: Final = (20, 1_000, 10_000, 100_000)
 
 def main() -> None:
     """Print the milliseconds of one scene, on one thread."""
+    argparse.ArgumentParser(description=__doc__).parse_args()
     rows = []
     for of in ("toughness", "work"):
         for amplitude in (0.0, 0.003):

@@ -24,7 +24,7 @@ from gradhesion.cli.work.compiling import prepare
 from gradhesion.cli.work.kernels import kinds_of
 from gradhesion.core import FLAGS
 from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
-from gradhesion.core.problem.status import OF_EVERY_MAP
+from gradhesion.core.problem.status import OF_EVERY_MAP, TOO_MANY_WAVES
 
 if TYPE_CHECKING:
     import xarray
@@ -56,7 +56,10 @@ def _output(study: Study, name: str) -> Variable:
 def _status(study: Study) -> Variable:
     """Describe the status of the scenes."""
     own = FLAGS if study.turns_at_a_depth else OF_EVERY_MAP
-    flags, dtype = ALL_FLAGS if study.has_answers else own, study.status_type
+    own = ALL_FLAGS if study.has_answers else own
+    many = {name: bit for name, bit in FLAGS.items() if bit == TOO_MANY_WAVES and study.follows_waves}
+    flags = {name: bit for name, bit in own.items() if bit != TOO_MANY_WAVES} | many
+    dtype = study.status_type
     attributes = {
         "units": "1",
         "long_name": names.STATUS,

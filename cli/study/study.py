@@ -173,8 +173,12 @@ class Study:
     @property
     def status_type(self) -> str:
         """The type of `status`: as many bits as its flags need."""
-        follows = self.toughness is not None or self.rate is not None
-        return "i2" if self.has_answers or self.turns_at_a_depth or follows else "i1"
+        return "i2" if self.has_answers or self.turns_at_a_depth or self.follows_waves else "i1"
+
+    @property
+    def follows_waves(self) -> bool:
+        """Whether its waves are followed one by one, so that there may be too many of them."""
+        return self.toughness is not None or self.rate is not None
 
     @property
     def watches_slope(self) -> bool:

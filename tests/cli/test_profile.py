@@ -221,7 +221,7 @@ def test_curves_of_any_shape_and_control_are_drawn(shaped: dict[str, Any], contr
     parameters = shaped["parameters"] | {"k": 0.31, "A": [0.0, 0.02], "a_max_over_R": 0.8}
     study = study_from(shaped | {"kind": "curve", "outputs": curves, "loading": loading, "parameters": parameters})
     dataset = compute(study)
-    assert set(CURVES) - set(curves) == {"asymptotic", "envelope", "effective", *STATE_CURVES}
+    assert set(CURVES) - set(curves) == {"asymptotic", "envelope", "effective", "closing_equilibrium", *STATE_CURVES}
     for i, amplitude in enumerate([0.0, 0.02]):
         scene = {name: float(np.max(dataset[name])) for name in ("k", "nu", "modulus", "c0_over_R", "lambda_over_R")}
         scene |= {"A": amplitude, "a_max_over_R": 0.8}

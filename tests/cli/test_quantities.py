@@ -17,6 +17,7 @@ UNITS = {
     "J/m^2": "an energy per area (J/m^2)",
     "N/m": "a force per length (N/m)",
     "N": "a force (N)",
+    "m/s": "a speed (m/s)",
 }
 
 
@@ -88,7 +89,8 @@ def test_what_is_no_quantity_is_told_with_what_is_expected(case: str, name: str)
 @pytest.mark.parametrize("number", ["-1", "nan", "-inf", "1e-9999", "1e9999", "inf", "0"])
 def test_the_range_of_each(name: str, number: str) -> None:
     text = f"{number} {PHYSICAL[name].unit}"
-    bounded = {"amplitude": ("0", "1e-9999"), "a_max": ("inf", "1e9999"), "indentation_max": ("-1", "0", "1e-9999")}
+    bounded = {"a_max": ("inf", "1e9999"), "indentation_max": ("-1", "0", "1e-9999")}
+    bounded |= dict.fromkeys(("amplitude", "work_of_adhesion_closing", "speed"), ("0", "1e-9999"))
     allowed = bounded.get(name, ())
     if number in allowed:
         si_value(text, name)

@@ -39,10 +39,19 @@ def dataset_file(gradhesion: Call, study_file: Path, tmp_path: Path) -> Path:
 
 def test_the_names_are_those_of_the_core() -> None:
     from gradhesion import core
+    from gradhesion.core.problem.names import EDGE, RATE
 
     assert tuple(PARAMETERS) == tuple(core.PARAMETERS)
-    assert tuple(OUTPUTS) == (*core.OUTPUTS, *core.REPORTS, *core.VALIDITY, "contact_slope", *core.SENSITIVITIES)
-    assert (*core.REPORTS, *core.SENSITIVITIES) == EXACT_ONLY
+    edges = (*EDGE, *RATE)
+    assert tuple(OUTPUTS) == (
+        *core.OUTPUTS,
+        *edges,
+        *core.REPORTS,
+        *core.VALIDITY,
+        "contact_slope",
+        *core.SENSITIVITIES,
+    )
+    assert (*core.REPORTS, *core.SENSITIVITIES, "snap_in_force") == EXACT_ONLY
 
 
 def test_the_dataset_keeps_its_contract(dataset_file: Path, study_file: Path) -> None:

@@ -39,7 +39,8 @@ def test_linear_deviations_are_sums_of_squares(data: dict[str, Any]) -> None:
         dataset["pull_off_force_std"], expected.transpose(*dataset["pull_off_force_std"].dims), rtol=1e-13
     )
     assert dataset["status"].dtype == np.int16
-    assert dataset["status"].attrs["flag_meanings"].split() == list(gr.FLAGS)
+    known = [name for name in gr.FLAGS if name != "too_many_waves"]  # of patterns and speeds alone
+    assert dataset["status"].attrs["flag_meanings"].split() == known
 
 
 def test_samples_are_the_same_in_every_scene_and_block(

@@ -77,7 +77,7 @@ def test_what_nothing_tells_is_missed(name: str) -> None:
 
 def test_every_way_follows_from_what_comes_before() -> None:
     """Parameters are made in their order, from those before them and from what has units."""
-    units = {"R", "E_star", "work_of_adhesion"}
+    units = {"R", "E_star", "work_of_adhesion", "reference_speed"}
     order = [*PARAMETERS, "machine_stiffness"]
     for name, ways in WAYS.items():
         for needed in ways.values():
