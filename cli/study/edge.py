@@ -14,7 +14,7 @@ from gradhesion.cli.study.roles import has_units, is_given, mixed
 from gradhesion.cli.study.turn import KEYS as TURN_KEYS
 from gradhesion.cli.terminal.wording import did_you_mean, line_of
 from gradhesion.core.problem.names import PATTERN_CURVES, RATE, REPORTS, SENSITIVITIES
-from gradhesion.core.problem.rate import CLOSINGS, Rate
+from gradhesion.core.problem.rate import CLOSINGS, MOST_WAVES, Rate
 from gradhesion.core.problem.toughness import OF, Toughness, ToughnessHarmonic, violation
 
 _WITHOUT_RATE: Final = (
@@ -183,12 +183,31 @@ def mistakes_of_rate(checked: Checked, sound: Mapping[str, Values]) -> Iterator[
             sentence = sentence if "jump" in name else "this is not known of an edge with a speed"
             yield Mistake(("outputs", i), name, f"{sentence}; remove it, or remove [rate]")
     yield from _mistakes_of_closing(checked, table, sound)
+    yield from _mistakes_of_waves(checked, sound)
     turned = any(is_given(checked, path) for path in TURN_KEYS)
     rims = [values for name, values in sound.items() if INPUTS[name].gives == "a_max_over_R"]
     if not turned and not (rims and np.all(np.isfinite(rims[0]))) and not checked.wrong:
         turn = "indentation_max" if has_units(checked) else "indentation_max_over_R"
         sentence = f"an edge with a speed opens from a radius; give {turn} or a finite radius of the punch"
         yield Mistake(("rate",), None, sentence)
+
+
+def _mistakes_of_waves(checked: Checked, sound: Mapping[str, Values]) -> Iterator[Mistake]:
+    """Check that waves can be followed in some scene, where an edge opens from the rim."""
+    lengths = ("wavelength", "a_max") if has_units(checked) else ("lambda_over_R", "a_max_over_R")
+    smooth = all(np.all(np.asarray(sound.get(name, 0.0)) == 0.0) for name in ("A", "chi", "amplitude"))
+    if smooth or not {*lengths} <= sound.keys() or any(is_given(checked, path) for path in TURN_KEYS):
+        return
+    series = checked.form.profile.harmonics
+    shortest = max((wave.n for wave in series or ()), default=1)
+    least = float(np.min(sound[lengths[1]])) / float(np.max(sound[lengths[0]])) * shortest
+    if MOST_WAVES < least < np.inf:
+        name = lengths[1]
+        sentence = (
+            f"{least:,.0f} waves within the punch are more than the {MOST_WAVES:,.0f} that are followed at a speed"
+        )
+        path: Path = (INPUTS[name].table, name)
+        yield Mistake(path, checked.data[str(path[0])][name], f"{sentence}; use a smaller punch or longer waves")
 
 
 def _mistakes_of_closing(checked: Checked, table: RateTable, sound: Mapping[str, Values]) -> Iterator[Mistake]:

@@ -9,6 +9,7 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.general import Basis, Series, curve_of
 from gradhesion.core.problem.curves import is_in_range
+from gradhesion.core.problem.rate import MOST_WAVES
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET, TOO_MANY_WAVES
 from gradhesion.core.rate.closing import close_edge
 from gradhesion.core.rate.law import Law
@@ -20,8 +21,6 @@ from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.types import Floats, Integers
 
-MOST_WAVES: Final = 100_000.0
-"""Waves of the shortest harmonic that are followed: about a second."""
 PROMISED: Final = 1e-9
 """Estimated error of force and energy above which a scene is reported."""
 _SLOWEST: Final = 1e-15

@@ -197,6 +197,10 @@ TOUGH = "[toughness]\nharmonics = [{ n = 1, cos = 0.3 }]\n"
         (LENGTH + "[toughness]\nharmonics = [{ cos = 0.3 }]\n", "a wave needs its number n"),
         (LENGTH + "[toughness]\nharmonics = [{ n = 1 }, { n = 1 }]\n", "the wave n = 1 is given already, as item 0"),
         (LENGTH + TOUGH + '[method]\nsolver = "asymptotic"\n', 'the solver "asymptotic" knows no [toughness]'),
+        (
+            SPEED.replace("lambda_over_R = 0.2", "lambda_over_R = 1e-6") + RATE,
+            "500,000 waves within the punch are more than the 100,000 that are followed at a speed",
+        ),
         (LENGTH + "speed_over_reference = 0.1\n" + TOUGH + RATE, "remove [toughness] or [rate]"),
     ],
 )

@@ -7,9 +7,8 @@ import pytest
 from gradhesion.core import Harmonic, Loading, Profile
 from gradhesion.core.arrays.rate import close_at_speed, open_at_speed
 from gradhesion.core.problem.profile import WAVY
-from gradhesion.core.problem.rate import Rate
+from gradhesion.core.problem.rate import MOST_WAVES, Rate
 from gradhesion.core.problem.status import NO_VALUE, TOLERANCE_NOT_MET, TOO_MANY_WAVES
-from gradhesion.core.rate.scenes import MOST_WAVES
 
 SCENE = {"k": 0.3, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "a_max_over_R": 0.5, "speed_over_reference": 0.1}
 LAW = Rate(exponent=0.6)
