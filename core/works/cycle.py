@@ -181,9 +181,9 @@ def solve_two_works(parameters: Mapping[str, ArrayLike], outputs: Sequence[str],
         As those of `solve` of core/sweep.py, and closing_ratio in [0, 1], which broadcasts with them (1 if it is not
         given). `modulus` is E* R/w_o, loads are in 1.5 pi R w_o.
     outputs
-        Those of `solve` but `contact_slope`, and those of `EDGE`: front_energy in R^2 w_o,
-        snap_in_force in 1.5 pi R w_o (0 under load control, NaN at ratio 0 and without contact;
-        negative where waves press at the depth 0), pinned_depth in R.
+        Those of `solve` but `contact_slope`, and those of `EDGE`: front_energy in R^2 w_o, pinned_depth in R, and
+        snap_in_force in 1.5 pi R w_o (0 under load control, NaN at ratio 0 and without contact; negative where waves
+        press at the depth 0).
     how
         How the scenes are solved.
 
@@ -191,7 +191,8 @@ def solve_two_works(parameters: Mapping[str, ArrayLike], outputs: Sequence[str],
     -------
     The outputs and `status`, of the broadcast shape. Energy, front_energy and pinned_depth of an unbounded punch that
     does not turn are inf at ratios below 1. The bit close_to_a_jump also tells of unloading on the closing curve and of
-    loading on the opening one; the other bits are those of the parts that the cycle has.
+    loading on the opening one; the other bits are those of the parts that the cycle has. energy_residual is the sum of
+    those of a whole cycle on each curve, in the unit of the energy.
     """
     ratio = np.asarray(parameters.get(CLOSING, 1.0), dtype=float)
     scenes = {name: value for name, value in parameters.items() if name != CLOSING}
