@@ -71,7 +71,7 @@ def _mistakes_without_a_turn(checked: Checked, sound: Mapping[str, Values]) -> I
     wanted = [(path, name) for path, name in wanted if name.removesuffix(SI) in _UNBOUNDED]
     if not wanted or ("outputs",) in checked.wrong or (rims and np.all(np.isfinite(rims[0]))):
         return
-    if any(path[1] in ("a_max", "a_max_over_R") or path[:1] == ("parameters",) for path in checked.wrong):
+    if any(path[-1] in ("a_max", "a_max_over_R") or path[:1] == ("parameters",) for path in checked.wrong if path):
         return
     even = CLOSING in sound and np.all(np.asarray(sound[CLOSING]) == 1.0)
     if even:

@@ -79,6 +79,7 @@ class Profile:
     def __post_init__(self) -> None:
         if not 1.0 <= self.exponent < math.inf:
             raise ValueError(f"exponent = {self.exponent}: the power of the punch is a finite number from 1 on")
+        object.__setattr__(self, "exponent", float(self.exponent))  # kernels of a whole number would be others
         numbers = [harmonic.n for harmonic in self.harmonics]
         if not 1 <= len(numbers) <= MOST_HARMONICS:
             raise ValueError(f"{len(numbers)} harmonics: a series has 1 to {MOST_HARMONICS}")

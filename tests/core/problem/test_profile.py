@@ -68,3 +68,9 @@ def test_what_a_harmonic_leaves_out(given: dict[str, float], cos: float, sin: fl
     assert dataclasses.replace(harmonic, n=3) == harmonic
     with pytest.raises(dataclasses.FrozenInstanceError):
         harmonic.cos = 2.0  # type: ignore[misc]
+
+
+def test_a_whole_number_is_a_power_like_any_other() -> None:
+    """Kernels are compiled for floats: one of an integer would be compiled anew."""
+    assert isinstance(Profile(exponent=3).exponent, float)
+    assert Profile(exponent=3) == Profile(exponent=3.0)
