@@ -133,6 +133,10 @@ def test_an_optimum_may_be_sought_over_the_ratio() -> None:
             OUTPUTS + PARAMETERS + "modulus = 500.0\nlambda_over_R = 0.1\na_max_over_R = 0.5\nclosing_ratioo = 0.5\n",
             'unknown key; did you mean "closing_ratio"?',
         ),
+        (  # a slip at the top of the study hides nothing of what is wrong further down, and breaks nothing
+            "titel = 1\n" + OUTPUTS + PARAMETERS + "modulus = 500.0\nlambda_over_R = 0.1\nclosing_ratio = 0.5\n",
+            "give indentation_max_over_R or a finite radius of the punch, or remove this output",
+        ),
     ],
 )
 def test_what_is_wrong_is_said_before_anything_is_computed(
