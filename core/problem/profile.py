@@ -6,12 +6,30 @@ m = 2 is a paraboloid. A sine gives the punch a tip; one cosine is the wave of t
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
 HIGHEST: Final = 10_000
 """Number of the highest harmonic."""
 MOST_HARMONICS: Final = 64
+
+
+def check_harmonic(name: str, n: float, cos: float, sin: float) -> None:
+    """Raise ValueError for a wave of a series that is out of range; `name` is what it is called."""
+    if not (1 <= n <= HIGHEST and n == int(n)):
+        raise ValueError(f"{name} n = {n}: n is a whole number from 1 on, {HIGHEST:,} at most")
+    if not (math.isfinite(cos) and math.isfinite(sin)):
+        raise ValueError(f"{name} n = {n}: cos = {cos} and sin = {sin} must be finite")
+
+
+def check_numbers(name: str, numbers: Sequence[int]) -> None:
+    """Raise ValueError for waves that are none, too many or given twice; `name` is what they are called."""
+    if not 1 <= len(numbers) <= MOST_HARMONICS:
+        raise ValueError(f"{len(numbers)} {name}: a series has 1 to {MOST_HARMONICS}")
+    repeated = sorted({n for n in numbers if numbers.count(n) > 1})
+    if repeated:
+        raise ValueError(f"{name} n = {repeated} are given more than once")
 
 
 @dataclass(frozen=True, init=False)
@@ -45,10 +63,7 @@ class Harmonic:
             cos = 1.0 if sin is None else 0.0
         for name, value in (("n", n), ("cos", cos), ("sin", 0.0 if sin is None else sin)):
             object.__setattr__(self, name, value)
-        if not (1 <= self.n <= HIGHEST and self.n == int(self.n)):
-            raise ValueError(f"harmonic n = {self.n}: n is a whole number from 1 on, {HIGHEST:,} at most")
-        if not (math.isfinite(self.cos) and math.isfinite(self.sin)):
-            raise ValueError(f"harmonic n = {self.n}: cos = {self.cos} and sin = {self.sin} must be finite")
+        check_harmonic("harmonic", self.n, self.cos, self.sin)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,12 +95,7 @@ class Profile:
         if not 1.0 <= self.exponent < math.inf:
             raise ValueError(f"exponent = {self.exponent}: the power of the punch is a finite number from 1 on")
         object.__setattr__(self, "exponent", float(self.exponent))  # kernels of a whole number would be others
-        numbers = [harmonic.n for harmonic in self.harmonics]
-        if not 1 <= len(numbers) <= MOST_HARMONICS:
-            raise ValueError(f"{len(numbers)} harmonics: a series has 1 to {MOST_HARMONICS}")
-        repeated = sorted({n for n in numbers if numbers.count(n) > 1})
-        if repeated:
-            raise ValueError(f"harmonics n = {repeated} are given more than once")
+        check_numbers("harmonics", [harmonic.n for harmonic in self.harmonics])
 
 
 WAVY: Final = Profile()

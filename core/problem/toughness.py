@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.problem.profile import HIGHEST, MOST_HARMONICS
+from gradhesion.core.problem.profile import check_harmonic, check_numbers
 
 OF: Final = ("toughness", "work")
 """What a pattern multiplies."""
@@ -52,10 +52,7 @@ class ToughnessHarmonic:
     sin: float = 0.0
 
     def __post_init__(self) -> None:
-        if not (1 <= self.n <= HIGHEST and self.n == int(self.n)):
-            raise ValueError(f"toughness harmonic n = {self.n}: n is a whole number from 1 on, {HIGHEST:,} at most")
-        if not (math.isfinite(self.cos) and math.isfinite(self.sin)):
-            raise ValueError(f"toughness harmonic n = {self.n}: cos = {self.cos} and sin = {self.sin} must be finite")
+        check_harmonic("toughness harmonic", self.n, self.cos, self.sin)
 
 
 @dataclass(frozen=True)
@@ -86,12 +83,7 @@ class Toughness:
     def __post_init__(self) -> None:
         if self.of not in OF:
             raise ValueError(f"of = {self.of!r}: it is one of {', '.join(OF)}")
-        numbers = [harmonic.n for harmonic in self.harmonics]
-        if not 1 <= len(numbers) <= MOST_HARMONICS:
-            raise ValueError(f"{len(numbers)} toughness harmonics: a series has 1 to {MOST_HARMONICS}")
-        repeated = sorted({n for n in numbers if numbers.count(n) > 1})
-        if repeated:
-            raise ValueError(f"toughness harmonics n = {repeated} are given more than once")
+        check_numbers("toughness harmonics", [harmonic.n for harmonic in self.harmonics])
 
 
 def rows_of_pattern(toughness: Toughness) -> NDArray[np.float64]:
