@@ -20,7 +20,6 @@ PICTURES: Final[dict[str, Callable[..., None]]] = {
 
 PANELS: Final = {
     "fig4a": 3,
-    "fig9": 2,
     "extra_roughness": 2,
     "extra_best_wavelength": 2,
     "extra_split": 2,
@@ -51,7 +50,7 @@ def draw(name: str, dataset: xarray.Dataset, files: list[Path], dpi: float | Non
         figure.set_layout_engine("none")  # all files have the layout of the first
         for file in files:
             file.parent.mkdir(parents=True, exist_ok=True)
-            figure.savefig(file, dpi=dpi or "figure", metadata=UNDATED.get(file.suffix))
+            figure.savefig(file, dpi=dpi, metadata=UNDATED.get(file.suffix))  # of the style where none is given
 
 
 def missing_of(name: str, dataset: xarray.Dataset) -> list[str]:

@@ -2,10 +2,12 @@
 
 import tomllib
 from functools import partial
+from typing import Any
 
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
+from matplotlib.contour import ContourSet
 
 from figures.curves import draw_equilibrium, dress
 from figures.fig4 import draw_lines, ends_of
@@ -21,6 +23,8 @@ TICKS = (0.05, 0.1, 0.2, 0.4, 0.6)
 NINE_TENTHS = 1.6448536269514722
 """Standard deviations on either side of nine tenths of a normal distribution."""
 LEVELS = (0.05, 0.1, 0.2, 0.3, 0.4, 0.5)
+SHORT = 40
+"""Points of a contour that is too short for a label."""
 
 
 def amplitudes(axes: Axes, dataset: xarray.Dataset) -> None:
@@ -75,19 +79,34 @@ def energies(axes: Axes, dataset: xarray.Dataset, x: str) -> None:
 def contours(axes: Axes, dataset: xarray.Dataset) -> None:
     """Draw lines of equal energy over wavelength and amplitude, for two gradient exponents."""
     energy = dataset["dissipated_energy"].transpose(..., "A", "lambda_over_R")
+    wavelength, amplitude = energy["lambda_over_R"], energy["A"]
+    axes.set(xscale="log", xlabel=WAVELENGTH, ylabel=AMPLITUDE, xlim=ends_of(wavelength), ylim=ends_of(amplitude))
     handles = [key("exact", color=INK), key("envelopes", color=INK, ls=DASHES[1])]
     for value, colour in zip(MAPPED, shades(3)[::2], strict=True):
+        unnamed = set(LEVELS)
         for solver, dash in (("exact", "-"), ("envelope", DASHES[1])):
             over = energy.sel(k=value, solver=solver)
-            lines = axes.contour(
-                over["lambda_over_R"], over["A"], over, LEVELS, colors=[colour], linestyles=[dash], linewidths=0.9
-            )
-            if solver == "exact":
-                axes.clabel(lines, fontsize=6)
+            looks: dict[str, Any] = {"colors": [colour], "linestyles": [dash], "linewidths": 0.9}
+            lines = axes.contour(wavelength, amplitude, over, LEVELS, **looks)
+            where = _places(lines)
+            named = [level for level in LEVELS if level in unnamed & set(where)]
+            places = [where[level] for level in named]
+            for text in axes.clabel(lines, named, fontsize=6, fmt="%g", manual=places, inline_spacing=2):
+                text.set_bbox({"fc": "white", "ec": "none", "pad": 0.3})
+            unnamed -= set(named)
         handles.append(key(f"$k = {value:g}$", color=colour))
-    axes.set(xscale="log", xlabel=WAVELENGTH, ylabel=AMPLITUDE)
-    axes.set_ylim(0.0, 0.2)
-    axes.legend(handles=handles, loc="upper center", title=ENERGY, ncols=4, columnspacing=1.0)
+    looks = {"ncols": 4, "columnspacing": 1.0, "handlelength": 1.8, "borderaxespad": 0.1}
+    axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), title=ENERGY, **looks)
+
+
+def _places(lines: ContourSet) -> dict[float, tuple[float, float]]:
+    """Return where each level has its name, a third along its contour; one that only touches a corner has none."""
+    longest = [max(parts, key=len, default=()) for parts in lines.allsegs]
+    return {
+        float(level): (float(part[len(part) // 3][0]), float(part[len(part) // 3][1]))
+        for level, part in zip(lines.levels, longest, strict=True)
+        if len(part) > SHORT
+    }
 
 
 def roughness(force: Axes, energy: Axes, dataset: xarray.Dataset) -> None:

@@ -4,7 +4,7 @@ import xarray
 from matplotlib.axes import Axes
 
 from figures.curves import draw_equilibrium, dress, plane_of
-from figures.style import DASHES, INK, key, shade
+from figures.style import DASHES, INK, key, legend, shade
 
 
 def beside_smooth(axes: Axes, dataset: xarray.Dataset) -> None:
@@ -19,7 +19,7 @@ def beside_smooth(axes: Axes, dataset: xarray.Dataset) -> None:
         key("wavy, unstable", color=INK, lw=0.8, ls=(0, (1, 1))),
         key("smooth, $A = 0$", color=smooth, lw=1.2, ls=DASHES[1]),
     ]
-    axes.legend(handles=handles, loc="upper left")
+    legend(axes, handles=handles, loc="upper left")
 
 
 PICTURES = {"fig2a": beside_smooth, "fig2b": beside_smooth}

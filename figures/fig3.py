@@ -10,15 +10,15 @@ import xarray
 from matplotlib.axes import Axes
 
 from figures.curves import Values, draw_equilibrium, draw_path, dress, plane_of, values_of
-from figures.style import INK, key, shade
+from figures.style import INK, key, legend, shade
 
 LOADING, UNLOADING = shade(0.8), shade(0.1)
 
 _ABOVE = (6, 5)
 PLACES = {
-    "a": ((-6, 5), (-6, -5), (6, 4), (5, -6), (5, 5), (7, -3), (-6, 2), (7, -3), (7, 0), (6, -4), (-6, -2), (5, 6)),
+    "a": ((-5, 6), (-12, -2), (6, 4), (5, -6), (5, 5), (7, -3), (-6, 2), (7, -3), (7, 0), (6, -4), (-7, 0), (5, 6)),
     "b": ((6, 5), (6, -5), (-3, 6), (7, -2), (-3, 6), (7, -3), (-6, 3), (7, -3), (-4, 6), (6, -5), (-6, -5), (6, -5)),
-    "c": ((9, 5), (6, -6), (-2, 7), (7, -3), (-5, 5), (7, -3), (-7, 2), (6, -5), (4, -7), (6, -4), (-6, -2), (1, 7)),
+    "c": ((13, 6), (0, 6), (2, 6), (7, -3), (-5, 5), (7, -3), (-7, 2), (6, -5), (4, -7), (6, -5), (-5, -6), (5, 6)),
 }
 """Where the letter of each corner stands beside it, in points."""
 
@@ -49,14 +49,16 @@ def path(axes: Axes, dataset: xarray.Dataset, plane: str) -> None:
     for letter, i, place in zip(ascii_uppercase, corners, chain(PLACES[plane], repeat(_ABOVE)), strict=False):
         axes.annotate(letter, (x[i], y[i]), place, **NAME)
     _arrows(axes, x, y, dataset)
+    axes.margins(x=0.07)  # room for the letters at the ends
     dress(axes, plane)
     handles = [
         key("loading", color=LOADING, lw=1.9),
         key("unloading", color=UNLOADING, lw=0.8),
         key("jump", color=INK, lw=0.8, ls=(0, (3, 1.5))),
+        key("equilibrium", color="0.5", lw=0.6),
         key("unstable", color="0.5", lw=0.6, ls=(0, (1, 1))),
     ]
-    axes.legend(handles=handles, loc="upper left")
+    legend(axes, handles=handles, loc="upper left")
 
 
 def _arrows(axes: Axes, x: Values, y: Values, dataset: xarray.Dataset) -> None:

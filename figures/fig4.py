@@ -15,12 +15,14 @@ LINES = (0.0, 0.2, 0.4, 0.6, 0.7, 0.8, 0.9)
 
 
 def draw_lines(axes: Axes, force: xarray.DataArray, x: str, second: str, label: str) -> None:
-    """Draw the force over one axis, a line for each value of the other."""
+    """Draw the force over one axis, a line for each value of the other; one without end broad, below those upon it."""
     values = force[second].values
     for value, colour, dash in zip(values, shades(values.size), cycle(DASHES), strict=False):
         line = force.sel({second: value})
-        name = rf"{label}\infty$" if np.isinf(value) else f"{label}{value:g}$"
-        axes.plot(line[x], line, color=colour, ls=dash, label=name)
+        if np.isinf(value):
+            axes.plot(line[x], line, color="0.8", lw=3.0, zorder=1, label=rf"{label}\infty$")
+        else:
+            axes.plot(line[x], line, color=colour, ls=dash, label=f"{label}{value:g}$")
 
 
 def _over_wavelength(axes: Axes, force: xarray.DataArray, second: str, label: str) -> None:
@@ -51,19 +53,20 @@ def exponents(lines: Axes, others: Axes, maxima: Axes, dataset: xarray.Dataset) 
         maxima.plot(line["k"], line, color="0.75", lw=2.4, zorder=1)
         maxima.plot(line["k"], line, color=colour, ls=dash, zorder=2)
         maxima.plot(line["k"], line.where(~flagged), color=colour, lw=2.4, zorder=3)
-        best = line.isel(k=int(line.argmax("k")))
-        maxima.plot(best["k"], best, "o", mfc="white", mec=INK, mew=0.7, ms=3.5, zorder=4)
+        best = int(line.argmax("k"))
+        inside = best + 1 < line.sizes["k"]
+        top = (line["k"][best].item(), line[best].item())
+        if inside:
+            maxima.plot(*top, "o", mfc="white", mec=INK, mew=0.7, ms=3.5, zorder=4)
+        said = f"greatest at $k = {top[0]:.2g}$" if inside else f"rising to the end, $k = {top[0]:.2g}$"
         maxima.annotate(
-            f"$k = {best['k'].item():.2g}$",
-            (best["k"].item(), best.item()),
-            (-6, 4),
-            textcoords="offset points",
-            ha="right",
+            said, top, (0, 6) if inside else (-4, 2), textcoords="offset points", ha="center" if inside else "right"
         )
         handles.append(key(rf"$\nu = {nu:g}$", color=colour, ls=dash))
     maxima.set(xlabel="gradient exponent $k$", ylabel="greatest force over the wavelength", xlim=(0.0, 1.0))
     maxima.set_ylim(0.0, 1.1 * float(greatest.max()))
     handles.append(key("loading not one disc", color="0.75", lw=2.4))
+    handles.append(key("loading one disc", color=shades(3)[0], lw=2.4))
     maxima.legend(handles=handles, loc="upper left")
 
 

@@ -7,12 +7,30 @@ import xarray
 from matplotlib.axes import Axes
 
 from figures.curves import dress, plane_of, values_of
-from figures.style import INK, shade
+from figures.style import INK, legend, shade
 
 
 def comparison(axes: Axes, dataset: xarray.Dataset, item: int) -> None:
-    """Draw load over depth at one of the wavelengths."""
+    """Draw load over depth at one of the wavelengths; the shortest, whose curves lie too close, has an inset."""
     scene = dataset.isel(lambda_over_R=item)
+    _curves(axes, scene)
+    dress(axes, "a")
+    legend(axes, loc="upper left", title=rf"$\lambda/R = {scene['lambda_over_R'].item():g}$", alignment="left")
+    if item == 2:
+        axes.set_ylim(bottom=-1.75)
+        _curves(enlarged(axes), scene)
+
+
+def enlarged(axes: Axes) -> Axes:
+    """Return an inset that shows the tip of one wave."""
+    inset = axes.inset_axes((0.68, 0.05, 0.3, 0.34), xlim=(0.0221, 0.0245), ylim=(-0.14, 0.09))
+    inset.set(xticks=[], yticks=[])
+    axes.indicate_inset_zoom(inset, edgecolor="0.4", lw=0.5, alpha=1.0)
+    return inset
+
+
+def _curves(axes: Axes, scene: xarray.Dataset) -> None:
+    """Draw the exact curve and both asymptotic ones."""
     last = _end(scene)
     mean = float(scene["A"] * scene["lambda_over_R"])
     for prefix, shift, looks in (
@@ -28,8 +46,6 @@ def comparison(axes: Axes, dataset: xarray.Dataset, item: int) -> None:
         depth, load = plane_of(scene, prefix, "a")
         shown = radius <= last
         axes.plot(depth[shown] + shift, load[shown], **looks)
-    dress(axes, "a")
-    axes.legend(loc="upper left", title=rf"$\lambda/R = {scene['lambda_over_R'].item():g}$", alignment="left")
 
 
 def _end(scene: xarray.Dataset) -> float:

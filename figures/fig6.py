@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 
 from figures.curves import draw_equilibrium, draw_path, dress, values_of
 from figures.effective import EARLY, effective_path
-from figures.style import DASHES, INK, key, shade
+from figures.style import DASHES, INK, key, legend, shade
 
 LOADING, UNLOADING = shade(0.85), shade(0.1)
 
@@ -28,7 +28,7 @@ def envelopes(axes: Axes, dataset: xarray.Dataset) -> None:
         key("unloading envelope", color=shade(0.5), lw=1.2, ls=DASHES[1]),
         key("early unloading", color=INK, lw=1.6, marker="o", ms=2.5),
     ]
-    axes.legend(handles=handles, loc="upper left")
+    legend(axes, handles=handles, loc="upper left")
 
 
 PICTURES = {"fig6": envelopes}

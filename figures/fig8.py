@@ -1,11 +1,24 @@
 """Fig. 8: the loop of the effective path and the two parts of its area."""
 
+from typing import Final
+
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
 
 from figures.curves import Values, dress, values_of
 from figures.style import INK, shade
+
+CLEAR: Final = {"fc": "white", "ec": "none", "alpha": 0.75, "pad": 1.0}
+"""What keeps the curve from running through a name."""
+HEAD: Final = {
+    "arrowstyle": "-|>,head_width=0.25,head_length=0.5",
+    "mutation_scale": 8,
+    "lw": 0,
+    "color": INK,
+    "shrinkA": 0,
+    "shrinkB": 0,
+}
 
 
 def parts_of(dataset: xarray.Dataset) -> tuple[Values, Values]:
@@ -24,7 +37,7 @@ def parts_of(dataset: xarray.Dataset) -> tuple[Values, Values]:
 
 
 def corners_of(dataset: xarray.Dataset) -> list[tuple[str, Values, tuple[int, int]]]:
-    """Return the names 0 to 4, 2' and 3' of the corners, their depth and load, and where the name stands."""
+    """Return the names 0 to 4, 2' and 3' of the corners, their depth and load, and where the name stands, in points."""
     _, second = parts_of(dataset)
     (radius,) = values_of(dataset, "effective_contact_radius")
     turn = int(np.argmax(radius))
@@ -32,13 +45,13 @@ def corners_of(dataset: xarray.Dataset) -> list[tuple[str, Values, tuple[int, in
     four, two, meeting = points[:, -2], second[:, 0], second[:, -2]
     ends = np.flatnonzero(radius == radius[turn])
     return [
-        ("0", np.array([four[0], 0.0]), (-2, 7)),
-        ("1", np.array([two[0], 0.0]), (0, 7)),
-        ("2", two, (8, 2)),
+        ("0", np.array([four[0], 0.0]), (-4, 7)),
+        ("1", np.array([two[0], 0.0]), (4, 7)),
+        ("2", two, (6, 8)),
         ("3", points[:, ends[0]], (-7, 3)),
-        ("3'", points[:, ends[-1]], (8, -2)),
+        ("3'", points[:, ends[-1]], (8, -3)),
         ("4", four, (-7, 0)),
-        ("2'", meeting, (3, -8)),
+        ("2'", meeting, (2, -8)),
     ]
 
 
@@ -58,12 +71,32 @@ def loop(axes: Axes, dataset: xarray.Dataset) -> None:
     axes.plot(*values_of(dataset, "asymptotic_indentation", "asymptotic_load"), color="0.6", lw=0.5, zorder=1)
     axes.plot(*values_of(dataset, "effective_indentation", "effective_load"), color=INK, lw=1.1)
     axes.plot(*second[:, -2:], color=INK, lw=0.8, ls=(0, (3, 1.5)))
+    (_, zero, _), (_, one, _), *_ = corners_of(dataset)
+    axes.plot(*np.stack([zero, one], axis=1), color=INK, lw=1.1)
+    _arrows(axes, dataset)
     for name, part in (("$C_1$", first), ("$C_2$", second)):
-        axes.annotate(name, centre_of(part), ha="center", va="center", fontsize=9)
+        axes.annotate(name, centre_of(part), ha="center", va="center", fontsize=9, bbox=CLEAR)
     for name, corner, place in corners_of(dataset):
         axes.plot(*corner, "o", ms=2.2, color=INK)
         axes.annotate(name, (corner[0], corner[1]), place, textcoords="offset points", ha="center", va="center")
     dress(axes, "a")
+    axes.margins(x=0.07, y=0.1)  # room for the names of the corners
+
+
+def _arrows(axes: Axes, dataset: xarray.Dataset) -> None:
+    """Put an arrow head on each side of the loop, the way of the path."""
+    corners = {name: corner for name, corner, _ in corners_of(dataset)}
+    path = np.array(values_of(dataset, "effective_indentation", "effective_load"))
+    places = [0.5 * (corners[a] + corners[b]) for a, b in (("0", "1"), ("1", "2"), ("3", "3'"), ("4", "0"))]
+    ways = [corners[b] - corners[a] for a, b in (("0", "1"), ("1", "2"), ("3", "3'"), ("4", "0"))]
+    for a, b in (("2", "3"), ("3'", "4")):
+        on = [int(np.argmin(np.hypot(*(path - corners[name][:, None])))) for name in (a, b)]
+        middle = (2 * on[0] + on[1]) // 3
+        places.append(path[:, middle])
+        ways.append(path[:, middle + 1] - path[:, middle - 1])
+    for place, way in zip(places, ways, strict=True):
+        (x, y), (dx, dy) = place, 1e-3 * way
+        axes.annotate("", (x + dx, y + dy), (x - dx, y - dy), arrowprops=HEAD, zorder=2.5)
 
 
 PICTURES = {"fig8": loop}

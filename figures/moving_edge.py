@@ -53,7 +53,7 @@ def split(smooth: Axes, wavy: Axes, dataset: xarray.Dataset) -> None:
         own = dataset.sel(A=A)
         ratio = own["closing_ratio"]
         axes.stackplot(ratio, *(own[name] for name in parts), labels=parts.values(), colors=shades(3), lw=0)
-        axes.plot(ratio, own["dissipated_energy"], color=INK)
+        axes.plot(ratio, own["dissipated_energy"], color=INK, label="all")
         axes.set(xlabel=RATIO, ylabel=ENERGY, xlim=(float(ratio.min()), 1.0), ylim=(0.0, top))
         handles, labels = axes.get_legend_handles_labels()
         title = f"{WAVY[bool(A)]}, $A = {A:g}$"

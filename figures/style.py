@@ -6,6 +6,7 @@ from typing import Any, Final
 import matplotlib.style
 from matplotlib import colormaps
 from matplotlib.axes import Axes
+from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 
 from gradhesion.cli.picture import looks
@@ -58,6 +59,11 @@ def zero_lines(axes: Axes, *, upright: bool = False) -> None:
     axes.axhline(0.0, color="0.8", lw=0.5, zorder=0)
     if upright:
         axes.axvline(0.0, color="0.8", lw=0.5, zorder=0)
+
+
+def legend(axes: Axes, **looks: Any) -> Legend:
+    """Put a legend on white, so that no zero line runs through its words."""
+    return axes.legend(frameon=True, facecolor="white", edgecolor="none", framealpha=1.0, borderpad=0.2, **looks)
 
 
 def key(label: str, **looks: Any) -> Line2D:
