@@ -11,7 +11,7 @@ from gradhesion.cli.dataset.reader import check_ours, is_turned
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.terminal.wording import did_you_mean
 from gradhesion.core.answers.flags import FLAGS
-from gradhesion.core.problem.status import FAILED
+from gradhesion.core.problem.status import ANOTHER_MINIMUM, FAILED, OF_FITS, POOR_FIT
 
 
 @xarray.register_dataset_accessor("gr")  # type: ignore[no-untyped-call]
@@ -64,7 +64,7 @@ class Accessor:
             known = [str(name) for name in self._dataset.data_vars if name != "status"]
             if variable not in known:
                 raise DatasetError(f"{variable}: not a variable of this dataset; {did_you_mean(variable, known)}")
-            bits |= doubts_of(variable, turned=is_turned(self._dataset))
+            bits |= doubts_of(variable, turned=is_turned(self._dataset)) | POOR_FIT | ANOTHER_MINIMUM
         return (self._dataset["status"].astype(np.int16) & bits) == 0
 
     def flagged(self, flag: str) -> xarray.DataArray:
@@ -74,7 +74,7 @@ class Accessor:
         Parameters
         ----------
         flag
-            A name out of `FLAGS`.
+            A name out of `FLAGS`, or of fits "poor_fit" or "another_minimum".
 
         Returns
         -------
@@ -85,9 +85,10 @@ class Accessor:
         DatasetError
             There is no such flag.
         """
-        if flag not in FLAGS:
-            raise DatasetError(f"{flag}: not a flag of status; {did_you_mean(flag, list(FLAGS))}")
-        return (self._dataset["status"].astype(np.int16) & FLAGS[flag]) != 0
+        known = FLAGS | OF_FITS
+        if flag not in known:
+            raise DatasetError(f"{flag}: not a flag of status; {did_you_mean(flag, list(known))}")
+        return (self._dataset["status"].astype(np.int16) & known[flag]) != 0
 
     def outside(self, number: str = "contact_slope") -> xarray.DataArray:
         """

@@ -19,8 +19,8 @@ from gradhesion.cli.installation import checked
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import SCENE, SOLVER
 from gradhesion.cli.picture.curve_picture import drawn_curves
-from gradhesion.cli.picture.fit_picture import drawn_fit
 from gradhesion.cli.picture.looks import Looks, looks_of
+from gradhesion.cli.picture.loops_picture import drawn_fits
 from gradhesion.cli.picture.picture import drawn
 from gradhesion.cli.picture.pictured import styled
 from gradhesion.cli.study.foreign import as_written
@@ -94,7 +94,7 @@ def plot(
         Variables to draw, by name; force and energy if None.
     at
         Axes fixed at the value nearest to this one: {"A": 0.02, "R": "2 um", "solver": "exact"}; quantities as in
-        `solve`.
+        `solve`. Of fits of several loops {"loop": 0}, or the name of a file, draws one.
     over
         Axes reduced by "max", "min" or "mean", or to the place of an extreme by "argmax" or "argmin": {"k": "max"}.
     interpolate
@@ -153,8 +153,9 @@ def plot(
             style=style,
         )
         if is_fit(values):
-            choices = {"at": at, "over": over, "variables": names, "x": x, "y": y, "data": data}
-            return Panels(drawn_fit(values, looks, [word for word, value in choices.items() if value]), looks)
+            choices = {"over": over, "variables": names, "x": x, "y": y, "data": data}
+            chosen = [word for word, value in choices.items() if value]
+            return Panels(drawn_fits(values, looks, chosen, _wishes(at)), looks)
         _check_dimensions(values)
         selection = selection_of(values, _wishes(at), _wishes(over), interpolate=interpolate)
         points = None if data is None else Path(data)

@@ -11,8 +11,9 @@ EXIT_CODES: Final = {
     0: "success",
     2: "the command, the study or the dataset is wrong; a package is missing or too old; no scheduler answers, "
     "or no worker is usable",
-    3: "written, but some scenes have failed (their `status` reports why), or a fit did not converge or ends at an end "
-    "of a range; or `verify` has found a value beyond its stated error",
+    3: "written, but some scenes have failed (their `status` reports why), or a fit is in doubt (it did not converge, "
+    "leaves more than its noise, has another minimum, or ends at an end of a range), or `verify` has found a value "
+    "beyond its stated error",
     4: "the output cannot be written (it exists, no space, no permission, another run is writing it, or parts of "
     "another study are kept), or the scheduler or all workers are gone; existing files are untouched",
     130: "interrupted; existing files are untouched, finished parts are kept, and the same command resumes",
@@ -61,7 +62,7 @@ class ScenesFailedError(GradhesionError):
 
 
 class FitDoubtfulError(GradhesionError):
-    """The fit is written, but it did not converge or ends at an end of a range."""
+    """The fit is written, but it is not to be trusted, or one of several loops has none."""
 
     exit_code = 3
 

@@ -143,10 +143,7 @@ STATE_CURVES: Final = ("pressure", "surface")
 """Curves of a state of contact, along the radius, in the place of curves of a scene."""
 
 GENERAL_CURVES: Final = ("equilibrium", "closing_equilibrium", "path", "smooth", "jumps", *STATE_CURVES)
-"""Curves of any profile under any control."""
-
-CURVES_BY_DEPTH: Final = (*GENERAL_CURVES, "asymptotic")
-"""Those of any profile under displacement control; the others are closed forms of one cosine wave on a paraboloid."""
+"""Curves under any control; the others are those of short waves, at a prescribed depth."""
 
 RAGGED: Final = {"jumps": "jump_count"}
 """Curves kept as contiguous ragged arrays, one scene after the other, with the variable that counts what each has."""
@@ -302,6 +299,8 @@ FLAGS: Final = {
     "nothing_feasible": "no point of the sweep meets what is required",
     "no_contact": "the cycle turns before first contact",
     "too_many_waves": "more waves stand within the contact than are followed",
+    "poor_fit": "the residual is more than noise explains",
+    "another_minimum": "other values meet the loop as well, within its noise",
 }
 """Every flag of `status`, in words."""
 
@@ -408,18 +407,57 @@ OTHER_PARAMETER: Final = "other_parameter"
 PARAMETER_UNITS: Final = "parameter_units"
 """The units of what is fitted, along `parameter`."""
 
+LOOP: Final = "loop"
+"""The first dimension of the fits of several loops."""
+
+MINIMUM: Final = "minimum"
+"""The dimension of other minima that the noise of a loop allows, the best first."""
+
 FIT: Final = {
-    "value": "fitted value, in its unit",
-    "standard_deviation": "standard deviation of the value, in its unit",
-    "low": "lower end of the 95 % interval, in its unit",
-    "high": "upper end of the 95 % interval, in its unit",
-    "on_bound": "whether the value is at an end of its searched range",
-    "correlation": "correlation of the values",
-    "chi_square": "sum of the squares of the residuals",
-    "degrees_of_freedom": "number of points minus number of fitted values",
-    "converged": "whether the minimum of the misfit was found within its tolerance",
+    "value": ((PARAMETER,), "fitted value, in its unit"),
+    "standard_deviation": ((PARAMETER,), "standard deviation of the value, in its unit"),
+    "low": ((PARAMETER,), "lower end of the 95 % interval, in its unit"),
+    "high": ((PARAMETER,), "upper end of the 95 % interval, in its unit"),
+    "on_bound": ((PARAMETER,), "whether the value is within 1 % of its searched range of an end of it"),
+    "correlation": ((PARAMETER, OTHER_PARAMETER), "correlation of the values"),
+    "chi_square": ((), "sum of the squares of the residuals"),
+    "degrees_of_freedom": ((), "number of points minus number of fitted values"),
+    "converged": ((), "whether the minimum of the misfit was found within its tolerance"),
 }
-"""The variables of a fit, but for its points."""
+"""The variables that every fit has, but for its points: their dimensions, and what they are."""
+
+FIT_MORE: Final = {
+    "low_searched": ((PARAMETER,), "lower end of the range searched, in its unit"),
+    "high_searched": ((PARAMETER,), "upper end of the range searched, in its unit"),
+    "reduced_chi_square": ((), "sum of the squares of the residuals over the degrees of freedom"),
+    "interval_widening": ((), "factor by which deviations and intervals are widened for residuals above the noise"),
+    "noise_of_indentation": ((), "standard deviation of the noise of the depth of a point"),
+    "noise_of_load": ((), "standard deviation of the noise of the load of a point"),
+    "raw_points": ((), "number of points of the file that were used"),
+    "kept_points": ((), "number of points that were fitted, after averaging"),
+    "tabor_parameter": ((), "Tabor parameter of the punch at the fitted values"),
+    "contact_depth": ((), "depth of the contact point that was found before the fit"),
+    "contact_depth_deviation": ((), "standard deviation of the depth of the contact point"),
+    "minimum_value": ((MINIMUM, PARAMETER), "value at another minimum that the noise allows, in its unit"),
+    "minimum_chi_square": ((MINIMUM,), "sum of the squares of the residuals at that minimum"),
+}
+"""Those that fits of version 0.2 lack, or that some fits have."""
+
+FIT_UNITS: Final = {
+    "noise_of_indentation": "m",
+    "noise_of_load": "N",
+    "contact_depth": "m",
+    "contact_depth_deviation": "m",
+}
+"""Their units; all others have none, or that of what is fitted."""
+
+FIT_WORDS: Final = {
+    "file": "file of the loop; behind # which of its loops",
+    "sha256": "fingerprint of the file",
+    "problem": "why the loop has no values; empty where it has",
+    "alike": "what the loop cannot tell apart; empty where nothing is known",
+}
+"""The words of each of several loops, along `loop`."""
 
 FIT_POINTS: Final = {
     "measured_point": {

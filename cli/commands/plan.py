@@ -60,8 +60,9 @@ def show_fit_plan(study: "FitStudy", output: Path, *, as_json: bool = False) -> 
         "output": str(output),
         "output_exists": output.exists(),
         "kind": study.kind,
-        "points": study.loop.depth.size,
-        "cycles": study.loop.cycles,
+        "points": sum(loop.points for loop in study.loops),
+        "cycles": sum(loop.cycles for loop in study.loops),
+        "loops": len(study.loops),
         "parameters": list(study.parameters),
         "starts": study.starts,
     }
@@ -70,7 +71,7 @@ def show_fit_plan(study: "FitStudy", output: Path, *, as_json: bool = False) -> 
         return
     state = "exists; run needs --overwrite" if found["output_exists"] else "new"
     show(f"output    {output} ({state})")
-    show(f"points    {counted(study.loop.depth.size, 'point')} in {counted(study.loop.cycles, 'cycle')}")
+    show(f"points    {study.in_words}")
     show(f"fitted    {', '.join(study.parameters)}; from at most {counted(study.starts, 'start')}")
     for note in study.notes:
         show(f"note      {note}")

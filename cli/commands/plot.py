@@ -56,7 +56,7 @@ def plot(
     """Draw a dataset: lines, maps, panels or curves.
 
     The shape of FILE decides: lines over one axis, a map over two, panels over more; curves are drawn as curves, and a
-    fit with its data and residuals.
+    fit with its data and residuals; of fits of several loops the values, or one of them (--at loop=0).
     Options fix an axis (--at A=0.02), reduce it (--over k=max) or place it (--x, --y), and set size, colours, labels.
     """
     path = output or file.parent / f"{file.stem or 'dataset'}.png"
@@ -71,17 +71,17 @@ def plot(
     from gradhesion.cli.disk import replacement, writing
     from gradhesion.cli.errors import DatasetError
     from gradhesion.cli.picture.curve_picture import drawn_curves
-    from gradhesion.cli.picture.fit_picture import drawn_fit
     from gradhesion.cli.picture.looks import looks_of
+    from gradhesion.cli.picture.loops_picture import drawn_fits
     from gradhesion.cli.picture.picture import drawn
     from gradhesion.cli.picture.pictured import save
 
     chosen = looks_of(**looks)
-    choices = {"--at": at, "--over": over, "--variable": names, "--x": x, "--y": y, "--data": data}
+    choices = {"--over": over, "--variable": names, "--x": x, "--y": y, "--data": data}
     given = [word for word, value in choices.items() if value]
     with opened(file) as dataset, replacement(path, overwrite=overwrite) as temporary:
         if is_fit(dataset):
-            figure, notes = drawn_fit(dataset, chosen, given), []
+            figure, notes = drawn_fits(dataset, chosen, given, at), []
         else:
             selection = selection_of(dataset, at, over, interpolate=interpolate)
             notes = [] if interpolate else nearest_values(dataset, at)

@@ -13,7 +13,7 @@ import click
 from gradhesion.cli.commands.examples import example
 from gradhesion.cli.commands.plan import chunk_option, show_fit_plan, show_plan
 from gradhesion.cli.commands.written import dataset_to_write
-from gradhesion.cli.errors import FitDoubtfulError, ScenesFailedError
+from gradhesion.cli.errors import ScenesFailedError
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.terminal.printable import printable_line
@@ -22,7 +22,6 @@ from gradhesion.cli.terminal.progress import progress, rate
 if TYPE_CHECKING:
     from gradhesion.cli.dataset.writer import Written
     from gradhesion.cli.engines import Engine
-    from gradhesion.cli.study.fit_study import FitStudy
     from gradhesion.cli.study.study import Study
 
 
@@ -101,13 +100,15 @@ def run(
     loaded = load_any(study, overrides)
     path = output or Path("outputs") / f"{loaded.name}.nc"
     if isinstance(loaded, FitStudy):
+        from gradhesion.cli.commands.run_fit import run_fit
+
         refused = {"--shard": shard, "--fresh": fresh, "--fail-fast": fail_fast, "--engine dask": engine != "threads"}
         if given := [word for word, on in refused.items() if on]:
             raise click.UsageError(f"{given[0]}: a fit has no blocks of scenes; run it without")
         if dry_run:
             show_fit_plan(loaded, path)
             return
-        _run_fit(loaded, path, overwrite=overwrite, quiet=quiet)
+        run_fit(loaded, path, history=history_now(), overwrite=overwrite, quiet=quiet)
         return
     asked = loaded.chunked(chunk)
     if dry_run:
@@ -135,36 +136,6 @@ def run(
             advance=advance,
         )
     finish(path, asked.scenes, written, time.monotonic() - start, quiet=quiet)
-
-
-def _run_fit(study: "FitStudy", path: Path, *, overwrite: bool, quiet: bool) -> None:
-    """Fit a loop and write what was found."""
-    from gradhesion.cli.dataset.cautions import cautions_of_fit
-    from gradhesion.cli.dataset.fit import write_fit
-    from gradhesion.cli.disk import refuse_existing
-    from gradhesion.cli.work.compiling import prepare
-    from gradhesion.cli.work.fitting import doubts_of, fitted, kinds_of_fit
-
-    refuse_existing(path, path, overwrite=overwrite)
-    for note in () if quiet else study.notes:
-        messages.say("note", note)
-    prepare(kinds_of_fit(study), quiet=quiet)
-    start = time.monotonic()
-    found = fitted(study)
-    seconds = time.monotonic() - start
-    write_fit(study, found, path, history=history_now(), overwrite=overwrite)
-    if not quiet:
-        values = ", ".join(f"{name} = {value:.4g}" for name, value in found.values.items())
-        messages.say(
-            "done",
-            f"{path}: {counted(study.loop.depth.size, 'point')} fitted in {seconds:.1f} s, "
-            f"{bytes_in_words(path.stat().st_size)}: {values}",
-            seconds=seconds,
-        )
-        for sentence in cautions_of_fit(study, found):
-            messages.say("caution", f"{path}: {sentence}")
-    if doubts := doubts_of(found):
-        raise FitDoubtfulError([f"{path}: {sentence}" for sentence in doubts])
 
 
 def history_now() -> str:

@@ -24,8 +24,7 @@ def validate(study: Path, overrides: tuple[str, ...]) -> None:
 
     asked = load_any(study, overrides)
     if isinstance(asked, FitStudy):
-        points, fitted = counted(asked.loop.depth.size, "point"), ", ".join(asked.parameters)
-        show(f"{study}: valid; a fit of {points} in {counted(asked.loop.cycles, 'cycle')}; fitted: {fitted}")
+        show(f"{study}: valid; a fit of {asked.in_words}; fitted: {', '.join(asked.parameters)}")
         for note in asked.notes:
             messages.say("note", note)
         return

@@ -1,7 +1,7 @@
 """What a user should know of a dataset that is written: cells whose answers may not hold, as a share of all."""
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,11 +9,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal.amounts import counted, percent
 from gradhesion.core.answers.flags import ANSWER_FLAGS
-from gradhesion.core.arrays.reach import SMALL, depends_on_contact, is_steep, slopes_of
-
-if TYPE_CHECKING:
-    from gradhesion.cli.study.fit_study import FitStudy
-    from gradhesion.core.answers.loop_fit import FittedLoop
+from gradhesion.core.arrays.reach import SMALL, depends_on_contact
 
 CONE: Final = "the punch is a cone of slope 1, which is not small, at every contact radius of {}"
 """What is said once of a study of a cone."""
@@ -52,17 +48,6 @@ def cautions(study: Study, flagged: Mapping[str, int], steep: int = 0) -> Iterat
                 f"the linear standard deviation is off in {share}: a kink lies within the spread of the inputs, or the "
                 "value bends; draw samples there, with samples = 1024 under [uncertainty]"
             )
-
-
-def cautions_of_fit(study: "FitStudy", found: "FittedLoop") -> Iterator[str]:
-    """Say that a fitted cycle reaches slopes of the punch that are not small."""
-    if study.profile.exponent == 1.0:
-        yield CONE.format("the loop")
-    elif is_steep(slopes_of(np.array(found.turning_radius), study.profile)):
-        yield (
-            f"contact reaches a = {found.turning_radius:.3g} R, where the punch has a slope above {SMALL:g}, which is "
-            "not small: the fitted values may be off"
-        )
 
 
 def _of_slope(study: Study, steep: int) -> Iterator[str]:

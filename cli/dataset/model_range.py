@@ -27,6 +27,8 @@ class Limit:
 
 SHORT_RANGED: Final = 5.0
 """The Tabor parameter from which on JKR holds (Johnson & Greenwood 1997)."""
+LONG_RANGED: Final = 0.1
+"""The Tabor parameter up to which the limit of Derjaguin, Muller & Toporov holds instead."""
 STEEPEST: Final = 0.5
 """A slope that is no longer small: a linear half-space errs by about its square."""
 ONE_DISC: Final = 2.0 / np.sqrt(np.pi)
@@ -101,3 +103,22 @@ def slope_told(dataset: xarray.Dataset) -> Iterator[str]:
     elif steep := steep_scenes(dataset):
         share = f"{steep:,} of {counted(dataset['status'].size, 'scene')}"
         yield f"{share}: {LIMITS[CONTACT_SLOPE].words} (a > R)"
+
+
+def tabor_told(number: float, comment: str) -> Iterator[str]:
+    """
+    Say where a Tabor parameter is too small for JKR; `comment` says of which range of the attraction it is.
+
+    >>> list(tabor_told(12.0, "")), list(tabor_told(0.05, "with a range of 1 nm"))[0][:58]
+    ([], 'Tabor parameter 0.05 (with a range of 1 nm) is below 0.1: ')
+    """
+    if number < LONG_RANGED:
+        yield (
+            f"Tabor parameter {number:.2g} ({comment}) is below {LONG_RANGED:g}: JKR does not apply, but the limit of "
+            "Derjaguin, Muller & Toporov"
+        )
+    elif number < SHORT_RANGED:
+        yield (
+            f"Tabor parameter {number:.2g} ({comment}) is below {SHORT_RANGED:g}: the attraction is too long-ranged "
+            "for JKR, and the fitted values are doubtful"
+        )

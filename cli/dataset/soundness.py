@@ -14,7 +14,11 @@ from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import (
     BEST,
     EXTENTS,
+    FIT,
+    FIT_MORE,
     FIT_POINTS,
+    FIT_WORDS,
+    LOOP,
     OTHER_PARAMETER,
     OUTPUTS,
     PARAMETER,
@@ -39,7 +43,7 @@ if TYPE_CHECKING:
 PACKED: Final = 2**14
 """Bytes of values for each byte of a file, at most: deflate packs 1,032 into one, and others hardly more."""
 
-_WORDS: Final = (SOLVER, PARAMETER, PHYSICAL_PARAMETER, OTHER_PARAMETER, PARAMETER_UNITS)
+_WORDS: Final = (SOLVER, PARAMETER, PHYSICAL_PARAMETER, OTHER_PARAMETER, PARAMETER_UNITS, *FIT_WORDS)
 """The variables that hold words."""
 
 _TEXTS: Final = ("title", "source", "history", "profile", "control", "toughness", "rate", "study", "study_sha256")
@@ -138,13 +142,13 @@ def _of_fit(dataset: "xarray.Dataset") -> Iterator[str]:
     """Say what a fit lacks."""
     if not is_fit(dataset):
         return
-    dimensions: dict[str, tuple[str, ...]] = dict.fromkeys(
-        ("value", "standard_deviation", "low", "high", "on_bound"), (PARAMETER,)
-    )
-    dimensions |= {"correlation": (PARAMETER, OTHER_PARAMETER), PARAMETER_UNITS: (PARAMETER,), PARAMETER: (PARAMETER,)}
-    dimensions |= dict.fromkeys(("chi_square", "degrees_of_freedom", "converged"), ())
-    dimensions |= {name: (along,) for along, own in FIT_POINTS.items() for name in own}
-    for name, own in dimensions.items():
+    loop = (LOOP,) if LOOP in dataset.dims else ()
+    needed = {name: (*loop, *dims) for name, (dims, _) in FIT.items()}
+    needed |= {name: (*loop, along) for along, own in FIT_POINTS.items() for name in own}
+    needed |= dict.fromkeys((PARAMETER_UNITS, PARAMETER), (PARAMETER,)) | {"status": loop}
+    needed |= dict.fromkeys(FIT_WORDS if loop else (), loop)
+    others = {name: (*loop, *dims) for name, (dims, _) in FIT_MORE.items() if name in dataset.variables}
+    for name, own in (needed | others).items():
         if name not in dataset.variables:
             yield f"it has no {name}"
         elif dataset[name].dims != own:

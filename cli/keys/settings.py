@@ -9,6 +9,7 @@ _WITHIN: Final = (
     Key(
         name="indentation",
         table="data",
+        unit="m",
         about="column of the depth, with its unit",
         example='indentation = { column = "depth", unit = "nm" }',
     ),
@@ -21,6 +22,7 @@ _WITHIN: Final = (
     Key(
         name="load",
         table="data",
+        unit="N",
         about="column of the load, with its unit; positive loads press",
         example='load = { column = "force", unit = "nN" }',
     ),
@@ -36,6 +38,18 @@ _WITHIN: Final = (
         about="column with the number of the cycle, a whole number",
         example='cycle = "cycle"',
     ),
+    Key(
+        name="which",
+        table="data",
+        about='the branch that is fitted: "loading" or "unloading" [both]',
+        example='which = "unloading"',
+    ),
+    Key(
+        name="leave_out",
+        table="data",
+        about='more words of branch whose rows are left out, beside "pause", "hold", "dwell", "creep" and "modulate"',
+        example='leave_out = ["pause"]',
+    ),
     Key(name="column", table="column", about="name of the column in the header", example='column = "depth"'),
     Key(
         name="unit",
@@ -44,11 +58,24 @@ _WITHIN: Final = (
         example='unit = "nm"',
     ),
     Key(
+        name="sign",
+        table="column",
+        about="-1 turns the column round, so that depth grows into the half-space and positive loads press",
+        example="sign = -1",
+    ),
+    Key(
         name="offsets",
         table="fit",
-        about="whether the zeros of depth and load are also fitted",
-        example="offsets = true",
+        about="whether the zeros are also fitted; as a table `indentation`, `load` and, for a tilt, `slope`",
+        example='offsets = { indentation = ["-1 um", "2 um"], load = "free", slope = true }',
     ),
+    Key(
+        name="average",
+        table="fit",
+        about="whether more than 2,000 points are averaged along the path, never across a jump",
+        example="average = false",
+    ),
+    Key(name="slope", table="offsets", about="whether a tilt of the load is fitted too", example="slope = true"),
     Key(
         name="noise",
         table="fit",
@@ -77,7 +104,7 @@ _WITHIN: Final = (
         name="file",
         table="profile",
         also=("data",),
-        about="path of a file, from the folder of the study",
+        about="path of a file, from the folder of the study; of loops, several with * or ?",
         example='file = "tip.csv"',
     ),
     Key(

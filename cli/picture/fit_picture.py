@@ -23,6 +23,8 @@ PATHS: Final = {"indentation": "path_indentation_si", "load": "path_load_si"}
 """The curves that have the units of depth and load."""
 OFFSET: Final = "_offset"
 """The end of the name of a zero that is fitted."""
+SLOPE: Final = "load_slope"
+"""A tilt of the base line that is fitted, in the unit of a spring."""
 LONGEST: Final = 8
 """Decimals of a value that has no power of ten."""
 
@@ -94,7 +96,22 @@ def _found(dataset: xarray.Dataset) -> list[str]:
     return [
         in_words(str(name), *(float(dataset[column].values[i]) for column in ("value", "standard_deviation")))
         for i, name in enumerate(dataset[PARAMETER].values)
-    ]
+    ] + [rf"reduced $\chi^2$ = {float(dataset['chi_square']) / int(dataset['degrees_of_freedom']):.3g}"]
+
+
+def named(name: str, values: Any) -> tuple[str, Unit]:
+    """
+    Name what is fitted, with a unit that suits its values.
+
+    >>> named("load_slope", [2e-3]), named("exponent", [0.5])
+    (('tilt of the load', Unit(symbol='mN/m', power=-3)), ('exponent', Unit(symbol='', power=0)))
+    """
+    quantity = name.removesuffix(OFFSET)
+    if quantity != name:
+        return f"offset of the {_LABELS[quantity]}", unit_for(PATHS[quantity], values)
+    if name == SLOPE:
+        return "tilt of the load", unit_for("spring_constant", values)
+    return SYMBOLS.get(name, name), unit_for(name, values)
 
 
 def in_words(name: str, value: float, deviation: float) -> str:
@@ -106,11 +123,7 @@ def in_words(name: str, value: float, deviation: float) -> str:
     >>> in_words("load_offset", 8.894e-9, 1.2e-9), in_words("work_of_adhesion", 0.03, 0.0)
     ('offset of the load = 8.9 ± 1.2 nN', '$\\Delta\\gamma$ = 30 ± 0 mJ/m$^2$')
     """
-    quantity = name.removesuffix(OFFSET)
-    if quantity != name:
-        words, unit = f"offset of the {_LABELS[quantity]}", unit_for(PATHS[quantity], value)
-    else:
-        words, unit = SYMBOLS[name], unit_for(name, value)
+    words, unit = named(name, value)
     value, deviation = value / 10.0**unit.power, deviation / 10.0**unit.power
     decimals = 1 - math.floor(math.log10(deviation)) if 1e-9 * abs(value) < deviation < math.inf else None
     if decimals is None or decimals > LONGEST:

@@ -2,12 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal
 
-from pydantic import BeforeValidator, Field, StringConstraints, WithJsonSchema, create_model
+from pydantic import BeforeValidator, Field, WithJsonSchema, create_model
 
-from gradhesion.cli.keys import ADHESION_RANGE, CLOSING, INPUTS, KEYS, MACHINE, PATTERN, SPEED, Key
-from gradhesion.cli.study.form import ProfileTable, Table
+from gradhesion.cli.keys import ADHESION_RANGE, CLOSING, INPUTS, INTERACTION, KEYS, MACHINE, PATTERN, Key
+from gradhesion.cli.study.data_form import DataTable
+from gradhesion.cli.study.form import FASTEST, SLOWEST, LoadingTable, MethodTable, ProfileTable, Table, ToughnessTable
+from gradhesion.cli.study.offset_form import offsets_of
 from gradhesion.cli.study.quantities import ratio_sentence, si_value
 from gradhesion.cli.terminal.wording import did_you_mean, example
 
@@ -17,12 +19,24 @@ INTERVALS: Final = ("profile", "linear")
 """Where the intervals of a fit come from."""
 MOST_STARTS: Final = 4096
 """Refinements of one fit."""
-LEFT_OUT: Final = (
-    MACHINE,
-    *(key.name for key in INPUTS.values() if key.gives in (CLOSING, *PATTERN, SPEED, ADHESION_RANGE)),
+LEFT_OUT: Final = (MACHINE, PATTERN[0], ADHESION_RANGE)
+"""Inputs that a fit has no use for: the ratios of what has a unit there."""
+LINEAR: Final = ("k", "nu", "indentation_max", CLOSING, PATTERN[1], "exponent")
+"""What is searched as it is, so that its range may begin at 0; all else is by its logarithm."""
+NUMBER_ALONE: Final = (INTERACTION,)
+"""What no loop depends on, and is a number."""
+AT_THE_TOP: Final = (
+    "title",
+    "kind",
+    "data",
+    "parameters",
+    "physical",
+    "profile",
+    "loading",
+    "toughness",
+    "rate",
+    "fit",
 )
-"""Inputs that a fit has no use for: the ratio of a stiffness that has a unit, and what nothing is solved for."""
-AT_THE_TOP: Final = ("title", "kind", "data", "parameters", "physical", "profile", "fit")
 """The keys of such a study."""
 
 
@@ -81,6 +95,8 @@ def given_of(value: object, name: str) -> Given:
         raise ValueError(what)  # noqa: TRY004 (pydantic hears no other)
     if not isinstance(value, Mapping):
         return _number(value, key)
+    if name in NUMBER_ALONE:
+        raise ValueError(f"no loop depends on it; give it as a number, {key.example}")
     unknown = [str(word) for word in value if word not in ("start", "stop")]
     if unknown:
         raise ValueError(
@@ -93,7 +109,7 @@ def given_of(value: object, name: str) -> Given:
         raise ValueError("a searched range has finite ends; write a finite value")
     if not start < stop:
         raise ValueError("the stop of a searched range is above its start; exchange the two, or give a number")
-    if start <= 0.0 and name not in ("k", "nu", "indentation_max"):
+    if start <= 0.0 and name not in LINEAR:
         raise ValueError("it is searched on a logarithmic scale; begin the range above 0")
     return Search(start, stop)
 
@@ -112,39 +128,6 @@ def _inputs(table: str) -> dict[str, Any]:
     """Make the fields of a table of inputs."""
     own = (key for key in INPUTS.values() if key.table == table and key.name not in LEFT_OUT)
     return {key.name: (_entry(key), None) for key in own}
-
-
-class ColumnTable(Table):
-    """A column of the data, with its unit."""
-
-    column: Annotated[str, Field(min_length=1, description=KEYS["column"].about)]
-    unit: Annotated[str, Field(description=KEYS["unit"].about)] = ""
-
-
-def _column(value: Any) -> Any:
-    """Read a column: its name, or a table with its name and its unit."""
-    if isinstance(value, str) and value:
-        return {"column": value}
-    sound = isinstance(value, Mapping) and isinstance(value.get("column"), str) and value["column"]
-    if not sound or not all(isinstance(item, str) for item in value.values()) or {*value} - {"column", "unit"}:
-        raise ValueError(f"this names a column of the file, with its unit; {example(('data', 'load'))}")
-    return value
-
-
-Column = Annotated[ColumnTable, BeforeValidator(_column)]
-Word = Annotated[str, StringConstraints(min_length=1)]
-
-
-class DataTable(Table):
-    """The measured loop."""
-
-    file: Annotated[str, Field(min_length=1, description=KEYS["file"].about)]
-    sha256: Annotated[str, Field(pattern="^[0-9a-f]{64}$", description=KEYS["sha256"].about)] = ""
-    indentation: Annotated[Column | None, Field(description=KEYS["indentation"].about)] = None
-    displacement: Annotated[Column | None, Field(description=KEYS["displacement"].about)] = None
-    load: Annotated[Column, Field(description=KEYS["load"].about)]
-    branch: Annotated[Word | None, Field(description=KEYS["branch"].about)] = None
-    cycle: Annotated[Word | None, Field(description=KEYS["cycle"].about)] = None
 
 
 def noise_of(value: object) -> dict[str, float]:
@@ -187,11 +170,26 @@ def _starts(value: object) -> object:
     return value
 
 
-def _offsets(value: object) -> object:
-    """Check whether offsets are fitted."""
+def _average(value: object) -> object:
+    """Check whether points are averaged."""
     if not isinstance(value, bool):
-        raise ValueError(f"this must be true or false; {example(('fit', 'offsets'))}")  # noqa: TRY004 (for pydantic)
+        raise ValueError(f"this must be true or false; {example(('fit', 'average'))}")  # noqa: TRY004 (for pydantic)
     return value
+
+
+def _exponent(value: object) -> Given:
+    """Read the power of the speed: a number, or a range."""
+    ends = [value] if not isinstance(value, Mapping) else [value.get("start"), value.get("stop")]
+    numbers = [float(end) for end in ends if isinstance(end, int | float) and not isinstance(end, bool)]
+    known = not isinstance(value, Mapping) or set(value) == {"start", "stop"}
+    if not known or len(numbers) != len(ends) or not all(SLOWEST <= end <= FASTEST for end in numbers):
+        what = f"the power n of the speed is a number from {SLOWEST:g} to {FASTEST:g}, or a range within"
+        raise ValueError(f"{what}; write for example exponent = 0.6, or exponent = {{ start = 0.3, stop = 0.9 }}")
+    if len(numbers) == 1:
+        return numbers[0]
+    if not numbers[0] < numbers[1]:
+        raise ValueError("the stop of a searched range is above its start; exchange the two, or give a number")
+    return Search(*numbers)
 
 
 def _kind(value: object) -> object:
@@ -204,7 +202,13 @@ def _kind(value: object) -> object:
 class FitTable(Table):
     """What is fitted beside the parameters, and how."""
 
-    offsets: Annotated[bool, BeforeValidator(_offsets), Field(description=KEYS["offsets"].about)] = True
+    offsets: Annotated[
+        Any,
+        BeforeValidator(offsets_of),
+        WithJsonSchema({"anyOf": [{"type": "boolean"}, {"type": "object"}]}),
+        Field(description=KEYS["offsets"].about, validate_default=True),
+    ] = True
+    average: Annotated[bool, BeforeValidator(_average), Field(description=KEYS["average"].about)] = True
     noise: Annotated[
         dict[str, float] | None,
         BeforeValidator(lambda value: None if value is None else noise_of(value)),
@@ -215,6 +219,18 @@ class FitTable(Table):
         Literal["profile", "linear"], BeforeValidator(_intervals), Field(description=KEYS["intervals"].about)
     ] = "profile"
     starts: Annotated[int, BeforeValidator(_starts), Field(ge=1, le=MOST_STARTS, description=KEYS["starts"].about)] = 32
+
+
+class FitRateTable(Table):
+    """An edge whose work grows with its speed."""
+
+    exponent: Annotated[
+        Any,
+        BeforeValidator(_exponent),
+        WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "object"}]}),
+        Field(description="power n of the speed of the edge in its work, 1 + (v/v*)^n"),
+    ]
+    closing: Annotated[str, Field(description=KEYS["closing"].about)] = "quasi-static"
 
 
 if TYPE_CHECKING:
@@ -238,13 +254,22 @@ class FitForm(Table):
     parameters: Annotated[FitParametersTable, Field(description=KEYS["parameters"].about)]
     physical: Annotated[FitPhysicalTable, Field(description=KEYS["physical"].about)]
     profile: Annotated[ProfileTable, Field(description=KEYS["profile"].about, default_factory=ProfileTable)]
+    loading: Annotated[LoadingTable, Field(description=KEYS["loading"].about, default_factory=LoadingTable)]
+    toughness: Annotated[ToughnessTable | None, Field(description=KEYS["toughness"].about)] = None
+    rate: Annotated[FitRateTable | None, Field(description=KEYS["rate"].about)] = None
     fit: Annotated[FitTable, Field(description=KEYS["fit"].about, default_factory=FitTable)]
+
+    method: ClassVar = MethodTable()
+    """The exact solver alone; rules of other studies ask."""
+    outputs: ClassVar = ()
+    optimum: ClassVar = None
 
     @property
     def entries(self) -> dict[str, Given]:
-        """What is given for the inputs, in the order of a dataset's dimensions."""
+        """What is given for the inputs, in the order of a dataset's dimensions; the power of the speed is the last."""
         tables = {"parameters": self.parameters, "physical": self.physical}
         given = {name: getattr(tables[key.table], name, None) for name, key in INPUTS.items() if key.table in tables}
+        given |= {"exponent": self.rate.exponent} if self.rate else {}
         return {name: entry for name, entry in given.items() if entry is not None}
 
 
@@ -252,7 +277,6 @@ REQUIRED: Final[dict[tuple[str | int, ...], Any]] = {
     ("kind",): "fit",
     ("data",): {},
     ("data", "file"): "loop.csv",
-    ("data", "load"): "load",
     ("parameters",): {},
     ("physical",): {},
 }

@@ -1,47 +1,30 @@
-"""A measured loop in a file: depth and load in SI units, which way the points go, and how noisy they are."""
+"""A measured loop: depth and load in SI units, which way the points go, how noisy they are, and their means."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.study.quantities import si_value
-from gradhesion.cli.tables.columns import Columns, ColumnsError
-from gradhesion.cli.tables.reading import read_columns
+from gradhesion.cli.study.afm_file import is_force_file, read_force_file
+from gradhesion.cli.study.fit_rules import control_of
+from gradhesion.cli.study.loop_columns import PAUSE, LoopFileError, Raw, read_table
+from gradhesion.cli.study.sense_words import refuse_order, refuse_sense
 from gradhesion.cli.terminal.amounts import counted
-from gradhesion.cli.terminal.wording import did_you_mean, shown
-from gradhesion.core.answers import loop_points
+from gradhesion.core.loops import points as loop_points
+from gradhesion.core.loops.averaging import MOST, averaged
+from gradhesion.core.loops.noise import noise_of
 
 if TYPE_CHECKING:
-    from gradhesion.cli.study.fit_form import ColumnTable, DataTable
-
-BRANCHES: Final = {
-    "loading": 0.0,
-    "unloading": 1.0,
-    "approach": 0.0,
-    "retract": 1.0,
-    "false": 0.0,
-    "true": 1.0,
-}
-"""What a column of branches says, with the number for it, which may stand there as well."""
-_DIMENSIONS: Final = {"length": ("R", "nm"), "force": ("preload", "nN")}
-"""For each dimension a key of it, and a unit to name."""
-
-
-class LoopFileError(ValueError):
-    """A file has no loop: `key` is the key of [data] that is wrong; the message says why, and what to do."""
-
-    def __init__(self, key: str, sentence: str) -> None:
-        self.key = key
-        super().__init__(sentence)
+    from gradhesion.cli.study.data_form import DataTable
+    from gradhesion.cli.study.fit_form import FitForm
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class LoopFile:
-    """The points of a measured loop."""
+    """The points of a measured loop, or means of many."""
 
     depth: NDArray[np.float64]
     """In m: of the contact, or of the machine."""
@@ -50,114 +33,128 @@ class LoopFile:
     unloading: NDArray[np.bool_]
     cycle: NDArray[np.int64]
     """The number of the cycle of each point, from 1 unless the file has them."""
+    counts: NDArray[np.float64]
+    """How many points of the file each is the mean of."""
+    file: str = ""
+    """The name of the file, from the folder of the study; behind # which of its loops this is."""
     through_machine: bool = False
     """Whether `depth` is the displacement of the machine."""
     sha256: str = ""
     dropped: int = 0
     """Rows without a number that were left out."""
+    paused: int = 0
+    """Rows of pauses that were left out."""
     noise: tuple[float, float] = field(default=(0.0, 0.0))
-    """Standard deviations of depth and load, estimated from the points."""
+    """Standard deviations of depth and load of a point of the file, estimated from the points."""
+    problem: str = ""
+    """Why it cannot be fitted, where it is one of several; it has no points then."""
 
     @property
     def cycles(self) -> int:
         """The number of its cycles."""
         return np.unique(self.cycle).size
 
+    @property
+    def points(self) -> int:
+        """The number of points of the file."""
+        return int(self.counts.sum())
 
-def read_loop(path: Path, table: "DataTable") -> LoopFile:
+    @property
+    def is_averaged(self) -> bool:
+        """Whether its points are means of several."""
+        return self.points > self.depth.size
+
+
+def nothing(file: str, problem: str, sha256: str = "") -> LoopFile:
+    """Give a loop without points, and why it has none."""
+    none = np.zeros(0)
+    return LoopFile(
+        depth=none,
+        load=none,
+        counts=none,
+        unloading=np.zeros(0, bool),
+        cycle=np.zeros(0, np.int64),
+        file=file,
+        sha256=sha256,
+        problem=problem,
+    )
+
+
+def read_loops(path: Path, file: str, form: "FitForm") -> list[LoopFile]:
     """
-    Read a measured loop.
+    Read the loops of a file: of a table one, of an instrument's file perhaps several.
 
     Raises
     ------
     LoopFileError
         The file cannot be read, lacks a column, or is no loop.
     """
-    depth_key = "displacement" if table.displacement else "indentation"
-    asked = table.displacement or table.indentation
-    if asked is None:
-        raise LoopFileError("indentation", "the depths are missing")
-    wanted = {depth_key: asked.column, "load": table.load.column, "branch": table.branch, "cycle": table.cycle}
-    names = [name for name in wanted.values() if name]
-    words = {table.branch: BRANCHES} if table.branch else {}
-    try:
-        found = read_columns(path, only=names, words=words, whole=[table.cycle] if table.cycle else [])
-    except ColumnsError as error:
-        raise LoopFileError("file", str(error)) from None
-    for key, name in wanted.items():
-        if name and name not in found.values:
-            there = (*found.values, *found.others)
-            raise LoopFileError(key, f"the file has no column {shown(name)}; {did_you_mean(name, there)}")
-    depth = _scaled(found, depth_key, asked, "length")
-    load = _scaled(found, "load", table.load, "force")
-    columns = [depth, load, *(found.values[name] for name in (table.branch, table.cycle) if name)]
-    sound = np.all([np.isfinite(column) for column in columns], axis=0)
-    if not sound.any():
-        raise LoopFileError("file", "no row has numbers in all of its columns; name a file with some")
-    depth, load = depth[sound], load[sound]
-    cycle = None if table.cycle is None else found.whole[table.cycle][sound]
+    table, through_machine = form.data, control_of(form) == "machine"
+    if is_force_file(path.name, table):
+        raws = read_force_file(path, table, through_machine=through_machine)
+    else:
+        raws = [read_table(path, table)]
+    more = {"average": form.fit.average, "through_machine": through_machine}
+    return [_loop(raw, f"{file}#{raw.of}" if raw.of else file, table, **more) for raw in raws]
+
+
+def _loop(raw: Raw, file: str, table: "DataTable", *, average: bool, through_machine: bool) -> LoopFile:
+    """Leave rows out, tell the branches, and average."""
+    paused = np.zeros(raw.depth.size, bool) if raw.branch is None else raw.branch == PAUSE
+    branch = np.zeros(raw.depth.size) if raw.branch is None else raw.branch
+    sound = np.isfinite(raw.depth) & np.isfinite(raw.load) & np.isfinite(branch)
+    use = sound & ~paused
+    if not use.any():
+        why = "every row is of a pause" if sound.any() else "no row has numbers in all of its columns"
+        raise LoopFileError("file", f"{why}; name a file with some")
+    depth, load = raw.depth[use], raw.load[use]
+    cycle = None if raw.cycle is None else raw.cycle[use]
     rank = None if cycle is None else np.unique(cycle, return_inverse=True)[1].astype(np.int32)
-    if table.branch is not None:
-        unloading = found.values[table.branch][sound] == 1.0
+    if raw.branch is not None:
+        unloading = branch[use] == 1.0
         rank = np.ones(depth.size, np.int32) if rank is None else rank
     else:
+        refuse_order(depth, rank)
         unloading, rank = loop_points.ways(depth, rank)
-    if not unloading.any():
-        raise LoopFileError(
-            "file", "the loop has no unloading: the depth never falls after its deepest point; measure both ways"
-        )
+    cycle = rank.astype(np.int64) if cycle is None else cycle
+    if table.which is not None:
+        own = unloading == (table.which == "unloading")
+        if not own.any():
+            raise LoopFileError("which", f"the data have no {table.which}; write the other branch, or remove which")
+        depth, load, unloading, rank, cycle = (row[own] for row in (depth, load, unloading, rank, cycle))
+    found = noise_of(depth, load, unloading, rank)
+    kept = averaged(depth, load, unloading, rank, found, most=MOST if average else depth.size)
+    refuse_sense(kept.depth, kept.load, kept.noise[1] / np.sqrt(kept.counts), kept.unloading, table)
+    first = dict(zip(rank.tolist(), cycle.tolist(), strict=True)) if kept.depth.size < depth.size else {}
     return LoopFile(
-        depth=depth,
-        load=load,
-        unloading=unloading,
-        cycle=rank.astype(np.int64) if cycle is None else cycle,
-        through_machine=table.displacement is not None,
-        sha256=found.sha256,
-        dropped=int(np.count_nonzero(~sound)),
-        noise=loop_points.noise(depth, load, unloading, rank),
+        depth=kept.depth,
+        load=kept.load,
+        unloading=kept.unloading,
+        cycle=np.array([first[one] for one in kept.cycle.tolist()], np.int64) if first else cycle,
+        counts=kept.counts,
+        file=file,
+        through_machine=through_machine,
+        sha256=raw.sha256,
+        dropped=int(np.count_nonzero(~sound & ~paused)),
+        paused=int(np.count_nonzero(paused)),
+        noise=kept.noise,
     )
 
 
-def _scaled(found: Columns, key: str, asked: "ColumnTable", dimension: str) -> NDArray[np.float64]:
-    """Give a column in SI units."""
-    own, unit = _DIMENSIONS[dimension]
-    above = found.units.get(asked.column, "")
-    written = asked.unit or above
-    if not written:
-        raise LoopFileError(
-            key,
-            f'the column {shown(asked.column)} has no unit; write for example {key} = {{ column = "{asked.column}", '
-            f'unit = "{unit}" }}, or its unit in brackets after its name in the header',
+def notes_of(loop: LoopFile) -> list[str]:
+    """Say what was left out of a loop, and what was averaged."""
+    if loop.problem:
+        return [f"{loop.file}: {loop.problem}"]
+    sentences = []
+    for count, what in ((loop.dropped, "without a number"), (loop.paused, "of pauses")):
+        if count:
+            were = "was" if count == 1 else "were"
+            sentences.append(f"{loop.file}: {counted(count, 'row')} {what} {were} left out")
+    if loop.is_averaged:
+        sentences.append(
+            f"{loop.file}: {counted(loop.points, 'point')} averaged along the path; {loop.depth.size:,} kept"
         )
-    try:
-        factor = si_value(f"1 {written}", own)
-    except ValueError:
-        raise LoopFileError(
-            key, f'the unit {shown(written)} is no {dimension}; write for example unit = "{unit}"'
-        ) from None
-    if above and not _is_unit(above, own, factor):
-        raise LoopFileError(
-            key,
-            f"the unit of the column {shown(asked.column)} is {shown(written)} in the study and {shown(above)} in the "
-            "header of the file; correct one of the two, or leave it out of the study",
-        )
-    return found.values[asked.column] * factor
-
-
-def _is_unit(written: str, name: str, factor: float) -> bool:
-    """Tell whether a unit is that of a factor."""
-    try:
-        return si_value(f"1 {written}", name) == factor
-    except ValueError:
-        return False
-
-
-def dropped_sentence(loop: LoopFile, file: str) -> str:
-    """Say how many rows were left out; nothing if none was."""
-    if not loop.dropped:
-        return ""
-    were = "was" if loop.dropped == 1 else "were"
-    return f"{file}: {counted(loop.dropped, 'row')} without a number {were} left out"
+    return sentences
 
 
 def table_of(data: Mapping[str, Any]) -> Mapping[str, Any]:

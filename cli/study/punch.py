@@ -6,7 +6,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.cli.keys import MACHINE, SPRING, Path
-from gradhesion.cli.names import CURVES, CURVES_BY_DEPTH, GENERAL_CURVES
+from gradhesion.cli.names import CURVES, GENERAL_CURVES
 from gradhesion.cli.study.axes import Values
 from gradhesion.cli.study.form import ProfileTable
 from gradhesion.cli.study.mistakes import Checked, Mistake
@@ -146,13 +146,12 @@ def _mistakes_of_default_only(checked: Checked, *, sound_series: bool) -> Iterat
     others += ["[loading]"] if form.loading.control in CONTROLS[1:] else []
     if not others:
         return
-    known = "available only for a paraboloid with one cosine wave under displacement control"
-    remedy = f"or remove {' and '.join(others)}"
-    have = GENERAL_CURVES if "[loading]" in others else CURVES_BY_DEPTH
-    special = [name for one, own in CURVES.items() if one not in have for name in (one, *own)]
+    special = {name: one for one, own in CURVES.items() if one not in GENERAL_CURVES for name in (one, *own)}
     for i, name in enumerate(form.outputs):
-        if name in special and form.kind == "curve":
-            yield Mistake(("outputs", i), name, f"this curve is {known}; remove it, {remedy}")
+        if name in special and form.kind == "curve" and "[loading]" in others:
+            why = WITHOUT_LOAD.get(special[name], WITHOUT_LOAD["envelope"])
+            sentence = f"this curve is available only under displacement control: {why}; remove it, or remove [loading]"
+            yield Mistake(("outputs", i), name, sentence)
         if name == "energy_residual" and form.loading.control == "load":
             sentence = (
                 'a dead load closes no loop, so that there is no residual; remove it, or write control = "machine"'

@@ -24,21 +24,21 @@ PERIOD_OF_JSON: Final = 1.0
 
 
 @contextmanager
-def progress(total: int, *, quiet: bool) -> Iterator[Advance]:
-    """Show how many of `total` scenes are done: call what is given with the number of newly done ones."""
+def progress(total: int, *, quiet: bool, noun: str = "scene") -> Iterator[Advance]:
+    """Show how many of `total` scenes, or loops, are done: call what is given with the number of newly done ones."""
     if quiet:
         yield lambda _, **__: None
     elif messages.in_json():
-        yield _lines(total, time.monotonic, PERIOD_OF_JSON)
+        yield _lines(total, time.monotonic, PERIOD_OF_JSON, noun)
     elif sys.stderr.isatty():
-        with _bar(total) as advance:
+        with _bar(total, noun) as advance:
             yield advance
     else:
-        yield _lines(total, time.monotonic, PERIOD)
+        yield _lines(total, time.monotonic, PERIOD, noun)
 
 
 @contextmanager
-def _bar(total: int) -> Iterator[Advance]:
+def _bar(total: int, noun: str) -> Iterator[Advance]:
     """Draw a bar with rate and time left."""
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
@@ -46,14 +46,14 @@ def _bar(total: int) -> Iterator[Advance]:
     columns = (
         BarColumn(),
         TaskProgressColumn(),
-        TextColumn("{task.completed:,.0f} of {task.total:,.0f} scenes"),
+        TextColumn(f"{{task.completed:,.0f}} of {{task.total:,.0f}} {noun}s"),
         TextColumn("{task.fields[rate]}"),
         TimeRemainingColumn(),
     )
     start = time.monotonic()
     solved = 0
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("scenes", total=total, rate="")
+        task = bar.add_task(f"{noun}s", total=total, rate="")
 
         def advance(scenes: int, /, *, reused: bool = False) -> None:
             nonlocal solved
@@ -63,7 +63,7 @@ def _bar(total: int) -> Iterator[Advance]:
         yield advance
 
 
-def _lines(total: int, clock: Callable[[], float], period: float) -> Advance:
+def _lines(total: int, clock: Callable[[], float], period: float, noun: str = "scene") -> Advance:
     """Print a line when the last one is `period` seconds old."""
     start = last = clock()
     done = solved = 0
@@ -80,7 +80,7 @@ def _lines(total: int, clock: Callable[[], float], period: float) -> Advance:
             words = "" if left is None else f", {left:.0f} s left"
             messages.say(
                 "progress",
-                f"{done:,} of {total:,} scenes ({done / total:.0%}), {speed} per s{words}",
+                f"{done:,} of {total:,} {noun}s ({done / total:.0%}), {speed} per s{words}",
                 done=done,
                 scenes=total,
                 rate=solved / max(now - start, 1e-9),

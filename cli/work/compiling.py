@@ -21,6 +21,7 @@ WORDS = {
     "asymptotic": "the asymptotic solver",
     "envelope": "the envelope solver",
     "curves": "curves",
+    "loops": "fits of loops",
     "sensitivities": "sensitivities",
     "edge": "edges that close at less work",
     "patterned": "patterns of toughness",

@@ -58,7 +58,7 @@ def warm(
                     ended.add(kind)
     finally:
         for worker in processes:
-            worker.pool.shutdown(wait=False, cancel_futures=True)
+            worker.pool.shutdown(wait=not worker.kind, cancel_futures=True)  # Python's own end may meet theirs
 
 
 def next_kind(left: Sequence[str], running: Sequence[str], behind: Container[str]) -> str:

@@ -15,7 +15,7 @@ from gradhesion.cli.dataset.fit import write_fit
 from gradhesion.cli.dataset.writer import write
 from gradhesion.cli.study.fit_study import FitStudy
 from gradhesion.cli.study.reading import load_any, study_from
-from gradhesion.cli.work.fitting import fitted
+from gradhesion.cli.work.fitting import fits_of
 
 CONFIGS = Path(__file__).parents[2] / "configs"
 UNITS = {"R": ["1 um", "2 um"], "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 nm", "a_max": "inf"}
@@ -46,7 +46,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     paths["fit"] = folder / "fit.nc"
     fit = load_any(CONFIGS / "fit.toml", ['fit.intervals="linear"'])
     assert isinstance(fit, FitStudy)
-    write_fit(fit, fitted(fit), paths["fit"], history="made by a test", overwrite=False)
+    write_fit(fit, fits_of(fit), paths["fit"], history="made by a test", overwrite=False)
     return paths
 
 

@@ -23,6 +23,7 @@ from gradhesion.cli.picture.pictured import save
 from gradhesion.cli.study.reading import study_from
 from gradhesion.core import CURVES, DOUBTFUL, FLAGS, OUTPUTS, REPORTS, solve
 from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
+from gradhesion.core.problem.status import OF_FITS
 
 LOADING, UNLOADING, TOLERANCE, *OF_ANSWERS = DOUBTS
 
@@ -62,7 +63,7 @@ MAP = {"k": {"start": 0.0, "stop": 0.9, "num": 7}}
 
 
 def test_every_flag_has_words_and_every_doubt_looks_of_its_own() -> None:
-    assert list(names.FLAGS) == list(ALL_FLAGS)
+    assert list(names.FLAGS) == [*ALL_FLAGS, *OF_FITS]
     assert sum(doubt.bit for doubt in (LOADING, UNLOADING, TOLERANCE)) == DOUBTFUL
     assert {doubt.bit for doubt in OF_ANSWERS} <= {*ALL_FLAGS.values()} - {*FLAGS.values()}
     for looks in ([doubt.hatch for doubt in DOUBTS], [doubt.mark for doubt in DOUBTS]):

@@ -13,6 +13,7 @@ from click.testing import Result
 
 import gradhesion as gr
 from gradhesion.cli.dataset.reader import opened
+from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 
 Call = Callable[..., Result]
 CONFIGS = Path(__file__).parents[2] / "configs"
@@ -54,7 +55,14 @@ def test_the_example_gives_what_its_loop_was_made_with(found: xarray.Dataset) ->
     assert degrees == 600 - 6
     assert float(found["chi_square"]) == pytest.approx(degrees, rel=5.0 * math.sqrt(2.0 / degrees))
     assert float(found["chi_square"]) == pytest.approx(float((found["residual"] ** 2).sum()), rel=1e-12)
+    assert float(found["reduced_chi_square"]) == float(found["chi_square"]) / degrees
+    assert int(found["raw_points"]) == int(found["kept_points"]) == 600
+    assert (found["low_searched"] < found["low"]).all(), "an interval is within what was searched"
+    assert (found["high"] < found["high_searched"]).all()
+    assert [float(found[name][0]) for name in ("low_searched", "high_searched")] == pytest.approx([1e6, 1e8])
     assert not found["on_bound"].any()
+    assert found["status"].dtype == np.int16
+    assert int(found["status"]) & (POOR_FIT | ANOTHER_MINIMUM) == 0
     assert int(found["converged"]) == 1
     np.testing.assert_allclose(np.diag(found["correlation"].values), 1.0, rtol=1e-12)
     assert not {"units"} & found["value"].attrs.keys()
@@ -76,6 +84,7 @@ def test_run_writes_it_and_info_and_plot_read_it(gradhesion: Call, folder: Path,
     assert result.exit_code == 0, result.stderr
     assert "600 points fitted" in result.stderr
     assert "E_star = " in result.stderr
+    assert f"; reduced chi square {float(found['reduced_chi_square']):.3g}\n" in result.stderr
     with opened(folder / "outputs/fit.nc") as dataset:
         np.testing.assert_array_equal(dataset["value"].values, found["value"].values)
         study = tomllib.loads(dataset.attrs["study"])
@@ -132,7 +141,7 @@ def test_a_fit_at_a_bound_is_written_and_flagged(gradhesion: Call, folder: Path)
     bound = '--set=physical.E_star={ start = "1 MPa", stop = "9.9 MPa" }'
     result = gradhesion("run", "fit.toml", bound, '--set=fit.intervals="linear"')
     assert result.exit_code == 3
-    assert "E_star is at an end of its range; widen the range, or give it as a number" in result.stderr
+    assert "E_star is at an end of its range (9.9e+06 of 1e+06 to 9.9e+06); widen the range, or give" in result.stderr
     with opened(folder / "outputs/fit.nc") as dataset:
         assert dataset["on_bound"].values[0] == 1
     assert "at an end of its range" in gradhesion("info", "outputs/fit.nc").stdout
@@ -217,7 +226,7 @@ FILES: dict[str, tuple[str, str]] = {
     "0 bytes": ("", "the file has 0 bytes"),
     "comments": ("# nothing\n", "the file has comments only"),
     "no numbers": ("depth,force\n1.0,x\n", "line 2: force is not a number; write one"),
-    "loading only": ("depth,force\n" + "".join(f"{i},{i}\n" for i in range(50)), "the loop has no unloading"),
+    "a line": ("depth,force\n" + "".join(f"{i},{i}\n" for i in range(50)), "there is no contact in the data"),
     "few": ("depth,force\n0,1\n1,2\n0,1\n", "3 points cannot give 6 numbers (E_star, work_of_adhesion, wavelength, A"),
     "all nan": ("depth,force\nnan,1\nnan,2\n", "no row has numbers in all of its columns"),
     "flat": ("depth,force\n" + "".join(f"{i % 20},1\n" for i in range(50)), "all values of the load are the same"),

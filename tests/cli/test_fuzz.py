@@ -127,7 +127,7 @@ def edited(draw: st.DrawFn) -> str:
 
 
 @given(text=edited())
-@settings(max_examples=4500)
+@settings(max_examples=1500)
 def test_slips_in_real_studies(text: str) -> None:
     read(text.encode("utf-8", "replace"), [])
 

@@ -1,13 +1,12 @@
 """Studies to start from: each is written, valid, and commented; and the shell completes what is typed."""
 
 import os
-import resource
 import shutil
-import signal
 import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from subprocess import CompletedProcess
 
 import pytest
 from click.testing import Result
@@ -73,18 +72,12 @@ def test_a_folder_that_is_not_there_is_made(gradhesion: Call, tmp_path: Path) ->
 
 @pytest.mark.parametrize("old", [None, "precious"])
 def test_a_full_disk_leaves_what_was_there_and_the_same_command_works_later(
-    old: str | None, gradhesion: Call, tmp_path: Path
+    old: str | None, gradhesion: Call, tmp_path: Path, on_a_full_disk: Callable[..., CompletedProcess[str]]
 ) -> None:
     path = tmp_path / "mine.toml"
     if old:
         path.write_text(old)
-
-    def full_disk() -> None:
-        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
-
-    command = [sys.executable, "-m", "gradhesion.cli", "init", "-o", path, "--overwrite"]
-    done = subprocess.run(command, preexec_fn=full_disk, capture_output=True, text=True, check=False)
+    done = on_a_full_disk(100, "init", "-o", path, "--overwrite")
     assert done.returncode == 4
     assert done.stderr.startswith(f"{path}: cannot be written (File too large)")
     assert os.listdir(tmp_path) == (["mine.toml"] if old else [])

@@ -118,7 +118,7 @@ def test_processes_side_by_side_keep_each_kernel_once(tmp_path: Path) -> None:
         "from gradhesion.cli.work.warming import warm\n"
         "if __name__ == '__main__':\n"
         "    found = {}\n"
-        "    warm(['force', 'asymptotic'], 2, lambda kind, names: found.update({kind: names}), kept=True)\n"
+        "    warm(['envelope', 'edge'], 2, lambda kind, names: found.update({kind: names}), kept=True)\n"
         "    print(list(found), sum(map(len, found.values())))\n"
     )
     script = tmp_path / "warm.py"
@@ -127,5 +127,5 @@ def test_processes_side_by_side_keep_each_kernel_once(tmp_path: Path) -> None:
     done = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True, env=environment)
     kinds, _, count = done.stdout.strip().rpartition(" ")
     assert kinds.startswith("['tables', ")
-    assert sorted(eval(kinds)) == ["asymptotic", "force", "tables"]  # noqa: S307 (of our own)
+    assert sorted(eval(kinds)) == ["edge", "envelope", "tables"]  # noqa: S307 (of our own)
     assert int(count) == len(list(tmp_path.rglob("*.nbc"))) > 3

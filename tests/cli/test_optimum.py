@@ -64,9 +64,8 @@ def _extremes(goal: str, count: int) -> dict[str, Any]:
     ("goal", "count"),
     [
         ("pull_off_force", 12),
-        ("dissipated_energy", 12),
-        pytest.param("pull_off_force", 200, marks=pytest.mark.slow),
-        pytest.param("dissipated_energy", 60, marks=pytest.mark.slow),
+        pytest.param("pull_off_force", 120, marks=pytest.mark.slow),
+        ("dissipated_energy", 24),
     ],
 )
 def test_one_input_against_brute_force(goal: str, word: str, count: int) -> None:
@@ -96,16 +95,16 @@ def test_one_input_against_brute_force(goal: str, word: str, count: int) -> None
     np.testing.assert_array_equal(found[f"best_{goal}"], there)
 
 
-@pytest.mark.parametrize("count", [3, pytest.param(8, marks=pytest.mark.slow)])
-@pytest.mark.parametrize(("goal", "word"), [("pull_off_force", "maximise"), ("dissipated_energy", "maximise")])
-def test_two_inputs_against_brute_force(goal: str, word: str, count: int) -> None:
+@pytest.mark.parametrize("goal", ["pull_off_force", "dissipated_energy"])
+def test_two_inputs_against_brute_force(goal: str) -> None:
     """On a grid ten times finer along each."""
+    count = 4
     parameters = {name: own for name, own in _random(count, 4).items() if name != "A"}
     over = {"lambda_over_R": {"start": 0.05, "stop": 1.0, "spacing": "log"}, "A": {"start": 0.002, "stop": 0.1}}
     asked = {
         "kind": "optimum",
         "layout": "points",
-        "optimum": {word: goal, "over": [*over], "resolution": 40},
+        "optimum": {"maximise": goal, "over": [*over], "resolution": 40},
         "parameters": _scenes(parameters) | over,
     }
     found = gr.run(asked)

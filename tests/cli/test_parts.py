@@ -2,7 +2,7 @@
 
 import json
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -64,9 +64,7 @@ def output(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def begun(
-    gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[Callable[..., int]]:
+def begun(gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., int]:
     """Interrupt a run after some blocks; tells the parts that are kept."""
 
     def begin(number: int, *options: str) -> int:
@@ -75,8 +73,7 @@ def begun(
             assert gradhesion("run", study_file, "-o", output, *options).exit_code == 1, "click's, without main()"
         return len(list(output.parent.glob("out.nc.parts/*.part")))
 
-    yield begin
-    monkeypatch.setattr("gradhesion.cli.terminal.interrupts._kept", [])
+    return begin
 
 
 @pytest.fixture

@@ -185,7 +185,7 @@ MISTAKES = {
     "stiffness text": ("loading.machine_stiffness='1'", "this must be a number, a list of numbers or a range table, with machine_stiffness > 0"),
     "stiffness elsewhere": ("parameters.machine_stiffness=1", "this key belongs under [loading]; move it there"),
     "solver": ("method.solver='asymptotic'", 'the solver "asymptotic" is available only under displacement control: the leading terms of depth and load belong to one energy only up to the order of lambda/a'),
-    "envelopes of a machine": ("method.solver=['exact', 'envelope']", 'the solver "envelope" is available only under displacement control: contact under a load or through a spring'),
+    "envelopes of a machine": ("method.solver=['exact', 'envelope']", 'the solver "envelope" is available only under displacement control: the path along the envelopes jumps'),
     "jump-in radius": ("parameters.a_max_over_a2=2.0", "a_2 is that of a paraboloid with one cosine wave"),
 }  # fmt: skip
 
@@ -232,14 +232,15 @@ def test_curves_of_any_shape_and_control_are_drawn(shaped: dict[str, Any], contr
             assert np.array_equal(dataset[name][i].values[: found[name].size], found[name]), name
 
 
-def test_curves_of_one_cosine_are_refused(shaped: dict[str, Any]) -> None:
+def test_curves_of_short_waves_are_refused_under_a_machine(shaped: dict[str, Any]) -> None:
     from gradhesion.cli.errors import StudyError
 
     outputs = ["path", "envelope", "asymptotic_load"]  # under a machine, which the asymptotic curve does not know
     with pytest.raises(StudyError) as caught:
         study_from(shaped | {"kind": "curve", "outputs": outputs})
-    known = "this curve is available only for a paraboloid with one cosine wave under displacement control; remove it, "
+    known = "this curve is available only under displacement control: "
     assert [known in sentence for sentence in caught.value.mistakes] == [True, True]
+    assert ["constant depth" in sentence for sentence in caught.value.mistakes] == [True, False]
     assert ["outputs[1]" in caught.value.mistakes[0], "outputs[2]" in caught.value.mistakes[1]] == [True, True]
 
 

@@ -52,7 +52,7 @@ def test_quiet(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPat
 
 
 def test_json_lines(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gradhesion.cli.terminal.messages._json", [True])
+    monkeypatch.setattr("gradhesion.cli.terminal.messages.in_json", lambda: True)
     seconds = iter([0.0, 0.5, 2.0, 3.0])
     monkeypatch.setattr("time.monotonic", lambda: next(seconds))
     with progress(4000, quiet=False) as advance:

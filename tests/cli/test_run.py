@@ -2,12 +2,10 @@
 
 import os
 import re
-import resource
 import stat
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
+from subprocess import CompletedProcess
 from types import SimpleNamespace
 from typing import Any
 
@@ -267,18 +265,15 @@ def test_a_study_larger_than_the_disk_is_refused(
 
 
 @pytest.mark.parametrize("limit", [3_000, 20_000, 60_000])
-def test_a_failed_write_loses_nothing(limit: int, study_file: Path, tmp_path: Path) -> None:
+def test_a_failed_write_loses_nothing(
+    limit: int, study_file: Path, tmp_path: Path, on_a_full_disk: Callable[..., CompletedProcess[str]]
+) -> None:
     folder = tmp_path / "data"
     folder.mkdir()
     old = folder / "out.nc"
     old.write_text("precious")
-
-    def full_disk() -> None:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
-
     larger = ["--set", "parameters.A={start=0, stop=0.4, num=3000}", "--set", "parameters.modulus=1e7"]
-    command = [sys.executable, "-m", "gradhesion.cli", "run", study_file, "-o", old, "--overwrite", *larger]
-    done = subprocess.run(command, preexec_fn=full_disk, capture_output=True, text=True, check=False)
+    done = on_a_full_disk(limit, "run", study_file, "-o", old, "--overwrite", *larger)
     assert done.returncode == 4, done.stderr
     assert f"{old}: cannot be written" in done.stderr
     assert "Traceback" not in done.stderr

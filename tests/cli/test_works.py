@@ -140,13 +140,9 @@ def test_an_optimum_may_be_sought_over_the_ratio() -> None:
     ],
 )
 def test_what_is_wrong_is_said_before_anything_is_computed(
-    gradhesion: Call, write_study: Write, text: str, sentence: str
+    text: str, sentence: str, refused_at_once: Callable[[str, str], None]
 ) -> None:
-    path = write_study(text)
-    result = gradhesion("run", path, "-o", path.with_suffix(".nc"))
-    assert result.exit_code == 2
-    assert sentence in result.output
-    assert not path.with_suffix(".nc").exists()
+    refused_at_once(text, sentence)
 
 
 def test_a_forced_pull_alone_needs_no_turn() -> None:

@@ -243,7 +243,7 @@ CYCLES: dict[str, tuple[str, str]] = {
 }
 BRANCHES: dict[str, tuple[str, str]] = {
     "misspelt": ("unloadng", 'line 2: branch is not one of its words; did you mean "unloading"?'),
-    "third": ("2", 'line 2: branch = "2" is not one of its words; choose from "loading"'),
+    "third": ("3", 'line 2: branch = "3" is not one of its words; choose from "loading"'),
     "half": ("0.5", 'line 2: branch = "0.5" is not one of its words'),
 }
 

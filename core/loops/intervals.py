@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.answers.loop_misfit import Misfit
+from gradhesion.core.loops.misfit import Misfit
 
 _Array = NDArray[np.float64]
 
@@ -60,7 +60,7 @@ def profile_interval(
             moved = start + (sign * way - (start[number] - best[number])) * along / along[number]
             moved = np.clip(moved, misfit.low, misfit.high)
             moved[number] = best[number] + sign * way
-            found = misfit.refined(moved, held=number, most=20).x
+            found = misfit.refined(moved, held=[number], most=20).x
             grown = float(np.sum(misfit.residual(found) ** 2)) - least
             reached = float(np.sqrt(max(0.0, grown) / unit))
             if abs(reached - factor) < _NEAR * factor or (at_limit and reached < factor):

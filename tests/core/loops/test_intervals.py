@@ -1,12 +1,13 @@
 """Profile intervals: of a linear problem its own, and where the misfit has grown to what it is to grow to."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from gradhesion.core.answers.loop_intervals import profile_interval
+from gradhesion.core.loops.intervals import profile_interval
 
 
 class Line:
@@ -22,8 +23,8 @@ class Line:
     def residual(self, vector: Any) -> Any:
         return (self.y - vector[0] - vector[1] ** self.power * self.x) / 0.2
 
-    def refined(self, start: Any, *, held: int | None = None, most: int = 60) -> Any:
-        free = [i for i in range(2) if i != held]
+    def refined(self, start: Any, *, held: Sequence[int] = (), most: int = 60) -> Any:
+        free = [i for i in range(2) if i not in held]
 
         def whole(part: Any) -> Any:
             vector = start.copy()

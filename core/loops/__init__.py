@@ -1,0 +1,1 @@
+"""Parameters from measured loops of load and depth, from arrays to records."""

@@ -1,0 +1,68 @@
+"""What else would explain a loop: waves too fine to be seen, and unequal works of adhesion.
+
+Waves of a strength chi that are fine against the contact act as a smooth punch that opens at the work of adhesion
+(1 + chi)^2 dgamma and closes at (1 - chi)^2 dgamma: toughnesses add (docs/theory.md).
+"""
+
+import math
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
+from gradhesion.core.loops.model import Model
+from gradhesion.core.loops.path import LoopPath
+from gradhesion.core.loops.wave_search import WAVELENGTHS
+
+_SEEN: Final = 5.0
+"""Standard deviations of a jump that shows that there are waves."""
+_LEAST: Final = 0.01
+"""Strength of waves that is worth a word."""
+_PHASE: Final = 0.1
+"""Of a wave: where the waves within the contact are known as well, they are seen without jumps."""
+
+
+def alike(
+    model: Model, vector: NDArray[np.float64], path: LoopPath, noise: NDArray[np.float64], spread: NDArray[np.float64]
+) -> tuple[str, ...]:
+    """Return a sentence on what else would explain a loop; none where the jumps tell.
+
+    Parameters
+    ----------
+    model, vector, path
+        What was fitted, the numbers, and their path.
+    noise
+        Standard deviations of depth and load, in m and N.
+    spread
+        Standard deviations of the numbers, as they are searched.
+    """
+    scene = model.scenes(vector[None]).one
+    if not model.has_waves:
+        if scene.root >= 1.0 or ("closing_ratio" not in model.names and "work_of_adhesion_closing" not in model.names):
+            return ()
+        chi = (1.0 - scene.root) / (1.0 + scene.root)
+        if chi < _LEAST:
+            return ()
+        sentence = (
+            f"waves too fine to be seen, of chi = {chi:.3g}, would have the same effect as closing_ratio = "
+            f"{scene.root**2:.3g}; a loop cannot tell the two apart"
+        )
+        return (sentence,)
+    jumps = np.flatnonzero(path.jump)
+    jumps = jumps[(path.radius[jumps] > 0.0) & (path.radius[jumps - 1] > 0.0)]
+    sizes = np.hypot(*((path.places[jumps] - path.places[jumps - 1]) / noise).T)
+    if (sizes.size and sizes.max() > _SEEN) or not model.profile.harmonics:
+        return ()
+    length = next((i for i, name in enumerate(model.names) if name in WAVELENGTHS), None)
+    if length is not None and spread[length] * path.radius.max() < _PHASE * scene.wavelength * scene.R:
+        return ()
+    chi = float(waviness_strength(scene.k, scene.wavelength, scene.A) / adhesion_strength(scene.k, scene.stiffness))
+    if not 0.0 < chi < 1.0 or math.isnan(chi):
+        return ()
+    ratio, times = ((1.0 - chi) / (1.0 + chi)) ** 2, (1.0 + chi) ** 2
+    sentence = (
+        f"the waves are too fine to be seen in the noise: a smooth punch with closing_ratio = {ratio:.3g} and "
+        f"{times:.4g} times the work of adhesion would have the same effect; a loop cannot tell the two apart"
+    )
+    return (sentence,)

@@ -1,0 +1,184 @@
+"""What a measured loop shows whatever its zeros and spans are: its base line, and how far the load falls below it.
+
+Out of contact the load does not change with depth. Of each branch the points at the least depths are taken, as many as
+lie on a straight line within the noise; that line is the base line if it is flat against the slopes of contact.
+"""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+_Array = NDArray[np.float64]
+
+_SIGMAS: Final = 3.0
+"""Standard deviations of the noise by which points of a base line scatter at most, drift included."""
+_WHITE: Final = 1.05
+"""Standard deviations by which they scatter without drift, beside what chance adds."""
+_FLAT: Final = 0.05
+"""Of the mean slope of the loop: what is steeper is no base line."""
+_DOUBT: Final = 2.5
+"""Of that slope: where the slope of some points is known worse, they are too near together to be flat."""
+_AROUND: Final = 20
+"""Points on either side of the end of a base line, at least, among which contact may begin."""
+_TRIED: Final = 300
+"""Of these, how many are tried."""
+_ALLOWED: Final = 4.0
+"""Squares, in variances of the noise, that a contact point within its deviation may cost."""
+_LEAST: Final = 6
+"""Points of a base line at least."""
+_CLEAR: Final = 5.0
+"""Standard deviations from the base line at which contact is certain."""
+
+
+@dataclass(frozen=True)
+class BaseLine:
+    """The line of no load.
+
+    Attributes
+    ----------
+    level
+        Its load, in N.
+    spread
+        Standard deviation of its points about that, in N.
+    slope
+        Its tilt, in N/m.
+    ends
+        The depth in m at which it ends on loading and on unloading; NaN where a branch has none.
+    """
+
+    level: float
+    spread: float
+    slope: float
+    ends: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class ContactPoint:
+    """The depth at which contact begins on loading, found from the end of the base line.
+
+    Attributes
+    ----------
+    depth, deviation
+        In m: it, and its standard deviation.
+    method
+        How it was found, in words.
+    """
+
+    depth: float
+    deviation: float
+    method: str = "end of the base line of loading"
+
+
+def _flat_part(depth: _Array, load: _Array, noise: float, steep: float) -> int:
+    """Return how many points at the least depths lie on a flat line; all of shape (n,), in order of depth."""
+    count = depth.size
+    if count < _LEAST:
+        return 0
+    number = np.arange(1.0, count + 1.0)
+    x, y = depth - depth[0], load - load[0]
+    sums = [np.cumsum(part) for part in (x, y, x * x, x * y, y * y)]
+    mx, my = sums[0] / number, sums[1] / number
+    xx, xy, yy = sums[2] / number - mx * mx, sums[3] / number - mx * my, sums[4] / number - my * my
+    with np.errstate(all="ignore"):
+        slope = np.where(xx > 0.0, xy / xx, 0.0)
+        scatter = np.sqrt(np.maximum(yy - slope * xy, 0.0) * number / np.maximum(number - 2.0, 1.0))
+        doubt = scatter / np.sqrt(number * np.maximum(xx, np.finfo(float).tiny))
+    is_flat = (np.abs(slope) <= steep + _SIGMAS * doubt) & (doubt <= _DOUBT * steep)
+    is_flat[: _LEAST - 1] = False
+    white = noise * (_WHITE + _SIGMAS / np.sqrt(2.0 * number))
+    for most in (white, _SIGMAS * noise):  # first as if noise were all; where there is none, with drift
+        found = np.flatnonzero(is_flat & (scatter <= most))
+        if found.size:
+            break
+    else:
+        return 0
+    last = int(found[-1])
+    # the last of them may be in contact already: two that leave the line one after the other are not of it
+    away = np.abs(y[: last + 1] - (my[last] + slope[last] * (x[: last + 1] - mx[last])))
+    out = away > _SIGMAS * max(noise, float(scatter[last]))
+    begun = np.flatnonzero(out[1:] & out[:-1])
+    return int(begun[0]) if begun.size and begun[0] >= _LEAST else last + 1
+
+
+def base_line(points: _Array, back: NDArray[np.bool_], noise: float) -> BaseLine | None:
+    """Find the line of no load of a loop.
+
+    Parameters
+    ----------
+    points
+        Rows of depth in m and load in N, shape (n, 2).
+    back
+        Whether each belongs to unloading, shape (n,).
+    noise
+        Standard deviation of the load of a point, in N.
+
+    Returns
+    -------
+    The line, None where no branch has one.
+
+    Examples
+    --------
+    >>> depth = np.concatenate([np.linspace(-1.0, 0.0, 100), np.linspace(0.01, 1.0, 100)])
+    >>> load = 0.3 + np.maximum(depth, 0.0) ** 1.5 - np.where(depth > 0.0, 0.1, 0.0)
+    >>> line = base_line(np.column_stack([depth, load]), np.zeros(200, bool), 1e-3)
+    >>> round(line.level, 2), abs(line.ends[0]) < 0.03
+    (0.3, True)
+    """
+    span = np.ptp(points, axis=0)
+    steep = _FLAT * float(span[1] / span[0]) if span[0] > 0.0 else 0.0
+    parts, ends = [], []
+    for way in (False, True):
+        own = points[back == way]
+        own = own[np.argsort(own[:, 0], kind="stable")]
+        count = _flat_part(own[:, 0], own[:, 1], noise, steep)
+        parts.append(own[:count])
+        ends.append(float(own[count - 1, 0]) if count else float("nan"))
+    flat = np.concatenate(parts)
+    if flat.shape[0] < _LEAST:
+        return None
+    mean = flat.mean(axis=0)
+    if np.isnan(ends[0]) and mean[1] - float(points[:, 1].min()) < _CLEAR * noise:
+        return None  # flat at the pull-off, which no load lies below
+    away = flat - mean
+    across = float(away[:, 0] @ away[:, 0])
+    slope = float(away[:, 0] @ away[:, 1]) / across if across > 0.0 else 0.0
+    return BaseLine(float(mean[1]), float(away[:, 1].std()), slope, (ends[0], ends[1]))
+
+
+def contact_point(points: _Array, back: NDArray[np.bool_], noise: tuple[float, float]) -> ContactPoint | None:
+    """Find the depth at which contact begins on loading; None without a base line there.
+
+    Parameters
+    ----------
+    points, back
+        As of `base_line`.
+    noise
+        Standard deviations of depth and load of a point, in m and N.
+    """
+    line = base_line(points, back, noise[1])
+    if line is None or not np.isfinite(line.ends[0]):
+        return None
+    own = points[~back]
+    own = own[np.argsort(own[:, 0], kind="stable")]
+    depth, load = own.T
+    end = int(np.searchsorted(depth, line.ends[0], "right"))
+    around = max(_AROUND, end // 2)
+    last = min(depth.size, end + 2 * around)
+    latest = max(_LEAST, min(last - _AROUND // 2, end + around))
+    earliest = max(_LEAST, end - around)
+    tried = np.arange(earliest, latest + 1, max(1, (latest - earliest) // _TRIED))
+    sizes = np.array([_two_parts(depth[:last], load[:last], at, line.level) for at in tried]) / noise[1] ** 2
+    allowed = tried[sizes <= sizes.min() + _ALLOWED]
+    low, high = float(depth[allowed[0] - 1]), float(depth[min(allowed[-1], depth.size - 1)])
+    return ContactPoint(0.5 * (low + high), float(np.hypot(noise[0], (high - low) / np.sqrt(12.0))))
+
+
+def _two_parts(depth: _Array, load: _Array, at: int, level: float) -> float:
+    """Return the squares that a level up to a place, and a cubic from there on, leave of a load; arrays (n,)."""
+    before = load[:at] - level
+    scaled = (depth[at:] - depth[at]) / max(float(depth[-1] - depth[at]), np.finfo(float).tiny)
+    powers = np.vander(scaled, 4)
+    after = load[at:] - powers @ np.linalg.lstsq(powers, load[at:], rcond=None)[0]
+    return float(before @ before + after @ after)

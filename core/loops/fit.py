@@ -1,0 +1,219 @@
+"""Parameters from a measured loop of load and depth: least squares on the distance to the path.
+
+The path of a cycle is a connected curve in the plane of depth and load, its jumps straight lines in it, so that the
+distance of a measured point to it is continuous in all parameters; the difference of loads at one depth is not. Both
+axes are scaled by their noise. Loading begins, and unloading ends, on the line of no load. The path turns where the
+data do.
+
+There are many local minima: contact points anywhere in the data, and each wavelength with another number of waves in
+the contact. Starts are found by what no zero of the instrument and no span hides (search.py), several are refined with
+exact derivatives, and other minima that the noise allows are named. Standard deviations are those of the linear problem
+at the minimum. Parameters that the loop cannot tell apart (E*, c0 and nu act through one number M, docs/theory.md) make
+its Jacobian singular and are refused.
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from threadpoolctl import threadpool_limits
+
+from gradhesion.core.loops.described import described
+from gradhesion.core.loops.features import base_line, contact_point
+from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop
+from gradhesion.core.loops.minima import refined
+from gradhesion.core.loops.misfit import Data, Misfit
+from gradhesion.core.loops.model import LINEAR
+from gradhesion.core.loops.offsets import Offsets
+from gradhesion.core.loops.path import LoopModel
+from gradhesion.core.loops.ranges import searched, zeros_of
+from gradhesion.core.loops.smooth_search import held_start, smooth_starts
+from gradhesion.core.loops.speed import SpeedModel, at_rest, fast_starts
+from gradhesion.core.loops.wave_search import wavy_starts, without_waves
+from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.rate import Rate
+from gradhesion.core.problem.toughness import Toughness
+
+_Array = NDArray[np.float64]
+
+ONE_NUMBER: Final = ("E_star", "E", "modulus", "c0", "c0_over_R", "nu")
+"""What acts on a loop through M = theta(k, nu) E*/c0^k alone."""
+INTERVALS: Final = ("linear", "profile")
+"""Where intervals come from."""
+_BLUR: Final = 6.0
+"""Standard deviations of the depth by which the path goes on beyond the deepest point at most."""
+
+
+def fit_loop(
+    indentation: ArrayLike,
+    load: ArrayLike,
+    unloading: ArrayLike,
+    fixed: Mapping[str, float],
+    free: Mapping[str, tuple[float, float]],
+    *,
+    noise: tuple[float, float],
+    noise_is_given: bool = True,
+    counts: ArrayLike | None = None,
+    offsets: Offsets | None = None,
+    profile: Profile | None = None,
+    loading: Loading | None = None,
+    toughness: Toughness | None = None,
+    rate: Rate | None = None,
+    intervals: str = "linear",
+    starts: int = 16,
+    seed: int = 0,
+) -> FittedLoop:
+    """Fit parameters to the points of a loop.
+
+    Parameters
+    ----------
+    indentation, load
+        Depth in m and load in N (positive presses) of the points, in any order; of one or several equal cycles, of both
+        branches or of one.
+    unloading
+        Whether each point belongs to unloading.
+    fixed
+        Numbers by name, in SI units: R, E_star (or E), work_of_adhesion, c0, wavelength, A (or amplitude), k, nu,
+        closing_ratio and, where the rim is met, a_max. What has no effect may be left out, as in a study.
+    free
+        The ends of the range of each name that is fitted: positive, but for k, nu and ratios.
+        The cycle turns where the data do, unless indentation_max (m) or preload (N) is given too.
+    noise
+        Standard deviations of depth (m) and load (N) of a point, both > 0.
+    noise_is_given
+        Whether these are known, not estimated from the points: intervals are not widened then.
+    counts
+        Of how many points each is the mean, 1 if not given: its noise is that of one over the root of it.
+    offsets
+        Which zeros are fitted too, and within what; those of depth and load if not given.
+    profile
+        The shape of the punch, a paraboloid with one cosine wave if not given.
+    loading
+        What is prescribed. With control "machine" the depths are those of the far end of a machine, depth +
+        load/spring_constant; then spring_constant in N/m is fixed or free.
+    toughness
+        A pattern of the toughness; toughness_wavelength and toughness_amplitude are fixed or free.
+    rate
+        How the work of adhesion grows with the speed of the edge; speed or reference_speed, or both as
+        speed_over_reference, are fixed or free, and its exponent may be free under that name. Every derivative is a
+        difference of paths then: fits take minutes.
+    intervals
+        "linear", those of the linear problem at the minimum, or "profile", by profile likelihoods (intervals.py).
+    starts
+        How many starts are refined.
+    seed
+        Of the Sobol set of what starts differ in.
+
+    Returns
+    -------
+    The fit. It is not to be trusted where `converged` is false, `on_bound` has names, or `status` has `POOR_FIT` or
+    `ANOTHER_MINIMUM`.
+
+    Raises
+    ------
+    CannotTellApartError
+        Some of the free parameters have one effect.
+    ValueError
+        For other intervals, too few points, ranges or noise out of range, no base line where the contact point is to
+        come from it, or where no start has a path.
+
+    Examples
+    --------
+    A smooth ball gives its modulus and work of adhesion back (Johnson, Kendall & Roberts 1971):
+
+    >>> from gradhesion.core import draw_curves
+    >>> R, E_star, work = 5e-6, 1e7, 0.03
+    >>> scene = dict(k=0.0, nu=0.3, modulus=E_star * R / work, c0_over_R=1.0, lambda_over_R=1.0, A=0.0)
+    >>> path = draw_curves(scene | {"a_max_over_R": np.inf, "indentation_max_over_R": 0.03}, ["path"])[0]
+    >>> depth, force = R * path["path_indentation"], 1.5 * np.pi * R * work * path["path_load"]
+    >>> fixed, free = dict(k=0.0, nu=0.3, A=0.0, R=R), dict(E_star=(1e6, 1e8), work_of_adhesion=(5e-3, 0.2))
+    >>> found = fit_loop(depth, force, path["path_unloading"] == 1, fixed, free, noise=(1e-10, 1e-9))
+    >>> round(found.values["E_star"] / E_star, 3), round(found.values["work_of_adhesion"] / work, 3)
+    (1.0, 1.0)
+    """
+    if intervals not in INTERVALS:
+        raise ValueError(f"intervals = {intervals!r}: they are {' or '.join(INTERVALS)}")
+    points = np.column_stack([np.asarray(indentation, dtype=float).ravel(), np.asarray(load, dtype=float).ravel()])
+    back, zeros = np.asarray(unloading, dtype=bool).ravel(), offsets or Offsets()
+    _check(points, back, free, noise, unknown=len(free) + len(zeros.names))
+    line = base_line(points, back, noise[1])
+    contact = None
+    shifted = points
+    if zeros.indentation == "contact":
+        contact = contact_point(points, back, noise)
+        if contact is None:
+            raise ValueError(
+                'offsets.indentation = "contact": loading has no base line from which contact could be told; measure '
+                'further out, or write "free"'
+            )
+        shifted = points - [contact.depth, 0.0]
+    ranges = searched(shifted, free, zeros, line)
+    low, high = np.array(
+        [ends if name in LINEAR else tuple(np.log(ends)) for name, ends in ranges.items()], dtype=float
+    ).T
+    span = np.ptp(points, axis=0)
+    driven = loading or Loading()
+    own: dict[str, Any] = {
+        "furthest": tuple(shifted.max(axis=0).tolist()), "blur": _BLUR * noise[0],
+        "first": float(shifted[:, 0].min() - span[0]),
+        "profile": profile or Profile(), "loading": driven, "toughness": toughness,
+    }  # fmt: skip
+    data = Data(shifted, back, noise, np.ones(back.size) if counts is None else np.asarray(counts, dtype=float).ravel())
+    misfit = Misfit(data, LoopModel(fixed, tuple(ranges), **own) if rate is None else
+                    SpeedModel(fixed, tuple(ranges), rate=rate, **own), low, high)  # fmt: skip
+    with threadpool_limits(1):  # matrices of a few columns: threads only wait for each other
+        begun = _starts(misfit, own, zeros_of(points, back, line, contact), starts, seed)
+        found = refined(misfit, begun)
+        if misfit.path(found[0].x) is None:
+            raise ValueError("no combination within the ranges has a path; widen them")
+        found_loop = described(misfit, found, intervals, ranges, widened=not noise_is_given)
+    if contact is None:
+        return found_loop
+    moved = np.array([contact.depth, 0.0])
+    ways = {"loading": found_loop.loading + moved, "unloading": found_loop.unloading + moved}
+    return replace(found_loop, contact=contact, **ways)
+
+
+def _starts(misfit: Misfit, own: Mapping[str, Any], zeros: tuple[float, float], count: int, seed: int) -> list[_Array]:
+    """Return starts: near the smooth curve, then of waves, then of speeds, each from what the one before has found."""
+
+    def part(bare: Mapping[str, float], names: tuple[str, ...]) -> Misfit:
+        use = [misfit.names.index(name) for name in names]
+        return Misfit(misfit.data, LoopModel(bare, names, **own), misfit.low[use], misfit.high[use])
+
+    rest = misfit
+    if isinstance(misfit.model, SpeedModel):
+        rest = part(*at_rest(misfit.model))
+    if rest.model.has_waves:
+        smooth = part(*without_waves(rest.model))
+        first = smooth_starts(smooth, *zeros, seed)[0]
+        begun = wavy_starts(rest, smooth, [first, held_start(smooth, first, *zeros)], count)
+    else:
+        begun = smooth_starts(rest, *zeros, seed)[:count]
+    return begun if rest is misfit else fast_starts(misfit, rest, refined(rest, begun)[0].x)
+
+
+def _check(
+    points: _Array,
+    back: NDArray[np.bool_],
+    free: Mapping[str, tuple[float, float]],
+    noise: tuple[float, float],
+    *,
+    unknown: int,
+) -> None:
+    """Refuse what cannot be fitted: points (n, 2) of depth and load, and whether each unloads, (n,)."""
+    if points.shape[0] != back.size or not np.isfinite(points).all():
+        raise ValueError("depths, loads and unloading are lists of one length, of finite numbers")
+    if points.shape[0] <= unknown:
+        raise ValueError(f"{points.shape[0]} points cannot give {unknown} numbers; measure more or fix some")
+    if not (noise[0] > 0.0 and noise[1] > 0.0):
+        raise ValueError(f"noise = {noise}: both standard deviations are above 0")
+    for name, (low, high) in free.items():
+        if not low < high or (name not in LINEAR and not low > 0.0):
+            raise ValueError(f"{name}: the ends {low:g} and {high:g} of a range rise, and are above 0 but for k and nu")
+    through_stiffness = [name for name in free if name in ONE_NUMBER]
+    if len(through_stiffness) > 1:
+        raise CannotTellApartError(through_stiffness)

@@ -1,0 +1,110 @@
+"""What a fit of a loop has found."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.core.loops.features import ContactPoint
+
+_Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class OtherMinimum:
+    """Another minimum that the noise allows: its values by name, and its sum of squares."""
+
+    values: dict[str, float]
+    chi_square: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FittedLoop:
+    """The result of a fit to a loop.
+
+    Attributes
+    ----------
+    names
+        The free parameters in their order, then those of `OFFSETS` that are fitted.
+    values, standard_deviations, low, high
+        By name; low and high bound the 95 % interval, of the linear problem (of its logarithm where that is searched)
+        or by profile likelihood; never beyond the range that was searched.
+    ranges
+        What was searched, by name.
+    correlation
+        Of all of them, a square in the order of the names.
+    on_bound
+        The names that ended within 1 % of their range of an end of it.
+    chi_square, degrees_of_freedom
+        The sum of squares of the residual, and the number of points less that of what is fitted.
+    residual
+        The signed distance of every point to the path, in standard deviations of the noise.
+    loading, unloading
+        The vertices of the path, offsets included: rows of depth in m and load in N.
+    converged
+        Whether the last refinement did.
+    status
+        What `solve` reports of the fitted cycle, with `POOR_FIT` and `ANOTHER_MINIMUM`.
+    others
+        Other minima that the noise allows, the best first.
+    alike
+        Sentences: what else would explain the data as well.
+    contact
+        The contact point at which the zero of depth was fixed, where that was asked for.
+    turning_radius
+        The radius a/R at which the fitted cycle turns.
+    widening
+        The factor by which deviations and intervals are widened where the noise was estimated: the root of the reduced
+        chi square, if that is above 1.
+    """
+
+    names: tuple[str, ...]
+    values: dict[str, float]
+    standard_deviations: dict[str, float]
+    low: dict[str, float]
+    high: dict[str, float]
+    ranges: dict[str, tuple[float, float]]
+    correlation: _Array
+    on_bound: tuple[str, ...]
+    chi_square: float
+    degrees_of_freedom: int
+    residual: _Array
+    loading: _Array
+    unloading: _Array
+    converged: bool
+    status: int
+    others: tuple[OtherMinimum, ...] = ()
+    alike: tuple[str, ...] = ()
+    contact: ContactPoint | None = None
+    turning_radius: float = math.nan
+    widening: float = 1.0
+
+    @property
+    def reduced_chi_square(self) -> float:
+        """The sum of squares a degree of freedom: near 1 where model and noise are right."""
+        return self.chi_square / self.degrees_of_freedom
+
+
+class CannotTellApartError(ValueError):
+    """The free parameters have one effect; `names` has those of them that a loop cannot tell apart."""
+
+    def __init__(self, names: Sequence[str]) -> None:
+        self.names = tuple(names)
+        listed = " and ".join(names) if len(names) < 3 else f"{', '.join(names[:-1])} and {names[-1]}"
+        super().__init__(
+            f"a loop cannot tell {listed} apart: together they have one effect on it (modulus, c0 and nu act through "
+            "one number); fix all but one of them"
+        )
+
+
+def poor_from(degrees: int) -> float:
+    """Return the reduced chi square above which a fit is poor: max(1.5, 1 + 10 sqrt(2/degrees)).
+
+    Examples
+    --------
+    >>> poor_from(10_000), round(poor_from(50), 3)
+    (1.5, 3.0)
+    """
+    return max(1.5, 1.0 + 10.0 * math.sqrt(2.0 / degrees))

@@ -1,0 +1,104 @@
+"""The minima of the misfit of a loop: several starts refined, and what of them the noise allows."""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import chi2
+
+from gradhesion.core.loops.misfit import Misfit
+from gradhesion.core.loops.search import coarse, distinct, is_noise
+from gradhesion.core.loops.wave_search import WAVELENGTHS
+
+_Array = NDArray[np.float64]
+
+_FEW: Final = 300
+"""Points that starts are refined by, at most."""
+_WHOLE: Final = 4
+"""Starts that are refined by all points, of those that are best by few."""
+_ALLOWED: Final = 0.95
+"""Of the distribution of the rise of chi square: other minima below it are allowed by the noise."""
+_WAVES: Final = (-1.0, -0.5, 0.5, 1.0)
+"""Waves that the contact of other minima has more."""
+_HOPS: Final = 5
+"""Times that these are tried at most."""
+_BETTER: Final = 1e-6
+"""Of the sum of squares: what is lower by less is the same minimum."""
+_APART: Final = 9.0, 4.0
+"""Squared distance in standard deviations of another minimum: more than the first, and than the second times the rise
+of chi square, which both are where two places are of one valley."""
+
+
+def refined(misfit: Misfit, begun: list[_Array]) -> list[Any]:
+    """Refine starts, by some of the points and then the best of them by all; the best minimum first.
+
+    Where a wavelength is searched, minima with some waves more or less in the contact than the best has are tried too,
+    until none is better.
+    """
+    few = coarse(misfit, _FEW)
+    found = [_robust(misfit, start, few) for start in begun]
+    found.sort(key=lambda done: done.cost)
+    best = distinct([done.x for done in found], misfit)[:_WHOLE]
+    whole = sorted((misfit.refined(vector, most=100) for vector in best), key=lambda done: done.cost)
+    for _ in range(_HOPS):
+        beside = sorted(
+            (_robust(misfit, start, few) for start in _beside(misfit, whole[0].x)), key=lambda done: done.cost
+        )
+        more = [misfit.refined(done.x, most=100) for done in beside[:2]]
+        is_better = bool(more) and min(done.cost for done in more) < whole[0].cost * (1.0 - _BETTER)
+        whole = sorted([*whole, *more], key=lambda done: done.cost)
+        if not is_better:
+            break
+    return whole
+
+
+def _robust(misfit: Misfit, start: _Array, few: slice) -> Any:
+    """Refine a start by some of the points, first with a loss that outliers hardly move, unless it leaves but noise."""
+    if not is_noise(misfit, start, few):
+        start = misfit.refined(start, few, loss="soft_l1", most=40, tolerance=1e-6).x
+    return misfit.refined(start, few, most=30, tolerance=1e-6)
+
+
+def _beside(misfit: Misfit, vector: _Array) -> list[_Array]:
+    """Return a vector with some waves more or less in the contact; none where the wavelength is not searched."""
+    i = next((i for i, name in enumerate(misfit.names) if name in WAVELENGTHS), None)
+    path = misfit.path(vector)
+    if i is None or path is None or not misfit.model.has_waves:
+        return []
+    waves = float(path.radius.max()) / (path.scene.wavelength * path.scene.R)
+    moved = []
+    for more in _WAVES:
+        if waves + more > 0.2:
+            other = vector.copy()
+            other[i] -= math.log((waves + more) / waves)
+            if misfit.low[i] < other[i] < misfit.high[i]:
+                moved.append(other)
+    return moved
+
+
+def others(found: list[Any], covariance: _Array, unit: float) -> list[Any]:
+    """Return the minima other than the first that the noise allows.
+
+    Parameters
+    ----------
+    found
+        Minima, the best first.
+    covariance
+        Of the best, in the numbers that are searched.
+    unit
+        The variance of a residual.
+    """
+    best = found[0]
+    allowed = float(chi2.ppf(_ALLOWED, best.x.size)) * unit
+    inverse = np.linalg.pinv(covariance)
+    kept: list[Any] = []
+    for done in found[1:]:
+        rise = 2.0 * (done.cost - best.cost)
+        far = all(
+            (away := done.x - other.x) @ inverse @ away > max(_APART[0], _APART[1] * rise / unit)
+            for other in (best, *kept)
+        )
+        if rise <= allowed and far:
+            kept.append(done)
+    return kept

@@ -1,0 +1,111 @@
+"""How the path of a loop moves with what is fitted.
+
+A distance to a curve changes with a parameter as the curve moves across itself, whatever moves along it. So vertices
+are moved at fixed contact radius, where depth and load are closed forms (model.py), and no derivative of a fold is
+needed: it is a stationary point. Corners are moved along their branches as well: a landing stays at the coordinate of
+its jump, and the turn, with the radius at which the edge is pinned, at that of the data. Closed forms are
+differentiated by central differences, good to 1e-9.
+"""
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.core.loops.model import Scenes
+from gradhesion.core.loops.offsets import NAMES as OFFSETS
+from gradhesion.core.loops.path import LoopModel, LoopPath
+
+_Array = NDArray[np.float64]
+
+_STEP: Final = 1e-5
+"""Of the differences: the error is that of its square, or 1e-16 over it."""
+
+
+def moving(model: LoopModel, vector: _Array, drawn: LoopPath) -> _Array:
+    """Return how the vertices of a path move with each number that is searched.
+
+    Returns
+    -------
+    Of shape (vertices, 2, numbers). Out of contact vertices move with the offsets alone.
+    """
+    count = len(model.names)
+    moved = np.zeros((drawn.radius.size, 2, count))
+    inner = [i for i, name in enumerate(model.names) if name not in OFFSETS]
+    within = np.flatnonzero(drawn.radius > 0.0)
+    if inner and within.size:
+        steps = np.where(np.isin(model.names, OFFSETS), 0.0, _STEP)
+        if "indentation_max" in model.names:
+            steps[model.names.index("indentation_max")] *= model.furthest[0]
+        both = np.diag(steps)[inner]
+        scenes = model.scenes(vector + np.concatenate([both, -both]))
+        edge = np.where(within <= drawn.turn, scenes.root, 1.0)
+        found = model.states(scenes, drawn.radius[within][None])
+        depth, load = found.at(edge)
+        places = np.array([depth + scenes.compliance * load, load])
+        if drawn.is_pressed:
+            at = int(np.searchsorted(within, drawn.turn))
+            x, y = drawn.places[drawn.turn] - model.shift(vector)[:2]
+            turn = float(x), float(y - model.shift(vector)[2] * drawn.places[drawn.turn, 0])
+            _press(model, places[:, :, at], found.slope[:, at], scenes, turn)
+        ahead, behind = np.split(places, 2, axis=1)
+        moved[within[:, None], :, inner] = np.moveaxis((ahead - behind) / (2.0 * steps[inner, None]), 0, 2).swapaxes(
+            0, 1
+        )
+    tilt = model.shift(vector)[2]
+    if within.size:
+        _slide(model, drawn, moved)
+    for axis, name in enumerate(OFFSETS[:2]):
+        if name in model.names:
+            moved[:, axis, model.names.index(name)] += 1.0
+    moved[:, 1] += tilt * moved[:, 0]
+    if OFFSETS[2] in model.names:
+        moved[:, 1, model.names.index(OFFSETS[2])] += drawn.places[:, 0]
+    return moved
+
+
+def _press(model: LoopModel, places: _Array, slope: _Array, scenes: Scenes, turn: tuple[float, float]) -> None:
+    """Press the contact of scenes, pinned at the rim, on to the coordinate of the turn; places of shape (2, n)."""
+    compliance = np.broadcast_to(scenes.compliance, (slope.size, 1))[:, 0]
+    x, y = turn
+    if model.loading.control == "load":
+        places[0] += (y - places[1]) / slope
+        places[1] = y
+    else:
+        places[1] += slope * (x - places[0]) / (1.0 + compliance * slope)
+        places[0] = x
+
+
+def _slide(model: LoopModel, drawn: LoopPath, moved: _Array) -> None:
+    """Move the turn, and the places where jumps land, along their branches to stay at their coordinates."""
+    scene, turn, axis = drawn.scene, drawn.turn, int(model.loading.control == "load")
+    landings = np.flatnonzero(drawn.jump & (drawn.radius > 0.0))
+    at = np.concatenate([[turn, turn + 1], landings])
+    steps = 1.0 + _STEP * np.repeat([1.0, -1.0], at.size)
+    states = model.states(scene, np.tile(drawn.radius[at], 2) * steps)
+    depth, load = states.at(np.tile(drawn.toughness[at], 2))
+    both = np.column_stack([depth + scene.compliance * load, load])
+    along = (both[: at.size] - both[at.size :]) / (2.0 * _STEP * drawn.radius[at, None])
+    if drawn.is_pressed:
+        flat = 0.5 * float(states.slope[0] + states.slope[at.size])
+        along[0] = [1.0 + scene.compliance * flat, flat]
+    if (drawn.radius[turn] < scene.rim or drawn.is_pressed) and not drawn.jump[turn]:
+        by = axis if drawn.is_pressed else int(drawn.by_load)
+        target = np.zeros(len(model.names))
+        if model.turns:
+            for name, of in (("indentation_max", 1.0), ("preload", scene.turn)):
+                if name in model.names:
+                    target[model.names.index(name)] = of
+        else:
+            for name, of in ((OFFSETS[by], -1.0), (OFFSETS[2], -by * model.furthest[0])):
+                if name in model.names:
+                    target[model.names.index(name)] = of
+        if along[0, by] > 0.0:
+            rate = (target - moved[turn, by]) / along[0, by]
+            ends = 1 if drawn.is_pressed else 2  # at the rim the edge stays
+            moved[turn : turn + ends] += along[:ends, :, None] * rate
+    for landing, slope in zip(landings, along[2:], strict=True):
+        if slope[axis] != 0.0 and landing != turn + 1:
+            moved[landing] += slope[:, None] * (moved[landing - 1, axis] - moved[landing, axis]) / slope[axis]
+    for apart in np.flatnonzero(drawn.jump & (drawn.radius == 0.0)):
+        moved[apart, 0] = moved[apart - 1, 0]

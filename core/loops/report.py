@@ -1,0 +1,28 @@
+"""What the solver reports of the cycle that a fit ends at."""
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.core.loops.model import Model
+from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN
+from gradhesion.core.problem.status import JUMP_IN_TO_RIM
+from gradhesion.core.sweep import solve
+from gradhesion.core.variables.reduced import parameters_from
+
+
+def status_of(model: Model, vector: NDArray[np.float64], radius: float) -> int:
+    """Return the status of the cycle of a vector that turns at a radius, over R."""
+    if radius == 0.0:
+        return 0
+    made = {name: float(value) for name, value in parameters_from(model.given(model.values(vector))).items()}
+    more = ("machine_stiffness", CLOSING, *(PATTERN if model.toughness is not None else ()))
+    scene = {name: made[name] for name in (*PARAMETERS, *more) if name in made}
+    scene["a_max_over_R"] = min(scene["a_max_over_R"], radius)
+    own: dict[str, Any] = {"profile": model.profile, "loading": model.loading, "toughness": model.toughness}
+    wanted = ["pull_off_force", "loading_jumps"] if model.loading.control == "load" else [
+        "dissipated_energy", "loading_jumps", "unloading_jumps"]  # fmt: skip
+    found = int(solve(scene, wanted, threads=1, **own)["status"])
+    return found & ~(JUMP_IN_TO_RIM if radius < made.get("a_max_over_R", math.inf) else 0)

@@ -1,0 +1,81 @@
+"""Why a fit is not to be trusted, in sentences; nothing is fitted here."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gradhesion.cli.dataset.model_range import tabor_told
+from gradhesion.cli.work.fitting import doubts_of
+from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum
+from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
+
+NAMES = ("E_star", "work_of_adhesion", "load_offset")
+VALUES = {"E_star": 2e6, "work_of_adhesion": 0.02, "load_offset": 1e-9}
+
+
+def fit(**changes: Any) -> FittedLoop:
+    """A sound fit, with some of it changed."""
+    sound = FittedLoop(
+        names=NAMES,
+        values=VALUES,
+        standard_deviations={name: 0.01 * value for name, value in VALUES.items()},
+        low={name: 0.98 * value for name, value in VALUES.items()},
+        high={name: 1.02 * value for name, value in VALUES.items()},
+        ranges={"E_star": (1e6, 1e8), "work_of_adhesion": (5e-3, 0.2), "load_offset": (-1e-8, 1e-8)},
+        correlation=np.eye(3),
+        on_bound=(),
+        chi_square=210.0,
+        degrees_of_freedom=200,
+        residual=np.zeros(203),
+        loading=np.zeros((2, 2)),
+        unloading=np.zeros((2, 2)),
+        converged=True,
+        status=0,
+    )
+    return replace(sound, **changes)
+
+
+def said(**changes: Any) -> str:
+    """The one sentence against a fit."""
+    (sentence,) = doubts_of(fit(**changes))
+    return sentence
+
+
+def test_a_sound_fit_has_none() -> None:
+    assert not list(doubts_of(fit()))
+
+
+def test_each_is_a_sentence_with_numbers() -> None:
+    assert said(converged=False).startswith("the fit did not converge; ")
+    poor = said(chi_square=900.0, status=POOR_FIT)
+    assert "reduced chi square 4.5, where 2 is the most" in poor
+    other = OtherMinimum(values=VALUES | {"E_star": 4e6}, chi_square=212.5)
+    both = said(others=(other,), status=ANOTHER_MINIMUM)
+    assert (
+        "chi square 212.5 at E_star = 4e+06, work_of_adhesion = 0.02, load_offset = 1e-09, beside 210 at E_star" in both
+    )
+
+
+def test_an_end_of_a_range_is_named_with_what_to_do() -> None:
+    end = "is at an end of its range"
+    assert said(on_bound=("E_star",)) == (
+        f"E_star {end} (2e+06 of 1e+06 to 1e+08); widen the range, or give it as a number"
+    )
+    assert said(on_bound=("load_offset",)).endswith(
+        "widen it with offsets under [fit], or look at the base line of the data"
+    )
+    low = said(on_bound=("work_of_adhesion",), values=VALUES | {"work_of_adhesion": 5e-3})
+    assert low.endswith("or the data show no adhesion")
+    one = said(on_bound=("closing_ratio",), values={"closing_ratio": 1.0}, ranges={"closing_ratio": (0.2, 1.0)})
+    assert one.endswith("the loop shows one work of adhesion for closing and opening: leave closing_ratio out")
+    high = said(on_bound=("work_of_adhesion",), values=VALUES | {"work_of_adhesion": 0.2})
+    assert "no adhesion" not in high
+
+
+@pytest.mark.parametrize(("number", "words"), [(6.0, ""), (4.0, "is below 5: "), (0.09, "is below 0.1: ")])
+def test_a_small_tabor_parameter_is_said(number: float, words: str) -> None:
+    told = list(tabor_told(number, "with a range of 0.3 nm"))
+    assert len(told) == bool(words)
+    assert all(words in one for one in told)

@@ -1,0 +1,304 @@
+"""Fits of several loops side by side, and of the same data by several models: as datasets, tables, pictures, refusals."""
+
+import csv
+import io
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+from click.testing import Result
+
+import gradhesion as gr
+from gradhesion.cli.dataset import fit_rows
+from gradhesion.cli.dataset.fit_rows import side_by_side
+from gradhesion.cli.picture.loops_picture import drawn_fits
+from gradhesion.core.problem.status import ANOTHER_MINIMUM, NO_VALUE, POOR_FIT
+
+Call = Callable[..., Result]
+R = 5e-6
+TRUE = {"0": (1.0e7, 0.030, 40), "1": (1.2e7, 0.035, 30), "2": (0.9e7, 0.040, 35)}
+"""Modulus in Pa, work of adhesion in J/m^2 and points of loading, by the name of the file."""
+STUDY = """
+title = "Spots on a film"
+kind = "fit"
+[data]
+file = "curves/*.csv"
+indentation = "depth"
+load = "force"
+branch = "way"
+[parameters]
+k = 0.0
+nu = 0.3
+A = 0.0
+[physical]
+R = "5 um"
+E_star = { start = "1 MPa", stop = "100 MPa" }
+work_of_adhesion = { start = "5 mJ/m^2", stop = "200 mJ/m^2" }
+[fit]
+intervals = "linear"
+noise = { indentation = "0.3 nm", load = "5 nN" }
+"""
+
+
+def write_loop(path: Path, E_star: float, work: float, seed: int, count: int) -> None:
+    """A smooth ball by the closed forms of Johnson, Kendall & Roberts (1971), with noise and zeros of its own."""
+
+    def at(a: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        pull = np.sqrt(8.0 * math.pi * work * E_star * a**3)
+        return a**2 / R - np.sqrt(2.0 * math.pi * a * work / E_star), 4.0 * E_star * a**3 / (3.0 * R) - pull
+
+    fine = np.linspace(1e-9, 1e-6, 20_001)
+    depth, _ = at(fine)
+    last = int(np.argmin(depth))
+    first = fine[last:][depth[last:] >= 0.0][0]
+    up, down = at(np.linspace(first, 1e-6, count)), at(np.linspace(1e-6, fine[last], count + 9))
+    out, home = np.linspace(-2e-7, -1e-9, count // 2), np.linspace(depth[last] - 1e-9, -2e-7, count // 2)
+    depths = np.concatenate([out, up[0], down[0], home])
+    loads = np.concatenate([0.0 * out, up[1], down[1], 0.0 * home])
+    way = np.arange(depths.size) >= out.size + count
+    rng = np.random.default_rng(seed)
+    columns = (
+        1e9 * depths + 20.0 + 0.3 * rng.standard_normal(depths.size),
+        1e9 * loads + 3.0 + 5.0 * rng.standard_normal(depths.size),
+        way.astype(int),
+    )
+    rows = "".join(f"{x:.4f},{y:.4f},{b}\n" for x, y, b in zip(*columns, strict=True))
+    path.write_text("depth [nm],force [nN],way\n" + rows)
+
+
+@pytest.fixture(scope="module")
+def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with loops, one of them a row long, and their fits."""
+    folder = tmp_path_factory.mktemp("spots")
+    (folder / "curves").mkdir()
+    for name, (E_star, work, count) in TRUE.items():
+        write_loop(folder / f"curves/{name}.csv", E_star, work, int(name), count)
+    (folder / "curves/9.csv").write_text("depth [nm],force [nN],way\n1,2,0\n2,2,0\n3,1,1\n")
+    (folder / "many.toml").write_text(STUDY)
+    found = gr.run(folder / "many.toml")
+    found.to_netcdf(folder / "many.nc")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def found(home: Path) -> xarray.Dataset:
+    """The fits of all loops."""
+    with xarray.open_dataset(home / "many.nc") as dataset:
+        return dataset.load()
+
+
+@pytest.fixture
+def folder(home: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """That folder, as the current one."""
+    monkeypatch.chdir(home)
+    return home
+
+
+def test_each_loop_gives_what_it_was_made_with(found: xarray.Dataset) -> None:
+    assert found["value"].dims == ("loop", "parameter")
+    assert found["file"].values.tolist() == [f"curves/{name}.csv" for name in (*TRUE, "9")]
+    assert {len(one) for one in found["sha256"].values} == {64}
+    for i, (E_star, work, _) in enumerate(TRUE.values()):
+        for j, true in enumerate((E_star, work, 20e-9, 3e-9)):
+            assert abs(float(found["value"][i, j]) - true) < 4.0 * float(found["standard_deviation"][i, j]), (i, j)
+        assert 0.5 < float(found["reduced_chi_square"][i]) < 1.5
+    assert (found["status"].values[:3] & (POOR_FIT | ANOTHER_MINIMUM) == 0).all()
+
+
+def test_shorter_loops_are_padded_and_one_that_fails_keeps_its_row(found: xarray.Dataset) -> None:
+    sizes = [2 * (count // 2) + 2 * count + 9 for _, _, count in TRUE.values()]
+    assert found["kept_points"].values[:3].tolist() == sizes
+    for i, size in enumerate(sizes):
+        assert np.isfinite(found["measured_load"].values[i, :size]).all()
+        assert np.isnan(found["residual"].values[i, size:]).all()
+        assert (found["measured_unloading"].values[i, size:] == -1).all()
+    assert np.isnan(found["value"].values[3]).all()
+    assert int(found["status"][3]) == NO_VALUE
+    assert "3 points cannot give 4 numbers" in str(found["problem"].values[3])
+    assert found["problem"].values[:3].tolist() == ["", "", ""]
+
+
+def test_the_accessor_knows_flags_of_fits(found: xarray.Dataset) -> None:
+    marked = found.assign(
+        status=found["status"].copy(data=np.array([0, POOR_FIT, ANOTHER_MINIMUM, NO_VALUE], np.int16))
+    )
+    assert marked.gr.valid("value").values.tolist() == [True, False, False, False]
+    assert marked.gr.flagged("poor_fit").values.tolist() == [False, True, False, False]
+    assert not found.gr.outside("tabor_parameter").any()
+
+
+def test_one_loop_beside_others_is_fitted_as_alone(found: xarray.Dataset, home: Path) -> None:
+    alone = gr.run(home / "many.toml", set={"data.file": "curves/1.csv"})
+    assert "loop" not in alone.dims
+    np.testing.assert_array_equal(alone["value"].values, found["value"].values[1])
+    np.testing.assert_array_equal(alone["residual"].values, found["residual"].values[1, : alone["residual"].size])
+
+
+def test_run_writes_them_and_says_which_failed(gradhesion: Call, folder: Path) -> None:
+    result = gradhesion("run", "many.toml", "-o", "again.nc", '--set=data.file="curves/[29].csv"')
+    assert result.exit_code == 3
+    assert "again.nc: 1 of 2 loops fitted" in result.stderr
+    assert "again.nc: curves/9.csv: 3 points cannot give 4 numbers" in result.stderr
+    assert (folder / "again.nc").exists()
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_table_has_a_row_for_each_loop(gradhesion: Call, found: xarray.Dataset) -> None:
+    told = gradhesion("info", "many.nc").stdout.splitlines()
+    (head,) = (line for line in told if line.startswith("file "))
+    assert "  E_star [Pa]  " in head
+    assert "  reduced chi square  " in head
+    rows = [line for line in told if line.startswith("curves/") and "+-" in line]
+    assert len(rows) == 3
+    assert f"{float(found['value'][1, 0]):.5g} +- " in rows[1]
+    assert any(line.startswith("curves/9.csv") and line.endswith("no_value") for line in told)
+    table = list(csv.DictReader(io.StringIO(gradhesion("info", "many.nc", "--format", "csv").stdout)))
+    assert len(table) == 4 * 4
+    assert [float(row["value"]) for row in table[:4]] == found["value"].values[0].tolist()
+    assert {row["status"] for row in table[12:]} == {str(NO_VALUE)}
+
+
+@pytest.mark.usefixtures("folder")
+def test_pictures_of_all_and_of_one(gradhesion: Call, found: xarray.Dataset) -> None:
+    for name, more in {
+        "all.svg": (),
+        "one.svg": ("--at", "loop=1"),
+        "named.svg": ("--at", "loop=curves/2.csv"),
+    }.items():
+        result = gradhesion("plot", "many.nc", "-o", name, *more)
+        assert result.exit_code == 0, result.stderr
+    panels = gr.plot(found)
+    assert [axes.get_xlabel() for axes in panels][:2] == [r"$E^{\ast}$ (MPa)", r"$\Delta\gamma$ (mJ/m$^2$)"]
+    top, _ = gr.plot(found, at={"loop": 1})
+    count = sum(line.get_xdata().size for line in top.lines if line.get_marker() == "." and len(line.get_xdata()))
+    assert count == int(found["kept_points"][1])
+    many = xarray.concat([found.isel(loop=[0, 1, 2])] * 10, "loop")
+    heights = sum(patch.get_height() for patch in drawn_fits(many).axes[0].patches)
+    assert heights == 30, "a histogram of all"
+    for wish, words in {
+        ("--at", "loop=7"): "there are 4 loops",
+        ("--at", "k=1"): "have the one axis loop",
+        ("--at", "loop=3"): "has no fit to draw: 3 points",
+        ("--variable", "value"): "fits are drawn as a whole, or one with --at loop=0",
+    }.items():
+        refused = gradhesion("plot", "many.nc", "-o", "x.png", *wish)
+        assert (refused.exit_code, words in refused.stderr) == (2, True), refused.stderr
+
+
+@pytest.mark.parametrize("command", ["explore", "verify"])
+@pytest.mark.usefixtures("folder")
+def test_what_is_of_scenes_refuses_them(gradhesion: Call, command: str) -> None:
+    result = gradhesion(command, "many.nc")
+    assert (result.exit_code, len(result.stderr.splitlines())) == (2, 1)
+
+
+def test_no_loop_with_a_fit_is_refused(gradhesion: Call, folder: Path) -> None:
+    result = gradhesion("run", "many.toml", "-o", "none.nc", '--set=data.file="curves/9*.csv"')
+    assert result.exit_code == 2
+    assert "3 points cannot give 4 numbers" in result.stderr
+    assert not (folder / "none.nc").exists()
+
+
+def test_too_much_side_by_side_is_refused_before_it_is_fitted(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(fit_rows, "MOST", 1000)
+    with pytest.raises(gr.StudyError) as caught:
+        gr.run(home / "many.toml")
+    assert "4 loops side by side, the longest of 129 points, take " in str(caught.value)
+    assert "write average = true under [fit]" in str(caught.value)
+
+
+def test_padding_keeps_types() -> None:
+    one = {"measured_unloading": (("p",), np.array([0, 1], np.int8)), "value": (("q",), np.array([1.0]))}
+    other: Any = {"measured_unloading": (("p",), np.array([1], np.int8))}
+    both = side_by_side([one, other])
+    dims, values = both["measured_unloading"]
+    assert dims == ("loop", "p")
+    assert values.dtype == np.int8
+    assert values.tolist() == [[0, 1], [1, -1]]
+    np.testing.assert_array_equal(both["value"][1], [[1.0], [np.nan]])
+
+
+@pytest.fixture(scope="module")
+def models(home: Path) -> dict[str, Path]:
+    """One loop by two models, and with what cannot be compared."""
+    one = {"data.file": "curves/1.csv"}
+    changes: dict[str, dict[str, Any]] = {
+        "zeros": {},
+        "tilt": {"fit.offsets": {"slope": True}},
+        "other": {"data.file": "curves/0.csv"},
+        "noise": {"fit.noise": {"indentation": "0.3 nm", "load": "6 nN"}},
+        "branch": {"data.which": "unloading"},
+    }
+    paths = {name: home / f"{name}.nc" for name in changes}
+    for name, change in changes.items():
+        gr.run(home / "many.toml", set=one | change).to_netcdf(paths[name])
+    return paths
+
+
+def test_fits_are_compared_by_the_criterion(gradhesion: Call, models: dict[str, Path]) -> None:
+    result = gradhesion("info", str(models["zeros"]), str(models["tilt"]))
+    assert result.exit_code == 0, result.stderr
+    criteria = {}
+    for name in ("zeros", "tilt"):
+        with xarray.open_dataset(models[name]) as fit:
+            criteria[name] = float(fit["chi_square"]) + 2.0 * fit.sizes["parameter"]
+    rows = {Path(line.split()[0]).stem: line.split() for line in result.stdout.splitlines() if ".nc" in line}
+    for name, row in rows.items():
+        difference = criteria[name] - min(criteria.values())
+        assert float(row[3]) == pytest.approx(difference, abs=2e-3)
+        weight = math.exp(-0.5 * difference) / sum(
+            math.exp(0.5 * (min(criteria.values()) - c)) for c in criteria.values()
+        )
+        assert float(row[4]) == pytest.approx(weight, rel=0.05)
+    assert [int(rows[name][1]) for name in ("zeros", "tilt")] == [4, 5]
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("other", "is a fit of other data (sha256) than"),
+        ("noise", "has another noise (6e-09, not 5e-09, in noise_of_load) than"),
+        ("branch", "is a fit of other points (rows or branch) than"),
+    ],
+)
+def test_what_differs_is_not_compared(gradhesion: Call, models: dict[str, Path], name: str, words: str) -> None:
+    result = gradhesion("info", str(models["zeros"]), str(models[name]))
+    assert result.exit_code == 2
+    assert words in result.stderr
+    assert len(result.stderr.splitlines()) == 1
+    assert not result.stdout
+
+
+@pytest.mark.usefixtures("folder")
+def test_several_files_are_fits_in_words(gradhesion: Call, models: dict[str, Path]) -> None:
+    assert gradhesion("info", str(models["zeros"]), str(models["tilt"]), "--format", "csv").exit_code == 2
+    whole = gradhesion("info", "many.nc", "many.nc")
+    assert "many.nc: a loop has no fit" in whole.stderr
+
+
+def test_a_tabor_parameter_has_a_range(models: dict[str, Path], home: Path) -> None:
+    """R dgamma^2/E*^2 to a third, over the range (Tabor 1977), given or 0.3 nm."""
+    with xarray.open_dataset(models["zeros"]) as fit:
+        E_star, work = fit["value"].values[:2]
+        own = (R * work**2 / E_star**2) ** (1 / 3) / 3e-10
+        assert float(fit["tabor_parameter"]) == pytest.approx(own, rel=1e-9)
+        assert "0.3 nm, assumed" in fit["tabor_parameter"].attrs["comment"]
+    given = gr.run(home / "many.toml", set={"data.file": "curves/1.csv", "physical.adhesion_range": "100 nm"})
+    assert float(given["tabor_parameter"]) == pytest.approx(own * 3e-10 / 1e-7, rel=1e-9)
+    assert float(given["adhesion_range"]) == 1e-7
+    assert "100 nm, given" in given["tabor_parameter"].attrs["comment"]
+
+
+def test_a_long_ranged_attraction_is_said(gradhesion: Call, folder: Path) -> None:
+    result = gradhesion(
+        "run", "many.toml", "-o", "far.nc", '--set=data.file="curves/1.csv"', '--set=physical.adhesion_range="100 nm"'
+    )
+    assert result.exit_code == 0, result.stderr
+    words = "(with a range of the attraction of 100 nm, given) is below 5: the attraction is too long-ranged for JKR"
+    assert words in result.stderr
+    assert words in gradhesion("info", "far.nc").stdout
+    assert (folder / "far.nc").exists()

@@ -1,0 +1,197 @@
+"""Loops with known parameters give them back wherever their zeros are, or the fit says that it is not to be trusted."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gradhesion.core.loops.fit import fit_loop
+from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop, poor_from
+from gradhesion.core.loops.offsets import NO_OFFSETS, Offsets
+from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
+from tests.core.loops.models import CASES, Array, R
+
+NU, E_STAR, WORK = 0.3, 1e7, 0.03
+FREE = {"E_star": (1e6, 1e8), "work_of_adhesion": (5e-3, 0.2)}
+SMOOTH = {"k": 0.0, "nu": NU, "A": 0.0, "R": R}
+PULL = 1.5 * math.pi * R * WORK
+TRUE = {"E_star": E_STAR, "work_of_adhesion": WORK}
+
+
+def ball(
+    seed: int, *, points: int = 400, zero: tuple[float, float] = (0.0, 0.0), tilt: float = 0.0, pressed: float = 3.0,
+    noise: float = 0.01,
+) -> tuple[Array, Array, Any, tuple[float, float]]:  # fmt: skip
+    """A loop of a smooth ball by the closed forms of Johnson, Kendall & Roberts (1971), evenly spaced in depth."""
+    a = np.linspace(1e-8, R, 400_001)
+    along = a**2 / R - np.sqrt(2.0 * math.pi * a * WORK / E_STAR)
+    force = 4.0 * E_STAR * a**3 / (3.0 * R) - np.sqrt(8.0 * math.pi * WORK * E_STAR * a**3)
+    along, force = (row[int(np.argmin(along)) :] for row in (along, force))
+    deepest = float(np.interp(pressed * PULL, force, along))
+    up = np.linspace(4.0 * along[0] - 0.2 * deepest, deepest, points // 2)
+    depth, back = np.concatenate([up, up[::-1]]), np.arange(2 * (points // 2)) >= points // 2
+    load = np.where(depth > np.where(back, along[0], 0.0), np.interp(depth, along, force), 0.0)
+    sizes = (-0.01 * float(along[0]), noise * PULL)
+    errors = np.random.default_rng(seed).standard_normal((2, depth.size))
+    load = load + sizes[1] * errors[1] + zero[1]
+    depth = depth + sizes[0] * errors[0] + zero[0]
+    return depth, load + tilt * depth, back, sizes
+
+
+def holds(found: FittedLoop, true: dict[str, float], sigmas: float = 4.5) -> None:
+    """The fit has what the loop was made with, and says that it is sound."""
+    assert found.converged
+    assert not found.status & (POOR_FIT | ANOTHER_MINIMUM)
+    assert found.on_bound == ()
+    for name, value in true.items():
+        assert abs(found.values[name] - value) < sigmas * found.standard_deviations[name], name
+        assert found.ranges[name][0] <= found.low[name] < found.values[name] < found.high[name] <= found.ranges[name][1]
+    assert found.chi_square == pytest.approx(found.degrees_of_freedom, rel=6.0 * math.sqrt(2.0 / found.residual.size))
+
+
+@pytest.mark.parametrize("zero", [(0.0, 0.0), (7e-6, -5e-6), (-3e-7, 40.0 * PULL)])
+def test_zeros_may_be_anywhere(zero: tuple[float, float]) -> None:
+    *points, noise = ball(3, zero=zero)
+    found = fit_loop(*points, SMOOTH, FREE, noise=noise)
+    holds(found, TRUE | {"indentation_offset": zero[0], "load_offset": zero[1]})
+    assert found.standard_deviations["E_star"] < 0.02 * E_STAR, "the bound means something"
+
+
+def test_a_largest_load_of_300_times_the_pull_off_force() -> None:
+    *points, noise = ball(4, zero=(2e-7, 3e-7), pressed=300.0, points=800)
+    holds(fit_loop(*points, SMOOTH, FREE, noise=noise), TRUE | {"indentation_offset": 2e-7})
+
+
+@pytest.mark.parametrize("unloads", [False, True])
+def test_one_branch_alone(unloads: bool) -> None:
+    *points, noise = ball(5, zero=(1e-6, 1e-6))
+    own = points[2] == unloads
+    found = fit_loop(*(row[own] for row in points), SMOOTH, FREE, noise=noise)
+    holds(found, TRUE | {"indentation_offset": 1e-6})
+
+
+def test_the_zero_of_depth_at_the_contact_point_and_a_tilt() -> None:
+    *points, noise = ball(6, zero=(4e-7, 0.0), tilt=0.02)
+    found = fit_loop(*points, SMOOTH, FREE, noise=noise, offsets=Offsets(slope=True))
+    holds(found, TRUE | {"load_slope": 0.02})
+    *points, noise = ball(6, zero=(4e-7, 0.0))
+    found = fit_loop(*points, SMOOTH, FREE, noise=noise, offsets=Offsets(indentation="contact"))
+    assert found.contact is not None
+    assert found.contact.depth == pytest.approx(4e-7, abs=3e-9)
+    assert found.names == (*FREE, "load_offset")
+    assert found.loading[:, 0].max() == pytest.approx(points[0].max(), abs=20.0 * noise[0]), "the path lies on the data"
+    with pytest.raises(ValueError, match="loading has no base line"):
+        fit_loop(*(row[points[2]] for row in points), SMOOTH, FREE, noise=noise, offsets=Offsets(indentation="contact"))
+
+
+def test_means_weigh_as_much_as_their_points() -> None:
+    *points, noise = ball(7)
+    one = fit_loop(*points, SMOOTH, FREE, noise=noise)
+    four = fit_loop(*points, SMOOTH, FREE, noise=(2 * noise[0], 2 * noise[1]), counts=np.full(points[0].size, 4.0))
+    for name in FREE:
+        assert four.values[name] == pytest.approx(one.values[name], rel=1e-6)
+        assert four.standard_deviations[name] == pytest.approx(one.standard_deviations[name], rel=1e-6)
+
+
+def test_a_model_that_does_not_hold_is_a_poor_fit() -> None:
+    *points, noise = ball(8)
+    bad = fit_loop(*points, SMOOTH, {"E_star": FREE["E_star"]}
+                   | {"work_of_adhesion": (0.1, 0.2)}, noise=noise, offsets=NO_OFFSETS)  # fmt: skip
+    assert bad.status & POOR_FIT
+    assert "work_of_adhesion" in bad.on_bound
+    assert bad.reduced_chi_square > poor_from(bad.degrees_of_freedom)
+    assert bad.low["work_of_adhesion"] >= 0.1
+
+
+@pytest.mark.parametrize(("high", "flagged"), [(1.004e7, True), (1.5e7, False)])
+def test_within_1_per_cent_of_the_range_is_on_its_bound(high: float, flagged: bool) -> None:
+    *points, noise = ball(9, noise=1e-3)
+    found = fit_loop(*points, SMOOTH, FREE | {"E_star": (5e6, high)}, noise=noise, intervals="profile")
+    assert ("E_star" in found.on_bound) == flagged
+    assert found.high["E_star"] <= high
+
+
+def wavy(name: str, seed: int, noise: float, count: int) -> tuple[Array, Array, Any, tuple[float, float]]:
+    """A wavy loop of a kind, its points evenly along the path of `draw_curves`, with zeros."""
+    drawn = CASES[name].drawn()
+    x, y = drawn["x"], drawn["y"]
+    way = np.append(0.0, np.cumsum(np.hypot(np.diff(x) / np.ptp(x), np.diff(y) / np.ptp(y))))
+    at = np.linspace(0.0, way[-1], count)
+    back = drawn["path_unloading"][np.clip(np.searchsorted(way, at), 0, way.size - 1)] > 0
+    sizes = (0.1 * noise * float(np.ptp(x)), -noise * float(y.min()))
+    errors = np.random.default_rng(seed).standard_normal((2, count))
+    return (np.interp(at, way, x) + sizes[0] * errors[0] + 2e-6, np.interp(at, way, y) + sizes[1] * errors[1] - 3e-7,
+            back, sizes)  # fmt: skip
+
+
+WAVES = FREE | {"wavelength": (0.2e-6, 1.5e-6), "A": (0.002, 0.05)}
+
+
+def test_waves_zeros_and_material_at_once() -> None:
+    *points, noise = wavy("wavy", 1, 0.01, 500)
+    found = fit_loop(*points, {"k": 0.0, "nu": NU, "R": R}, WAVES, noise=noise)
+    holds(found, TRUE | {"wavelength": 0.5e-6, "A": 0.012, "indentation_offset": 2e-6, "load_offset": -3e-7}, 5.0)
+    np.testing.assert_allclose(found.correlation, found.correlation.T, atol=1e-12)
+    assert found.alike == ()
+
+
+def test_the_intervals_of_smooth_loops_cover_the_truth() -> None:
+    """Of 30 loops the 95 % intervals of each number hold it in 24 or more: fewer have a chance of 1e-3."""
+    covered = dict.fromkeys(FREE, 0)
+    for seed in range(30):
+        *points, noise = ball(seed, points=150)
+        found = fit_loop(*points, SMOOTH, FREE, noise=noise, offsets=NO_OFFSETS)
+        for name in FREE:
+            covered[name] += found.low[name] <= TRUE[name] <= found.high[name]
+    assert min(covered.values()) >= 24
+
+
+@pytest.mark.parametrize("pair", [("E_star", "c0"), ("E_star", "nu"), ("c0", "nu")])
+def test_what_a_loop_cannot_tell_apart_is_refused(pair: tuple[str, str]) -> None:
+    ranges = {"E_star": (1e6, 1e8), "c0": (1e-7, 1e-5), "nu": (0.1, 0.5)}
+    fixed = {"k": 0.3, "nu": NU, "A": 0.0, "R": R, "E_star": 1e7, "c0": 1e-6, "work_of_adhesion": 0.03}
+    *points, noise = ball(0)
+    with pytest.raises(CannotTellApartError, match=f"cannot tell {pair[0]} and {pair[1]} apart") as caught:
+        fit_loop(*points, {n: v for n, v in fixed.items() if n not in pair}, {n: ranges[n] for n in pair}, noise=noise)
+    assert caught.value.names == pair
+
+
+def test_what_has_no_effect_is_refused() -> None:
+    *points, noise = ball(0)
+    with pytest.raises(ValueError, match="wavelength: without effect on this loop; fix it"):
+        fit_loop(*points, SMOOTH, FREE | {"wavelength": (1e-7, 1e-6)}, noise=noise)
+
+
+D, P, U = (
+    np.array(row)
+    for row in (
+        [0.0, 1e-8, 2e-8, 1e-8, 0.0, -1e-8],
+        [-1e-8, 0.0, 1e-8, 0.0, -1e-8, -2e-8],
+        [False, False, False, True, True, True],
+    )
+)
+WRONG: dict[str, tuple[dict[str, Any], str]] = {
+    "few points": ({"indentation": D[:4], "load": P[:4], "unloading": U[:4]}, "4 points cannot give 4 numbers"),
+    "nan": ({"load": P * np.nan}, "finite numbers"),
+    "lengths": ({"unloading": U[:5]}, "one length"),
+    "noise": ({"noise": (0.0, 1e-9)}, "both standard deviations are above 0"),
+    "range falls": ({"free": {"E_star": (1e8, 1e6)}}, "E_star: the ends 1e+08 and 1e+06 of a range rise"),
+    "range from 0": ({"free": {"E_star": (0.0, 1e6)}}, "above 0"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_what_cannot_be_fitted_is_refused(name: str) -> None:
+    change, words = WRONG[name]
+    given = {
+        "indentation": D,
+        "load": P,
+        "unloading": U,
+        "fixed": SMOOTH,
+        "free": FREE,
+        "noise": (1e-10, 1e-9),
+    }
+    with pytest.raises(ValueError, match=r"\w") as caught:
+        fit_loop(**(given | change))
+    assert words in str(caught.value)
