@@ -36,6 +36,7 @@ AnyNear: TypeAlias = Any
 _OF_PATHS: Final = tuple(f"gradhesion.core.faces.{kind}" for kind in ("cosine", "series", "short_wave", "patterned"))
 _OF_EXACT: Final = (*_OF_PATHS[:2], _OF_PATHS[3])
 _OF_SERIES: Final = _OF_PATHS[1:]
+_OF_FOLDS: Final = _OF_EXACT[1:]
 _OF_CONTACT: Final = tuple(
     f"gradhesion.core.faces.{kind}" for kind in ("cosine_contact", "series_contact", "patterned")
 )
@@ -87,6 +88,51 @@ def waves_at(table: Any, curve: Any, x: float, whole: float) -> tuple[float, flo
 @face(*_OF_SERIES)
 def depth_of_point(table: Any, curve: Any) -> float:
     """Return the depth to which that of a contact tends as its radius goes to 0, in units of s l^c."""
+
+
+@face(*_OF_SERIES)
+def relative_toughness(table: Any, curve: Any, x: float) -> float:
+    """Return kappa, the toughness at x over that of a plain interface: a jump loses int z (kappa^2 - rho^2) dz."""
+
+
+@face(*_OF_SERIES)
+def shortest_wave(table: Any, curve: Any) -> float:
+    """Return the number of the shortest wave of profile and interface in a unit of x, 0 if there is none."""
+
+
+# where any profile folds: all of them that are exact
+
+
+@face(*_OF_FOLDS)
+def window(table: Any, curve: Any) -> tuple[float, float]:
+    """Return x before which the coordinate surely falls, or one below all others, and x beyond which it surely rises.
+
+    The second is inf where folds need not end.
+    """
+
+
+@face(*_OF_FOLDS)
+def find_all_folds(table: Any, curve: Any, first: float, last: float, zeros: Floats) -> tuple[int, bool, float]:
+    """Put all folds between two x into `zeros`, of shape (folds,), in order; first < last < inf.
+
+    Returns
+    -------
+    Their number, -1 if there are too many for `zeros` or to be looked for; whether the coordinate rises at the first x;
+    and the first x of a pair of folds that an error of CLOSE (curve/cosine_folds.py) could make or unmake, else inf.
+    """
+
+
+@face(*_OF_FOLDS)
+def measured_by(curve: Any, by_load: bool) -> Any:
+    """Return the curve, of the same kind, whose coordinate is the load, or the depth."""
+
+
+@face(*_OF_FOLDS)
+def reach(table: Any, curve: Any, target: float) -> float:
+    """Return x from which on the coordinate exceeds a target by the sizes of its waves, inf if beyond all counting.
+
+    It is too large by some percent, and not rigorous near zero contact, where the waves have not their far form.
+    """
 
 
 # waves of a trace that were not walked, its gap: all that is exact

@@ -23,6 +23,7 @@
     patterned_sensitivities
     patterned_curves
     rate               opening and closing at a speed, of any profile and control
+    loops              fits of measured loops, but for what is reported of the cycle that is found
 
 and `tables` is what all of them share.
 """
@@ -66,6 +67,7 @@ NEEDS: Final[dict[str, tuple[str, ...]]] = {
     "patterned_sensitivities": ("patterned",),
     "patterned_curves": ("patterned",),
     "rate": ("general_force",),
+    "loops": ("tables",),
 }
 """The kinds that are compiled before a kind, directly: those of whose entries it needs the same, or others of the same
 name. Processes that compile kinds side by side, each after those that it needs and none beside one of `APART`, compile
@@ -108,6 +110,7 @@ KERNELS: Final[dict[str, int]] = {
     "patterned_sensitivities": 15,
     "patterned_curves": 19,
     "rate": 41,
+    "loops": 8,
 }
 """About how many kernels a kind compiles after those that it needs, in one process."""
 

@@ -41,11 +41,11 @@ def _compile_curves() -> None:
 
 def _compile_general_curves() -> None:
     """Do the same for another profile, by a machine."""
-    from gradhesion.core.curves import CURVES_BY_DEPTH, GENERAL_CURVES, draw_curves  # noqa: PLC0415 (kernels of their own)
+    from gradhesion.core.curves import GENERAL_CURVES, draw_curves  # noqa: PLC0415 (kernels of their own)
 
     for change in ({}, {"a_max_over_R": math.inf}, {"A": 0.0}):
         draw_curves(SCENE | SPRING | change, list(GENERAL_CURVES), MANY, Loading(control="machine"))
-    draw_curves(SCENE, CURVES_BY_DEPTH[-1:], MANY)
+    draw_curves(SCENE, ("asymptotic", "envelope"), MANY)
 
 
 def _compile_patterned(what: str) -> None:
@@ -73,6 +73,16 @@ def _compile_edge() -> None:
     how = How("exact", False, 1, WAVY, BY_DISPLACEMENT, is_one_wave=True)
     pulls_at(SCENE, how)
     turn_slopes(SCENE, False, how)
+
+
+def _compile_loops() -> None:
+    """Find the distance of a point to a line, the way up a slope, and a place on it."""
+    from gradhesion.core.loops.distance import feet  # noqa: PLC0415 (kernels of their own)
+    from gradhesion.core.loops.walk import climb, crossing  # noqa: PLC0415
+
+    feet(np.zeros((1, 2)), np.eye(2))
+    climb(np.arange(4.0), np.arange(4.0), 0.0)
+    crossing(np.arange(4.0), np.arange(4.0), 1, 0.5)
 
 
 def _compile_rate() -> None:
@@ -131,6 +141,8 @@ def compile_kind(kind: str) -> None:
             _compile_edge()
         case "rate":
             _compile_rate()
+        case "loops":
+            _compile_loops()
         case _ if kind.partition("_")[0] == "patterned":
             _compile_patterned(kind.partition("_")[2])
         case "sensitivities":

@@ -15,11 +15,12 @@ from gradhesion.core import DOUBTFUL, FAILED, REPORTS, SENSITIVITIES
 from gradhesion.core.answers import flags as flags_module
 from gradhesion.core.answers.flags import FLAGS
 from gradhesion.core.problem import status as status_module
+from gradhesion.core.problem.status import OF_FITS
 
 MODULES: Final = (status_module, flags_module)
 """Where flags are defined: those of a scene, and those of answers."""
 
-NO_FLAGS: Final = ("FLAGS", "OF_EVERY_MAP", "DOUBTFUL", "FAILED", "ANSWER_FLAGS")
+NO_FLAGS: Final = ("FLAGS", "OF_EVERY_MAP", "OF_FITS", "DOUBTFUL", "FAILED", "ANSWER_FLAGS")
 """What `core.problem.status` defines beside its flags."""
 
 ATTRIBUTES: Final = {
@@ -105,16 +106,23 @@ def _sections() -> Iterator[str]:
         f"A fit has the dimension `{names.PARAMETER}`, the fitted values, with their units in "
         f"`{names.PARAMETER_UNITS}`; `{names.OTHER_PARAMETER}` is the same list, for correlations. Fixed parameters "
         "are coordinates without a dimension, in SI units. Offsets are added to the path, so that it passes "
-        "through the data. `status` has the flags of the fitted cycle."
+        "through the data. `status` (int16) has the flags of the fitted cycle, and two of the fit. Variables of other "
+        f"minima, along `{names.MINIMUM}`, are there where noise allows some, those of the contact point where it was "
+        "found before the fit. The attribute `alike` says what the loop cannot tell apart, `noise_is` where the noise "
+        "is from, `intervals` where the intervals are from, `data_file` and `data_sha256` which data were fitted."
+    )
+    yield (
+        f"Fits of several loops have the first dimension `{names.LOOP}`, along which shorter loops are padded, and the "
+        f"words {_listed(names.FIT_WORDS)} of each. A loop without a fit keeps its row, with `no_value`."
     )
     yield table(("variable", "dimensions", "long_name"), _of_fits())
     yield "## Status"
     yield (
         f"Every dataset has `status`, {names.STATUS}. Each bit is a flag. A scene with {_named(FAILED)} has failed. "
         f"Its values are doubtful with {_named(DOUBTFUL)}. The approximate solvers set `no_value` only. The flags "
-        "after it occur with uncertain inputs and optima, the last one where cycles turn at a depth; `status` is int16 "
-        f"there. A map or a curve study has the coordinate `{names.STEEP}`, {names.STEEP_CONTACT}, where it is for any "
-        "scene."
+        "after it occur with uncertain inputs and optima, the last ones where cycles turn at a depth, with patterns "
+        "and speeds, and in fits; `status` is int16 there. A map or a curve study has the coordinate "
+        f"`{names.STEEP}`, {names.STEEP_CONTACT}, where it is for any scene."
     )
     yield table(("flag", "bit", "in words", "of a scene"), _flags())
     yield "## Global attributes"
@@ -151,10 +159,8 @@ def _curves() -> list[list[str]]:
 
 def _of_fits() -> list[list[str]]:
     """Write a row for each variable of a fit."""
-    scalar = ("chi_square", "degrees_of_freedom", "converged")
-    own = {name: "" if name in scalar else names.PARAMETER for name in names.FIT}
-    own["correlation"] = f"{names.PARAMETER}, {names.OTHER_PARAMETER}"
-    rows = [[code(name), code(own[name]), words] for name, words in names.FIT.items()]
+    rows = [[code(name), code(", ".join(dims)), words] for name, (dims, words) in (names.FIT | names.FIT_MORE).items()]
+    rows += [[code(name), code(names.LOOP), words] for name, words in names.FIT_WORDS.items()]
     points = ((along, name, words) for along, each in names.FIT_POINTS.items() for name, words in each.items())
     return rows + [[code(name), code(along), words] for along, name, words in points]
 
@@ -173,7 +179,7 @@ def _flags() -> list[list[str]]:
         for constant, text in said.items()
         if constant not in NO_FLAGS and hasattr(module, constant)
     }
-    return [[code(name), str(bit), names.FLAGS[name], constants[bit]] for name, bit in FLAGS.items()]
+    return [[code(name), str(bit), names.FLAGS[name], constants[bit]] for name, bit in (FLAGS | OF_FITS).items()]
 
 
 def _named(bits: int) -> str:

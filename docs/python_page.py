@@ -30,14 +30,14 @@ MEMBERS: Final = {"Study": ("variables", "given", "sizes", "axes", "shape", "sce
 """The members of a class that scripts use, where it has others for the program itself."""
 
 ANSWERS: Final = (
-    ("profile_fit", "fit_profile"),
-    ("profile_fit", "FittedProfile"),
-    ("loop_fit", "fit_loop"),
-    ("loop_fit", "FittedLoop"),
-    ("spectrum", "Spectrum"),
-    ("spectrum", "random_profile"),
+    ("answers.profile_fit", "fit_profile"),
+    ("answers.profile_fit", "FittedProfile"),
+    ("loops.fit", "fit_loop"),
+    ("loops.fitted", "FittedLoop"),
+    ("answers.spectrum", "Spectrum"),
+    ("answers.spectrum", "random_profile"),
 )
-"""Functions of `core.answers`, by their modules."""
+"""Functions of `core`, by their modules."""
 
 
 def page() -> str:
@@ -83,8 +83,8 @@ def _sections() -> Iterator[str]:
     for name in ("solve", "validity", "draw_curves", "Loading", "doubts_about"):
         yield from _of("core", name, getattr(core, name))
     for module, name in ANSWERS:
-        home = importlib.import_module(f"gradhesion.core.answers.{module}")
-        yield from _of(f"core.answers.{module}", name, getattr(home, name))
+        home = importlib.import_module(f"gradhesion.core.{module}")
+        yield from _of(f"core.{module}", name, getattr(home, name))
     yield (
         "`PARAMETERS`, `OUTPUTS`, `REPORTS`, `CURVES`, `SOLVERS` and `CONTROLS` name what these take, `FLAGS`, "
         "`DOUBTFUL` and `FAILED` the bits of a status. The paper's equations one by one are in "

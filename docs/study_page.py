@@ -87,7 +87,7 @@ def _of_fits() -> Iterator[str]:
     yield '## Studies of `kind = "fit"`'
     yield (
         "[Fit a loop](../fit.md) describes them. Besides `title`, `kind` and `profile` they have the tables "
-        "below, and no `outputs`, `layout`, `loading`, `states` or `method`. In `[parameters]` and "
+        "below, and no `outputs`, `layout`, `states` or `method`. In `[parameters]` and "
         "`[physical]` a number is fixed; a parameter with a range `{ start, stop }` is fitted within it. Ranges "
         'are above 0, except for `k` and `nu`. `indentation_max` may be `"data"`, the default: the cycle turns '
         "where the data turn. Reduced variables are as above, except `machine_stiffness`. Lists are not allowed, "

@@ -31,6 +31,7 @@ from gradhesion.core.scene.smooth import SCENES as SMOOTH_SCENES
 from gradhesion.core.scene.smooth import solve_smooth
 from gradhesion.core.scene.solvers import LOOPS, PULL_OFF_LOOP
 from gradhesion.core.sensitivities.cosine_slopes import COUNT, Sense
+from gradhesion.core.sensitivities.wanted import NoSense
 from gradhesion.core.turning.cosine import turn_curves
 from gradhesion.core.turning.turns import Turns
 
@@ -124,7 +125,7 @@ def solve_cosine(
     def work(tables: NDArray[Any], task: Task, stiffness: NDArray[np.float64]) -> None:
         scratch = np.empty((ROWS, BRANCHES))
         own = curves_of(curves, task, tables, stiffness)
-        sense = () if sensed is None else Sense(*neighbours_for(task), sensed, of_force, of_energy, turned)
+        sense = NoSense() if sensed is None else Sense(*neighbours_for(task), sensed, of_force, of_energy, turned)
         solve_curves(own, results, scratch, sense)
         if reports:
             report_curves(own, slots, of_reports, scratch)

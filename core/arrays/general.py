@@ -9,19 +9,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.arrays.cosine import SLOPES
-from gradhesion.core.arrays.prepared import prepared, run_by_exponent
+from gradhesion.core.arrays.prepared import curves_of, prepared, run_by_exponent
 from gradhesion.core.arrays.tables import changes_of, tables_of
 from gradhesion.core.curve.general import Basis
 from gradhesion.core.problem.control import Loading
-from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.names import PULL_OFF
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.results import Results, slots_of, typed
-from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
 from gradhesion.core.scene.general import solve_pull_offs, solve_scenes
 from gradhesion.core.sensitivities.cosine_slopes import COUNT
 from gradhesion.core.sensitivities.general_slopes import Sense
-from gradhesion.core.sensitivities.neighbours import exponents_beside
+from gradhesion.core.sensitivities.neighbours import depth_factor_by_k
+from gradhesion.core.sensitivities.wanted import NoSense
 
 
 def solve_general(
@@ -49,8 +48,7 @@ def solve_general(
     slots = slots_of(rows, check_contact=check_contact, turned=turned)
     out = np.full((len(rows), scenes.k.size, scenes.rim.shape[1]), np.nan)
     status = np.zeros(out.shape[1:], dtype=np.int8)
-    n, series = in_own_wavelength(profile)
-    wavelength, amplitude = scenes.wavelength / n, n * scenes.amplitude if series.size else 0.0 * scenes.amplitude
+    series, curves_at = curves_of(scenes, profile)
 
     solve = solve_pull_offs if set(rows) <= set(PULL_OFF) and slopes is None else solve_scenes
     sensed = np.full((3, COUNT, *status.shape), np.nan) if slopes else None
@@ -58,17 +56,13 @@ def solve_general(
     def sense_at(exponent: float) -> Any:
         """Return what the sensitivities of the curves of one exponent need."""
         if sensed is None or slopes is None:
-            return ()
-        exponents, weights = exponents_beside(exponent)
-        front_by_k = float(weights @ np.log([depth_factor_of(k, profile.exponent) for k in exponents]))
-        change = changes_of(exponent, series)
-        return Sense(change, front_by_k, exponent, profile.exponent, sensed, slopes[0], slopes[1], turned)
+            return NoSense()
+        change, m = changes_of(exponent, series), profile.exponent
+        return Sense(change, depth_factor_by_k(exponent, m), exponent, m, sensed, *slopes, turned)
 
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
         basis = Basis(*tables_of(exponent, series, interpolated=interpolated and slopes is None), series)
-        shape = profile.exponent, depth_factor_of(exponent, profile.exponent)
-        curves = GeneralCurves(index, *shape, scenes.stretch, wavelength, amplitude, scenes.compliance, scenes.rim)
-        solve(basis, curves, Results(slots, out, status), sense_at(exponent))
+        solve(basis, curves_at(exponent, index), Results(slots, out, status), sense_at(exponent))
 
     run_by_exponent(scenes.k, work, threads, scenes.rim.shape[1])
     result: dict[str, NDArray[Any]] = {}

@@ -7,14 +7,12 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.arrays.prepared import prepared, run_by_exponent
+from gradhesion.core.arrays.prepared import curves_of, prepared, run_by_exponent
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.general import Basis
 from gradhesion.core.problem.control import Loading
-from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.names import PARAMETERS
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
 from gradhesion.core.turning.general import turn_scenes
 from gradhesion.core.turning.turns import Turns
 
@@ -45,18 +43,15 @@ def turning_general(
     """
     scenes = prepared(parameters, loading, (*PARAMETERS[-1:], turn))
     assert scenes.target is not None  # noqa: S101 -- it was asked for
-    rims, targets = scenes.rim, scenes.target
-    n, series = in_own_wavelength(profile)
-    wavelength, amplitude = scenes.wavelength / n, n * scenes.amplitude if series.size else 0.0 * scenes.amplitude
+    rims = scenes.rim
+    series, curves_at = curves_of(scenes, profile)
     radii = np.empty((scenes.k.size, rims.shape[1]))
     flags, passed = np.zeros(radii.shape, dtype=np.int8), np.zeros(radii.shape, dtype=np.bool_)
-    turns = Turns(rims, targets, turn == "load_max", check_contact, radii, flags)
+    turns = Turns(rims, scenes.target, turn == "load_max", check_contact, radii, flags)
 
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
         basis = Basis(*tables_of(exponent, series, interpolated=interpolated), series)
-        shape = profile.exponent, depth_factor_of(exponent, profile.exponent)
-        curves = GeneralCurves(index, *shape, scenes.stretch, wavelength, amplitude, scenes.compliance, rims)
-        turn_scenes(basis, curves, turns, passed)
+        turn_scenes(basis, curves_at(exponent, index), turns, passed)
 
     run_by_exponent(scenes.k, work, threads, rims.shape[1])
     return radii.reshape(scenes.shape), flags.reshape(scenes.shape), passed.reshape(scenes.shape)

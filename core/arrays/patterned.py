@@ -4,7 +4,6 @@ from __future__ import annotations  # those of inner functions would be made ane
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
@@ -12,28 +11,24 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.arrays.cosine import SLOPES
-from gradhesion.core.arrays.prepared import Scenes, prepared, run_by_exponent
+from gradhesion.core.arrays.prepared import Scenes, curves_of, prepared, run_by_exponent
 from gradhesion.core.arrays.tables import changes_of, tables_of
-from gradhesion.core.problem.curves import GeneralCurves, Patterns
+from gradhesion.core.problem.curves import Patterns
 from gradhesion.core.problem.names import PARAMETERS, PATTERN, REACH, REPORTS, RESULTS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.results import Results, slots_of, typed
-from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
-from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.problem.toughness import Toughness, first_violation, lowest, rows_of_pattern
 from gradhesion.core.scene.cosine_report import NEEDED
 from gradhesion.core.scene.patterned import solve_scenes
-from gradhesion.core.sensitivities.neighbours import exponents_beside
+from gradhesion.core.sensitivities.neighbours import depth_factor_by_k
 from gradhesion.core.sensitivities.patterned_slopes import COUNT, Sense
+from gradhesion.core.sensitivities.wanted import NoSense
 from gradhesion.core.turning.patterned import turn_scenes
 from gradhesion.core.turning.turns import Turns
 
 if TYPE_CHECKING:
     from gradhesion.core.sweep import How
 
-_OF_CURVES: Final = ("k", "stretch", "wavelength", "amplitude", "compliance")
-_GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
-"""What is compared with the smooth punch on the same interface."""
 _BEYOND: Final = 0.25
 """Of the least t within a rim beyond which it has the wrong sign: cells reach a little further."""
 
@@ -68,15 +63,8 @@ def curves_of_scenes(
     scenes: Scenes, profile: Profile, toughness: Toughness | None
 ) -> tuple[NDArray[np.float64], Any, Patterns]:
     """Return the series of a profile, what makes the curves of one exponent from their numbers, and the patterns."""
-    n, series = in_own_wavelength(profile)
-    wavelength, amplitude = scenes.wavelength / n, n * scenes.amplitude if series.size else 0.0 * scenes.amplitude
-
-    def curves_of(exponent: float, index: NDArray[np.int64]) -> GeneralCurves:
-        shape = profile.exponent, depth_factor_of(exponent, profile.exponent)
-        return GeneralCurves(index, *shape, scenes.stretch, wavelength, amplitude, scenes.compliance, scenes.rim)
-
     assert toughness is not None  # noqa: S101 -- else these are not the scenes
-    return series, curves_of, _patterns_of(toughness, scenes)
+    return *curves_of(scenes, profile), _patterns_of(toughness, scenes)
 
 
 def solve_patterned(
@@ -97,16 +85,15 @@ def solve_patterned(
     out = np.full((len(rows), scenes.k.size, scenes.rim.shape[1]), np.nan)
     status = np.zeros(out.shape[1:], dtype=np.int16)
     sensed = np.full((3, COUNT, *status.shape), np.nan)
-    series, curves_of, patterns = curves_of_scenes(scenes, how.profile, how.toughness)
+    series, curves_at, patterns = curves_of_scenes(scenes, how.profile, how.toughness)
 
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
         tables = tables_of(exponent, series, interpolated=interpolated and slopes is None)
-        sense: Any = ()
+        sense: Any = NoSense()
         if slopes is not None:
-            exponents, weights = exponents_beside(exponent)
-            by_k = float(weights @ np.log([depth_factor_of(k, how.profile.exponent) for k in exponents]))
+            by_k = depth_factor_by_k(exponent, how.profile.exponent)
             sense = Sense(changes_of(exponent, series), by_k, sensed, *slopes, turned)
-        solve_scenes(*tables, series, curves_of(exponent, index), patterns, Results(slots, out, status), sense)
+        solve_scenes(*tables, series, curves_at(exponent, index), patterns, Results(slots, out, status), sense)
 
     run_by_exponent(scenes.k, work, how.threads, scenes.rim.shape[1])
     found = {name: typed(name, out[rows.index(name)]).reshape(scenes.shape) for name in outputs}
@@ -125,38 +112,24 @@ def _reports(
     turned: bool,
 ) -> dict[str, NDArray[Any]]:
     """Report on scenes that are solved, as `report_general` (arrays/general_report.py)."""
-    from gradhesion.core.closed.general_envelope import chis  # noqa: PLC0415 (SciPy)
-    from gradhesion.core.scene.general_report import ROWS, Solved  # noqa: PLC0415 (kernels of their own)
-    from gradhesion.core.scene.patterned_report import report_scenes  # noqa: PLC0415
+    from gradhesion.core.arrays.general_report import gains_of, reported  # noqa: PLC0415 (SciPy)
+    from gradhesion.core.scene.patterned_report import report_scenes  # noqa: PLC0415 (kernels of their own)
 
-    together = prepared({PATTERN[1]: 1.0, **parameters}, how.loading, more=PATTERN)
-    of_each: dict[str, Any] = {name: together.of_each(getattr(together, name)) for name in _OF_CURVES}
-    rims = np.broadcast_to(together.rim, (together.k.size, together.rim.shape[1])).reshape(-1, 1)
-    scenes = replace(together, rim=rims, others=tuple(map(together.of_each, together.others)), **of_each)
-    status, none = found["status"].ravel(), np.full(scenes.k.size, np.nan)
-    radius, energy = (found[name].ravel() if name in found else none for name in (RESULTS[1], RESULTS[2]))
-    solved, out = Solved(radius, energy, turned, status), np.full((len(ROWS), scenes.k.size), np.nan)
-    wanted = np.array([name in reports for name in ROWS])
-    series, curves_of, patterns = curves_of_scenes(scenes, how.profile, how.toughness)
+    def work_of(each: Scenes, solved: Any, wanted: NDArray[np.bool_], out: NDArray[np.float64]) -> Any:
+        series, curves_at, patterns = curves_of_scenes(each, how.profile, how.toughness)
 
-    def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
-        tables = tables_of(exponent, series, interpolated=interpolated)
-        report_scenes(*tables, series, curves_of(exponent, index), patterns, solved, wanted, out)
+        def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
+            tables = tables_of(exponent, series, interpolated=interpolated)
+            report_scenes(*tables, series, curves_at(exponent, index), patterns, solved, wanted, out)
 
-    if wanted.any():
-        run_by_exponent(scenes.k, work, how.threads)
-    made = {name: row.reshape(together.shape) for name, row in zip(ROWS, out, strict=True) if name in reports}
-    if "roughness_parameter" in reports:
-        k = np.where(status & NO_VALUE, np.nan, scenes.k)
-        _, down = chis(k, scenes.stretch, scenes.wavelength, scenes.amplitude, how.profile)
-        made["roughness_parameter"] = down.reshape(together.shape)
-    gains = {name: value for name, value in _GAINS.items() if name in reports}
-    if gains:
-        even = {**parameters, "A": 0.0 * np.asarray(parameters["A"], dtype=float)}
-        smooth = solve_patterned(even, [*gains.values()], how, turned=turned)
-        with np.errstate(all="ignore"):
-            made |= {name: found[value] / smooth[value] for name, value in gains.items()}
-    return made
+        return work
+
+    def solve(other: Mapping[str, ArrayLike], names: list[str]) -> dict[str, NDArray[Any]]:
+        return solve_patterned(other, names, how, turned=turned)
+
+    scenes = prepared({PATTERN[1]: 1.0, **parameters}, how.loading, more=PATTERN)
+    made = reported(scenes, reports, found, how.profile, work_of, turned=turned, threads=how.threads)
+    return made | gains_of(parameters, reports, found, solve)
 
 
 def turning_patterned(
@@ -165,14 +138,14 @@ def turning_patterned(
     """Return where the cycles turn, and the rest, as `turning_general` (arrays/general_turning.py)."""
     scenes = prepared({PATTERN[1]: 1.0, **parameters}, how.loading, (*PARAMETERS[-1:], turn), PATTERN)
     assert scenes.target is not None  # noqa: S101 -- it was asked for
-    series, curves_of, patterns = curves_of_scenes(scenes, how.profile, how.toughness)
+    series, curves_at, patterns = curves_of_scenes(scenes, how.profile, how.toughness)
     radii = np.empty((scenes.k.size, scenes.rim.shape[1]))
     flags, passed = np.zeros(radii.shape, dtype=np.int16), np.zeros(radii.shape, dtype=np.bool_)
     turns = Turns(scenes.rim, scenes.target, turn == "load_max", check_contact, radii, flags)
 
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
         tables = tables_of(exponent, series, interpolated=interpolated)
-        turn_scenes(*tables, series, curves_of(exponent, index), patterns, turns, passed)
+        turn_scenes(*tables, series, curves_at(exponent, index), patterns, turns, passed)
 
     run_by_exponent(scenes.k, work, how.threads, scenes.rim.shape[1])
     return radii.reshape(scenes.shape), flags.reshape(scenes.shape), passed.reshape(scenes.shape)

@@ -4,8 +4,8 @@ from __future__ import annotations  # those of inner functions would be made ane
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Final
+from dataclasses import dataclass, replace
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,8 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 from gradhesion.core.arrays.grouping import are_few, grouped
 from gradhesion.core.arrays.tasks import Task, run_one_by_one, tasks_of
 from gradhesion.core.problem.control import Loading
+from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import PARAMETERS
+from gradhesion.core.problem.profile import Profile
+from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
 
 _TASK: Final = 16
 """Scenes a task: each takes longer than one of one cosine."""
@@ -59,6 +62,13 @@ class Scenes:
         """Return the values of the curves for each scene, flat."""
         return np.repeat(values, self.rim.shape[1])
 
+    def one_by_one(self) -> Scenes:
+        """Return the same scenes, each as a curve with one rim."""
+        names = ("k", "stretch", "wavelength", "amplitude", "compliance")
+        own: dict[str, Any] = {name: self.of_each(getattr(self, name)) for name in names}
+        rim = np.array(np.broadcast_to(self.rim, (self.k.size, self.rim.shape[1])), order="C").reshape(-1, 1)
+        return replace(self, rim=rim, others=tuple(map(self.of_each, self.others)), **own)
+
 
 def prepared(
     parameters: Mapping[str, ArrayLike],
@@ -80,6 +90,20 @@ def prepared(
     compliance = compliance_of(loading, curves.k, curves.modulus, material, *spring)
     own = curves.k, stretch, curves.lambda_over_R, curves.A, compliance
     return Scenes(curves.shape, *own, curves.rims[0], curves.rims[1] if len(along) > 1 else None, others)
+
+
+def curves_of(
+    scenes: Scenes, profile: Profile
+) -> tuple[NDArray[np.float64], Callable[[float, NDArray[np.int64]], GeneralCurves]]:
+    """Return the series of a profile, and what makes the curves of one exponent k from that and their numbers."""
+    n, series = in_own_wavelength(profile)
+    own = scenes.stretch, scenes.wavelength / n, n * scenes.amplitude if series.size else 0.0 * scenes.amplitude
+
+    def curves_at(exponent: float, index: NDArray[np.int64]) -> GeneralCurves:
+        shape = profile.exponent, depth_factor_of(exponent, profile.exponent)
+        return GeneralCurves(index, *shape, *own, scenes.compliance, scenes.rim)
+
+    return series, curves_at
 
 
 def run_by_exponent(

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gradhesion.core.arrays.general import solve_general
-from gradhesion.core.arrays.prepared import compliance_of, run_by_exponent
+from gradhesion.core.arrays.prepared import Scenes, compliance_of, curves_of, run_by_exponent
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.general import Basis
 from gradhesion.core.problem.control import Loading
@@ -18,7 +18,6 @@ from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import PARAMETERS, PULL_OFF
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate
-from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.rate.scenes import CLOSED, OPENED, Edges, close_scenes, open_scenes, track_edge
 
@@ -55,19 +54,14 @@ def _solved(
         stretch = np.sqrt(2.0 ** (1.0 + k) * math.pi / material)
     compliance = compliance_of(loading, k, modulus, material, *(flat[name] for name in _MORE[loading.control]))
     count = k.size
-    n, series = in_own_wavelength(profile)
-    wavelength, amplitude = flat["lambda_over_R"] / n, n * flat["A"] if series.size else 0.0 * flat["A"]
+    own = k, stretch, flat["lambda_over_R"], flat["A"], compliance, flat["a_max_over_R"].reshape(-1, 1)
+    series, curves_at = curves_of(Scenes(shape, *own), profile)
     ratios, turns = (flat.get(name, np.full(count, value)) for name, value in _OF_CLOSING.items())
     out, status = np.full((len(rows), count), np.nan), np.zeros(count, dtype=np.int64)
 
     def work(exponent: float, index: NDArray[np.int64], _interpolated: bool) -> None:
         basis = Basis(*tables_of(exponent, series), series)
-        own = stretch, wavelength, amplitude, compliance
-        factor = depth_factor_of(exponent, profile.exponent)
-        edges = Edges(
-            index, profile.exponent, factor, *own, flat["a_max_over_R"], flat[SPEED], rate.exponent, ratios, turns
-        )
-        solve(basis, edges, out, status)
+        solve(basis, Edges(curves_at(exponent, index), flat[SPEED], rate.exponent, ratios, turns), out, status)
 
     run_by_exponent(k, work, threads)
     found: Results = {name: out[i].reshape(shape) for i, name in enumerate(rows)}

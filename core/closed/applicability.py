@@ -2,7 +2,7 @@
 
     tabor_parameter        h/z0, the height h = L^m/R^(m-1) of the neck over the range z0 of the attraction, with
                            L^(2m-1+k) = R^(2m-2) dgamma/M;   m = 2:  L^2/(R z0),  L^(3+k) = R^2 dgamma/M
-    wave_tabor_parameter   L_c^2/(R_c z0),  L_c^(3+k) = R_c^2 dgamma/M,  R_c = lambda/(4 pi^2 A) the radius of a crest
+    wave_tabor_parameter   L_cr^2/(R_cr z0), L_cr^(3+k) = R_cr^2 dgamma/M, R_cr = lambda/(4 pi^2 A), of a crest
     wave_slope             2 pi A, the steepest slope of the waves
     johnson_alpha          1/(sqrt(pi) chi), chi = r/s of the unloading envelope (core/equations/envelopes.py);
                            k = 0 and one cosine:  sqrt(2 lambda dgamma/(pi^2 E* h^2)),  h = A lambda

@@ -53,6 +53,16 @@ def chis(k: _Array, stretch: _Array, wavelength: _Array, amplitude: _Array, prof
     return one * up, one * down
 
 
+def scales_of(k: _Array, stretch: _Array, m: float) -> tuple[_Array, _Array, _Array]:
+    """Return l in R, the unit of depth s l^c in R, and that of load in 1.5 pi R dgamma, of some k and s: (curves,)."""
+    from scipy.special import beta  # noqa: PLC0415 (200 ms that no other solver needs)
+
+    c = 0.5 * (1.0 - k)
+    depth_factor = 1.0 / (1.0 + k) if m == 2.0 else 0.5 * beta(0.5 * m, 0.5 * (1.0 + k))
+    length = (stretch / depth_factor) ** (1.0 / (m - c))
+    return length, stretch * length**c, _FORCE / (depth_factor * (1.0 + k)) * length ** (2.0 - m)
+
+
 def _depth(k: _Array, m: float, pull: _Array, z: _Array) -> _Array:
     """Return the depth on the envelope of a pull."""
     depth: _Array = z**m - pull * z ** (0.5 * (1.0 - k))
@@ -87,8 +97,6 @@ def solve_envelope(
     parameters: Mapping[str, ArrayLike], names: Sequence[str], outputs: Sequence[str], profile: Profile
 ) -> dict[str, NDArray[Any]]:
     """Solve all scenes of the parameters `names` by the envelopes of a profile, as `solve` of core/sweep.py."""
-    from scipy.special import beta  # noqa: PLC0415 (200 ms that no other solver needs)
-
     m = profile.exponent
     arrays = np.broadcast_arrays(*(np.asarray(parameters[key], dtype=float) for key in names))
     shape = arrays[0].shape
@@ -101,11 +109,9 @@ def solve_envelope(
             np.where(valid, each, np.nan) for each in (k, stretch, wavelength, amplitude, rim)
         )
         c = 0.5 * (1.0 - k)
-        depth_factor = 1.0 / (1.0 + k) if m == 2.0 else 0.5 * beta(0.5 * m, 0.5 * (1.0 + k))
         up, down = chis(k, stretch, wavelength, amplitude, profile)
-        length = (stretch / depth_factor) ** (1.0 / (m - c))
+        length, unit, force = scales_of(k, stretch, m)
         reach, mean = rim / length, wavelength * amplitude * sum(harmonic.cos for harmonic in profile.harmonics)
-        unit = stretch * length**c
         pull = np.minimum(reach, (0.5 * (3.0 + k) / m * (1.0 + down)) ** (1.0 / (m - c)))
         load = pull ** (0.5 * (3.0 + k)) * (1.0 + down - m / (1.0 + k + m) * pull ** (m - c))
         wave = _square(k, stretch, wavelength, amplitude, profile)
@@ -113,7 +119,7 @@ def solve_envelope(
         area = 2.0 * math.pi * length**2
         deepest = np.where(np.isinf(rim), np.inf, np.maximum(0.0, mean + unit * _depth(k, m, 1.0 - up, reach)))
         values = (
-            _FORCE / (depth_factor * (1.0 + k)) * length ** (2.0 - m) * load,
+            force * load,
             np.where(pull < reach, pull * length, rim),
             area * (loaded + unloaded),
             np.where(valid, (z_in > 0.0) * 1.0, np.nan),

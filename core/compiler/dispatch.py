@@ -8,18 +8,16 @@ import inspect
 from collections.abc import Callable
 from functools import update_wrapper
 from importlib import import_module
-from typing import Any, Final, Generic, ParamSpec, TypeVar, cast
+from typing import Any, Generic, ParamSpec, TypeVar, cast
 
 from numba.core import types
 from numba.core.datamodel import register_default
 from numba.core.datamodel.models import OpaqueModel
+from numba.core.types.containers import StarArgTuple, StarArgUniTuple
 
 Given = ParamSpec("Given")
 Result = TypeVar("Result")
 Answer = TypeVar("Answer", bound=Callable[..., Any])
-
-_CHOOSING: Final = "curve"
-"""The argument whose type chooses."""
 
 
 class Face(Generic[Given, Result]):
@@ -28,18 +26,20 @@ class Face(Generic[Given, Result]):
     Parameters
     ----------
     declared
-        The function without a body; one of its arguments is `curve`.
+        The function without a body.
     answered_in
         The modules that hold the answers. They are imported when the first answer is needed, since they need what
         needs the face.
+    by
+        The argument whose type chooses.
     """
 
     __name__: str
     __qualname__: str
 
-    def __init__(self, declared: Callable[Given, Result], answered_in: tuple[str, ...]) -> None:
+    def __init__(self, declared: Callable[Given, Result], answered_in: tuple[str, ...], by: str = "curve") -> None:
         update_wrapper(self, declared)
-        self._at = [*inspect.signature(declared).parameters].index(_CHOOSING)
+        self._at = [*inspect.signature(declared).parameters].index(by)
         self._answered_in = answered_in
         self._answers: dict[type, Any] = {}
         self._numba_type_ = _Chosen(self, self._at)
@@ -88,7 +88,8 @@ class _Chosen(types.Callable, types.Dummy):
         super().__init__(f"Face({face.__module__}.{face.__qualname__})")
 
     def _answer(self, arguments: Any) -> Any:
-        kind = arguments[self._at]
+        stars = (StarArgTuple, StarArgUniTuple)  # what a kernel takes as `*arguments`
+        kind = [one for each in arguments for one in (each if isinstance(each, stars) else (each,))][self._at]
         return self._face.answer_of(getattr(kind, "instance_class", type(kind)))._numba_type_
 
     def get_call_type(self, context: Any, args: Any, kws: Any) -> Any:
@@ -107,10 +108,10 @@ class _Chosen(types.Callable, types.Dummy):
 register_default(_Chosen)(OpaqueModel)
 
 
-def face(*answered_in: str) -> Callable[[Callable[Given, Result]], Face[Given, Result]]:
-    """Declare a function that each kind of curve answers, in the modules of these names."""
+def face(*answered_in: str, by: str = "curve") -> Callable[[Callable[Given, Result]], Face[Given, Result]]:
+    """Declare a function that each kind of curve, or of an argument `by`, answers in the modules of these names."""
 
     def declare(declared: Callable[Given, Result]) -> Face[Given, Result]:
-        return Face(declared, answered_in)
+        return Face(declared, answered_in, by)
 
     return declare

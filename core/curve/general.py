@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.face import waves_at
+from gradhesion.core.problem.curves import GeneralCurves, is_in_range
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Harmonics, Table
@@ -167,3 +168,18 @@ def curve_of(
         length,
         unit,
     )
+
+
+@kernel()
+def curve_at(basis: Basis, curves: GeneralCurves, i: int) -> tuple[bool, Harmonics, Series, float, float]:
+    """Return whether curve number i is in range, its harmonics, the curve, l, and the unit of depth in R.
+
+    The harmonics take the place of those of the basis: there are none where the amplitude is 0.
+    """
+    _, exponent, depth_factor, stretch, wavelength, amplitude, compliance, _ = curves
+    rows = basis.series[: basis.series.shape[0] if amplitude[i] > 0.0 else 0]
+    curve, length, unit = curve_of(
+        basis.table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
+    )
+    valid = is_in_range(stretch[i], wavelength[i], amplitude[i]) and compliance[i] >= 0.0
+    return valid and 0.0 < curve.bend < math.inf and 0.0 <= curve.gain < math.inf, rows, curve, length, unit

@@ -1,9 +1,11 @@
 """The energy lost in a jump at a fixed coordinate, whatever is prescribed (docs/theory.md, section 15).
 
-    e = int_{z1}^{z2} z [1 - rho^2] dz,    rho = 1 + (Y(z) - Y_j)/((alpha + beta z^(1+k)) z^c)
+    e = int_{z1}^{z2} z [kappa^2 - rho^2] dz,    rho = kappa + (Y(z) - Y_j)/((alpha + beta z^(1+k)) z^c)
 
-in units of 2 pi l^2 dgamma, from the radius that is left to the one that is reached; rho = 1 on the equilibrium curve.
-Gauss's rule in panels short against the shortest wave, and against the distance from the branch point at z = 0.
+in units of 2 pi l^2 dgamma, from the radius that is left to the one that is reached; rho = kappa on the equilibrium
+curve, 1 on a plain interface. Gauss's rule in panels short against the shortest wave, and against the distance from the
+branch point at z = 0. rho knows nothing of kappa, and kappa^2 is a series or its square: even where kappa is a root the
+rule needs no more than the waves of the two.
 """
 
 import math
@@ -23,10 +25,9 @@ from gradhesion.core.curve.panels import (
     panels_to_zero,
     rule_between,
 )
-from gradhesion.core.face import waves_at
+from gradhesion.core.face import relative_toughness, shortest_wave, waves_at
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.types import Floats
 
 
@@ -119,8 +120,8 @@ def find_landing(basis: Basis, curve: Series, left: Left, low: float, high: floa
 
 @kernel()
 def drop(basis: Basis, curve: Series, left: Left, low: float, high: float, whole: float) -> float:
-    """Return int x (1 - rho^2) dx from whole + low to whole + high, at the coordinate of the place `left`."""
-    shortest = highest_harmonic(basis[2])
+    """Return int x (kappa^2 - rho^2) dx from whole + low to whole + high, at the coordinate of the place `left`."""
+    shortest = shortest_wave(basis, curve)
     total = 0.0
     while low < high:
         width, beyond, begin, end = panel_outwards(low, high, whole, shortest)
@@ -128,7 +129,7 @@ def drop(basis: Basis, curve: Series, left: Left, low: float, high: float, whole
         for i in range(begin, end):
             x = low + width * PLACES[i]
             u = rise_from(basis, curve, left, x, whole)
-            part -= SHARES[i] * (whole + x) * u * (2.0 + u)
+            part -= SHARES[i] * (whole + x) * u * (2.0 * relative_toughness(basis, curve, whole + x) + u)
         total += width * part
         low = beyond
     return total
@@ -144,7 +145,7 @@ def jump_energy(basis: Basis, curve: Series, start: float, end: float, whole: fl
 
 @kernel(contract=True)
 def balance(basis: Basis, curve: Series, x: float) -> tuple[float, float]:
-    """Return Y on the curve at a radius, and (alpha + beta z^(1+k)) z^c: rho is 1 + (Y - Y_j) over that."""
+    """Return Y on the curve at a radius, and (alpha + beta z^(1+k)) z^c: rho is kappa + (Y - Y_j) over that."""
     table, _, _ = basis
     B, m, g, alpha, beta = curve
     z = TWO_PI * x
@@ -158,19 +159,19 @@ def balance(basis: Basis, curve: Series, x: float) -> tuple[float, float]:
 
 @kernel(contract=True)
 def _from_zero(basis: Basis, curve: Series, x: float, level: float) -> float:
-    """Return x (1 - rho^2) at a radius of a jump from or to zero contact."""
+    """Return x (kappa^2 - rho^2) at a radius of a jump from or to zero contact."""
     value, scale = balance(basis, curve, x)
     u = (value - level) / scale
-    return -x * u * (2.0 + u)
+    return -x * u * (2.0 * relative_toughness(basis, curve, x) + u)
 
 
 @kernel()
 def energy_from_zero(basis: Basis, curve: Series, x: float, level: float) -> float:
-    """Return e of a jump at Y = level from zero contact to x; the way back has the other sign."""
-    table, _, series = basis
-    _, _, _, alpha, beta = curve
-    shortest = highest_harmonic(series)
-    inner, growth = panels_to_zero(table.k, alpha, beta, x, shortest)
+    """Return e of a jump at Y = level from zero contact to x >= 0; the way back has the other sign."""
+    if x == 0.0:
+        return 0.0
+    shortest = shortest_wave(basis, curve)
+    inner, growth = panels_to_zero(basis.table.k, curve.alpha, curve.beta, x, shortest)
     total, high = 0.0, x
     while high > inner:
         low, begin, end = panel_inwards(high, growth, shortest)
@@ -187,11 +188,11 @@ def energy_from_zero(basis: Basis, curve: Series, x: float, level: float) -> flo
 
 @kernel(contract=True)
 def _parts(basis: Basis, curve: Series, x: float) -> tuple[float, float, float]:
-    """Return x (1 - rho^2) at a radius of a jump from or to zero contact as a polynomial of the coordinate Y_j."""
+    """Return x (kappa^2 - rho^2) at a radius of a jump from or to zero contact as a polynomial of Y_j."""
     value, scale = balance(basis, curve, x)
-    share = 1.0 / scale
+    own, share = relative_toughness(basis, curve, x), 1.0 / scale
     u = value * share
-    return -x * u * (2.0 + u), 2.0 * x * (1.0 + u) * share, -x * share * share
+    return -x * u * (2.0 * own + u), 2.0 * x * (own + u) * share, -x * share * share
 
 
 @kernel()
@@ -232,10 +233,8 @@ def energies_in(
     jump-out, share all but that. `stations`, shape (4, n), has places, infinite where nothing has been found yet, and
     up to them the integrals of the coefficients of a polynomial in Y.
     """
-    table, _, series = basis
-    _, _, _, alpha, beta = curve
-    shortest = highest_harmonic(series)
-    low, growth = panels_to_zero(table.k, alpha, beta, math.inf, shortest)
+    shortest = shortest_wave(basis, curve)
+    low, growth = panels_to_zero(basis.table.k, curve.alpha, curve.beta, math.inf, shortest)
     if not SMOOTH * x > low:
         energy = energy_from_zero(basis, curve, x, first_level)
         return energy, energy_from_zero(basis, curve, x, other_level) if other_level != first_level else energy

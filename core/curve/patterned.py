@@ -85,12 +85,6 @@ def toughness_at(basis: Basis, x: float) -> tuple[float, float, float]:
 
 
 @kernel()
-def shortest_of(basis: Basis) -> float:
-    """Return the number of the shortest wave of profile and pattern in a unit length."""
-    return max(highest_harmonic(basis.cosine_bins.waves), highest_harmonic(basis.cosine_bins.rows))
-
-
-@kernel()
 def smooth_part(rows: Harmonics, least: float) -> float:
     """Return how far from the real axis, in units of 1/z, t has no zero: where its waves grow by no more than `least`.
 
@@ -156,7 +150,7 @@ def patterned_curve(
     )
     valid = valid and 0.0 < one.bend < math.inf and one.gain < math.inf and highest_harmonic(rows) < math.inf
     least = patterns.least[i] if valid else 1.0
-    waves = series if wavy else np.zeros((0, 3))
+    waves = series[: series.shape[0] if wavy else 0]
     pattern, finest = pattern_of(cosine_bins, waves, one.gain, rows, patterns.of_work, least)
     curve = Patterned(one.bend, exponent, 1.0, one.alpha, one.beta)
     return valid, pattern, finest, curve, (unit, length, depth)

@@ -8,7 +8,7 @@ from gradhesion.core.curve.general import Basis, curve_of
 from gradhesion.core.curve.short_wave import ShortWave, folds_within, waves_of
 from gradhesion.core.curves import general
 from gradhesion.core.curves.equilibrium import draw_named
-from gradhesion.core.curves.forms import GENERAL, general_numbers
+from gradhesion.core.curves.forms import General, general_numbers
 from gradhesion.core.curves.knots import MOST_FOLDS
 from gradhesion.core.curves.smooth import draw_smooth
 from gradhesion.core.curves.subject import Form, Subject
@@ -30,7 +30,7 @@ def draw_asymptotic(subject: Subject, profile: Profile) -> dict[str, NDArray[np.
     one cosine. Nothing is claimed where the contact is no larger than a wave.
     """
     if subject.mean_height == 0.0:
-        smooth = general.draw_smooth if subject.exact.kind == GENERAL else draw_smooth
+        smooth = general.draw_smooth if isinstance(subject.exact.numbers, General) else draw_smooth
         return {name.replace("smooth", "asymptotic"): values for name, values in smooth(subject).items()}
     k, m, wavelength = subject.k, profile.exponent, subject.wavelength
     table, amplitude = subject.table, subject.mean_height / wavelength
@@ -43,5 +43,5 @@ def draw_asymptotic(subject: Subject, profile: Profile) -> dict[str, NDArray[np.
         return None
     places = np.unique(np.concatenate([zeros[:count] for count, _, zeros in found]))
     numbers = general_numbers(k, by_depth, float(table["amplitude"]), series)
-    form = Form(GENERAL, basis, numbers, wavelength, unit, force_unit(k, length, unit))
+    form = Form(basis, numbers, wavelength, unit, force_unit(k, length, unit))
     return draw_named(subject, form, places[places < end], "asymptotic")

@@ -15,13 +15,13 @@ from gradhesion.core.curves.asymptotic import draw_asymptotic
 from gradhesion.core.curves.effective import draw_effective
 from gradhesion.core.curves.envelope import draw_envelope
 from gradhesion.core.curves.equilibrium import draw_equilibrium
-from gradhesion.core.curves.forms import GENERAL
+from gradhesion.core.curves.forms import General
 from gradhesion.core.curves.jumps import list_jumps
 from gradhesion.core.curves.path import draw_path
 from gradhesion.core.curves.smooth import draw_smooth
 from gradhesion.core.curves.subject import BEYOND, Subject, subject_of
 from gradhesion.core.problem.control import Loading
-from gradhesion.core.problem.names import CLOSING, CURVES, PARAMETERS, PATTERN, PATTERN_CURVES, TURNS
+from gradhesion.core.problem.names import CLOSING, CURVES, PARAMETERS, PATTERN, PATTERN_CURVES, TURNS, WITHOUT_LOAD
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.status import FAILED, NO_VALUE
 from gradhesion.core.sweep import solve
@@ -45,24 +45,32 @@ INTEGERS: Final = frozenset(_TYPES)
 _OF_A_CYCLE: Final = ("path", "jumps", "effective")
 """The curves that turn where the cycle does."""
 _EXACT: Final = {"equilibrium": draw_equilibrium, "path": draw_path, "jumps": list_jumps}
-_CLOSED: Final = {
-    "envelope": draw_envelope,
-    "effective": draw_effective,
-    "smooth": draw_smooth,
-}
+_OF_PROFILES: Final = {"asymptotic": draw_asymptotic, "envelope": draw_envelope, "effective": draw_effective}
+"""Approximations, under displacement control."""
 
 GENERAL_CURVES: Final = ("equilibrium", "closing_equilibrium", "path", "smooth", "jumps")
 """The curves of any profile under any control."""
-CURVES_BY_DEPTH: Final = (*GENERAL_CURVES, "asymptotic")
-"""Those of any profile under displacement control; the others are closed forms of one cosine wave on a paraboloid."""
+
+
+def subject_for(
+    scene: Mapping[str, float], profile: Profile, loading: Loading, toughness: Toughness | None = None
+) -> Subject | None:
+    """Return a scene of any kind ready for drawing, None where a parameter is outside its range."""
+    if toughness is not None:
+        from gradhesion.core.curves import patterned  # noqa: PLC0415 (kernels of their own)
+
+        return patterned.subject_of(scene, profile, loading, toughness)
+    default = profile == Profile() and loading == Loading()
+    return subject_of(scene) if default else general.subject_of(scene, profile, loading)
 
 
 def _draw(subject: Subject | None, curve: str, profile: Profile) -> dict[str, NDArray[Any]] | None:
     """Return the variables of a curve, None where it has no value."""
     if subject is None or (curve in _EXACT and subject.trace is None):
         return None
-    of_curve: dict[str, Any] = _EXACT | {"asymptotic": partial(draw_asymptotic, profile=profile)}
-    of_curve |= {"smooth": general.draw_smooth} if subject.exact.kind == GENERAL else _CLOSED
+    of_curve: dict[str, Any] = {name: partial(draw, profile=profile) for name, draw in _OF_PROFILES.items()}
+    of_curve |= {"smooth": general.draw_smooth if isinstance(subject.exact.numbers, General) else draw_smooth}
+    of_curve |= _EXACT
     with np.errstate(all="ignore"):
         variables = of_curve[curve](subject)
     if variables is None or not all(np.isfinite(values).all() for values in variables.values()):
@@ -99,10 +107,11 @@ def draw_curves(
         Names out of `CURVES`: "equilibrium", the whole equilibrium curve, stable and unstable; "closing_equilibrium",
         that of closing; "path", the cycle of loading and unloading; "asymptotic", the curve for short waves
         (5.15)-(5.20); "envelope", its two envelopes (5.21)-(5.27); "effective", the path along them (5.28)-(5.35);
-        "smooth", the curve of A = 0; "jumps", the jumps of the cycle, one by one.
+        "smooth", the curve of A = 0; "jumps", the jumps of the cycle, one by one. The equations are those of one
+        cosine; other profiles have the same (docs/theory.md, section 15).
     profile, loading
-        Shape of the punch and what is prescribed, as in `solve`; another shape has the curves of `CURVES_BY_DEPTH`
-        only, another control those of `GENERAL_CURVES`.
+        Shape of the punch and what is prescribed, as in `solve`; another control than the displacement has the curves
+        of `GENERAL_CURVES` only.
     toughness
         How the toughness varies with the radius, as in `solve`: with it there are "equilibrium", "path" and "jumps",
         and `scene` has the parameters of the pattern.
@@ -124,7 +133,7 @@ def draw_curves(
     Raises
     ------
     ValueError
-        For an unknown curve, one that the profile or control does not have, or parameters that are missing.
+        For an unknown curve, one that the control does not have, or parameters that are missing.
 
     Notes
     -----
@@ -160,18 +169,14 @@ def draw_curves(
         raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
     if (PATTERN[0] in scene) != (toughness is not None):
         raise ValueError(f"{PATTERN[0]} belongs to a pattern of toughness, which needs it")
-    default = profile == Profile() and loading == Loading() and toughness is None
-    known = tuple(CURVES) if default else CURVES_BY_DEPTH if loading == Loading() else GENERAL_CURVES
+    known = tuple(CURVES) if loading == Loading() else GENERAL_CURVES
     if toughness is not None:
-        from gradhesion.core.curves import patterned  # noqa: PLC0415 (kernels of their own)
-
         known = PATTERN_CURVES
     absent = [name for name in curves if name not in known]
     if absent:
-        raise ValueError(
-            f"curves {absent} are known of the paraboloid with one cosine wave under displacement control only, but "
-            f"for the asymptotic one, which any profile has; this profile and control have {', '.join(known)}"
-        )
+        one = "asymptotic" if "asymptotic" in absent else "envelope"
+        why = f"at a prescribed depth only: {WITHOUT_LOAD[one]}" if toughness is None else "of plain interfaces only"
+        raise ValueError(f"curves {absent} are known {why}; there are {', '.join(known)}")
     if rate is not None:
         from gradhesion.core.rate.curves import draw_at_speed  # noqa: PLC0415 (seldom wanted)
 
@@ -184,13 +189,7 @@ def draw_curves(
     if len(turns) > 1:
         raise ValueError(f"{' and '.join(turns)} are given: a cycle turns at one of them")
     plain = {name: value for name, value in scene.items() if name not in turns}
-
-    def of(scene: Mapping[str, float]) -> Subject | None:
-        """Make a scene ready for drawing."""
-        if toughness is not None:
-            return patterned.subject_of(scene, profile, loading, toughness)
-        return subject_of(scene) if default else general.subject_of(scene, profile, loading)
-
+    of = partial(subject_for, profile=profile, loading=loading, toughness=toughness)
     driven: dict[str, Any] = {"threads": 1, "profile": profile, "loading": loading, "toughness": toughness}
     subject = round_trip = of(plain)
     radius = math.inf

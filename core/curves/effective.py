@@ -1,12 +1,14 @@
 """The effective path of a cycle, without the single waves: envelopes and the line between them, (5.28)-(5.35).
 
-In the units of smooth.py, with chi = r/s, depth counted from the mean surface and X = z^((3+k)/2),
+In the units of smooth.py, with chi = r/s, depth counted from the mean surface and X = z^((3+k)/2), of a paraboloid
 
     jump-in            at depth 0 to z_2, X = 2 (1-chi)                            (5.34)
     loading            along the envelope of the pull 1 - chi to z_max
     early unloading    load = z_max^(1+k) depth - X^2 (1+k)/(2 (3+k)),   over a depth 2 chi z_max^((1-k)/2)   (5.32)
     unloading          along the envelope of the pull 1 + chi to z_4, X = (1-k)/2 (1+chi)      (5.35)
     jump-out           at that depth
+
+and of any profile along the envelopes of closed/general_envelope.py in the same way.
 """
 
 from typing import Any, Final
@@ -14,31 +16,31 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.core.curves.envelope import Envelopes, envelopes_of
 from gradhesion.core.curves.equilibrium import scales_of
 from gradhesion.core.curves.sampling import sample
-from gradhesion.core.curves.smooth import smooth_places
 from gradhesion.core.curves.subject import Subject
+from gradhesion.core.problem.profile import Profile
 
 REACH: Final = 2.0
 """Radius at which the path of an unbounded punch turns, in a_2 (as in Fig. 9)."""
 
 
-def turning_place(subject: Subject) -> float:
+def turning_place(subject: Subject, envelopes: Envelopes) -> float:
     """Return z_max: that of the rim; of an unbounded punch 2 z_2, or that of the pull-off if it lies further out."""
-    k, chi = subject.k, subject.chi
-    power = 2.0 / (3.0 + k)
+    up, _, (rise, fall), turns = envelopes
     if subject.bounded:
-        return subject.rim / subject.plain(1.0).radius_scale
-    return float(max(REACH * (2.0 * max(0.0, 1.0 - chi)) ** power, (0.5 * (3.0 + k) * (1.0 + chi)) ** power))
+        return subject.rim / up.radius_scale
+    return max(REACH * turns.place(turns.zero, rise), turns.place(turns.least, fall))
 
 
-def draw_effective(subject: Subject) -> dict[str, NDArray[Any]]:
+def draw_effective(subject: Subject, profile: Profile) -> dict[str, NDArray[Any]]:
     """Return the effective path of a cycle.
 
     Parameters
     ----------
-    subject
-        Any scene.
+    subject, profile
+        Any scene under displacement control, and its punch.
 
     Returns
     -------
@@ -53,22 +55,20 @@ def draw_effective(subject: Subject) -> dict[str, NDArray[Any]]:
     -----
     The sum of P d(delta) over its lines is the energy of `solver = "envelope"` with the rim at the turn, chords apart.
     """
-    k, chi = subject.k, subject.chi
-    power = 2.0 / (3.0 + k)
-    turn = turning_place(subject)
-    up, down = (subject.plain(pull, subject.mean_height) for pull in (1.0 - chi, 1.0 + chi))
-    height = up.numbers[2]
-    start, stop = (2.0 * max(0.0, 1.0 - chi)) ** power, min(turn, (0.5 * (1.0 - k) * (1.0 + chi)) ** power)
+    envelopes = envelopes_of(subject, profile)
+    up, down, (rise, fall), levels = envelopes
+    turn, height = turning_place(subject, envelopes), up.numbers.height
+    start, stop = levels.place(levels.zero, rise), min(turn, levels.place(levels.fold, fall))
 
     _, last_depth, last_load = down.states(np.array([turn]))[:, 0]
     if start < turn:
-        turns = smooth_places(k, (1.0 - chi,), turn)
+        turns = levels.places((rise,), turn)
         loading = up.states(np.concatenate([[start], turns[turns > start], [turn]]))
         if start > 0.0:
             loading[1, 0] = height  # to rounding it is that already
     else:  # the rim is reached by the jump-in, and contact there is a flat punch
         loading = np.array([[turn], [height], [last_load + down.flat_stiffness(turn) * (height - last_depth)]])
-    turns = smooth_places(k, (1.0 + chi,), turn)[::-1]
+    turns = levels.places((fall,), turn)[::-1]
     unloading = down.states(np.concatenate([[turn], turns[turns > stop], [stop] if stop < turn else []]))
     before = np.array([[0.0, 0.0], [0.0, height], [0.0, 0.0]])[:, : 2 if start > 0.0 and height > 0.0 else 1]
     out = np.array([[0.0], [unloading[1, -1]], [0.0]])[:, : 1 if stop > 0.0 else 0]
@@ -77,7 +77,7 @@ def draw_effective(subject: Subject) -> dict[str, NDArray[Any]]:
     pieces = [before]
     for form, corners in ((up, loading), (down, unloading)):
         joined = np.arange(corners.shape[1]) > 0
-        pieces.append(sample(form.kind, form.table, form.numbers, np.ascontiguousarray(corners), joined, scales)[0])
+        pieces.append(sample(form.table, form.numbers, np.ascontiguousarray(corners), joined, scales)[0])
     pieces.append(out)
     points = np.concatenate(pieces, axis=1)
     jump = np.zeros(points.shape[1], dtype=np.int8)

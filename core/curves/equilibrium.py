@@ -17,7 +17,7 @@ def draw_through(form: Form, places: Floats, end: float) -> tuple[Floats, Intege
     knots = form.states(np.concatenate([[0.0], places, [end]]))
     joined = np.ones(knots.shape[1], dtype=np.bool_)
     joined[0] = False
-    points, owners = sample(form.kind, form.table, form.numbers, knots, joined, scales_of(knots))
+    points, owners = sample(form.table, form.numbers, knots, joined, scales_of(knots))
     return points, owners
 
 

@@ -13,15 +13,13 @@ from numpy.typing import NDArray
 
 from gradhesion.core.arrays.prepared import compliance_of
 from gradhesion.core.arrays.tables import tables_of
-from gradhesion.core.curve.arches import folds_between
 from gradhesion.core.curve.branches import ARRIVAL, END, START
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.general import Basis, Series, curve_of
-from gradhesion.core.curve.general_folds import room
-from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.curves.equilibrium import draw_named
-from gradhesion.core.curves.forms import GENERAL, general_numbers
+from gradhesion.core.curves.forms import general_numbers
 from gradhesion.core.curves.subject import BEYOND, BEYOND_SMOOTH, Form, Subject
+from gradhesion.core.face import find_all_folds, window
 from gradhesion.core.path.general import walk
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
@@ -34,22 +32,17 @@ MOST_FOLDS: Final = 20_000
 """Folds of a curve that is drawn."""
 
 
-def _bounds(basis: Basis, curve: Series) -> tuple[float, float]:
-    """Return the places between which folds stand."""
-    return first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
-
-
 def _turns(basis: Basis, curve: Series, furthest: float) -> NDArray[np.float64] | None:
     """Return all folds of the coordinate up to a place; None if too many."""
-    first, end = _bounds(basis, curve)
+    first, end = window(basis, curve)
     zeros = np.empty(MOST_FOLDS)
     count, last = 0, min(furthest, end)
     if first < last < math.inf:
-        count, _, _ = folds_between(basis, curve, first, last, room(), zeros)
+        count, _, _ = find_all_folds(basis, curve, first, last, zeros)
     return None if count < 0 or last == math.inf else zeros[:count]
 
 
-def _trace(
+def trace_of(
     basis: Basis, curve: Series, furthest: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | tuple[None, NDArray[np.float64]]:
     """Return the branches with what path/general.py notes of them, and the other extrema of depth and load.
@@ -61,7 +54,7 @@ def _trace(
     turns = [each for one in measured if (each := _turns(basis, one, furthest)) is not None]
     if len(turns) < len(coordinates):
         return None, np.empty(0)
-    count, trace, _ = walk(basis, curve, *_bounds(basis, curve), furthest, False)
+    count, trace, _ = walk(basis, curve, window(basis, curve), furthest, False)
     trace = np.ascontiguousarray(trace[:, :count])
     trace[END, trace[END] == furthest] = math.inf
     others = np.setdiff1d(np.concatenate(turns[:2]), trace[[START, END]])
@@ -71,7 +64,7 @@ def _trace(
 def _form(basis: Any, curve: Series, radius_scale: float, depth_scale: float, load_scale: float) -> Form:
     table, _, series = basis
     numbers = general_numbers(float(table["k"]), curve, float(table["amplitude"]), series)
-    return Form(GENERAL, basis, numbers, radius_scale, depth_scale, load_scale)
+    return Form(basis, numbers, radius_scale, depth_scale, load_scale)
 
 
 def smooth_place(form: Form, level: float) -> float:
@@ -79,6 +72,14 @@ def smooth_place(form: Form, level: float) -> float:
     bend, m, _, _, _ = form.curve
     place: float = (level / (m * bend)) ** (1.0 / (m - 0.5 * (1.0 - float(form.table[0]["k"]))))
     return place
+
+
+def end_of(form: Form, trace: NDArray[np.float64] | None, turns: NDArray[np.float64]) -> float:
+    """Return a/R at which the curve of an unbounded punch ends."""
+    places = [BEYOND_SMOOTH * smooth_place(form, form.curve.exponent) / TWO_PI, *BEYOND * turns[-1:]]
+    if trace is not None:
+        places += [BEYOND * trace[START, -1], BEYOND * trace[ARRIVAL, -1]]
+    return float(form.radius_scale * max(places))
 
 
 def subject_of(scene: Mapping[str, float], profile: Profile, loading: Loading) -> Subject | None:
@@ -114,20 +115,15 @@ def subject_of(scene: Mapping[str, float], profile: Profile, loading: Loading) -
     if not (0.0 < curve.bend < math.inf and curve.gain < math.inf):
         return None
     form = _form(basis, curve, wavelength, unit, force_unit(k, length, unit))
-    trace, turns = _trace(basis, curve, rim / wavelength)
-    end = rim
-    if not rim < math.inf:
-        places = [BEYOND_SMOOTH * smooth_place(form, profile.exponent) / TWO_PI, *BEYOND * turns[-1:]]
-        if trace is not None:
-            places += [BEYOND * trace[START, -1], BEYOND * trace[ARRIVAL, -1]]
-        end = wavelength * max(places)
+    trace, turns = trace_of(basis, curve, rim / wavelength)
+    end = rim if rim < math.inf else end_of(form, trace, turns)
     return Subject(table, stretch, wavelength, math.nan, amplitude * wavelength, rim, end, form, trace, turns)
 
 
 def draw_smooth(subject: Subject) -> dict[str, NDArray[np.float64]]:
     """Return the variables `smooth_...` (draw.CURVES): the curve of the same power without waves."""
     exact, k = subject.exact, subject.k
-    basis = (*exact.table[:2], np.zeros((0, 3)))
+    basis = exact.table._replace(series=np.zeros((0, 3)))
     form = _form(basis, exact.curve._replace(gain=0.0), exact.radius_scale, exact.depth_scale, exact.load_scale)
     end = subject.end / form.radius_scale
     levels = (0.5 * (1.0 - k), form.curve.exponent, 0.5 * (3.0 + k))

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from gradhesion.core.closed.smooth import smooth_energy_from_zero
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import ROWS, WORK
-from gradhesion.core.curves.forms import PLAIN
 from gradhesion.core.curves.path import DEPTH, JUMP, LOAD, PLACE, UNLOADING, find_corners
 from gradhesion.core.curves.subject import Form, Subject
 from gradhesion.core.face import loss_between, loss_from_zero, loss_to_zero
@@ -30,7 +29,7 @@ def lost(table: Any, curve: Any, start: float, end: float, level: float, work: A
 
 def _lost_by(form: Form, start: float, end: float, level: float, work: Any) -> float:
     """Return that of a form: a smooth punch jumps from zero contact and to zero contact only."""
-    if form.kind != PLAIN:
+    if not form.is_plain:
         return lost(form.table, form.curve, start, end, level, work)
     energy: float = smooth_energy_from_zero(form.table["k"], max(start, end), level)
     return energy if start == 0.0 else -energy
@@ -68,7 +67,7 @@ def list_jumps(subject: Subject) -> dict[str, NDArray[Any]]:
     work = np.empty((ROWS, 16))[WORK]
     jumps = zip(left.tolist(), reached.tolist(), levels.tolist(), strict=True)
     energies = np.array([_lost_by(form, start, end, level, work) for start, end, level in jumps])
-    length = form.radius_scale / (1.0 if form.kind == PLAIN else TWO_PI)
+    length = form.radius_scale / (1.0 if form.is_plain else TWO_PI)
     at_rim = ((left == rim) | (reached == rim)) & subject.bounded
     return {
         "jump_indentation": corners[DEPTH, before] * form.depth_scale,

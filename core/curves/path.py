@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, START_DEPTH
 from gradhesion.core.curves.equilibrium import scales_of
-from gradhesion.core.curves.forms import EXACT
 from gradhesion.core.curves.knots import landed
 from gradhesion.core.curves.sampling import sample
 from gradhesion.core.curves.subject import Subject
@@ -42,7 +41,7 @@ class _Walk:
     def land(self, guess: float, level: float, branch: float, unloading: bool) -> None:
         """Jump to the place of a branch at a level."""
         form = self.form
-        place = landed(form.table, form.curve, level, guess) if form.kind == EXACT else guess
+        place = landed(form.table, form.curve, level, guess) if form.is_one_wave else guess
         self.put(place, branch, False, True, unloading)
 
     def along(self, place: float, branch: float, unloading: bool) -> None:
@@ -141,7 +140,7 @@ def draw_path(subject: Subject) -> dict[str, NDArray[Any]]:
     """
     form, corners = subject.exact, find_corners(subject)
     knots = np.ascontiguousarray(corners[:3])
-    points, owners = sample(form.kind, form.table, form.numbers, knots, corners[JOINED] > 0.0, scales_of(knots))
+    points, owners = sample(form.table, form.numbers, knots, corners[JOINED] > 0.0, scales_of(knots))
     radius, depth, load = form.scaled(points)
     radius[points[0] == subject.end / form.radius_scale] = subject.end
     return {

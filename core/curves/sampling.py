@@ -7,12 +7,12 @@ fold is a knot: there the amplitude of the waves has to be below the tolerance a
 chord: a wave that is as high as the picture but narrower than a line needs no more than its folds.
 """
 
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curves.forms import Numbers, point, ripple
+from gradhesion.core.curves.forms import point, ripple
 from gradhesion.core.face import AnyTable
 from gradhesion.core.types import Floats, Integers, Truths
 
@@ -40,19 +40,19 @@ def _across(r: float, d: float, p: float, start: Floats, end: Floats, scales: Fl
 
 
 @kernel()
-def _is_straight(kind: int, table: AnyTable, numbers: Numbers, start: Floats, end: Floats, scales: Floats) -> bool:
+def _is_straight(table: AnyTable, numbers: Any, start: Floats, end: Floats, scales: Floats) -> bool:
     """Return whether a piece is near its chord: at three places and, if they may miss its waves, in these.
 
     Points and scales are those of `_across`, of shape (3,).
     """
-    half_wave, _, _ = ripple(kind, table, numbers, 1.0)
+    half_wave, _, _ = ripple(table, numbers, 1.0)
     if abs(end[0] - start[0]) > half_wave:
-        _, depth, load = ripple(kind, table, numbers, max(start[0], end[0]))
+        _, depth, load = ripple(table, numbers, max(start[0], end[0]))
         if not _across(0.0, depth, load, start, end, scales):
             return False
     for share in (0.5, 0.25, 0.75):
         step = share * (end[0] - start[0])
-        depth, load = point(kind, table, numbers, start[0] + step)
+        depth, load = point(table, numbers, start[0] + step)
         if not _across(step, depth - start[1], load - start[2], start, end, scales):
             return False
     return True
@@ -71,14 +71,12 @@ def _grown(points: Floats, owners: Integers) -> tuple[Floats, Integers]:
 
 
 @kernel()
-def sample(
-    kind: int, table: AnyTable, numbers: Numbers, knots: Floats, joined: Truths, scales: Floats
-) -> tuple[Floats, Integers]:
+def sample(table: AnyTable, numbers: Any, knots: Floats, joined: Truths, scales: Floats) -> tuple[Floats, Integers]:
     """Return points of a form through knots, of shape (3, n), and the knot that each leads up to.
 
     Parameters
     ----------
-    kind, table, numbers
+    table, numbers
         The form (forms.py).
     knots
         Rows of place, depth and load, in the order of the path, which may go in- or outwards; shape (3, knots).
@@ -101,7 +99,7 @@ def sample(
             levels[0], top = 0, 1
         while top > 0:  # the ends on the stack go towards the start
             end, level = ends[:, top - 1], levels[top - 1]
-            if level == _HALVINGS or _is_straight(kind, table, numbers, start, end, scales):
+            if level == _HALVINGS or _is_straight(table, numbers, start, end, scales):
                 top -= 1
                 if top > 0:  # the last end is the knot itself
                     if size == owners.size:
@@ -114,7 +112,7 @@ def sample(
                 levels[top - 1] = level + 1
                 middle = 0.5 * (start[0] + end[0])
                 ends[0, top], levels[top] = middle, level + 1
-                ends[1, top], ends[2, top] = point(kind, table, numbers, middle)
+                ends[1, top], ends[2, top] = point(table, numbers, middle)
                 top += 1
         if size == owners.size:
             points, owners = _grown(points, owners)

@@ -1,6 +1,7 @@
 """The curve of the smooth punch, A = 0."""
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,15 +10,28 @@ from gradhesion.core.curves.equilibrium import draw_named
 from gradhesion.core.curves.subject import Subject
 
 
-def smooth_places(k: float, pulls: Sequence[float], end: float) -> NDArray[np.float64]:
-    """Return where smooth punches of some pulls turn and where they are at zero depth, in order, before an end.
+class Turns(NamedTuple):
+    """Where smooth punches of some pull turn: at places (level pull)^root."""
 
-    d depth/dz = 0 at X = pull (1-k)/2, d load/dz = 0 at X = pull (3+k)/2, and depth = 0 at X = 2 pull.
-    """
-    abscissas = [max(0.0, pull) * level for pull in pulls for level in (0.5 * (1.0 - k), 2.0, 0.5 * (3.0 + k))]
-    places = np.unique(np.array(abscissas) ** (2.0 / (3.0 + k)))
-    kept: NDArray[np.float64] = places[(places > 0.0) & (places < end)]
-    return kept
+    fold: float  # the level where d depth/dz = 0,
+    zero: float  # where depth = 0,
+    least: float  # and where d load/dz = 0
+    root: float
+
+    def place(self, level: float, pull: float) -> float:
+        """Return the place of one of the levels, 0 where no adhesion pulls."""
+        return float((level * max(0.0, pull)) ** self.root)
+
+    def places(self, pulls: Sequence[float], end: float) -> NDArray[np.float64]:
+        """Return all places of some pulls, in order, between 0 and an end."""
+        places = np.unique([self.place(level, pull) for pull in pulls for level in self[:3]])
+        kept: NDArray[np.float64] = places[(places > 0.0) & (places < end)]
+        return kept
+
+
+def turns_of(k: float) -> Turns:
+    """Return where paraboloids turn, in the units of closed/smooth.py: X = z^((3+k)/2) is a level times the pull."""
+    return Turns(0.5 * (1.0 - k), 2.0, 0.5 * (3.0 + k), 2.0 / (3.0 + k))
 
 
 def draw_smooth(subject: Subject) -> dict[str, NDArray[np.float64]]:
@@ -33,5 +47,5 @@ def draw_smooth(subject: Subject) -> dict[str, NDArray[np.float64]]:
     The variables `smooth_...` (draw.CURVES).
     """
     form = subject.plain(1.0)
-    places = smooth_places(subject.k, (1.0,), subject.end / form.radius_scale)
+    places = turns_of(subject.k).places((1.0,), subject.end / form.radius_scale)
     return draw_named(subject, form, places, "smooth")

@@ -13,7 +13,7 @@ from gradhesion.core.closed import smooth
 from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, ROWS, START, START_DEPTH, UNKNOWN, UNLOADING_JUMPS
 from gradhesion.core.curve.cosine import Cosine, curve_of, force_unit
 from gradhesion.core.curves import knots
-from gradhesion.core.curves.forms import EXACT, GENERAL, PLAIN, fill_points
+from gradhesion.core.curves.forms import EXACT, PLAIN, General, PowerLaw, Reduced, fill_points
 from gradhesion.core.path.cosine import extent, is_endless_wave, is_smooth, walk
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import PARAMETERS
@@ -31,7 +31,6 @@ _SMALLEST: Final = 1e-140
 class Form:
     """A reduced form with its scales: the radius (in R) of a place, the depth (in R) and the load of a unit."""
 
-    kind: int
     table: Any
     numbers: Any
     radius_scale: float
@@ -39,25 +38,36 @@ class Form:
     load_scale: float
 
     @property
+    def is_plain(self) -> bool:
+        """Whether it is a smooth punch, whose places are a/l."""
+        return isinstance(self.numbers, PowerLaw) or (isinstance(self.numbers, Reduced) and self.numbers.kind == PLAIN)
+
+    @property
+    def is_one_wave(self) -> bool:
+        """Whether it is the curve of curve/cosine.py."""
+        return isinstance(self.numbers, Reduced) and self.numbers.kind == EXACT
+
+    @property
     def curve(self) -> Any:
         """The curve as core/path/ takes it; that of a smooth punch stands for one without waves."""
-        return self.numbers[0] if self.kind == GENERAL else Cosine(self.numbers[0], self.numbers[1], 0.0)
+        numbers = self.numbers
+        return numbers.curve if isinstance(numbers, General) else Cosine(numbers.first, numbers.second, 0.0)
 
     @property
     def coordinate(self) -> tuple[float, float]:
         """What is prescribed, as alpha and beta of alpha depth + beta load; the depth for all but general forms."""
-        return self.curve[3:] if self.kind == GENERAL else (1.0, 0.0)
+        return self.curve[3:] if isinstance(self.numbers, General) else (1.0, 0.0)
 
     def flat_stiffness(self, place: float) -> float:
         """Return the load over the depth of a flat punch as wide as a place, K a^(1+k): of contact pinned there."""
-        k = float((self.table[0] if self.kind == GENERAL else self.table)["k"])
-        return float((place if self.kind == PLAIN else TWO_PI * place) ** (1.0 + k))
+        k = float((self.table[0] if isinstance(self.numbers, General) else self.table)["k"])
+        return float((place if self.is_plain else TWO_PI * place) ** (1.0 + k))
 
     def states(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return reduced points, of shape (3, n): places >= 0 with their depths and loads."""
         points = np.empty((3, places.size))
         points[0] = places
-        fill_points(self.kind, self.table, self.numbers, points)
+        fill_points(self.table, self.numbers, points)
         return points
 
     def scaled(
@@ -107,7 +117,7 @@ def plain_form(table: Any, stretch: float, pull: float, height: float = 0.0) -> 
     k = float(table["k"])
     length = smooth.smooth_length(k, stretch)
     depth_scale = 2.0 * length * length / (1.0 + k)
-    return Form(PLAIN, table, (k, pull, height / depth_scale, 0.0, 0.0), length, depth_scale, smooth.FORCE_SCALE)
+    return Form(table, Reduced(PLAIN, k, pull, height / depth_scale), length, depth_scale, smooth.FORCE_SCALE)
 
 
 def wavy_form(table: Any, stretch: float, wavelength: float, mean_height: float) -> Form:
@@ -115,7 +125,7 @@ def wavy_form(table: Any, stretch: float, wavelength: float, mean_height: float)
     k = float(table["k"])
     (bend, gain, _), length, depth_scale = curve_of(k, stretch, wavelength, mean_height)
     load_scale = force_unit(k, length, depth_scale)
-    return Form(EXACT, table, (bend, gain, 0.0, 0.0, 0.0), wavelength, depth_scale, load_scale)
+    return Form(table, Reduced(EXACT, bend, gain), wavelength, depth_scale, load_scale)
 
 
 def _smooth_trace(k: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -130,7 +140,7 @@ def _smooth_trace(k: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 def _wavy_trace(form: Form, arches: tuple[float, float], furthest: float) -> tuple[NDArray[np.float64], Any]:
     """Return the branches of a wavy punch up to a place, and where its load is extremal."""
-    curve = Cosine(form.numbers[0], form.numbers[1], 0.0)
+    curve = form.curve
     count, trace = walk(form.table, curve, arches, furthest, np.empty((ROWS, 64)), False)
     knots.polish_branches(form.table, curve, count, trace)
     return np.ascontiguousarray(trace[:, :count]), knots.folds_of_load(form.table, curve, furthest)
@@ -162,8 +172,8 @@ def subject_of(scene: Mapping[str, float]) -> Subject | None:
     form, chi = smooth_form, 0.0
     if amplitude > 0.0:
         wavy = wavy_form(table, stretch, wavelength, amplitude * wavelength)
-        chi = float(table["amplitude"]) * wavy.numbers[1]
-        curve = Cosine(wavy.numbers[0], wavy.numbers[1], 0.0)
+        curve = wavy.curve
+        chi = float(table["amplitude"]) * curve.gain
         if not is_endless_wave(wavelength, amplitude):
             if not (0.0 < curve.bend < math.inf and chi < math.inf and min(rim, least) > _SMALLEST * wavelength):
                 return None

@@ -1,8 +1,8 @@
 """The energy that a cycle along the effective path dissipates, (5.36)-(5.43), and its fits.
 
     H = C1 + C2
-    C1 = pi dgamma { a_2^2 [(1+x)^2 - 2 (1-x)^2/(5+k)] + (1+x)^2 F a_4^2 },   x = r/s < 1
-    F  = 16 q^2/((1+k)(3+k)(5+k)) - 8 q/((1+k)(3+k)) + 2/(1+k) - 1,           q = (1-k)/4
+    C1 = pi dgamma { a_2^2 [(1+x)^2 - 2 (1-x)^2/(5+k)] + (1+x)^2 e a_4^2 },   x = r/s < 1
+    e  = 16 t^2/((1+k)(3+k)(5+k)) - 8 t/((1+k)(3+k)) + 2/(1+k) - 1,           t = (1-k)/4
     C2 = 4 pi x dgamma (a_am^2 - a_2^2)
        = A G((1+k)/2) sqrt(2^(3-k) pi^(2-k) lambda^(1+k) dgamma M) (a_am^2 - a_2^2)
 
@@ -169,9 +169,9 @@ def fitted_energy(
 
 
 def _end_factor(k: Array) -> Array:
-    """Return F at q = (1-k)/4."""
-    q = 0.25 * (1.0 - k)
-    return (16.0 * q * q / (5.0 + k) - 8.0 * q) / ((1.0 + k) * (3.0 + k)) + 2.0 / (1.0 + k) - 1.0
+    """Return epsilon(t) of docs/theory.md, section 11, at t = (1-k)/4."""
+    t = 0.25 * (1.0 - k)
+    return (16.0 * t * t / (5.0 + k) - 8.0 * t) / ((1.0 + k) * (3.0 + k)) + 2.0 / (1.0 + k) - 1.0
 
 
 def _area_of_jump_in(k: Array) -> Array:

@@ -1,30 +1,36 @@
 """What a patterned interface answers (core/face.py): the path as any profile, the gap by the profile alone."""
 
 import math
+from typing import Final
 
 from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact import touch
 from gradhesion.core.contact.gap import GROWTH, Edge
 from gradhesion.core.curve.general import Basis, Series, coordinate, level_with_rate
-from gradhesion.core.curve.patterned import Patterned, toughness_at
-from gradhesion.core.curve.patterned_energy import energy_between, energy_to
+from gradhesion.core.curve.general_energy import energy_from_zero, jump_energy
+from gradhesion.core.curve.general_folds import Zeros
+from gradhesion.core.curve.patterned import Patterned, are_too_many, folds_up_to, toughness_at, window
 from gradhesion.core.faces import series, series_contact
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.fractional import NODES
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import highest_harmonic, sums
-from gradhesion.core.types import Floats, Work
+from gradhesion.core.turning.general_reach import WAVES, envelope_at
+from gradhesion.core.types import Work
+
+_OUTERMOST: Final = 1e100
 
 face.find_place.answers(Patterned)(series.find_place)
 face.depth_at.answers(Patterned)(series.depth_at)
 face.most_size_at.answers(Patterned)(series.most_size_at)
 face.fold_at.answers(Patterned)(series.fold_at)
 face.gap_in.answers(Patterned)(series.gap_in)
+face.window.answers(Patterned)(window)
 face.coordinate_at.answers(Patterned)(coordinate)
 face.table_of.answers(Patterned)(series_contact.table_of)
 face.waves_are_one_disc.answers(Patterned)(series_contact.waves_are_one_disc)
 face.edge_at.answers(Patterned)(series_contact.edge_at)
+face.fill_heights.answers(Patterned)(series_contact.fill_heights)
 
 
 @face.waves_at.answers(Patterned)
@@ -58,22 +64,75 @@ def depth_of_point(basis: Basis, _curve: Patterned) -> float:
     return -own if basis.table.k == 1.0 else 0.0
 
 
+@face.relative_toughness.answers(Patterned)
+@kernel(contract=True)
+def relative_toughness(basis: Basis, _curve: Patterned, x: float) -> float:
+    own, _, _ = toughness_at(basis, x)
+    return own
+
+
+@face.shortest_wave.answers(Patterned)
+@kernel()
+def shortest_wave(basis: Basis, _curve: Patterned) -> float:
+    return max(highest_harmonic(basis.cosine_bins.waves), highest_harmonic(basis.cosine_bins.rows))
+
+
+@face.find_all_folds.answers(Patterned)
+@kernel()
+def find_all_folds(basis: Basis, curve: Patterned, first: float, last: float, zeros: Zeros) -> tuple[int, bool, float]:
+    if are_too_many(basis, first, last):
+        return -1, False, math.inf
+    return folds_up_to(basis, curve, first, last, zeros)
+
+
 @face.loss_between.answers(Patterned)
 @kernel()
 def loss_between(basis: Basis, curve: Patterned, start: float, end: float, _work: Work) -> float:
-    return energy_between(basis, curve, start, end)
+    if end == 0.0:
+        return -energy_from_zero(basis, curve, start, coordinate(basis, curve, start))
+    return jump_energy(basis, curve, start, end)
 
 
 @face.loss_from_zero.answers(Patterned)
 @kernel()
 def loss_from_zero(basis: Basis, curve: Patterned, x: float) -> float:
-    return energy_to(basis, curve, x, 0.0)
+    return energy_from_zero(basis, curve, x, 0.0)
 
 
 @face.loss_to_zero.answers(Patterned)
 @kernel()
 def loss_to_zero(basis: Basis, curve: Patterned, x: float, level: float) -> float:
-    return 0.0 if curve.alpha == 0.0 else -energy_to(basis, curve, x, level)
+    return 0.0 if curve.alpha == 0.0 else -energy_from_zero(basis, curve, x, level)
+
+
+@face.measured_by.answers(Patterned)
+@kernel()
+def measured_by(curve: Patterned, by_load: bool) -> Patterned:
+    B, m, g, _, _ = curve
+    return Patterned(B, m, g, 0.0, 1.0) if by_load else Patterned(B, m, g, 1.0, 0.0)
+
+
+@face.reach.answers(Patterned)
+@kernel()
+def reach(basis: Basis, curve: Patterned, target: float) -> float:
+    table, pattern, _ = basis
+    pull, height = pattern.most, 0.0
+    for i in range(pattern.waves.shape[0]):
+        h = pattern.gain * math.hypot(pattern.waves[i, 1], pattern.waves[i, 2])
+        pull += WAVES * table.amplitude * h * pattern.waves[i, 0] ** (0.5 * (1.0 - table.k))
+        height += h
+    low, high = 1e-30, 1.0
+    while envelope_at(curve, table.k, pull, height, high) <= target:
+        high *= 2.0
+        if high > _OUTERMOST:
+            return math.inf
+    while high > 1.02 * low:
+        middle = math.sqrt(low * high)
+        if envelope_at(curve, table.k, pull, height, middle) <= target:
+            low = middle
+        else:
+            high = middle
+    return high / TWO_PI
 
 
 @face.size_at.answers(Patterned)
@@ -144,11 +203,3 @@ def excess_at(basis: Basis, curve: Patterned, edge: Edge, x: float) -> tuple[flo
     w0, _, _, _ = sums(table, pattern.cosine_bins, pattern.waves, x, 0.0)
     bend = edge.bend * math.expm1(curve.exponent * math.log1p((x - edge.x) / edge.x))
     return bend + (pattern.gain * z * w0 - edge.wave) + edge.stretch, z * amplitude_power(table, z)
-
-
-@face.fill_heights.answers(Patterned)
-@kernel(contract=True)
-def fill_heights(basis: Basis, curve: Patterned, edge: Edge, low: float, width: float, heights: Floats) -> None:
-    for i in range(NODES.size):
-        over, stretch = excess_at(basis, curve, edge, math.sqrt(low * low + width * NODES[i]))
-        heights[i] = over * edge.stretch / (stretch * stretch)

@@ -4,13 +4,17 @@ import math
 
 from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.arches import is_one_cosine
+from gradhesion.core.curve.arches import folds_between, is_one_cosine
 from gradhesion.core.curve.branches import Trace, ends
 from gradhesion.core.curve.general import Basis, Series, size, slope, state
 from gradhesion.core.curve.general_branches import find_level
+from gradhesion.core.curve.general_folds import Zeros, room
 from gradhesion.core.curve.one_cosine_energy import jump_of_one_cosine, jump_of_one_cosine_from_zero
 from gradhesion.core.curve.short_wave import ShortWave
-from gradhesion.core.struve.series import sums
+from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
+from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.struve.series import highest_harmonic, sums
+from gradhesion.core.turning.general_reach import reach
 from gradhesion.core.types import Work
 from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
 
@@ -76,6 +80,40 @@ def waves_at(basis: Basis, _curve: Series, x: float, whole: float) -> tuple[floa
 @kernel()
 def depth_of_point(basis: Basis, _curve: Series) -> float:
     return -1.0 if basis[0].k == 1.0 else 0.0
+
+
+@face.relative_toughness.answers(Series, ShortWave)
+@kernel()
+def relative_toughness(_basis: Basis, _curve: Series, _x: float) -> float:
+    return 1.0
+
+
+@face.shortest_wave.answers(Series, ShortWave)
+@kernel()
+def shortest_wave(basis: Basis, _curve: Series) -> float:
+    return highest_harmonic(basis.series)
+
+
+@face.window.answers(Series)
+@kernel()
+def window(basis: Basis, curve: Series) -> tuple[float, float]:
+    return first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
+
+
+@face.find_all_folds.answers(Series)
+@kernel()
+def find_all_folds(basis: Basis, curve: Series, first: float, last: float, zeros: Zeros) -> tuple[int, bool, float]:
+    return folds_between(basis, curve, first, last, room(), zeros)
+
+
+face.reach.answers(Series)(reach)
+
+
+@face.measured_by.answers(Series)
+@kernel()
+def measured_by(curve: Series, by_load: bool) -> Series:
+    B, m, g, _, _ = curve
+    return Series(B, m, g, 0.0, 1.0) if by_load else Series(B, m, g, 1.0, 0.0)
 
 
 @face.size_at.answers(Series)

@@ -80,5 +80,5 @@ def excess_at(basis: Basis, curve: Series, edge: Edge, x: float) -> tuple[float,
 @kernel(contract=True)
 def fill_heights(basis: Basis, curve: Series, edge: Edge, low: float, width: float, heights: Floats) -> None:
     for i in range(NODES.size):
-        over, stretch = excess_at(basis, curve, edge, math.sqrt(low * low + width * NODES[i]))
+        over, stretch = face.excess_at(basis, curve, edge, math.sqrt(low * low + width * NODES[i]))
         heights[i] = over * edge.stretch / (stretch * stretch)

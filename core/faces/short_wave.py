@@ -70,8 +70,6 @@ def _from_zero(basis: Basis, curve: ShortWave, x: float, level: float) -> float:
     Where more waves stand within x than are walked, folds stand near x alone, so that all these waves are below 1/z of
     adhesion: only their mean height is integrated, which leaves 1e-12.
     """
-    if x == 0.0:
-        return 0.0
     table, mean, rows = basis
     if x * highest_harmonic(rows) > MOST_WAVES:
         rows = np.zeros((0, 3))

@@ -1,8 +1,9 @@
 """The branches of a general curve with the cycle on them: where loading arrives, where unloading goes, what they lose.
 
 The records are those of one cosine (core/curve/branches.py), and the same kernels fill and read them
-(core/path/loading.py, core/path/unloading.py), which ask what core/face.py declares. They serve all rims of a curve:
-loading does not depend on the rim until it gets there, and unloading does not depend on where it came from.
+(core/path/loading.py, core/path/unloading.py), which ask what core/face.py declares, as `walk` asks for the folds. They
+serve all rims of a curve: loading does not depend on the rim until it gets there, and unloading does not depend on
+where it came from.
 """
 
 import math
@@ -11,24 +12,24 @@ from typing import Final
 import numpy as np
 
 from gradhesion.core.compiler.jit import NO, kernel
-from gradhesion.core.curve.arches import folds_between
 from gradhesion.core.curve.branches import ROWS, UNKNOWN, UNLOADING_JUMPS, Trace
 from gradhesion.core.curve.general import Basis, Series, state
 from gradhesion.core.curve.general_branches import fill_branches
-from gradhesion.core.curve.general_folds import MOST_FOLDS, room
+from gradhesion.core.curve.general_folds import MOST_FOLDS
+from gradhesion.core.face import find_all_folds
 from gradhesion.core.path.general_ties import first_close_pair
 from gradhesion.core.path.loading import load_up
 from gradhesion.core.path.ties import note_loading
 
-_WORK: Final = 8
-"""Floats that a jump of one cosine has room for."""
+_ROOM: Final = 16
+"""Floats that a jump has room for (core/face.py)."""
 
 
 @kernel()
 def walk(
-    basis: Basis, curve: Series, first: float, last: float, furthest: float, losses: bool
+    basis: Basis, curve: Series, bounds: tuple[float, float], furthest: float, losses: bool
 ) -> tuple[int, Trace, float]:
-    """Follow loading up to x = `furthest`, fold by fold: they stand between the places `first` and `last`.
+    """Follow loading up to x = `furthest`, fold by fold: they stand between the two places of `bounds`.
 
     Returns
     -------
@@ -37,10 +38,10 @@ def walk(
     """
     zeros = np.empty(MOST_FOLDS)
     count, rises, tangency = 0, NO, math.inf
-    last = min(last, furthest)
+    first, last = bounds[0], min(bounds[1], furthest)
     if first < last:
-        count, rises, tangency = folds_between(basis, curve, first, last, room(), zeros)
-    trace = np.empty((ROWS, max(_WORK, count // 2 + 2)))
+        count, rises, tangency = find_all_folds(basis, curve, first, last, zeros)
+    trace = np.empty((ROWS, max(_ROOM, count // 2 + 2)))
     if count < 0:
         return -1, trace, tangency
     branches = fill_branches(basis, curve, zeros, count, rises, furthest, trace, 0.0)

@@ -57,9 +57,11 @@ SOLVERS: Final = ("exact", "asymptotic", "envelope")
 WITHOUT_LOAD: Final[dict[str, str]] = {
     "asymptotic": "the leading terms of depth and load belong to one energy only up to the order of lambda/a, so that "
     "under a load the work of a cycle would not be what its jumps lose",
-    "envelope": "contact under a load or through a spring begins and ends where there is no closed form",
+    "envelope": "the path along the envelopes jumps into and out of contact at a constant depth; under a load or "
+    "through a spring it leaves them at other radii, and loses what the load does in its fall, or the spring in its "
+    "recoil",
 }
-"""Why the other solvers know displacement control alone."""
+"""Why the other solvers, and the curves of short waves, know displacement control alone."""
 PATTERN_CURVES: Final = ("equilibrium", "closing_equilibrium", "path", "jumps")
 """The curves of an interface whose toughness varies with the radius."""
 CURVES: Final[dict[str, tuple[str, ...]]] = {

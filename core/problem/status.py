@@ -25,6 +25,10 @@ that turn at a depth only, whose `status` is int16."""
 TOO_MANY_WAVES: Final = 8192
 """More waves stand within the contact than are followed one by one: the values are NaN. In studies of patterns of
 toughness or of a speed only, whose `status` is int16."""
+POOR_FIT: Final = 2048
+"""Of fits: the residual of a loop is more than its noise; the values are not to be trusted."""
+ANOTHER_MINIMUM: Final = 4096
+"""Of fits: other values meet the loop as well, within what its noise allows."""
 
 FLAGS: Final = {
     "loading_contact_not_one_disc": LOADING_NOT_ONE_DISC,
@@ -40,6 +44,8 @@ FLAGS: Final = {
 """Name of every flag, with its bit; not every solver sets every one."""
 OF_EVERY_MAP: Final = {name: bit for name, bit in FLAGS.items() if bit < 2**7}
 """Those that a status of 8 bits has room for: all but of studies that turn at a depth."""
+OF_FITS: Final = {"poor_fit": POOR_FIT, "another_minimum": ANOTHER_MINIMUM}
+"""Name of every flag that fits alone have, with its bit."""
 
 DOUBTFUL: Final = LOADING_NOT_ONE_DISC | UNLOADING_NOT_ONE_DISC | TOLERANCE_NOT_MET
 """The bits of a scene whose values are there and may not hold."""

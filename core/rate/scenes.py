@@ -1,14 +1,15 @@
 """From the numbers of scenes to what their edges come to: one scene at a time."""
 
 import math
+from collections.abc import Callable
 from typing import Final, NamedTuple
 
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import force_unit
-from gradhesion.core.curve.general import Basis, Series, curve_of
-from gradhesion.core.problem.curves import is_in_range
+from gradhesion.core.curve.general import Basis, Series, curve_at
+from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.rate import MOST_WAVES
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET, TOO_MANY_WAVES
 from gradhesion.core.rate.closing import close_edge
@@ -19,7 +20,7 @@ from gradhesion.core.rate.step import Room, room_for_steps
 from gradhesion.core.rate.stopping import stop_edge
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.series import highest_harmonic
-from gradhesion.core.types import Floats, Integers
+from gradhesion.core.types import Floats, Harmonics, Integers
 
 PROMISED: Final = 1e-9
 """Estimated error of force and energy above which a scene is reported."""
@@ -56,14 +57,7 @@ CLOSED: Final = (
 class Edges(NamedTuple):
     """Scenes of one profile, control, exponent of the gradient and law; arrays have the shape (scenes,)."""
 
-    numbers: Integers  # the number of each scene that is to be solved
-    exponent: float  # m of the punch
-    depth_factor: float  # that of problem/curves.py
-    stretch: Floats  # s in R^((1+k)/2)
-    wavelength: Floats  # lambda/R
-    amplitude: Floats  # A
-    compliance: Floats  # K/S in 1/R^(1+k)
-    rims: Floats  # a_t/R of opening, a_max/R of closing
+    curves: GeneralCurves  # each with one rim: a_t/R of opening, a_max/R of closing
     speeds: Floats  # V/v*
     power: float  # n of the law
     ratios: Floats  # Gamma of closing; opening does not read it
@@ -74,6 +68,7 @@ class Scene(NamedTuple):
     """The curve of a scene, and its units."""
 
     valid: bool
+    rows: Harmonics  # of the curve
     curve: Series
     length: float  # l/R
     unit: float  # of depth, in R
@@ -83,22 +78,18 @@ class Scene(NamedTuple):
 @kernel()
 def _scene_of(basis: Basis, edges: Edges, i: int) -> Scene:
     """Return the curve of scene number i."""
-    wavelength, amplitude = edges.wavelength[i], edges.amplitude[i]
-    curve, length, unit = curve_of(
-        basis[0].k, edges.exponent, edges.depth_factor, edges.stretch[i], wavelength, amplitude, edges.compliance[i]
-    )
-    valid = is_in_range(edges.stretch[i], wavelength, amplitude) and 0.0 <= edges.compliance[i] < math.inf
-    valid = valid and 0.0 < curve.bend < math.inf and 0.0 <= curve.gain < math.inf
-    valid = valid and edges.rims[i] > 0.0 and 0.0 < edges.speeds[i] < math.inf
-    highest = highest_harmonic(basis[2])
-    return Scene(valid, curve, length, unit, 1.0 / highest if highest > 0.0 else math.inf)
+    valid, rows, curve, length, unit = curve_at(basis, edges.curves, i)
+    valid = valid and edges.curves.compliance[i] < math.inf
+    valid = valid and edges.curves.rims[i, 0] > 0.0 and 0.0 < edges.speeds[i] < math.inf
+    highest = highest_harmonic(rows)
+    return Scene(valid, rows, curve, length, unit, 1.0 / highest if highest > 0.0 else math.inf)
 
 
 @kernel()
 def _open(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Floats) -> int:
     """Solve scene number i; return its status."""
     curve, length, unit = scene.curve, scene.length, scene.unit
-    x = edges.rims[i] / edges.wavelength[i]
+    x = edges.curves.rims[i, 0] / edges.curves.wavelength[i]
     if not scene.valid or not x < math.inf:
         return NO_VALUE
     if x > MOST_WAVES * scene.shortest:
@@ -119,16 +110,6 @@ def _open(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Flo
 
 
 @kernel()
-def open_scenes(basis: Basis, edges: Edges, out: Floats, status: Integers) -> None:
-    """Solve scenes; `out` has the rows of `OPENED`, shape (rows, scenes), NaN where nothing is stored."""
-    room, smooth = room_for_steps(), np.zeros((0, 3))
-    for j in range(edges.numbers.size):
-        i = edges.numbers[j]
-        waves = Basis(basis[0], basis[1], basis[2] if edges.amplitude[i] > 0.0 else smooth)
-        status[i] = _open(waves, _scene_of(waves, edges, i), edges, i, room, out)
-
-
-@kernel()
 def _put_state(waves: Basis, scene: Scene, x: float, rho: float, out: Floats, row: int, i: int) -> None:
     """Store depth and coordinate in R, and the load in 1.5 pi R dgamma, of a state."""
     curve, unit = scene.curve, scene.unit
@@ -141,16 +122,16 @@ def _put_state(waves: Basis, scene: Scene, x: float, rho: float, out: Floats, ro
 @kernel()
 def _close(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Floats) -> int:
     """Solve scene number i; return its status."""
-    curve, length, unit = scene.curve, scene.length, scene.unit
-    wavelength, ratio, shortest = edges.wavelength[i], edges.ratios[i], scene.shortest
-    rim, target = edges.rims[i] / wavelength, edges.turns[i] * curve.alpha / unit
+    curve, length, unit, shortest = scene.curve, scene.length, scene.unit, scene.shortest
+    wavelength, a_max, ratio = edges.curves.wavelength[i], edges.curves.rims[i, 0], edges.ratios[i]
+    rim, target = a_max / wavelength, edges.turns[i] * curve.alpha / unit
     if not scene.valid or not 0.0 < ratio <= 1.0 or not (rim < math.inf or target < math.inf):
         return NO_VALUE
     if target < 0.0:
         out[1, i], out[10, i] = 0.0, 0.0
         return NO_CONTACT
     law = Law(edges.power, math.sqrt(ratio), -1.0, edges.speeds[i] * length * curve.alpha / unit)
-    size = edges.stretch[i] ** (2.0 / (3.0 + waves[0].k)) / wavelength
+    size = edges.curves.stretch[i] ** (2.0 / (3.0 + waves[0].k)) / wavelength
     furthest = MOST_WAVES * shortest
     if rim < math.inf and rim > furthest and target == math.inf:
         return NO_VALUE | TOO_MANY_WAVES
@@ -159,9 +140,9 @@ def _close(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Fl
     if not (end.x > 0.0 and turn.x > 0.0 and end.energy < math.inf):
         return NO_VALUE | (TOO_MANY_WAVES if end.furthest > furthest else 0)
     area = TWO_PI * length * length
-    out[0, i] = edges.rims[i] if end.x == rim else wavelength * end.x
+    out[0, i] = a_max if end.x == rim else wavelength * end.x
     out[1, i] = area * end.energy
-    out[2, i] = edges.rims[i] if turn.x == rim else wavelength * turn.x
+    out[2, i] = a_max if turn.x == rim else wavelength * turn.x
     _put_state(waves, scene, turn.x, law.root - turn.lag, out, 3, i)
     _put_state(waves, scene, end.x, law.root - end.lag, out, 6, i)
     out[9, i], out[10, i] = law.root - end.lag, area * end.of_energy
@@ -169,14 +150,26 @@ def _close(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Fl
     return TOLERANCE_NOT_MET if too_slow or end.of_energy > PROMISED * (TWO_PI * end.x) ** 2 else 0
 
 
-@kernel()
-def close_scenes(basis: Basis, edges: Edges, out: Floats, status: Integers) -> None:
-    """Solve scenes; `out` has the rows of `CLOSED`, shape (rows, scenes), NaN where nothing is stored."""
-    room, smooth = room_for_steps(), np.zeros((0, 3))
-    for j in range(edges.numbers.size):
-        i = edges.numbers[j]
-        waves = Basis(basis[0], basis[1], basis[2] if edges.amplitude[i] > 0.0 else smooth)
-        status[i] = _close(waves, _scene_of(waves, edges, i), edges, i, room, out)
+def loop_of(*, opens: bool) -> Callable[..., None]:
+    """Return the kernel that opens many scenes, or closes them: numba drops the other before it looks at it."""
+
+    @kernel()
+    def move_edges(basis: Basis, edges: Edges, out: Floats, status: Integers) -> None:
+        """Solve scenes; `out` has the rows of `OPENED` or `CLOSED`, (rows, scenes), NaN where nothing is stored."""
+        room = room_for_steps()
+        for i in edges.curves.numbers:
+            scene = _scene_of(basis, edges, i)
+            waves = Basis(basis.table, basis.cosine_bins, scene.rows)
+            if opens:
+                status[i] = _open(waves, scene, edges, i, room, out)
+            else:
+                status[i] = _close(waves, scene, edges, i, room, out)
+
+    return move_edges
+
+
+open_scenes: Final = loop_of(opens=True)
+close_scenes: Final = loop_of(opens=False)
 
 
 @kernel()
@@ -186,15 +179,15 @@ def track_edge(basis: Basis, edges: Edges, inwards: bool, points: int) -> tuple[
     That is an array of shape (3, points): radii and depths in R, loads in 1.5 pi R dgamma.
     """
     room, out, i = room_for_steps(points), np.empty((len(CLOSED), 1)), 0
-    waves = Basis(basis[0], basis[1], basis[2] if edges.amplitude[i] > 0.0 else np.zeros((0, 3)))
-    scene = _scene_of(waves, edges, i)
+    scene = _scene_of(basis, edges, i)
+    waves = Basis(basis.table, basis.cosine_bins, scene.rows)
     status = _open(waves, scene, edges, i, room, out) if inwards else _close(waves, scene, edges, i, room, out)
     number = int(room.track[0, 0])
-    found, force = np.empty((3, number)), force_unit(waves[0].k, scene.length, scene.unit)
+    found, force = np.empty((3, number)), force_unit(basis.table.k, scene.length, scene.unit)
     for j in range(number):
         x, rho = room.track[0, j + 1], room.track[1, j + 1]
         place = place_at(waves, scene.curve, x)
-        found[0, j] = x * edges.wavelength[i]
+        found[0, j] = x * edges.curves.wavelength[i]
         found[1, j] = scene.unit * (place.depth - place.adhesion * rho)
         found[2, j] = force * load_of(place, rho)
     return status, found

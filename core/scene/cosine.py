@@ -4,7 +4,7 @@ A scene is reduced to its curve (curve/cosine.py) and its rim. Lengths are in R,
 dgamma/R^(1+k).
 
 Nothing is computed that only a result needs that is not wanted. Sensitivities are read off the trace that the
-energy is read off; without them `sense` is an empty tuple, whose length numba knows when it compiles.
+energy is read off; without them `sense` is `NoSense`, for which nothing of them is compiled.
 """
 
 import math
@@ -54,13 +54,11 @@ from gradhesion.core.scene.cosine_long import solve_long
 from gradhesion.core.scene.cosine_rim import read_rim, slopes_of, walked_to
 from gradhesion.core.scene.scene import Scene
 from gradhesion.core.sensitivities.cosine_slopes import (
-    IfSense,
-    IfSensed,
-    at_fixed_stiffness,
-    put_forces,
+    put_rest,
     put_smooth,
     sensed_by,
 )
+from gradhesion.core.sensitivities.wanted import AnySense
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.types import Floats, Table
@@ -131,7 +129,7 @@ def _solve_cycle(
     scene: Scene,
     rims: Floats,
     scratch: Trace,
-    sensed: IfSensed,
+    sensed: AnySense,
 ) -> None:
     """Follow the cycle of a wavy punch for all its rims a_max/R, of shape (rims,): those within a walk share one trace.
 
@@ -149,7 +147,7 @@ def _solve_cycle(
     if furthest > 0.0:
         count, trace = walk(table, curve, arches, furthest, scratch, wants_losses(scene.results.slots))
         walked = walked_to(table, curve, count, trace, furthest, scene)
-        slopes = slopes_of(table, curve, sensed, walked, arches[1]) if len(sensed) > 0 else ()
+        slopes = slopes_of(table, curve, sensed, walked, arches[1])
         for i in range(rims.size):
             x = rims[i] / scene.wavelength
             if not is_unresolved(arches, x) and not is_long(table, arches, x):
@@ -204,7 +202,7 @@ def solve_curve(
     rims: Floats,
     results: Results,
     scratch: Trace,
-    sense: IfSense,
+    sense: AnySense,
 ) -> None:
     """Solve one curve for all its rims.
 
@@ -226,8 +224,7 @@ def solve_curve(
     k, slots = table.k, results.slots
     if is_endless_wave(wavelength, amplitude):  # A = 0 among them
         _solve_smooth(k, stretch, rims, results)
-        if len(sense) > 0:
-            put_smooth(table, stretch, rims, results, sense, scratch)
+        put_smooth(table, stretch, rims, results, sense, scratch)
         return
     curve, length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
     if not (0.0 < curve.bend < LARGEST and curve.gain < LARGEST):  # powers of them would overflow
@@ -237,17 +234,13 @@ def solve_curve(
     arches = extent(table, curve) if folds else (0.0, 0.0)
     if folds and is_smooth(arches):
         _solve_smooth(k, stretch, rims, results)
-        if len(sense) > 0:
-            put_smooth(table, stretch, rims, results, sense, scratch)
+        put_smooth(table, stretch, rims, results, sense, scratch)
         return
-    sensed: IfSensed = sensed_by(table, sense, stretch, wavelength, amplitude) if len(sense) > 0 else ()
+    sensed = sensed_by(table, sense, stretch, wavelength, amplitude)
     if wants_force(slots):
         _solve_force(table, curve, force_unit(k, length, depth_scale), wavelength, rims, results)
     if folds:
         scene = Scene(wavelength, length, TWO_PI * length * length, depth_scale, results)
         _solve_cycle(table, curve, arches, scene, rims, scratch, sensed)
-    if len(sense) > 0:
-        if sense.force:
-            put_forces(table, curve, sensed, depth_scale, wavelength, rims, results)
-        at_fixed_stiffness(sensed)
+    put_rest(table, curve, sensed, depth_scale, wavelength, rims, results)
     _mark_unresolved(wavelength, rims, results)

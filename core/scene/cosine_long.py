@@ -18,7 +18,7 @@ from gradhesion.core.problem.results import CONTACT, DEEPEST, TURNED, put, wants
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC
 from gradhesion.core.scene.cosine_rim import Walked, put_cycle, read_rim, slopes_of, walked_to
 from gradhesion.core.scene.scene import Scene
-from gradhesion.core.sensitivities.cosine_slopes import IfSensed
+from gradhesion.core.sensitivities.wanted import AnySense
 from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, next_lane
 from gradhesion.core.types import Floats, Table
 
@@ -59,11 +59,11 @@ def _walked_beyond(table: Table, curve: Cosine, count: int, long: Long, rim: flo
 
 
 @kernel()
-def _follow(table: Table, curve: Cosine, scene: Scene, x: float, i: int, long: Long, sensed: IfSensed) -> None:
+def _follow(table: Table, curve: Cosine, scene: Scene, x: float, i: int, long: Long, sensed: AnySense) -> None:
     """Follow the cycle of rim number i, at x wavelengths, on branches of its own, and store what it reads there."""
     count = stride(table, curve, x, long, wants_losses(scene.results.slots), 1.0)
     walked = _walked_beyond(table, curve, count, long, x, scene)
-    slopes = slopes_of(table, curve, sensed, walked, long.arches[1]) if len(sensed) > 0 else ()
+    slopes = slopes_of(table, curve, sensed, walked, long.arches[1])
     read_rim(table, curve, walked, scene, x, i, sensed, slopes)
 
 
@@ -84,7 +84,7 @@ def _is_one_disc_among(table: Table, curve: Cosine, x: float, first: float, long
 
 @kernel()
 def _follow_eight(
-    table: Table, curve: Cosine, scene: Scene, waiting: tuple[int, Lanes, Lanes], long: Long, sensed: IfSensed
+    table: Table, curve: Cosine, scene: Scene, waiting: tuple[int, Lanes, Lanes], long: Long, sensed: AnySense
 ) -> None:
     """Do the same for the rims that wait: at once for those that stand among regular waves, sensitivities apart.
 
@@ -97,7 +97,7 @@ def _follow_eight(
     for lane in range(count):
         i, x = int(lane_of(indices, lane)), lane_of(places, lane)
         among, cycle, first = cycle_among(table, curve, stands, lane, x, long, losses)
-        if not among or len(sensed) > 0:
+        if not among or sensed.energy:
             _follow(table, curve, scene, x, i, long, sensed)
         if not among:
             continue
@@ -118,7 +118,7 @@ def solve_long(
     scene: Scene,
     rims: Floats,
     scratch: Trace,
-    sensed: IfSensed,
+    sensed: AnySense,
 ) -> None:
     """Follow the cycle of a wavy punch for its rims that no walk reaches: they share its beginning and its sums.
 
@@ -150,7 +150,7 @@ def solve_long(
     long.trace[RUN, RUN_LEAST] = math.nan  # these examine the waves of their own gap
     count = stride(table, curve, furthest, long, losses, 1.0)
     walked = walked_to(table, curve, count, long.trace, furthest, scene)
-    slopes = slopes_of(table, curve, sensed, walked, final) if len(sensed) > 0 else ()
+    slopes = slopes_of(table, curve, sensed, walked, final)
     for i in range(rims.size):
         x = rims[i] / scene.wavelength
         if not is_unresolved(arches, x) and is_long(table, arches, x) and ends_folds(table, arches, x):

@@ -29,8 +29,9 @@ from gradhesion.core.problem.results import (
 )
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.scene.scene import Scene
-from gradhesion.core.sensitivities.cosine_slopes import IfSensed, put_energy
-from gradhesion.core.sensitivities.path_slopes import IfTraced, Traced, fill_loading, with_slopes
+from gradhesion.core.sensitivities.cosine_slopes import Sensed, put_energy
+from gradhesion.core.sensitivities.path_slopes import Traced, fill_loading, with_slopes
+from gradhesion.core.sensitivities.wanted import AnySense, if_wanted
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats, Table
 
@@ -94,8 +95,9 @@ def walked_to(table: Table, curve: Cosine, count: int, trace: Floats, furthest: 
     return Walked(count, trace, inner, outer, tangency)
 
 
+@if_wanted("sensed")
 @kernel()
-def slopes_of(table: Table, curve: Cosine, sensed: IfSensed, walked: Walked, final: float) -> Traced:
+def slopes_of(table: Table, curve: Cosine, sensed: Sensed, walked: Walked, final: float) -> Traced:
     """Return the slopes that go with a trace, those of loading filled in where those of the energy are wanted.
 
     `final` is the last arch on which the curve folds.
@@ -108,11 +110,10 @@ def slopes_of(table: Table, curve: Cosine, sensed: IfSensed, walked: Walked, fin
 
 @kernel()
 def read_rim(
-    table: Table, curve: Cosine, walked: Walked, scene: Scene, x: float, i: int, sensed: IfSensed, slopes: IfTraced
+    table: Table, curve: Cosine, walked: Walked, scene: Scene, x: float, i: int, sensed: AnySense, slopes: AnySense
 ) -> None:
     """Store what rim number i, at x wavelengths, reads off a trace: its cycle, and its sensitivities if wanted."""
     _cycle_at_rim(table, curve, walked, scene, x, i)
-    if len(sensed) > 0:  # noqa: SIM102 (numba drops the branch by the length alone)
-        if sensed.energy:
-            energy = energy_of(scene.results, sensed.energy, i) / scene.energy
-            put_energy(table, curve, sensed, slopes, x, energy, i)
+    if sensed.energy:
+        energy = energy_of(scene.results, sensed.energy, i) / scene.energy
+        put_energy(table, curve, sensed, slopes, x, energy, i)

@@ -1,7 +1,7 @@
 """From the numbers of general scenes to their results: one curve at a time, with all its rims.
 
 Sensitivities are read off the trace, or the notes of a long cycle, that the energy comes from; without them `sense` is
-an empty tuple, whose length numba knows when it compiles.
+`NoSense`, for which nothing of them is compiled.
 """
 
 import math
@@ -16,11 +16,10 @@ from gradhesion.core.curve.arches import is_one_cosine
 from gradhesion.core.curve.branches import ARRIVAL
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
-from gradhesion.core.curve.general import Basis, Series, coordinate, curve_of, state
+from gradhesion.core.curve.general import Basis, Series, coordinate, curve_at, state
 from gradhesion.core.curve.general_energy import energies_in
 from gradhesion.core.curve.general_folds import MOST_CELLS, Search, room
-from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
-from gradhesion.core.face import depth_at
+from gradhesion.core.face import depth_at, window
 from gradhesion.core.path.cycle import Cycle
 from gradhesion.core.path.general import depth_at_full_contact, walk
 from gradhesion.core.path.general_long import FEW, LONGEST_WALK, REGULAR, Middle, Tasks, middle_of, stride
@@ -28,7 +27,7 @@ from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
 from gradhesion.core.path.pieces import notes_for
 from gradhesion.core.path.ties import is_close_to_a_jump
 from gradhesion.core.path.unloading import jumps_out_from, unloading_from
-from gradhesion.core.problem.curves import GeneralCurves, is_in_range
+from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.results import (
     CONTACT,
     DEEPEST,
@@ -61,15 +60,13 @@ from gradhesion.core.pull_off.rims import lowest_loads
 from gradhesion.core.scene.scene import Scene
 from gradhesion.core.sensitivities.general_slopes import (
     NOTES,
-    IfSense,
-    IfSensed,
     put_energy,
     put_noted,
     put_rest,
     sensed_by,
-    senses_energy,
     slopes_of,
 )
+from gradhesion.core.sensitivities.wanted import AnySense
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.struve.series import highest_harmonic
@@ -127,7 +124,7 @@ def put_cycle(
 
 @kernel()
 def _walked(
-    basis: Basis, curve: Series, scene: Scene, bounds: tuple[float, float], rims: Floats, chosen: Truths, own: IfSensed
+    basis: Basis, curve: Series, scene: Scene, bounds: tuple[float, float], rims: Floats, chosen: Truths, own: AnySense
 ) -> bool:
     """Solve the chosen rims of a curve, shape (rims,), in wavelengths, on one trace; return whether it could be walked.
 
@@ -140,13 +137,12 @@ def _walked(
     for i in range(rims.size):
         if chosen[i]:
             furthest = max(furthest, rims[i])
-    count, trace, tangency = walk(basis, curve, bounds[0], bounds[1], furthest, losses)
+    count, trace, tangency = walk(basis, curve, bounds, furthest, losses)
     if count < 0:
         return False
     stations = np.full((4, _STATIONS), math.inf)
     limits = disc_limits(basis, curve, count, trace, furthest) if slots[CONTACT] >= 0 else (math.inf, math.inf)
-    if len(own) > 0:
-        slopes = slopes_of(basis, curve, own, count, trace)
+    slopes = slopes_of(basis, curve, own, count, trace)
     for i in range(rims.size):
         if not chosen[i]:
             continue
@@ -174,8 +170,7 @@ def _walked(
         put_cycle(basis, curve, scene, (x, 0.0), cycle, flags, i)
         if x == math.inf:  # the last branch has no end, and loading arrives on it
             put(results, OUTERMOST, i, TWO_PI * scene.length * trace[ARRIVAL, count - 1])
-        if len(own) > 0:
-            put_energy(basis, curve, own, slopes, x, part_of(own.energy, loaded, unloaded), i)
+        put_energy(basis, curve, own, slopes, x, part_of(own.energy, loaded, unloaded), i)
     return True
 
 
@@ -188,7 +183,7 @@ def _strode(
     middle: Middle,
     rim: tuple[float, float],
     i: int,
-    own: IfSensed,
+    own: AnySense,
 ) -> bool:
     """Solve rim number i of a long curve, x and its rounding error; return whether its waves could be summed.
 
@@ -196,7 +191,7 @@ def _strode(
     """
     slots = scene.results.slots
     tasks = Tasks(wants_losses(slots), curve.alpha > 0.0, slots[CONTACT] >= 0, slots[TURNED] > 0)
-    notes = notes_for(NOTES if senses_energy(own) else NONE)
+    notes = notes_for(NOTES if own.energy > 0 else NONE)
     done, up, down, close, one_disc, waves, x = stride(basis, curve, first, middle, rim, tasks, notes)
     if not done:
         return False
@@ -207,13 +202,12 @@ def _strode(
     put_cycle(basis, curve, scene, (x, waves), cycle, (close, one_disc), i)
     if x == math.inf:
         put(scene.results, OUTERMOST, i, TWO_PI * scene.length * (up.waves + up.left))
-    if len(own) > 0:
-        put_noted(basis, curve, own, middle.cut, notes, (x, waves), part_of(own.energy, up.loss, down.loss), i)
+    put_noted(basis, curve, own, middle.cut, notes, (x, waves), part_of(own.energy, up.loss, down.loss), i)
     return True
 
 
 @kernel()
-def _cycles(basis: Basis, curve: Series, scene: Scene, rims: Floats, own: IfSensed) -> None:
+def _cycles(basis: Basis, curve: Series, scene: Scene, rims: Floats, own: AnySense) -> None:
     """Follow the cycles of a curve up to all its rims that are not refused: those within a walk share one trace.
 
     `rims` are a_max/R, of shape (rims,).
@@ -221,7 +215,7 @@ def _cycles(basis: Basis, curve: Series, scene: Scene, rims: Floats, own: IfSens
     series = basis.series
     count = rims.size
     highest = highest_harmonic(series)
-    first, last = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
+    first, last = window(basis, curve)
     places, together, alone = np.empty(count), np.zeros(count, np.bool_), np.zeros(count, np.bool_)
     shared = False
     for i in range(count):
@@ -298,7 +292,7 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
     """Return the kernel that solves many scenes; without `cycles` it knows the pull-off alone."""
 
     @kernel()
-    def solve_scenes(basis: Basis, curves: GeneralCurves, results: Results, sense: IfSense) -> None:
+    def solve_scenes(basis: Basis, curves: GeneralCurves, results: Results, sense: AnySense) -> None:
         """Solve the curves of one gradient exponent, each for all its rims.
 
         Parameters
@@ -312,20 +306,14 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
         sense
             What sensitivities need.
         """
-        numbers, exponent, depth_factor, stretch, wavelength, amplitude, compliance, rims = curves
-        table, cosine_bins, series = basis
-        smooth = np.zeros((0, 3))
+        numbers, _, _, stretch, wavelength, amplitude, compliance, rims = curves
+        table, _, series = basis
         work, deepest = room(), deepest_wave(table, series) if wants_force(results.slots) else 0.0
-        for j in range(numbers.size):
-            i = numbers[j]
+        for i in numbers:
             row = rims[i if rims.shape[0] > 1 else 0]
             own = Results(results.slots, results.out[:, i], results.status[i])
-            valid = is_in_range(stretch[i], wavelength[i], amplitude[i]) and compliance[i] >= 0.0
-            waves = Basis(table, cosine_bins, series if amplitude[i] > 0.0 else smooth)
-            curve, length, unit = curve_of(
-                table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
-            )
-            valid = valid and 0.0 < curve.bend < math.inf and 0.0 <= curve.gain < math.inf
+            valid, rows, curve, length, unit = curve_at(basis, curves, i)
+            waves = Basis(basis.table, basis.cosine_bins, rows)
             for rim in range(row.size):
                 if not (valid and row[rim] > 0.0):
                     refuse(own, rim)
@@ -338,8 +326,7 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
             if cycles and wants_folds(own.slots):
                 scene = Scene(wavelength[i], length, TWO_PI * length * length, unit, own)
                 _cycles(waves, curve, scene, row, sensed)
-            if len(sense) > 0:
-                put_rest(waves, curve, sensed, unit, wavelength[i], row, own)
+            put_rest(waves, curve, sensed, unit, wavelength[i], row, own)
 
     return solve_scenes
 

@@ -21,9 +21,9 @@ import numpy as np
 from gradhesion.core.compiler.jit import NO, NONE, YES, kernel
 from gradhesion.core.curve.branches import ARRIVAL, END, LANDING, NEXT, START, Trace
 from gradhesion.core.curve.cosine_energy import NODES, WEIGHTS
-from gradhesion.core.curve.general import Basis, Series, coordinate, curve_of, slope, state
+from gradhesion.core.curve.general import Basis, Series, coordinate, curve_at, slope, state
 from gradhesion.core.curve.general_folds import MOST_CELLS, cell_width, folds_of_cell, room
-from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
+from gradhesion.core.face import window
 from gradhesion.core.path.general import walk
 from gradhesion.core.path.general_long import (
     FEW,
@@ -155,7 +155,7 @@ def loop(basis: Basis, curve: Series, count: int, trace: Trace, rim: float) -> t
 def outermost_fold(basis: Basis, curve: Series) -> float:
     """Return x of the last fold of a curve, 0 if it has none, inf if folds need not end; NaN if it is not found."""
     table, _, series = basis
-    first, high = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
+    first, high = window(basis, curve)
     if high == math.inf:
         return high
     if series.shape[0] > 0 and high - first > LONGEST_WALK:
@@ -216,7 +216,7 @@ def _other_sum(basis: Basis, curve: Series, first: float, last: float, rim: tupl
         return up.loss + down.loss if done else math.nan, down.waves + down.left
     if middle.kind == FEW:
         x, _ = rim
-        count, trace, _ = walk(basis, curve, first, middle.until, x, YES)
+        count, trace, _ = walk(basis, curve, (first, middle.until), x, YES)
         if count >= 0:
             level = coordinate(basis, curve, x) if x < math.inf else math.inf
             loss, _ = loading_to(basis, curve, count, trace, x, YES)
@@ -235,8 +235,8 @@ def _energy_reports(
     """
     table, _, series = basis
     _, _, g, alpha, _ = curve
-    first = first_fold_bound(basis, curve) / TWO_PI
-    last = min(rim, last_fold_bound(basis, curve) / TWO_PI)
+    first, last = window(basis, curve)
+    last = min(rim, last)
     waves = last - first
     if last == math.inf:
         return math.nan, math.nan, math.nan
@@ -245,7 +245,7 @@ def _energy_reports(
         other, left = _other_sum(basis, curve, first, last, (rim, rim_low))
         apart = 4.0 * abs(energy - other)
     if not waves > LOOPED:
-        count, trace, _ = walk(basis, curve, first, last, rim, NO)
+        count, trace, _ = walk(basis, curve, (first, last), rim, NO)
         if count >= 0:
             total, outermost = loop(basis, curve, count, trace, rim)
             left = last_left(basis, curve, count, trace, rim)
@@ -272,27 +272,22 @@ def report_scenes(basis: Basis, curves: GeneralCurves, solved: Solved, wanted: T
     of the force in 1.5 pi R dgamma, error and residual of the energy in R^2 dgamma, the radius of saturation in R. The
     status of what is solved tells as well where an energy is not as good as promised.
     """
-    numbers, exponent, depth_factor, stretch, wavelength, amplitude, compliance, rims = curves
-    table, cosine_bins, series = basis
+    table, wavelength = basis.table, curves.wavelength
     radius, energy, turned, status = solved
-    smooth = np.zeros((0, 3))
-    for j in range(numbers.size):
-        i = numbers[j]
+    for i in curves.numbers:
         if status[i] & NO_VALUE:
             continue
-        waves = Basis(table, cosine_bins, series if amplitude[i] > 0.0 else smooth)
-        curve, length, unit = curve_of(
-            table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
-        )
+        _, rows, curve, length, unit = curve_at(basis, curves, i)
+        waves = Basis(basis.table, basis.cosine_bins, rows)
         if wanted[0]:
             scale, x = 8.0 / (3.0 * (1.0 + table.k)) * length * length / unit, radius[i] / wavelength[i]
             terms = force_terms(waves, curve, x)
             if turned and status[i] & PULL_OFF_AT_RIM:  # x is no number given: what the load changes with ln x
-                _, _, rate = slope(waves, Series(curve.bend, exponent, curve.gain, 0.0, 1.0), x)
+                _, _, rate = slope(waves, Series(curve.bend, curve.exponent, curve.gain, 0.0, 1.0), x)
                 terms += abs(TWO_PI * x * rate)
             out[0, i] = FORCE_ROUNDING * table.rounding * scale * terms
         if wanted[1] or wanted[2]:
-            rim, scale = rims[i, 0], TWO_PI * length * length
+            rim, scale = curves.rims[i, 0], TWO_PI * length * length
             x = rim / wavelength[i]
             x_low = fma(-x, wavelength[i], rim) / wavelength[i] if x < math.inf else 0.0
             terms, apart, total = _energy_reports(waves, curve, x, x_low, energy[i] / scale)

@@ -17,8 +17,8 @@ from gradhesion.core.curve.general import Basis, coordinate
 from gradhesion.core.curve.general_folds import Search, room
 from gradhesion.core.curve.patterned import Patterned, are_too_many, patterned_curve, window
 from gradhesion.core.path.cycle import Cycle
+from gradhesion.core.path.general import walk
 from gradhesion.core.path.loading import highest_depth, loading_to
-from gradhesion.core.path.patterned import walk
 from gradhesion.core.path.ties import is_close_to_a_jump
 from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.curves import GeneralCurves, Patterns
@@ -40,7 +40,8 @@ from gradhesion.core.pull_off.general import deepest_wave
 from gradhesion.core.pull_off.patterned import lowest_loads
 from gradhesion.core.scene.general import put_cycle, refuse
 from gradhesion.core.scene.scene import Scene
-from gradhesion.core.sensitivities.patterned_slopes import IfSense, put_energy, put_forces
+from gradhesion.core.sensitivities.patterned_slopes import put_energy, put_forces
+from gradhesion.core.sensitivities.wanted import AnySense
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.types import Floats, Harmonics, Table, Truths
@@ -54,7 +55,7 @@ def _walked(
     bounds: tuple[float, float],
     rims: Floats,
     chosen: Truths,
-    sense: IfSense,
+    sense: AnySense,
     number: int,
 ) -> bool:
     """Solve the chosen rims of a curve, shape (rims,), in its wavelengths, on one trace; return whether that was done.
@@ -84,7 +85,7 @@ def _walked(
         put_cycle(basis, curve, scene, (x, 0.0), cycle, (close, is_one_disc(basis, curve, limits, x)), i)
         if x == math.inf:
             put(scene.results, OUTERMOST, i, TWO_PI * scene.length * trace[ARRIVAL, count - 1])
-        if len(sense) > 0 and sense.energy > 0:
+        if sense.energy > 0:
             energy = part_of(sense.energy, loaded, unloaded)
             put_energy(basis, curve, sense, (math.log(scene.length), number), (count, trace), x, energy, i)
     return True
@@ -98,7 +99,7 @@ def _refuse_waves(results: Results, i: int) -> None:
 
 
 @kernel()
-def _cycles(basis: Basis, curve: Patterned, scene: Scene, rims: Floats, sense: IfSense, number: int) -> None:
+def _cycles(basis: Basis, curve: Patterned, scene: Scene, rims: Floats, sense: AnySense, number: int) -> None:
     """Follow the cycles of a curve up to all its rims a_max/R that are not refused, of shape (rims,)."""
     bounds = window(basis, curve)
     places, together, alone = np.empty(rims.size), np.zeros(rims.size, np.bool_), np.zeros(rims.size, np.bool_)
@@ -154,7 +155,7 @@ def solve_scenes(
     curves: GeneralCurves,
     patterns: Patterns,
     results: Results,
-    sense: IfSense,
+    sense: AnySense,
 ) -> None:
     """Solve the curves of one gradient exponent on patterned interfaces, each for all its rims.
 
@@ -187,5 +188,4 @@ def solve_scenes(
             _pull_offs(basis, curve, scene, force_unit(table.k, length, depth), rims, work, trough)
         if wants_folds(own.slots):
             _cycles(basis, curve, scene, rims, sense, i)
-        if len(sense) > 0:
-            put_forces(basis, curve, sense, i, units, rims, own)
+        put_forces(basis, curve, sense, i, units, rims, own)

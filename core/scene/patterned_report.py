@@ -16,7 +16,7 @@ from gradhesion.core.curve.cells import MOST
 from gradhesion.core.curve.general import Basis, Series, slope, state
 from gradhesion.core.curve.general_folds import cell_width, folds_of_cell, room
 from gradhesion.core.curve.patterned import Patterned, are_too_many, patterned_curve, window
-from gradhesion.core.path.patterned import walk
+from gradhesion.core.path.general import walk
 from gradhesion.core.problem.curves import GeneralCurves, Patterns
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.pull_off.general import INWARDS

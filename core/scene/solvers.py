@@ -14,7 +14,8 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.problem.curves import Curves, is_in_range
 from gradhesion.core.problem.results import Results
 from gradhesion.core.scene import cosine as scene
-from gradhesion.core.sensitivities.cosine_slopes import IfSense, of_curve
+from gradhesion.core.sensitivities.cosine_slopes import of_curve
+from gradhesion.core.sensitivities.wanted import AnySense
 from gradhesion.core.struve.current import ready
 from gradhesion.core.types import Floats
 
@@ -26,7 +27,7 @@ def loop_of(solver: int) -> Callable[..., None]:
     """Return the kernel that solves many curves by one solver."""
 
     @kernel()
-    def solve_curves(curves: Curves, results: Results, scratch: Floats, sense: IfSense) -> None:
+    def solve_curves(curves: Curves, results: Results, scratch: Floats, sense: AnySense) -> None:
         """Solve curves, each for all its rims.
 
         Parameters

@@ -13,7 +13,7 @@ The pull-off is a minimum of the load, or stands at the rim: its place may be he
 """
 
 import math
-from typing import Any, Final, NamedTuple, TypeAlias
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
@@ -39,6 +39,7 @@ from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SLOPES
 from gradhesion.core.sensitivities.neighbours import Near
 from gradhesion.core.sensitivities.path_slopes import Traced, energy_slopes, fill_loading, with_slopes
+from gradhesion.core.sensitivities.wanted import if_wanted
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Floats, Table
@@ -50,12 +51,6 @@ FORCE, ENERGY, DEPTH = 0, 1, 2
 """What is differentiated: the last one is the depth at the rim, over R, not its logarithm."""
 _PHASELESS: Final = 1e12
 """z from which on a place tells no phase; the slopes are those of the lowest troughs then."""
-
-
-IfSense: TypeAlias = Any
-"""A record `Sense`, or () where no sensitivities are wanted: numba drops what needs it by the length."""
-IfSensed: TypeAlias = Any
-"""A record `Sensed`, or ()."""
 
 
 class Sense(NamedTuple):
@@ -76,7 +71,8 @@ class Sensed(NamedTuple):
     units: Floats  # the units there: of force over that of the curve, and of depth in R; of shape (2, 4)
     size: float  # ln L, the size of a contact, in R
     found: Floats  # where the sensitivities go, of shape (3, COUNT, rims)
-    energy: int  # as of `Sense`
+    force: bool  # as of `Sense`
+    energy: int
     turned: bool  # whether the rims are places where cycles turn
 
 
@@ -179,22 +175,22 @@ def smooth_trace(table: Table, curve: Cosine, trace: Trace) -> int:
     return ONE
 
 
+@if_wanted("sense")
 @kernel()
-def of_curve(sense: IfSense, i: int, which: int) -> IfSense:
-    """Return the record `Sense` of curve i, of exponent `which`, from that of all curves; () if there is none."""
-    if len(sense) == 0:
-        return ()
+def of_curve(sense: Sense, i: int, which: int) -> Sense:
+    """Return the record of curve i, of exponent `which`, from that of all curves."""
     tables, weights, found, force, energy, turned = sense
     return Sense(tables[which], weights[which], found[:, :, i], force, energy, turned)
 
 
+@if_wanted("sense")
 @kernel()
 def sensed_by(table: Table, sense: Sense, stretch: float, wavelength: float, amplitude: float) -> Sensed:
     """Return what the sensitivities of a curve (s, lambda/R, A) need.
 
     k changes at fixed M L^k, L the size of a contact: at fixed M each length would bring its logarithm.
     """
-    tables, weights, found, _, energy, turned = sense
+    tables, weights, found, force, energy, turned = sense
     k = table.k
     curves, units = np.empty((weights.size, 2)), np.empty((2, weights.size))
     (b, g, _), length, unit = curve_of(k, stretch, wavelength, amplitude * wavelength)
@@ -207,30 +203,33 @@ def sensed_by(table: Table, sense: Sense, stretch: float, wavelength: float, amp
         share = (1.0 + k) / ((1.0 + other) * ratio)
         curves[j, 0], curves[j, 1] = b * share, g / ratio
         units[0, j], units[1, j] = share, unit * ratio
-    return Sensed(Near(tables, curves, weights), units, size, found, energy, turned)
+    return Sensed(Near(tables, curves, weights), units, size, found, force, energy, turned)
 
 
+@if_wanted("sensed")
 @kernel()
-def put_forces(
+def put_rest(
     table: Table, curve: Cosine, sensed: Sensed, unit: float, wavelength: float, rims: Floats, results: Results
 ) -> None:
     """Store the sensitivities of the pull-off forces of a curve, whose places and flags are there, for all rims.
 
     Where cycles turn at a depth, those of the depth at the rim as well; `unit` is that of depth in R, `rims` are
-    a_max/R, of shape (rims,).
+    a_max/R, of shape (rims,). Last, all sensitivities to k, which are at fixed M L^k, are turned into those at fixed M.
     """
-    powers = (2.0 - 0.5 * (1.0 - table.k), 0.5)
+    powers, found = (2.0 - 0.5 * (1.0 - table.k), 0.5), sensed.found
     for i in range(rims.size):
-        if results.status[i] & NO_VALUE:
+        if results.status[i] & NO_VALUE or not sensed.force:
             continue
         at_rim = results.status[i] & PULL_OFF_AT_RIM != 0
         x = (rims[i] if at_rim else results.out[results.slots[RADIUS], i]) / wavelength
         force, by = _force_slopes(table, curve, sensed, x, at_rim)
-        _put(sensed.found[FORCE], table.k, curve, powers, by, force, i)
+        _put(found[FORCE], table.k, curve, powers, by, force, i)
         if sensed.turned and at_rim:
             _put_depth(table, curve, sensed, unit, x, i)
+    found[:, BY_EXPONENT, :] += sensed.size * found[:, BY_STIFFNESS, :]
 
 
+@if_wanted("sensed")
 @kernel()
 def put_energy(table: Table, curve: Cosine, sensed: Sensed, slopes: Traced, x: float, energy: float, i: int) -> None:
     """Store the sensitivities of the energy of rim number i, at x, read off the trace that the energy was read off.
@@ -244,6 +243,7 @@ def put_energy(table: Table, curve: Cosine, sensed: Sensed, slopes: Traced, x: f
     _put(sensed.found[ENERGY], table.k, curve, (2.0, 0.0), by, energy, i)
 
 
+@if_wanted("sense")
 @kernel()
 def put_smooth(table: Table, stretch: float, rims: Floats, results: Results, sense: Sense, trace: Trace) -> None:
     """Store the sensitivities of a smooth punch, whose values are there, for all rims a_max/R, of shape (rims,).
@@ -253,8 +253,6 @@ def put_smooth(table: Table, stretch: float, rims: Floats, results: Results, sen
     wavelength = TWO_PI * smooth.smooth_length(table.k, stretch)
     curve, length, unit = curve_of(table.k, stretch, wavelength, 0.0)
     sensed = sensed_by(table, sense, stretch, wavelength, 0.0)
-    if sense.force:
-        put_forces(table, curve, sensed, unit, wavelength, rims, results)
     if sense.energy:
         slopes = with_slopes(smooth_trace(table, curve, trace), trace, 0.0)
         fill_loading(table, curve, sensed.near, slopes)
@@ -262,14 +260,7 @@ def put_smooth(table: Table, stretch: float, rims: Floats, results: Results, sen
         for i in range(rims.size):
             energy = energy_of(results, sense.energy, i) / scale
             put_energy(table, curve, sensed, slopes, rims[i] / wavelength, energy, i)
-    at_fixed_stiffness(sensed)
+    put_rest(table, curve, sensed, unit, wavelength, rims, results)
     found = sensed.found
     found[:, BY_WAVELENGTH, :] = 0.0 * found[:, BY_WAVELENGTH, :]
     found[:, BY_AMPLITUDE, :] = 0.0 * found[:, BY_AMPLITUDE, :]
-
-
-@kernel()
-def at_fixed_stiffness(sensed: Sensed) -> None:
-    """Turn the sensitivities to k at fixed M L^k into those at fixed M."""
-    found = sensed.found
-    found[:, BY_EXPONENT, :] += sensed.size * found[:, BY_STIFFNESS, :]

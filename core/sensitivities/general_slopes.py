@@ -13,7 +13,7 @@ with S the stiffness of the machine itself; the load does not depend on it. See 
 """
 
 import math
-from typing import Any, Final, NamedTuple, TypeAlias
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -35,23 +35,19 @@ from gradhesion.core.sensitivities.cosine_slopes import (
     By,
 )
 from gradhesion.core.sensitivities.general_jump_slopes import NO_JUMP, Change, parts_of, rim_slope_of, rise_to
-from gradhesion.core.sensitivities.general_wave_slopes import add_jump, add_jump_from_zero, add_waves
+from gradhesion.core.sensitivities.general_wave_slopes import WaveSlopes, add_jump, add_jump_from_zero
 from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SHARE, SLOPES
 from gradhesion.core.sensitivities.jump_slopes import DEPTH as BY_LEVEL
 from gradhesion.core.sensitivities.path_slopes import Traced, energy_slopes, fill_loading, with_slopes
+from gradhesion.core.sensitivities.wanted import if_wanted
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats, Slopes
 from gradhesion.core.waves.general import DOWN, NOWHERE, UP, Waves, room_for_waves
+from gradhesion.core.waves.general_sum import add_waves
 
 LN2: Final = math.log(2.0)
 NOTES: Final = 4096
 """Notes of a cycle that there is room for."""
-
-
-IfSense: TypeAlias = Any
-"""A record `Sense`, or () where no sensitivities are wanted: numba drops what needs it by the length."""
-IfSensed: TypeAlias = Any
-"""A record `Sensed`, or ()."""
 
 
 class Sense(NamedTuple):
@@ -96,16 +92,13 @@ class Sensed(NamedTuple):
     wavy: bool  # whether the amplitude is positive
 
 
+@if_wanted("sense")
 @kernel()
-def sensed_by(
-    sense: IfSense, i: int, stretch: float, wavelength: float, amplitude: float, compliance: float
-) -> IfSensed:
-    """Return the record `Sensed` of curve i from the record `Sense` of all, () if this is ().
+def sensed_by(sense: Sense, i: int, stretch: float, wavelength: float, amplitude: float, compliance: float) -> Sensed:
+    """Return the record of curve i from that of all.
 
     s, lambda/R, A and the compliance of the curve are those of `curve_of` (curve/general.py).
     """
-    if len(sense) == 0:
-        return ()
     change, front_by_k, k, m, found, force, energy, turned = sense
     stiffness = 2.0 ** (1.0 + k) * math.pi / (stretch * stretch)
     size = -math.log(stiffness) / (2.0 * m - 1.0 + k)
@@ -114,14 +107,6 @@ def sensed_by(
     share = length - size - LN2 - 1.0 / (1.0 + k) if 0.0 < compliance < math.inf else 0.0
     by_k = ByExponent(front_by_k - unit, -unit, share, -1.0 / (1.0 + k) - unit, unit)
     return Sensed(change, k, m, by_k, size, found[:, :, i], force, energy, turned, amplitude > 0.0)
-
-
-@kernel()
-def senses_energy(own: IfSensed) -> bool:
-    """Return whether the sensitivities of the energy of a scene are asked for."""
-    if len(own) == 0:
-        return False
-    return bool(own.energy > 0)
 
 
 @kernel()
@@ -163,6 +148,7 @@ def _put_depth(basis: Basis, curve: Series, own: Sensed, unit: float, x: float, 
     found[DEPTH, BY_EXPONENT, i] = unit * (by_k + own.by_k.bend * bend + own.by_k.gain * gain + own.by_k.depth * depth)
 
 
+@if_wanted("own")
 @kernel()
 def put_rest(
     basis: Basis, curve: Series, own: Sensed, unit: float, wavelength: float, rims: Floats, results: Results
@@ -203,22 +189,24 @@ def _put_total(own: Sensed, total: Slopes, by_rim: float, energy: float, i: int)
     _put(own, ENERGY, (2.0, 0.0, 0.0), by, energy, i)
 
 
+@if_wanted("own")
 @kernel()
 def slopes_of(basis: Basis, curve: Series, own: Sensed, count: int, trace: Floats) -> Traced:
     """Return the slopes that go with a trace of `count` branches; those of loading filled in, if they are wanted."""
     slopes = with_slopes(count, trace, 0.0)
-    if senses_energy(own):
+    if own.energy > 0:
         fill_loading(basis, curve, own.change, slopes)
     return slopes
 
 
+@if_wanted("own")
 @kernel()
 def put_energy(basis: Basis, curve: Series, own: Sensed, slopes: Traced, x: float, energy: float, i: int) -> None:
     """Store the sensitivities of the energy of rim number i, at x, read off the trace that the energy was read off.
 
     The energy is in 2 pi l^2 dgamma.
     """
-    if not senses_energy(own):
+    if own.energy == 0:
         return
     total = np.empty(SLOPES)
     level = coordinate(basis, curve, x) if x < math.inf else math.inf
@@ -226,6 +214,7 @@ def put_energy(basis: Basis, curve: Series, own: Sensed, slopes: Traced, x: floa
     _put_total(own, total, by_rim, energy, i)
 
 
+@if_wanted("own")
 @kernel()
 def put_noted(
     basis: Basis, curve: Series, own: Sensed, cut: float, notes: Notes, rim: tuple[float, float], energy: float, i: int
@@ -234,7 +223,7 @@ def put_noted(
 
     Its waves are cut at `cut` (waves/general.py); the rim is x beyond some whole waves.
     """
-    if not senses_energy(own):
+    if own.energy == 0:
         return
     change = own.change
     x, whole = rim
@@ -252,7 +241,7 @@ def put_noted(
         before = total[BY_LEVEL]
         if kind in (NOTED_UP, NOTED_DOWN):
             run = Waves(UP if kind == NOTED_UP else DOWN, cut, NOWHERE, work)
-            add_waves(basis, curve, change, run, NO_JUMP, start, end, total)
+            add_waves(basis, curve, WaveSlopes(change, NO_JUMP), run, start, end, total)
         elif kind == NOTED_JUMP:
             add_jump(basis, curve, change, start, end, waves, total)
             if notes[n, 4] > 0.0:  # the rim cuts it

@@ -9,6 +9,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gradhesion.core.problem.shape import depth_factor_of
 from gradhesion.core.types import Floats
 
 _STEP: Final = 2.0**-11
@@ -29,3 +30,9 @@ class Near(NamedTuple):
 def exponents_beside(k: float) -> tuple[list[float], NDArray[np.float64]]:
     """Return four exponents next to k, 0 to 1, and their weights in d/dk (Fornberg 1988)."""
     return [k + _STEP * place for place in _PLACES], _WEIGHTS / _STEP
+
+
+def depth_factor_by_k(k: float, exponent: float) -> float:
+    """Return the slope by k of ln of the factor of a punch of an exponent (`depth_factor_of` of problem/shape.py)."""
+    exponents, weights = exponents_beside(k)
+    return float(weights @ np.log([depth_factor_of(other, exponent) for other in exponents]))

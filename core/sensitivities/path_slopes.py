@@ -8,7 +8,7 @@ The curve is any whose kind answers about its sensitivities (core/face.py).
 """
 
 import math
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
@@ -64,10 +64,6 @@ class Traced(NamedTuple):
     final: float  # the last arch on which the curve folds
     slopes: Floats  # those of loading and unloading, a column a branch, and whether the latter are there; two rows more
     # are room for a jump and for its slopes; of shape (ROWS + 2, columns)
-
-
-IfTraced: TypeAlias = Any
-"""Such a record, or () where no sensitivities are wanted."""
 
 
 @kernel()

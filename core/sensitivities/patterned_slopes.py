@@ -28,7 +28,8 @@ from gradhesion.core.curve.panels import (
     panel_outwards,
     panels_to_zero,
 )
-from gradhesion.core.curve.patterned import Patterned, shortest_of, toughness_at
+from gradhesion.core.curve.patterned import Patterned, toughness_at
+from gradhesion.core.face import shortest_wave
 from gradhesion.core.path.unloading import descend, leave_rim
 from gradhesion.core.problem.results import LOADING_PART, RADIUS, UNLOADING_PART, Results
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
@@ -44,6 +45,7 @@ from gradhesion.core.sensitivities.cosine_slopes import (
     FORCE,
 )
 from gradhesion.core.sensitivities.cosine_slopes import COUNT as OF_PROFILES
+from gradhesion.core.sensitivities.wanted import if_wanted
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import sums
@@ -60,9 +62,7 @@ BY_DEPTH, BY_LOAD, BY_TOUGHNESS, BY_STRETCH, BY_SHARE = map(constant, range(5))
 LN2: Final = math.log(2.0)
 
 Walked: TypeAlias = tuple[int, Trace]
-"""The number of branches, and the trace (path/patterned.py)."""
-IfSense: TypeAlias = Any
-"""A record `Sense`, or () where no sensitivities are wanted: numba drops what needs it by the length."""
+"""The number of branches, and the trace (path/general.py)."""
 
 
 class Sense(NamedTuple):
@@ -155,7 +155,7 @@ def add_jump(
 
     `total` is of shape (COUNT + 1,), in 2 pi l^2 dgamma.
     """
-    parts, level, shortest = room.parts, room.level, shortest_of(basis)
+    parts, level, shortest = room.parts, room.level, shortest_wave(basis, curve)
     level[:] = 0.0
     if start > 0.0:
         at = fill_parts(basis, curve, sense, log_length, start, parts)
@@ -245,11 +245,12 @@ def _add_unloading(
         now = lower
 
 
+@if_wanted("sense")
 @kernel()
 def put_energy(
     basis: Basis,
     curve: Patterned,
-    sense: IfSense,
+    sense: Sense,
     of_curve: tuple[float, int],
     walked: Walked,
     x: float,
@@ -267,6 +268,7 @@ def put_energy(
         sense.found[ENERGY, p, i, rim] = total[p] / energy if energy > 0.0 else math.nan
 
 
+@if_wanted("sense")
 @kernel()
 def put_forces(
     basis: Basis, curve: Patterned, sense: Sense, i: int, units: tuple[float, float, float], rims: Floats, own: Results

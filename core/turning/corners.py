@@ -10,14 +10,12 @@ from typing import Final, NamedTuple, TypeAlias
 import numpy as np
 
 from gradhesion.core.compiler.jit import NO, NONE, constant, kernel
-from gradhesion.core.curve.arches import folds_between
 from gradhesion.core.curve.branches import ARRIVAL, END, Trace
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Series, coordinate, size
 from gradhesion.core.curve.general_branches import find_level
 from gradhesion.core.curve.general_folds import Search, find_folds
-from gradhesion.core.curve.window import last_fold_bound
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.face import find_all_folds, measured_by, size_at, window
 from gradhesion.core.types import Floats
 
 PLACE, VALUE, TERMS, KIND = 0, 1, 2, 3
@@ -25,6 +23,8 @@ PLACE, VALUE, TERMS, KIND = 0, 1, 2, 3
 LANDING, FOLD, OPEN = map(constant, range(3))
 """Where a jump lands, a fold of the measured or of the prescribed coordinate, and the end of what is known."""
 ROWS: Final = 4
+_INNERMOST: Final = 1e-30
+"""x from which on folds are searched for where contact grows from a point."""
 
 
 Corners: TypeAlias = Floats
@@ -37,6 +37,7 @@ class Place(NamedTuple):
     search: Search  # room for a search of folds
     zeros: Floats  # room for what it finds, of shape (MOST_FOLDS,)
     whole: float  # the whole waves beyond which places are given
+    last: float  # x beyond which the measured coordinate has no fold (`last_corner`)
 
 
 Found: TypeAlias = tuple[bool, float, bool, bool]
@@ -45,10 +46,15 @@ passed the target."""
 
 
 @kernel()
-def measured_by(curve: Series, by_load: bool) -> Series:
-    """Return the curve whose coordinate is the load, or the depth."""
-    B, m, g, _, _ = curve
-    return Series(B, m, g, 0.0, 1.0) if by_load else Series(B, m, g, 1.0, 0.0)
+def last_corner(basis: Basis, curve: Series, by_load: bool) -> float:
+    """Return x beyond which what is measured has no fold on a branch.
+
+    Depth rises on every branch, and load under its own control.
+    """
+    if not (by_load and curve.alpha > 0.0):
+        return 0.0
+    _, last = window(basis, measured_by(curve, by_load))
+    return last
 
 
 @kernel()
@@ -60,8 +66,11 @@ def _put(
         more = np.empty((ROWS, 2 * count))
         more[:, :count] = corners
         corners = more
-    corners[PLACE, count], corners[VALUE, count] = x, coordinate(basis, measured, x, whole)
-    corners[TERMS, count], corners[KIND, count] = size(basis, measured, x, whole), kind
+    place = whole + x
+    corners[PLACE, count] = x
+    corners[VALUE, count] = coordinate(basis, measured, x, whole) if place > 0.0 else 0.0
+    corners[TERMS, count] = size(basis, measured, x, whole) if whole > 0.0 else size_at(basis, measured, x)
+    corners[KIND, count] = kind
     return corners, count + 1
 
 
@@ -90,19 +99,16 @@ def append_corners(
     corners, count
         To which they are appended.
     """
-    search, zeros, whole = room
+    search, zeros, whole, last = room
     begin, end, ends_in_fold = way
-    _, _, _, alpha, _ = curve
     measured = measured_by(curve, by_load)
     corners, count = _put(basis, measured, corners, count, begin, LANDING, whole)
-    if begin < end and by_load and alpha > 0.0:  # depth rises on every branch, and load under its own control
-        last = min(end, last_fold_bound(basis, measured) / TWO_PI - whole)
-        found = 0
-        if begin < last:
-            if whole == 0.0:
-                found, _, _ = folds_between(basis, measured, begin, last, search, zeros)
-            else:
-                found, _, _ = find_folds(basis, measured, begin, last, search, zeros, whole)
+    last = min(end, last - whole)
+    if begin < last:
+        if whole == 0.0:
+            found, _, _ = find_all_folds(basis, measured, max(begin, _INNERMOST), last, zeros)
+        else:
+            found, _, _ = find_folds(basis, measured, begin, last, search, zeros, whole)
         for i in range(found):
             corners, count = _put(basis, measured, corners, count, zeros[i], FOLD, whole)
     return _put(basis, measured, corners, count, end, FOLD if ends_in_fold else OPEN, whole)

@@ -11,21 +11,19 @@ from gradhesion.core.contact.least import least_opening
 from gradhesion.core.curve.branches import END_DEPTH, START, START_DEPTH, Trace, ends
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
-from gradhesion.core.curve.general import Basis, Series, coordinate, curve_of
+from gradhesion.core.curve.general import Basis, Series, coordinate, curve_at
 from gradhesion.core.curve.general_branches import find_level
 from gradhesion.core.curve.general_folds import MOST_CELLS, MOST_FOLDS, room
-from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
+from gradhesion.core.face import is_always_one_disc, measured_by, reach, window
 from gradhesion.core.path.general import walk
 from gradhesion.core.path.general_long import FEW, LONGEST_WALK, REGULAR, middle_of
 from gradhesion.core.path.general_ties import is_at_a_fold
 from gradhesion.core.path.ties import rim_is_close
-from gradhesion.core.problem.curves import GeneralCurves, is_in_range
+from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.series import highest_harmonic
-from gradhesion.core.turning.corners import Place, corners_of, first_reached
+from gradhesion.core.turning.corners import Place, corners_of, first_reached, last_corner
 from gradhesion.core.turning.general_far import turn_far
-from gradhesion.core.turning.general_reach import reach
 from gradhesion.core.turning.turns import Turns
 from gradhesion.core.types import Floats, Truths
 
@@ -44,6 +42,8 @@ def is_first_contact(k: float, curve: Series, target: float) -> bool:
 @kernel()
 def is_one_disc(basis: Basis, curve: Series, count: int, trace: Trace, x: float, rim: float) -> bool:
     """Return whether the contact that turns at x is one disc, out to the rim of the punch."""
+    if is_always_one_disc(basis, curve):
+        return True
     level = coordinate(basis, curve, x)
     lowest, end = math.inf, math.inf
     for branch in range(count):
@@ -56,7 +56,7 @@ def is_one_disc(basis: Basis, curve: Series, count: int, trace: Trace, x: float,
     if end < math.inf and is_surely_open(basis, curve, x, level - lowest):
         return True
     if end == math.inf:
-        if x > last_fold_bound(basis, curve) / TWO_PI:  # from here on the coordinate rises
+        if x > window(basis, curve)[1]:  # from here on the coordinate rises
             return True
         end = reach(basis, curve, level)
     end = min(end, rim)
@@ -64,7 +64,7 @@ def is_one_disc(basis: Basis, curve: Series, count: int, trace: Trace, x: float,
 
 
 @kernel()
-def _turn_walked(
+def turn_walked(
     basis: Basis,
     curve: Series,
     bounds: tuple[float, float],
@@ -79,15 +79,14 @@ def _turn_walked(
     turns within `reaches`, or these are moved outwards; what is found is no longer chosen, and `passed` says whether a
     jump has passed the target. All are of shape (rims,).
     """
-    first, last = bounds
     rims, targets, by_load, check, places, flags = turns
-    search = Place(room(), np.empty(MOST_FOLDS), 0.0)
+    search = Place(room(), np.empty(MOST_FOLDS), 0.0, last_corner(basis, curve, by_load))
     for _ in range(_TRIALS):
         furthest, left = 0.0, False
         for i in range(rims.size):
             if chosen[i]:
                 furthest = max(furthest, min(rims[i], reaches[i]))
-        count, trace, _ = walk(basis, curve, first, last, furthest, NO)
+        count, trace, _ = walk(basis, curve, bounds, furthest, NO)
         if count < 0 or furthest == math.inf:
             return False
         corners, number = corners_of(basis, curve, by_load, count, trace, furthest, search)
@@ -124,13 +123,13 @@ def _turn_one_far(
     Whether that could be done, x, its flags, and whether a jump has passed the target.
     """
     first, last = bounds
-    rim, target = turns.rims[i], turns.targets[i]
+    rim, way = turns.rims[i], (turns.by_load, turns.targets[i], last_corner(basis, curve, turns.by_load))
     for _ in range(_TRIALS):
         furthest = min(rim, surely)
         middle = middle_of(basis, curve, first, min(furthest, last), 0.0)
         if middle.kind != REGULAR:
             return False, rim, 0, False
-        done, here, whole = turn_far(basis, curve, (turns.by_load, target), first, middle, furthest)
+        done, here, whole = turn_far(basis, curve, way, first, middle, furthest)
         if not done:
             return False, rim, 0, False
         found, x, close, jumped = here
@@ -156,12 +155,11 @@ def _turn_curve(basis: Basis, curve: Series, unit: float, wavelength: float, tur
     Lengths of `turns` are in R; `unit` is that of its targets.
     """
     table, _, series = basis
-    B, m, g, _, _ = curve
     rims, targets, by_load, check, radii, flags = turns
     count = rims.size
     highest = highest_harmonic(series)
-    first, last = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
-    measured = Series(B, m, g, 0.0, 1.0) if by_load else Series(B, m, g, 1.0, 0.0)
+    first, last = window(basis, curve)
+    measured = measured_by(curve, by_load)
     edges, reduced, reaches, places = np.empty(count), np.empty(count), np.empty(count), np.empty(count)
     own = Turns(edges, reduced, by_load, check, places, flags)
     chosen, alone = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
@@ -195,19 +193,17 @@ def _turn_curve(basis: Basis, curve: Series, unit: float, wavelength: float, tur
             alone[i] = True
             few = middle.kind == FEW
             bounds = (first, middle.until if few else last)
-            if (few or waves * highest < MOST_CELLS) and _turn_walked(
-                basis, curve, bounds, own, reaches, alone, passed
-            ):
+            if (few or waves * highest < MOST_CELLS) and turn_walked(basis, curve, bounds, own, reaches, alone, passed):
                 continue
             alone[i] = False
             places[i] = math.nan
         elif waves * highest < MOST_CELLS:
             chosen[i] = together = True
-    if together and not _turn_walked(basis, curve, (first, last), own, reaches, chosen, passed):
+    if together and not turn_walked(basis, curve, (first, last), own, reaches, chosen, passed):
         for i in range(count):  # too many folds up to the furthest of them
             if chosen[i]:
                 alone[i], reaches[i] = True, reach(basis, measured, reduced[i])
-                _turn_walked(basis, curve, (first, last), own, reaches, alone, passed)
+                turn_walked(basis, curve, (first, last), own, reaches, alone, passed)
                 alone[i] = False
     for i in range(count):
         if math.isnan(places[i]):
@@ -223,22 +219,15 @@ def turn_scenes(basis: Basis, curves: GeneralCurves, turns: Turns, passed: Truth
     What is found goes there, and to `passed`, of shape (curves, rims): whether a jump has passed the target, so that
     the cycle turns beyond it.
     """
-    numbers, exponent, depth_factor, stretch, wavelength, amplitude, compliance, _ = curves
-    table, cosine_bins, series = basis
     rims, targets, by_load, check, radii, flags = turns
-    smooth = np.zeros((0, 3))
-    for j in range(numbers.size):
-        i = numbers[j]
+    for i in curves.numbers:
         row = i if rims.shape[0] > 1 else 0
-        valid = is_in_range(stretch[i], wavelength[i], amplitude[i]) and compliance[i] >= 0.0
-        waves = Basis(table, cosine_bins, series if amplitude[i] > 0.0 else smooth)
-        curve, length, unit = curve_of(
-            table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
-        )
-        if not (valid and 0.0 < curve.bend < math.inf and 0.0 <= curve.gain < math.inf):
+        valid, rows, curve, length, unit = curve_at(basis, curves, i)
+        waves = Basis(basis.table, basis.cosine_bins, rows)
+        if not valid:
             radii[i, :], flags[i, :] = math.nan, NO_VALUE
             continue
         if by_load:
-            unit = force_unit(table.k, length, unit)
+            unit = force_unit(basis.table.k, length, unit)
         own = Turns(rims[row], targets[row], by_load, check, radii[i], flags[i])
-        _turn_curve(waves, curve, unit, wavelength[i], own, passed[i])
+        _turn_curve(waves, curve, unit, curves.wavelength[i], own, passed[i])

@@ -16,8 +16,8 @@ from gradhesion.core.turning.corners import ROWS as CORNER_ROWS
 from gradhesion.core.turning.corners import Found, Place, append_corners, corners_of, first_reached
 from gradhesion.core.waves.general import UP, Room, branches_of_wave, highest_end, let_reach, room_for_waves
 
-Way: TypeAlias = tuple[bool, float]
-"""Whether the load is measured, else the depth, and the target."""
+Way: TypeAlias = tuple[bool, float, float]
+"""Whether the load is measured, else the depth; the target; and what `last_corner` returns."""
 
 
 @kernel()
@@ -28,8 +28,8 @@ def _turn_on_piece(
 
     A branch that ends at x = `end` ends in no fold. The branches are `count`, in the rows of general_branches.py.
     """
-    by_load, target = way
-    _, _, whole = search
+    by_load, target, _ = way
+    whole = search.whole
     corners, number, close = np.empty((CORNER_ROWS, 16)), 0, NO
     for branch in range(count):
         if rows[END_DEPTH, branch] <= level:
@@ -53,7 +53,9 @@ def _turn_on_wave(basis: Basis, curve: Series, way: Way, cut: float, wave: float
     level = rows[0, END_DEPTH, before]
     count = branches_of_wave(basis, curve, wave, cut, work, rows[1])
     let_reach(UP, rows[1], count, level)
-    found, _ = _turn_on_piece(basis, curve, way, count, rows[1], level, math.inf, Place(work.search, zeros, wave))
+    found, _ = _turn_on_piece(
+        basis, curve, way, count, rows[1], level, math.inf, Place(work.search, zeros, wave, way[2])
+    )
     return found
 
 
@@ -100,7 +102,7 @@ def turn_far(
     Whether it could be done; what it has found; and the whole waves beyond which the place is told.
     """
     _, _, series = basis
-    by_load, target = way
+    by_load, target, last = way
     _, until, cut, _, begin, end, _ = middle
     search, zeros = room(), np.empty(MOST_FOLDS)
     nothing = (False, math.inf, False, False)
@@ -110,7 +112,7 @@ def turn_far(
     near = np.empty((ROWS, count // 2 + 2))
     branches = fill_branches(basis, curve, zeros, count, rises, begin + cut, near, 0.0)
     now = load_up(basis, curve, branches, near, math.inf, NO)
-    corners, number = corners_of(basis, curve, by_load, branches, near, math.inf, Place(search, zeros, 0.0))
+    corners, number = corners_of(basis, curve, by_load, branches, near, math.inf, Place(search, zeros, 0.0, last))
     found, x, close, passed = first_reached(basis, curve, by_load, corners, number, target, 0.0)
     if found:
         return True, (found, x, close, passed), 0.0
@@ -125,7 +127,7 @@ def turn_far(
             break
         count = branches_of_wave(basis, curve, wave, cut, work, rows)
         let_reach(UP, rows, count, level)
-        here, level = _turn_on_piece(basis, curve, way, count, rows, level, math.inf, Place(search, zeros, wave))
+        here, level = _turn_on_piece(basis, curve, way, count, rows, level, math.inf, Place(search, zeros, wave, last))
         close = close or here[2]
         if here[0]:
             return True, (YES, here[1], close, here[3]), wave
@@ -145,5 +147,5 @@ def turn_far(
         return False, nothing, 0.0
     outer = np.empty((ROWS, count // 2 + 2))
     branches = fill_branches(basis, curve, zeros, count, rises, x, outer, whole)
-    here, _ = _turn_on_piece(basis, curve, way, branches, outer, level, x, Place(search, zeros, whole))
+    here, _ = _turn_on_piece(basis, curve, way, branches, outer, level, x, Place(search, zeros, whole, last))
     return True, (here[0], here[1], close or here[2], here[3]), whole

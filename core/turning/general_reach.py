@@ -25,10 +25,7 @@ def envelope_at(curve: Series, k: float, pull: float, height: float, z: float) -
 
 @kernel()
 def reach(basis: Basis, curve: Series, target: float) -> float:
-    """Return x from which on the coordinate of a curve exceeds a target, inf if that is beyond all counting.
-
-    It is too large by some percent, and not rigorous near zero contact, where the waves have not their far form.
-    """
+    """Do what `reach` of core/face.py says."""
     table, _, series = basis
     _, _, g, _, _ = curve
     swing, height = 0.0, 0.0

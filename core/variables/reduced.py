@@ -57,6 +57,8 @@ WAYS: Final[dict[str, dict[str, tuple[str, ...]]]] = {
 }
 """By what a parameter can be told, and what else that takes; in the order in which they follow from one another."""
 
+_IN_WAYS: Final = {name for ways in WAYS.values() for way, needed in ways.items() for name in (way, *needed)}
+"""What parameters follow from, none of which is an answer."""
 _OPTIONAL: Final = (_MACHINE, *TURNS, CLOSING, *PATTERN, SPEED, RANGE)
 """What not every scene has."""
 
@@ -122,8 +124,7 @@ def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
                 if way == "a_max_over_a2" and closing:
                     others[needed.index("modulus")] = known["modulus"] / known[CLOSING]
                 known[parameter] = np.asarray(_FOLLOWS[way](known[way], *others))
-    ways = {name for alternatives in WAYS.values() for way, needed in alternatives.items() for name in (way, *needed)}
-    return {name: known[name] for name in (*wanted, *(name for name in given if name not in {*ways, *wanted}))}
+    return {name: known[name] for name in (*wanted, *(name for name in given if name not in _IN_WAYS | {*wanted}))}
 
 
 def sources_of(parameter: str, given: Mapping[str, Any]) -> tuple[str, ...]:

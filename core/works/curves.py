@@ -11,10 +11,10 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.curves.draw import draw_curves
+from gradhesion.core.curves.draw import draw_curves, subject_for
 from gradhesion.core.curves.effective import turning_place
-from gradhesion.core.curves.envelope import draw_envelope
-from gradhesion.core.curves.subject import BEYOND, subject_of
+from gradhesion.core.curves.envelope import draw_envelope, envelopes_of
+from gradhesion.core.curves.subject import BEYOND
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import CLOSING, CURVES, TURNS
 from gradhesion.core.problem.profile import Profile
@@ -65,29 +65,34 @@ def _joined_jumps(up: Curves, down: Curves, grows: bool) -> Curves:
     return {name: np.concatenate([up[name][loading], down[name][unloading]]) for name in CURVES["jumps"]}
 
 
-def _joined_envelopes(closing: Mapping[str, float], opening: Mapping[str, float], ratio: float) -> Curves | None:
+def _joined_envelopes(
+    closing: Mapping[str, float], opening: Mapping[str, float], ratio: float, profile: Profile
+) -> Curves | None:
     """Return the loading envelope at the work of closing, and the unloading one at that of opening."""
-    down = subject_of(opening)
-    up = None if down is None else subject_of({**closing, "a_max_over_R": down.end})
+    down = subject_for(opening, profile, Loading())
+    up = None if down is None else subject_for({**closing, "a_max_over_R": down.end}, profile, Loading())
     if up is None or down is None:
         return None
-    radii = np.union1d(*(draw_envelope(one)["envelope_contact_radius"] for one in (up, down)))
+    radii = np.union1d(*(draw_envelope(one, profile)["envelope_contact_radius"] for one in (up, down)))
     found: Curves = {"envelope_contact_radius": radii}
-    for name, one, sign, unit in (("loading", up, -1.0, max(ratio, LEAST)), ("unloading", down, 1.0, 1.0)):
-        form = one.plain(1.0 + sign * one.chi, one.mean_height)
+    forms = envelopes_of(up, profile).up, envelopes_of(down, profile).down
+    for name, form, unit in zip(("loading", "unloading"), forms, (max(ratio, LEAST), 1.0), strict=True):
         _, depth, load = form.scaled(form.states(radii / form.radius_scale))
         found |= {f"{name}_envelope_indentation": depth, f"{name}_envelope_load": unit * load}
     return found
 
 
-def _joined_effective(closing: Mapping[str, float], opening: Mapping[str, float], ratio: float) -> Curves:
+def _joined_effective(
+    closing: Mapping[str, float], opening: Mapping[str, float], ratio: float, profile: Profile
+) -> Curves:
     """Return loading of the effective path at the work of closing, and unloading at that of opening."""
     rims = {}
     if not opening["a_max_over_R"] < math.inf:
-        subjects = [subject_of(scene) for scene in (closing, opening)]
-        turns = [turning_place(one) * one.plain(1.0).radius_scale for one in subjects if one is not None]
+        subjects = [subject_for(scene, profile, Loading()) for scene in (closing, opening)]
+        envelopes = [(one, envelopes_of(one, profile)) for one in subjects if one is not None]
+        turns = [turning_place(one, own) * own.up.radius_scale for one, own in envelopes]
         rims = {"a_max_over_R": max(turns, default=math.nan)}
-    up, down = (draw_curves({**scene, **rims}, ["effective"])[0] for scene in (closing, opening))
+    up, down = (draw_curves({**scene, **rims}, ["effective"], profile)[0] for scene in (closing, opening))
     up = _in_opening_units(up, ratio)
     first = int(np.argmax(up["effective_contact_radius"]))
     radii = down["effective_contact_radius"]
@@ -152,11 +157,11 @@ def draw_two_works(
         elif radius == 0.0:
             found |= drawn(plain, curve)
         elif curve == "envelope":
-            joined = _joined_envelopes({**bare_closing, **end}, {**bare, **end}, ratio)
+            joined = _joined_envelopes({**bare_closing, **end}, {**bare, **end}, ratio, profile)
             found |= drawn(bare, curve, a_max_over_R=math.nan) if joined is None else joined
         elif curve == "effective":
             rims = {"a_max_over_R": radius} if turn else {}
-            found |= _joined_effective({**bare_closing, **rims}, {**bare, **rims}, ratio)
+            found |= _joined_effective({**bare_closing, **rims}, {**bare, **rims}, ratio, profile)
         else:
             up = _in_opening_units(drawn(bare_closing, curve, a_max_over_R=radius), ratio)
             down = drawn(bare, curve, a_max_over_R=radius)

@@ -10,15 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.arrays.prepared import prepared, run_by_exponent
+from gradhesion.core.arrays.prepared import curves_of, prepared, run_by_exponent
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.compiler.marks import note_compiled
 from gradhesion.core.curve.cosine import force_unit
-from gradhesion.core.curve.general import Basis, curve_of, state
+from gradhesion.core.curve.general import Basis, curve_at, state
 from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.names import PATTERN
-from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
 from gradhesion.core.sweep import How, solve
 from gradhesion.core.types import Floats
 from gradhesion.core.works.cycle import LEAST, closing_parameters
@@ -30,20 +29,15 @@ def fill_pulls(basis: Basis, curves: GeneralCurves, out: Floats) -> None:
 
     They are in 1.5 pi R dgamma. The rims are radii of contact.
     """
-    numbers, exponent, depth_factor, stretch, wavelength, amplitude, compliance, rims = curves
-    table, cosine_bins, series = basis
-    smooth = np.zeros((0, 3))
-    for i in numbers:
-        curve, length, unit = curve_of(
-            table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
-        )
-        waves = Basis(table, cosine_bins, series if amplitude[i] > 0.0 else smooth)
-        row = rims[i if rims.shape[0] > 1 else 0]
+    for i in curves.numbers:
+        _, rows, curve, length, unit = curve_at(basis, curves, i)
+        waves = Basis(basis.table, basis.cosine_bins, rows)
+        row = curves.rims[i if curves.rims.shape[0] > 1 else 0]
         for rim in range(row.size):
-            _, _, front, depth, load = state(waves, curve, row[rim] / wavelength[i])
+            _, _, front, depth, load = state(waves, curve, row[rim] / curves.wavelength[i])
             level = curve.alpha * depth + curve.beta * load
             load -= front * level / (curve.alpha + curve.beta * front)
-            out[i, rim] = -force_unit(table.k, length, unit) * load
+            out[i, rim] = -force_unit(basis.table.k, length, unit) * load
 
 
 def snap_in_force(scenes: Mapping[str, ArrayLike], ratio: NDArray[np.float64], how: How) -> NDArray[np.float64]:
@@ -76,18 +70,14 @@ def snap_in_force(scenes: Mapping[str, ArrayLike], ratio: NDArray[np.float64], h
 
 def pulls_at(scenes: Mapping[str, ArrayLike], how: How) -> NDArray[np.float64]:
     """Return the pulls in 1.5 pi R dgamma of contacts up to a_max at the coordinate 0, of the broadcast shape."""
-    profile = how.profile
     plain = {name: value for name, value in scenes.items() if name not in PATTERN}  # at the depth 0 it is no part
     found = prepared(plain, how.loading)
-    n, series = in_own_wavelength(profile)
-    wavelength, amplitude = found.wavelength / n, n * found.amplitude if series.size else 0.0 * found.amplitude
+    series, curves_at = curves_of(found, how.profile)
     out = np.full((found.k.size, found.rim.shape[1]), np.nan)
 
     def work(exponent: float, index: NDArray[np.int64], interpolated: bool) -> None:
         basis = Basis(*tables_of(exponent, series, interpolated=interpolated), series)
-        form = profile.exponent, depth_factor_of(exponent, profile.exponent)
-        own = GeneralCurves(index, *form, found.stretch, wavelength, amplitude, found.compliance, found.rim)
-        fill_pulls(basis, own, out)
+        fill_pulls(basis, curves_at(exponent, index), out)
 
     run_by_exponent(found.k, work, how.threads, found.rim.shape[1])
     note_compiled("edge")

@@ -10,13 +10,12 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.core.arrays.prepared import prepared, run_by_exponent
+from gradhesion.core.arrays.prepared import curves_of, prepared, run_by_exponent
 from gradhesion.core.arrays.tables import changes_of, tables_of
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import force_unit
-from gradhesion.core.curve.general import Basis, Series, coordinate, curve_of, slope
+from gradhesion.core.curve.general import Basis, Series, coordinate, curve_at, slope
 from gradhesion.core.problem.curves import GeneralCurves
-from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
 from gradhesion.core.sensitivities.cosine_slopes import (
     BY_AMPLITUDE,
     BY_EXPONENT,
@@ -28,7 +27,7 @@ from gradhesion.core.sensitivities.cosine_slopes import (
 )
 from gradhesion.core.sensitivities.general_jump_slopes import parts_of
 from gradhesion.core.sensitivities.general_slopes import Sense, Sensed, sensed_by
-from gradhesion.core.sensitivities.neighbours import exponents_beside
+from gradhesion.core.sensitivities.neighbours import depth_factor_by_k
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.sweep import How
 from gradhesion.core.types import Floats
@@ -63,17 +62,13 @@ def fill_slopes(basis: Basis, curves: GeneralCurves, sense: Sense, by_load: bool
 
     Slopes by ln of M, lambda, A and a, and by k, are in R or 1.5 pi R dgamma, as `values` of shape (curves, rims).
     """
-    numbers, exponent, depth_factor, stretch, wavelength, amplitude, compliance, rims = curves
-    table, cosine_bins, series = basis
-    smooth = np.zeros((0, 3))
+    numbers, _, _, stretch, wavelength, amplitude, compliance, rims = curves
     for i in numbers:
-        curve, length, unit = curve_of(
-            table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
-        )
-        waves = Basis(table, cosine_bins, series if amplitude[i] > 0.0 else smooth)
+        _, rows, curve, length, unit = curve_at(basis, curves, i)
+        waves = Basis(basis.table, basis.cosine_bins, rows)
         own = sensed_by(sense, i, stretch[i], wavelength[i], amplitude[i], compliance[i])
         held = Series(curve.bend, curve.exponent, curve.gain, 0.0 if by_load else 1.0, 1.0 if by_load else 0.0)
-        scale = force_unit(table.k, length, unit) if by_load else unit
+        scale = force_unit(basis.table.k, length, unit) if by_load else unit
         row = rims[i if rims.shape[0] > 1 else 0]
         for rim in range(row.size):
             values[i, rim] = _put(waves, held, own, scale, row[rim] / wavelength[i], rim)
@@ -87,21 +82,16 @@ def turn_slopes(
     These are by ln of M, lambda, A and a_max, by k at fixed M, and by ln of the machine's stiffness, of shape
     (6, *scenes); the values have the broadcast shape.
     """
-    profile, loading = how.profile, how.loading
-    found = prepared(scenes, loading)
-    n, series = in_own_wavelength(profile)
-    wavelength, amplitude = found.wavelength / n, n * found.amplitude if series.size else 0.0 * found.amplitude
+    m, found = how.profile.exponent, prepared(scenes, how.loading)
+    series, curves_at = curves_of(found, how.profile)
     values = np.full((found.k.size, found.rim.shape[1]), np.nan)
     slopes = np.full((1, COUNT, *values.shape), np.nan)
 
     def work(exponent: float, index: NDArray[np.int64], _: bool) -> None:
         basis = Basis(*tables_of(exponent, series, interpolated=False), series)
-        form = profile.exponent, depth_factor_of(exponent, profile.exponent)
-        curves = GeneralCurves(index, *form, found.stretch, wavelength, amplitude, found.compliance, found.rim)
-        exponents, weights = exponents_beside(exponent)
-        by_k = float(weights @ np.log([depth_factor_of(k, profile.exponent) for k in exponents]))
-        sense = Sense(changes_of(exponent, series), by_k, exponent, profile.exponent, slopes, True, 0, True)
-        fill_slopes(basis, curves, sense, by_load, values)
+        change, by_k = changes_of(exponent, series), depth_factor_by_k(exponent, m)
+        sense = Sense(change, by_k, exponent, m, slopes, True, 0, True)
+        fill_slopes(basis, curves_at(exponent, index), sense, by_load, values)
 
     run_by_exponent(found.k, work, how.threads, found.rim.shape[1])
     return values.reshape(found.shape), slopes[0].reshape((COUNT, *found.shape))

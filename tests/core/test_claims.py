@@ -290,6 +290,82 @@ class TestEnergyOverExponent:
         lowest = [k[np.argmin(self._loss(k, 0.3, c0, 0.01, 0.03, "envelope"))] for c0 in (0.01, 0.1, 1.0)]
         np.testing.assert_allclose(lowest, [0.77, 0.56, 0.16], atol=0.011)
 
+    def test_so_have_the_papers_fits(self) -> None:
+        k, lowest = np.linspace(0.0, 0.99, 100), []
+        for c0 in (0.01, 0.1, 1.0):
+            scene = CURVE | {"k": k, "c0_over_R": c0, "lambda_over_R": 0.01}
+            rims = 2 * effective.jump_in_radius(k, *_strengths(scene))
+            lowest.append(k[np.argmin(energy.fitted_energy(k, _material(scene), 0.01, 0.03, rims))])
+        np.testing.assert_allclose(lowest, [0.77, 0.56, 0.17], atol=0.011)
+
+
+class TestDepthOfTheGradient:
+    """Conclusion (2): the energy is controlled by the square root of c0/R."""
+
+    @staticmethod
+    def _power(scene: dict[str, Any]) -> float:
+        """Return d ln H/d ln c0."""
+        values = solve(scene | {"c0_over_R": scene["c0_over_R"] * np.array([0.99, 1.01])}, ["dissipated_energy"])
+        return float(np.diff(np.log(values["dissipated_energy"]))[0] / math.log(1.01 / 0.99))
+
+    @pytest.mark.parametrize(
+        ("k", "nu", "power"), [(0.2, 0.3, 0.125), (0.5, 0.3, 0.2857), (0.8, 0.3, 0.421), (1.0, 0.5, 0.5)]
+    )
+    def test_the_smooth_punch_has_it_at_exponent_one_only(self, k: float, nu: float, power: float) -> None:
+        assert self._power(CURVE | {"k": k, "nu": nu, "A": 0.0}) == pytest.approx(2 * k / (3 + k), abs=1e-9)
+        assert 2 * k / (3 + k) == pytest.approx(power, abs=3e-4)
+
+    def test_waves_lower_it(self) -> None:
+        assert self._power(CURVE) == pytest.approx(0.043, abs=5e-4)
+        assert self._power(CURVE | {"lambda_over_R": 0.01}) == pytest.approx(0.024, abs=5e-4)
+        assert self._power(CURVE | {"k": 1.0, "nu": 0.5}) == pytest.approx(0.337, abs=5e-4)
+
+    def test_the_term_of_the_area_falls_with_it(self) -> None:
+        """C2 between two given radii has the power -k/2."""
+        depths = np.array([0.005, 0.02])
+        for k in (0.2, 0.7):
+            material = stiffness(k, 0.3, 300.0, depths)
+            strengths = envelopes.adhesion_strength(k, material), envelopes.waviness_strength(k, 0.01, 0.03)
+            area = 0.6**2 - effective.jump_in_radius(k, *strengths) ** 2
+            per_area = energy.second_part(k, material, 0.01, 0.03, 0.6) / area
+            assert np.log(per_area[1] / per_area[0]) / math.log(4.0) == pytest.approx(-0.5 * k, rel=1e-12)
+
+
+class TestUniqueLoad:
+    """Section 5.1: at every fixed depth the load has several values."""
+
+    @staticmethod
+    def _folds(k: float, material: float, wavelength: float, A: float) -> tuple[Array, Array]:
+        """Return the depths on a fine grid up to a = 1.2 R, and those at which they turn."""
+        depth = jkr.indentation(k, material, np.linspace(1e-6, 1.2, 60_001), wavelength, A)
+        turns = np.flatnonzero(np.diff(np.sign(np.diff(depth)))) + 1
+        return depth, depth[turns]
+
+    @staticmethod
+    def _states(depths: Array, depth: float) -> list[int]:
+        """Return how many states there are at a depth, and how many of them are stable."""
+        rising = (depths[:-1] < depth) & (depths[1:] >= depth)
+        falling = (depths[:-1] >= depth) & (depths[1:] < depth)
+        return [int(np.sum(rising | falling)), int(np.sum(rising))]
+
+    def test_at_some_depths_only(self) -> None:
+        """The scene of Fig. 2a; a smooth punch has two as well, where it is pulled."""
+        material = float(stiffness(0.1, 0.3, 500.0, 0.01))
+        depths, folds = self._folds(0.1, material, 0.2, 0.055)
+        np.testing.assert_allclose(folds[1:5], [0.0084, -0.0281, 0.0714, 0.0421], atol=6e-5)
+        expected = {-0.02: [2, 1], 0.005: [3, 2], 0.02: [1, 1], 0.06: [3, 2], 0.1: [1, 1], 0.18: [1, 1]}
+        assert {depth: self._states(depths, depth) for depth in expected} == expected
+        smooth, (lowest,) = self._folds(0.1, material, 0.2, 0.0)
+        assert lowest == pytest.approx(-0.0215, abs=6e-5)
+        assert [self._states(smooth, depth) for depth in (-0.01, 0.01)] == [[2, 1], [1, 1]]
+
+    def test_beyond_the_last_fold_it_is_unique(self) -> None:
+        depths, folds = self._folds(0.2, float(_material(CURVE)), 0.1, 0.03)
+        positive = np.linspace(1e-5, folds.max(), 500)[:-1]
+        assert folds.max() == pytest.approx(0.1215, abs=6e-5)
+        assert np.mean([self._states(depths, depth)[0] > 1 for depth in positive]) == pytest.approx(0.08, abs=5e-3)
+        assert all(self._states(depths, depth) == [1, 1] for depth in np.linspace(0.122, 1.0, 50))
+
 
 class TestAggregatedParameter:
     """(5.43): the energy depends on the waviness through A lambda^((1+k)/2) alone."""

@@ -19,13 +19,10 @@ from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, ROWS, RUN, R
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_folds import last_arch
 from gradhesion.core.curve.general import Basis, Series
-from gradhesion.core.curve.patterned import Patterned, pattern_of, toughness_at
-from gradhesion.core.curve.patterned import window as window_of_pattern
+from gradhesion.core.curve.patterned import Patterned, pattern_of
 from gradhesion.core.curve.short_wave import ShortWave
-from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.path import cosine as cosine_path
 from gradhesion.core.path import general as general_path
-from gradhesion.core.path import patterned as patterned_path
 from gradhesion.core.scene.short_wave import walk as walk_short
 from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, GAIN, SLOPES
 from gradhesion.core.sensitivities.wave_slopes import ROOM
@@ -46,7 +43,8 @@ OF_CONTACT = {
     "waves_are_one_disc",
 }
 OF_CONTACT |= {"panels_of", "profile_at", "edge_at", "excess_at", "fill_heights"}
-OF_PROFILES = {"waves_at", "depth_of_point"}
+OF_PROFILES = {"waves_at", "depth_of_point", "relative_toughness", "shortest_wave"}
+OF_FOLDS = {"window", "find_all_folds", "measured_by", "reach"}
 OF_SLOPES = {"steepness_at", "rim_slope", "add_slopes", "add_slopes_to_zero", "start_of_wave", "add_slopes_of_waves"}
 DECLARED = {name: value for name, value in vars(face).items() if isinstance(value, Face)}
 
@@ -85,8 +83,7 @@ def _cosine() -> Case:
 def _series(rows: Any, exponent: float, alpha: float, beta: float) -> Case:
     basis, one = Basis(*tables_of(K, rows), rows), _cosine().curve
     curve = Series(0.5 * one.bend * (TWO_PI * 3) ** (2 - exponent), exponent, one.gain, alpha, beta)
-    first, last = first_fold_bound(basis, curve) / TWO_PI, last_fold_bound(basis, curve) / TWO_PI
-    count, trace, _ = general_path.walk(basis, curve, first, last, FURTHEST, True)
+    count, trace, _ = general_path.walk(basis, curve, face.window(basis, curve), FURTHEST, True)
     return Case(
         basis, curve, count, trace, lambda x: float(general.coordinate(basis, curve, x)), near=changes_of(K, rows)
     )
@@ -105,7 +102,7 @@ def _patterned(rows: Any, of_work: bool, alpha: float, beta: float) -> Case:
     waves = np.array([[1.7, 0.15, -0.1], [0.4, 0.0, 0.1]])
     pattern, finest = pattern_of(bins, rows, one.gain, waves, of_work, 0.7)
     basis, curve = Basis(table, pattern, finest), Patterned(0.5 * one.bend, 2.0, 1.0, alpha, beta)
-    count, trace, _ = patterned_path.walk(basis, curve, window_of_pattern(basis, curve), FURTHEST, True)
+    count, trace, _ = general_path.walk(basis, curve, face.window(basis, curve), FURTHEST, True)
     return Case(basis, curve, count, trace, lambda x: float(general.coordinate(basis, curve, x)))
 
 
@@ -141,9 +138,15 @@ def sensed(request: pytest.FixtureRequest) -> Case:
     return CASES[request.param]()
 
 
+@pytest.fixture(scope="module", params=[name for name in CASES if name != "cosine"])
+def profile(request: pytest.FixtureRequest) -> Case:
+    """Give a curve of every kind but one cosine."""
+    return CASES[request.param]()
+
+
 def toughness(case: Case, x: float) -> float:
     """Give kappa, 1 where the interface is plain."""
-    return float(toughness_at(case.table, x)[0]) if isinstance(case.curve, Patterned) else 1.0
+    return 1.0 if isinstance(case.curve, Cosine) else float(case.ask("relative_toughness", x))
 
 
 def jumps_of(case: Case) -> list[tuple[float, float]]:
@@ -162,9 +165,9 @@ def test_each_function_is_answered_by_each_kind(name: str) -> None:
 
     Patterned interfaces have slopes of their own (sensitivities/patterned_slopes.py).
     """
-    kinds = {Cosine, Series} if name in EXACT | OF_CONTACT | OF_SLOPES else {Cosine, Series, ShortWave}
+    kinds = {Cosine, Series} if name in EXACT | OF_CONTACT | OF_SLOPES | OF_FOLDS else {Cosine, Series, ShortWave}
     kinds |= {Patterned} if name not in OF_SLOPES else set()
-    kinds -= {Cosine} if name in OF_PROFILES else set()
+    kinds -= {Cosine} if name in OF_PROFILES | OF_FOLDS else set()
     assert {*DECLARED[name].answered()} == kinds
     declared = [*inspect.signature(DECLARED[name]).parameters]
     for kind in kinds:
@@ -234,6 +237,46 @@ def test_folds_are_zeros_of_the_slope(exact: Case) -> None:
         step = 1e-5
         (low, _), (high, _) = exact.ask("fold_at", x - step), exact.ask("fold_at", x + step)
         assert exact.ask("fold_at", x)[1] == pytest.approx((high - low) / (2.0 * TWO_PI * step), rel=1e-6, abs=1e-8)
+
+
+def test_kappa_is_what_the_edge_pulls_with(profile: Case) -> None:
+    """Of a pattern the depth falls short of that of the plain interface by (kappa - 1) z^c."""
+    for x in (0.3, 4.4):
+        if not isinstance(profile.curve, Patterned):
+            assert profile.ask("relative_toughness", x) == 1.0
+            continue
+        table, pattern, _ = profile.table
+        plain = Series(profile.curve.bend, profile.curve.exponent, pattern.gain, 1.0, 0.0)
+        bare = general.coordinate(Basis(table, pattern.cosine_bins, pattern.waves), plain, x)
+        own = general.coordinate(profile.table, profile.curve._replace(alpha=1.0, beta=0.0), x)
+        expected = 1.0 + (bare - own) / (TWO_PI * x) ** (0.5 * (1.0 - K))
+        assert profile.ask("relative_toughness", x) == pytest.approx(expected, rel=1e-11)
+
+
+def test_nothing_is_shorter_than_the_shortest_wave(profile: Case) -> None:
+    waves = [profile.table.series]
+    if isinstance(profile.curve, Patterned):
+        waves = [profile.table.cosine_bins.waves, profile.table.cosine_bins.rows]
+    assert profile.ask("shortest_wave") == max(rows[:, 0].max() for rows in waves)
+
+
+def test_all_folds_are_found_within_the_window(profile: Case) -> None:
+    """Those of a fine grid, and none beyond the window, which ends in finite places here."""
+    if isinstance(profile.curve, ShortWave):
+        return
+    first, last = profile.ask("window")
+    assert 0.0 < first < last < math.inf
+    zeros = np.empty(1000)
+    count, rises, tangency = profile.ask("find_all_folds", first, last, zeros)
+    places = np.concatenate([np.geomspace(1e-3 * first, first, 200), np.arange(first, 1.5 * last, 4e-3)])
+    signs = np.array([profile.ask("fold_at", x)[0] >= 0.0 for x in places.tolist()])
+    changes = np.flatnonzero(signs[1:] != signs[:-1])
+    assert count == changes.size > 4
+    assert (places[changes] <= zeros[:count]).all()
+    assert (zeros[:count] <= places[changes + 1]).all()
+    assert bool(rises) == signs[0]
+    assert tangency == math.inf
+    assert profile.ask("find_all_folds", first, last, np.empty(2))[0] == -1
 
 
 def test_the_steepness_is_that_of_the_coordinate(sensed: Case) -> None:
@@ -404,3 +447,22 @@ def test_short_waves_come_to_the_exact_answers() -> None:
 def test_a_curve_of_no_kind() -> None:
     with pytest.raises(TypeError, match="find_place has no answer for a curve of the type tuple"):
         face.find_place((), (0.1, 0.2, 0.0), 0.0, np.empty((ROWS, 1)), 0)
+
+
+def test_another_coordinate_of_the_same_curve(profile: Case) -> None:
+    if isinstance(profile.curve, ShortWave):
+        return
+    for by_load, shares in ((False, (1.0, 0.0)), (True, (0.0, 1.0))):
+        measured = face.measured_by(profile.curve, by_load)
+        assert type(measured) is type(profile.curve)
+        assert measured == profile.curve._replace(alpha=shares[0], beta=shares[1])
+
+
+def test_beyond_its_reach_the_coordinate_exceeds_a_target(profile: Case) -> None:
+    """And not far within: waves are bounded by their sizes, which never meet."""
+    if isinstance(profile.curve, ShortWave):
+        return
+    for target in (3.0, 400.0):
+        x = profile.ask("reach", target)
+        assert all(profile.coordinate(place) > target for place in np.geomspace(x, 10.0 * x, 2000).tolist())
+        assert any(profile.coordinate(place) <= target for place in np.linspace(0.3 * x, x, 500).tolist())

@@ -24,6 +24,8 @@ from gradhesion.core import (
 )
 from gradhesion.core.arrays.rate import close_at_speed, open_at_speed
 from gradhesion.core.curves import GENERAL_CURVES
+from gradhesion.core.loops.misfit import Data, Misfit
+from gradhesion.core.loops.path import LoopModel
 from gradhesion.core.problem.names import PATTERN_CURVES
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
@@ -55,6 +57,17 @@ def at_speed(scene: dict[str, Any], profile: Profile, loading: Loading) -> None:
     """Open and close a scene at a speed."""
     for solve_at_speed in (open_at_speed, close_at_speed):
         solve_at_speed(scene | {"speed_over_reference": 0.1, "delta_max": 0.01}, LAW, profile, loading, 1)
+
+
+def fit_of_a_loop() -> None:
+    """Measure the distance of points to the path of a wavy punch, as a fit does."""
+    model = LoopModel(
+        {"k": 0.0, "nu": 0.3, "R": 5e-6, "E_star": 1e7, "work_of_adhesion": 0.03, "wavelength": 5e-7},
+        ("A",), furthest=(2.5e-7, 1e-6), first=-1e-6, profile=Profile(),
+    )  # fmt: skip
+    points = np.zeros((3, 2))
+    data = Data(points, np.array([False, True, True]), (1e-10, 1e-9), np.ones(3))
+    Misfit(data, model, np.full(1, -6.0), np.full(1, -3.0)).jacobian(np.full(1, math.log(0.012)))
 
 
 @pytest.mark.parametrize(
@@ -117,6 +130,7 @@ def at_speed(scene: dict[str, Any], profile: Profile, loading: Loading) -> None:
         ("patterned_sensitivities", [lambda s: solve(s | LENGTH, SENSITIVITIES, **OVER, **OTHERS)]),
         ("patterned_curves", [lambda s: draw_curves(s | LENGTH, list(PATTERN_CURVES), **OVER, **OTHERS)]),
         ("rate", [lambda s: at_speed(s, Profile(), Loading()), lambda s: at_speed(s | SPRING, **BY_MACHINE)]),
+        ("loops", [lambda _: fit_of_a_loop()]),
     ],
 )
 def test_nothing_is_left_to_compile(kind: str, works: list[Any]) -> None:

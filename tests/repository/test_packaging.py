@@ -117,11 +117,12 @@ def _imported(folder: str) -> set[str]:
 
 def test_every_package_that_is_imported_is_declared() -> None:
     declared = {canonicalize_name(Requirement(each).name) for each in PROJECT["dependencies"]}
-    of_cluster = {canonicalize_name(Requirement(each).name) for each in PROJECT["optional-dependencies"]["cluster"]}
+    extras = [each for name in ("afm", "cluster") for each in PROJECT["optional-dependencies"][name]]
+    of_extras = {canonicalize_name(Requirement(each).name) for each in extras}
     homes = packages_distributions()
     used = {name for top in TOPS for name in _imported(top)} - {"gradhesion"} - sys.stdlib_module_names
     owners = {canonicalize_name(homes[name][0]) for name in used}
-    assert owners == declared | of_cluster
+    assert owners == declared | of_extras
 
 
 def test_a_map_needs_no_package_of_the_tests() -> None:

@@ -66,9 +66,8 @@ def test_the_examples_of_docstrings_run(name: str) -> None:
     assert doctest.testmod(importlib.import_module(name)).failed == 0
 
 
-@pytest.mark.parametrize("name", MODULES)
-def test_every_module_says_what_it_is_for(name: str) -> None:
-    assert importlib.import_module(name).__doc__
+def test_every_module_says_what_it_is_for() -> None:
+    assert [name for name in MODULES if not importlib.import_module(name).__doc__] == []
 
 
 @pytest.mark.parametrize("name", sorted(cli.commands))

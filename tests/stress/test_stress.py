@@ -16,7 +16,7 @@ from .checks import CHECKS, values_or_status
 from .draw import eventful, hostile
 
 ROOT = Path(__file__).parents[2]
-SIZE = 1500
+SIZE = 1000
 WALKED = 70.0
 """Waves of a curve that is walked one by one; the checks of longer ones stand in the second half of the draws."""
 DRAWS = {

@@ -21,7 +21,7 @@ from gradhesion.core.problem.names import RESULTS
 from gradhesion.core.problem.shape import depth_factor_of, rows_of
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.turning.corners import corners_of, first_reached
+from gradhesion.core.turning.corners import Place, corners_of, first_reached, last_corner
 from gradhesion.core.turning.general_far import turn_far
 
 pytestmark = pytest.mark.slow
@@ -226,8 +226,8 @@ def test_far_turns_are_those_of_a_walk(
     first, last = first_fold_bound(basis, curve) / TWO_PI, min(rim, last_fold_bound(basis, curve) / TWO_PI)
     middle = middle_of(basis, curve, first, last, 0.0)
     assert middle.kind == REGULAR
-    count, trace, _ = walk(basis, curve, first, last, rim, False)
-    search = (room(), np.empty(MOST_FOLDS), 0.0)
+    count, trace, _ = walk(basis, curve, (first, last), rim, False)
+    search = Place(room(), np.empty(MOST_FOLDS), 0.0, last_corner(basis, curve, by_load))
     corners, number = corners_of(basis, curve, by_load, count, trace, rim, search)
     top = corners[1, :number].max()
     reached = 0
@@ -235,14 +235,18 @@ def test_far_turns_are_those_of_a_walk(
         target = share * top
         found, x, _, passed = first_reached(basis, curve, by_load, corners, number, target, 0.0)
         assert found
-        done, far, whole = turn_far(basis, curve, (by_load, target), first, middle, rim)
+        done, far, whole = turn_far(
+            basis, curve, (by_load, target, last_corner(basis, curve, by_load)), first, middle, rim
+        )
         assert done
         assert far[0]
         assert far[3] == passed
         assert whole + far[1] == pytest.approx(x, rel=1e-11)
         reached += whole > 0.0
     assert reached > 2
-    done, far, _ = turn_far(basis, curve, (by_load, 1.001 * top), first, middle, rim)
+    done, far, _ = turn_far(
+        basis, curve, (by_load, 1.001 * top, last_corner(basis, curve, by_load)), first, middle, rim
+    )
     assert done
     assert not far[0]
 

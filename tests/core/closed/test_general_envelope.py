@@ -139,7 +139,7 @@ def test_the_exact_solution_tends_to_the_envelopes(k: float, waves: tuple[tuple[
 
 def test_what_has_no_envelopes_is_refused() -> None:
     scene = {name: column[0] for name, column in _draw(1).items()}
-    with pytest.raises(ValueError, match="displacement control only: contact under a load or through a spring"):
+    with pytest.raises(ValueError, match="displacement control only: the path along the envelopes jumps"):
         solve(scene, profile=PROFILE, loading=Loading(control="load"), solver="envelope")
     bad = solve({**scene, "A": [-1.0, np.nan, 0.1], "k": 0.2}, OUTPUTS, profile=PROFILE, solver="envelope")
     assert (bad["status"] == NO_VALUE).tolist() == [True, True, False]

@@ -135,7 +135,7 @@ def test_loss_is_continuous_in_the_rim_and_constant_beyond_the_jump_in(k: float)
 
 @pytest.mark.parametrize("k", [0.0, 0.5, 0.9])
 def test_whole_cycle_in_closed_form(k: float) -> None:
-    """H = pi dgamma [F(q) a2^2 - F(1) a1^2], section 11 of docs/theory.md."""
+    """H = pi dgamma [e(t) a2^2 - e(1) a1^2], section 11 of docs/theory.md."""
 
     def part(q: float) -> float:
         return 16 * q**2 / ((1 + k) * (3 + k) * (5 + k)) - 8 * q / ((1 + k) * (3 + k)) + 2 / (1 + k) - 1

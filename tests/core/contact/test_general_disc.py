@@ -31,7 +31,7 @@ CONTROLS = [Loading(), Loading(control="load"), Loading(control="machine")]
 
 def _branches(basis: Any, curve: Any, rim: float) -> tuple[int, Any]:
     first, last = first_fold_bound(basis, curve) / (2 * math.pi), last_fold_bound(basis, curve) / (2 * math.pi)
-    count, trace, _ = walk(basis, curve, first, last, rim, False)
+    count, trace, _ = walk(basis, curve, (first, last), rim, False)
     return count, trace
 
 

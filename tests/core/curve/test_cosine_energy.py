@@ -16,6 +16,18 @@ pytestmark = pytest.mark.slow
 EPS = 2.0**-52
 EXPONENTS = [0.0, 0.41, 1 - 1e-12, 1.0]
 CURVES = [Cosine(0.02, 0.9, 0.0), Cosine(1.7, 0.31, 0.0), Cosine(0.003, 2.2, 0.0)]
+RADII = [0.0021, 0.2, 0.9, 3.3, 6.9]
+JUMPS = [
+    (0.03, 0.2),
+    (0.03, 1.4),
+    (1.4, 0.03),
+    (0.61, 0.93),
+    (0.7, 2.6),
+    (5.1, 4.3),
+    (7.9, 6.6),
+    (6.2, 6.6),
+    (6.4, 7.2),
+]
 Pair = Callable[..., tuple[mpmath.mpf, mpmath.mpf]]
 WORK = np.empty(64)
 
@@ -48,9 +60,14 @@ def _drop(k: float, curve: Any, start: mpmath.mpf, end: mpmath.mpf, level: Any, 
     return (total if end > start else -total), size * float(high - low)
 
 
-@pytest.mark.parametrize("k", EXPONENTS)
-@pytest.mark.parametrize("curve", CURVES)
-@pytest.mark.parametrize("x", [0.0021, 0.2, 0.9, 3.3, 6.9])
+def with_curves(places: list[Any]) -> list[tuple[float, Any, Any]]:
+    """Each exponent with each place once, and both with curves of each balance of bend, wave and stretch."""
+    return [
+        (k, CURVES[(i + j) % len(CURVES)], place) for i, k in enumerate(EXPONENTS) for j, place in enumerate(places)
+    ]
+
+
+@pytest.mark.parametrize(("k", "curve", "x"), with_curves(RADII))
 def test_from_zero(k: float, curve: Any, x: float, table_of: Callable[[float], Any], slow_pair: Pair) -> None:
     mpmath.mp.dps = 20
     for level in (0.0, -0.73):
@@ -59,16 +76,12 @@ def test_from_zero(k: float, curve: Any, x: float, table_of: Callable[[float], A
         assert abs(energy_from_zero(table_of(k), curve, x, level) - exact) <= 12 * EPS * size
 
 
-@pytest.mark.parametrize("k", EXPONENTS)
-@pytest.mark.parametrize("curve", CURVES)
-@pytest.mark.parametrize(
-    ("start", "end"),
-    [(0.03, 0.2), (0.03, 1.4), (1.4, 0.03), (0.61, 0.93), (0.7, 2.6), (5.1, 4.3), (7.9, 6.6), (6.2, 6.6), (6.4, 7.2)],
-)
+@pytest.mark.parametrize(("k", "curve", "ends"), with_curves(JUMPS))
 def test_between_radii(
-    k: float, curve: Any, start: float, end: float, table_of: Callable[[float], Any], slow_pair: Pair
+    k: float, curve: Any, ends: tuple[float, float], table_of: Callable[[float], Any], slow_pair: Pair
 ) -> None:
     mpmath.mp.dps = 20
+    start, end = ends
     b, g, _ = curve
     z = _turns(start)
     level = b * z * z / 2 + g * z * slow_pair(k, z)[0] - z ** ((1 - mpmath.mpf(k)) / 2)

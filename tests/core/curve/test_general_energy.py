@@ -1,16 +1,22 @@
-"""The energy of a jump from zero contact, by 30-digit quadrature of the smooth punch under any control."""
+"""The energy of a jump: from zero contact by 30-digit quadrature of the smooth punch, of a pattern by its definition."""
 
 import math
+from itertools import pairwise
 
 import mpmath
 import numpy as np
 import pytest
 
+from gradhesion.core import face
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.curve.general_energy import energies_in, energy_from_zero
+from gradhesion.core.curve.patterned import toughness_at
 from gradhesion.core.struve.circle import TWO_PI
+from tests.core.curve.test_patterned import CASES, K
+from tests.core.curve.test_patterned import curve_of as patterned_curve
 
+NODES, SHARES = np.polynomial.legendre.leggauss(40)
 EPS = 2.0**-52
 
 
@@ -34,7 +40,7 @@ def test_energy_from_zero(k: float) -> None:
     """Its powers of z have a branch point at 0, and the stiffness of a soft machine changes its balance near by."""
     rng = np.random.default_rng(int(100 * k))
     basis = Basis(*tables_of(k), np.zeros((0, 3)))
-    for share in (0.0, *(10.0 ** rng.uniform(-3, 4, 8))):
+    for share in (0.0, *(10.0 ** rng.uniform(-3, 4, 5))):
         m = float(rng.choice([1.0, 1.5, 2.0, 3.0]))
         x = 10.0 ** rng.uniform(-1, 2) / TWO_PI
         bend = (TWO_PI * x) ** (0.5 * (1.0 - k) - m) * rng.uniform(0.3, 1.5)
@@ -75,3 +81,37 @@ def test_energy_of_a_jump_between_any_rim_and_zero_contact(k: float, waves: str,
             for stations in (few, np.full((4, 1), math.inf)):
                 assert energies_in(basis, curve, x, level, level, stations) == (energy, energy)
     assert np.isfinite(kept[0]).sum() > 3 or not WAVES[waves].size
+
+
+@pytest.mark.parametrize(("of_work", "shares", "gain"), CASES)
+def test_jumps_on_a_patterned_interface_by_quadrature(of_work: bool, shares: tuple[float, float], gain: float) -> None:
+    basis, curve = patterned_curve(of_work, shares, gain)
+
+    def density(x: float, level: float) -> float:
+        z = TWO_PI * x
+        kappa, _, _ = toughness_at(basis, x)
+        scale = (curve.alpha + curve.beta * z ** (1.0 + K)) * z ** (0.5 * (1.0 - K))
+        rho = kappa + (coordinate(basis, curve, x) - level) / scale
+        return TWO_PI * z * (kappa * kappa - rho * rho)
+
+    def total(low: float, high: float, level: float) -> float:
+        ends = [*np.arange(low, high, 0.1).tolist(), high]
+        parts = [
+            0.5 * (b - a) * share * density(0.5 * (a + b) + 0.5 * (b - a) * node, level)
+            for a, b in pairwise(ends if low > 0.0 else ends[1:])
+            for node, share in zip(NODES, SHARES, strict=True)
+        ]
+        if low == 0.0:  # powers of the radius
+            end = ends[1]
+            places = 0.5 * (1.0 + NODES)
+            parts += (0.5 * SHARES * [9.0 * end * t**8 * density(end * t**9, level) for t in places]).tolist()
+        return math.fsum(parts)
+
+    for start, end in ((1.3, 4.1), (4.1, 1.3), (3.3, 3.31)):
+        level = coordinate(basis, curve, start)
+        sign = 1.0 if end > start else -1.0
+        expected = sign * total(min(start, end), max(start, end), level)
+        assert face.loss_between(basis, curve, start, end, np.empty(16)) == pytest.approx(expected, rel=1e-12)
+    for x, level in ((2.7, 0.0), (0.4, 0.02 if curve.alpha > 0.0 else 0.0)):  # a dead load has no bound
+        assert energy_from_zero(basis, curve, x, level) == pytest.approx(total(0.0, x, level), rel=1e-12)
+    assert energy_from_zero(basis, curve, 0.0, 0.3) == 0.0

@@ -67,22 +67,19 @@ def test_bounds_of_the_waves_of_the_load(k: float) -> None:
 
 @pytest.mark.parametrize("compliance", [0.0, 3.0, math.inf], ids=["displacement", "machine", "load"])
 @pytest.mark.parametrize("profile", PROFILES, ids=["phase", "near a cone", "square"])
-@pytest.mark.parametrize("k", [0.0, 0.3, 0.9, 1.0])
+@pytest.mark.parametrize("k", [0.0, 0.3, 1.0])
 def test_all_folds_stand_between_the_bounds(k: float, profile: Profile, compliance: float) -> None:
     """On radii so close that no fold is missed the coordinate falls before the first bound and rises beyond the last."""
     basis = Basis(*tables_of(k), rows_of(profile))
     m = profile.exponent
-    within = 0
     for wave in (0.02, 0.3):
         curve, _, _ = curve_of(k, m, depth_factor_of(k, m), 0.1, wave, 0.04, compliance)
         first, last = first_fold_bound(basis, curve), last_fold_bound(basis, curve)
         end = min(4.0 * last, 3000.0)
-        for z in (*np.geomspace(1e-6, 0.1, 50), *np.arange(0.1, end, 0.05)):
-            value, _, _ = slope(basis, curve, z / TWO_PI)
-            if z < first:
-                assert value < 0.0, z
-            elif z > last:
-                assert value > 0.0, z
-            else:
-                within += 1
-    assert within > 0
+        assert first < last
+        places = np.concatenate([np.geomspace(1e-6, 0.1, 50), np.arange(0.1, end, 0.05)])
+        assert ((places < first) | (places > last)).any()
+        for z in places[places < first]:
+            assert slope(basis, curve, z / TWO_PI)[0] < 0.0, z
+        for z in places[places > last]:
+            assert slope(basis, curve, z / TWO_PI)[0] > 0.0, z

@@ -114,7 +114,7 @@ def chord_error(form: Form, points: Any, joined: Any = None, spans: Any = None) 
     for share in np.arange(1, 48) * 0.6180339887498949 % 1.0:
         between = np.empty((3, steps.size))
         between[0] = (start[0] + share * (end[0] - start[0])) / form.radius_scale
-        fill_points(form.kind, form.table, form.numbers, between)
+        fill_points(form.table, form.numbers, between)
         found = np.array(form.scaled(between))
         for i, j in ((0, 1), (1, 2), (0, 2)):
             u, v = (end - start)[i] * scales[i], (end - start)[j] * scales[j]

@@ -13,7 +13,7 @@ from gradhesion.core.curve.short_wave import ShortWave, waves_of
 from gradhesion.core.curves import asymptotic as drawing
 from gradhesion.core.curves import draw_curves
 from gradhesion.core.curves import general as general_curves
-from gradhesion.core.curves.forms import GENERAL, fill_points, general_numbers
+from gradhesion.core.curves.forms import fill_points, general_numbers
 from gradhesion.core.curves.smooth import draw_smooth
 from gradhesion.core.curves.subject import Form, Subject, subject_of, wavy_form
 from gradhesion.core.equations import short_waves
@@ -32,12 +32,12 @@ def _form(subject: Subject) -> Form:
     if subject.mean_height == 0.0:
         return subject.plain(1.0)
     wavy = wavy_form(subject.table, subject.stretch, subject.wavelength, subject.mean_height)
-    bend, gain, _, _, _ = wavy.numbers
+    bend, gain, _ = wavy.curve
     series = np.array([[1.0, 1.0, 0.0]])
     curve = ShortWave(0.5 * bend, 2.0, gain, 1.0, 0.0)
     numbers = general_numbers(subject.k, curve, float(subject.table["amplitude"]), series)
     basis = Basis(subject.table, *waves_of(subject.table, series))
-    return Form(GENERAL, basis, numbers, subject.wavelength, wavy.depth_scale, wavy.load_scale)
+    return Form(basis, numbers, subject.wavelength, wavy.depth_scale, wavy.load_scale)
 
 
 def test_points_lie_on_the_curve_of_the_paper(scene: dict[str, float]) -> None:
@@ -78,7 +78,7 @@ def test_turns_are_points(scene: dict[str, float]) -> None:
     assert curve is not None
     dense = np.zeros((3, 100_001))
     dense[0] = np.linspace(0.0, subject.end / form.radius_scale, dense.shape[1])
-    fill_points(form.kind, form.table, form.numbers, dense)
+    fill_points(form.table, form.numbers, dense)
     for values, scan in (("asymptotic_indentation", dense[1]), ("asymptotic_load", dense[2])):
         turns = np.count_nonzero(np.diff(np.sign(np.diff(curve[values]))))
         assert turns == np.count_nonzero(np.diff(np.sign(np.diff(scan)))) > 5
@@ -97,7 +97,7 @@ def test_short_waves_come_to_the_exact_curve(scene: dict[str, float]) -> None:
         for form in (short, exact):
             points = np.zeros((3, radii.size))
             points[0] = radii / form.radius_scale
-            fill_points(form.kind, form.table, form.numbers, points)
+            fill_points(form.table, form.numbers, points)
             values.append(points[1] * form.depth_scale)
         height = subject.chi * subject.stretch * 0.35 ** (0.5 * (1 - k))
         errors.append(np.abs(values[0] - values[1]).max() / height)

@@ -8,13 +8,16 @@ import numpy as np
 import pytest
 
 from gradhesion.core import solve
+from gradhesion.core.curves import draw_curves
 from gradhesion.core.curves.effective import draw_effective, turning_place
+from gradhesion.core.curves.envelope import envelopes_of
 from gradhesion.core.curves.path import draw_path
 from gradhesion.core.curves.subject import Subject, subject_of
+from gradhesion.core.problem.profile import WAVY, Harmonic, Profile
 
 
 def _path(subject: Subject) -> dict[str, Any]:
-    return {name.removeprefix("effective_"): values for name, values in draw_effective(subject).items()}
+    return {name.removeprefix("effective_"): values for name, values in draw_effective(subject, WAVY).items()}
 
 
 def _subject(scene: dict[str, float]) -> Subject:
@@ -102,7 +105,7 @@ def test_an_unbounded_punch_turns_at_twice_a_2(scene: dict[str, float]) -> None:
     # but never before the pull-off
     subject = _subject(scene | {"a_max_over_R": math.inf, "A": 0.1})
     k, chi = subject.k, subject.chi
-    assert turning_place(subject) * subject.plain(1.0).radius_scale == pytest.approx(
+    assert turning_place(subject, envelopes_of(subject, WAVY)) * subject.plain(1.0).radius_scale == pytest.approx(
         max(2 * _radius(subject, 1 + k, max(0.0, 1 - chi)), _radius(subject, 0.25 * (1 + k) * (3 + k), 1 + chi)),
         rel=1e-14,
     )
@@ -140,3 +143,26 @@ def test_short_waves_follow_it(wavelength: float, scene: dict[str, float]) -> No
     slope = 2 * subject.rim / (1 + subject.k)
     assert abs(exact.max() - effective.max()) <= wavelength * slope < 0.03 * np.ptp(exact)
     assert abs(exact.min() - effective.min()) <= wavelength**2
+
+
+@pytest.mark.parametrize("exponent", [1.0, 2.5, 4.0])
+@pytest.mark.parametrize("rim", [0.4, math.inf])
+def test_the_effective_path_of_any_punch_is_that_of_the_solver(
+    scene: dict[str, float], exponent: float, rim: float
+) -> None:
+    """Radii, lowest load and loop integral are those of `solver = "envelope"`, whose rim is where the path turns."""
+    profile = Profile(exponent=exponent, harmonics=(Harmonic(n=1, cos=1.0), Harmonic(n=3, cos=0.2, sin=-0.3)))
+    found, status = draw_curves(scene | {"a_max_over_R": rim}, ["effective"], profile)
+    assert status == 0
+    radius, depth, load = (found[f"effective_{name}"] for name in ("contact_radius", "indentation", "load"))
+    turned = scene | {"a_max_over_R": radius.max()}
+    outputs = ["pull_off_force", "dissipated_energy", "delta_max", "delta_jump_out"]
+    expected = solve(turned, outputs, solver="envelope", profile=profile)
+    assert -load.min() == pytest.approx(float(expected["pull_off_force"]), rel=1e-3)
+    touched = scene["lambda_over_R"] * scene["A"] * 1.2  # at the mean height, from where a small rim is jumped to
+    assert depth.max() == pytest.approx(max(float(expected["delta_max"]), touched), rel=1e-12)
+    assert depth[-1] == pytest.approx(float(expected["delta_jump_out"]), rel=1e-12)
+    loop = 1.5 * math.pi * float(np.sum(0.5 * (load[1:] + load[:-1]) * np.diff(depth)))
+    # chords are within 2e-4 of a path that is four spans long at most: two up and two back
+    allowed = 1.5 * math.pi * 8e-4 * np.ptp(load) * np.ptp(depth)
+    assert loop == pytest.approx(float(expected["dissipated_energy"]), abs=allowed)

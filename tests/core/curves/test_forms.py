@@ -7,7 +7,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from gradhesion.core.curves.forms import EXACT, PLAIN, fill_points, point, ripple
+from gradhesion.core.curves.forms import EXACT, PLAIN, Reduced, fill_points, point, ripple
 from gradhesion.core.curves.subject import plain_form, subject_of
 
 EPS = 2.0**-52
@@ -20,8 +20,8 @@ def test_the_exact_form(a: float, k: float, scene: dict[str, float], slow_curve:
     subject = subject_of(scene)
     assert subject is not None
     form = subject.exact
-    assert form.kind == EXACT
-    depth, load = point(form.kind, form.table, form.numbers, a / form.radius_scale)
+    assert form.is_one_wave
+    depth, load = point(form.table, form.numbers, a / form.radius_scale)
     slow = slow_curve(scene)
     sizes = [abs(term) for term in slow.terms(mpmath.mpf(a))]
     # some forty roundings of each term: the reduction, the phase of a/lambda = 70 waves, and the scales
@@ -33,10 +33,10 @@ def test_the_exact_form(a: float, k: float, scene: dict[str, float], slow_curve:
 
 def test_zero_contact_has_no_load(table_of: Callable[[float], Any]) -> None:
     for k in (0.0, 0.6, 1.0):
-        numbers = (0.3, 0.2, 0.0, 0.0, 0.0)
-        assert point(EXACT, table_of(k), numbers, 0.0) == (-1.0 if k == 1.0 else 0.0, 0.0)
+        numbers = Reduced(EXACT, 0.3, 0.2)
+        assert point(table_of(k), numbers, 0.0) == (-1.0 if k == 1.0 else 0.0, 0.0)
         # and is where the form goes to
-        assert point(EXACT, table_of(k), numbers, 1e-100) == pytest.approx((-1.0 if k == 1.0 else 0.0, 0.0), abs=1e-18)
+        assert point(table_of(k), numbers, 1e-100) == pytest.approx((-1.0 if k == 1.0 else 0.0, 0.0), abs=1e-18)
 
 
 @pytest.mark.parametrize("z", [0.0, 0.07, 1.9, 23.0])
@@ -44,7 +44,7 @@ def test_the_plain_form(z: float, table_of: Callable[[float], Any]) -> None:
     k, pull, height = 0.37, 0.83, 0.11
     abscissa = mpmath.mpf(z) ** ((3 + mpmath.mpf(k)) / 2)
     depth = mpmath.mpf(z) ** 2 / 2 - pull * mpmath.mpf(z) ** ((1 - mpmath.mpf(k)) / 2) + height
-    found = point(PLAIN, table_of(k), (k, pull, height, 0.0, 0.0), z)
+    found = point(table_of(k), Reduced(PLAIN, k, pull, height), z)
     assert abs(found[0] - depth) <= 4 * EPS * (z * z + pull * (1 + z) + height)
     assert abs(found[1] - abscissa * (abscissa / (3 + mpmath.mpf(k)) - pull)) <= 8 * EPS * float(
         abscissa * (abscissa + 1)
@@ -54,29 +54,26 @@ def test_the_plain_form(z: float, table_of: Callable[[float], Any]) -> None:
 def test_the_ripple_is_what_waves_add(table_of: Callable[[float], Any]) -> None:
     """Half the difference of crest and trough, less what the same curve without waves has; at 50 waves, to lambda/a."""
     table = table_of(0.37)
-    waves, plain = (0.02, 0.5, 0.0, 0.0, 0.0), (0.02, 0.0, 0.0, 0.0, 0.0)
-    half, depth, load = ripple(EXACT, table, waves, 50.5)
+    waves, plain = Reduced(EXACT, 0.02, 0.5), Reduced(EXACT, 0.02, 0.0)
+    half, depth, load = ripple(table, waves, 50.5)
     assert half == 0.5
     added = np.array(
-        [
-            np.subtract(point(EXACT, table, waves, x), point(EXACT, table, plain, x))
-            for x in np.linspace(50.0, 51.0, 200)
-        ]
+        [np.subtract(point(table, waves, x), point(table, plain, x)) for x in np.linspace(50.0, 51.0, 200)]
     )
     assert 0.5 * np.ptp(added, axis=0) == pytest.approx([depth, load], rel=0.03)
 
 
 def test_a_plain_form_has_no_ripple(table_of: Callable[[float], Any]) -> None:
-    assert ripple(PLAIN, table_of(0.1), (0.1, 1.0, 0.0, 0.0, 0.0), 3.0) == (np.inf, 0.0, 0.0)
+    assert ripple(table_of(0.1), Reduced(PLAIN, 0.1, 1.0), 3.0) == (np.inf, 0.0, 0.0)
 
 
 def test_many_points_are_single_points(table_of: Callable[[float], Any]) -> None:
-    numbers = (0.03, 0.2, 0.0, 0.0, 0.0)
+    numbers = Reduced(EXACT, 0.03, 0.2)
     points = np.zeros((3, 40))
     points[0] = np.linspace(0.0, 21.7, 40)
-    fill_points(EXACT, table_of(0.2), numbers, points)
+    fill_points(table_of(0.2), numbers, points)
     for x, depth, load in points.T:
-        assert (depth, load) == point(EXACT, table_of(0.2), numbers, x)
+        assert (depth, load) == point(table_of(0.2), numbers, x)
 
 
 @pytest.mark.parametrize("exact", [True, False])
@@ -94,6 +91,6 @@ def test_a_pinned_contact_is_a_flat_punch(
     else:
         form = plain_form(table_of(scene["k"]), float(slow.stretch), 1.0)
     place = a / form.radius_scale
-    depth, load = point(form.kind, form.table, form.numbers, place)
+    depth, load = point(form.table, form.numbers, place)
     found = (load + form.flat_stiffness(place) * (other / form.depth_scale - depth)) * form.load_scale
     assert abs(found / slow.pinned(a, other) - 1) <= 100 * EPS  # the terms are of one size at this depth

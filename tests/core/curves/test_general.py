@@ -85,17 +85,10 @@ def test_scenes_that_cannot_be_drawn() -> None:
     assert status & NO_VALUE
 
 
-def test_curves_of_one_cosine_are_refused() -> None:
-    for curve in ("asymptotic", "envelope", "effective"):
-        if curve != "asymptotic":
-            with pytest.raises(
-                ValueError,
-                match=rf"\['{curve}'\].*have equilibrium, closing_equilibrium, path, smooth, jumps, asymptotic",
-            ):
-                draw_curves(SCENE, ["path", curve], ROUGH)
-        with pytest.raises(
-            ValueError, match=rf"\['{curve}'\].*have equilibrium, closing_equilibrium, path, smooth, jumps$"
-        ):
+def test_curves_of_short_waves_are_refused_under_a_load() -> None:
+    for curve, why in (("asymptotic", "one energy"), ("envelope", "constant depth"), ("effective", "constant depth")):
+        expected = rf"\['{curve}'\].*{why}.*there are equilibrium, closing_equilibrium, path, smooth, jumps$"
+        with pytest.raises(ValueError, match=expected):
             draw_curves(SCENE, [curve], loading=Loading(control="load"))
     with pytest.raises(ValueError, match="machine_stiffness"):
         draw_curves(SCENE, ["path"], loading=Loading(control="machine"))

@@ -23,7 +23,7 @@ def _subject(scene: dict[str, float]) -> Subject:
 
 
 def _sign_changes(form: Any, level: float, furthest: float) -> int:
-    curve = Cosine(form.numbers[0], form.numbers[1], 0.0)
+    curve = form.curve
     signs = [slope(form.table, curve, level, x)[0] > 0 for x in np.linspace(1e-3, furthest, 40_000)]
     return int(np.count_nonzero(np.diff(signs)))
 
@@ -79,7 +79,7 @@ def test_a_merging_pair_is_not_thrown_far(table_of: Callable[[float], Any]) -> N
 def test_landed(scene: dict[str, float]) -> None:
     subject = _subject(scene)
     form = subject.exact
-    curve = Cosine(form.numbers[0], form.numbers[1], 0.0)
+    curve = form.curve
     trace = subject.trace
     assert trace is not None
     for branch in range(trace.shape[1] - 1):
@@ -91,7 +91,7 @@ def test_landed(scene: dict[str, float]) -> None:
 def test_too_many_folds(scene: dict[str, float]) -> None:
     """Two arches a wave: the limit is 50,000 waves."""
     form = _subject(scene).exact
-    curve = Cosine(1e-14, form.numbers[1], 0.0)
+    curve = Cosine(1e-14, form.curve.gain, 0.0)
     assert not knots.folds_too_often(form.table, curve, 49_900.0)
     assert knots.folds_too_often(form.table, curve, 50_100.0)
-    assert not knots.folds_too_often(form.table, Cosine(*form.numbers[:2], 0.0), math.inf)
+    assert not knots.folds_too_often(form.table, form.curve, math.inf)

@@ -11,8 +11,8 @@ import pytest
 
 from gradhesion.core import solve
 from gradhesion.core.curve.branches import END, START
-from gradhesion.core.curve.cosine import Cosine, slope
-from gradhesion.core.curves.forms import PLAIN, fill_points
+from gradhesion.core.curve.cosine import slope
+from gradhesion.core.curves.forms import fill_points
 from gradhesion.core.curves.path import draw_path
 from gradhesion.core.curves.subject import Form, Subject, subject_of
 
@@ -34,12 +34,11 @@ def _joined(path: dict[str, Any]) -> Any:
 
 def _depth_slopes(form: Form, places: Any) -> Any:
     """The slope of the reduced depth over the place."""
-    b, g, _, _, _ = form.numbers
-    if form.kind == PLAIN:
-        k, pull = b, g
+    if form.is_plain:
+        _, k, pull, _ = form.numbers
         return places - pull * 0.5 * (1 - k) * places ** (-0.5 * (1 + k))
     level = 0.5 * (1 - float(form.table["k"]))
-    return 2 * math.pi * np.array([slope(form.table, Cosine(b, g, 0.0), level, x)[0] for x in places])
+    return 2 * math.pi * np.array([slope(form.table, form.curve, level, x)[0] for x in places])
 
 
 def _loop(subject: Subject, path: dict[str, Any]) -> tuple[float, float]:
@@ -54,7 +53,7 @@ def _loop(subject: Subject, path: dict[str, Any]) -> tuple[float, float]:
     for node, weight in zip(NODES, WEIGHTS, strict=True):
         points = np.empty((3, steps.size))
         points[0] = (middle + half * node) / form.radius_scale
-        fill_points(form.kind, form.table, form.numbers, points)
+        fill_points(form.table, form.numbers, points)
         rise = _depth_slopes(form, points[0]) * half * form.depth_scale / form.radius_scale
         exact[steps] += weight * form.scaled(points)[2] * rise
     return UNIT * float(exact.sum()), UNIT * float(chords.sum())
@@ -152,7 +151,7 @@ def test_points_lie_on_the_branch_that_they_name(any_subject: Subject) -> None:
     assert (place[on] >= trace[START, branch] * (1 - 1e-15)).all()
     assert (place[on] <= trace[END, branch] * (1 + 1e-15)).all()
     points = np.array([place[on], place[on], place[on]])
-    fill_points(form.kind, form.table, form.numbers, points)
+    fill_points(form.table, form.numbers, points)
     _, depth, load = form.scaled(points)
     # a corner has the depth of its jump, which is that of the curve to rounding
     assert np.abs(path["indentation"][on] - depth).max(initial=0.0) <= 1e-13 * np.ptp(path["indentation"])

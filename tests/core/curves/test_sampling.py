@@ -8,20 +8,20 @@ import pytest
 
 from gradhesion.core.arrays.tables import table_of
 from gradhesion.core.curves.equilibrium import scales_of
-from gradhesion.core.curves.forms import PLAIN, fill_points
+from gradhesion.core.curves.forms import PLAIN, Reduced, fill_points
 from gradhesion.core.curves.sampling import TOLERANCE, sample
 from gradhesion.core.curves.subject import Form
 
 K = 0.41
 TABLE = table_of(K)
-PULL = (K, 1.0, 0.0, 0.0, 0.0)
+PULL = Reduced(PLAIN, K, 1.0)
 
 
 def _knots(places: list[float]) -> Any:
     """The start, the turns of depth and load, and the end of a smooth punch."""
     knots = np.empty((3, len(places)))
     knots[0] = places
-    fill_points(PLAIN, TABLE, PULL, knots)
+    fill_points(TABLE, PULL, knots)
     return knots
 
 
@@ -33,11 +33,11 @@ def knots() -> Any:
 
 def _sample(knots: Any, joined: Any = None) -> tuple[Any, Any]:
     joined = np.arange(knots.shape[1]) > 0 if joined is None else np.array(joined)
-    return sample(PLAIN, TABLE, PULL, np.ascontiguousarray(knots), joined, scales_of(knots))
+    return sample(TABLE, PULL, np.ascontiguousarray(knots), joined, scales_of(knots))
 
 
 def test_chords_are_within_the_tolerance_and_hardly_finer(knots: Any, worst_chord: Callable[..., float]) -> None:
-    form = Form(PLAIN, TABLE, PULL, 1.0, 1.0, 1.0)
+    form = Form(TABLE, PULL, 1.0, 1.0, 1.0)
     points, _ = _sample(knots)
     spans = np.ptp(knots, axis=1)
     assert 0.2 * TOLERANCE < worst_chord(form, points, spans=spans) <= 1.1 * TOLERANCE
@@ -57,7 +57,7 @@ def test_knots_are_points(knots: Any) -> None:
 def test_points_between_lie_on_the_curve(knots: Any) -> None:
     points, _ = _sample(knots)
     again = points.copy()
-    fill_points(PLAIN, TABLE, PULL, again)
+    fill_points(TABLE, PULL, again)
     assert np.array_equal(again, points)
 
 
@@ -77,7 +77,7 @@ def test_a_straight_step_has_no_points_of_its_own(knots: Any) -> None:
 def test_more_points_than_there_was_room_for(knots: Any) -> None:
     """One piece that needs more than the room of four points a knot and 64."""
     fine = scales_of(knots) * 1e3
-    points, owners = sample(PLAIN, TABLE, PULL, knots, np.arange(4) > 0, fine)
+    points, owners = sample(TABLE, PULL, knots, np.arange(4) > 0, fine)
     assert points.shape[1] == owners.size > 1000
     assert (np.diff(points[0]) > 0).all()
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.core.curves.smooth import draw_smooth, smooth_places
+from gradhesion.core.curves.smooth import draw_smooth, turns_of
 from gradhesion.core.curves.subject import Subject, subject_of
 
 
@@ -50,8 +50,8 @@ def test_zero_depth_is_a_point(scene: dict[str, float]) -> None:
 
 def test_places_of_several_pulls() -> None:
     """At k = 1, X = z^2: pulls of 0.5 and 2 turn at X = 0, X = 2 pull (load), and are at zero depth there as well."""
-    assert smooth_places(1.0, (0.5, 2.0), 9.0) == pytest.approx([1.0, 2.0])
-    assert smooth_places(1.0, (0.5, 2.0), 1.5) == pytest.approx([1.0])
-    assert smooth_places(0.3, (-0.5, 0.0), 9.0).size == 0
+    assert turns_of(1.0).places((0.5, 2.0), 9.0) == pytest.approx([1.0, 2.0])
+    assert turns_of(1.0).places((0.5, 2.0), 1.5) == pytest.approx([1.0])
+    assert turns_of(0.3).places((-0.5, 0.0), 9.0).size == 0
     # k = 0: X = z^(3/2) is pull/2, 3 pull/2 and 2 pull
-    assert smooth_places(0.0, (1.0,), 9.0) ** 1.5 == pytest.approx([0.5, 1.5, 2.0])
+    assert turns_of(0.0).places((1.0,), 9.0) ** 1.5 == pytest.approx([0.5, 1.5, 2.0])

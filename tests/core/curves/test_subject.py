@@ -7,7 +7,6 @@ import pytest
 
 from gradhesion.core import solve
 from gradhesion.core.curve.branches import ARRIVAL, START
-from gradhesion.core.curves.forms import EXACT, PLAIN
 from gradhesion.core.curves.subject import BEYOND, BEYOND_SMOOTH, subject_of
 from gradhesion.core.problem.material import stiffness
 
@@ -49,7 +48,8 @@ def test_without_waves_the_form_is_plain(scene: dict[str, float]) -> None:
     smooth, wavy = subject_of(scene | {"A": 0.0}), subject_of(scene)
     assert smooth is not None
     assert wavy is not None
-    assert (smooth.exact.kind, wavy.exact.kind) == (PLAIN, EXACT)
+    assert smooth.exact.is_plain
+    assert wavy.exact.is_one_wave
     assert smooth.chi == smooth.mean_height == 0.0
 
 
@@ -58,7 +58,7 @@ def test_folds_so_far_out_that_they_are_rounding_make_a_smooth_curve(scene: dict
     scene |= {"lambda_over_R": 1e-11, "A": 1e-15}
     subject = subject_of(scene)
     assert subject is not None
-    assert subject.exact.kind == PLAIN
+    assert subject.exact.is_plain
     assert solve(scene, ["loading_jumps"])["loading_jumps"] == 1
 
 

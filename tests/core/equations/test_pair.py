@@ -74,3 +74,16 @@ def test_far_waves_are_sines(k: float) -> None:
         # the next terms of Y and J are 1/z of the first, that of the mean height (1-k) 1/z^3
         assert s0 == pytest.approx(size * math.sin(phase) + 1.0 / z, abs=0.2 * size / z + 1.0 / z**3)
         assert c0 == pytest.approx(size * math.cos(phase), abs=0.2 * size / z)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.3, 0.7])
+def test_the_second_term_of_struves_function_has_the_gamma_function_of_its_own_order(k: float) -> None:
+    """(B5) prints G((k+1)/2) for every order: at 1 + k/2, which (B4) needs, that is (1+k)/2 times the term."""
+    with mpmath.workdps(30):
+        z = mpmath.mpf(2000)
+        for order, share in ((mpmath.mpf(k) / 2, 1.0), (1 + mpmath.mpf(k) / 2, 0.5 * (1.0 + k))):
+            term = mpmath.struveh(order, z) - mpmath.bessely(order, z)
+            held = (z / 2) ** (order - 1) / (mpmath.sqrt(mpmath.pi) * mpmath.gamma(order + mpmath.mpf(1) / 2))
+            printed = (z / 2) ** (order - 1) / (mpmath.sqrt(mpmath.pi) * mpmath.gamma((mpmath.mpf(k) + 1) / 2))
+            assert float(term / held) == pytest.approx(1.0, abs=1e-6)  # the next term is 1/z^2 of it
+            assert float(printed / term) == pytest.approx(share, abs=1e-6)

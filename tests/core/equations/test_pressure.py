@@ -16,13 +16,11 @@ pytestmark = pytest.mark.slow
 M, WAVELENGTH = 210.0, 0.13
 PROFILES = [
     ([], [], 2.0),
-    ([], [], 1.0),
-    ([], [], 3.4),
-    ([-0.02], [], 2.0),
     ([-0.021, 0.004], [0.003, 0.0, -0.002], 2.0),
     ([-0.01], [0.02], 1.0),
     ([0.0, 0.0, 0.005], [], 2.9),
 ]
+"""Pressure, load and depth are sums over the terms of a profile, so that a wrong term shows beside others too."""
 EXPONENTS = [0.0, 0.43, 0.9, 1.0]
 
 
@@ -125,8 +123,9 @@ def test_at_exponent_one_every_point_is_a_spring() -> None:
     np.testing.assert_allclose(found, M / (2 * math.pi) * (depth - profile.height(r, *wave)), atol=1e-13 * M)
 
 
-@pytest.mark.parametrize("k", [0.0, 0.43, 0.9])
-@pytest.mark.parametrize("r", [0.0, 0.003, 0.16, 0.23])
+@pytest.mark.parametrize(
+    ("k", "r"), [(0.0, 0.0), (0.0, 0.16), (0.43, 0.0), (0.43, 0.003), (0.43, 0.23), (0.9, 0.003), (0.9, 0.23)]
+)
 def test_quadrature_of_the_integral(k: float, r: float) -> None:
     a, cosine, sine = 0.24, -0.02, 0.005 if k > 0.0 or r > 0.0 else 0.0
     n = (mpmath.mpf(k) + 1) / 2

@@ -39,6 +39,17 @@ def test_error_over_the_wave_falls_as_the_wavelength(k: float) -> None:
     assert max(depth[0], load[0]) < 0.1
 
 
+@pytest.mark.parametrize("k", [0.0, 0.3, 0.7])
+def test_the_remainder_of_the_load_is_smaller_than_the_printed_one(k: float) -> None:
+    """K a^(2+k) O((lambda/a)^((3+k)/2)), not O(lambda/a): with the right (B5) the terms of that order cancel in P."""
+    rest = []
+    for wavelength in (2e-3, 2e-4, 2e-5):
+        a = _window(wavelength)
+        off = short_waves.load(k, M, a, wavelength, COSINES, SINES) - general.load(k, M, a, wavelength, COSINES, SINES)
+        rest.append(np.abs(off).max())
+    np.testing.assert_allclose(np.log10(np.array(rest[:-1]) / rest[1:]), 0.5 * (3.0 + k), atol=0.02)
+
+
 @pytest.mark.parametrize("k", [0.0, 0.3, 0.7, 1.0])
 def test_the_printed_form_lacks_the_mean_height(k: float) -> None:
     wavelength = 0.0005

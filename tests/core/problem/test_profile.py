@@ -38,7 +38,7 @@ def test_controls() -> None:
 
 def test_what_another_profile_does_not_have(scene: dict[str, float]) -> None:
     cone = Profile(exponent=1.0)
-    for solver, reason in (("asymptotic", "belong to one energy only up to"), ("envelope", "no closed form")):
+    for solver, reason in (("asymptotic", "belong to one energy only up to"), ("envelope", "at a constant depth")):
         solve(scene, solver=solver, profile=cone)
         for loading in (Loading(control="load"), Loading(control="machine")):
             spring = {"machine_stiffness": 1.0} if loading.control == "machine" else {}

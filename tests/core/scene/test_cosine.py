@@ -192,7 +192,7 @@ class TestSmooth:
 
     @pytest.mark.parametrize(("k", "nu"), [(0.0, 0.3), (1e-16, 0.3), (0.37, -0.4), (0.5, 0.5), (0.9, 0.45), (1.0, 0.5)])
     def test_cycle_in_closed_form(self, k: float, nu: float) -> None:
-        """H = pi dgamma [F(q) a2^2 - F(1) a1^2]; k = 1 has no second term (q = 0)."""
+        """H = pi dgamma [e(t) a2^2 - e(1) a1^2]; k = 1 has no second term (t = 0)."""
         scene = {"k": k, "nu": nu, "modulus": 812.0, "c0_over_R": 0.053, "lambda_over_R": 0.1, "A": 0.0}
         m = float(stiffness(k, nu, 812.0, 0.053))
         s = math.sqrt(2 ** (1 + k) * math.pi / m)

@@ -19,6 +19,7 @@ from gradhesion.core.problem.results import Results
 from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene import cosine as scene
 from gradhesion.core.scene import solvers
+from gradhesion.core.sensitivities.wanted import NoSense
 
 SCENE = {"k": 0.2, "nu": 0.3, "modulus": 90.0, "c0_over_R": 1.1, "lambda_over_R": 0.1, "A": 0.01, "a_max_over_R": 0.7}
 
@@ -34,7 +35,7 @@ def run(loop: Any, rims: np.ndarray, curves: int = 3) -> tuple[np.ndarray, np.nd
     tables, which = np.array([table_of(0.2)]), np.zeros(2, dtype=np.int64)
     scratch = np.empty((ROWS, 192))
     own = Curves(tables, which, index, stiffness, wavelength, amplitude, rims)
-    loop(own, Results(slots, out, status), scratch, ())
+    loop(own, Results(slots, out, status), scratch, NoSense())
     return out, status
 
 

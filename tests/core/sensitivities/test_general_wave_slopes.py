@@ -9,13 +9,14 @@ from gradhesion.core.arrays.tables import changes_of, tables_of
 from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.sensitivities.general_jump_slopes import NO_JUMP, NOTHING, add_drop, add_from_zero, parts_of
 from gradhesion.core.sensitivities.general_wave_slopes import (
+    WaveSlopes,
     add_jump,
     add_jump_from_zero,
-    add_waves,
     slopes_of_step,
 )
 from gradhesion.core.sensitivities.jump_slopes import SLOPES
 from gradhesion.core.waves.general import DOWN, NOWHERE, UP, Waves, cut_of, room_for_waves
+from gradhesion.core.waves.general_sum import add_waves
 
 PAIR = np.array([[1.0, 1.0, 0.3], [3.0, 0.2, -0.1]])
 CONTROLS = {"displacement": (1.0, 0.0), "machine": (0.999, 0.001), "load": (0.0, 1.0)}
@@ -31,21 +32,21 @@ def made(control: str) -> tuple[Any, Any, Any]:
 @pytest.mark.parametrize("kind", [UP, DOWN])
 def test_a_sum_is_that_of_every_wave(control: str, kind: int) -> None:
     basis, curve, change = made(control)
+    term = WaveSlopes(change, NO_JUMP)
     waves, found = Waves(kind, cut_of(basis.table, PAIR), NOWHERE, room_for_waves(PAIR)), np.zeros(SLOPES)
     first = next(
         low
         for low in np.arange(20.0, 20_000.0, 50.0)
         if all(
-            slopes_of_step(basis, curve, change, waves, NO_JUMP, wave, found) > 0
-            for wave in (low, low + 100.0, low + 250.0)
+            slopes_of_step(basis, curve, term, waves, wave, found)[1] > 0 for wave in (low, low + 100.0, low + 250.0)
         )
     )
     last, every = first + 250.0, np.zeros(SLOPES)
     for wave in np.arange(first, last + 1.0):
-        slopes_of_step(basis, curve, change, waves, NO_JUMP, wave, found)
+        slopes_of_step(basis, curve, term, waves, wave, found)
         every += found
     total = np.zeros(SLOPES)
-    add_waves(basis, curve, change, waves, NO_JUMP, first, last, total)
+    add_waves(basis, curve, term, waves, first, last, total)
     np.testing.assert_allclose(total, every, rtol=0, atol=1e-9 * np.max(np.abs(every)))
 
 

@@ -136,3 +136,15 @@ def test_at_exponent_one_the_fold_function_is_z_sin_z(table_of: Callable[[float]
         if i > 0:
             z = TWO_PI * inner_edge(table, i)[0]
             assert abs((1 + z * z) * math.sin(z) - z * math.cos(z)) <= 1e-11 * z**3
+
+
+@pytest.mark.parametrize("k", EXPONENTS)
+def test_depth_and_load_stay_within_the_bounds_of_a_turn(k: float, table_of: Callable[[float], Any]) -> None:
+    """-z S0 <= C z^c and -C z^c <= -z (S0 - S1) <= 1.06 C z^c: how far out a depth or a load can be met."""
+    scan = _scan(k)
+    z, depth = scan["z"], struve_pair(k, X)[0]
+    bound = table_of(k)["amplitude"] * z ** (0.5 * (1 - k)) * (1 + 4e-16)
+    assert (-z * depth <= bound).all()
+    assert (z * scan["s"] <= bound).all()
+    assert (-z * scan["s"] <= 1.06 * bound).all()
+    assert (-z * scan["s"]).max() > 0.0

@@ -118,7 +118,7 @@ def test_sums_are_walks(k: float, m: float, harmonics: Any, control: str, waves:
     done, up, down, _, one_disc, wholes, x = stride(
         basis, curve, first, middle, (rim, 0.0), Tasks(True, control != "load", True, False), np.empty((0, 5))
     )
-    count, trace, _ = walk(basis, curve, first, last, rim, True)
+    count, trace, _ = walk(basis, curve, (first, last), rim, True)
     assert done
     assert count > 0
     assert wholes > 0.0  # before the rim

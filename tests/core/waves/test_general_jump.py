@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core.arrays.tables import tables_of
-from gradhesion.core.curve.general import Series
+from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.curve.general_energy import jump_energy
 from gradhesion.core.curve.one_cosine_energy import jump_of_one_cosine_from_zero
 from gradhesion.core.struve.circle import TWO_PI
@@ -24,7 +24,7 @@ ONE_COSINE = np.array([[1.0, 1.0, 0.0]])
 def test_from_zero_contact_to_a_rim(k: float, waves: float, beta: float) -> None:
     """At no load and at no depth, where the contact at the rim is pinned: its energy is some z^2/2."""
     table, bins = tables_of(k, ONE_COSINE)
-    basis = (table, bins, ONE_COSINE)
+    basis = Basis(table, bins, ONE_COSINE)
     z = TWO_PI * waves
     for chi, bend in ((0.3, 1e-3), (1e-6, 1e-5), (2.0, 0.1)):
         share = beta * z ** -(1.0 + k) if beta < 1.0 else 1.0
@@ -42,7 +42,7 @@ def test_from_beyond_whole_waves_to_before_them(k: float) -> None:
     series = np.array([[1.0, 0.6, -0.3], [2.0, -0.2, 0.25]])
     table, bins = tables_of(k, series)
     curve = Series(1e-6, 2.0, 0.3, 1.0, 0.0)
-    basis = (table, bins, series)
+    basis = Basis(table, bins, series)
     for start, end, whole in ((0.41, -22.6, 24.0), (0.3, -297.7, 300.0), (-297.7, 0.3, 300.0)):
         expected = jump_energy(basis, curve, whole + start, whole + end, 0.0)
         assert jump_between(basis, curve, start, end, whole) == pytest.approx(expected, rel=1e-12)
