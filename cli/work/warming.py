@@ -1,6 +1,7 @@
 """All kinds of work compiled ahead, by processes side by side that share the work."""
 
 import multiprocessing
+from collections import Counter, defaultdict
 from collections.abc import Callable, Container, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from typing import Final
@@ -27,8 +28,9 @@ def warm(
 
     A kind is begun when those that it needs are done, and not beside one of `APART`, so that no two processes compile
     the same kernel to be kept. Tables are the exception: all kinds need them, and what they are made of, so that the
-    processes of both families compile them, and keep the same under the same names. `done` gets each kind, once, with
-    the names of the kernels that were compiled for it, or with `kept` of those alone whose code is kept by itself.
+    processes of both families compile them, and keep the same under the same names. `done` gets each kind, once, when
+    no process is at it any more, with the names of the kernels that were compiled for it, or with `kept` of those alone
+    whose code is kept by itself. What one process has kept, another reads: a kernel is compiled by any of them.
     """
     left = missing_of(kinds)
     if workers == 1 or len(left) < 2 or not LAZY:  # numba keeps every kernel by itself, and kinds share most of them
@@ -36,7 +38,7 @@ def warm(
         compile_kinds(kinds, names.append)
         done(", ".join(left), names)
         return
-    processes, ended = [_Worker() for _ in range(workers)], set[str]()
+    processes, named = [_Worker() for _ in range(workers)], defaultdict[str, Counter[str]](Counter)
     try:
         if "tables" in left:
             left.remove("tables")
@@ -53,9 +55,9 @@ def warm(
             for worker in processes:
                 if worker.kind and worker.future.done():
                     kind, names = worker.end()
-                    if kind not in ended:
-                        done(kind, names)
-                    ended.add(kind)
+                    named[kind] |= Counter(names)
+                    if all(other.kind != kind for other in processes):
+                        done(kind, [*named[kind].elements()])
     finally:
         for worker in processes:
             worker.pool.shutdown(wait=not worker.kind, cancel_futures=True)  # Python's own end may meet theirs
