@@ -16,6 +16,8 @@ _Array = NDArray[np.float64]
 
 _NEAR: Final = 0.01
 """Of the quantile: as near as the end of an interval is looked for."""
+_FINE: Final = 1e-5
+"""Of the sum of squares and of the numbers: what grows by a square of 4 is known to a hundredth of it."""
 _TRIALS: Final = 8
 """Steps to an end, at most."""
 _FURTHEST: Final = 4.0
@@ -60,7 +62,7 @@ def profile_interval(
             moved = start + (sign * way - (start[number] - best[number])) * along / along[number]
             moved = np.clip(moved, misfit.low, misfit.high)
             moved[number] = best[number] + sign * way
-            found = misfit.refined(moved, held=[number], most=20).x
+            found = misfit.refined(moved, held=[number], most=20, tolerance=_FINE).x
             grown = float(np.sum(misfit.residual(found) ** 2)) - least
             reached = float(np.sqrt(max(0.0, grown) / unit))
             if abs(reached - factor) < _NEAR * factor or (at_limit and reached < factor):

@@ -34,11 +34,12 @@ def moving(model: LoopModel, vector: _Array, drawn: LoopPath) -> _Array:
     inner = [i for i, name in enumerate(model.names) if name not in OFFSETS]
     within = np.flatnonzero(drawn.radius > 0.0)
     if inner and within.size:
-        steps = np.where(np.isin(model.names, OFFSETS), 0.0, _STEP)
+        steps = np.full(len(inner), _STEP)
         if "indentation_max" in model.names:
             steps[model.names.index("indentation_max")] *= model.furthest[0]
-        both = np.diag(steps)[inner]
-        scenes = model.scenes(vector + np.concatenate([both, -both]))
+        both = np.zeros((2 * len(inner), count))
+        both[range(len(inner)), inner], both[range(len(inner), 2 * len(inner)), inner] = steps, -steps
+        scenes = model.scenes(vector + both)
         edge = np.where(within <= drawn.turn, scenes.root, 1.0)
         found = model.states(scenes, drawn.radius[within][None])
         depth, load = found.at(edge)
@@ -48,10 +49,8 @@ def moving(model: LoopModel, vector: _Array, drawn: LoopPath) -> _Array:
             x, y = drawn.places[drawn.turn] - model.shift(vector)[:2]
             turn = float(x), float(y - model.shift(vector)[2] * drawn.places[drawn.turn, 0])
             _press(model, places[:, :, at], found.slope[:, at], scenes, turn)
-        ahead, behind = np.split(places, 2, axis=1)
-        moved[within[:, None], :, inner] = np.moveaxis((ahead - behind) / (2.0 * steps[inner, None]), 0, 2).swapaxes(
-            0, 1
-        )
+        moves = (places[:, : len(inner)] - places[:, len(inner) :]) / (2.0 * steps[:, None])
+        moved[within[0] : within[-1] + 1, :, inner] = moves.transpose(2, 0, 1)
     tilt = model.shift(vector)[2]
     if within.size:
         _slide(model, drawn, moved)

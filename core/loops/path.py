@@ -31,6 +31,8 @@ _MOST: Final = 400_000
 """Radii of the grid at most."""
 _FEWEST: Final = 5
 """Radii of a grid at least."""
+_PARTS: Final = np.linspace(0.0, 1.0, 9)
+"""Of the way that loading goes on within the noise."""
 _REACH: Final = (1.25, 2.5, 10.0)
 """How far the grid reaches, in radii of contact without adhesion at the depth: the next if one is not enough."""
 
@@ -79,6 +81,23 @@ class LoopPath:
     scene: Scenes
     is_pressed: bool = False
     by_load: bool = False
+
+
+def _met(radius: _Array, jump: _Bits, level: _Array, target: float) -> float | None:
+    """Return the radius at which loading first has a level, None where it has not; as `climb` returns these."""
+    i = int(np.argmax(level >= target)) if level.size else 0
+    if not level.size or not level[i] >= target:
+        return None
+    if i == 0 or jump[i]:
+        return float(radius[i])
+    jumps = np.flatnonzero(jump)
+    edge = int(np.searchsorted(jumps, i))
+    first = int(jumps[edge - 1]) if edge else 0
+    branch = slice(first, int(jumps[edge]) if edge < jumps.size else None)
+    if radius[branch].size < _FEWEST:
+        share = (target - level[i - 1]) / (level[i] - level[i - 1])
+        return float(radius[i - 1] + share * (radius[i] - radius[i - 1]))
+    return float(crossing(radius[branch], level[branch], i - first, target))
 
 
 class LoopModel(Model):
@@ -150,9 +169,10 @@ class LoopModel(Model):
         growth = math.log(end / low) / _SMOOTH
         begin = max(step / growth, low)  # where steps of the one kind are those of the other
         if begin >= end:
-            return np.geomspace(low, end, _SMOOTH + 1)
-        inner = np.geomspace(low, begin, math.ceil(math.log(begin / low) / growth) + 1)
-        return np.concatenate([inner[:-1], np.linspace(begin, end, max(8, math.ceil((end - begin) / step) + 1))])
+            return low * np.exp(growth * np.arange(_SMOOTH + 1.0))
+        inner, outer = math.ceil(math.log(begin / low) / growth), max(7, math.ceil((end - begin) / step))
+        near = math.log(begin / low) / max(1, inner) * np.arange(float(inner))
+        return np.concatenate([low * np.exp(near), begin + (end - begin) / outer * np.arange(outer + 1.0)])
 
     def _coordinate(self, scene: Scenes, depth: Any, load: Any) -> Any:
         """Return what is prescribed: the depth, the load, or the far end of the machine."""
@@ -186,33 +206,32 @@ class LoopModel(Model):
                 return None
             states = self.states(scene, grid)
             up = Walk(*climb(grid, self._coordinate(scene, *states.at(scene.root)), 0.0))
-            place = self._turn(scene, up, aim, by_load=by_load)
+            levels = self.states(scene, up.radius).at(scene.root)[1] if by_load else up.level
+            place = _met(up.radius, up.jump, levels, aim)
             if place is not None:
                 blurred = not by_load and not self.turns and self.blur > 0.0
-                turned = self._further(scene, up, place, targets) if blurred else (place, int(by_load))
+                turned = self._further(scene, up, place, targets) if blurred else (place, by_load)
                 return self._joined(scene, grid, states, up, turned, None, first)
             if end == rim:
-                return self._joined(scene, grid, states, up, (rim, 0), aim if aim < math.inf else None, first)
+                return self._joined(scene, grid, states, up, (rim, False), aim if aim < math.inf else None, first)
         return None
 
-    def _further(self, scene: Scenes, up: Walk, place: float, targets: tuple[float, float]) -> tuple[float, int]:
+    def _further(self, scene: Scenes, up: Walk, place: float, targets: tuple[float, float]) -> tuple[float, bool]:
         """Return the radius at which loading turns, and whether its load says so.
 
         Where the load rises by many deviations within one of the depth, it tells better where the data end. The path
         goes on to the largest load, within the noise of the depth, but over no fold.
         """
         target, highest = targets
-        if float(self.states(scene, np.array([place])).at(scene.root)[1][0]) >= highest:
-            return place, 0
-        end = self._turn(scene, up, target + self.blur, by_load=False)
+        end = _met(up.radius, up.jump, up.level, target + self.blur)
         if end is None or bool(np.any(up.jump & (up.radius > place) & (up.radius <= end))):
-            return place, 0
-        some = np.linspace(place, end, 9)
+            return place, False
+        some = place + (end - place) * _PARTS
         loads = self.states(scene, some).at(scene.root)[1]
-        if not loads[-1] > highest:
-            return end, 0
-        found = self._turn(scene, Walk(some, np.zeros(some.size, bool), loads), highest, by_load=True)
-        return (place, 0) if found is None else (found, 1)
+        if loads[0] >= highest:
+            return place, False
+        found = _met(some, np.zeros(some.size, bool), loads, highest)
+        return (end, False) if found is None else (found, True)
 
     def _apart(self, scene: Scenes, target: float, first: float) -> LoopPath:
         """Return the line of no load of a cycle without contact, up to a depth."""
@@ -220,31 +239,13 @@ class LoopModel(Model):
         no, zero = np.zeros(5, bool), np.zeros(5)
         return LoopPath(line, zero, no, no, zero, 2, scene)
 
-    def _turn(self, scene: Scenes, up: Walk, target: float, *, by_load: bool) -> float | None:
-        """Return the radius at which loading first has a coordinate or a load, None where it has not."""
-        levels = self.states(scene, up.radius).at(scene.root)[1] if by_load else up.level
-        beyond = levels >= target
-        i = int(np.argmax(beyond)) if beyond.size else 0
-        if not beyond.size or not beyond[i]:
-            return None
-        if i == 0 or up.jump[i]:
-            return float(up.radius[i])
-        jumps = np.flatnonzero(up.jump)
-        edge = int(np.searchsorted(jumps, i))
-        first = int(jumps[edge - 1]) if edge else 0
-        branch = slice(first, int(jumps[edge]) if edge < jumps.size else None)
-        if up.radius[branch].size < _FEWEST:
-            share = (target - levels[i - 1]) / (levels[i] - levels[i - 1])
-            return float(up.radius[i - 1] + share * (up.radius[i] - up.radius[i - 1]))
-        return float(crossing(up.radius[branch], levels[branch], i - first, target))
-
     def _joined(
         self,
         scene: Scenes,
         grid: _Array,
         states: States,
         up: Walk,
-        turned: tuple[float, int],
+        turned: tuple[float, bool],
         pressed: float | None,
         first: float,
     ) -> LoopPath:
@@ -290,5 +291,5 @@ class LoopModel(Model):
             split + 2,
             scene,
             pressed is not None,
-            bool(turned[1]),
+            turned[1],
         )

@@ -23,7 +23,7 @@ class Line:
     def residual(self, vector: Any) -> Any:
         return (self.y - vector[0] - vector[1] ** self.power * self.x) / 0.2
 
-    def refined(self, start: Any, *, held: Sequence[int] = (), most: int = 60) -> Any:
+    def refined(self, start: Any, *, held: Sequence[int] = (), most: int = 60, tolerance: float = 1e-14) -> Any:
         free = [i for i in range(2) if i not in held]
 
         def whole(part: Any) -> Any:
@@ -32,7 +32,7 @@ class Line:
             return vector
 
         done = least_squares(
-            lambda part: self.residual(whole(part)), start[free], max_nfev=most, xtol=1e-14, ftol=1e-14
+            lambda part: self.residual(whole(part)), start[free], max_nfev=most, xtol=tolerance, ftol=tolerance
         )
         done.x = whole(done.x)
         return done
