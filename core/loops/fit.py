@@ -23,7 +23,7 @@ from threadpoolctl import threadpool_limits
 from gradhesion.core.loops.described import described
 from gradhesion.core.loops.features import base_line, contact_point
 from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop
-from gradhesion.core.loops.minima import refined
+from gradhesion.core.loops.minima import polished, refined
 from gradhesion.core.loops.misfit import Data, Misfit
 from gradhesion.core.loops.model import LINEAR
 from gradhesion.core.loops.offsets import Offsets
@@ -169,6 +169,9 @@ def fit_loop(
         found = refined(misfit, begun)
         if misfit.path(found[0].x) is None:
             raise ValueError("no combination within the ranges has a path; widen them")
+        if not misfit.model.by_differences:  # of which each costs a second
+            misfit = misfit.finer()
+            found = polished(misfit, found)
         found_loop = described(misfit, found, intervals, ranges, widened=not noise_is_given)
     if contact is None:
         return found_loop

@@ -77,6 +77,18 @@ def _beside(misfit: Misfit, vector: _Array) -> list[_Array]:
     return moved
 
 
+def polished(fine: Misfit, found: list[Any]) -> list[Any]:
+    """Refine the minima that the noise may allow by a finer grid; the best first."""
+    allowed = _rise(found[0]) * max(1.0, 2.0 * found[0].cost / fine.back.size)
+    near = [done.x for done in found if 2.0 * (done.cost - found[0].cost) <= 2.0 * allowed]
+    return sorted((fine.refined(vector, most=100) for vector in distinct(near, fine)), key=lambda done: done.cost)
+
+
+def _rise(done: Any) -> float:
+    """Return by how much chi square rises from a minimum to what the noise allows."""
+    return float(chi2.ppf(_ALLOWED, done.x.size))
+
+
 def others(found: list[Any], covariance: _Array, unit: float) -> list[Any]:
     """Return the minima other than the first that the noise allows.
 
@@ -90,7 +102,7 @@ def others(found: list[Any], covariance: _Array, unit: float) -> list[Any]:
         The variance of a residual.
     """
     best = found[0]
-    allowed = float(chi2.ppf(_ALLOWED, best.x.size)) * unit
+    allowed = _rise(best) * unit
     inverse = np.linalg.pinv(covariance)
     kept: list[Any] = []
     for done in found[1:]:

@@ -117,6 +117,8 @@ class LoopModel(Model):
 
     by_differences = False
     """Whether only differences of paths tell how they move."""
+    fineness = 1
+    """Of the grid of radii, over that of the search: what errors its vertices make falls as the fourth power."""
 
     def __init__(
         self,
@@ -162,14 +164,14 @@ class LoopModel(Model):
 
     def _grid(self, scene: Scenes, end: float) -> _Array | None:
         """Return the radii at which branches are looked for, up to an end, of shape (n,); None for too many."""
-        step = self.shortest(scene) / _A_WAVE
+        step, count = self.shortest(scene) / (_A_WAVE * self.fineness), _SMOOTH * self.fineness
         if end / step > _MOST:
             return None
         low = min(_SMALLEST * scene.neck, 0.02 * end)
-        growth = math.log(end / low) / _SMOOTH
+        growth = math.log(end / low) / count
         begin = max(step / growth, low)  # where steps of the one kind are those of the other
         if begin >= end:
-            return low * np.exp(growth * np.arange(_SMOOTH + 1.0))
+            return low * np.exp(growth * np.arange(count + 1.0))
         inner, outer = math.ceil(math.log(begin / low) / growth), max(7, math.ceil((end - begin) / step))
         near = math.log(begin / low) / max(1, inner) * np.arange(float(inner))
         return np.concatenate([low * np.exp(near), begin + (end - begin) / outer * np.arange(outer + 1.0)])
