@@ -20,7 +20,7 @@ from gradhesion.cli.words.optimum_words import bounds_told, points_told
 from gradhesion.cli.words.sensitivity_words import sensitivity_told
 from gradhesion.cli.words.uncertainty_words import uncertainty_told
 from gradhesion.cli.words.validity_words import validity_told
-from gradhesion.cli.words.value_words import values_told
+from gradhesion.cli.words.value_words import is_of_one_scene, values_told
 from gradhesion.core import FAILED
 from gradhesion.core.answers.flags import FLAGS
 from gradhesion.core.problem.control import Loading
@@ -149,9 +149,9 @@ def _spacing(values: NDArray[np.float64]) -> str:
 
 
 def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
-    """Report the extremes of each output, and where they are."""
+    """Report the extremes of each output, and where they are; of a single scene they are values."""
     for name in dataset.data_vars:
-        if name == "status":
+        if name == "status" or is_of_one_scene(dataset, str(name)):
             continue
         yield ""
         yield f"{name}: {dataset[name].attrs.get('long_name', 'without a name')}{_unit(dataset[name], ', in ')}"
@@ -164,8 +164,7 @@ def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
         extremes = _extremes(dataset[name])
         if not extremes:
             yield "  no value in any scene"
-        words = ("value",) if dataset[name].size == 1 else ("min", "max")
-        for word, (extreme, place) in zip(words, extremes, strict=False):
+        for word, (extreme, place) in zip(("min", "max"), extremes, strict=False):
             where = ", ".join(f"{key} = {_number(value)}" for key, value in place.items())
             yield f"  {word:<9} {extreme:<12.7g}" + (f" at {where}" if where else "")
 

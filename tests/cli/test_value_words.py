@@ -46,7 +46,6 @@ def test_the_status_is_there_where_a_scene_has_a_flag() -> None:
     names, *rows = (line.split() for line in lines(found, "A")[1:])
     assert names == ["A", "dissipated_energy", "status"]
     assert [int(row[-1]) for row in rows] == found["status"].values.tolist()
-    assert lines(found.isel(A=[0]), "A") == [], "one scene has a line of its own"
     assert "status" not in lines(gr.solve(PUNCH, "dissipated_energy", A=[0.0, 0.01]), "A")[1]
 
 
@@ -61,7 +60,7 @@ def test_columns_that_do_not_fit_are_counted() -> None:
     assert left > 0
 
 
-@pytest.mark.parametrize(("scenes", "there"), [(1, False), (2, True), (MOST, True), (MOST + 1, False)])
+@pytest.mark.parametrize(("scenes", "there"), [(2, True), (MOST, True), (MOST + 1, False)])
 def test_only_few_scenes_have_a_table(scenes: int, there: bool) -> None:
     found = gr.solve(PUNCH, "pull_off_force", A=[0.001 * i for i in range(scenes)])
     assert len(lines(found, "A")) == (2 + scenes if there else 0)
@@ -91,10 +90,25 @@ def test_what_has_no_value_a_scene_has_no_table() -> None:
     assert lines(both, "A") == []
 
 
-def test_a_single_scene_has_one_value(gradhesion: Call, tmp_path: Path, study_file: Path) -> None:
-    sets = ["parameters.k=0.3", "parameters.lambda_over_R=0.1", "parameters.A=0.0", "parameters.a_max_over_R=1.0"]
-    gradhesion("run", study_file, "-o", tmp_path / "one.nc", "--quiet", *(f"--set={entry}" for entry in sets))
-    told = gradhesion("info", tmp_path / "one.nc").stdout
-    assert "  value     1.1" in told
-    assert "\nvalues\n" not in told
-    assert "  min " not in told
+def test_a_single_scene_has_a_line_for_each_output(gradhesion: Call, tmp_path: Path) -> None:
+    study = tmp_path / "tip.toml"
+    study.write_text(
+        'title = "t"\noutputs = ["pull_off_force"]\n[parameters]\nk = 0.3\nnu = 0.3\nA = 0.0\n[physical]\nR = "1 um"\n'
+        'E_star = "1 GPa"\nwork_of_adhesion = "50 mJ/m^2"\nc0 = "10 nm"\nwavelength = "1 um"\n',
+        encoding="utf-8",
+    )
+    gradhesion("run", study, "-o", tmp_path / "tip.nc", "--quiet")
+    told = gradhesion("info", tmp_path / "tip.nc").stdout
+    newtons = (3 + 0.3) / 2 * 3.141592653589793 * 1e-6 * 0.05
+    assert told.partition("\nvalues\n")[2].partition("\n\n")[0].splitlines() == [
+        "  pull_off_force     1.1             pull-off force F/(1.5 pi R dgamma)",
+        f"  pull_off_force_si  {newtons:.7g} N  pull-off force F",
+    ]
+    assert "pull_off_force: " not in told, "no extremes of one value"
+
+
+def test_what_is_no_number_of_one_scene_is_told_as_of_several(gradhesion: Call, tmp_path: Path) -> None:
+    found = gr.solve(PUNCH, ["pull_off_force", "pull_off_force_sensitivity"], A=0.02)
+    assert [line.split()[0] for line in lines(found)] == ["values", "pull_off_force"]
+    found.to_netcdf(tmp_path / "one.nc")
+    assert "  strongest: " in gradhesion("info", tmp_path / "one.nc").stdout
