@@ -28,8 +28,9 @@ if TYPE_CHECKING:
 def info(files: tuple[Path, ...], form: str, variables: tuple[str, ...], jumps: bool) -> None:
     """Describe a dataset, or print it as CSV.
 
-    Prints the parameters of FILE, the minimum and maximum of each variable with their places, the scenes that failed
-    or are doubtful, and the origin of the dataset. Several files are fits of the same data, which are compared.
+    Prints the parameters of FILE, the minimum and maximum of each variable with their places, a table of the values of
+    up to 12 scenes, the scenes that failed or are doubtful, and the origin of the dataset. Several files are fits of
+    the same data, which are compared.
     """
     from contextlib import ExitStack
 

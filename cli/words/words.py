@@ -20,6 +20,7 @@ from gradhesion.cli.words.optimum_words import bounds_told, points_told
 from gradhesion.cli.words.sensitivity_words import sensitivity_told
 from gradhesion.cli.words.uncertainty_words import uncertainty_told
 from gradhesion.cli.words.validity_words import validity_told
+from gradhesion.cli.words.value_words import is_of_one_scene, values_told
 from gradhesion.core import FAILED
 from gradhesion.core.answers.flags import FLAGS
 from gradhesion.core.problem.control import Loading
@@ -41,7 +42,11 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
     yield from _parameters(dataset)
     yield from uncertainty_told(dataset)
     yield from points_told(dataset)
-    yield from curves_told(dataset) if has_curves(dataset) else _outputs(dataset)
+    if has_curves(dataset):
+        yield from curves_told(dataset)
+    else:
+        yield from _outputs(dataset)
+        yield from values_told(dataset, _varying(dataset))
     yield from _status(dataset)
     if beyond := list(validity_told(dataset)):
         yield ""
@@ -63,11 +68,18 @@ def _coordinates(dataset: xarray.Dataset | xarray.DataArray) -> list[str]:
     return [name for name in (SOLVER, *INPUTS, REALISATION) if name in dataset.coords]
 
 
+def _varying(dataset: xarray.Dataset | xarray.DataArray) -> list[str]:
+    """List those that differ from scene to scene, without what follows from axes."""
+    return [
+        name for name in _coordinates(dataset) if dataset[name].ndim and (name in dataset.dims or SCENE in dataset.dims)
+    ]
+
+
 def _parameters(dataset: xarray.Dataset) -> Iterator[str]:
     """Report the values of the parameters: axes first, then fixed ones, then what follows from them."""
     points = SCENE in dataset.dims
     known = [name for name in _coordinates(dataset) if name != SOLVER]
-    varying = [name for name in known if name in dataset.dims or (points and dataset[name].ndim)]
+    varying = [name for name in _varying(dataset) if name != SOLVER]
     if SOLVER in dataset.dims:
         yield ""
         yield "solvers, each for all scenes: " + ", ".join(dataset[SOLVER].values)
@@ -137,9 +149,9 @@ def _spacing(values: NDArray[np.float64]) -> str:
 
 
 def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
-    """Report the extremes of each output, and where they are."""
+    """Report the extremes of each output, and where they are; of a single scene they are values."""
     for name in dataset.data_vars:
-        if name == "status":
+        if name == "status" or is_of_one_scene(dataset, str(name)):
             continue
         yield ""
         yield f"{name}: {dataset[name].attrs.get('long_name', 'without a name')}{_unit(dataset[name], ', in ')}"
@@ -176,11 +188,7 @@ def _extremes(variable: xarray.DataArray) -> list[tuple[float, dict[str, float |
 def _place(part: xarray.DataArray, index: tuple[Any, ...]) -> dict[str, float | str]:
     """Report the solver and the varying parameters of a cell."""
     cell = part[index]
-    return {
-        name: cell[name].item()
-        for name in _coordinates(part)
-        if part[name].ndim and (name in part.dims or SCENE in part.dims)  # not what follows from axes
-    }
+    return {name: cell[name].item() for name in _varying(part)}
 
 
 def _status(dataset: xarray.Dataset) -> Iterator[str]:
