@@ -15,7 +15,7 @@ from gradhesion.cli.study.fit_study import FitStudy, unit_of_parameter
 from gradhesion.cli.study.loop_files import fingerprint
 from gradhesion.cli.study.shape_words import rate_in_words, shape_in_words, toughness_in_words
 from gradhesion.cli.work.compiling import prepare
-from gradhesion.cli.work.fitting import Fit, fits_of, kinds_of_fit, loading_of, range_told
+from gradhesion.cli.work.fitting import Fit, fits_of, kinds_of_fit, range_told
 from gradhesion.core.problem.status import FLAGS, OF_FITS
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ def _attributes(study: FitStudy, fits: Sequence[Fit]) -> dict[str, Any]:
     intervals = "profile likelihoods" if study.intervals == "profile" else "linear"
     return {
         "profile": shape_in_words(study.profile),
-        "control": loading_of(study).control,
+        "control": study.loading.control,
         **({} if study.toughness is None else {"toughness": toughness_in_words(study.toughness)}),
         **({} if study.rate is None else {"rate": f"{rate_in_words(study.rate)}{exponent}"}),
         "data_file": study.file,

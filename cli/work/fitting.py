@@ -14,7 +14,6 @@ from gradhesion.core.loops.fitted import FittedLoop, poor_from
 from gradhesion.core.loops.model import Model
 from gradhesion.core.loops.offsets import NAMES as OFFSETS
 from gradhesion.core.loops.speed import EXPONENT
-from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, RANGE
 from gradhesion.core.problem.status import POOR_FIT
 from gradhesion.core.variables.reduced import parameters_from
@@ -32,15 +31,9 @@ class Fit:
     problem: str = ""
 
 
-def loading_of(study: FitStudy) -> Loading:
-    """Give what is prescribed in a measured cycle."""
-    return study.loading
-
-
 def kinds_of_fit(study: FitStudy) -> tuple[str, ...]:
     """Give the kinds of work of a fit (core/kinds.py)."""
-    shape = study.profile, loading_of(study)
-    return (kind_of_map(["dissipated_energy"], "exact", *shape), "loops")
+    return (kind_of_map(["dissipated_energy"], "exact", study.profile, study.loading), "loops")
 
 
 def fitted(study: FitStudy, loop: LoopFile | None = None) -> FittedLoop:

@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
-from gradhesion.core.loops.model import Model
+from gradhesion.core.loops.model import WAVELENGTHS, Model
 from gradhesion.core.loops.path import LoopPath
-from gradhesion.core.loops.wave_search import WAVELENGTHS
 
 _SEEN: Final = 5.0
 """Standard deviations of a jump that shows that there are waves."""
@@ -23,21 +22,19 @@ _PHASE: Final = 0.1
 """Of a wave: where the waves within the contact are known as well, they are seen without jumps."""
 
 
-def alike(
-    model: Model, vector: NDArray[np.float64], path: LoopPath, noise: NDArray[np.float64], spread: NDArray[np.float64]
-) -> tuple[str, ...]:
+def alike(model: Model, path: LoopPath, noise: NDArray[np.float64], spread: NDArray[np.float64]) -> tuple[str, ...]:
     """Return a sentence on what else would explain a loop; none where the jumps tell.
 
     Parameters
     ----------
-    model, vector, path
-        What was fitted, the numbers, and their path.
+    model, path
+        What was fitted, and the path of the best numbers.
     noise
         Standard deviations of depth and load, in m and N.
     spread
         Standard deviations of the numbers, as they are searched.
     """
-    scene = model.scenes(vector[None]).one
+    scene = path.scene
     if not model.has_waves:
         if scene.root >= 1.0 or ("closing_ratio" not in model.names and "work_of_adhesion_closing" not in model.names):
             return ()
@@ -54,7 +51,7 @@ def alike(
     sizes = np.hypot(*((path.places[jumps] - path.places[jumps - 1]) / noise).T)
     if (sizes.size and sizes.max() > _SEEN) or not model.profile.harmonics:
         return ()
-    length = next((i for i, name in enumerate(model.names) if name in WAVELENGTHS), None)
+    length = model.place_of(WAVELENGTHS)
     if length is not None and spread[length] * path.radius.max() < _PHASE * scene.wavelength * scene.R:
         return ()
     chi = float(waviness_strength(scene.k, scene.wavelength, scene.A) / adhesion_strength(scene.k, scene.stiffness))

@@ -53,7 +53,7 @@ def described(
     flags = ANOTHER_MINIMUM if allowed else 0
     if float(residual @ residual) > poor_from(degrees) * degrees:
         flags |= POOR_FIT
-    radius = float(path.radius[path.turn]) / misfit.model.scenes(done.x[None]).one.R
+    radius = float(path.radius[path.turn]) / path.scene.R
     return FittedLoop(
         names=names,
         values=values,
@@ -73,7 +73,7 @@ def described(
         converged=bool(done.status > 0),
         status=status_of(misfit.model, done.x, radius) | flags,
         others=tuple(OtherMinimum(values=misfit.named(one.x), chi_square=2.0 * one.cost) for one in allowed),
-        alike=alike(misfit.model, done.x, path, misfit.scale, spread),
+        alike=alike(misfit.model, path, misfit.scale, spread),
         turning_radius=radius,
         widening=math.sqrt(unit),
     )

@@ -6,10 +6,10 @@ axes are scaled by their noise. Loading begins, and unloading ends, on the line 
 data do.
 
 There are many local minima: contact points anywhere in the data, and each wavelength with another number of waves in
-the contact. Starts are found by what no zero of the instrument and no span hides (search.py), several are refined with
-exact derivatives, and other minima that the noise allows are named. Standard deviations are those of the linear problem
-at the minimum. Parameters that the loop cannot tell apart (E*, c0 and nu act through one number M, docs/theory.md) make
-its Jacobian singular and are refused.
+the contact. Starts are found by what no zero of the instrument and no span hides (smooth_search.py, wave_search.py,
+speed.py), several are refined with exact derivatives, and other minima that the noise allows are named. Standard
+deviations are those of the linear problem at the minimum. Parameters that the loop cannot tell apart (E*, c0 and nu act
+through one number M, docs/theory.md) make its Jacobian singular and are refused.
 """
 
 from collections.abc import Mapping

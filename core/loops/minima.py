@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from gradhesion.core.loops.misfit import Misfit
+from gradhesion.core.loops.model import WAVELENGTHS
 from gradhesion.core.loops.search import coarse, distinct, is_noise
-from gradhesion.core.loops.wave_search import WAVELENGTHS
 
 _Array = NDArray[np.float64]
 
@@ -62,7 +62,7 @@ def _robust(misfit: Misfit, start: _Array, few: slice) -> Any:
 
 def _beside(misfit: Misfit, vector: _Array) -> list[_Array]:
     """Return a vector with some waves more or less in the contact; none where the wavelength is not searched."""
-    i = next((i for i, name in enumerate(misfit.names) if name in WAVELENGTHS), None)
+    i = misfit.model.place_of(WAVELENGTHS)
     path = misfit.path(vector)
     if i is None or path is None or not misfit.model.has_waves:
         return []

@@ -9,7 +9,7 @@ root of the closing ratio where it closes. Paths, and how they move, need nothin
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any, Final, NamedTuple
 
@@ -23,7 +23,7 @@ from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, TURNS
 from gradhesion.core.problem.profile import Profile
-from gradhesion.core.problem.toughness import Toughness, rows_of_pattern
+from gradhesion.core.problem.toughness import Toughness, rows_of_pattern, series_at
 from gradhesion.core.struve.table import struve_pair
 from gradhesion.core.variables.reduced import WAYS, parameters_from
 
@@ -35,6 +35,8 @@ _INSTEAD: Final[dict[str, frozenset[str]]] = {
     parameter: frozenset(WAYS[parameter]) for parameter in ("c0_over_R", "lambda_over_R", "a_max_over_R")
 }
 """The keys in whose place something without effect stands by default."""
+AMPLITUDES: Final = ("A", *WAYS["A"])
+WAVELENGTHS: Final = ("lambda_over_R", *WAYS["lambda_over_R"])
 
 
 class Scenes(NamedTuple):
@@ -131,6 +133,10 @@ class Model:
             fixed.get(name) == 0.0 for name in ("A", "amplitude", "chi")
         )
 
+    def place_of(self, ways: Sequence[str]) -> int | None:
+        """Return the place, among what is searched, of the one that has one of some names; None if none has."""
+        return next((place for place, name in enumerate(self.names) if name in ways), None)
+
     def values(self, vectors: _Array) -> dict[str, Any]:
         """Give what is searched its names and units: numbers of one vector, arrays of the rows of several."""
         return {
@@ -208,10 +214,7 @@ class Model:
     def _toughness(self, scenes: Scenes, a: _Array) -> _Array:
         """Return the toughness of the interface at radii over R, over its mean."""
         assert self.toughness is not None  # noqa: S101 (asked before)
-        series = np.ones_like(a)
-        for n, cos, sin in rows_of_pattern(self.toughness):
-            phase = 2.0 * math.pi * n * a / scenes.pattern
-            series = series + scenes.swing * (cos * np.cos(phase) + sin * np.sin(phase))
+        series = 1.0 + scenes.swing * series_at(rows_of_pattern(self.toughness), a / scenes.pattern)
         return np.sqrt(np.maximum(series, 0.0)) if self.toughness.of == "work" else series
 
     def shortest(self, scenes: Scenes) -> float:

@@ -6,14 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.loops.neighbours import of_differences
-from gradhesion.core.loops.offsets import NAMES
 
 _Array = NDArray[np.float64]
 _Bools = NDArray[np.bool_]
 _Ints = NDArray[np.int32]
 
-OFFSETS: Final = NAMES[:2]
-"""What is added to the depth and the load of the path of a loop: the zeros of the instrument."""
 TURN: Final = 0.2
 """How far the depth goes back for a turn, in parts of its span: noise, drift and creep in a pause are less."""
 _STILL: Final = 8.0

@@ -24,6 +24,13 @@ def coarse(misfit: Misfit, count: int) -> slice:
     return slice(None, None, max(1, misfit.back.size // count))
 
 
+def carried(misfit: Misfit, other: Misfit, vector: _Array) -> _Array:
+    """Return a vector with the numbers that another loop has of the same names, others in the middle of their range."""
+    own = dict(zip(other.names, vector, strict=True))
+    middle = 0.5 * (misfit.low + misfit.high)
+    return np.array([own.get(name, each) for name, each in zip(misfit.names, middle, strict=True)])
+
+
 def distinct(vectors: list[_Array], misfit: Misfit, near: float = 1e-3) -> list[_Array]:
     """Return those of some vectors that are not near an earlier one: a part of the ranges in every number."""
     kept: list[_Array] = []

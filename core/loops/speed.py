@@ -16,7 +16,7 @@ from gradhesion.core.curves import draw_curves
 from gradhesion.core.loops.misfit import Misfit
 from gradhesion.core.loops.offsets import NAMES as OFFSETS
 from gradhesion.core.loops.path import LoopModel, LoopPath
-from gradhesion.core.loops.search import coarse
+from gradhesion.core.loops.search import best_of, carried, coarse
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, SPEED
 from gradhesion.core.problem.rate import EXPONENTS, Rate
 from gradhesion.core.variables.reduced import parameters_from
@@ -100,9 +100,7 @@ def at_rest(model: LoopModel) -> tuple[dict[str, float], tuple[str, ...]]:
 def fast_starts(misfit: Misfit, rest: Misfit, begun: _Array) -> list[_Array]:
     """Return starts of some speeds from the minimum of an edge at rest, refined by a few points, the best first."""
     names, few = misfit.names, coarse(misfit, 100)
-    own = dict(zip(rest.names, begun, strict=True))
-    middle = np.array([own.get(name, 0.5 * (low + high))
-                       for name, low, high in zip(names, misfit.low, misfit.high, strict=True)])  # fmt: skip
+    middle = carried(misfit, rest, begun)
     free = [i for i, name in enumerate(names) if name in _SPEEDS and name not in OFFSETS]
     found = []
     for share in (np.arange(_TRIED) + 0.5) / _TRIED if free else [0.5]:
@@ -110,5 +108,4 @@ def fast_starts(misfit: Misfit, rest: Misfit, begun: _Array) -> list[_Array]:
         for i in free:
             vector[i] = misfit.low[i] + share * (misfit.high[i] - misfit.low[i])
         found.append(misfit.refined(vector, few, loss="soft_l1", most=12, tolerance=1e-4).x)
-    order = np.argsort([misfit.size(vector, few) for vector in found], kind="stable")
-    return [found[i] for i in order[:_KEPT]]
+    return best_of(misfit, found, few, _KEPT)

@@ -14,13 +14,11 @@ from scipy.signal import find_peaks, lombscargle
 
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
 from gradhesion.core.loops.misfit import Misfit
-from gradhesion.core.loops.model import Model
-from gradhesion.core.loops.search import COARSE, best_of, coarse, distinct, is_noise, near_best
+from gradhesion.core.loops.model import AMPLITUDES, WAVELENGTHS, Model
+from gradhesion.core.loops.search import COARSE, best_of, carried, coarse, distinct, is_noise, near_best
 
 _Array = NDArray[np.float64]
 
-AMPLITUDES: Final = ("A", "amplitude", "chi")
-WAVELENGTHS: Final = ("wavelength", "lambda_over_R", "lambda_over_L")
 _HEIGHTS: Final = 3
 """Amplitudes that are tried with each wavelength."""
 _PEAKS: Final = 6
@@ -72,17 +70,14 @@ def wavy_starts(misfit: Misfit, smooth: Misfit, bases: list[_Array], count: int)
     count
         How many are returned at most.
     """
-    names, few = misfit.names, coarse(misfit, COARSE)
-    length = next((names.index(name) for name in WAVELENGTHS if name in names), None)
-    height = next((names.index(name) for name in AMPLITUDES if name in names), None)
+    few = coarse(misfit, COARSE)
+    length, height = misfit.model.place_of(WAVELENGTHS), misfit.model.place_of(AMPLITUDES)
     held = [i for i in (length, height) if i is not None]
     shares = (np.arange(_HEIGHTS) + 0.5) / _HEIGHTS
     heights = [None] if height is None else misfit.low[height] + shares * (misfit.high[height] - misfit.low[height])
     found: list[_Array] = []
     for base in distinct(bases, smooth, _ALIKE):
-        own = {name: base[i] for i, name in enumerate(smooth.names)}
-        middle = np.array([own.get(name, 0.5 * (low + high))
-                           for name, low, high in zip(names, misfit.low, misfit.high, strict=True)])  # fmt: skip
+        middle = carried(misfit, smooth, base)
         for waves in [[None]] if length is None else _lengths(misfit, smooth, base, middle, length):
             begun = []
             for wave, swell in itertools.product(waves, heights):
@@ -90,7 +85,7 @@ def wavy_starts(misfit: Misfit, smooth: Misfit, bases: list[_Array], count: int)
                 for i, value in ((length, wave), (height, swell)):
                     if i is not None and value is not None:
                         vector[i] = value
-                begun.append(_softened(misfit, vector, own))
+                begun.append(_softened(misfit, vector))
             near = [
                 misfit.refined(vector, few, loss="soft_l1", most=4, held=held, tolerance=1e-4).x for vector in begun
             ]
@@ -118,7 +113,7 @@ def _lengths(misfit: Misfit, smooth: Misfit, begun: _Array, middle: _Array, i: i
     return [np.log(tried[(tried >= low) & (tried <= high)] / unit) for tried in groups]
 
 
-def _softened(misfit: Misfit, vector: _Array, own: dict[str, float]) -> _Array:
+def _softened(misfit: Misfit, vector: _Array) -> _Array:
     """Take from the work of adhesion of the smooth punch what waves add: the roots of both add up."""
     if "work_of_adhesion" not in misfit.names:
         return vector
@@ -127,7 +122,7 @@ def _softened(misfit: Misfit, vector: _Array, own: dict[str, float]) -> _Array:
     waves = float(waviness_strength(scene.k, scene.wavelength, scene.A))
     ratio = waves / float(adhesion_strength(scene.k, scene.stiffness))
     root = max(1.0 - ratio, 0.15)
-    vector[i] = np.clip(own.get("work_of_adhesion", vector[i]) + 2.0 * math.log(root), misfit.low[i], misfit.high[i])
+    vector[i] = np.clip(vector[i] + 2.0 * math.log(root), misfit.low[i], misfit.high[i])
     return vector
 
 

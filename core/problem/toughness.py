@@ -92,8 +92,8 @@ def rows_of_pattern(toughness: Toughness) -> NDArray[np.float64]:
     return np.array(chosen, dtype=float).reshape(-1, 3)
 
 
-def _sum(rows: NDArray[np.float64], u: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the series at some wavelengths u, of their shape."""
+def series_at(rows: NDArray[np.float64], u: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the series of a pattern, rows of n and both amplitudes, at u wavelengths, of the shape of u."""
     total = np.zeros(u.shape)
     for n, even, odd in rows:
         phase = 2.0 * math.pi * ((n * u) % 1.0)
@@ -117,7 +117,7 @@ def _searched(rows: NDArray[np.float64], end: float, limit: float) -> tuple[floa
         return 0.0, 0.0
     bend, error = float(np.sum((2.0 * math.pi * rows[:, 0]) ** 2 * sizes)), _ROUNDING * float(sizes.sum())
     left = np.linspace(0.0, end, 2 + math.ceil(_SAMPLES * float(rows[:, 0].max()) * end))
-    width, values = left[1], _sum(rows, left)
+    width, values = left[1], series_at(rows, left)
     best, place = float(values[-1]), end
     left, first, last = left[:-1], values[:-1], values[1:]
     while left.size and width > _NARROW:
@@ -129,7 +129,7 @@ def _searched(rows: NDArray[np.float64], end: float, limit: float) -> tuple[floa
         worth &= (best >= limit) | (left < place)
         width *= 0.5
         middle = left[worth] + width
-        here = _sum(rows, middle)
+        here = series_at(rows, middle)
         left, first, last = (
             np.stack(pair, axis=-1).ravel()
             for pair in ((left[worth], middle), (first[worth], here), (here, last[worth]))
