@@ -33,3 +33,10 @@ def test_a_rim_that_is_met_is_reported_and_a_turn_before_it_is_not() -> None:
 def test_out_of_contact_nothing_is_said() -> None:
     model = CASES["wavy"].model(("A",))
     assert status_of(model, vector(model), 0.0) == 0
+
+
+def test_equal_works_are_so_in_either_order() -> None:
+    """Where both works are fitted, noise puts that of closing above the other as often as below."""
+    model = CASES["smooth"].model(("work_of_adhesion_closing",))
+    for ratio in (0.99, 1.01):
+        assert status_of(model, np.log([ratio * 0.03]), 0.3) == 0
