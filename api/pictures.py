@@ -27,6 +27,9 @@ from gradhesion.cli.study.foreign import as_written
 from gradhesion.datasets import Data, data_of
 from gradhesion.wording import in_python
 
+Limits = tuple[float | str | None, float | str | None]
+"""Two ends of a part of an axis: numbers in SI, quantities, or None for all there is."""
+
 BAR: Final = "<colorbar>"
 """What matplotlib labels the axes of a colour bar."""
 
@@ -82,6 +85,10 @@ def plot(
     caption: bool = True,
     style: str | Path | None = None,
     data: str | Path | None = None,
+    xlim: Limits | None = None,
+    ylim: Limits | None = None,
+    inset: Limits | None = None,
+    band: Literal["quantiles", "std", "none"] | None = None,
 ) -> Panels:
     r"""
     Draw a dataset: lines over one axis, a map over two, panels of maps over more; curves as curves, a fit as a whole.
@@ -118,6 +125,13 @@ def plot(
     data
         On curves: a table (CSV or NetCDF) of measured points, with two or more of the columns indentation, load and
         contact_radius, and their units in the header.
+    xlim, ylim
+        The parts of the axes that are drawn: (0.1, 0.5), ("50 nm", None). What is seen sets the other axis.
+    inset
+        A part of the horizontal axis that is drawn once more, enlarged, in a free corner; of a single panel of lines.
+    band
+        What is drawn around values of uncertain inputs: "quantiles" (5 % to 95 % of samples), "std" (a standard
+        deviation on each side) or "none"; what the dataset has if None. At few values it is bars.
 
     Returns
     -------
@@ -151,6 +165,10 @@ def plot(
             title=title,
             caption=caption,
             style=style,
+            xlim=xlim,
+            ylim=ylim,
+            inset=inset,
+            band=band,
         )
         if is_fit(values):
             choices = {"over": over, "variables": names, "x": x, "y": y, "data": data}

@@ -12,6 +12,8 @@ _OPTIONS: Final = (
     (r"write 8 or 0.5,1,2", "write 8 or [0.5, 1, 2]"),
     (r"--(lines|map)\b", r'kind="\1"'),
     (r"--no-(title|caption)\b", r"\1=False"),
+    (r"--(xlim|ylim|inset) 0\.1:0\.5", r"\1=(0.1, 0.5)"),
+    (r"--(xlim|ylim|inset|band)\b", r"\1"),
     (r"--(data|set|at|over|variable|x|y|interpolate|width|height|levels|style|sample|seed)\b", r"\1"),
     (r"(?:; )?name another with -o", ""),
 )

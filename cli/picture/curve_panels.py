@@ -182,7 +182,8 @@ def draw_arrows(
                 np.array([np.interp(share * lengths[-1] + step, lengths, row) for row in line.T])
                 for step in (-0.5 * ARROW, 0.5 * ARROW)
             ]
-            if all(np.hypot(*(ends[1] - other)) > ARROW for other in taken):
+            inside = all(((end >= 0.0) & (end <= 1.0)).all() for end in ends)
+            if inside and all(np.hypot(*(ends[1] - other)) > ARROW for other in taken):
                 break
         else:
             continue

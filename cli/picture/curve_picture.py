@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Final
 
@@ -17,6 +18,7 @@ from gradhesion.cli.dataset.curve_variables import variables_of_curves
 from gradhesion.cli.dataset.model_range import slope_told
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import RAGGED, SCENE, STATE_CURVES
+from gradhesion.cli.picture.curve_limits import in_units, set_limits, spans_of
 from gradhesion.cli.picture.curve_panels import (
     JUMP,
     MARKERS,
@@ -38,9 +40,10 @@ from gradhesion.cli.picture.curve_panels import (
 )
 from gradhesion.cli.picture.curve_units import axis_label, in_si, in_unit, units_of, wants_si
 from gradhesion.cli.picture.doubts import CROSS, DOUBTS, Doubt, doubts_in, entries
+from gradhesion.cli.picture.inset import add_inset
 from gradhesion.cli.picture.labels import Unit, effective, equation, given
 from gradhesion.cli.picture.looks import PLAIN, Looks
-from gradhesion.cli.picture.measured import draw_points, legend_entry, planes_of, read_points
+from gradhesion.cli.picture.measured import Points, draw_points, legend_entry, planes_of, read_points
 from gradhesion.cli.picture.pictured import finite, heading, in_lines, lay_out, styled
 from gradhesion.cli.picture.state_picture import draw_states
 from gradhesion.cli.terminal.wording import did_you_mean
@@ -113,6 +116,7 @@ def drawn_curves(
                 f"--{'x' if x else 'y'} {x or y}: curves of states are drawn over the distance from the axis; "
                 f"leave it out, or choose the panel with --variable, as in --variable {chosen[0]}"
             )
+        looks.refuse(["xlim", "ylim", "inset"], "curves of states are drawn whole")
         return draw_states(dataset, chosen, looks)
     if of_states and asked:
         other = next(curve for curve in chosen if curve not in of_states)
@@ -151,7 +155,9 @@ def drawn_curves(
         planes_of(points, [(along, up) for along, up, _ in panels])
         for note in points.notes:
             notes(note)
-    units = units_of(tracks, [scene.values for scene in scenes])
+    planes = [(along, up) for along, up, _ in panels]
+    units = units_of(tracks, [scene.values for scene in scenes], spans_of(looks, planes))
+    spans = in_units(looks, planes, units)
     scenes = [replace(scene, values=in_unit(tracks, scene.values, units)) for scene in scenes]
     with styled(looks):
         width = looks.width or max(4.0, 2.5 * len(panels))
@@ -163,17 +169,9 @@ def drawn_curves(
         figure = Figure(figsize=(width, looks.height or 2.4 * below + 1.1 + more), layout="constrained")
         grid = figure.subplots(below, len(panels) // below, squeeze=False).ravel()
         for axes, (along, up, there) in zip(grid, panels, strict=True):
-            for track in there:
-                for scene in scenes:
-                    draw_track(axes, track, scene.values, along, up, scene.colour or track.colour)
-                    if scene.colour:
-                        draw_marks(axes, track, scene.values, along, up, scene.colour, scene.item)
-                    if track.curve == "path" and not track.unloading:
-                        for doubt in reversed(scene.doubts):  # the larger ones below
-                            draw_doubt(axes, track, scene.values, along, up, scene.colour or track.colour, doubt)
-            _dress(axes, along, up, units)
-            if points is not None:
-                draw_points(axes, points, along, up, units)
+            again = partial(_draw_panel, plane=(along, up), tracks=there, scenes=scenes, units=units, points=points)
+            again(axes)
+            set_limits(axes, [getattr(there[0], one) for one in (along, up)], spans)
             arrows: list[Values] = []
             for track in there:
                 for scene in scenes:
@@ -182,9 +180,34 @@ def drawn_curves(
         words = [heading(dataset) if looks.title else "", in_lines(caption, width) if looks.caption else ""]
         if any(words):
             figure.suptitle("\n".join(filter(None, words)), fontsize="medium", wrap=True)
-        if looks.width or looks.height:
+        if looks.width or looks.height or looks.inset:
             lay_out(figure)
+        if looks.inset:
+            add_inset(axes, again, spans["inset"], getattr(tracks[0], along), Unit(), Unit())
     return figure
+
+
+def _draw_panel(
+    axes: Axes,
+    plane: tuple[str, str],
+    tracks: Sequence[Track],
+    scenes: Sequence[Scene],
+    units: Mapping[str, Unit],
+    points: Points | None,
+) -> None:
+    """Draw the lines of all scenes into a panel."""
+    along, up = plane
+    for track in tracks:
+        for scene in scenes:
+            draw_track(axes, track, scene.values, along, up, scene.colour or track.colour)
+            if scene.colour:
+                draw_marks(axes, track, scene.values, along, up, scene.colour, scene.item)
+            if track.curve == "path" and not track.unloading:
+                for doubt in reversed(scene.doubts):  # the larger ones below
+                    draw_doubt(axes, track, scene.values, along, up, scene.colour or track.colour, doubt)
+    _dress(axes, along, up, units)
+    if points is not None:
+        draw_points(axes, points, along, up, units)
 
 
 def _check(looks: Looks) -> None:
@@ -193,6 +216,7 @@ def _check(looks: Looks) -> None:
         raise DatasetError("--map: curves are drawn as lines; leave it out")
     if looks.levels is not None:
         raise DatasetError("--levels: contour levels are for a map, and curves have none; leave them out")
+    looks.refuse(["band"], "curves have no spread")
 
 
 def _planes(x: str | None, y: str | None) -> Sequence[tuple[str, str]]:

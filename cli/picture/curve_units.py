@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Final
 
 import numpy as np
@@ -10,6 +11,7 @@ from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SI, UNITS
 from gradhesion.cli.picture.curve_panels import Track, Values
 from gradhesion.cli.picture.labels import Unit, unit_for
+from gradhesion.cli.picture.spans import Span
 
 LABELS: Final = {
     "contact_radius": "contact radius $a/R$",
@@ -63,13 +65,16 @@ def variables_of(track: Track) -> dict[str, str]:
     return {quantity: getattr(track, quantity) for quantity in LABELS}
 
 
-def units_of(tracks: Sequence[Track], scenes: Sequence[Mapping[str, Values]]) -> dict[str, Unit]:
-    """Choose the unit of each quantity, one for all lines and scenes."""
+def units_of(
+    tracks: Sequence[Track], scenes: Sequence[Mapping[str, Values]], spans: Mapping[str, Span] = MappingProxyType({})
+) -> dict[str, Unit]:
+    """Choose the unit of each quantity, one for all lines and scenes, to suit what is seen of it."""
     units = {}
     for quantity in LABELS:
         names = [variables_of(track)[quantity] for track in tracks]
         rows = [scene[name] for scene in scenes for name in names if name in scene]
-        sizes = [np.max(np.abs(row[np.isfinite(row)]), initial=0.0) for row in rows]
+        ends = np.array([end for row in rows for end in (np.nanmin(row), np.nanmax(row)) if np.isfinite(row).any()])
+        sizes = np.clip(ends, *spans[quantity].limits(names[0])) if quantity in spans else ends
         units[quantity] = unit_for(names[0], sizes) if names else Unit()
     return units
 

@@ -74,10 +74,16 @@ BEYOND: Final = {
 }
 """How scenes are shown that leave the range of the model, by the validity number that says so."""
 
+BOUND: Final = Doubt(bit=0, words="optimum at a bound of its range", hatch="//..", mark=">", size=6.0)
+"""How an optimum is shown that would be better beyond a bound of what was searched, perhaps."""
+
+BAND_WORDS: Final = {"quantiles": "5 % to 95 % of samples", "std": "a standard deviation on each side"}
+"""What a legend says of a band."""
+
 GAP: Final = "no finite value"
 """What a legend says of scenes without a value."""
 
-ORDER: Final = (*(doubt.words for doubt in (*DOUBTS, *BEYOND.values(), END)), GAP)
+ORDER: Final = (*(doubt.words for doubt in (*DOUBTS, *BEYOND.values(), END, BOUND)), GAP, *BAND_WORDS.values())
 """The order of the entries of a legend."""
 
 

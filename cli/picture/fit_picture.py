@@ -49,6 +49,7 @@ def drawn_fit(dataset: xarray.Dataset, looks: Looks = PLAIN, choices: Sequence[s
     """
     if choices:
         raise DatasetError(f"{choices[0]}: a fit is drawn as a whole; leave it out")
+    looks.refuse(["xlim", "ylim", "inset", "band"], "a fit is drawn as a whole")
     units = {name: _unit(dataset, name) for name in _LABELS}
     depth, load = (dataset[f"measured_{name}"].values / 10.0 ** units[name].power for name in _LABELS)
     along, up = (dataset[f"fitted_{name}"].values / 10.0 ** units[name].power for name in _LABELS)

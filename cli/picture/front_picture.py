@@ -1,7 +1,8 @@
 """The best compromises of two outputs: one against the other, a line for each scene."""
 
 from collections.abc import Sequence
-from typing import Final
+from dataclasses import replace
+from typing import Final, Literal
 
 import numpy as np
 import xarray
@@ -12,10 +13,12 @@ from gradhesion.cli.dataset.selection import Selection
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import BEST, PARETO_POINT, SI
-from gradhesion.cli.picture.labels import effective, equation, label, unit_for
+from gradhesion.cli.picture.labels import effective, equation, equations, label, unit_for
 from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.panels import DASHES
 from gradhesion.cli.picture.pictured import CAPTION, heading, in_lines, styled
+from gradhesion.cli.picture.scales import limit
+from gradhesion.cli.picture.spans import Span
 from gradhesion.cli.terminal.wording import did_you_mean
 
 MOST: Final = 10
@@ -50,6 +53,7 @@ def draw_fronts(
     """
     if selection.over or selection.between or looks.kind:
         raise DatasetError("best compromises are drawn as they are; choose scenes with --at")
+    looks.refuse(["inset", "band"], "best compromises are drawn as they are")
     narrow = selection.narrowed(dataset)
     along, up = _sides(narrow, asked, x, y)
     scenes = [str(axis) for axis in narrow["status"].dims if narrow.sizes[axis] > 1]
@@ -58,6 +62,7 @@ def draw_fronts(
     if flat.sizes["line"] > MOST:
         raise DatasetError(f"{flat.sizes['line']} scenes are too many lines for one picture; choose some with --at")
     units = {name: unit_for(name, narrow[name].values) for name in (along, up)}
+    of_scenes = [equations(name, flat[name].values) for name in scenes]
     with styled(looks):
         figure = Figure(layout="constrained")
         figure.set_size_inches(looks.width or 4.2, looks.height or 3.4)
@@ -66,7 +71,7 @@ def draw_fronts(
             one = flat.isel(line=i)
             first, second = (one[name].values / 10.0 ** units[name].power for name in (along, up))
             there = np.isfinite(first) & np.isfinite(second)
-            named = ", ".join(equation(name, float(one[name])) for name in scenes)
+            named = ", ".join(words[i] for words in of_scenes)
             axes.plot(
                 first[there],
                 second[there],
@@ -77,6 +82,10 @@ def draw_fronts(
                 lw=1.1,
                 label=named,
             )
+        sides: tuple[tuple[Literal["x", "y"], Span, str], ...] = (("x", looks.xlim, along), ("y", looks.ylim, up))
+        for which, span, name in sides:
+            ends = axes.get_xlim() if which == "x" else axes.get_ylim()
+            limit(axes, which, replace(span, power=units[name].power).within(name, *ends))
         axes.set_xlabel(label(along, units[along]).removeprefix("best "))
         axes.set_ylabel(label(up, units[up]).removeprefix("best "))
         axes.grid(color="0.9", lw=0.5)

@@ -1,7 +1,8 @@
 """One variable of a grid of scenes: a map, lines, or panels of them over further axes."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Final
 
 import numpy as np
@@ -9,6 +10,7 @@ import xarray
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
+from matplotlib.colors import LogNorm
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import SubFigure
 from numpy.typing import NDArray
@@ -21,8 +23,10 @@ from gradhesion.cli.dataset.sensitivities import parameters_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SOLVER, SYMBOLS
 from gradhesion.cli.picture import panels
-from gradhesion.cli.picture.doubts import BEYOND, END, Doubt, doubts_in, entries
-from gradhesion.cli.picture.labels import Unit, effective, equation, label, unit_for
+from gradhesion.cli.picture.at_bounds import at_bound
+from gradhesion.cli.picture.bands import Band, band_entry, band_of
+from gradhesion.cli.picture.doubts import BEYOND, BOUND, END, Doubt, doubts_in, entries
+from gradhesion.cli.picture.labels import Unit, effective, equation, equations, label, unit_for
 from gradhesion.cli.picture.layout import PANELS, Plan, items_of
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.pictured import LETTER, letters_of
@@ -56,6 +60,10 @@ class Part:
     """Contours that want numbers."""
     caption: Sequence[str] = ()
     """What is said above it."""
+    again: Callable[[Axes], object] | None = None
+    """What draws its only panel once more, in other axes."""
+    units: tuple[str, Unit, Unit] = ("", Unit(), Unit())
+    """What is along that panel, its unit, and the unit of what is up."""
 
 
 def draw_grid(
@@ -71,7 +79,11 @@ def draw_grid(
     items = items_of(sizes, plan)
     taken = selection.taken(*(dataset[one].isel(items) for one in (name, "status")))
     kept = [axis for axis in (plan.x, plan.second, plan.columns, plan.rows) if axis]
-    cut, status = (one.squeeze([axis for axis in one.dims if axis not in kept]) for one in (taken.values, taken.status))
+
+    def kept_of(one: xarray.DataArray) -> xarray.DataArray:
+        return one.squeeze([axis for axis in one.dims if axis not in kept])
+
+    cut, status = kept_of(taken.values), kept_of(taken.status)
     cut = cut.where(np.isfinite(cut))
     status = status.where(np.isfinite(cut), 0)
     finite = cut.values[np.isfinite(cut.values)]
@@ -80,10 +92,11 @@ def draw_grid(
     doubts = doubts_in(status.values, name, turned=is_turned(dataset))
     marks = [(doubt, (status & doubt.bit) != 0) for doubt in doubts]
     marks += _beyond(dataset.isel(items), cut, name)
+    met = at_bound(dataset.isel(items), name)
+    marks += [] if met is None else _marked(BOUND, met, cut)
     if taken.at_end is not None and bool(taken.at_end.any()):
-        marks.append((END, taken.at_end.squeeze([axis for axis in taken.at_end.dims if axis not in kept])))
+        marks.append((END, kept_of(taken.at_end)))
     kind = _axis_of_place(selection) or name
-    unit = unit_for(kind, finite)
     rows, columns = shape_of(sizes, plan)
     grid = part.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     whole = dataset[name].dtype.kind == "i" and bool((finite == np.round(finite)).all())
@@ -97,27 +110,41 @@ def draw_grid(
         levels = panels.levels_of_names([SYMBOLS[labels[int(code)]] for code in codes], looks)
     else:
         levels = panels.levels_of(float(finite.min()), float(finite.max()), whole=whole, looks=looks)
+    band = None if plan.is_map or levels.names else band_of(dataset.isel(items), name, selection, looks)
+    if band:
+        band = Band(low=kept_of(band.low), high=kept_of(band.high), how=band.how)
+    if not plan.is_map:
+        levels = panels.limited(levels, np.append(finite, band.extremes()) if band else finite, kind)
+    log = isinstance(levels.norm, LogNorm) if plan.is_map else levels.log
+    unit = unit_for(kind, levels.extremes if not levels.names else finite, log=log)
+    titles = {axis: equations(axis, cut[axis].values) for axis in (plan.columns, plan.rows) if axis}
     contours = []
     for i, line in enumerate(grid):
         for j, axes in enumerate(line):
             place = {axis: item for axis, item in ((plan.columns, j), (plan.rows, i)) if axis}
             marked = [(doubt, flags.isel(place)) for doubt, flags in marks]
-            lines = _draw_panel(axes, cut.isel(place), marked, plan, levels, unit)
+            own = band and Band(low=band.low.isel(place), high=band.high.isel(place), how=band.how)
+            again = partial(
+                _draw_panel, panel=cut.isel(place), marks=marked, plan=plan, levels=levels, unit=unit, band=own
+            )
+            lines = again(axes)
             contours += [(lines, unit)] if lines else []
             if plan.columns and i == 0:
-                axes.set_title(equation(plan.columns, cut[plan.columns].values[j]))
+                axes.set_title(titles[plan.columns][j])
             if plan.rows and j == columns - 1:
-                written = equation(plan.rows, cut[plan.rows].values[i])
-                axes.annotate(written, (1.03, 0.5), xycoords="axes fraction", rotation=-90, va="center")
+                axes.annotate(titles[plan.rows][i], (1.03, 0.5), xycoords="axes fraction", rotation=-90, va="center")
             axes.label_outer()
     width, height = (2.1, 1.8) if columns > 1 else (3.6, 2.9)
     named = _named(name, selection, unit)
     scale_of = (looks.height / (height * rows + 0.6)) if looks.height else 1.0
-    _dress(part, grid, plan, cut, named, unit, levels, height * rows * min(1.0, scale_of))
+    up = scale(cut[plan.second].values, plan.second, looks.ylim).unit if plan.is_map and plan.second else unit
+    along = scale(cut[plan.x].values, plan.x, looks.xlim).unit
+    _dress(part, grid, plan, named, (along, up, unit), levels, height * rows * min(1.0, scale_of))
     width = width * columns + (2.2 if levels.names else 1.2)
     caption = _caption(dataset, plan, items, selection, taken)
     more = 0.0 if plan.is_map or not plan.second else 0.3
     shown = entries([doubt for doubt, _ in marks], in_map=plan.is_map, gaps=finite.size < cut.size - taken.flat)
+    shown += [band_entry(band, cut.sizes[plan.x])] if band else []
     named_lines = [] if plan.is_map or not plan.second else grid[0, 0].get_legend_handles_labels()[0]
     return Part(
         width=width,
@@ -126,6 +153,8 @@ def draw_grid(
         lines=named_lines,
         contours=contours,
         caption=caption,
+        again=again if rows * columns == 1 and not plan.is_map and not levels.names else None,
+        units=(plan.x, along, unit),
     )
 
 
@@ -139,10 +168,15 @@ def _beyond(dataset: xarray.Dataset, cut: xarray.DataArray, name: str) -> list[t
         beyond = None if name in BEYOND and number != name else beyond_by(number, dataset)
         if beyond is None:
             continue
-        beyond = beyond.any([axis for axis in beyond.dims if axis not in cut.dims])
-        if bool((beyond & cut.notnull()).any()):
-            marks.append((doubt, (beyond & cut.notnull()).transpose(*cut.dims)))
+        marks += _marked(doubt, beyond, cut)
     return marks
+
+
+def _marked(doubt: Doubt, flags: xarray.DataArray, cut: xarray.DataArray) -> list[tuple[Doubt, xarray.DataArray]]:
+    """Mark the scenes of what is drawn that have a flag, if there are some."""
+    flags = flags.any([axis for axis in flags.dims if axis not in cut.dims])
+    there = flags & cut.notnull()
+    return [(doubt, there.transpose(*cut.dims))] if bool(there.any()) else []
 
 
 def _draw_panel(
@@ -152,45 +186,54 @@ def _draw_panel(
     plan: Plan,
     levels: panels.Levels,
     unit: Unit,
+    band: Band | None = None,
 ) -> QuadContourSet | None:
     """Draw one panel of a variable; what has no value has no mark. The contours of a map are returned."""
     marks = [(doubt, flags & panel.notnull()) for doubt, flags in marks]
-    x = scale(panel[plan.x].values, plan.x)
+    looks = levels.looks
+    x = scale(panel[plan.x].values, plan.x, looks.xlim)
+    edges = [band.low, band.high] if band else []
     if plan.second is None:
         doubtful = [(doubt, {"": flags.values[x.order]}) for doubt, flags in marks]
-        panels.draw_lines(axes, x, {"": panel.values[x.order].astype(float)}, levels, unit, doubtful)
+        low_high = {"": _pair([edge.values[x.order] for edge in edges])} if band else None
+        panels.draw_lines(axes, x, {"": panel.values[x.order].astype(float)}, levels, unit, doubtful, low_high)
         return None
     items = panel[plan.second].values
     values = panel.transpose(plan.second, plan.x).values.astype(float)[:, x.order]
     turned = [(doubt, flags.transpose(plan.second, plan.x).values[:, x.order]) for doubt, flags in marks]
     if plan.is_map:
-        second = scale(items, plan.second)
+        second = scale(items, plan.second, looks.ylim)
         marked = [(doubt, flags[second.order]) for doubt, flags in turned]
         return panels.draw_map(axes, x, second, values[second.order], levels, marked)
     order = range(items.size) if plan.second == SOLVER else np.argsort(items)
-    labels = {equation(plan.second, items[i]): i for i in order}
+    labels = dict(zip(equations(plan.second, [items[i] for i in order]), order, strict=True))
+    rows = [edge.transpose(plan.second, plan.x).values[:, x.order] for edge in edges]
+    bands = {label: _pair([row[i] for row in rows]) for label, i in labels.items()} if band else None
     doubtful = [(doubt, {label: flags[i] for label, i in labels.items()}) for doubt, flags in turned]
-    panels.draw_lines(axes, x, {label: values[i] for label, i in labels.items()}, levels, unit, doubtful)
+    panels.draw_lines(axes, x, {label: values[i] for label, i in labels.items()}, levels, unit, doubtful, bands)
     return None
+
+
+def _pair(edges: Sequence[NDArray[np.float64]]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Take the two edges of a band."""
+    low, high = edges
+    return low, high
 
 
 def _dress(
     part: SubFigure,
     grid: NDArray[Any],
     plan: Plan,
-    cut: xarray.DataArray,
     named: str,
-    unit: Unit,
+    units: tuple[Unit, Unit, Unit],
     levels: panels.Levels,
     height: float,
 ) -> None:
-    """Put labels, and the colour bar or the legend, around the panels of a variable."""
+    """Put labels, and the colour bar or the legend, around the panels of a variable; units of x, y and values."""
+    along, up, unit = units
     for axes in grid[-1]:
-        axes.set_xlabel(label(plan.x, unit_for(plan.x, cut[plan.x].values)))
-    if plan.is_map and plan.second:
-        named_up = label(plan.second, unit_for(plan.second, cut[plan.second].values))
-    else:
-        named_up = "" if levels.names else named
+        axes.set_xlabel(label(plan.x, along))
+    named_up = label(plan.second, up) if plan.is_map and plan.second else "" if levels.names else named
     if grid.shape[0] > 1 and not plan.is_map:  # a label of its own would be longer than a row is high
         part.supylabel(named_up, fontsize="medium")
     else:
@@ -207,7 +250,7 @@ def _dress(
             bar.ax.set_yticks(range(len(levels.names)), levels.names, fontsize="small")
             return
         some = levels.ticks(int(height / APART))
-        bar.ax.set_yticks(some, [unit.number(level) for level in some])
+        bar.ax.set_yticks(some, unit.numbers(some))
 
 
 def add_legends(

@@ -6,11 +6,13 @@ from typing import Any, Final
 
 import numpy as np
 import xarray
+from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.selection import Selection, axes_of, check_axis
+from gradhesion.cli.dataset.selection import Selection, axes_of, check_axis, is_log
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SCENE, SOLVER
 from gradhesion.cli.picture.looks import Kind
+from gradhesion.cli.picture.spans import Span
 
 PANELS: Final = 3
 """Panels along a row or a column: the ends of an axis and its middle."""
@@ -112,3 +114,23 @@ def items_of(sizes: Mapping[str, int], plan: Plan) -> dict[str, Any]:
         if axis is not None and sizes[axis] > number:
             items[axis] = sorted({round(item) for item in np.linspace(0, sizes[axis] - 1, number)})
     return items
+
+
+def seen(dataset: xarray.Dataset, axis: str, span: Span) -> xarray.Dataset:
+    """
+    Keep what is between the limits of an axis, and one value beyond each, so that lines run to the frame.
+
+    Raises
+    ------
+    DatasetError
+        The limits cannot be read, or nothing is between them.
+    """
+    values = np.asarray(dataset[axis].values, dtype=float)
+    finite: NDArray[np.float64] = np.unique(values[np.isfinite(values)])
+    if not span or not finite.size:
+        return dataset
+    low, high = span.within(axis, finite[0], finite[-1], log=is_log(finite))
+    first = finite[max(0, int(np.searchsorted(finite, low, side="right")) - 1)]
+    last = finite[min(finite.size - 1, int(np.searchsorted(finite, high)))]
+    kept = (values >= first) & (values <= (last if np.isfinite(high) else np.inf))
+    return dataset.isel({dataset[axis].dims[0]: kept})

@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, Literal
@@ -11,6 +12,7 @@ from matplotlib import colormaps
 from matplotlib.colors import Colormap
 
 from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.picture.spans import ALL, Span, span_of
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 
 VIRIDIS: Final = "viridis"
@@ -33,7 +35,11 @@ FINEST: Final = 100
 STYLE: Final = "gradhesion.style"
 """The style of the project, as matplotlib knows it: `plt.style.use("gradhesion.style")`."""
 
+BANDS: Final = ("quantiles", "std", "none")
+"""What a band of uncertain values may be: from the 5 % to the 95 % quantile, or a standard deviation on each side."""
+
 Kind = Literal["lines", "map"]
+Band = Literal["quantiles", "std", "none"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -57,6 +63,13 @@ class Looks:
     """Whether the parameters that are not drawn stand above the panels."""
     style: str | None = None
     """A style of matplotlib, by name or file, on top of that of the project."""
+    xlim: Span = ALL
+    ylim: Span = ALL
+    """The limits of the axes."""
+    inset: Span = ALL
+    """The part of the horizontal axis that is drawn once more, enlarged."""
+    band: Band | None = None
+    """What is drawn around uncertain values."""
 
     @property
     def colours(self) -> Colormap:
@@ -66,6 +79,12 @@ class Looks:
     def styles(self) -> list[Any]:
         """List the styles that apply, the later ones on top."""
         return [STYLE, self.style] if self.style else [STYLE]
+
+    def refuse(self, options: Sequence[str], why: str) -> None:
+        """Refuse those of some choices, by the names of their fields, that a picture has no place for."""
+        for option in options:
+            if getattr(self, option) and getattr(self, option) != "none":
+                raise DatasetError(f"--{option}: {why}; leave it out")
 
 
 PLAIN: Final = Looks()
@@ -83,6 +102,10 @@ def looks_of(
     title: bool = True,
     caption: bool = True,
     style: str | Path | None = None,
+    xlim: Any = None,
+    ylim: Any = None,
+    inset: Any = None,
+    band: str | None = None,
 ) -> Looks:
     """
     Check what a user has chosen.
@@ -90,7 +113,7 @@ def looks_of(
     Raises
     ------
     DatasetError
-        A size, a colour map, a style or levels that do not exist; the message names the nearest.
+        A size, a colour map, a style, levels, limits or a band that do not exist; the message names the nearest.
 
     >>> looks_of(width="column").width, looks_of(levels="0.5, 1, 2").levels, looks_of(levels="8").levels
     (3.5433070866141736, (0.5, 1.0, 2.0), 8)
@@ -100,6 +123,8 @@ def looks_of(
     name = VIRIDIS if colour_map is None else str(colour_map)
     if name not in colormaps:
         raise DatasetError(f"--colour-map {name}: not a colour map of matplotlib; {_near(name, [*colormaps], VIRIDIS)}")
+    if band not in (None, *BANDS):
+        raise DatasetError(f"--band {band}: not a band; {did_you_mean(str(band), list(BANDS))}")
     return Looks(
         kind=kind,  # type: ignore[arg-type]
         width=_side("width", width),
@@ -110,6 +135,10 @@ def looks_of(
         title=title,
         caption=caption,
         style=_style(style),
+        xlim=span_of("xlim", xlim),
+        ylim=span_of("ylim", ylim),
+        inset=span_of("inset", inset),
+        band=band,  # type: ignore[arg-type]
     )
 
 

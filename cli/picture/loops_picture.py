@@ -59,6 +59,7 @@ def drawn_fits(
         return drawn_fit(one_loop(dataset, at), looks)
     if choices:
         raise DatasetError(f"{choices[0]}: fits are drawn as a whole, or one with --at {LOOP}=0; leave it out")
+    looks.refuse(["xlim", "ylim", "inset", "band"], f"fits are drawn as a whole, or one with --at {LOOP}=0")
     names = list(map(str, dataset[PARAMETER].values))
     values = dataset["value"].values
     sound = np.flatnonzero(~np.isnan(values).any(axis=1))

@@ -1,7 +1,7 @@
 """The panels of a picture: a map, lines, or points, each drawn into axes that are given."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
@@ -12,10 +12,12 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocato
 from numpy.typing import NDArray
 
 from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.picture.bands import Edges, draw_band, draw_bars
 from gradhesion.cli.picture.doubts import CROSS, GREY, INK, Doubt
 from gradhesion.cli.picture.labels import Unit
 from gradhesion.cli.picture.looks import PLAIN, Looks
-from gradhesion.cli.picture.scales import Scale
+from gradhesion.cli.picture.scales import Scale, limit
+from gradhesion.cli.picture.ticks import Numbers
 from gradhesion.core.answers.flags import FLAGS
 
 Values = NDArray[np.float64]
@@ -63,6 +65,13 @@ class Levels:
     looks: Looks = PLAIN
     asked: bool = False
     """Whether a user has listed the levels; the ends may then be those of the values."""
+    limits: tuple[float, float] = (-np.inf, np.inf)
+    """Between which values lines and points are drawn; all of them where they are infinite."""
+
+    @property
+    def log(self) -> bool:
+        """Report whether lines and points are drawn over a logarithm."""
+        return not self.names and self.extremes[0] > 0 and self.extremes[1] >= FAR * self.extremes[0]
 
     def inner(self) -> Values:
         """Choose the levels that have lines."""
@@ -120,6 +129,18 @@ def levels_of(least: float, greatest: float, *, whole: bool = False, looks: Look
         levels = levels[kept]
     norm = (LogNorm if log else Normalize)(levels[0], levels[-1])
     return Levels(levels=levels, norm=norm, extremes=extremes, looks=looks)
+
+
+def limited(levels: Levels, values: Values, name: str) -> Levels:
+    """Give lines and points the limits that are chosen; scale and unit then suit what is between them."""
+    span = levels.looks.ylim
+    if levels.names:
+        levels.looks.refuse(["ylim"], f"{name} is drawn as categories")
+        return levels
+    least, greatest = float(values.min()), float(values.max())
+    low, high = span.within(name, *((least, greatest) if least < greatest else levels.levels[[0, -1]].tolist()))
+    extremes = (low if np.isfinite(low) else least, high if np.isfinite(high) else greatest)
+    return replace(levels, extremes=extremes, limits=(low, high))
 
 
 def levels_of_flags(codes: Values, looks: Looks = PLAIN) -> Levels:
@@ -200,6 +221,7 @@ def draw_lines(
     levels: Levels,
     unit: Unit,
     doubtful: Sequence[tuple[Doubt, dict[str, Flags]]] = (),
+    bands: Mapping[str, Edges] | None = None,
 ) -> None:
     """
     Draw a line for each curve, distinguished by shade and by dash; a value between two gaps shows as a dot.
@@ -224,12 +246,16 @@ def draw_lines(
         )
         if x.infinite:
             axes.plot(x.positions[-1:], values[-1:], "o", color=colour, ms=3)
+        if bands:
+            for part in (slice(finite.size), slice(finite.size, None)):
+                low, high = (edge[part] for edge in bands[label])
+                draw_band(axes, x.positions[part], (low, high), colour)
         for doubt, flags in reversed(doubtful):  # the larger ones below
             _draw_marks(axes, doubt, x.positions, values, _some(flags[label]), colour)
         _draw_gaps(axes, x, values)
+    axes.margins(x=0.02)
     x.dress(axes, "x")
     dress_values(axes, levels, unit)
-    axes.margins(x=0.02)
 
 
 def draw_points(
@@ -239,6 +265,7 @@ def draw_points(
     levels: Levels,
     unit: Unit,
     doubtful: Sequence[tuple[Doubt, dict[str, Flags]]] = (),
+    bands: Mapping[str, Edges] | None = None,
 ) -> None:
     """
     Draw a dot for each scene; several series are distinguished by shade and by mark.
@@ -252,6 +279,8 @@ def draw_points(
         if levels.names:
             values = values + _aside(i, len(series))
         axes.plot(x.positions, values, mark, color=colour, ms=3, mec="white", mew=0.3, label=label)
+        if bands:
+            draw_bars(axes, x.positions, bands[label], colour)
         for doubt, flags in reversed(doubtful):  # the larger ones below
             _draw_marks(axes, doubt, x.positions, values, flags[label], colour)
         _draw_gaps(axes, x, values)
@@ -274,7 +303,7 @@ def dress_values(axes: Axes, levels: Levels, unit: Unit) -> None:
         axes.set_ylim(levels.levels[0], levels.levels[-1])
         axes.set_yticks(range(len(levels.names)), levels.names, fontsize="small")
         return
-    if least > 0 and greatest >= FAR * least:
+    if levels.log:
         axes.set_yscale("log")
         axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if greatest < 200 * least else (1.0,)))
         axes.yaxis.set_minor_locator(NullLocator())
@@ -283,7 +312,8 @@ def dress_values(axes: Axes, levels: Levels, unit: Unit) -> None:
     if axes.get_yscale() == "log" and greatest > 1e4 * least:
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"$10^{{{np.log10(value) - unit.power:.0f}}}$"))
     elif unit.power or axes.get_yscale() == "log":
-        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: unit.number(value)))
+        axes.yaxis.set_major_formatter(Numbers(unit))
+    limit(axes, "y", levels.limits)
 
 
 def _draw_marks(axes: Axes, doubt: Doubt, positions: Values, values: Values, flags: Flags, colour: Any) -> None:

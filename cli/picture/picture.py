@@ -15,7 +15,8 @@ from gradhesion.cli.picture.contour_numbers import number_contours
 from gradhesion.cli.picture.doubts import ORDER
 from gradhesion.cli.picture.front_picture import draw_fronts
 from gradhesion.cli.picture.grid_picture import add_legends, draw_grid, shape_of
-from gradhesion.cli.picture.layout import placed, plan_of
+from gradhesion.cli.picture.inset import add_inset
+from gradhesion.cli.picture.layout import placed, plan_of, seen
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.pictured import CAPTION, heading, in_lines, lay_out, styled
 from gradhesion.cli.picture.points_picture import draw_scenes
@@ -35,6 +36,11 @@ MOST_BESIDE: Final = 3
 
 ROW: Final = 3
 """Variables in a line where there are more."""
+
+ONE_PANEL: Final = (
+    "an inset goes into a single panel of lines; choose one variable with --variable, and fix axes with --at"
+)
+"""Why a picture has no inset."""
 
 WHOLE: Final = Selection()
 """All of a dataset."""
@@ -96,6 +102,10 @@ def drawn(
         )
     if looks.levels is not None and not (plan and plan.is_map):
         raise DatasetError("--levels: contour levels are for a map, and this picture has none; leave them out")
+    if plan:
+        narrow = seen(narrow, plan.x, looks.xlim)
+        narrow = seen(narrow, plan.second, looks.ylim) if plan.is_map and plan.second else narrow
+    _check(looks, chosen, is_map=bool(plan and plan.is_map))
     with styled(looks):
         layout = Aligned()
         figure = Figure(layout=layout)
@@ -137,10 +147,27 @@ def drawn(
         if words:
             figure.suptitle("\n".join(words), fontsize=None if len(words) == 1 else "medium", wrap=True)
         contours = [lines for one in made for lines in one.contours] if looks.labels else []
-        if contours or looks.width or looks.height:
+        if contours or looks.width or looks.height or looks.inset:
             lay_out(figure)
         number_contours(contours)
+        if looks.inset:
+            again = made[0].again
+            if again is None:
+                raise DatasetError(f"{looks.inset}: {ONE_PANEL}")
+            add_inset(figures[0].axes[0], again, looks.inset, *made[0].units)
     return figure
+
+
+def _check(looks: Looks, chosen: Sequence[str], *, is_map: bool) -> None:
+    """Refuse what a picture of these variables has no place for."""
+    if is_map:
+        looks.refuse(["band", "inset"], "this picture is a map, and has no lines")
+    elif looks.ylim and len(chosen) > 1:
+        raise DatasetError(
+            f"{looks.ylim}: {' and '.join(chosen[:2])} have an axis each; choose one of them with --variable"
+        )
+    if looks.inset and len(chosen) > 1:
+        raise DatasetError(f"{looks.inset}: {ONE_PANEL}")
 
 
 def _chosen(dataset: xarray.Dataset, asked: Sequence[str]) -> list[str]:

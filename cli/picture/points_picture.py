@@ -8,14 +8,18 @@ from matplotlib.figure import SubFigure
 
 from gradhesion.cli.dataset.model_range import slope_told
 from gradhesion.cli.dataset.reader import is_turned
+from gradhesion.cli.dataset.selection import Selection
 from gradhesion.cli.dataset.sensitivities import parameters_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SOLVER, SYMBOLS
 from gradhesion.cli.picture import panels
+from gradhesion.cli.picture.at_bounds import at_bound
+from gradhesion.cli.picture.bands import band_entry, band_of
 from gradhesion.cli.picture.density import draw_density, number_scenes
-from gradhesion.cli.picture.doubts import doubts_in, entries
+from gradhesion.cli.picture.doubts import BOUND, doubts_in, entries
 from gradhesion.cli.picture.grid_picture import Part
 from gradhesion.cli.picture.labels import effective, equation, label, unit_for
+from gradhesion.cli.picture.layout import seen
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.scales import scale
 
@@ -31,18 +35,20 @@ def draw_scenes(
     looks: Looks = PLAIN,
 ) -> Part:
     """Draw a variable of points over a parameter, that with the most values if none is asked for."""
-    variable, status = dataset[name], dataset["status"]
+    variable = dataset[name]
     known = effective(variable)
     varying = [key for key in known if np.unique(variable[key].values).size > 1]
     if not varying:
         raise DatasetError(
             f"{name}: no parameter varies, so there is nothing to draw over; `gradhesion info` shows its value"
         )
+    along = over or max(varying, key=lambda key: np.unique(variable[key].values).size)
+    dataset = seen(dataset, along, looks.xlim)
+    variable, status = dataset[name], dataset["status"]
     values = variable.values.astype(float)
     if not np.isfinite(values).any():
-        raise DatasetError(f"{name}: no value in any scene; `gradhesion info` reports why")
-    along = over or max(varying, key=lambda key: np.unique(variable[key].values).size)
-    x = scale(variable[along].values, along)
+        raise DatasetError(f"{name}: no value in any scene drawn; `gradhesion info` reports why")
+    x = scale(variable[along].values, along, looks.xlim)
     solvers = [str(one) for one in np.atleast_1d(variable[SOLVER].values)] if SOLVER in variable.coords else [""]
     finite = values[np.isfinite(values)]
     values = np.where(np.isfinite(values), values, np.nan)
@@ -58,18 +64,28 @@ def draw_scenes(
         levels = panels.levels_of_names([SYMBOLS[labels[int(code)]] for code in codes], looks)
     else:
         levels = panels.levels_of(float(finite.min()), float(finite.max()), looks=looks)
-    series = dict(zip(solvers, np.atleast_2d(values)[:, x.order], strict=True))
-    unit = unit_for(name, finite)
     dense = values.size > DENSE and not levels.names
+    if dense:
+        looks.refuse(["band"], f"more than {DENSE:,} points are drawn as their density, which has no bars")
+    band = None if dense or levels.names else band_of(dataset, name, Selection(), looks)
+    levels = panels.limited(levels, np.append(finite, band.extremes()) if band else finite, name)
+    series = dict(zip(solvers, np.atleast_2d(values)[:, x.order], strict=True))
+    unit = unit_for(name, finite if levels.names else levels.extremes, log=levels.log)
     grid = part.subplots(1, len(solvers) if dense else 1, sharex=True, sharey=True, squeeze=False)[0]
+    doubtful = []
     if dense:
         for axes, (solver, row) in zip(grid, series.items(), strict=True):
             draw_density(axes, x, row, levels, unit)
             axes.set_title(solver if len(solvers) > 1 else "")
         number_scenes(part, grid)
     else:
-        doubtful = [(doubt, dict(zip(solvers, doubt.marks(flags), strict=True))) for doubt in doubts]
-        panels.draw_points(grid[0], x, series, levels, unit, doubtful)
+        doubtful += [(doubt, dict(zip(solvers, doubt.marks(flags), strict=True))) for doubt in doubts]
+        met = at_bound(dataset, name)
+        if met is not None and bool(met.any()):
+            doubtful.append((BOUND, dict(zip(solvers, np.atleast_2d(met.values)[:, x.order], strict=True))))
+        edges = [np.atleast_2d(edge.values)[:, x.order] for edge in (band.low, band.high)] if band else []
+        bands = {solver: (edges[0][i], edges[1][i]) for i, solver in enumerate(solvers)} if band else None
+        panels.draw_points(grid[0], x, series, levels, unit, doubtful, bands)
     for axes in grid:
         axes.set_xlabel(label(along, x.unit))
         axes.set_ylabel("" if levels.names else label(name, unit))
@@ -84,5 +100,6 @@ def draw_scenes(
         gaps = int(np.isnan(values).sum())
         caption += [f"{gaps:,} {'scene' if gaps == 1 else 'scenes'} without a value"] if gaps else []
     caption += slope_told(dataset)
-    shown = [] if dense else entries(doubts, in_map=False, gaps=bool(np.isnan(values).any()))
+    shown = [] if dense else entries([doubt for doubt, _ in doubtful], in_map=False, gaps=bool(np.isnan(values).any()))
+    shown += [band_entry(band, 0)] if band else []
     return Part(width=width, height=3.1, entries=shown, caption=caption)

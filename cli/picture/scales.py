@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.selection import is_log
 from gradhesion.cli.picture.labels import Unit, number, unit_for
+from gradhesion.cli.picture.spans import ALL, Span
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -25,6 +26,8 @@ class Scale:
     """Whether the last place is that of inf."""
     unit: Unit
     """How its values are written."""
+    limits: tuple[float, float] = (-np.inf, np.inf)
+    """Between which values it is drawn; all of them where they are infinite."""
 
     def edges(self) -> NDArray[np.float64]:
         """Give the edges of cells around the places, halfway between them."""
@@ -34,9 +37,10 @@ class Scale:
         return np.exp(edges) if self.log else edges
 
     def dress(self, axes: Axes, which: Literal["x", "y"]) -> None:
-        """Give an axis of a picture this scale, with ticks at plain numbers."""
+        """Give an axis of a picture this scale and its limits, with ticks at plain numbers."""
         finite = self.positions[:-1] if self.infinite else self.positions
-        first, last = float(finite[0]), float(finite[-1])
+        low, high = self.limits
+        first, last = max(low, float(finite[0])), min(high, float(finite[-1]))
         axis = axes.xaxis if which == "x" else axes.yaxis
         (axes.set_xscale if which == "x" else axes.set_yscale)("log" if self.log else "linear")
         if self.log:
@@ -46,17 +50,27 @@ class Scale:
             places = MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]).tick_values(first, last)
         slack = 1e-9 * max(abs(first), abs(last))
         kept = [float(place) for place in places if first - slack <= place <= last + slack]
-        labels = [self.unit.number(place) for place in kept]
-        if self.infinite:
+        labels = self.unit.numbers(kept)
+        if self.infinite and np.isinf(high):
             kept.append(float(self.positions[-1]))
             labels.append(number(np.inf))
         axis.set_minor_locator(NullLocator())
         axis.set_ticks(kept, labels)
+        limit(axes, which, self.limits)
 
 
-def scale(values: NDArray[np.float64], name: str = "") -> Scale:
+def limit(axes: Axes, which: Literal["x", "y"], limits: tuple[float, float]) -> None:
+    """Give an axis of a picture limits; an infinite one stays to suit the values."""
+    if np.isfinite(limits).any():
+        low, high = ((end if np.isfinite(end) else None) for end in limits)
+        axes.set(**{f"{which}lim": (low, high)})
+
+
+def scale(values: NDArray[np.float64], name: str = "", span: Span = ALL) -> Scale:
     """
     Choose the scale of an axis of a name: logarithmic where its values are nearer to that than to an even spacing.
+
+    Of a span of it, ticks and the unit suit what is seen.
 
     >>> scale(np.array([1.0, np.inf, 10.0, 100.0])).positions
     array([   1.,   10.,  100., 1000.])
@@ -73,4 +87,13 @@ def scale(values: NDArray[np.float64], name: str = "") -> Scale:
         else:
             beyond = finite[-1] + ((finite[-1] - finite[0]) / steps or finite[-1])
         places = np.where(infinite, beyond, places)
-    return Scale(order=order, positions=places, log=log, infinite=bool(infinite.any()), unit=unit_for(name, finite))
+    low, high = span.limits(name, log=log)
+    seen = np.clip(finite, low, high)
+    return Scale(
+        order=order,
+        positions=places,
+        log=log,
+        infinite=bool(infinite.any()),
+        unit=unit_for(name, seen, log=log),
+        limits=(low, high),
+    )
