@@ -1,4 +1,4 @@
-"""A part of a panel once more, enlarged, in a corner where nothing is drawn."""
+"""A part of a panel once more, enlarged, where nothing else is drawn."""
 
 from collections.abc import Callable
 from typing import Final
@@ -18,6 +18,9 @@ Places = NDArray[np.float64]
 
 SHARES: Final = ((0.5, 0.45), (0.45, 0.38), (0.38, 0.34), (0.32, 0.3), (0.27, 0.25), (0.23, 0.21))
 """Sides of an inset, over those of the panel, the best first."""
+
+CORNERS: Final = ((1, 1), (0, 1), (1, 0), (0, 0), (0.5, 1), (0.5, 0), (1, 0.5), (0, 0.5))
+"""Where in the room that it leaves an inset may stand: a corner, else the middle of a side."""
 
 LEAST: Final = (0.7, 0.5)
 """The least sides of an inset, in inches: a smaller one shows nothing."""
@@ -58,7 +61,7 @@ def add_inset(axes: Axes, again: Callable[[Axes], object], span: Span, name: str
     Raises
     ------
     DatasetError
-        The part cannot be read or lies outside the panel, nothing is drawn in it, or no corner is free.
+        The part cannot be read or lies outside the panel, nothing is drawn in it, or there is no room.
     """
     log = axes.get_xscale() == "log"
     left, right = axes.get_xlim()
@@ -76,7 +79,7 @@ def add_inset(axes: Axes, again: Callable[[Axes], object], span: Span, name: str
     corner = _free(axes, points, np.array([[first, bottom], [last, top]]))
     if corner is None:
         raise DatasetError(
-            f"{span}: no corner of the panel has room for an inset; make room with --ylim, --width or --height"
+            f"{span}: no corner or side of the panel has room for an inset; make room with --ylim, --width or --height"
         )
     inset = axes.inset_axes(corner)
     again(inset)
@@ -135,7 +138,7 @@ def _places(line: Places) -> Places:
 
 
 def _free(axes: Axes, points: Places, zoomed: Places) -> tuple[float, float, float, float] | None:
-    """Find the largest free corner of a panel: x, y, width and height of an inset; None without one."""
+    """Find the largest free place in a panel: x, y, width and height of an inset; None without one."""
     sides = np.array(axes.get_window_extent().size) / axes.get_figure(root=True).dpi  # type: ignore[union-attr]
     labels = np.array(LABELS) / sides
     for share in SHARES:
@@ -143,7 +146,7 @@ def _free(axes: Axes, points: Places, zoomed: Places) -> tuple[float, float, flo
         if (size * sides < LEAST).any():
             continue
         room = size + labels + 2.0 * SPACE
-        for corner in ((1, 1), (0, 1), (1, 0), (0, 0)):
+        for corner in CORNERS:
             start = np.array(corner) * (1.0 - room)
             if (start < 0.0).any() or _meet(points, start, room):
                 continue

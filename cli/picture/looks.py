@@ -83,8 +83,9 @@ class Looks:
     def refuse(self, options: Sequence[str], why: str) -> None:
         """Refuse those of some choices, by the names of their fields, that a picture has no place for."""
         for option in options:
-            if getattr(self, option) and getattr(self, option) != "none":
-                raise DatasetError(f"--{option}: {why}; leave it out")
+            value = getattr(self, option)
+            if value and value != "none":
+                raise DatasetError(f"{value if isinstance(value, Span) else f'--{option}'}: {why}; leave it out")
 
 
 PLAIN: Final = Looks()
