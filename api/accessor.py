@@ -39,6 +39,19 @@ class Accessor:
         check_ours(dataset)
         self._dataset = dataset
 
+    def __repr__(self) -> str:
+        """Say what the dataset has, how many of its scenes are flagged, and what can be asked."""
+        status = self._dataset["status"]
+        flags = [f"  {name}: {int(self.flagged(name).sum()):,}" for name in FLAGS | OF_FITS if self.flagged(name).any()]
+        scenes = f"{status.size:,} {'scene' if status.size == 1 else 'scenes'}"
+        return "\n".join(
+            [
+                f"gradhesion: {scenes}, {', '.join(str(name) for name in self._dataset.data_vars if name != 'status')}",
+                *(["flagged scenes", *flags] if flags else ["no scene is flagged"]),
+                "methods: flagged(flag), valid(variable), outside(number), plot(...)",
+            ]
+        )
+
     def valid(self, variable: str | None = None) -> xarray.DataArray:
         """
         Report which scenes have values that hold.

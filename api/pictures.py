@@ -25,6 +25,7 @@ from gradhesion.cli.picture.picture import drawn
 from gradhesion.cli.picture.pictured import styled
 from gradhesion.cli.study.foreign import as_written
 from gradhesion.datasets import Data, data_of
+from gradhesion.shown import is_shown, show_later
 from gradhesion.wording import in_python
 
 Limits = tuple[float | str | None, float | str | None]
@@ -35,12 +36,13 @@ BAR: Final = "<colorbar>"
 
 
 class Panels(Sequence[Axes]):
-    """The axes of a picture; a notebook shows their figure."""
+    """The axes of a picture; a notebook shows their figure once, at the end of the cell that draws it."""
 
     def __init__(self, figure: Figure, looks: Looks) -> None:
         self.figure = figure
         self._axes = [axes for axes in figure.axes if axes.get_label() != BAR]
         self._looks = looks
+        show_later(self)
 
     @overload
     def __getitem__(self, item: int) -> Axes: ...
@@ -61,6 +63,7 @@ class Panels(Sequence[Axes]):
 
     def _repr_png_(self) -> bytes:
         """Draw the figure for a notebook."""
+        is_shown(self)
         content = io.BytesIO()
         self.savefig(content, format="png")
         return content.getvalue()
@@ -136,7 +139,7 @@ def plot(
     Returns
     -------
     The axes of the panels, without those of colour bars, to be changed as any axes of matplotlib. A notebook shows
-    their figure, which is `figure` and not one of pyplot; `savefig("map.pdf")` saves it.
+    their figure, which is `figure` and not one of pyplot, once at the end of the cell; `savefig("map.pdf")` saves it.
 
     Raises
     ------

@@ -31,7 +31,7 @@ function buildSliders(study, at, act) {
     place.append(element("div", { className: "slider" }, label, role, shown, input));
     return {
       show(number, along) {
-        const words = [short(axis.values[number]), axis.unit].filter(Boolean).join(" ");
+        const words = inWords(axis, axis.values[number]);
         input.value = number;
         input.setAttribute("aria-valuetext", words);
         shown.textContent = words;
@@ -50,8 +50,14 @@ function buildTable(study) {
   const add = (entry, valueAt) => {
     const cell = element("td", { id: `value-${entry.name}` });
     const head = element("th", { scope: "row", title: entry.name }, entry.title);
-    body.append(element("tr", {}, head, cell, element("td", { className: "unit" }, entry.unit)));
-    cells.push((at, number) => (cell.textContent = short(valueAt(at, number))));
+    const unit = element("td", { className: "unit" });
+    body.append(element("tr", {}, head, cell, unit));
+    cells.push((at, number) => {
+      const value = valueAt(at, number);
+      const word = value === Infinity && entry.infinite;
+      cell.textContent = word || short(value);
+      unit.textContent = word ? "" : entry.unit;
+    });
   };
   const group = (words) => body.append(element("tr", {}, element("th", { colSpan: 3, scope: "rowgroup" }, words)));
   group("Parameters");

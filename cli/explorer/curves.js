@@ -25,7 +25,7 @@ class Planes {
           const [faded, jump] = [run.kind === "falls", run.kind === "jump"];
           lines.xs.push(run.xs);
           lines.ys.push(run.ys);
-          lines.colour.push(theme.seen(faded ? track.faded : track.colour));
+          lines.colour.push(faded ? theme.faded(track) : theme.seen(track.colour));
           lines.dash.push((jump ? track.jumpDash : track.dash).join(" ") || "solid");
           lines.width.push(jump ? track.jumpWidth : track.width);
           for (const x of run.xs) [left, right] = [Math.min(left, x), Math.max(right, x)];
@@ -79,15 +79,15 @@ class Planes {
       return box;
     });
     list.replaceChildren();
-    const entries = this.study.tracks.map((track, i) => [track.label, track.colour, track.dash, track.width, boxes[i]]);
+    const entries = this.study.tracks.map((track, i) => [track.label, theme.seen(track.colour), track.dash, track.width, boxes[i]]);
     if (this.study.tracks.some((track) => track.curve === "equilibrium")) {
-      const { faded, dash, width } = this.study.tracks.find((track) => track.curve === "equilibrium");
-      entries.push(["equilibrium, unstable", faded, dash, width]);
+      const own = this.study.tracks.find((track) => track.curve === "equilibrium");
+      entries.push(["equilibrium, unstable", theme.faded(own), own.dash, own.width]);
     }
     const jumping = this.study.tracks.find((track) => this.byName[track.flag]);
-    if (jumping) entries.push(["jump", "#333333", jumping.jumpDash, jumping.jumpWidth]);
+    if (jumping) entries.push(["jump", theme.seen("#333333"), jumping.jumpDash, jumping.jumpWidth]);
     for (const [label, colour, dash, width, box] of entries) {
-      list.append(lineEntry(label, theme.seen(colour), dash.join(" "), width, box));
+      list.append(lineEntry(label, colour, dash.join(" "), width, box));
     }
     list.hidden = false;
   }

@@ -15,6 +15,7 @@ from gradhesion.cli.dataset.reader import is_turned
 from gradhesion.cli.dataset.sensitivities import PLAIN, part_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.plain import in_order, symbol, title, words
+from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import INTEGERS, SCENE, SOLVER
 from gradhesion.cli.picture.labels import Unit, unit_for
 from gradhesion.cli.picture.scales import scale
@@ -26,6 +27,9 @@ DIGITS: Final = 6
 
 FEW: Final = 8
 """Values of an axis that are ticks of it; of more, round numbers are."""
+
+UNBOUNDED: Final = "unbounded"
+"""A radius that is infinite, in words."""
 
 _LEAST, _GREATEST = (float(bound) for bound in (np.finfo(np.float32).tiny, np.finfo(np.float32).max))
 
@@ -160,6 +164,7 @@ def _named(dataset: xarray.Dataset, name: str, unit: Unit | None = None) -> tupl
         "words": words(str(dataset[name].attrs.get("long_name", name))),
         "title": title(name, str(dataset[name].attrs.get("long_name", name))),
         "unit": own.symbol.replace("$^2$", "²"),
+        "infinite": UNBOUNDED if name in INPUTS and INPUTS[name].infinite else "",
     }
     return named, np.asarray(values, dtype=float) / 10.0**own.power if own.power else values
 

@@ -20,7 +20,7 @@ const explorer = {
     this.held = false;
     this.whole = false;
     this.drawn = variables.slice(0, 2).map((variable, i) => this.choiceOf(i));
-    address.read(this);
+    this.complain(address.read(this));
     this.marked = () => 0;
     this.showTable = buildTable(this.study);
     this.marked = buildLegend(this.study, () => this.later("everything"));
@@ -59,9 +59,17 @@ const explorer = {
       this.draw("everything");
     });
     window.addEventListener("hashchange", () => {
-      if (decodeURI(location.hash.slice(1)) !== decodeURI(address.own ?? "")) location.reload();
+      const [now, own] = [location.hash.slice(1), address.own ?? ""].map((words) => new URLSearchParams(words).toString());
+      if (now !== own) location.reload();
     });
     document.documentElement.dataset.ready = "true";
+  },
+
+  // Say what of the address is wrong.
+  complain(said) {
+    const place = document.getElementById("wrong");
+    place.hidden = !said.length;
+    if (said.length) place.textContent = `The address of this page does not fit it: ${said.join("; ")}.`;
   },
 
   // Maps and sections, and the lists that choose what is in them.

@@ -15,6 +15,11 @@ function short(value, digits = DIGITS) {
   return factor === "1" ? tens : `${factor}×${tens}`;
 }
 
+// Write a value of an axis or a parameter with its unit, an infinite one by its word.
+function inWords(entry, value) {
+  return value === Infinity && entry.infinite ? entry.infinite : [short(value), entry.unit].filter(Boolean).join(" ");
+}
+
 // Round numbers between two others, `count` or fewer.
 function roundNumbers(start, end, count) {
   const rough = (end - start) / count;
@@ -49,7 +54,8 @@ function ticksOf(look, start, end, count = 6) {
   const inside = (place) => place >= start && place <= end;
   const apart = (end - start) / 16;
   const few = Array.from(look.few);
-  if (few.length && few.every((one, i) => i === 0 || one - few[i - 1] >= apart)) return few.filter(inside);
+  const long = Math.max(4, ...few.map((one) => tickWords(look, one).length)) / 4; // long numbers need more room
+  if (few.length && few.every((one, i) => i === 0 || one - few[i - 1] >= long * apart)) return few.filter(inside);
   if (look.listed) {
     const step = Math.max(1, Math.ceil((end - start) / 12));
     return Array.from(look.places).filter((one) => one % step === 0 && inside(one));

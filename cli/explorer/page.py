@@ -85,6 +85,7 @@ def page(dataset: xarray.Dataset, file: str, variables: Sequence[str], places: S
         "file": file,
         "attributes": dataset.attrs,
         "profile": words(str(dataset.attrs.get("profile", ""))),
+        "sliders": bool(study["axes"]),
         "slope": " ".join(slope_told(cut)),
         "sections": len(parts.get("sections", ())),
         "sides": _SIDES if kind == "maps" else ("x",),

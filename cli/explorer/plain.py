@@ -5,7 +5,7 @@ from typing import Final
 
 from gradhesion.cli.dataset.sensitivities import part_of
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import SYMBOLS
+from gradhesion.cli.names import SI, SPREADS, SYMBOLS
 
 _TEX: Final = (
     (r"\ln$ ", "ln "),
@@ -18,6 +18,7 @@ _TEX: Final = (
     (r"\nu", "ν"),
     (r"\chi", "χ"),
     (r"^{\ast}", "*"),
+    ("^*", "*"),
     (r"_{\max}", "ₘₐₓ"),
     ("_0", "₀"),
     ("_2", "₂"),
@@ -25,6 +26,14 @@ _TEX: Final = (
     (r"\,", " "),
     ("$", ""),
 )
+_SPREADS: Final = {
+    "std": "standard deviation",
+    "mean": "mean",
+    "p05": "5 % quantile",
+    "p50": "median",
+    "p95": "95 % quantile",
+}
+"""What the end of the name of a spread stands for."""
 _WORDS: Final = {
     "lambda": "λ",
     "dgamma": "Δγ",
@@ -70,6 +79,8 @@ def title(name: str, long_name: str) -> str:
     ('F/(1.5 πRΔγ) – pull-off force', 'number of jumps')
     >>> title("pull_off_force_sensitivity_A", "sensitivity of the pull-off force F to each parameter p")
     'd ln F/d ln A – sensitivity of the pull-off force'
+    >>> title("pull_off_force_p05_si", "5 % quantile of the pull-off force F, of samples")
+    'F, 5 % quantile – pull-off force'
     """
     if part_of(name):
         return f"{symbol(name)} – {re.sub(' [FH]( to each .*)?$', '', words(long_name))}"
@@ -78,8 +89,10 @@ def title(name: str, long_name: str) -> str:
     letter = plain("".join(re.findall(r"\$[^$]*\$", whole))).strip()
     if not letter or letter.startswith("/"):
         return written
-    own = plain(whole.partition("$")[0]).strip()
+    own = re.sub("^(std|mean) of ", "", plain(whole.partition("$")[0]).strip())
     rest = own or re.sub(r" \(inf: [^)]*\)$", "", written)
+    spread = name.removesuffix(SI).rpartition("_")[2] if name.removesuffix(SI) in SPREADS else ""
+    letter += f", {_SPREADS[spread]}" if spread else ""
     rest = re.sub(rf" {re.escape(letter)}(?=,| (?!=)|$)", "", rest, count=1)
     return f"{letter} – {rest}"
 

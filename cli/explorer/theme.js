@@ -37,6 +37,13 @@ const theme = {
     }
   },
 
+  // The colour of what is unstable: nearer to the page than the line that it belongs to.
+  faded(track) {
+    if (!this.dark) return track.faded;
+    const [own, back] = [this.seen(track.colour), this.paper.back].map((one) => [1, 3, 5].map((i) => parseInt(one.slice(i, i + 2), 16)));
+    return "#" + own.map((part, i) => Math.round(0.5 * (part + back[i])).toString(16).padStart(2, "0")).join("");
+  },
+
   // A colour of a line that can be seen on the page: a dark one is lightened on a dark page.
   seen(colour) {
     if (!this.dark || !/^#[0-9a-f]{6}$/i.test(colour)) return colour;

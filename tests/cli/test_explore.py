@@ -1,5 +1,6 @@
 """`gradhesion explore` writes a page of every kind of dataset, and says so where there is nothing to write."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -14,6 +15,8 @@ import gradhesion as gr
 from gradhesion.cli.dataset.reader import opened
 from gradhesion.cli.explorer import choice
 from gradhesion.cli.explorer.data import rounded, study_data
+from gradhesion.cli.explorer.plain import title
+from gradhesion.cli.names import SPREADS
 
 Call = Callable[..., Result]
 
@@ -160,3 +163,34 @@ def test_jumps_alone_are_no_page(gradhesion: Call, study_file: Path, tmp_path: P
     result = gradhesion("explore", path)
     assert result.exit_code == 2
     assert "`gradhesion info --jumps` lists them" in result.stderr
+
+
+def test_each_part_of_a_spread_has_a_name_of_its_own() -> None:
+    """In the order of a list that may be cut short: the letter and what it is, then the quantity."""
+    titles = {name: title(name, long_name) for name, long_name in SPREADS.items()}
+    assert len({*titles.values()}) == len(titles)
+    for how, words in (
+        ("std", "standard deviation"),
+        ("p05", "5 % quantile"),
+        ("p50", "median"),
+        ("p95", "95 % quantile"),
+    ):
+        assert titles[f"pull_off_force_{how}"].startswith("F/(1.5 "), "the letter comes first"
+        assert f", {words} " in titles[f"pull_off_force_{how}"]
+        assert title(f"dissipated_energy_{how}_si", "").startswith(f"H, {words} ")
+
+
+@pytest.mark.parametrize(("scenes", "announced"), [("0.3", False), ("[0.3, 0.5]", True)])
+def test_sliders_are_announced_where_there_are_some(
+    scenes: str, announced: bool, gradhesion: Call, study_file: Path, tmp_path: Path
+) -> None:
+    one = ["k", "A=0.023", "lambda_over_R=0.17", "a_max_over_R=0.4"]
+    sets = [f"--set=parameters.{word}" for word in (f"k={scenes}", *one[1:])]
+    data = tmp_path / "curves.nc"
+    made = gradhesion("run", study_file, "-o", data, "--quiet", "--set=kind='curve'", "--set=outputs=['path']", *sets)
+    assert made.exit_code == 0, made.stderr
+    assert gradhesion("explore", data).exit_code == 0
+    page = data.with_suffix(".html").read_text(encoding="utf-8")
+    body = page[page.index("<main>") : page.index("</main>")]
+    assert ("slider" in re.sub('id="sliders"', "", body)) == announced
+    assert ("arrow keys" in body) == announced

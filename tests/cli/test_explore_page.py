@@ -223,8 +223,8 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Opened]]:
 
 def number(text: str) -> float:
     """Read a number as the page writes it."""
-    if text in {"∞", "no value"}:
-        return np.inf if text == "∞" else np.nan
+    if text in {"∞", "unbounded", "no value"}:
+        return np.nan if text == "no value" else np.inf
     plain = text.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--"))
     return float(
         re.sub(r"^(10)(?=-?\d)", "1×10", plain).replace("×10", "e") if "10" in plain and text != plain else plain
@@ -545,6 +545,22 @@ def test_the_address_brings_a_colleague_to_the_same_state(maps: Path, open_page:
     wrong = open_page(maps, "#k=many&A=0.0231&x=x&show=nothing&log=,,")
     assert wrong.shown("A") == "0.023", "what can be read is taken, and nothing else"
     assert wrong.page.evaluate("explorer.x !== explorer.y")
+    said = wrong.page.inner_text("#wrong")
+    assert "k has no value many" in said
+    assert "A has no value 0.0231, and its nearest is shown, 0.023" in said
+    assert "x = x and y =  are not two axes of this page" in said
+    assert "nothing is no quantity of this page" in said
+    assert there.page.is_hidden("#wrong")
+
+
+def test_a_query_and_an_unknown_axis_are_said(maps: Path, open_page: Callable[..., Opened]) -> None:
+    page = open_page(maps, "?k=0.62&A=0.05&lamda_over_R=0.2#A=0&a_max_over_R=inf")
+    assert (page.shown("k"), page.shown("A")) == ("0.62", "0"), "what stands after # comes first"
+    assert page.shown("a_max_over_R") == "unbounded"
+    assert page.page.inner_text("#axis-a_max_over_R-value") == "unbounded"
+    expected = "The address of this page does not fit it: lamda_over_R is no axis of this page."
+    assert page.page.inner_text("#wrong") == expected
+    assert open_page(maps, "#%zz=1&k=%").page.is_visible("#wrong")
 
 
 def _downloaded(page: Opened, what: str) -> bytes:
@@ -619,6 +635,34 @@ def test_lines_of_curves_are_hidden_one_by_one(tmp_path: Path, open_page: Callab
     assert tracks[unloading][1] not in page.page.evaluate(looks), "loading alone is left"
     dashes = page.page.evaluate("explorer.study.tracks.map((track) => track.dash.length)")
     assert dashes[unloading] > 0 == dashes[labels.index("loading")], "loading shows in the gaps of unloading"
+
+
+def _light(colour: str) -> float:
+    """Give the relative luminance of a colour, as WCAG 2 defines it."""
+    parts = np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)]) / 255.0
+    linear = np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
+    return float(linear @ (0.2126, 0.7152, 0.0722))
+
+
+def _contrast(one: str, other: str) -> float:
+    """Give the contrast of two colours, 1 to 21."""
+    low, high = sorted((_light(one), _light(other)))
+    return (high + 0.05) / (low + 0.05)
+
+
+@pytest.mark.parametrize(("mode", "paper"), [("dark", "#16191d"), ("light", "#ffffff")])
+def test_stable_and_unstable_parts_differ(
+    mode: str, paper: str, tmp_path: Path, open_page: Callable[..., Opened]
+) -> None:
+    page = open_page(_made(tmp_path, CURVES), color_scheme=mode)
+    track = "explorer.study.tracks.find((track) => track.curve === 'equilibrium')"
+    stable, unstable = page.page.evaluate(f"[theme.seen({track}.colour), theme.faded({track})]")
+    drawn = page.page.evaluate("explorer.parts.planes[0].lines.data.colour")
+    assert {stable, unstable} <= {*drawn}
+    assert _contrast(stable, unstable) > 2.0
+    assert _contrast(stable, paper) > _contrast(unstable, paper) > 1.5
+    strokes = page.page.eval_on_selector_all("#lines line", "lines => lines.map((line) => line.getAttribute('stroke'))")
+    assert {stable, unstable} <= {*strokes}, "the legend has the same colours"
 
 
 SENSITIVE = """
