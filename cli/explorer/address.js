@@ -70,7 +70,8 @@ const address = {
       const [x, y] = ["x", "y"].map((side) => axisOf(words.get(side)));
       if (x >= 0 && y >= 0 && x !== y) [explorer.x, explorer.y] = [x, y];
       else if (words.has("x") || words.has("y")) {
-        said.push(`x = ${words.get("x") ?? ""} and y = ${words.get("y") ?? ""} are not two axes of this page`);
+        const sides = ["x", "y"].filter((side) => words.has(side)).map((side) => `${side} = ${words.get(side)}`);
+        said.push(`${sides.join(" and ")} does not name two axes of this page`);
       }
       explorer.whole = words.get("colours") === "all";
     }

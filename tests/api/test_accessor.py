@@ -78,3 +78,16 @@ def test_a_dataset_of_another_program_has_no_flags_of_ours() -> None:
 def test_it_draws(every_status: xarray.Dataset) -> None:
     (panel,) = every_status.drop_vars("dissipated_energy").gr.plot("pull_off_force")
     assert panel.get_xlabel() == "$A$"
+
+
+def test_the_accessor_says_what_it_is_of() -> None:
+    punch = {"k": 0.0, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "a_max_over_R": 1.0}
+    wavy = gr.solve(punch, A=[0.0, 0.05, 0.1])
+    flagged = int(wavy.gr.flagged("loading_contact_not_one_disc").sum())
+    first, *rest = repr(wavy.gr).splitlines()
+    assert first == "gradhesion: 3 scenes, pull_off_force, dissipated_energy"
+    assert f"  loading_contact_not_one_disc: {flagged}" in rest
+    assert rest[-1] == "methods: flagged(flag), valid(variable), outside(number), plot(...)"
+    smooth = repr(gr.solve(punch, A=0.0).gr)
+    assert smooth.startswith("gradhesion: 1 scene, ")
+    assert "no scene is flagged" in smooth
