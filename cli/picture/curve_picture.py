@@ -1,12 +1,11 @@
 """The picture of a curve dataset: load over depth, depth over contact radius, load over contact radius."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Final
 
-import numpy as np
 import xarray
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
@@ -15,9 +14,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from gradhesion.cli.dataset.curve_variables import variables_of_curves
-from gradhesion.cli.dataset.model_range import slope_told
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import RAGGED, SCENE, STATE_CURVES
+from gradhesion.cli.names import RAGGED, STATE_CURVES
 from gradhesion.cli.picture.curve_limits import in_units, set_limits, spans_of
 from gradhesion.cli.picture.curve_panels import (
     JUMP,
@@ -38,13 +36,14 @@ from gradhesion.cli.picture.curve_panels import (
     falls_of,
     jumps_of,
 )
+from gradhesion.cli.picture.curve_scenes import Scene, scenes_of
 from gradhesion.cli.picture.curve_units import axis_label, in_si, in_unit, units_of, wants_si
-from gradhesion.cli.picture.doubts import CROSS, DOUBTS, Doubt, doubts_in, entries
+from gradhesion.cli.picture.doubts import DOUBTS, entries
 from gradhesion.cli.picture.inset import add_inset
-from gradhesion.cli.picture.labels import Unit, effective, equation, given
+from gradhesion.cli.picture.labels import Unit
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.measured import Points, draw_points, legend_entry, planes_of, read_points
-from gradhesion.cli.picture.pictured import finite, heading, in_lines, lay_out, styled
+from gradhesion.cli.picture.pictured import heading, in_lines, lay_out, styled
 from gradhesion.cli.picture.state_picture import draw_states
 from gradhesion.cli.terminal.wording import did_you_mean
 
@@ -57,26 +56,8 @@ PLANES: Final = (("indentation", "load"), ("contact_radius", "indentation"), ("c
 NARROW: Final = 1.7
 """The width of a panel, in inches, below which panels stand below each other if a width is given."""
 
-SCENES: Final = 5
-"""Scenes in one picture: more could not be distinguished."""
-
 INK: Final = to_rgb("0.25")
 """The colour of lines in a legend where colours distinguish scenes."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Scene:
-    """One scene of a dataset."""
-
-    label: str
-    colour: Colour | None
-    """The colour of all its lines (None: each line has its own)."""
-    values: Mapping[str, Values]
-    """Its curves without padding."""
-    doubts: Sequence[Doubt]
-    """What makes its path doubtful."""
-    item: int = 0
-    """Which of the scenes it is."""
 
 
 def drawn_curves(
@@ -125,7 +106,7 @@ def drawn_curves(
             "axis in common; draw one after the other"
         )
     chosen = [curve for curve in chosen if curve not in of_states]
-    scenes, caption = _scenes(dataset, looks)
+    scenes, caption = scenes_of(dataset, looks)
     known = coloured(TRACKS_OF_MANY if len(scenes) > 1 else TRACKS, looks.colours)
     si = wants_si(map(str, dataset.data_vars), asked)
     known = tuple(in_si(track) for track in known) if si else known
@@ -248,63 +229,6 @@ def _chosen(dataset: xarray.Dataset, asked: Sequence[str]) -> list[str]:
         if name not in known:
             raise DatasetError(f"--variable {name}: not a curve of this dataset; {did_you_mean(name, known)}")
     return [curve for curve, own in there.items() if not asked or {curve, *own} & {*asked}]
-
-
-def _scenes(dataset: xarray.Dataset, looks: Looks) -> tuple[list[Scene], list[str]]:
-    """Choose the scenes to draw, along the last axis with more than one value, and write what they have in common."""
-    axes = [str(axis) for axis, size in dataset["status"].sizes.items() if size > 1]
-    last = axes[-1] if axes else None
-    first = dataset.isel({axis: 0 for axis in dataset["status"].dims if axis != last})
-    if last is None:
-        return [_scene(first, "", None)], _caption(dataset, axes)
-    size = dataset.sizes[last]
-    items = sorted({round(item) for item in np.linspace(0, size - 1, min(size, SCENES))})
-    scenes = []
-    for place, item in enumerate(items):
-        scene = first.isel({last: item})
-        varying = [last] if last != SCENE else _varying(dataset)
-        label = ", ".join(equation(name, scene[name].item()) for name in varying[:2]) or f"scene {item}"
-        scenes.append(_scene(scene, label, to_rgb(looks.colours(0.75 * place / (len(items) - 1))), place))
-    return scenes, _caption(dataset, axes)
-
-
-def _scene(scene: xarray.Dataset, label: str, colour: Colour | None, item: int = 0) -> Scene:
-    """Make a scene; one that has no value is grey and says so."""
-    values = _trimmed(scene)
-    if label and not any(row.size for row in values.values()):
-        label, colour = f"{label} (no value)", to_rgb(CROSS)
-    return Scene(label=label, colour=colour, values=values, doubts=doubts_in(scene["status"].values, "path"), item=item)
-
-
-def _varying(dataset: xarray.Dataset) -> list[str]:
-    """List the parameters that vary between points."""
-    return [name for name in given(dataset.coords) if np.unique(dataset[name].values).size > 1]
-
-
-def _caption(dataset: xarray.Dataset, axes: Sequence[str]) -> list[str]:
-    """Write the parameters that are the same in all scenes drawn."""
-    written = []
-    for name in effective(dataset):
-        values = np.unique(dataset[name].values)
-        if values.size == 1:
-            written.append(equation(name, values[0]))
-        elif name in axes[:-1]:
-            written.append(f"{equation(name, dataset[name].values[0])} (first of {values.size})")
-    if axes and dataset.sizes[axes[-1]] > SCENES:
-        written.append(f"{SCENES} of {dataset.sizes[axes[-1]]} scenes")
-    return [*written, *slope_told(dataset)]
-
-
-def _trimmed(scene: xarray.Dataset) -> dict[str, Values]:
-    """Take the curves of a scene without their padding."""
-    curves: dict[str, Values] = {}
-    for curve, own in variables_of_curves(scene).items():
-        if curve in (*RAGGED, *STATE_CURVES):
-            continue
-        rows = {name: finite(scene[name].values) for name in own}
-        points = np.flatnonzero(np.any([~np.isnan(row) for row in rows.values()], axis=0))
-        curves |= {name: row[: int(points[-1]) + 1 if points.size else 0] for name, row in rows.items()}
-    return curves
 
 
 def _handles(scenes: Sequence[Scene], tracks: Sequence[Track]) -> list[Artist]:

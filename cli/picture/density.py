@@ -11,7 +11,8 @@ from matplotlib.figure import SubFigure
 from matplotlib.ticker import FormatStrFormatter, LogLocator, NullLocator
 
 from gradhesion.cli.picture.labels import Unit
-from gradhesion.cli.picture.panels import Levels, Values, dress_values
+from gradhesion.cli.picture.levels import Levels, Values
+from gradhesion.cli.picture.panels import dress_values
 from gradhesion.cli.picture.scales import Scale
 
 CELLS: Final = (60, 34)

@@ -15,9 +15,8 @@ from matplotlib.contour import QuadContourSet
 from matplotlib.figure import SubFigure
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.model_range import beyond_by, slope_told
+from gradhesion.cli.dataset.model_range import beyond_by
 from gradhesion.cli.dataset.reader import is_turned
-from gradhesion.cli.dataset.reductions import Taken
 from gradhesion.cli.dataset.selection import Selection
 from gradhesion.cli.dataset.sensitivities import parameters_of
 from gradhesion.cli.errors import DatasetError
@@ -26,8 +25,10 @@ from gradhesion.cli.picture import panels
 from gradhesion.cli.picture.at_bounds import at_bound
 from gradhesion.cli.picture.bands import Band, band_entry, band_of
 from gradhesion.cli.picture.doubts import BEYOND, BOUND, END, Doubt, doubts_in, entries
-from gradhesion.cli.picture.labels import Unit, effective, equation, equations, label, unit_for
+from gradhesion.cli.picture.grid_words import axis_of_place, caption_of, named_in
+from gradhesion.cli.picture.labels import Unit, equations, label, unit_for
 from gradhesion.cli.picture.layout import PANELS, Plan, items_of
+from gradhesion.cli.picture.levels import Levels, levels_of, levels_of_flags, levels_of_names, limited
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.pictured import LETTER, letters_of
 from gradhesion.cli.picture.scales import scale
@@ -96,25 +97,25 @@ def draw_grid(
     marks += [] if met is None else _marked(BOUND, met, cut)
     if taken.at_end is not None and bool(taken.at_end.any()):
         marks.append((END, kept_of(taken.at_end)))
-    kind = _axis_of_place(selection) or name
+    kind = axis_of_place(selection) or name
     rows, columns = shape_of(sizes, plan)
     grid = part.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     whole = dataset[name].dtype.kind == "i" and bool((finite == np.round(finite)).all())
     if whole and name == "status":
         codes = np.unique(finite)
         cut = cut.copy(data=np.searchsorted(codes, cut)).where(cut.notnull())
-        levels = panels.levels_of_flags(codes, looks)
+        levels = levels_of_flags(codes, looks)
     elif labels := parameters_of(dataset[name]):
         codes = np.unique(finite)
         cut = cut.copy(data=np.searchsorted(codes, cut)).where(cut.notnull())
-        levels = panels.levels_of_names([SYMBOLS[labels[int(code)]] for code in codes], looks)
+        levels = levels_of_names([SYMBOLS[labels[int(code)]] for code in codes], looks)
     else:
-        levels = panels.levels_of(float(finite.min()), float(finite.max()), whole=whole, looks=looks)
+        levels = levels_of(float(finite.min()), float(finite.max()), whole=whole, looks=looks)
     band = None if plan.is_map or levels.names else band_of(dataset.isel(items), name, selection, looks)
     if band:
         band = Band(low=kept_of(band.low), high=kept_of(band.high), how=band.how)
     if not plan.is_map:
-        levels = panels.limited(levels, np.append(finite, band.extremes()) if band else finite, kind)
+        levels = limited(levels, np.append(finite, band.extremes()) if band else finite, kind)
     log = isinstance(levels.norm, LogNorm) if plan.is_map else levels.log
     unit = unit_for(kind, levels.extremes if not levels.names else finite, log=log)
     titles = {axis: equations(axis, cut[axis].values) for axis in (plan.columns, plan.rows) if axis}
@@ -135,13 +136,13 @@ def draw_grid(
                 axes.annotate(titles[plan.rows][i], (1.03, 0.5), xycoords="axes fraction", rotation=-90, va="center")
             axes.label_outer()
     width, height = (2.1, 1.8) if columns > 1 else (3.6, 2.9)
-    named = _named(name, selection, unit)
+    named = named_in(name, selection, unit)
     scale_of = (looks.height / (height * rows + 0.6)) if looks.height else 1.0
     up = scale(cut[plan.second].values, plan.second, looks.ylim).unit if plan.is_map and plan.second else unit
     along = scale(cut[plan.x].values, plan.x, looks.xlim).unit
     _dress(part, grid, plan, named, (along, up, unit), levels, height * rows * min(1.0, scale_of))
     width = width * columns + (2.2 if levels.names else 1.2)
-    caption = _caption(dataset, plan, items, selection, taken)
+    caption = caption_of(dataset, plan, items, selection, taken)
     more = 0.0 if plan.is_map or not plan.second else 0.3
     shown = entries([doubt for doubt, _ in marks], in_map=plan.is_map, gaps=finite.size < cut.size - taken.flat)
     shown += [band_entry(band, cut.sizes[plan.x])] if band else []
@@ -184,7 +185,7 @@ def _draw_panel(
     panel: xarray.DataArray,
     marks: Sequence[tuple[Doubt, xarray.DataArray]],
     plan: Plan,
-    levels: panels.Levels,
+    levels: Levels,
     unit: Unit,
     band: Band | None = None,
 ) -> QuadContourSet | None:
@@ -226,7 +227,7 @@ def _dress(
     plan: Plan,
     named: str,
     units: tuple[Unit, Unit, Unit],
-    levels: panels.Levels,
+    levels: Levels,
     height: float,
 ) -> None:
     """Put labels, and the colour bar or the legend, around the panels of a variable; units of x, y and values."""
@@ -264,43 +265,3 @@ def add_legends(
             longest = max(letters_of(str(line.get_label())) for line in own)
             room = (width if shared else width / beside) / (LINE + LETTER * longest)
             part.legend(handles=own, loc="outside lower center", ncols=int(min(len(own), max(1.0, room))))
-
-
-def _axis_of_place(selection: Selection) -> str | None:
-    """Report the axis whose value is drawn, where the place of an extreme is asked for."""
-    return next((axis for axis, how in selection.over.items() if how.startswith("arg")), None)
-
-
-def _named(name: str, selection: Selection, unit: Unit) -> str:
-    """Name what is drawn of a variable."""
-    axis = _axis_of_place(selection)
-    if axis is None:
-        return label(name, unit)
-    extreme = "maximum" if selection.over[axis] == "argmax" else "minimum"
-    return f"{label(axis, unit)} at {extreme} {SYMBOLS[name].split(' $')[0]}"
-
-
-def _caption(
-    dataset: xarray.Dataset, plan: Plan, items: Mapping[str, Any], selection: Selection, taken: Taken
-) -> list[str]:
-    """Write the parameters that are not drawn, and what stands for the axes that are fixed or reduced."""
-    written = []
-    between = {one.axis: one.value for one in selection.between}
-    follows = {plan.x, plan.second, plan.columns, plan.rows, *selection.over}
-    for name in (SOLVER, *effective(dataset)):
-        values = np.atleast_1d(dataset[name].values) if name in dataset.coords else np.empty(0)
-        if name in between:
-            written.append(f"{equation(name, between[name])} (interpolated)")
-        elif name in plan.middle:
-            written.append(f"{equation(name, values[values.size // 2])} (one of {values.size})")
-        elif values.size == 1 and name not in follows:
-            written.append(equation(name, values.item()))
-    written += [f"{how} over {SYMBOLS[axis]}" for axis, how in selection.over.items()]
-    if taken.left_out:
-        written.append(f"{taken.left_out:,} failed {'scene' if taken.left_out == 1 else 'scenes'} left out")
-    if taken.flat:
-        written.append(f"{taken.flat:,} left out where all values are equal")
-    for axis in (plan.x, plan.second):
-        if axis and axis in items and axis not in (plan.columns, plan.rows):
-            written.append(f"{len(items[axis]):,} of {dataset.sizes[axis]:,} values of {SYMBOLS[axis]}")
-    return [*written, *slope_told(dataset)]

@@ -20,6 +20,7 @@ from gradhesion.cli.picture.doubts import BOUND, doubts_in, entries
 from gradhesion.cli.picture.grid_picture import Part
 from gradhesion.cli.picture.labels import effective, equation, label, unit_for
 from gradhesion.cli.picture.layout import seen
+from gradhesion.cli.picture.levels import levels_of, levels_of_flags, levels_of_names, limited
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.scales import scale
 
@@ -57,18 +58,18 @@ def draw_scenes(
     if name == "status":
         codes = np.unique(finite)
         values = np.where(np.isnan(values), np.nan, np.searchsorted(codes, values))
-        levels = panels.levels_of_flags(codes, looks)
+        levels = levels_of_flags(codes, looks)
     elif labels := parameters_of(variable):
         codes = np.unique(finite)
         values = np.where(np.isnan(values), np.nan, np.searchsorted(codes, values))
-        levels = panels.levels_of_names([SYMBOLS[labels[int(code)]] for code in codes], looks)
+        levels = levels_of_names([SYMBOLS[labels[int(code)]] for code in codes], looks)
     else:
-        levels = panels.levels_of(float(finite.min()), float(finite.max()), looks=looks)
+        levels = levels_of(float(finite.min()), float(finite.max()), looks=looks)
     dense = values.size > DENSE and not levels.names
     if dense:
         looks.refuse(["band"], f"more than {DENSE:,} points are drawn as their density, which has no bars")
     band = None if dense or levels.names else band_of(dataset, name, Selection(), looks)
-    levels = panels.limited(levels, np.append(finite, band.extremes()) if band else finite, name)
+    levels = limited(levels, np.append(finite, band.extremes()) if band else finite, name)
     series = dict(zip(solvers, np.atleast_2d(values)[:, x.order], strict=True))
     unit = unit_for(name, finite if levels.names else levels.extremes, log=levels.log)
     grid = part.subplots(1, len(solvers) if dense else 1, sharex=True, sharey=True, squeeze=False)[0]

@@ -89,7 +89,7 @@ class Span:
         if math.isnan(value) and parts:
             factor = factor_between(parts[2], unit)
             if not factor:
-                wanted = "has no unit" if unit == "1" else f"is in {unit}"
+                wanted = "has no unit; write a number" if unit == "1" else f"is in {unit}; write a unit of that kind"
                 raise DatasetError(f'{self}: "{parts[2]}" is not a unit of {name}, which {wanted}')
             value = float(Decimal(parts[1]) * factor)
         if math.isnan(value):

@@ -27,6 +27,9 @@ class Numbers(Formatter):
 def few_ticks(axis: Axis, unit: Unit, count: int = 3) -> None:
     """Put about so many ticks at round numbers between the limits of an axis, whatever its scale."""
     low, high = sorted(axis.get_view_interval())
-    places = [place for place in MaxNLocator(count, steps=[1, 2, 5, 10]).tick_values(low, high) if low <= place <= high]
+    slack = 1e-9 * (high - low)  # an end that is a round number is one of them
+    found = MaxNLocator(count, steps=[1, 2, 5, 10]).tick_values(low, high)
+    places = [float(place) for place in found if low - slack <= place <= high + slack]
     axis.set_minor_locator(NullLocator())
     axis.set_ticks(places, unit.numbers(places))
+    axis.set_view_interval(low, high, ignore=True)

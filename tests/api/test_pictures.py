@@ -38,6 +38,10 @@ def test_axes_are_reduced_and_given_their_places(grid: xarray.Dataset) -> None:
     (line, *_) = panel.get_lines()
     assert line.get_ydata() == pytest.approx(grid["pull_off_force"].max("lambda_over_R").values, rel=1e-15)
     assert gr.plot(grid, "pull_off_force", x="k", y="lambda_over_R")[0].get_xlabel() == "$k$"
+    (part,) = gr.plot(grid, "pull_off_force", xlim=(0.15, None), ylim=("0.5", 1.5), inset=(0.2, 0.3), band="none")
+    assert part.get_xlim()[0] == pytest.approx(0.15, rel=1e-12)
+    assert part.get_ylim() == pytest.approx((0.5, 1.5), rel=1e-12)
+    assert [inset.get_xlim() for inset in part.child_axes] == [pytest.approx((0.2, 0.3), rel=1e-12)]
 
 
 @pytest.mark.parametrize(
@@ -57,6 +61,10 @@ def test_axes_are_reduced_and_given_their_places(grid: xarray.Dataset) -> None:
         ),
         ({"levels": []}, "levels : neither a number of levels nor a list of levels"),
         ({"interpolate": True}, "interpolate: there is nothing to interpolate; add at AXIS=VALUE"),
+        ({"xlim": (0.3, 0.2)}, "xlim 0.3:0.2: the lower limit comes first and is below the upper one; write 0.2:0.3"),
+        ({"xlim": 0.3}, "xlim 0.3: not two ends with a colon between them; write xlim=(0.1, 0.5)"),
+        ({"inset": (0.2, 0.3)}, "inset 0.2:0.3: an inset goes into a single panel of lines; choose one variable"),
+        ({"band": "std"}, "band std: pull_off_force has no spread in this dataset; add [uncertainty] to its study"),
     ],
 )
 def test_wishes_that_cannot_be_met(arguments: dict[str, Any], sentence: str, grid: xarray.Dataset) -> None:

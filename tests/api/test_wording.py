@@ -12,6 +12,7 @@ from gradhesion.wording import in_python, without_options, without_tables
         ("--variable x: not in this dataset", "variable x: not in this dataset"),
         ("choose with --at k=0.1 --at A=0", "choose with at k=0.1 at A=0"),
         ("x.html: exists; name another with -o", "x.html: exists"),
+        ("choose one with --x indentation --y load", 'choose one with x="indentation", y="load"'),
         ("a --vertical line", "a --vertical line"),
     ],
 )
