@@ -14,11 +14,26 @@ from gradhesion.cli.dataset.selection import Selection, selection_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.picture.curve_picture import drawn_curves
 from gradhesion.cli.picture.looks import looks_of
+from gradhesion.cli.picture.loops_picture import drawn_fits
 from gradhesion.cli.picture.picture import drawn
 from gradhesion.cli.study.reading import study_from
 
 Call = Callable[..., Result]
 UNITS = {"R": "2 um", "E_star": "1 GPa", "work_of_adhesion": "20 mJ/m^2", "c0": "10 nm", "a_max": "0.5 um"}
+
+STATES: dict[str, Any] = {
+    "kind": "curve",
+    "outputs": ["pressure"],
+    "parameters": {
+        "k": 0.0,
+        "nu": 0.3,
+        "modulus": 430.0,
+        "c0_over_R": 0.013,
+        "lambda_over_R": 0.2,
+        "A": 0.01,
+        "a_max_over_R": 0.5,
+    },
+}
 
 
 @pytest.fixture(scope="module")
@@ -151,6 +166,32 @@ def test_limits_that_several_panels_do_not_share_are_refused(probe: xarray.Datas
         drawn(probe, ["status"], looks=looks)
     with pytest.raises(DatasetError, match="--ylim 0:1: the panels have different axes"):
         drawn_curves(curves, [], looks=looks_of(ylim="0:1"))
+
+
+def test_pictures_that_are_drawn_whole_take_no_limits() -> None:
+    loops = xarray.Dataset(coords={"loop": [0, 1]})
+    states = compute(study_from(STATES), threads=1)
+    for choices in ({"xlim": "0:1"}, {"ylim": (None, 1)}, {"inset": "0:1"}):
+        looks = looks_of(**choices)
+        for draw in (lambda looks: drawn_fits(xarray.Dataset(), looks), lambda looks: drawn_fits(loops, looks)):
+            with pytest.raises(DatasetError, match=r"--\w+ 0?:1: (a fit is|fits are) drawn as a whole"):
+                draw(looks)
+        with pytest.raises(DatasetError, match=r"--\w+ 0?:1: curves of states are drawn whole; leave it out"):
+            drawn_curves(states, [], looks=looks)
+
+
+def test_best_compromises_take_limits_and_no_inset() -> None:
+    goals = ["pull_off_force", "dissipated_energy"]
+    search = {"maximise": goals, "over": ["A"], "resolution": 12}
+    parameters = {"k": 0.0, "nu": 0.3, "modulus": 430.0, "c0_over_R": 0.013, "lambda_over_R": 0.2, "a_max_over_R": 0.5}
+    study = {"kind": "optimum", "optimum": search, "parameters": parameters | {"A": {"start": 0.0, "stop": 0.02}}}
+    front = compute(study_from(study), threads=1)
+    least, greatest = (float(front["best_pull_off_force"].quantile(share)) for share in (0.0, 1.0))
+    ends = (least - 0.5, greatest + 0.25)
+    (axes,) = drawn(front, [], looks=looks_of(xlim=ends)).axes
+    assert axes.get_xlim() == pytest.approx(ends, rel=1e-12)
+    with pytest.raises(DatasetError, match=r"--inset 0:1: best compromises are drawn as they are; leave it out"):
+        drawn(front, [], looks=looks_of(inset="0:1"))
 
 
 def test_a_command_says_wrong_limits_in_one_line(probe: xarray.Dataset, tmp_path: Path, gradhesion: Call) -> None:
