@@ -1,4 +1,4 @@
-"""The dataset of scenes whose parameters are arrays over named dimensions: as that of a study, over any dimensions."""
+"""The dataset of scenes whose parameters are arrays over named dimensions: like that of a study, any dimensions."""
 
 from collections.abc import Mapping
 from functools import cache

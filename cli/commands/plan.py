@@ -126,10 +126,10 @@ def _lines(found: "Estimate") -> list[str]:
             lines.append(
                 f"engines   with --engine dask about {duration(found.seconds_dask)} on this machine; on N workers "
                 f"elsewhere {duration(found.seconds_of_block * (found.blocks - found.blocks_reused))} / N, "
-                f"{duration(found.seconds_of_block)} a block"
+                f"{duration(found.seconds_of_block)} per block"
             )
     else:
-        lines.append("time      that of writing alone: every block is complete")
+        lines.append("time      only that of writing: every block is complete")
     return lines
 
 

@@ -21,7 +21,7 @@ def one_loop(dataset: xarray.Dataset, wishes: Sequence[str]) -> xarray.Dataset:
     """
     axis, _, wish = wishes[0].partition("=")
     if len(wishes) > 1 or axis.strip() != LOOP:
-        raise DatasetError(f"--at {wishes[-1]}: fits of several loops have the one axis {LOOP}; write --at {LOOP}=0")
+        raise DatasetError(f"--at {wishes[-1]}: fits of several loops have only the axis {LOOP}; write --at {LOOP}=0")
     files, wish = list(map(str, dataset["file"].values)), wish.strip()
     if wish not in files and not (wish.isdecimal() and int(wish) < len(files)):
         raise DatasetError(

@@ -103,7 +103,7 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
         raise DatasetError(f"{path}: its study has settings that `gradhesion verify` cannot recompute")
     if study.rate is not None:
         raise DatasetError(
-            f"{path}: edges with a speed have no independent twin; `gradhesion verify` takes those at rest"
+            f"{path}: edges with a speed have no independent twin; `gradhesion verify` accepts only those at rest"
         )
     if seed is None:
         seed = random.SystemRandom().randrange(10**6)

@@ -158,7 +158,7 @@ def _reductions(dataset: xarray.Dataset, over: Sequence[str], named: set[str]) -
         if SCENE in dataset["status"].dims and axis not in dataset["status"].dims:
             raise DatasetError(f"{option}: points have no axes to reduce; choose some of them with --at")
         if axis == SOLVER:
-            raise DatasetError(f"{option}: solvers are not reduced; choose one with --at solver=NAME")
+            raise DatasetError(f"{option}: solvers cannot be reduced; choose one with --at solver=NAME")
         if how not in REDUCTIONS:
             raise DatasetError(f"{option}: not a reduction; {did_you_mean(how, list(REDUCTIONS))}")
         if how.startswith("arg") and any(other.startswith("arg") for other in reductions.values()):

@@ -90,8 +90,8 @@ class Dispatch:
                     waiting.appendleft(number)
                 case UnwritableError(args=(worker, reason)):
                     raise OutputError(
-                        f"{self._work.path}: worker {worker} cannot write its parts ({reason}); make room or get the "
-                        "right to write; finished parts are kept, and the same command resumes"
+                        f"{self._work.path}: worker {worker} cannot write its parts ({reason}); free space or get "
+                        "write permission; finished parts are kept, and the same command resumes"
                     )
                 case ImportError() | AttributeError() as error:
                     raise ClusterError(
@@ -129,7 +129,7 @@ class Dispatch:
         key = key_of(study, block)
         values = seen(partial(found, study, folder, number, block, key), folder.path)
         if isinstance(values, str):
-            return self._given_up(number, f"PartError: seen from here, the part that a worker has written is {values}")
+            return self._given_up(number, f"PartError: on this machine, the part that a worker has written is {values}")
         return number, Solved(block, values, key)
 
     def _given_up(self, number: int, reason: str) -> tuple[int, Solved]:

@@ -109,7 +109,7 @@ def _address_in(path: Path) -> str:
             return str(json.loads(path.read_bytes())["address"])
         if time.monotonic() > deadline:
             raise ClusterError(
-                f"--scheduler {path}: neither an address, as tcp://host:8786, nor the file of a scheduler; "
+                f"--scheduler {path}: neither an address, such as tcp://host:8786, nor the file of a scheduler; "
                 f"write one with `dask scheduler --scheduler-file {path}`"
             )
         interrupts.check()

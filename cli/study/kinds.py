@@ -77,7 +77,7 @@ KINDS: Final[dict[str, Kind]] = {
         name="fit",
         outputs=(),
         most_scenes=1,
-        remedy="fit one loop a study",
+        remedy="fit one loop per study",
         has_parts=False,
         has_solver=False,
     ),

@@ -115,7 +115,7 @@ def _mistakes_of_method(checked: Checked) -> Iterator[Mistake]:
     """Check that each solver is known, named once and has all outputs, and that a study of curves has no method."""
     method, has_solver = checked.form.method, KINDS[_kind_of(checked)].has_solver
     if not has_solver and method.solver != "exact":
-        sentence = "a curve study has no solver, its outputs choose the curves; remove this key"
+        sentence = "a curve study has no solver, since its outputs select the curves; remove this key"
         sentence += ', and add "asymptotic", "envelope" or "effective" to outputs'
         yield Mistake(("method", "solver"), method.solver, sentence)
     if not has_solver and not method.check_contact:

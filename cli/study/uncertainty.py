@@ -70,14 +70,14 @@ def mistakes_of_uncertainty(checked: Checked, sound: Mapping[str, Values]) -> It
         return
     asked = uncertainty_of(checked)
     if not asked and not any(path[:1] == (TABLE,) for path in checked.wrong):
-        yield Mistake((TABLE,), None, 'nothing is uncertain; add for example modulus = "5 %", or remove [uncertainty]')
+        yield Mistake((TABLE,), None, 'no input is uncertain; add for example modulus = "5 %", or remove [uncertainty]')
     for name, one in asked.deviations:
         if name not in form.entries:
             yield Mistake((TABLE, name), written[name], _sentence_of_absent(name, [*form.entries]))
         elif name in sound:
             yield from _mistakes_of_deviation(name, one, sound[name], written[name])
     if form.profile.spectrum and {*form.outputs} & {*OF_LINEAR}:
-        sentence = "standard deviations are those of one punch, and a spectrum draws many; remove [uncertainty]"
+        sentence = "standard deviations apply to one punch, but a spectrum draws many; remove [uncertainty]"
         yield Mistake((TABLE,), None, sentence)
     yield from _mistakes_of_outputs(checked, asked)
 
@@ -87,7 +87,7 @@ def _sentence_of_absent(name: str, known: list[str]) -> str:
     kin = (one for one in known if INPUTS[one].gives == INPUTS[name].gives)
     near = next(kin, None) or nearest(name, known)
     remedy = f'use "{near}"' if near else f"name one that it gives, {', '.join(known)}"
-    return f"the study gives no {name} to be uncertain; {remedy}, or remove this key"
+    return f"the study gives no {name} that could be uncertain; {remedy}, or remove this key"
 
 
 def _mistakes_of_deviation(name: str, one: Deviation, values: Values, written: Any) -> Iterator[Mistake]:

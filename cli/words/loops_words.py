@@ -87,7 +87,7 @@ def _of_all(dataset: xarray.Dataset) -> Iterator[str]:
 
 
 def _said(dataset: xarray.Dataset) -> Iterator[str]:
-    """Say why loops have no values, which other minima there are, and what is not told apart."""
+    """Say why loops have no values, which other minima there are, and the alternatives that they cannot distinguish."""
     names = list(map(str, dataset[PARAMETER].values))
     comment = str(dataset["tabor_parameter"].attrs.get("comment", ""))
     for i, file in enumerate(map(str, dataset["file"].values)):
@@ -95,10 +95,10 @@ def _said(dataset: xarray.Dataset) -> Iterator[str]:
             yield f"{file}: {problem}"
         for values in dataset["minimum_value"].values[i] if MINIMUM in dataset.dims else ():
             if not np.isnan(values).any():
-                told = ", ".join(f"{name} = {value:.6g}" for name, value in zip(names, values, strict=True))
-                yield f"{file}: another minimum within the noise: {told}"
+                listed = ", ".join(f"{name} = {value:.6g}" for name, value in zip(names, values, strict=True))
+                yield f"{file}: another minimum within the noise: {listed}"
         if alike := str(dataset["alike"].values[i]):
-            yield f"{file}: not told apart: {alike}"
+            yield f"{file}: indistinguishable: {alike}"
         yield from (f"{file}: {line}" for line in tabor_told(float(dataset["tabor_parameter"].values[i]), comment))
 
 

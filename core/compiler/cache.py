@@ -1,4 +1,4 @@
-"""Where compiled kernels are kept, and the removal of what no version uses any more.
+"""The folder of compiled kernels, and the removal of those that no version uses any more.
 
 Numba notices an edit in the file of a kernel, but not in the files of the kernels that it calls. The folder of the
 compiled code is therefore named after a digest of all sources of the core that have kernels and of where they stand

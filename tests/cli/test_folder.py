@@ -56,7 +56,7 @@ def test_a_folder_of_the_user_is_refused_and_not_touched(
         result = gradhesion("run", study_file, "-o", output, *options)
         assert result.exit_code == 4
         assert result.stderr == (
-            f"{output}.parts: is a folder that gradhesion has not made, so nothing in it is touched; "
+            f"{output}.parts: is a folder that gradhesion has not made, so it is left untouched; "
             "move it away, or name another output with -o\n"
         )
         assert contents(folder) == before

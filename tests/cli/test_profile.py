@@ -163,7 +163,7 @@ MISTAKES = {
     "exponent text": ("profile.exponent='2'", 'profile.exponent = "2": the power of the punch'),
     "no series": ("profile.harmonics=[]", "profile.harmonics = []: this must be a list of tables"),
     "a wave": ("profile.harmonics={n=1}", "profile.harmonics = { n = 1 }: this must be a list of tables"),
-    "n zero": ("profile.harmonics=[{n=0, cos=1}]", "profile.harmonics[0].n = 0: n is the number of waves a wavelength, an integer"),
+    "n zero": ("profile.harmonics=[{n=0, cos=1}]", "profile.harmonics[0].n = 0: n is the number of waves per wavelength, an integer"),
     "n half": ("profile.harmonics=[{n=0.5, cos=1}]", "profile.harmonics[0].n = 0.5: n is the number"),
     "n large": ("profile.harmonics=[{n=10001, cos=1}]", "an integer from 1 to 10,000; write for example n = 1"),
     "no n": ("profile.harmonics=[{cos=1}]", "profile.harmonics[0].n: n is the number of waves"),

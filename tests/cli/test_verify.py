@@ -109,7 +109,7 @@ def test_an_edited_study_is_told(gradhesion: Call, dataset_file: Path) -> None:
         ("[parameters]", "[method]\nsolver = 'asymptotic'\n[parameters]", "has no independent twin"),
         ("[parameters]", "[method]\nsolver = 'envelope'\n[parameters]", 3),
         ("[parameters]", "[method]\ncheck_contact = false\n[parameters]", None),
-        ("title = ", "kind = 'curve'\ntitle = ", "holds a curve; `gradhesion verify` takes maps"),
+        ("title = ", "kind = 'curve'\ntitle = ", "contains a curve; `gradhesion verify` accepts only maps"),
     ],
 )
 def test_a_study_of_another_dataset_is_told(
@@ -265,7 +265,7 @@ def test_of_several_solvers_those_with_a_twin_are_recomputed(
     result = gradhesion("verify", path, *ALL)
     assert result.exit_code == 0, result.stdout + result.stderr
     assert "48 of 48 scenes recomputed (--seed 1), 144 values, solver envelope and exact" in result.stdout
-    assert "all of the solver asymptotic: there is nothing independent to compare with" in result.stdout
+    assert "all of the solver asymptotic: there is no independent solution to compare with" in result.stdout
     with netCDF4.Dataset(path, "a") as file:
         file["pull_off_force"][0] *= 2.0  # nobody knows
         file["pull_off_force"][1, 0, 2, 1, 1] *= 1 + 1e-11
@@ -326,7 +326,7 @@ def test_a_tolerance_that_is_not_met_is_a_failure_with_values(gradhesion: Call, 
         file["pull_off_force"][0] *= 1.5
     result = gradhesion("verify", dataset_file, *ALL)
     assert result.exit_code == 0
-    assert "12 scenes drawn have failed, as their status says" in result.stdout
+    assert "12 sampled scenes have failed, as their status shows" in result.stdout
 
 
 GENERAL = (
