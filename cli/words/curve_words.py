@@ -63,7 +63,7 @@ def _events(scene: Scene) -> dict[str, int]:
         counts["stable branches"] = stable[:1].sum() + (stable[1:] & ~stable[:-1]).sum()
     if "path_branch" in scene:
         visited = np.unique(scene["path_branch"])
-        counts["branches followed, including the rim"] = (visited > 0.0).sum()
+        counts["branches followed, with rim"] = (visited > 0.0).sum()
     if {"path_jump", "path_unloading"} <= scene.keys():
         jumps = scene["path_jump"] == 1.0
         for word, way in (("loading", 0.0), ("unloading", 1.0)):

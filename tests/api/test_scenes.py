@@ -102,8 +102,8 @@ def test_units_are_strings_or_numbers_in_si_or_attributes() -> None:
         ({"A": xarray.DataArray([0.1], dims="status")}, 'gr.solve: A: its dimension "status" has the name of a variable; rename it'),
         ({"A": xarray.DataArray([0.1], dims="k")}, 'gr.solve: A: its dimension "k" has the name of a parameter that is not an axis; rename it, or give k as a list'),
         ({"k": [0.0, 1.0]}, "gr.solve: k = 1.0: with k = 1 and nu = 0.27 the surface has no stiffness"),
-        ({"k": xarray.DataArray([0.0, 1.0], dims="x"), "nu": xarray.DataArray([0.5, 0.3], dims="x")}, "gr.solve: k = 1.0: with k = 1 and another nu"),
-        ({"R": "1 um"}, "gr.solve: modulus = 430.0: a ratio, beside quantities with units, and the two ways do not mix"),
+        ({"k": xarray.DataArray([0.0, 1.0], dims="x"), "nu": xarray.DataArray([0.5, 0.3], dims="x")}, "gr.solve: k = 1.0: with k = 1 and nu other than 0.5"),
+        ({"R": "1 um"}, "gr.solve: modulus = 430.0: a ratio, beside quantities with units, and the two cannot be combined"),
         ({"machine_stiffness": 3.0}, 'gr.solve: machine_stiffness = 3.0: control = "displacement" has no machine; remove this key, or write control = "machine"'),
     ],
 )  # fmt: skip
@@ -235,5 +235,5 @@ def test_states_of_given_radii() -> None:
     assert gr.curves(punch, "pressure")["state"].values.tolist() == ["turning_point", "pull_off", "jump_out"]
     with pytest.raises(gr.StudyError, match=r"gr.curves: contact_radius_over_R\[1\] = 0.9: .* in \(0, 0.5\]"):
         gr.curves(punch | {"a_max_over_R": 0.5}, "pressure", contact_radius_over_R=[0.2, 0.9])
-    with pytest.raises(gr.StudyError, match="no curve of a state is asked for"):
+    with pytest.raises(gr.StudyError, match="no curve of states is requested"):
         gr.curves(punch, "path", contact_radius_over_R=[0.2])

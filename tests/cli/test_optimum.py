@@ -299,7 +299,7 @@ def test_a_peak_between_the_points_is_flagged(
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"optimum": {"maximise": "loading_jumps", "over": ["lambda_over_R"]}}, "is a count, which has no optimum but"),
+        ({"optimum": {"maximise": "loading_jumps", "over": ["lambda_over_R"]}}, "is a count, which changes in steps and has no optimum"),
         ({"optimum": {"maximise": "pull_of_force", "over": ["lambda_over_R"]}}, 'did you mean "pull_off_force"'),
         (
             {"optimum": {"maximise": "pull_off_force", "over": ["A"]}},
@@ -343,7 +343,7 @@ def test_a_peak_between_the_points_is_flagged(
         ({"kind": "map", "outputs": ["pull_off_force"]}, "the study is of another kind; write kind = "),
         ({"uncertainty": {"modulus": "5 %"}}, "only maps have uncertain inputs"),
         ({"method": {"solver": ["exact", "envelope"]}}, "an optimum has one solver"),
-        ({"parameters": PUNCH | {"k": [0.3], "lambda_over_R": WAVES}}, "an axis of one value cannot stand beside"),
+        ({"parameters": PUNCH | {"k": [0.3], "lambda_over_R": WAVES}}, "an axis of one value cannot be combined"),
         (
             {"parameters": PUNCH | {"lambda_over_R": WAVES | {"num": 9}}},
             "a searched input has bounds only; remove num",

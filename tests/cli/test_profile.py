@@ -121,7 +121,7 @@ def test_reports_of_any_shape_and_control(shaped: dict[str, Any], control: str) 
     if control != "machine":
         shaped["loading"] = {"control": control}
     if control == "load":
-        with pytest.raises(StudyError, match="a dead load closes no loop"):
+        with pytest.raises(StudyError, match="under dead load the cycle is not closed"):
             study_from(shaped | {"outputs": ["energy_residual"]})
     reports = [name for name in REPORTS if control != "load" or name != "energy_residual"]
     dataset = compute(study_from(shaped | {"outputs": [*OUTPUTS, *reports]}))
@@ -186,7 +186,7 @@ MISTAKES = {
     "stiffness elsewhere": ("parameters.machine_stiffness=1", "this key belongs under [loading]; move it there"),
     "solver": ("method.solver='asymptotic'", 'the solver "asymptotic" is available only under displacement control: the leading terms of depth and load belong to one energy only up to the order of lambda/a'),
     "envelopes of a machine": ("method.solver=['exact', 'envelope']", 'the solver "envelope" is available only under displacement control: the path along the envelopes jumps'),
-    "jump-in radius": ("parameters.a_max_over_a2=2.0", "a_2 is that of a paraboloid with one cosine wave"),
+    "jump-in radius": ("parameters.a_max_over_a2=2.0", "a_2 is defined only for one cosine on a paraboloid"),
 }  # fmt: skip
 
 

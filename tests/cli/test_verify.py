@@ -181,7 +181,7 @@ def test_scenes_without_a_value_must_have_none(gradhesion: Call, dataset_file: P
     result = gradhesion("verify", dataset_file, *ALL)
     assert result.exit_code == 0
     assert "12 of 24 scenes recomputed" in result.stdout
-    assert "12 scenes drawn have failed" in result.stdout
+    assert "12 sampled scenes have failed" in result.stdout
     with netCDF4.Dataset(dataset_file, "a") as file:
         file["pull_off_radius"][0, 1, 1, 1] = 0.2
     result = gradhesion("verify", dataset_file, *ALL)
@@ -206,7 +206,7 @@ def test_scenes_of_too_many_waves_are_left_out_and_others_drawn(
     result = gradhesion("verify", path, *ALL)
     assert result.exit_code == 0, result.stdout + result.stderr
     assert "12 of 16 scenes recomputed" in result.stdout  # without amplitude a wavelength of any size is fine
-    assert "4 scenes drawn have more waves than are followed" in result.stdout
+    assert "4 sampled scenes have more waves than can be followed" in result.stdout
     result = gradhesion(
         "run",
         study_file,
