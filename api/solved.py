@@ -9,7 +9,7 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.dataset import attributes, variables, with_steep_contact
-from gradhesion.cli.dataset.model_range import slope_told
+from gradhesion.cli.dataset.model_range import slope_warnings
 from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import PHYSICAL_PARAMETER, REALISATION, SI, SOLVER, STEEP, UNITS, labels_of
@@ -82,7 +82,7 @@ def solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarr
     dataset = xarray.Coordinates(made).to_dataset().reset_coords([name for name in described if name in found])
     dataset.attrs = about
     dataset = with_steep_contact(dataset, study, steep)
-    _say_once(tuple(slope_told(dataset)))
+    _say_once(tuple(slope_warnings(dataset)))
     others = _other_coordinates(parameters, dataset)
     return dataset.assign_coords(others) if others else dataset
 

@@ -15,7 +15,7 @@ from gradhesion.cli.study.fit_study import FitStudy, unit_of_parameter
 from gradhesion.cli.study.loop_files import fingerprint
 from gradhesion.cli.study.shape_words import rate_in_words, shape_in_words, toughness_in_words
 from gradhesion.cli.work.compiling import prepare
-from gradhesion.cli.work.fitting import Fit, fits_of, kinds_of_fit, range_told
+from gradhesion.cli.work.fitting import Fit, fits_of, kinds_of_fit, range_words
 from gradhesion.core.problem.status import FLAGS, OF_FITS
 
 if TYPE_CHECKING:
@@ -122,7 +122,7 @@ def _attributes_of(study: FitStudy, name: str) -> dict[str, Any]:
             if name in ("on_bound", "converged"):
                 return attributes | _YES
             if name == "tabor_parameter":
-                attributes["comment"] = range_told(study)
+                attributes["comment"] = range_words(study)
             return attributes if name in _OWN_UNITS else attributes | {"units": names.FIT_UNITS.get(name, "1")}
     words = next(own[name] for own in names.FIT_POINTS.values() if name in own)
     if study.loading.control == "machine" and name.endswith("_indentation"):

@@ -7,7 +7,7 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
-from gradhesion.cli.dataset.model_range import slope_told
+from gradhesion.cli.dataset.model_range import slope_warnings
 from gradhesion.cli.dataset.selection import Selection
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
@@ -83,7 +83,7 @@ def draw_fronts(
         if scenes:
             axes.legend(fontsize="small")
         fixed = [equation(name, float(narrow[name])) for name in effective(narrow) if narrow[name].size == 1]
-        fixed += slope_told(narrow)
+        fixed += slope_warnings(narrow)
         words = [heading(dataset)] if looks.title else []
         words += [in_lines(fixed, looks.width or 4.2)] if looks.caption and fixed else []
         if words:

@@ -13,7 +13,7 @@ from matplotlib.contour import QuadContourSet
 from matplotlib.figure import SubFigure
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.model_range import beyond_by, slope_told
+from gradhesion.cli.dataset.model_range import beyond_by, slope_warnings
 from gradhesion.cli.dataset.reader import is_turned
 from gradhesion.cli.dataset.reductions import Taken
 from gradhesion.cli.dataset.selection import Selection
@@ -260,4 +260,4 @@ def _caption(
     for axis in (plan.x, plan.second):
         if axis and axis in items and axis not in (plan.columns, plan.rows):
             written.append(f"{len(items[axis]):,} of {dataset.sizes[axis]:,} values of {SYMBOLS[axis]}")
-    return [*written, *slope_told(dataset)]
+    return [*written, *slope_warnings(dataset)]

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.model_range import slope_told, tabor_told
+from gradhesion.cli.dataset.model_range import slope_warnings, tabor_warnings
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import FLAGS as WORDS
 from gradhesion.cli.names import MINIMUM, PARAMETER, PARAMETER_UNITS
@@ -122,9 +122,9 @@ def _quality(dataset: xarray.Dataset) -> Iterator[str]:
     if "tabor_parameter" in dataset:
         tabor = float(dataset["tabor_parameter"])
         comment = str(dataset["tabor_parameter"].attrs.get("comment", ""))
-        beyond = list(tabor_told(tabor, comment))
+        beyond = list(tabor_warnings(tabor, comment))
         yield from beyond or [f"Tabor parameter {tabor:.3g} ({comment})"]
-    yield from (f"outside the range of the model: {line}" for line in slope_told(dataset))
+    yield from (f"outside the range of the model: {line}" for line in slope_warnings(dataset))
     for name, bit in FLAGS.items():
         if status & bit:
             yield f"status: {name}: {WORDS[name]}"

@@ -299,7 +299,10 @@ def test_a_peak_between_the_points_is_flagged(
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"optimum": {"maximise": "loading_jumps", "over": ["lambda_over_R"]}}, "is a count, which changes in steps and has no optimum"),
+        (
+            {"optimum": {"maximise": "loading_jumps", "over": ["lambda_over_R"]}},
+            "is a count, which changes in steps and has no optimum",
+        ),
         ({"optimum": {"maximise": "pull_of_force", "over": ["lambda_over_R"]}}, 'did you mean "pull_off_force"'),
         (
             {"optimum": {"maximise": "pull_off_force", "over": ["A"]}},
