@@ -134,9 +134,9 @@ def _outputs(study: Study, scenes: Mapping[str, NDArray[np.float64]], threads: i
     settings: dict[str, Any] = {"check_contact": study.method.check_contact, "threads": threads}
     settings |= {**driven_by(study), "watch": study.may_reach(scenes["a_max_over_R"])}
     solvers = study.method.solver
-    asked = (solvers,) if isinstance(solvers, str) else solvers
+    requested = (solvers,) if isinstance(solvers, str) else solvers
     *_, profiles = study.apart(tuple(slice(0, size) for size in study.shape))
-    return solved_by(scenes, study, asked, profiles, **settings)
+    return solved_by(scenes, study, requested, profiles, **settings)
 
 
 def _other_coordinates(parameters: Arrays, dataset: xarray.Dataset) -> dict[str, xarray.DataArray]:

@@ -254,9 +254,9 @@ def solve(
 
         found = solve_two_works(parameters, outputs, how)
         return {name: found[name] for name in (*outputs, "status")}
-    asked = outputs
+    requested = outputs
     outputs = wanted_for(outputs, turned=turn is not None)
-    senses = tuple(name in asked for name in SENSITIVITIES)
+    senses = tuple(name in requested for name in SENSITIVITIES)
     slopes = (senses[0], WHOLE_CYCLE if senses[1] else 0) if any(senses) else None
 
     def solved(scenes: Mapping[str, ArrayLike], wanted: Sequence[str], *, turned: bool = False) -> Results:
@@ -265,8 +265,8 @@ def solve(
 
     def again(scenes: Mapping[str, ArrayLike], wanted: Sequence[str]) -> Results:
         """Solve other scenes that turn as these do."""
-        asked: Any = {"threads": threads, "profile": profile, "loading": loading, "toughness": toughness}
-        return solve(scenes, wanted, check_contact=False, **asked)
+        requested: Any = {"threads": threads, "profile": profile, "loading": loading, "toughness": toughness}
+        return solve(scenes, wanted, check_contact=False, **requested)
 
     passed: NDArray[np.bool_] = np.array(False)
     if turn is None:
@@ -304,6 +304,6 @@ def solve(
             known: Any = {"threads": threads, "profile": own, "loading": loading, "toughness": toughness}
             return solve(scenes, PULL_OFF, check_contact=False, **known)["pull_off_force"]
 
-        found |= sensitivities(parameters, asked, found, found[SLOPES], turn, passed, force_of)
+        found |= sensitivities(parameters, requested, found, found[SLOPES], turn, passed, force_of)
         note_compiled(kind_of_sensitivities(profile, loading, toughness))
-    return {name: found[name] for name in (*asked, "status")}
+    return {name: found[name] for name in (*requested, "status")}

@@ -110,22 +110,22 @@ def run(
             return
         run_fit(loaded, path, history=history_now(), overwrite=overwrite, quiet=quiet)
         return
-    asked = loaded.chunked(chunk)
+    requested = loaded.chunked(chunk)
     if dry_run:
-        show_plan(asked, path, threads)
+        show_plan(requested, path, threads)
         return
     if engine == "threads":  # the workers of a cluster have caches of their own
-        prepare(kinds_of(asked), quiet=quiet)
-    solver = _engine(asked, engine, scheduler, threads, quiet=quiet)
+        prepare(kinds_of(requested), quiet=quiet)
+    solver = _engine(requested, engine, scheduler, threads, quiet=quiet)
     if shard is not None:
         if fresh or fail_fast:
             raise click.UsageError("--shard cannot be combined with --fresh or --fail-fast; run without these two")
-        _run_shard(asked, path, shard, solver, overwrite=overwrite, quiet=quiet)
+        _run_shard(requested, path, shard, solver, overwrite=overwrite, quiet=quiet)
         return
     start = time.monotonic()
-    with progress(asked.scenes, quiet=quiet) as advance:
+    with progress(requested.scenes, quiet=quiet) as advance:
         written = write(
-            asked,
+            requested,
             path,
             history=history_now(),
             overwrite=overwrite,
@@ -135,7 +135,7 @@ def run(
             engine=solver,
             advance=advance,
         )
-    finish(path, asked.scenes, written, time.monotonic() - start, quiet=quiet)
+    finish(path, requested.scenes, written, time.monotonic() - start, quiet=quiet)
 
 
 def history_now() -> str:

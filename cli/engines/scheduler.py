@@ -116,7 +116,7 @@ def _address_in(path: Path) -> str:
         time.sleep(0.1)
 
 
-def asked(client: Any, call: Callable[[], _T]) -> _T:
+def requested(client: Any, call: Callable[[], _T]) -> _T:
     """
     Call what needs the scheduler, again if it was lost meanwhile and has come back.
 

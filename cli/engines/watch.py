@@ -3,7 +3,7 @@
 import time
 from typing import Any, Final
 
-from gradhesion.cli.engines.scheduler import asked, patience
+from gradhesion.cli.engines.scheduler import patience, requested
 from gradhesion.cli.errors import ClusterError, OutputError
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import counted
@@ -86,7 +86,9 @@ class Watch:
         if time.monotonic() - self._looked < PERIOD:
             return
         client = self._client
-        there = asked(client, lambda: client.sync(client.scheduler.identity, callback_timeout=patience()))["workers"]
+        there = requested(client, lambda: client.sync(client.scheduler.identity, callback_timeout=patience()))[
+            "workers"
+        ]
         self._workers = {worker: one["nthreads"] for worker, one in there.items()}
         self._looked = time.monotonic()
         many = len(self._workers)

@@ -183,6 +183,6 @@ def remove_unused(folder: Path, now: float | None = None) -> None:
 @lru_cache(maxsize=1)
 def machine() -> str:
     """Return a digest of all that compiled code depends on beside the sources."""
-    asked = (numba.config.CPU_NAME, numba.config.CPU_FEATURES)
-    processor = (*asked, binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten())
+    requested = (numba.config.CPU_NAME, numba.config.CPU_FEATURES)
+    processor = (*requested, binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten())
     return hashlib.sha256(repr((sys.version, numba.__version__, processor)).encode()).hexdigest()[:16]
