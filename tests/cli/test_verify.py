@@ -106,7 +106,7 @@ def test_an_edited_study_is_told(gradhesion: Call, dataset_file: Path) -> None:
         ('"pull_off_radius", ', "", None),
         ("A = [", "B = [", "its study is not valid in this version (its study: parameters."),
         ("[parameters]", "[parameters", "its study is not valid TOML"),
-        ("[parameters]", "[method]\nsolver = 'asymptotic'\n[parameters]", "has no independent twin"),
+        ("[parameters]", "[method]\nsolver = 'asymptotic'\n[parameters]", "without an independent twin"),
         ("[parameters]", "[method]\nsolver = 'envelope'\n[parameters]", 3),
         ("[parameters]", "[method]\ncheck_contact = false\n[parameters]", None),
         ("title = ", "kind = 'curve'\ntitle = ", "contains a curve; `gradhesion verify` accepts only maps"),
