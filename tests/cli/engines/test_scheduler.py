@@ -216,7 +216,7 @@ def test_mistakes(
     for arguments in (["--scheduler=tcp://127.0.0.1:9"], ["--engine=dask", "--scheduler=f", "--threads=2"]):
         result = gradhesion(*run, *arguments)
         assert result.exit_code == 2
-        assert "--scheduler goes with --engine dask, and without --threads" in result.stderr
+        assert "--scheduler needs --engine dask, without --threads" in result.stderr
     for scheduler, sentence in (
         ("tcp://127.0.0.1:9", "no Dask scheduler answers"),
         ("nonsense://1", "no Dask scheduler answers"),
