@@ -1,4 +1,4 @@
-"""The accessor `dataset.gr` of xarray: what the status of a dataset's scenes means."""
+"""The accessor `dataset.gr` of xarray: the meaning of the status of its scenes."""
 
 from typing import Any
 
@@ -54,7 +54,7 @@ class Accessor:
 
     def valid(self, variable: str | None = None) -> xarray.DataArray:
         """
-        Report which scenes have values that hold.
+        Report which scenes have valid values.
 
         Parameters
         ----------
@@ -87,7 +87,7 @@ class Accessor:
         Parameters
         ----------
         flag
-            A name out of `FLAGS`, or of fits "poor_fit" or "another_minimum".
+            A name from `FLAGS`, or for fits "poor_fit" or "another_minimum".
 
         Returns
         -------
@@ -110,7 +110,7 @@ class Accessor:
         Parameters
         ----------
         number
-            "contact_slope", which is known of every dataset, or a validity number that is a variable of this one.
+            "contact_slope", which is available for every dataset, or a validity number that is a variable of this one.
 
         Returns
         -------
@@ -119,11 +119,11 @@ class Accessor:
         Raises
         ------
         DatasetError
-            The number is not known of this dataset.
+            The dataset does not have this number.
         """
         beyond = beyond_by(number, self._dataset) if number in LIMITS else None
         if beyond is None and number != "contact_slope":
-            raise DatasetError(f"{number}: not known of this dataset; add it to the outputs of the study")
+            raise DatasetError(f"{number}: not a variable of this dataset; add it to the outputs of the study")
         if beyond is None:
             beyond = xarray.full_like(self._dataset["status"], is_cone(self._dataset), dtype=bool)
         return beyond

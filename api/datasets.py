@@ -1,4 +1,4 @@
-"""Datasets of this program: opened, and verified."""
+"""Open and verify datasets of this program."""
 
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
@@ -28,7 +28,7 @@ def open_dataset(file: str | Path) -> xarray.Dataset:
     Parameters
     ----------
     file
-        Of NetCDF.
+        A NetCDF file.
 
     Returns
     -------
@@ -37,8 +37,8 @@ def open_dataset(file: str | Path) -> xarray.Dataset:
     Raises
     ------
     DatasetError
-        The file is missing or damaged, or something else than a dataset of this program; the message says what it is,
-        or what it lacks.
+        The file is missing or damaged, or not a dataset of this program; the message names what it is, or what it
+        lacks.
     """
     dataset = found(Path(file), kept=True)
     try:
@@ -66,12 +66,12 @@ def verify(dataset: Data, *, sample: int = 20, seed: int | None = None) -> "Reco
     Returns
     -------
     What was found: `deviations` (the worst first, each with `output`, `scene`, `value`, `expected`, `deviation`,
-    `stated` and its `share` of what is stated), the number `exceeding` their stated errors, and what was left out.
+    `stated` and its `share` of its stated error), the number `exceeding` their stated errors, and what was left out.
 
     Raises
     ------
     DatasetError
-        The dataset has no study, does not belong to it, or holds nothing that can be recomputed.
+        The dataset has no study, does not belong to it, or contains nothing that can be recomputed.
     MissingExtraError
         python-flint is not installed, or too old.
 

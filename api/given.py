@@ -1,4 +1,4 @@
-"""Parameters as a call in Python gives them: numbers, quantities with units, axes, and arrays over named dimensions."""
+"""Parameters of a call in Python: numbers, quantities with units, axes, and arrays over named dimensions."""
 
 import math
 import re
@@ -154,9 +154,7 @@ class Given:
             return
         wrong = (k == 1.0) & (nu != 0.5)
         if bool(np.any(wrong)):
-            self.refuse(
-                "k = 1.0", "with k = 1 and another nu than 0.5 the surface has no stiffness; use nu = 0.5 there"
-            )
+            self.refuse("k = 1.0", "with k = 1 and nu other than 0.5 the surface has no stiffness; use nu = 0.5 there")
 
 
 def given_in(
@@ -239,7 +237,7 @@ def _align(given: Given) -> None:
                 given.refuse(name, f'its dimension "{dim}" has the name of a variable; rename it')
             elif dim in INPUTS and (dim not in given.arrays or given.arrays[dim].dims != (dim,)):
                 sentence = (
-                    f'its dimension "{dim}" has the name of a parameter that is no axis; rename it, or give {dim}'
+                    f'its dimension "{dim}" has the name of a parameter that is not an axis; rename it, or give {dim}'
                 )
                 given.refuse(name, f"{sentence} as a list")
     arrays = {name: array.reset_coords(drop=True) for name, array in given.arrays.items()}
@@ -252,7 +250,7 @@ def _align(given: Given) -> None:
         )
         given.refuse(
             "parameters",
-            f"dimensions of one name have other lengths or other coordinates ({sizes}); rename one of them",
+            f"dimensions of the same name differ in length or coordinates ({sizes}); rename one of them",
         )
 
 

@@ -1,4 +1,4 @@
-"""The parameters of a scene, with what they are; outputs and curves are in `gradhesion.cli.names`."""
+"""The parameters of a scene, with their meanings; outputs and curves are in `gradhesion.cli.names`."""
 
 from typing import Any, Final, TypedDict
 

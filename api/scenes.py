@@ -1,4 +1,4 @@
-"""Scenes solved, or drawn, without a file: parameters in, a dataset of xarray out."""
+"""Solve or draw scenes without a file: parameters in, an xarray dataset out."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -50,7 +50,8 @@ def solve(
         one of pint, astropy or unyt (a plain number is in SI units: R = 1e-6); and machine_stiffness S/(E* R), or
         spring_constant, with control "machine". Each of them is
 
-        - a number (or a quantity with its unit; of a ratio one without dimension, as percent): the same in all scenes;
+        - a number (or a quantity with its unit; for a ratio a dimensionless one, such as percent): the same in all
+          scenes;
         - a list, a plain array of one dimension, or a range {"start": .., "stop": .., "num": .., "spacing": "log"}: an
           axis of the name of the parameter, as in a study. Two lists make a grid, whatever their lengths;
         - an xarray.DataArray: arrays broadcast by the names of their dimensions, so that A and k over the same
@@ -60,13 +61,13 @@ def solve(
 
         A plain array of two or more dimensions is refused: their names are missing.
     outputs
-        Names out of `OUTPUTS`.
+        Names from `OUTPUTS`.
     profile
         The shape of the punch, a `Profile` or the table of a study; by default a paraboloid with one cosine wave.
     control
         "displacement" (the default), "load" or "machine".
     toughness
-        How the toughness varies with the radius, a `Toughness` or the table of a study; by default it does not.
+        How the toughness varies with the radius, a `Toughness` or the table of a study; constant by default.
     rate
         How the work of adhesion grows with the speed of the edge, a `Rate` or the table of a study; not at all by
         default.
@@ -91,7 +92,7 @@ def solve(
     ------
     StudyError
         Parameters, outputs or settings are unknown, missing or out of range, a unit is not that of a parameter, or
-        dimensions do not go together; the error has all mistakes.
+        dimensions are inconsistent; the error lists all mistakes.
 
     Notes
     -----
@@ -148,9 +149,9 @@ def curves(
     ----------
     parameters, **more
         As in `solve`, but for arrays over named dimensions, which are axes, or all of them over the one dimension
-        `scene`; 1,000 scenes at most. The values of an axis rise or fall.
+        `scene`; 1,000 scenes at most. The values of an axis must rise or fall.
     outputs
-        Names out of `CURVES`, such as "path", or single variables of theirs, such as "path_load".
+        Names from `CURVES`, such as "path", or single variables of them, such as "path_load".
     contact_radius_over_R
         For "pressure" and "surface": the radii of states of equilibrium, ratios; None for turning point, pull-off and
         jump-out.
@@ -165,7 +166,7 @@ def curves(
     Raises
     ------
     StudyError
-        As `solve`.
+        As in `solve`.
 
     Examples
     --------
@@ -186,6 +187,6 @@ def curves(
             if array.dims not in ((name,), (SCENE,)):
                 given.refuse(name, f"curves are drawn over axes, or over one dimension {SCENE}; rename its dimensions")
         elif given.is_grid and not (np.all(np.diff(array) > 0.0) or np.all(np.diff(array) < 0.0)):
-            given.refuse(name, "the values of an axis of curves rise or fall; sort them")
+            given.refuse(name, "the values of an axis of curves must rise or fall; sort them")
     given.study()
     return compute(study_from(given.whole(), "gr.curves"), threads=threads)

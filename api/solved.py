@@ -1,4 +1,4 @@
-"""The dataset of scenes whose parameters are arrays over named dimensions: as that of a study, over any dimensions."""
+"""The dataset of scenes whose parameters are arrays over named dimensions: like that of a study, any dimensions."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -9,7 +9,7 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.dataset import attributes, variables, with_steep_contact
-from gradhesion.cli.dataset.model_range import slope_told
+from gradhesion.cli.dataset.model_range import slope_warnings
 from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import PHYSICAL_PARAMETER, REALISATION, SI, SOLVER, STEEP, UNITS, labels_of
@@ -82,7 +82,7 @@ def solved(study: Study, parameters: Arrays, threads: int | None = None) -> xarr
     dataset = xarray.Coordinates(made).to_dataset().reset_coords([name for name in described if name in found])
     dataset.attrs = about
     dataset = with_steep_contact(dataset, study, steep)
-    _say_once(tuple(slope_told(dataset)))
+    _say_once(tuple(slope_warnings(dataset)))
     others = _other_coordinates(parameters, dataset)
     return dataset.assign_coords(others) if others else dataset
 
@@ -134,9 +134,9 @@ def _outputs(study: Study, scenes: Mapping[str, NDArray[np.float64]], threads: i
     settings: dict[str, Any] = {"check_contact": study.method.check_contact, "threads": threads}
     settings |= {**driven_by(study), "watch": study.may_reach(scenes["a_max_over_R"])}
     solvers = study.method.solver
-    asked = (solvers,) if isinstance(solvers, str) else solvers
+    requested = (solvers,) if isinstance(solvers, str) else solvers
     *_, profiles = study.apart(tuple(slice(0, size) for size in study.shape))
-    return solved_by(scenes, study, asked, profiles, **settings)
+    return solved_by(scenes, study, requested, profiles, **settings)
 
 
 def _other_coordinates(parameters: Arrays, dataset: xarray.Dataset) -> dict[str, xarray.DataArray]:

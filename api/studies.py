@@ -29,7 +29,7 @@ def load(
     ----------
     study
         The path of a study in TOML, or a mapping with its keys; lists may be arrays, and strings with units quantities
-        of pint, astropy or unyt, or arrays with the attribute `units`. As in a file, a plain number is no quantity.
+        of pint, astropy or unyt, or arrays with the attribute `units`. As in a file, a plain number is not a quantity.
     set
         Keys to set, by their dotted paths: {"parameters.A": 0.02, "physical.R": "1 um"}; values as in a mapping.
 
@@ -41,7 +41,7 @@ def load(
     Raises
     ------
     StudyError
-        It cannot be read or is wrong; the error lists all of them.
+        The study cannot be read or is wrong; the error lists all mistakes.
 
     Examples
     --------
@@ -71,7 +71,7 @@ def run(
     Parameters
     ----------
     study, set
-        As `load` takes them, or a study that it returned.
+        As for `load`, or a study that it returned.
     threads
         Threads to use, all processors if None; the values do not depend on it.
 
@@ -82,8 +82,8 @@ def run(
     Raises
     ------
     StudyError
-        The study cannot be read or is wrong; the error lists all of them. Of a fit: the data do not
-        determine its parameters.
+        The study cannot be read or is wrong; the error lists all mistakes. For a fit: the data do not determine its
+        parameters.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""One value of a call as numbers over named dimensions: of lists, arrays and quantities, with or without units."""
+"""A value of a call as numbers over named dimensions: from lists, arrays and quantities, with or without units."""
 
 from typing import Any
 
@@ -45,7 +45,7 @@ def array_of(name: str, value: Any) -> xarray.DataArray:
         names = ", ".join(f'"{letter}"' for letter in "xyzuvw"[: values.ndim])
         raise ValueError(
             f"an array of {shape} values without names for its dimensions; write for example "
-            f"xarray.DataArray({name}, dims=[{names}]), and arrays with equal names go together"
+            f"xarray.DataArray({name}, dims=[{names}]), and arrays with equal names vary together"
         )
     return _plain(name, xarray.DataArray(values, dims=(name,)[: values.ndim], attrs=attributes))
 

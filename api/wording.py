@@ -1,4 +1,4 @@
-"""How what is said of a study, or of options in a shell, reads in Python."""
+"""Python wording of messages about a study, or about options in a shell."""
 
 import re
 from collections.abc import Iterator

@@ -40,14 +40,14 @@ Times are minima of several samples, on one thread unless stated.
 
 The solvers and a dense grid (`benchmarks/dense_grid.py`: two SciPy Struve functions on a grid of radii, running maximum
 and minimum of the depth, trapezoids) on the same random scenes, whose values are known to 30 digits (`tests/twin`).
-Each solver takes copies of the scenes in one array, shuffled, each solved for itself. Errors are relative: median
-and 90th percentile over the scenes; the time of the grid at a given error is read between two sizes. The
+Each solver is given copies of the scenes in one shuffled array, each solved separately. Errors are relative: median
+and 90th percentile over the scenes; the time of the grid at a given error is interpolated between two sizes. The
 asymptotic and envelope solvers are approximations for short waves; the scenes have waves of all lengths, so that their
 errors are large here.
 
 Aims: 10^6 times faster than the grid for the force at 1e-7, 10^4 times for the energy at 1e-4. The grid gains two
-digits of the energy for one of the number of radii, while the exact energy takes an integral for each jump of the path,
-with all its digits: that bounds the second ratio.
+digits of the energy for one of the number of radii, while the exact energy needs an integral for each jump of the path,
+to all digits: this limits the second ratio.
 
 {error.tables(*points)}
 ![Run time against error](figures/time_against_error.png)
@@ -69,17 +69,17 @@ z = 40, 18 ns above, 0.3 ms for a table.
 
 {functions.time_table()}
 Largest (mean) error of the points of `tests/reference/struve.npz`, in units of eps = 2^-52: of the function below
-z = 1.5, of it or its local amplitude, the larger, beyond. Zeros of the functions are among the points. SciPy is given
-z = 2 pi x rounded, from which most of its error beyond z = 1000 comes; its NaNs are counted separately.
+z = 1.5, beyond that of the larger of it and its local amplitude. The points include zeros of the functions. SciPy is
+given z = 2 pi x rounded, which causes most of its error beyond z = 1000; its NaNs are counted separately.
 
 {functions.error_table()}"""
     yield f"""## Scenes
 
 Random scenes, each on a curve of its own, in one call of `gradhesion.core.solve`: lambda/L from 0.06 to 2, r/s from 0
 to 1.5, a_max/L from 1 to 4, k one of {", ".join(map(str, draw.EXPONENTS))}. L = (R^2 dgamma/M)^(1/(3+k)) is the
-length of the contact, r/s the share of the adhesion that short waves take or add (`core/closed/envelope.py`).
+length of the contact, r/s the fraction of the adhesion that short waves remove or add (`core/closed/envelope.py`).
 
-Aims: 0.6 us for the force, 5 us for both, 0.05 us where the punch is smooth. Long waves leave few jumps, short ones
+Aims: 0.6 us for the force, 5 us for both, 0.05 us if the punch is smooth. Long waves cause few jumps, short ones
 many, and the cost of the energy is that of the jumps. Many smooth scenes are solved in blocks,
 by vector operations; where k, nu or c0 differ, most of their time is that of the stiffness.
 
@@ -89,14 +89,14 @@ by vector operations; where k, nu or c0 differ, most of their time is that of th
 
 k = 0.3, nu = 0.3, E* R/dgamma = 500, c0/R = 0.01, a_max = R, the wavelength alone varied: once at fixed A, once at
 fixed r/s. The folds of these scenes persist to the rim, so that the jumps grow with the waves. Aim: 3 times at most.
-Each wave of a short curve is walked, of a long one only the first, the last and some in between, whatever their number.
+Short curves are traced wave by wave, long ones only in the first, the last and some waves in between.
 
 {by_waves}"""
     by_rims, rims = scenes.rims_table()
     yield f"""### Many rims on one curve
 
 The same scene with lambda/R = 0.02, r/s = 0.8. Aim: 100 rims cost 1.5 times one at most. The trace is
-shared; where the rim ends it, and the last jump, are each rim's own.
+shared; its end at the rim and the last jump are computed for each rim.
 
 {by_rims}"""
     scenes.picture(waves, rims, scenes.numbers())
@@ -123,7 +123,7 @@ Turning points are `indentation_max_over_R`. Aim: 1.5 times.
 {classes.shared_table()}"""
     yield f"""### Sensitivities
 
-To all parameters, k among them, beside the values; processor time. Aim: twice at most with the values.
+Those to all parameters, including k, together with the values; processor time. Aim: at most twice that of the values.
 
 {sensitivities.costs_table(100 if quick else 1000)}"""
     yield f"""### One scene in Python
@@ -138,8 +138,8 @@ Six unknowns, {loop_fits.POINTS:,} points, one thread. Aim: 2 s.
 {loop_fits.times_table(2 if quick else 12)}"""
     yield f"""### Is the contact one disc?
 
-The rigorous test of `docs/theory.md`, section 12, on the same mixtures. Free tests (r/s up to 1/2 above all) and the
-depths of the path decide some of the scenes, the integral of the gap the others. Aim: 30 % at most.
+The rigorous test of `docs/theory.md`, section 12, on the same mixtures. Tests without cost (mainly r/s up to 1/2) and
+the depths of the path settle some of the scenes, the integral of the gap the others. Aim: 30 % at most.
 
 {contact.contact_table(20_000 if quick else 200_000, 200 if quick else 2000)}"""
     if not quick:
@@ -152,8 +152,8 @@ or more.
 {engines.engines_table()}"""
     yield f"""### Studies of any size
 
-The same axes with more and more values, computed and written by `gradhesion.cli.dataset.writer.write` in a process of
-its own, what a study of 2,000 scenes takes (a file opened, closed and renamed) subtracted. Aims: level within 20 %,
+The same axes with more and more values, computed and written by `gradhesion.cli.dataset.writer.write` in a separate
+process, less the time of a study of 2,000 scenes (a file opened, closed and renamed). Aims: constant within 20 %,
 memory too; 10^8 scenes in 180 s. `of it solving` is the time of `gradhesion.core.solve` alone on 10^6 of these scenes
 over that of the whole.
 

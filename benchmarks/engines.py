@@ -75,7 +75,7 @@ def engines_table(repeat: int = 3) -> str:
         "more without their start",
         "of processor time",
     ]
-    words = f"To start, workers take {start[0]:.1f} s, and {start[1]:.1f} s of processor time.\n"
+    words = f"To start, workers need {start[0]:.1f} s, and {start[1]:.1f} s of processor time.\n"
     return f"{table(header, lines)}\n{words}"
 
 

@@ -208,12 +208,12 @@ def main() -> None:
     parser.add_argument("--decades", type=int, nargs=2, default=(4, 14), metavar=("FIRST", "END"))
     parser.add_argument("--balls", type=int, default=0, help="scenes a class against ball arithmetic instead")
     parser.add_argument("--worst", type=int, default=0, help="scenes to be printed of each decade")
-    asked = parser.parse_args()
-    first, end = asked.decades
-    if asked.balls:
-        print(report_of_balls(first, end, asked.balls, asked.seed))
+    requested = parser.parse_args()
+    first, end = requested.decades
+    if requested.balls:
+        print(report_of_balls(first, end, requested.balls, requested.seed))
     else:
-        print(report(first, end, asked.count, asked.seed, asked.worst))
+        print(report(first, end, requested.count, requested.seed, requested.worst))
 
 
 def report_of_balls(first: int, end: int, count: int, seed: int) -> str:

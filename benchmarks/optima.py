@@ -78,12 +78,12 @@ def compared(goal: str, inputs: int, problems: int, seed: int) -> str:
     """Write a row: the least times of several rounds, in turn, and who has found the better optimum."""
     rng = np.random.default_rng(seed)
     drawn = [problem(rng) for _ in range(problems)]
-    asked = [study_of(scene, goal, inputs) for scene in drawn]
+    requested = [study_of(scene, goal, inputs) for scene in drawn]
     times, ours, theirs = np.full((2, problems), np.inf), np.empty(problems), np.empty(problems)
     whole, mapped = study_of_all(drawn, goal, inputs), np.inf
-    solve_block(asked[0], (), 1)
+    solve_block(requested[0], (), 1)
     for _ in range(REPEATS):
-        for i, (scene, study) in enumerate(zip(drawn, asked, strict=True)):
+        for i, (scene, study) in enumerate(zip(drawn, requested, strict=True)):
             start = time.perf_counter()
             ours[i] = solve_block(study, (), 1)[f"best_{goal}"].item()
             middle = time.perf_counter()

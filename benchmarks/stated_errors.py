@@ -148,8 +148,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("count", type=int, nargs="?", default=10_000)
     parser.add_argument("seed", type=int, nargs="?", default=20261)
-    asked = parser.parse_args()
-    count, seed = asked.count, asked.seed
+    requested = parser.parse_args()
+    count, seed = requested.count, requested.seed
     print("| class | scenes | exceeded (force, energy) | largest true/stated | median stated/true |")
     print("| --- | --- | --- | --- | --- |")
     for name, found in classes(count, seed):

@@ -72,8 +72,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("count", type=int, nargs="?", default=10_000)
     parser.add_argument("seed", type=int, nargs="?", default=20261)
-    asked = parser.parse_args()
-    count, seed = asked.count, asked.seed
+    requested = parser.parse_args()
+    count, seed = requested.count, requested.seed
     heads = ("waves", "scenes", "no value", "against the second solver", "over stated", "relative")
     heads += ("against the limit", "over 2/(chi N) + 1e-12", "neither")
     print(f"| {' | '.join(heads)} |\n| {' | '.join(['---'] * len(heads))} |")

@@ -12,7 +12,7 @@ EXIT_CODES: Final = {
     2: "the command, the study or the dataset is wrong; a package is missing or too old; no scheduler answers, "
     "or no worker is usable",
     3: "written, but some scenes have failed (their `status` reports why), or a fit is in doubt (it did not converge, "
-    "leaves more than its noise, has another minimum, or ends at an end of a range), or `verify` has found a value "
+    "has a residual above its noise, has another minimum, or ends at an end of a range), or `verify` has found a value "
     "beyond its stated error",
     4: "the output cannot be written (it exists, no space, no permission, another run is writing it, or parts of "
     "another study are kept), or the scheduler or all workers are gone; existing files are untouched",
@@ -44,13 +44,13 @@ class GradhesionError(Exception):
 
 
 class StudyError(GradhesionError, ValueError):
-    """A study, or what is asked of a function in the place of one, is wrong."""
+    """A study, or the arguments of a function in its place, are wrong."""
 
     exit_code = 2
 
 
 class DatasetError(GradhesionError, ValueError):
-    """A dataset cannot be read, or lacks what was asked for."""
+    """A dataset cannot be read, or lacks what was requested."""
 
     exit_code = 2
 
@@ -68,7 +68,7 @@ class FitDoubtfulError(GradhesionError):
 
 
 class MissingExtraError(GradhesionError, ImportError):
-    """A package is missing, as those that the plain installation leaves out, or its version does not serve."""
+    """A package is missing, for example an optional one, or its version is too old."""
 
     exit_code = 2
 

@@ -31,8 +31,8 @@ OUTPUTS: Final = {
     "pull_off_force": "pull-off force F/(1.5 pi R dgamma)",
     "pull_off_radius": "contact radius a/R at pull-off",
     "dissipated_energy": "energy dissipated in a loading cycle, H/(R^2 dgamma)",
-    "loading_jumps": "number of jumps on loading, the jump-in counted",
-    "unloading_jumps": "number of jumps on unloading, the jump-out counted",
+    "loading_jumps": "number of jumps on loading, including the jump-in",
+    "unloading_jumps": "number of jumps on unloading, including the jump-out",
     "delta_max": "greatest indentation depth delta/R of the cycle",
     "delta_jump_out": "indentation depth delta/R at the jump-out",
     "loading_energy": "energy dissipated on loading, H/(R^2 dgamma)",
@@ -153,19 +153,19 @@ CURVES: Final = {
         "contact_radius": "contact radius a/R",
         "indentation": "indentation depth delta/R in equilibrium",
         "load": "load P/(1.5 pi R dgamma) in equilibrium, negative if it pulls",
-        "stable": "whether the equilibrium is stable under the control in force",
+        "stable": "whether the equilibrium is stable under the control of the study",
     },
     "closing_equilibrium": {
         "closing_contact_radius": "contact radius a/R of an edge that closes",
         "closing_indentation": "indentation depth delta/R in equilibrium of an edge that closes",
         "closing_load": "load P/(1.5 pi R dgamma) in equilibrium of an edge that closes",
-        "closing_stable": "whether the equilibrium of an edge that closes is stable under the control in force",
+        "closing_stable": "whether the equilibrium of an edge that closes is stable under the control of the study",
     },
     "path": {
         "path_contact_radius": "contact radius a/R on the path of a loading cycle",
         "path_indentation": "indentation depth delta/R on the path of a loading cycle",
         "path_load": "load P/(1.5 pi R dgamma) on the path of a loading cycle",
-        "path_branch": "stable branch that the path is on, from inside outwards (0: out of contact)",
+        "path_branch": "stable branch of the path, counted from inside (0: out of contact)",
         "path_jump": "whether the point is reached by a jump",
         "path_unloading": "whether the path is loading or unloading",
     },
@@ -194,7 +194,7 @@ CURVES: Final = {
     },
     "jumps": {
         "jump_count": "number of jumps of a loading cycle; those of all scenes follow one another",
-        "jump_indentation": "indentation depth delta/R before the jump; under displacement control it stays",
+        "jump_indentation": "indentation depth delta/R before the jump; constant under displacement control",
         "jump_radius_before": "contact radius a/R before the jump (0: no contact)",
         "jump_radius_after": "contact radius a/R after the jump (0: no contact)",
         "jump_energy": "energy dissipated by the jump over R^2 dgamma (negative: gained)",
@@ -289,18 +289,18 @@ STATUS: Final = "flags of a scene (0: nothing to report)"
 FLAGS: Final = {
     "loading_contact_not_one_disc": "contact on loading is not one disc",
     "unloading_contact_not_one_disc": "contact on unloading is not one disc",
-    "pull_off_at_rim": "the pull-off force is met at the rim",
-    "jump_in_to_rim": "the jump-in makes full contact at once",
+    "pull_off_at_rim": "the pull-off is at the rim",
+    "jump_in_to_rim": "the jump-in reaches the rim",
     "close_to_a_jump": "an input error of 1e-12 could change a number of jumps or the place of the pull-off",
-    "tolerance_not_met": "the accuracy asked for is not reached",
+    "tolerance_not_met": "the requested accuracy is not reached",
     "no_value": "a parameter is outside its range, or the scene cannot be resolved",
     "linear_deviation_off": "a linear standard deviation is off: a kink is near",
     "resolution_too_coarse": "a sweep finer than the resolution finds another optimum",
-    "nothing_feasible": "no point of the sweep meets what is required",
+    "nothing_feasible": "no point of the sweep meets the requirements",
     "no_contact": "the cycle turns before first contact",
-    "too_many_waves": "more waves stand within the contact than are followed",
-    "poor_fit": "the residual is more than noise explains",
-    "another_minimum": "other values meet the loop as well, within its noise",
+    "too_many_waves": "the contact contains more waves than can be followed",
+    "poor_fit": "the residual exceeds the noise",
+    "another_minimum": "other values fit the loop as well within its noise",
 }
 """Every flag of `status`, in words."""
 
@@ -452,10 +452,10 @@ FIT_UNITS: Final = {
 """Their units; all others have none, or that of what is fitted."""
 
 FIT_WORDS: Final = {
-    "file": "file of the loop; behind # which of its loops",
+    "file": "file of the loop; after # the number of the loop in it",
     "sha256": "fingerprint of the file",
-    "problem": "why the loop has no values; empty where it has",
-    "alike": "what the loop cannot tell apart; empty where nothing is known",
+    "problem": "why the loop has no values; empty if it has values",
+    "alike": "alternatives that the loop cannot distinguish; empty if none are found",
 }
 """The words of each of several loops, along `loop`."""
 

@@ -1,4 +1,4 @@
-"""What every kind of curve answers: each function is declared here once, and answered once a kind.
+"""The questions that every kind of curve answers: each function is declared here once, and answered once per kind.
 
     Cosine      one cosine on a paraboloid under displacement control   curve/cosine.py       faces/cosine.py
     Series      any profile under any control                           curve/general.py      faces/series.py

@@ -1,4 +1,4 @@
-"""The kinds of work: each has kernels of its own, that are compiled when it is first done.
+"""The kinds of work: each has kernels of its own, which are compiled on its first use.
 
     force              the pull-off of one cosine wave under displacement control, by the exact solver
     energy             anything else of `OUTPUTS` of it

@@ -1,4 +1,4 @@
-"""Arrays of scenes: what is asked for is checked, solved by whom it concerns, and named.
+"""Arrays of scenes: requests are checked, passed to the solver concerned, and their results named.
 
 What solves other profiles and controls is imported when it is asked for: it takes half as long as a small map.
 """
@@ -169,38 +169,38 @@ def solve(
         modulus E* R/dgamma > 0, c0/R > 0, lambda/R > 0, A = amplitude/lambda >= 0, a_max/R > 0 or inf. Scenes that
         differ along the last axes in a_max alone are solved on one trace.
     outputs
-        Names out of `OUTPUTS`: pull_off_force in 1.5 pi R dgamma, pull_off_radius in R, dissipated_energy of one
-        cycle of displacement-controlled loading to full contact and unloading in R^2 dgamma, loading_jumps and
-        unloading_jumps (jump-in and jump-out counted), delta_max and delta_jump_out in R: the
-        depths at which full contact is reached, and from which contact ends, also where the displacement is not what is
-        controlled; loading_energy and unloading_energy in R^2 dgamma, the two parts of dissipated_energy. With the
-        exact solver also those of `REPORTS`: pull_off_force_error and dissipated_energy_error, estimates in the unit of
-        the value (of rounding, and of the sum over waves); energy_residual, the energy less the loop integral of the
-        load, whose own rounding is that of the load (NaN beyond 2,000 waves); roughness_parameter chi = r/s;
-        saturation_radius in R, beyond which there is no fold; adhesion_gain and energy_gain over the smooth punch of
-        the same material and rim; and pull_off_force_sensitivity and dissipated_energy_sensitivity, d ln(value)/d ln p
-        of every parameter, for k and nu d ln(value)/dp. And contact_slope, (a/R)^(m-1) at the largest radius on which
-        the other outputs depend (arrays/reach.py); of an unbounded punch to about 1e-12, by the asymptotic solver 1e-6.
+        Names from `OUTPUTS`: pull_off_force in 1.5 pi R dgamma, pull_off_radius in R, dissipated_energy of one cycle of
+        displacement-controlled loading to full contact and unloading in R^2 dgamma, loading_jumps and unloading_jumps
+        (including jump-in and jump-out), delta_max and delta_jump_out in R: the depths at which full contact is reached
+        and from which contact ends, under any control; loading_energy and unloading_energy in R^2 dgamma, the two parts
+        of dissipated_energy. With the exact solver also those of `REPORTS`: pull_off_force_error and
+        dissipated_energy_error, estimates in the unit of the value (of rounding, and of the sum over waves);
+        energy_residual, the energy less the loop integral of the load, whose own rounding is that of the load (NaN
+        beyond 2,000 waves); roughness_parameter chi = r/s; saturation_radius in R, beyond which there is no fold;
+        adhesion_gain and energy_gain over the smooth punch of the same material and rim; and pull_off_force_sensitivity
+        and dissipated_energy_sensitivity, d ln(value)/d ln p of every parameter, for k and nu d ln(value)/dp. And
+        contact_slope, (a/R)^(m-1) at the largest radius on which the other outputs depend (arrays/reach.py); of an
+        unbounded punch to about 1e-12, by the asymptotic solver 1e-6.
     solver
         One of `SOLVERS`.
     check_contact
-        Report in `status` that loading does not keep the contact one disc (a tenth of the time of a cycle). The test
-        needs the loading path: it is made by the exact solver only, if an output but the two of the pull-off is given.
+        Report in `status` that the contact on loading is not one disc (a tenth of the time of a cycle). The test needs
+        the loading path: only the exact solver makes it, if an output other than the two of the pull-off is requested.
     threads
         Number of threads; all processors if not given. Results do not depend on it.
     profile
         The shape of the punch, a paraboloid with one cosine wave if not given.
     loading
-        What is prescribed, the displacement if not given; another control needs the exact solver. With control
-        "machine" `parameters` also has machine_stiffness, S/(E* R) > 0, which broadcasts with the others. Under load
-        control dissipated_energy leaves the jump-out out, which has no bound, and there is no energy_residual.
+        The control, displacement if not given; another control needs the exact solver. With control "machine"
+        `parameters` also has machine_stiffness, S/(E* R) > 0, which broadcasts with the others. Under load control
+        dissipated_energy excludes the jump-out, whose energy is unbounded, and energy_residual is not available.
 
     Returns
     -------
     An array of the broadcast shape for each output (float64; int32 for jumps, 2^31 - 1 for more) and `status` (int8,
-    int16 where cycles turn at a depth; bits of status.FLAGS). Sensitivities have a last axis more: the parameters in
-    the order of `PARAMETERS`, machine_stiffness and the one of `TURNS` if they are given. A scene outside the ranges
-    has NaN (-1 jumps) and the bit no_value; delta_max of an unbounded punch is inf.
+    int16 where cycles turn at a depth; bits of status.FLAGS). Sensitivities have an additional last axis: the
+    parameters in the order of `PARAMETERS`, machine_stiffness and the one of `TURNS` if they are given. A scene outside
+    the ranges has NaN (-1 jumps) and the bit no_value; delta_max of an unbounded punch is inf.
 
     Raises
     ------
@@ -211,8 +211,8 @@ def solve(
     Notes
     -----
     Sections 2-5 of Jin, Guo & Wan (2013) as corrected in docs/theory.md. On 2,184 scenes solved to 30 digits by another
-    method (tests/twin) the force is right to 2e-15, the energy to 4e-15 where every wave is walked and to 2e-13 where
-    waves are summed (on longer curves 1e-12, up to 4 10^15 waves), and all jumps are counted right.
+    method (tests/twin) the force is accurate to 2e-15, the energy to 4e-15 where every wave is traced and to 2e-13
+    where waves are summed (on longer curves 1e-12, up to 4 10^15 waves), and all counts of jumps are correct.
 
     Examples
     --------
@@ -254,9 +254,9 @@ def solve(
 
         found = solve_two_works(parameters, outputs, how)
         return {name: found[name] for name in (*outputs, "status")}
-    asked = outputs
+    requested = outputs
     outputs = wanted_for(outputs, turned=turn is not None)
-    senses = tuple(name in asked for name in SENSITIVITIES)
+    senses = tuple(name in requested for name in SENSITIVITIES)
     slopes = (senses[0], WHOLE_CYCLE if senses[1] else 0) if any(senses) else None
 
     def solved(scenes: Mapping[str, ArrayLike], wanted: Sequence[str], *, turned: bool = False) -> Results:
@@ -265,8 +265,8 @@ def solve(
 
     def again(scenes: Mapping[str, ArrayLike], wanted: Sequence[str]) -> Results:
         """Solve other scenes that turn as these do."""
-        asked: Any = {"threads": threads, "profile": profile, "loading": loading, "toughness": toughness}
-        return solve(scenes, wanted, check_contact=False, **asked)
+        requested: Any = {"threads": threads, "profile": profile, "loading": loading, "toughness": toughness}
+        return solve(scenes, wanted, check_contact=False, **requested)
 
     passed: NDArray[np.bool_] = np.array(False)
     if turn is None:
@@ -304,6 +304,6 @@ def solve(
             known: Any = {"threads": threads, "profile": own, "loading": loading, "toughness": toughness}
             return solve(scenes, PULL_OFF, check_contact=False, **known)["pull_off_force"]
 
-        found |= sensitivities(parameters, asked, found, found[SLOPES], turn, passed, force_of)
+        found |= sensitivities(parameters, requested, found, found[SLOPES], turn, passed, force_of)
         note_compiled(kind_of_sensitivities(profile, loading, toughness))
-    return {name: found[name] for name in (*asked, "status")}
+    return {name: found[name] for name in (*requested, "status")}

@@ -1,4 +1,4 @@
-"""Short names of types of arrays, for the arguments of kernels; shapes and units stand with the arguments."""
+"""Short names of types of arrays, for the arguments of kernels; shapes and units are given with the arguments."""
 
 from typing import Any, TypeAlias
 

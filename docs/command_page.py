@@ -33,7 +33,7 @@ def _of(name: str, command: click.Command) -> Iterator[str]:
     context = click.Context(command, info_name=f"gradhesion {name}")
     yield f"## gradhesion {name}"
     yield f"```text\n{context.command_path} {' '.join(command.collect_usage_pieces(context))}\n```"
-    yield _told(command)
+    yield _help_of(command)
     if command.epilog:
         calls = "\n".join(line.strip() for line in command.epilog.splitlines()[2:])
         yield f"```text\n{calls}\n```"
@@ -49,11 +49,11 @@ def _row(option: click.Option, context: click.Context) -> list[str]:
     return [code(record[0]), record[1]]
 
 
-def _told(command: click.Command) -> str:
+def _help_of(command: click.Command) -> str:
     """Take the help of a command out of its indentation."""
     return "\n\n".join(" ".join(part.split()) for part in (command.help or "").split("\n\n"))
 
 
 def _first(command: click.Command) -> str:
     """Take the first sentence of the help of a command."""
-    return _told(command).partition("\n\n")[0]
+    return _help_of(command).partition("\n\n")[0]

@@ -30,7 +30,7 @@ ATTRIBUTES: Final = {
     "history": "when and how it was computed",
     "references": "the theory behind the values",
     "profile": "the shape of the punch, in words",
-    "control": "what was prescribed",
+    "control": "the prescribed quantity",
     "toughness": "how the toughness varies with the radius, in words; with `[toughness]` only",
     "rate": "how the work grows with the speed, in words; with `[rate]` only",
     "study": "the whole study in TOML: `gradhesion run` of it makes the dataset again",
@@ -77,7 +77,7 @@ def _sections() -> Iterator[str]:
         f"`X` stands for any of {_listed(names.SPREADABLE)}; copies in SI end in `{names.SI}`."
     )
     spreads = ([code(f"X_{how}"), words.format("output")] for how, words in names.SPREAD.items())
-    yield table(("variable", "what"), spreads)
+    yield table(("variable", "meaning"), spreads)
     yield "## Variables of optima"
     yield (
         "The dataset has one value per cell of the axes that are not searched. `X` stands for a goal, for an output "
@@ -85,7 +85,7 @@ def _sections() -> Iterator[str]:
         f"variables have a last dimension `{names.PARETO_POINT}` along which shorter fronts are padded."
     )
     yield table(
-        ("variable", "what"),
+        ("variable", "meaning"),
         [
             [code(f"{names.BEST}X"), "the output at the optimum, or the place of the optimum"],
             [
@@ -107,9 +107,9 @@ def _sections() -> Iterator[str]:
         f"`{names.PARAMETER_UNITS}`; `{names.OTHER_PARAMETER}` is the same list, for correlations. Fixed parameters "
         "are coordinates without a dimension, in SI units. Offsets are added to the path, so that it passes "
         "through the data. `status` (int16) has the flags of the fitted cycle, and two of the fit. Variables of other "
-        f"minima, along `{names.MINIMUM}`, are there where noise allows some, those of the contact point where it was "
-        "found before the fit. The attribute `alike` says what the loop cannot tell apart, `noise_is` where the noise "
-        "is from, `intervals` where the intervals are from, `data_file` and `data_sha256` which data were fitted."
+        f"minima, along `{names.MINIMUM}`, exist if the noise allows such minima, those of the contact point if it was "
+        "found before the fit. The attribute `alike` names what the loop cannot distinguish, `noise_is` the origin of "
+        "the noise, `intervals` the kind of intervals, and `data_file` and `data_sha256` the fitted data."
     )
     yield (
         f"Fits of several loops have the first dimension `{names.LOOP}`, along which shorter loops are padded, and the "

@@ -135,7 +135,7 @@ def _of_quantities() -> Iterator[str]:
         "required, and `modulus`, `c0_over_R`, `lambda_over_R` and `a_max_over_R` are not allowed under `[parameters]`."
     )
     yield table(
-        ("key", "what", "unit in the dataset", "allowed", "for example", "meaning"),
+        ("key", "quantity", "unit in the dataset", "allowed", "for example", "meaning"),
         (
             [code(name), WORDS[key.unit], code(key.unit), code(key.allowed), code(key.example), key.about]
             for name, key in PHYSICAL.items()

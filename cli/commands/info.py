@@ -41,10 +41,10 @@ def info(files: tuple[Path, ...], form: str, variables: tuple[str, ...], jumps: 
     from gradhesion.cli.words.words import described
 
     if variables and (jumps or form != "csv"):
-        raise click.UsageError("--variable chooses what a table has; add --format csv, and leave --jumps out")
+        raise click.UsageError("--variable selects the columns of a table; add --format csv, and leave --jumps out")
     if len(files) > 1:
         if form != "words" or jumps:
-            raise click.UsageError("several files are compared in words; name one file, or leave the options out")
+            raise click.UsageError("several files are only compared in words; name one file, or leave the options out")
         from gradhesion.cli.words.comparison_words import fits_compared
 
         with ExitStack() as stack:

@@ -50,7 +50,7 @@ def init(name: str, output: Path | None, overwrite: bool, listed: bool) -> None:
     if name not in known:
         if name.endswith(".toml"):
             study = Path(name).stem if Path(name).stem in known else "map"
-            raise click.UsageError(f'"{name}" names no study; -o names the file: gradhesion init {study} -o {name}')
+            raise click.UsageError(f'"{name}" is not a study; -o names the file: gradhesion init {study} -o {name}')
         from gradhesion.cli.terminal.wording import did_you_mean
 
         raise click.UsageError(f'there is no study "{name}"; {did_you_mean(name, list(known))}')

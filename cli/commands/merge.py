@@ -78,7 +78,7 @@ def _merge_shards(file: Path, start: float, *, overwrite: bool, quiet: bool) -> 
         shown = ", ".join(map(str, missing[:8])) + (", ..." if len(missing) > 8 else "")
         raise DatasetError(
             f"{file}: {len(missing):,} of {counted(count, 'block')} are missing ({shown}); run the shards that have "
-            "them, or `gradhesion run`, which computes all that is left"
+            "them, or `gradhesion run`, which computes the rest"
         )
     with progress(study.scenes, quiet=quiet) as advance:
         written = write(study, file, history=history_now(), overwrite=overwrite, engine=Kept(), advance=advance)

@@ -46,12 +46,12 @@ def plan(
     from gradhesion.cli.study.fit_study import FitStudy
     from gradhesion.cli.study.reading import load_any
 
-    asked = load_any(study, overrides)
-    path = output or Path("outputs") / f"{asked.name}.nc"
-    if isinstance(asked, FitStudy):
-        show_fit_plan(asked, path, as_json=as_json)
+    requested = load_any(study, overrides)
+    path = output or Path("outputs") / f"{requested.name}.nc"
+    if isinstance(requested, FitStudy):
+        show_fit_plan(requested, path, as_json=as_json)
     else:
-        show_plan(asked.chunked(chunk), path, threads, as_json=as_json)
+        show_plan(requested.chunked(chunk), path, threads, as_json=as_json)
 
 
 def show_fit_plan(study: "FitStudy", output: Path, *, as_json: bool = False) -> None:
@@ -126,10 +126,10 @@ def _lines(found: "Estimate") -> list[str]:
             lines.append(
                 f"engines   with --engine dask about {duration(found.seconds_dask)} on this machine; on N workers "
                 f"elsewhere {duration(found.seconds_of_block * (found.blocks - found.blocks_reused))} / N, "
-                f"{duration(found.seconds_of_block)} a block"
+                f"{duration(found.seconds_of_block)} per block"
             )
     else:
-        lines.append("time      that of writing alone: every block is complete")
+        lines.append("time      only that of writing: every block is complete")
     return lines
 
 

@@ -57,4 +57,4 @@ def profile(
     show_block(tables_of(fit, file, terms, power))
     if not quiet:
         rows = "row was" if dropped == 1 else "rows were"
-        say_written(path, [f"{file}: {dropped:,} {rows} left out, without two numbers"] if dropped else [])
+        say_written(path, [f"{file}: {dropped:,} {rows} left out, for lack of two numbers"] if dropped else [])

@@ -96,7 +96,7 @@ def run(
     from gradhesion.cli.work.kernels import kinds_of
 
     if scheduler is not None and (engine != "dask" or threads is not None):
-        raise click.UsageError("--scheduler goes with --engine dask, and without --threads: its workers have their own")
+        raise click.UsageError("--scheduler needs --engine dask, without --threads: its workers have their own")
     loaded = load_any(study, overrides)
     path = output or Path("outputs") / f"{loaded.name}.nc"
     if isinstance(loaded, FitStudy):
@@ -110,22 +110,22 @@ def run(
             return
         run_fit(loaded, path, history=history_now(), overwrite=overwrite, quiet=quiet)
         return
-    asked = loaded.chunked(chunk)
+    requested = loaded.chunked(chunk)
     if dry_run:
-        show_plan(asked, path, threads)
+        show_plan(requested, path, threads)
         return
     if engine == "threads":  # the workers of a cluster have caches of their own
-        prepare(kinds_of(asked), quiet=quiet)
-    solver = _engine(asked, engine, scheduler, threads, quiet=quiet)
+        prepare(kinds_of(requested), quiet=quiet)
+    solver = _engine(requested, engine, scheduler, threads, quiet=quiet)
     if shard is not None:
         if fresh or fail_fast:
-            raise click.UsageError("--shard goes with neither --fresh nor --fail-fast; run without these two")
-        _run_shard(asked, path, shard, solver, overwrite=overwrite, quiet=quiet)
+            raise click.UsageError("--shard cannot be combined with --fresh or --fail-fast; run without these two")
+        _run_shard(requested, path, shard, solver, overwrite=overwrite, quiet=quiet)
         return
     start = time.monotonic()
-    with progress(asked.scenes, quiet=quiet) as advance:
+    with progress(requested.scenes, quiet=quiet) as advance:
         written = write(
-            asked,
+            requested,
             path,
             history=history_now(),
             overwrite=overwrite,
@@ -135,7 +135,7 @@ def run(
             engine=solver,
             advance=advance,
         )
-    finish(path, asked.scenes, written, time.monotonic() - start, quiet=quiet)
+    finish(path, requested.scenes, written, time.monotonic() - start, quiet=quiet)
 
 
 def history_now() -> str:
@@ -154,7 +154,7 @@ def finish(path: Path, scenes: int, written: "Written", seconds: float, *, quiet
     """
     if not quiet:
         numbers = {"blocks_reused": written.reused, "blocks_computed": written.computed, "failed": written.failed}
-        messages.say("done", _told(path, scenes, written, seconds), scenes=scenes, seconds=seconds, **numbers)
+        messages.say("done", _report(path, scenes, written, seconds), scenes=scenes, seconds=seconds, **numbers)
         for sentence in written.cautions:
             messages.say("caution", f"{path}: {sentence}")
     for sentence in written.raised:
@@ -183,7 +183,7 @@ def _engine(study: "Study", name: str, scheduler: str | None, threads: int | Non
 
             return Cluster(scheduler, threads, quiet=quiet)
         if not quiet:
-            messages.say("engine", "the study is of one block or of curves, and is solved in this process")
+            messages.say("engine", "the study has one block or consists of curves, and is solved in this process")
     return Threads(threads)
 
 
@@ -211,7 +211,7 @@ def _run_shard(
         )
 
 
-def _told(path: Path, scenes: int, written: "Written", seconds: float) -> str:
+def _report(path: Path, scenes: int, written: "Written", seconds: float) -> str:
     """Say what was written, and how much of it an earlier run had done."""
     size, count = bytes_in_words(path.stat().st_size), counted(scenes, "scene")
     if written.complete:

@@ -51,8 +51,8 @@ def run_fit(study: "FitStudy", path: Path, *, history: str, overwrite: bool, qui
 
     if not quiet:
         messages.say("done", f"{path}: {_done(study, fits, seconds, path.stat().st_size)}", seconds=seconds)
-        told = [f"{about(fit)}{one}" for fit in fits if fit.found for one in cautions_of_fit(study, fit.found)]
-        for sentence in _first(told):
+        warnings = [f"{about(fit)}{one}" for fit in fits if fit.found for one in cautions_of_fit(study, fit.found)]
+        for sentence in _first(warnings):
             messages.say("caution", sentence)
     doubts = [f"{about(fit)}{one}" for fit in fits for one in (doubts_of(fit.found) if fit.found else [fit.problem])]
     if doubts:

@@ -22,16 +22,16 @@ def validate(study: Path, overrides: tuple[str, ...]) -> None:
     from gradhesion.cli.study.fit_study import FitStudy
     from gradhesion.cli.study.reading import load_any
 
-    asked = load_any(study, overrides)
-    if isinstance(asked, FitStudy):
-        show(f"{study}: valid; a fit of {asked.in_words}; fitted: {', '.join(asked.parameters)}")
-        for note in asked.notes:
+    requested = load_any(study, overrides)
+    if isinstance(requested, FitStudy):
+        show(f"{study}: valid; a fit of {requested.in_words}; fitted: {', '.join(requested.parameters)}")
+        for note in requested.notes:
             messages.say("note", note)
         return
-    axes = ", ".join(f"{name} ({size:,})" for name, size in asked.sizes.items()) or "none"
-    outputs = ", ".join(asked.outputs or asked.variables)
-    kind = f"{'an' if asked.kind[0] in 'aeiou' else 'a'} {asked.kind}"
-    show(f"{study}: valid; {kind} of {counted(asked.scenes, 'scene')}; axes: {axes}; outputs: {outputs}")
+    axes = ", ".join(f"{name} ({size:,})" for name, size in requested.sizes.items()) or "none"
+    outputs = ", ".join(requested.outputs or requested.variables)
+    kind = f"{'an' if requested.kind[0] in 'aeiou' else 'a'} {requested.kind}"
+    show(f"{study}: valid; {kind} of {counted(requested.scenes, 'scene')}; axes: {axes}; outputs: {outputs}")
 
 
 @click.command(epilog=example("schema > study.schema.json"))

@@ -31,7 +31,7 @@ def dataset_to_write(_context: click.Context, _option: click.Parameter, path: Pa
     except OSError:  # no such name can be: whoever writes there says why
         return path
     name = path.with_suffix(".nc") if path.suffix[1:].isalpha() else f"{path}.nc"
-    raise StudyError(f"-o {path}: a dataset is a file of NetCDF, and its name ends in .nc; write -o {name}")
+    raise StudyError(f"-o {path}: a dataset is a NetCDF file, and its name ends in .nc; write -o {name}")
 
 
 def say_written(path: Path, notes: Iterable[str] = ()) -> None:

@@ -27,7 +27,7 @@ def study_of(
     path: Path,
     *,
     kinds: Sequence[str] = ("map",),
-    wanted: str = "`gradhesion verify` takes maps",
+    wanted: str = "`gradhesion verify` accepts only maps",
 ) -> Study:
     """
     Read the study of some kinds out of its dataset; `wanted` says of another which are wanted.
@@ -45,7 +45,7 @@ def study_of(
     except (ValueError, RecursionError) as error:
         raise _apart(path, f"its study is not valid TOML ({error})") from None
     if (kind := data.get("kind", "map")) not in kinds:
-        raise DatasetError(f"{path}: holds {'an' if kind == 'optimum' else 'a'} {kind}; {wanted}")
+        raise DatasetError(f"{path}: contains {'an' if kind == 'optimum' else 'a'} {kind}; {wanted}")
     try:
         study = study_from(_with_fit(dataset, data), "its study", **_points_of(dataset, data, path))
     except StudyError as error:
@@ -53,7 +53,7 @@ def study_of(
             f"{path}: its study is not valid in this version ({error.mistakes[0]}); write it again"
         ) from None
     if study.search.is_front:
-        raise DatasetError(f"{path}: holds best compromises, whose number differs from cell to cell; {wanted}")
+        raise DatasetError(f"{path}: contains Pareto fronts, whose size differs from cell to cell; {wanted}")
     _check_variables(dataset, study, path)
     _check_coordinates(dataset, study, path)
     return study

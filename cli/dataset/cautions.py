@@ -27,7 +27,7 @@ def cautions(study: Study, flagged: Mapping[str, int], steep: int = 0) -> Iterat
     if coarse:
         share = f"{coarse:,} of {counted(study.scenes, 'scene')}"
         yield (
-            f"a sweep finer than the resolution finds another optimum in {share}, and there may be more between; raise "
+            f"a sweep finer than the resolution finds another optimum in {share}, and there may be others; raise "
             f"resolution = {study.search.resolution} under [optimum]"
         )
     if nothing:
@@ -41,7 +41,7 @@ def cautions(study: Study, flagged: Mapping[str, int], steep: int = 0) -> Iterat
         if study.uncertainty.samples:
             yield (
                 f"the linear and the sampled standard deviation differ by more than a tenth in {share}: a kink lies "
-                "within the spread of the inputs, or the value bends; use the samples there"
+                "within the spread of the inputs, or the value is strongly curved; use the samples there"
             )
         else:
             yield (

@@ -39,8 +39,8 @@ def _long_name(name: str) -> str:
     """Say what an output of a map is, also the sensitivity of one in SI units."""
     if not name.endswith(names.OF_PHYSICAL):
         return (names.OUTPUTS | names.SPREADS)[name]
-    told = names.OUTPUTS[name.removesuffix(names.OF_PHYSICAL)]
-    return told.split(" to each parameter")[0] + " in SI units to each quantity q with a unit: d ln/d ln q"
+    meaning = names.OUTPUTS[name.removesuffix(names.OF_PHYSICAL)]
+    return meaning.split(" to each parameter")[0] + " in SI units to each quantity q with a unit: d ln/d ln q"
 
 
 class _OfMap:
@@ -122,7 +122,7 @@ class _OfOptima(_OfMap):
         ends = [f"{one.name}_at_its_{end}_bound" for one in study.search.inputs for end in ("lower", "upper")]
         flags: dict[str, Any] = {
             "units": "1",
-            "long_name": "bounds at which the optimum is (0: none)",
+            "long_name": "bounds at which the optimum lies (0: none)",
             "flag_masks": np.array([1 << i for i in range(len(ends))], dtype="i1"),
             "flag_meanings": " ".join(ends),
         }

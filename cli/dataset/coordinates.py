@@ -43,8 +43,8 @@ def coordinates(study: Study) -> dict[str, Variable]:
         described[names.STATE] = _states(study)
     for name, own_labels in study.labels.items():
         values = np.array(own_labels, dtype=object)
-        told = {"long_name": "parameter of the sensitivity"}
-        described[name] = Variable(dimensions=(name,), dtype="str", attributes=told, values=values)
+        attributes = {"long_name": "parameter of the sensitivity"}
+        described[name] = Variable(dimensions=(name,), dtype="str", attributes=attributes, values=values)
     made_ones = study.made
     for name, key in INPUTS.items():
         if name not in study.parameters and name not in made_ones:

@@ -156,7 +156,7 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
 
     Notes
     -----
-    The first study of a kind compiles its kernels, as a line on stderr says.
+    The first study of a kind compiles its kernels, which a line on stderr reports.
     """
     import xarray  # noqa: PLC0415 (450 ms that `run` does not need)
 

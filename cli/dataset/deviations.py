@@ -27,7 +27,7 @@ def lines_of(found: Recomputed, title: str, file: Path, *, digits: bool) -> Iter
             yield f"  recomputed       {one.expected}"
     if len(found.deviations) > ROWS:
         rest = found.deviations[ROWS].share
-        yield f"... and {len(found.deviations) - ROWS:,} more, none beyond {rest:.2g} of what is stated"
+        yield f"... and {len(found.deviations) - ROWS:,} more, none beyond {rest:.2g} of its stated error"
     yield ""
     yield f"{'worst of each':<18} {'deviation':<10} {'stated':<10} {'share':<9} values"
     for output in dict.fromkeys(one.output for one in found.deviations):
@@ -54,7 +54,7 @@ def _row(one: Deviation) -> str:
             f"{name} = {value}" if isinstance(value, str) else f"{name} = {value:g}"
             for name, value in one.scene.items()
         )
-        or "the only one"
+        or "the only scene"
     )
     return f"{_numbers(one)} {scene}"
 
@@ -66,14 +66,14 @@ def _numbers(one: Deviation) -> str:
 def _left_out(found: Recomputed) -> Iterator[str]:
     """Report what was not compared, and why."""
     reasons = [
-        (found.beyond, "scenes drawn have more waves than are followed; others were drawn instead"),
-        (found.failed, "scenes drawn have failed, as their status says"),
+        (found.beyond, "sampled scenes have more waves than can be followed; others were drawn instead"),
+        (found.failed, "sampled scenes have failed, as their status shows"),
         (found.unsure, "scenes lie too close to where two folds meet, or too far out, for 51 digits"),
         *((count, f"values may be either of two ({reason})") for reason, count in found.near.items()),
     ]
     written = [f"  {count:,} {reason}" for count, reason in reasons if count]
     if found.unknown:
-        written.append(f"  {', '.join(found.unknown)}: there is nothing independent to compare with")
+        written.append(f"  {', '.join(found.unknown)}: there is no independent solution to compare with")
     if written:
         yield ""
         yield "left out"

@@ -15,7 +15,7 @@ from gradhesion.cli.study.fit_study import FitStudy, unit_of_parameter
 from gradhesion.cli.study.loop_files import fingerprint
 from gradhesion.cli.study.shape_words import rate_in_words, shape_in_words, toughness_in_words
 from gradhesion.cli.work.compiling import prepare
-from gradhesion.cli.work.fitting import Fit, fits_of, kinds_of_fit, range_told
+from gradhesion.cli.work.fitting import Fit, fits_of, kinds_of_fit, range_words
 from gradhesion.core.problem.status import FLAGS, OF_FITS
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def dataset_of(study: FitStudy, fits: Sequence[Fit], history: str) -> "xarray.Da
 
     each = [rows_of(study, fit) for fit in fits]
     rows = each[0] if study.is_of_one else side_by_side(each)
-    made = {name: xarray.Variable(dims, values, _told(study, name)) for name, (dims, values) in rows.items()}
+    made = {name: xarray.Variable(dims, values, _attributes_of(study, name)) for name, (dims, values) in rows.items()}
     labels = np.array(study.parameters, dtype=object)
     units = np.array([unit_of_parameter(name) for name in study.parameters], dtype=object)
     parameter = (names.PARAMETER,)
@@ -68,11 +68,11 @@ def dataset_of(study: FitStudy, fits: Sequence[Fit], history: str) -> "xarray.Da
         for name, key in INPUTS.items()
         if (value := study.adhesion_range if name == INTERACTION else study.fixed.get(name)) is not None
     }
-    told = {"long_name": "what is fitted"}
+    attributes = {"long_name": "fitted quantity"}
     coordinates = {
-        names.PARAMETER: xarray.Variable(parameter, labels, told),
-        names.OTHER_PARAMETER: xarray.Variable((names.OTHER_PARAMETER,), labels, told),
-        names.PARAMETER_UNITS: xarray.Variable(parameter, units, {"long_name": "unit of what is fitted"}),
+        names.PARAMETER: xarray.Variable(parameter, labels, attributes),
+        names.OTHER_PARAMETER: xarray.Variable((names.OTHER_PARAMETER,), labels, attributes),
+        names.PARAMETER_UNITS: xarray.Variable(parameter, units, {"long_name": "unit of the fitted quantity"}),
     }
     if not study.is_of_one:
         words = {
@@ -92,7 +92,7 @@ def _attributes(study: FitStudy, fits: Sequence[Fit]) -> dict[str, Any]:
     """List the attributes that fits alone have."""
     found = [fit.found for fit in fits if fit.found is not None]
     methods = {one.contact.method for one in found if one.contact is not None}
-    exponent = ", with an exponent that is fitted" if "exponent" in study.free else ""
+    exponent = ", with a fitted exponent" if "exponent" in study.free else ""
     intervals = "profile likelihoods" if study.intervals == "profile" else "linear"
     return {
         "profile": shape_in_words(study.profile),
@@ -110,7 +110,7 @@ def _attributes(study: FitStudy, fits: Sequence[Fit]) -> dict[str, Any]:
     }
 
 
-def _told(study: FitStudy, name: str) -> dict[str, Any]:
+def _attributes_of(study: FitStudy, name: str) -> dict[str, Any]:
     """Describe a variable."""
     if name == "status":
         return _of_status()
@@ -118,12 +118,12 @@ def _told(study: FitStudy, name: str) -> dict[str, Any]:
         return {"units": "1", "long_name": names.STEEP_CONTACT}
     for own in (names.FIT, names.FIT_MORE):
         if name in own:
-            told: dict[str, Any] = {"long_name": own[name][1]}
+            attributes: dict[str, Any] = {"long_name": own[name][1]}
             if name in ("on_bound", "converged"):
-                return told | _YES
+                return attributes | _YES
             if name == "tabor_parameter":
-                told["comment"] = range_told(study)
-            return told if name in _OWN_UNITS else told | {"units": names.FIT_UNITS.get(name, "1")}
+                attributes["comment"] = range_words(study)
+            return attributes if name in _OWN_UNITS else attributes | {"units": names.FIT_UNITS.get(name, "1")}
     words = next(own[name] for own in names.FIT_POINTS.values() if name in own)
     if study.loading.control == "machine" and name.endswith("_indentation"):
         words = words.replace("indentation depth", "displacement of the machine")

@@ -5,9 +5,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from gradhesion.cli.dataset.cautions import CONE
-from gradhesion.cli.dataset.model_range import tabor_told
+from gradhesion.cli.dataset.model_range import tabor_warnings
 from gradhesion.cli.study.fit_study import FitStudy
-from gradhesion.cli.work.fitting import range_told, tabor_of
+from gradhesion.cli.work.fitting import range_words, tabor_of
 from gradhesion.core.arrays.reach import SMALL, is_steep, slopes_of
 from gradhesion.core.loops.fitted import FittedLoop
 
@@ -21,5 +21,5 @@ def cautions_of_fit(study: FitStudy, found: FittedLoop) -> Iterator[str]:
             f"contact reaches a = {found.turning_radius:.3g} R, where the punch has a slope above {SMALL:g}, which is "
             "not small: the fitted values may be off"
         )
-    yield from tabor_told(tabor_of(study, found), range_told(study))
+    yield from tabor_warnings(tabor_of(study, found), range_words(study))
     yield from found.alike

@@ -47,11 +47,11 @@ def joined(sources: Sources) -> tuple[Study, "Joined"]:
             raise DatasetError(f"{file}, {first}: {wanted}, not points")
         for what in ("kind", "search", "outputs", "method", "profile", "spectrum", "loading", "uncertainty"):
             if getattr(one, what) != getattr(other, what):
-                raise DatasetError(f"{file}: has another {what.rstrip('s')} than {first}; join datasets that share it")
+                raise DatasetError(f"{file}: differs from {first} in {what}; join datasets that share it")
         if one.parameters.keys() != other.parameters.keys():
             keys = ", ".join(sorted(one.parameters.keys() ^ other.parameters.keys()))
             raise DatasetError(
-                f"{file}: gives its scenes by other keys than {first} ({keys}); join datasets that share them"
+                f"{file}: gives its scenes by different keys from {first} ({keys}); join datasets that share them"
             )
         written = [sources[each].attrs["source"] for each in (first, file)]
         if written[0] != written[1]:

@@ -10,7 +10,7 @@ from gradhesion.cli.names import FIT_POINTS, FIT_WORDS, LOOP
 from gradhesion.cli.terminal.amounts import counted
 
 
-def one_loop(dataset: xarray.Dataset, wishes: Sequence[str]) -> xarray.Dataset:
+def one_loop(dataset: xarray.Dataset, choices: Sequence[str]) -> xarray.Dataset:
     """
     Take the loop that `loop=FILE` or `loop=NUMBER` (from 0) wishes, without what it is padded with.
 
@@ -19,16 +19,16 @@ def one_loop(dataset: xarray.Dataset, wishes: Sequence[str]) -> xarray.Dataset:
     DatasetError
         Something else is wished, there is no such loop, or it has no fit.
     """
-    axis, _, wish = wishes[0].partition("=")
-    if len(wishes) > 1 or axis.strip() != LOOP:
-        raise DatasetError(f"--at {wishes[-1]}: fits of several loops have the one axis {LOOP}; write --at {LOOP}=0")
-    files, wish = list(map(str, dataset["file"].values)), wish.strip()
-    if wish not in files and not (wish.isdecimal() and int(wish) < len(files)):
+    axis, _, choice = choices[0].partition("=")
+    if len(choices) > 1 or axis.strip() != LOOP:
+        raise DatasetError(f"--at {choices[-1]}: fits of several loops have only the axis {LOOP}; write --at {LOOP}=0")
+    files, choice = list(map(str, dataset["file"].values)), choice.strip()
+    if choice not in files and not (choice.isdecimal() and int(choice) < len(files)):
         raise DatasetError(
-            f"--at {LOOP}={wish}: there are {counted(len(files), 'loop')}; write a number from 0 to {len(files) - 1}, "
-            "or the name of a file"
+            f"--at {LOOP}={choice}: there are {counted(len(files), 'loop')}; "
+            f"write a number from 0 to {len(files) - 1}, or the name of a file"
         )
-    number = files.index(wish) if wish in files else int(wish)
+    number = files.index(choice) if choice in files else int(choice)
     one = dataset.isel({LOOP: number}).drop_vars([name for name in FIT_WORDS if name in dataset.variables])
     if problem := str(dataset["problem"].values[number]):
         raise DatasetError(f"{files[number]}: has no fit to draw: {problem}")

@@ -96,7 +96,7 @@ def steep_scenes(dataset: xarray.Dataset) -> int:
     return sum(int(beyond.sum()) for beyond in blocks if beyond is not None)
 
 
-def slope_told(dataset: xarray.Dataset) -> Iterator[str]:
+def slope_warnings(dataset: xarray.Dataset) -> Iterator[str]:
     """Say in one line how many scenes reach slopes of the punch that are not small, if any does."""
     if is_cone(dataset):
         yield f"a cone of slope 1: slopes are not small in any of {counted(dataset['status'].size, 'scene')}"
@@ -105,11 +105,11 @@ def slope_told(dataset: xarray.Dataset) -> Iterator[str]:
         yield f"{share}: {LIMITS[CONTACT_SLOPE].words} (a > R)"
 
 
-def tabor_told(number: float, comment: str) -> Iterator[str]:
+def tabor_warnings(number: float, comment: str) -> Iterator[str]:
     """
     Say where a Tabor parameter is too small for JKR; `comment` says of which range of the attraction it is.
 
-    >>> list(tabor_told(12.0, "")), list(tabor_told(0.05, "with a range of 1 nm"))[0][:58]
+    >>> list(tabor_warnings(12.0, "")), list(tabor_warnings(0.05, "with a range of 1 nm"))[0][:58]
     ([], 'Tabor parameter 0.05 (with a range of 1 nm) is below 0.1: ')
     """
     if number < LONG_RANGED:

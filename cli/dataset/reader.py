@@ -64,7 +64,11 @@ def found(path: Path, *, kept: bool) -> "Dataset":
     """
     kind = kind_of(path)
     if not is_file(path):
-        what = f"is not a file, but {kind or 'nothing that can be read'}" if os.path.lexists(path) else "does not exist"
+        what = (
+            f"is not a file, but {kind or 'something that cannot be read'}"
+            if os.path.lexists(path)
+            else "does not exist"
+        )
         raise DatasetError(f"{path}: {what}; name a dataset that `gradhesion run` wrote")
     try:
         with netCDF4.Dataset(path) as file:
@@ -112,7 +116,7 @@ def study_text(dataset: "Dataset", path: Path | str) -> str:
     """
     if not {"study", "study_sha256"} <= dataset.attrs.keys():
         raise DatasetError(
-            f"{path}: has no study, which would be its attributes study and study_sha256; compute it from a study, "
+            f"{path}: lacks its study, the attributes study and study_sha256; compute it from a study, "
             "with `gradhesion run`"
         )
     return str(dataset.attrs["study"])

@@ -92,26 +92,26 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
     """
     study = study_of(dataset, path)
     solvers = study.method.solver
-    asked = (solvers,) if isinstance(solvers, str) else solvers
-    known = tuple(solver for solver in asked if solver in stated.SOLVERS)
+    requested = (solvers,) if isinstance(solvers, str) else solvers
+    known = tuple(solver for solver in requested if solver in stated.SOLVERS)
     if not known:
         raise DatasetError(
-            f"{path}: was made with the solver {' and '.join(asked)}, an approximation that has no independent twin; "
-            f"`gradhesion verify` takes {' and '.join(stated.SOLVERS)}"
+            f"{path}: made with the solver {' and '.join(requested)}, an approximation without an independent twin; "
+            f"`gradhesion verify` accepts {' and '.join(stated.SOLVERS)}"
         )
     if study.method != Method(solver=solvers, check_contact=study.method.check_contact):  # that changes no value
         raise DatasetError(f"{path}: its study has settings that `gradhesion verify` cannot recompute")
     if study.rate is not None:
         raise DatasetError(
-            f"{path}: edges with a speed have no independent twin; `gradhesion verify` takes those at rest"
+            f"{path}: edges with a speed have no independent twin; `gradhesion verify` accepts only those at rest"
         )
     if seed is None:
         seed = random.SystemRandom().randrange(10**6)
-    found = Recomputed(seed=seed, total=study.scenes // len(asked) * len(known), solvers=known)
+    found = Recomputed(seed=seed, total=study.scenes // len(requested) * len(known), solvers=known)
     outputs = [name for name in study.outputs if name in stated.KNOWN]
     found.unknown = (
         *(name for name in study.outputs if name not in outputs and not name.endswith("_error")),
-        *(f"all of the solver {solver}" for solver in asked if solver not in known),
+        *(f"all of the solver {solver}" for solver in requested if solver not in known),
     )
     scenes = _drawn(dataset, study, outputs, sample, found)
     scenes.sort(key=lambda scene: scene.parameters["k"])  # scenes of one exponent share what is known of it

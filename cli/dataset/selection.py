@@ -100,7 +100,7 @@ def selection_of(
     between: list[Between] = []
     scenes: NDArray[np.intp] | None = None
     named: set[str] = set()
-    for option, axis, text in _wishes("--at", at, "AXIS=VALUE"):
+    for option, axis, text in _choices("--at", at, "AXIS=VALUE"):
         check_axis(dataset, option, axis)
         _check_once(option, axis, named)
         if axis == SOLVER:
@@ -128,7 +128,7 @@ def selection_of(
 def nearest_values(dataset: xarray.Dataset, at: Sequence[str]) -> list[str]:
     """Say which wishes of `--at` are met by another value, the nearest of the axis."""
     notes = []
-    for option, axis, text in _wishes("--at", at, "AXIS=VALUE"):
+    for option, axis, text in _choices("--at", at, "AXIS=VALUE"):
         if axis == SOLVER:
             continue
         values = np.asarray(dataset[axis].values, dtype=float)
@@ -152,13 +152,13 @@ def is_log(values: NDArray[np.float64]) -> bool:
 def _reductions(dataset: xarray.Dataset, over: Sequence[str], named: set[str]) -> dict[str, str]:
     """Read the wishes of `--over`."""
     reductions: dict[str, str] = {}
-    for option, axis, how in _wishes("--over", over, "AXIS=max"):
+    for option, axis, how in _choices("--over", over, "AXIS=max"):
         check_axis(dataset, option, axis)
         _check_once(option, axis, named)
         if SCENE in dataset["status"].dims and axis not in dataset["status"].dims:
             raise DatasetError(f"{option}: points have no axes to reduce; choose some of them with --at")
         if axis == SOLVER:
-            raise DatasetError(f"{option}: solvers are not reduced; choose one with --at solver=NAME")
+            raise DatasetError(f"{option}: solvers cannot be reduced; choose one with --at solver=NAME")
         if how not in REDUCTIONS:
             raise DatasetError(f"{option}: not a reduction; {did_you_mean(how, list(REDUCTIONS))}")
         if how.startswith("arg") and any(other.startswith("arg") for other in reductions.values()):
@@ -167,15 +167,15 @@ def _reductions(dataset: xarray.Dataset, over: Sequence[str], named: set[str]) -
     return reductions
 
 
-def _wishes(option: str, words: Sequence[str], form: str) -> list[tuple[str, str, str]]:
+def _choices(option: str, words: Sequence[str], form: str) -> list[tuple[str, str, str]]:
     """Take wishes apart: what was written, the axis and the rest."""
-    wishes = []
+    choices = []
     for word in words:
         axis, sign, rest = (part.strip() for part in word.partition("="))
         if not (axis and sign and rest):
             raise DatasetError(f"{option} {word}: write {option} {form}")
-        wishes.append((f"{option} {word}", axis, rest))
-    return wishes
+        choices.append((f"{option} {word}", axis, rest))
+    return choices
 
 
 def axes_of(dataset: xarray.Dataset) -> list[str]:

@@ -110,7 +110,7 @@ def _of_variables(dataset: "xarray.Dataset") -> Iterator[str]:
             if not isinstance(variable.attrs.get(attribute, ""), str):
                 yield f"the attribute {attribute} of {name} is not text"
     if dataset["status"].dtype.kind not in "iu":
-        yield "status is not made of whole numbers"
+        yield "status does not consist of integers"
     if dataset["status"].size == 0:
         yield "it has no scene"
 
@@ -128,7 +128,7 @@ def _of_axes(dataset: "xarray.Dataset") -> Iterator[str]:
         if not {*own} <= {*axes} or (name in dataset.coords and SCENE in axes and own != (SCENE,)):
             yield f"the axes of {name} are not those of status"
         elif own == (name,) and not _is_axis(dataset[name].values, infinite=bool(key.infinite)):
-            yield f"the values of {name} are none of an axis"
+            yield f"the values of {name} are not those of an axis"
     for name in map(str, dataset.data_vars):
         labels = (labels_of(name),) if labels_of(name) else ()
         if name.startswith(BEST) and PARETO_POINT in dataset.dims:
@@ -170,7 +170,7 @@ def refuse_fit(dataset: "xarray.Dataset", what: str, path: Path | str = "the dat
         It is one.
     """
     if is_fit(dataset):
-        raise DatasetError(f"{path}: holds a fit, and {what} needs scenes; `gradhesion plot` draws it")
+        raise DatasetError(f"{path}: contains a fit, and {what} needs scenes; `gradhesion plot` draws it")
 
 
 def _is_axis(values: NDArray[Any], *, infinite: bool) -> bool:
@@ -197,7 +197,7 @@ def _of_curves(dataset: "xarray.Dataset") -> Iterator[str]:
 def _of_counts(dataset: "xarray.Dataset", count: str, extent: str) -> Iterator[str]:
     """Say whether the numbers of items of all scenes do not add up."""
     if count not in dataset.data_vars or dataset[count].dims != dataset["status"].dims:
-        yield f"{count} is not there for each scene"
+        yield f"{count} is missing for some scenes"
         return
     counts = dataset[count].values
     sound = counts.dtype.kind in "iu" and counts.min() >= 0

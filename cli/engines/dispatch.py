@@ -7,7 +7,7 @@ from queue import Empty, SimpleQueue
 from typing import Any, Final
 
 from gradhesion.cli.engines import Work
-from gradhesion.cli.engines.scheduler import asked
+from gradhesion.cli.engines.scheduler import requested
 from gradhesion.cli.engines.watch import Watch, without_workers
 from gradhesion.cli.engines.worker import RefusedError, UnsolvedError, UnwritableError, carry_out, needed, seen
 from gradhesion.cli.errors import ClusterError, OutputError
@@ -76,7 +76,7 @@ class Dispatch:
             number = tasks.pop(future.key)
             self._watch.moved()
             # a failure alone is asked for: that of a task whose worker is lost since it was done would be waited for
-            failure = asked(self._client, future.exception) if future.status == "error" else None
+            failure = requested(self._client, future.exception) if future.status == "error" else None
             if future.cancelled():  # with the connection to the scheduler
                 waiting.appendleft(number)
                 continue
@@ -90,8 +90,8 @@ class Dispatch:
                     waiting.appendleft(number)
                 case UnwritableError(args=(worker, reason)):
                     raise OutputError(
-                        f"{self._work.path}: worker {worker} cannot write its parts ({reason}); make room or get the "
-                        "right to write; finished parts are kept, and the same command resumes"
+                        f"{self._work.path}: worker {worker} cannot write its parts ({reason}); free space or get "
+                        "write permission; finished parts are kept, and the same command resumes"
                     )
                 case ImportError() | AttributeError() as error:
                     raise ClusterError(
@@ -120,7 +120,7 @@ class Dispatch:
             workers=self._watch.choice,
             allow_other_workers=self._watch.choice is not None,  # when none of these is left
         )
-        return asked(self._client, submit)
+        return requested(self._client, submit)
 
     def _read(self, number: int) -> tuple[int, Solved]:
         """Read the part that a worker has written; on a network file system it may be seen a little late."""
@@ -129,7 +129,7 @@ class Dispatch:
         key = key_of(study, block)
         values = seen(partial(found, study, folder, number, block, key), folder.path)
         if isinstance(values, str):
-            return self._given_up(number, f"PartError: seen from here, the part that a worker has written is {values}")
+            return self._given_up(number, f"PartError: on this machine, the part that a worker has written is {values}")
         return number, Solved(block, values, key)
 
     def _given_up(self, number: int, reason: str) -> tuple[int, Solved]:

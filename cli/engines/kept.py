@@ -32,7 +32,7 @@ class Kept:
                 return number, Solved(block, values, key, reused=True)
             raise DatasetError(
                 f"{work.path}: block {number + 1:,} of {len(study.tiling):,} is {values}; compute its shard "
-                "again, or all that is left with `gradhesion run`"
+                "again, or all that is missing with `gradhesion run`"
             )
 
         yield from one_ahead(partial(task, number) for number in work.numbers)

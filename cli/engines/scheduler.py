@@ -109,14 +109,14 @@ def _address_in(path: Path) -> str:
             return str(json.loads(path.read_bytes())["address"])
         if time.monotonic() > deadline:
             raise ClusterError(
-                f"--scheduler {path}: neither an address, as tcp://host:8786, nor the file of a scheduler; "
+                f"--scheduler {path}: neither an address, such as tcp://host:8786, nor the file of a scheduler; "
                 f"write one with `dask scheduler --scheduler-file {path}`"
             )
         interrupts.check()
         time.sleep(0.1)
 
 
-def asked(client: Any, call: Callable[[], _T]) -> _T:
+def requested(client: Any, call: Callable[[], _T]) -> _T:
     """
     Call what needs the scheduler, again if it was lost meanwhile and has come back.
 

@@ -3,7 +3,7 @@
 import time
 from typing import Any, Final
 
-from gradhesion.cli.engines.scheduler import asked, patience
+from gradhesion.cli.engines.scheduler import patience, requested
 from gradhesion.cli.errors import ClusterError, OutputError
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import counted
@@ -86,7 +86,9 @@ class Watch:
         if time.monotonic() - self._looked < PERIOD:
             return
         client = self._client
-        there = asked(client, lambda: client.sync(client.scheduler.identity, callback_timeout=patience()))["workers"]
+        there = requested(client, lambda: client.sync(client.scheduler.identity, callback_timeout=patience()))[
+            "workers"
+        ]
         self._workers = {worker: one["nthreads"] for worker, one in there.items()}
         self._looked = time.monotonic()
         many = len(self._workers)
@@ -102,7 +104,7 @@ class Watch:
         gone = len(self._come) - many
         if gone > FRUITLESS + 4 * self._most:
             raise OutputError(
-                f"--engine dask: {gone:,} workers have come and gone since a block was last finished; give them the "
+                f"--engine dask: {gone:,} workers have started and ended since the last finished block; give them the "
                 "memory and the time that `gradhesion plan` shows; finished parts are kept, and the same command "
                 "resumes"
             )
@@ -122,10 +124,10 @@ class Watch:
                     "`gradhesion plan` shows finish none"
                 )
             elif many:
-                why = f"as Dask has paused all workers for want of memory; after {ends}"
+                why = f"because Dask has paused all workers for lack of memory; after {ends}"
             else:
                 why = f"waiting for workers; without any for {ends}"
-            sentence = f"no block has been finished for {seconds:.0f} s, {why}"
+            sentence = f"no block has finished for {seconds:.0f} s, {why}"
             self._say("waiting", sentence, seconds=seconds, workers=many)
 
     def _say(self, event: str, sentence: str, **fields: Any) -> None:
@@ -137,7 +139,7 @@ class Watch:
 def without_workers(seconds: float) -> OutputError:
     """Make the error of a run that no worker is left for."""
     return OutputError(
-        f"--engine dask: no worker has been there for {in_words(seconds)}; finished parts are kept, and the same "
+        f"--engine dask: no worker has been connected for {in_words(seconds)}; finished parts are kept, and the same "
         "command resumes once there are workers"
     )
 
@@ -145,7 +147,7 @@ def without_workers(seconds: float) -> OutputError:
 def paused_workers(many: int, seconds: float) -> OutputError:
     """Make the error of a run whose workers have no memory to begin another block."""
     return OutputError(
-        f"--engine dask: Dask has paused all workers ({many:,}) for want of memory for {in_words(seconds)}; give them "
+        f"--engine dask: Dask has paused all workers ({many:,}) for lack of memory for {in_words(seconds)}; give them "
         "the memory that `gradhesion plan` shows; finished parts are kept, and the same command resumes"
     )
 

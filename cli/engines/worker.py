@@ -124,7 +124,7 @@ def _study(folder: Path, fingerprint: str) -> Any:
 
     with suppress(DatasetError):
         return _loaded(folder, fingerprint)
-    return f"does not see {folder}, where the parts go: it needs the file system of the output"
+    return f"cannot access {folder}, the folder of the parts: it needs the file system of the output"
 
 
 @lru_cache(maxsize=4)

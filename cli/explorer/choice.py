@@ -32,7 +32,7 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
     gradhesion.cli.dataset.dataset.selection : how a value is found on an axis.
     """
     if PARETO_POINT in dataset.dims:
-        raise DatasetError("best compromises have no page; draw them with `gradhesion plot`")
+        raise DatasetError("Pareto fronts have no page; draw them with `gradhesion plot`")
     parts = [str(name) for name in dataset.data_vars if parts_of(dataset, str(name))]
     dataset = spread(dataset).drop_vars(parts)
     known = [str(name) for name in dataset.data_vars if name != "status" and _is_shown(dataset, str(name))]

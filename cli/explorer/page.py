@@ -12,7 +12,7 @@ from bokeh.palettes import Viridis256
 from bokeh.resources import INLINE
 from jinja2 import Environment
 
-from gradhesion.cli.dataset.model_range import slope_told
+from gradhesion.cli.dataset.model_range import slope_warnings
 from gradhesion.cli.dataset.reader import has_curves
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.choice import chosen
@@ -86,7 +86,7 @@ def page(dataset: xarray.Dataset, file: str, variables: Sequence[str], places: S
         "attributes": dataset.attrs,
         "profile": words(str(dataset.attrs.get("profile", ""))),
         "sliders": bool(study["axes"]),
-        "slope": " ".join(slope_told(cut)),
+        "slope": " ".join(slope_warnings(cut)),
         "sections": len(parts.get("sections", ())),
         "sides": _SIDES if kind == "maps" else ("x",),
         "planes": len(parts.get("planes", ())),

@@ -60,7 +60,7 @@ _WITHIN: Final = (
     Key(
         name="sign",
         table="column",
-        about="-1 turns the column round, so that depth grows into the half-space and positive loads press",
+        about="-1 changes the sign of the column, so that depth grows into the half-space and positive loads press",
         example="sign = -1",
     ),
     Key(
@@ -104,7 +104,7 @@ _WITHIN: Final = (
         name="file",
         table="profile",
         also=("data",),
-        about="path of a file, from the folder of the study; of loops, several with * or ?",
+        about="path of a file, relative to the folder of the study; for loops, several with * or ?",
         example='file = "tip.csv"',
     ),
     Key(
@@ -185,7 +185,7 @@ _WITHIN: Final = (
     Key(
         name="maximise",
         table="optimum",
-        about="output to maximise; two outputs: their best compromises",
+        about="output to maximise; two outputs: their Pareto front",
         example='maximise = "pull_off_force"',
     ),
     Key(
@@ -261,13 +261,13 @@ _WITHIN: Final = (
     Key(
         name="closing",
         table="rate",
-        about="how the edge closes: at its work whatever the speed, or by the same law as it opens",
+        about="law of closing: quasi-static whatever the speed, or the same law as for opening",
         example='closing = "same"',
     ),
     Key(
         name="control",
         table="loading",
-        about="what is prescribed: the depth, the load, or the far end of a spring",
+        about="prescribed quantity: the depth, the load, or the displacement of the far end of a spring",
         example='control = "load"',
     ),
     Key(

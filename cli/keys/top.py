@@ -23,7 +23,7 @@ TOP: Final = (
     ),
     Key(
         name="outputs",
-        about="what is computed for each scene",
+        about="quantities to compute for each scene",
         example='outputs = ["pull_off_force", "dissipated_energy"]',
     ),
     Key(
@@ -43,7 +43,7 @@ TOP: Final = (
     ),
     Key(
         name="loading",
-        about="what drives the punch",
+        about="control of the punch",
         example='a table [loading] with control = "displacement", "load" or "machine"',
     ),
     Key(

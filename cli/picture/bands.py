@@ -52,8 +52,8 @@ def band_of(dataset: xarray.Dataset, name: str, selection: Selection, looks: Loo
     DatasetError
         A band is asked for that the variable does not have, or of values that are taken over an axis.
     """
-    asked = looks.band
-    if asked == "none":
+    requested = looks.band
+    if requested == "none":
         return None
     if selection.over:
         looks.refuse(["band"], f"{name} is taken over {next(iter(selection.over))}, and its spread is that of a scene")
@@ -62,23 +62,23 @@ def band_of(dataset: xarray.Dataset, name: str, selection: Selection, looks: Loo
     stem = plain.removesuffix("_mean").removesuffix("_p50") if plain in SPREADS else plain
     for how, endings in (("quantiles", ("_p05", "_p95")), ("std", ("_std",))):
         parts = [f"{stem}{ending}{unit}" for ending in endings]
-        if asked in (None, how) and all(part in dataset for part in parts):
+        if requested in (None, how) and all(part in dataset for part in parts):
             status = dataset["status"]
             edges = [selection.taken(dataset[part], status).values for part in parts]
             if how == "std":
                 middle = selection.taken(dataset[name], status).values
                 edges = [middle - edges[0], middle + edges[0]]
             return Band(low=edges[0], high=edges[1], how=how)
-    if asked:
-        raise DatasetError(f"--band {asked}: {_missing(dataset, name, stem + '_std' + unit, asked)}")
+    if requested:
+        raise DatasetError(f"--band {requested}: {_missing(dataset, name, stem + '_std' + unit, requested)}")
     return None
 
 
-def _missing(dataset: xarray.Dataset, name: str, std: str, asked: str) -> str:
+def _missing(dataset: xarray.Dataset, name: str, std: str, requested: str) -> str:
     """Say why a variable has no band, and what to do."""
     if name.removesuffix(SI) not in SPREADABLE:
         return f"{name} has none; choose an output with --variable, or leave --band out"
-    if asked == "quantiles" and std in dataset:
+    if requested == "quantiles" and std in dataset:
         return f"{name} has no quantiles in this dataset; write --band std, or add samples = 1024 to [uncertainty]"
     return f"{name} has no spread in this dataset; add [uncertainty] to its study, or leave --band out"
 

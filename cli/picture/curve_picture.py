@@ -62,7 +62,7 @@ INK: Final = to_rgb("0.25")
 
 def drawn_curves(
     dataset: xarray.Dataset,
-    asked: Sequence[str],
+    requested: Sequence[str],
     *,
     x: str | None = None,
     y: str | None = None,
@@ -84,7 +84,7 @@ def drawn_curves(
     """
     _check(looks)
     planes = _planes(x, y)
-    chosen = _chosen(dataset, asked)
+    chosen = _chosen(dataset, requested)
     of_states = [curve for curve in chosen if curve in STATE_CURVES]
     if of_states == chosen:
         if data is not None:
@@ -99,7 +99,7 @@ def drawn_curves(
             )
         looks.refuse(["xlim", "ylim", "inset"], "curves of states are drawn whole")
         return draw_states(dataset, chosen, looks)
-    if of_states and asked:
+    if of_states and requested:
         other = next(curve for curve in chosen if curve not in of_states)
         raise DatasetError(
             f"--variable {of_states[0]} is drawn over the distance from the axis, and {other} is not: they have no "
@@ -108,7 +108,7 @@ def drawn_curves(
     chosen = [curve for curve in chosen if curve not in of_states]
     scenes, caption = scenes_of(dataset, looks)
     known = coloured(TRACKS_OF_MANY if len(scenes) > 1 else TRACKS, looks.colours)
-    si = wants_si(map(str, dataset.data_vars), asked)
+    si = wants_si(map(str, dataset.data_vars), requested)
     known = tuple(in_si(track) for track in known) if si else known
     points = None if data is None else read_points(data, si=si)
     panels = []
@@ -216,7 +216,7 @@ def _planes(x: str | None, y: str | None) -> Sequence[tuple[str, str]]:
     return planes or [(name, y) if y else (str(x), name) for name in QUANTITIES if name not in (x, y)]
 
 
-def _chosen(dataset: xarray.Dataset, asked: Sequence[str]) -> list[str]:
+def _chosen(dataset: xarray.Dataset, requested: Sequence[str]) -> list[str]:
     """List the curves to draw; a variable stands for its curve."""
     there = {curve: own for curve, own in variables_of_curves(dataset).items() if curve not in RAGGED}
     if not there:
@@ -225,10 +225,10 @@ def _chosen(dataset: xarray.Dataset, asked: Sequence[str]) -> list[str]:
             'for a picture of the cycle add "path" to the outputs of the study'
         )
     known = [word for curve, own in there.items() for word in (curve, *own)]
-    for name in asked:
+    for name in requested:
         if name not in known:
             raise DatasetError(f"--variable {name}: not a curve of this dataset; {did_you_mean(name, known)}")
-    return [curve for curve, own in there.items() if not asked or {curve, *own} & {*asked}]
+    return [curve for curve, own in there.items() if not requested or {curve, *own} & {*requested}]
 
 
 def _handles(scenes: Sequence[Scene], tracks: Sequence[Track]) -> list[Artist]:

@@ -9,7 +9,7 @@ import xarray
 from matplotlib.colors import to_rgb
 
 from gradhesion.cli.dataset.curve_variables import variables_of_curves
-from gradhesion.cli.dataset.model_range import slope_told
+from gradhesion.cli.dataset.model_range import slope_warnings
 from gradhesion.cli.names import RAGGED, SCENE, STATE_CURVES
 from gradhesion.cli.picture.curve_panels import Colour, Values
 from gradhesion.cli.picture.doubts import CROSS, Doubt, doubts_in
@@ -78,7 +78,7 @@ def _caption(dataset: xarray.Dataset, axes: Sequence[str]) -> list[str]:
             written.append(f"{equation(name, dataset[name].values[0])} (first of {values.size})")
     if axes and dataset.sizes[axes[-1]] > SCENES:
         written.append(f"{SCENES} of {dataset.sizes[axes[-1]]} scenes")
-    return [*written, *slope_told(dataset)]
+    return [*written, *slope_warnings(dataset)]
 
 
 def _trimmed(scene: xarray.Dataset) -> dict[str, Values]:

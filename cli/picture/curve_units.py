@@ -28,7 +28,7 @@ LABELS_IN_SI: Final = {
 """The same in units."""
 
 
-def wants_si(there: Iterable[str], asked: Sequence[str]) -> bool:
+def wants_si(there: Iterable[str], requested: Sequence[str]) -> bool:
     """
     Choose whether curves are drawn in units: they are if the dataset has them, unless variables without are asked for.
 
@@ -40,8 +40,8 @@ def wants_si(there: Iterable[str], asked: Sequence[str]) -> bool:
     DatasetError
         Some variables with a unit and some without are asked for: they have no axis in common.
     """
-    plain = [name for name in asked if name in UNITS]
-    units = [name for name in asked if name.endswith(SI)]
+    plain = [name for name in requested if name in UNITS]
+    units = [name for name in requested if name.endswith(SI)]
     if plain and units:
         raise DatasetError(
             f"--variable {plain[0]} has no unit and {units[0]} has one: they have no axis in common; "

@@ -1,4 +1,4 @@
-"""The best compromises of two outputs: one against the other, a line for each scene."""
+"""The Pareto front of two outputs: one against the other, a line for each scene."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -8,7 +8,7 @@ import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
-from gradhesion.cli.dataset.model_range import slope_told
+from gradhesion.cli.dataset.model_range import slope_warnings
 from gradhesion.cli.dataset.selection import Selection
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
@@ -28,16 +28,16 @@ MARKED: Final = 40
 
 
 def draw_fronts(
-    dataset: xarray.Dataset, asked: Sequence[str], selection: Selection, x: str | None, y: str | None, looks: Looks
+    dataset: xarray.Dataset, requested: Sequence[str], selection: Selection, x: str | None, y: str | None, looks: Looks
 ) -> Figure:
     """
-    Draw sets of best compromises.
+    Draw Pareto fronts.
 
     Parameters
     ----------
     dataset
         Of a study of two goals.
-    asked
+    requested
         Two variables to draw instead, the one along and the one up.
     selection
         Which axes are fixed.
@@ -52,10 +52,10 @@ def draw_fronts(
         A variable is not there, an axis is reduced, or there are too many lines.
     """
     if selection.over or selection.between or looks.kind:
-        raise DatasetError("best compromises are drawn as they are; choose scenes with --at")
-    looks.refuse(["inset", "band"], "best compromises are drawn as they are")
+        raise DatasetError("Pareto fronts are drawn as they are; choose scenes with --at")
+    looks.refuse(["inset", "band"], "Pareto fronts are drawn as they are")
     narrow = selection.narrowed(dataset)
-    along, up = _sides(narrow, asked, x, y)
+    along, up = _sides(narrow, requested, x, y)
     scenes = [str(axis) for axis in narrow["status"].dims if narrow.sizes[axis] > 1]
     flat = narrow.stack(line=scenes) if scenes else narrow.squeeze().expand_dims("line")
     flat = flat.squeeze([axis for axis in narrow["status"].dims if axis in flat.dims], drop=False)
@@ -92,7 +92,7 @@ def draw_fronts(
         if scenes:
             axes.legend(fontsize="small")
         fixed = [equation(name, float(narrow[name])) for name in effective(narrow) if narrow[name].size == 1]
-        fixed += slope_told(narrow)
+        fixed += slope_warnings(narrow)
         words = [heading(dataset)] if looks.title else []
         words += [in_lines(fixed, looks.width or 4.2)] if looks.caption and fixed else []
         if words:
@@ -100,15 +100,13 @@ def draw_fronts(
     return figure
 
 
-def _sides(dataset: xarray.Dataset, asked: Sequence[str], x: str | None, y: str | None) -> tuple[str, str]:
+def _sides(dataset: xarray.Dataset, requested: Sequence[str], x: str | None, y: str | None) -> tuple[str, str]:
     """Choose the two variables: the goals, in SI units if they have them."""
     known = [str(name) for name in dataset.data_vars if PARETO_POINT in dataset[name].dims]
-    for name in (*asked, *(one for one in (x, y) if one is not None)):
+    for name in (*requested, *(one for one in (x, y) if one is not None)):
         if name not in known:
-            raise DatasetError(
-                f"--variable {name}: not a variable of the best compromises; {did_you_mean(name, known)}"
-            )
+            raise DatasetError(f"--variable {name}: not a variable of the Pareto front; {did_you_mean(name, known)}")
     goals = [name for name in known if not name.endswith(SI) and name.removeprefix(BEST) not in INPUTS]
     goals = [name + SI if name + SI in known else name for name in goals[:2]]
-    first, second = [*asked, *goals[len(asked) :]][:2]
+    first, second = [*requested, *goals[len(requested) :]][:2]
     return x or first, y or second

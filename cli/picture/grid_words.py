@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.model_range import slope_told
+from gradhesion.cli.dataset.model_range import slope_warnings
 from gradhesion.cli.dataset.reductions import Taken
 from gradhesion.cli.dataset.selection import Selection
 from gradhesion.cli.names import SOLVER, SYMBOLS
@@ -51,4 +51,4 @@ def caption_of(
     for axis in (plan.x, plan.second):
         if axis and axis in items and axis not in (plan.columns, plan.rows):
             written.append(f"{len(items[axis]):,} of {dataset.sizes[axis]:,} values of {SYMBOLS[axis]}")
-    return [*written, *slope_told(dataset)]
+    return [*written, *slope_warnings(dataset)]

@@ -90,19 +90,19 @@ def placed(dataset: xarray.Dataset, selection: Selection, x: str | None, y: str 
     for option, name in (("--x", x), ("--y", y)):
         if name is None:
             continue
-        asked = f"{option} {name}"
+        requested = f"{option} {name}"
         if name in {*selection.fixed, *selection.over, *(one.axis for one in selection.between)}:
-            raise DatasetError(f"{asked}: {name} is fixed or reduced by --at or --over; remove one of the two")
+            raise DatasetError(f"{requested}: {name} is fixed or reduced by --at or --over; remove one of the two")
         if name == SOLVER:
-            raise DatasetError(f"{asked}: solvers are always lines or panels; choose a parameter")
+            raise DatasetError(f"{requested}: solvers are always lines or panels; choose a parameter")
         own = dataset[name].dims if name in dataset.coords else ()
         if len(own) == 1 and own[0] not in (name, SCENE) and own[0] not in selection.over:
             if not np.isfinite(dataset[name].values).all():
-                raise DatasetError(f"{asked}: it has no finite value in some scenes; choose {own[0]}")
+                raise DatasetError(f"{requested}: it has no finite value in some scenes; choose {own[0]}")
             dataset = dataset.swap_dims({own[0]: name})
         elif name not in axes_of(dataset) or np.unique(dataset[name].values).size < 2:
-            check_axis(dataset, asked, name)
-            raise DatasetError(f"{asked}: it has one value only; choose an axis that varies")
+            check_axis(dataset, requested, name)
+            raise DatasetError(f"{requested}: it has one value only; choose an axis that varies")
     return dataset
 
 

@@ -40,7 +40,7 @@ class Levels:
     names: tuple[str, ...] = ()
     """What 0, 1, 2, ... stand for, where values are no more than that."""
     looks: Looks = PLAIN
-    asked: bool = False
+    requested: bool = False
     """Whether a user has listed the levels; the ends may then be those of the values."""
     limits: tuple[float, float] = (-np.inf, np.inf)
     """Between which values lines and points are drawn; all of them where they are infinite."""
@@ -53,13 +53,13 @@ class Levels:
     def inner(self) -> Values:
         """Choose the levels that have lines."""
         inner = self.levels[1:-1]
-        if self.asked:
+        if self.requested:
             return np.array([level for level in self.levels if level in self._listed()])
         return inner[1::2] if inner.size > 5 else inner  # the others show as edges of the bands
 
     def ticks(self, room: int) -> Values:
         """Choose the levels that have numbers at a colour bar with room for so many."""
-        own = self.inner() if self.asked else self.levels
+        own = self.inner() if self.requested else self.levels
         return own[:: max(1, -(-own.size // max(1, room)))]
 
     def _listed(self) -> tuple[float, ...]:
@@ -86,7 +86,7 @@ def levels_of(least: float, greatest: float, *, whole: bool = False, looks: Look
             )
         levels = np.unique(np.concatenate([listed, [least, greatest]]))
         norm = (LogNorm if levels[0] > 0 and levels[-1] > 8 * levels[0] else Normalize)(levels[0], levels[-1])
-        return Levels(levels=levels, norm=norm, extremes=extremes, looks=looks, asked=True)
+        return Levels(levels=levels, norm=norm, extremes=extremes, looks=looks, requested=True)
     if greatest - least <= FLAT * max(abs(least), abs(greatest)):
         pad = 0.05 * max(abs(least), 1e-300)
         least, greatest = least - pad, greatest + pad

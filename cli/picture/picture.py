@@ -48,7 +48,7 @@ WHOLE: Final = Selection()
 
 def drawn(
     dataset: xarray.Dataset,
-    asked: Sequence[str],
+    requested: Sequence[str],
     selection: Selection = WHOLE,
     *,
     x: str | None = None,
@@ -62,7 +62,7 @@ def drawn(
     ----------
     dataset
         A dataset of values, grid or points.
-    asked
+    requested
         Names of variables.
     selection
         Which axes are fixed or reduced.
@@ -77,17 +77,17 @@ def drawn(
         A variable is not there or has no value, or nothing varies that it could be drawn over.
     """
     if PARETO_POINT in dataset.dims:
-        return draw_fronts(dataset, asked, selection, x, y, looks)
+        return draw_fronts(dataset, requested, selection, x, y, looks)
     of_each = {str(name): parts_of(dataset, str(name)) for name in dataset.data_vars}
     dataset = spread(dataset)
     parts = {name: with_influence(dataset, name, [*own]) if own else [name] for name, own in of_each.items()}
-    if not asked and ON_BOUND in parts:  # of an optimum what is best, and where, in units if it has them
-        asked = [name for name in parts if name.startswith(BEST) and not of_each[name] and name + SI not in parts]
-    elif not asked and not {"pull_off_force", "dissipated_energy"} & {*parts}:
-        asked = next(iter(parts.values()))
-    elif asked:
-        asked = [one for name in asked for one in parts.get(name, [name])]
-    chosen = _chosen(dataset, asked)
+    if not requested and ON_BOUND in parts:  # of an optimum what is best, and where, in units if it has them
+        requested = [name for name in parts if name.startswith(BEST) and not of_each[name] and name + SI not in parts]
+    elif not requested and not {"pull_off_force", "dissipated_energy"} & {*parts}:
+        requested = next(iter(parts.values()))
+    elif requested:
+        requested = [one for name in requested for one in parts.get(name, [name])]
+    chosen = _chosen(dataset, requested)
     narrow = placed(selection.narrowed(dataset), selection, x, y)
     points = SCENE in narrow.dims
     gone = {*selection.over, *(one.axis for one in selection.between)}
@@ -170,11 +170,11 @@ def _check(looks: Looks, chosen: Sequence[str], *, is_map: bool) -> None:
         raise DatasetError(f"{looks.inset}: {ONE_PANEL}")
 
 
-def _chosen(dataset: xarray.Dataset, asked: Sequence[str]) -> list[str]:
+def _chosen(dataset: xarray.Dataset, requested: Sequence[str]) -> list[str]:
     """Check the variables that are asked for; otherwise take force and energy, in SI units if they have them."""
     known = [str(name) for name in dataset.data_vars]
-    for name in asked:
+    for name in requested:
         if name not in known:
             raise DatasetError(f"--variable {name}: not in this dataset; {did_you_mean(name, known)}")
     usual = [name + SI if name + SI in known else name for name in ("pull_off_force", "dissipated_energy")]
-    return [*dict.fromkeys(asked)] or [name for name in usual if name in known] or known[:1]
+    return [*dict.fromkeys(requested)] or [name for name in usual if name in known] or known[:1]

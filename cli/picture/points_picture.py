@@ -6,7 +6,7 @@ import numpy as np
 import xarray
 from matplotlib.figure import SubFigure
 
-from gradhesion.cli.dataset.model_range import slope_told
+from gradhesion.cli.dataset.model_range import slope_warnings
 from gradhesion.cli.dataset.reader import is_turned
 from gradhesion.cli.dataset.selection import Selection
 from gradhesion.cli.dataset.sensitivities import parameters_of
@@ -100,7 +100,7 @@ def draw_scenes(
         caption += [f"{int(doubt.marks(flags).sum()):,} scenes: {doubt.words}" for doubt in doubts]
         gaps = int(np.isnan(values).sum())
         caption += [f"{gaps:,} {'scene' if gaps == 1 else 'scenes'} without a value"] if gaps else []
-    caption += slope_told(dataset)
+    caption += slope_warnings(dataset)
     shown = [] if dense else entries([doubt for doubt, _ in doubtful], in_map=False, gaps=bool(np.isnan(values).any()))
     shown += [band_entry(band, 0)] if band else []
     return Part(width=width, height=3.1, entries=shown, caption=caption)

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.model_range import slope_told
+from gradhesion.cli.dataset.model_range import slope_warnings
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import CURVES, SI, STATE
 from gradhesion.cli.picture.labels import Unit, effective, equation, number, unit_for
@@ -140,4 +140,4 @@ def _caption(dataset: xarray.Dataset) -> Iterable[str]:
         values = dataset[name].values
         first = equation(name, np.ravel(values)[0])
         yield first if np.size(values) == 1 else f"{first} (first of {np.size(values)})"
-    yield from slope_told(dataset)
+    yield from slope_warnings(dataset)

@@ -97,9 +97,9 @@ def _rows(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64] | None]:
     """Give depth (or displacement), load and branch of a curve, in SI units."""
     load = _named(curve, "load", table.load) if table.load else _column(curve, "force")
-    asked = table.displacement or table.indentation
-    if asked is not None:
-        depth = _named(curve, "displacement" if table.displacement else "indentation", asked)
+    requested = table.displacement or table.indentation
+    if requested is not None:
+        depth = _named(curve, "displacement" if table.displacement else "indentation", requested)
     elif through_machine:
         depth = -_height(curve)
     elif _TIP in curve:
@@ -129,11 +129,11 @@ def _column(curve: Any, name: str) -> NDArray[np.float64]:
     return np.asarray(curve[name], dtype=np.float64)
 
 
-def _named(curve: Any, key: str, asked: "ColumnTable") -> NDArray[np.float64]:
+def _named(curve: Any, key: str, requested: "ColumnTable") -> NDArray[np.float64]:
     """Give a column that the study names; afmformats has SI units."""
-    if asked.column not in curve:
-        there = did_you_mean(asked.column, curve.columns)
-        raise LoopFileError(key, f"the file has no column {shown(asked.column)}; {there}")
-    if asked.unit:
-        raise LoopFileError(key, f"afmformats gives {shown(asked.column)} in SI units; remove the unit")
-    return asked.sign * _column(curve, asked.column)
+    if requested.column not in curve:
+        there = did_you_mean(requested.column, curve.columns)
+        raise LoopFileError(key, f"the file has no column {shown(requested.column)}; {there}")
+    if requested.unit:
+        raise LoopFileError(key, f"afmformats gives {shown(requested.column)} in SI units; remove the unit")
+    return requested.sign * _column(curve, requested.column)

@@ -111,7 +111,7 @@ def mistakes_of_points(lists: Mapping[str, Values]) -> Iterator[Mistake]:
         if length != lengths[first]:
             sentence = (
                 f"it has {length} values, but {first} has {lengths[first]}; "
-                'with layout = "points" all lists have one length (a single number serves all scenes)'
+                'with layout = "points" all lists have one length (a single number applies to all scenes)'
             )
             yield Mistake((INPUTS[name].table, name), np.asarray(lists[name]).tolist()[:9], sentence)
     if {"k", "nu"} <= lists.keys() and len({lengths[name] for name in ("k", "nu") if name in lengths}) <= 1:

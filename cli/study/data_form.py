@@ -28,11 +28,11 @@ def _column(value: Any) -> Any:
     if isinstance(value, str) and value:
         return {"column": value}
     if isinstance(value, Mapping) and value.get("sign", 1) not in (1, -1):
-        raise ValueError("sign is 1 or -1; write -1 where the column has to be turned round")
+        raise ValueError("sign is 1 or -1; write -1 to change the sign of the column")
     words = {name: item for name, item in value.items() if name != "sign"} if isinstance(value, Mapping) else {}
     sound = isinstance(words.get("column"), str) and words["column"]
     if not sound or not all(isinstance(item, str) for item in words.values()) or {*words} - {"column", "unit"}:
-        raise ValueError(f"this names a column of the file, with its unit; {example(('data', 'load'))}")
+        raise ValueError(f"this must name a column of the file, with its unit; {example(('data', 'load'))}")
     return dict(words, sign=int(value.get("sign", 1)))
 
 

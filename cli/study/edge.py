@@ -69,7 +69,7 @@ def _exact_alone(checked: Checked, table: str) -> Iterator[Mistake]:
     """Check that the exact solver is the only one."""
     other = next((one for one in checked.form.method.solvers if one in ("asymptotic", "envelope")), None)
     if other:
-        sentence = f'the solver "{other}" knows no [{table}]; write solver = "exact", or remove [{table}]'
+        sentence = f'the solver "{other}" does not support [{table}]; write solver = "exact", or remove [{table}]'
         yield Mistake(("method", "solver"), checked.form.method.solver, sentence)
 
 
@@ -105,13 +105,15 @@ def mistakes_of_toughness(checked: Checked, sound: Mapping[str, Values], *, poin
             yield Mistake(("toughness", "harmonics", i, "n"), n, sentence)
             return
     if "rate" in checked.data:
-        sentence = "a toughness that varies with the radius is not known with a speed; remove [toughness] or [rate]"
+        sentence = (
+            "a toughness that varies with the radius cannot be combined with a speed; remove [toughness] or [rate]"
+        )
         yield Mistake(("toughness",), None, sentence)
     if checked.form.kind == "curve":
         own = {name for curve in PATTERN_CURVES for name in (curve, *CURVES[curve])}
         for i, name in enumerate(checked.form.outputs):
             if name not in own:
-                sentence = f"with [toughness] there are the curves {', '.join(PATTERN_CURVES)}; remove this one"
+                sentence = f"with [toughness] the only curves are {', '.join(PATTERN_CURVES)}; remove this one"
                 yield Mistake(("outputs", i), name, sentence)
     yield from _mistakes_of_sign(checked, sound, points=points)
 
@@ -173,14 +175,14 @@ def mistakes_of_rate(checked: Checked, sound: Mapping[str, Values]) -> Iterator[
         )
     if form.loading.control == "load":
         sentence = (
-            "under a load that falls without end the energy of this law has no bound; "
+            "under a falling load the energy of this law has no bound; "
             'write control = "machine" with a soft spring, or remove [rate]'
         )
         yield Mistake(("loading", "control"), "load", sentence)
     for i, name in enumerate(form.outputs):
         if name in _WITHOUT_RATE:
-            sentence = "an edge with a speed passes every radius once and has no jumps, and this is not known of it"
-            sentence = sentence if "jump" in name else "this is not known of an edge with a speed"
+            sentence = "an edge with a speed passes every radius once and has no jumps, so that this is not available"
+            sentence = sentence if "jump" in name else "this is not available for an edge with a speed"
             yield Mistake(("outputs", i), name, f"{sentence}; remove it, or remove [rate]")
     yield from _mistakes_of_closing(checked, table, sound)
     yield from _mistakes_of_waves(checked, sound)
@@ -204,7 +206,7 @@ def _mistakes_of_waves(checked: Checked, sound: Mapping[str, Values]) -> Iterato
     if MOST_WAVES < least < np.inf:
         name = lengths[1]
         sentence = (
-            f"{least:,.0f} waves within the punch are more than the {MOST_WAVES:,.0f} that are followed at a speed"
+            f"{least:,.0f} waves within the punch are more than the {MOST_WAVES:,.0f} that can be followed at a speed"
         )
         path: Path = (INPUTS[name].table, name)
         yield Mistake(path, checked.data[str(path[0])][name], f"{sentence}; use a smaller punch or longer waves")
@@ -217,7 +219,9 @@ def _mistakes_of_closing(checked: Checked, table: RateTable, sound: Mapping[str,
     zero = [name for name in (CLOSING, "work_of_adhesion_closing") if np.any(np.asarray(sound.get(name, 1.0)) == 0.0)]
     for name in zero:
         path: Path = (INPUTS[name].table, name)
-        sentence = 'without adhesion on approach there is no such law; write closing = "quasi-static", or give more'
+        sentence = (
+            'without adhesion on approach there is no such law; write closing = "quasi-static", or a larger value'
+        )
         yield Mistake(path, checked.data[str(path[0])][name], sentence)
     for path in TURN_KEYS:
         if is_given(checked, path) and INPUTS[str(path[1])].gives == "load_max":

@@ -23,9 +23,9 @@ class Kind:
     has_solver: bool
     """Whether the study chooses how its scenes are solved."""
 
-    def variables(self, asked: Sequence[str]) -> tuple[str, ...]:
+    def variables(self, requested: Sequence[str]) -> tuple[str, ...]:
         """Give the variables that are asked for, in the order of the dataset."""
-        return tuple(output for output in self.outputs if output in asked)
+        return tuple(output for output in self.outputs if output in requested)
 
     def tiling(self, shape: tuple[int, ...], chunk: int = CHUNK) -> Tiling:
         """Cut the scenes into blocks."""
@@ -35,11 +35,11 @@ class Kind:
 class _Curves(Kind):
     """Curves are drawn scene by scene: a block has one."""
 
-    def variables(self, asked: Sequence[str]) -> tuple[str, ...]:
+    def variables(self, requested: Sequence[str]) -> tuple[str, ...]:
         """Give the variables asked for: a curve stands for all of its own, and a ragged one needs its count."""
-        counts = {RAGGED[curve] for curve, own in CURVES.items() if curve in RAGGED and own.keys() & {*asked}}
-        wanted = {*asked} | counts
-        return tuple(name for curve, own in CURVES.items() for name in own if curve in asked or name in wanted)
+        counts = {RAGGED[curve] for curve, own in CURVES.items() if curve in RAGGED and own.keys() & {*requested}}
+        wanted = {*requested} | counts
+        return tuple(name for curve, own in CURVES.items() for name in own if curve in requested or name in wanted)
 
     def tiling(self, shape: tuple[int, ...], chunk: int = 1) -> Tiling:  # noqa: ARG002 (the chunks of curves are their own)
         """Cut the scenes into blocks of one."""
@@ -77,7 +77,7 @@ KINDS: Final[dict[str, Kind]] = {
         name="fit",
         outputs=(),
         most_scenes=1,
-        remedy="fit one loop a study",
+        remedy="fit one loop per study",
         has_parts=False,
         has_solver=False,
     ),

@@ -110,16 +110,17 @@ def read_table(path: Path, table: "DataTable") -> Raw:
     )
 
 
-def _scaled(found: Columns, key: str, asked: "ColumnTable", dimension: str) -> NDArray[np.float64]:
+def _scaled(found: Columns, key: str, requested: "ColumnTable", dimension: str) -> NDArray[np.float64]:
     """Give a column in SI units, with its sign."""
     own, unit = _DIMENSIONS[dimension]
-    above = found.units.get(asked.column, "")
-    written = asked.unit or above
+    above = found.units.get(requested.column, "")
+    written = requested.unit or above
     if not written:
         raise LoopFileError(
             key,
-            f'the column {shown(asked.column)} has no unit; write for example {key} = {{ column = "{asked.column}", '
-            f'unit = "{unit}" }}, or its unit in brackets after its name in the header',
+            f"the column {shown(requested.column)} has no unit; "
+            f'write for example {key} = {{ column = "{requested.column}", unit = "{unit}" }}, '
+            "or its unit in brackets after its name in the header",
         )
     try:
         factor = si_value(f"1 {written}", own)
@@ -130,10 +131,10 @@ def _scaled(found: Columns, key: str, asked: "ColumnTable", dimension: str) -> N
     if above and not _is_unit(above, own, factor):
         raise LoopFileError(
             key,
-            f"the unit of the column {shown(asked.column)} is {shown(written)} in the study and {shown(above)} in the "
-            "header of the file; correct one of the two, or leave it out of the study",
+            f"the unit of the column {shown(requested.column)} is {shown(written)} in the study and "
+            f"{shown(above)} in the header of the file; correct one of the two, or leave it out of the study",
         )
-    return found.values[asked.column] * (asked.sign * factor)
+    return found.values[requested.column] * (requested.sign * factor)
 
 
 def _is_unit(written: str, name: str, factor: float) -> bool:

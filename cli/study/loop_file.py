@@ -105,7 +105,7 @@ def _loop(raw: Raw, file: str, table: "DataTable", *, average: bool, through_mac
     sound = np.isfinite(raw.depth) & np.isfinite(raw.load) & np.isfinite(branch)
     use = sound & ~paused
     if not use.any():
-        why = "every row is of a pause" if sound.any() else "no row has numbers in all of its columns"
+        why = "every row belongs to a pause" if sound.any() else "no row has numbers in all of its columns"
         raise LoopFileError("file", f"{why}; name a file with some")
     depth, load = raw.depth[use], raw.load[use]
     cycle = None if raw.cycle is None else raw.cycle[use]

@@ -42,7 +42,7 @@ def loops_of(source: Source, found: Checked) -> tuple[tuple[LoopFile, ...], list
     file, table = form.data.file, form.data
     names = names_of(source.folder, file)
     if not names or len(names) > MOST:
-        what = f"{len(names):,} files are more than {MOST:,}" if names else "no file has a name of this pattern"
+        what = f"{len(names):,} files are more than {MOST:,}" if names else "no file matches this pattern"
         return (), [Mistake(FILE, file, f'{what}; write the path from the folder of the study, as "curves/*.csv"')]
     loops: list[LoopFile] = []
     wrong: list[Mistake] = []
@@ -107,10 +107,12 @@ def _enough(loop: LoopFile, form: FitForm) -> LoopFile:
         and_offsets = f" and the {plural}" if plural else ""
         raise LoopFileError(
             "file",
-            f"{loop.depth.size} points cannot give {count} numbers ({', '.join(searched)}{and_offsets}); measure more "
-            "points, or fix some",
+            f"{loop.depth.size} points are too few for {count} fitted values ({', '.join(searched)}{and_offsets}); "
+            "measure more points, or fix some",
         )
     if not (np.ptp(loop.depth) > 0.0 and np.ptp(loop.load) > 0.0):
         row = "depth" if np.ptp(loop.depth) == 0.0 else "load"
-        raise LoopFileError("file", f"all values of the {row} are the same, which is no loop; name another column")
+        raise LoopFileError(
+            "file", f"all values of the {row} are the same, so that there is no loop; name another column"
+        )
     return loop

@@ -162,7 +162,7 @@ def _unknown_key(path: Path) -> tuple[Path, str]:
             home = f"under [{dotted(other)}]" if other else "at the top, before the first [table]"
             return (*other, key), f"this key belongs {home}; move it there"
     if inner == "range" and known == keys_of("range") and key in ("step", "by", "increment", "delta"):
-        sentence = "a range has no step; give the number of its values in its place, for example num = 11"
+        sentence = "a range has no step; give the number of its values instead, for example num = 11"
         return (*table, "num"), f'{sentence}, evenly spaced unless spacing = "log"'
     if not table and key in OF_A_FIT:
         return path, 'this table belongs to a fit; write kind = "fit" at the top, or remove it'
@@ -236,7 +236,7 @@ def _parameter_sentence(kind: str, value: object, path: Path) -> str:
         return f"this must be a number{forms}, with {allowed}; {example(path[:2])}"
     if last in ("start", "stop") and isinstance(value, float) and math.isinf(value):
         return "a range must end at finite values; write a list where inf is one of the values"
-    unpressed = "; a cycle that turns at no depth has indentation_max_over_R = 0.0" if name == "load_max" else ""
+    unpressed = "; for a turn at zero depth write indentation_max_over_R = 0.0" if name == "load_max" else ""
     return f"out of range; choose a value with {allowed}{unpressed}"
 
 
@@ -319,7 +319,7 @@ def _profile_sentence(kind: str, path: Path) -> str:
     if last == "exponent":
         return f"the power of the punch is a number of 1 or more, and finite (1 is a cone); {example(path)}"
     if last == "n":
-        return f"n is the number of waves a wavelength, an integer from 1 to {MOST_WAVES:,}; {example(path)}"
+        return f"n is the number of waves per wavelength, an integer from 1 to {MOST_WAVES:,}; {example(path)}"
     if last in ("cos", "sin"):
         return f"this must be a number, and finite; {example(path)}"
     if kind == "too_long":

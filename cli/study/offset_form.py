@@ -37,7 +37,7 @@ def offsets_of(value: object) -> Offsets:
         raise ValueError(f"this must be true or false, or a table; {example(('fit', 'offsets'))}")  # noqa: TRY004
     for name in value:
         if name not in _KEYS:
-            raise ValueError(f"{shown(name)} is no zero of an instrument; {did_you_mean(str(name), _KEYS)}")
+            raise ValueError(f"{shown(name)} is not a zero of an instrument; {did_you_mean(str(name), _KEYS)}")
     slope = value.get("slope", False)
     if not isinstance(slope, bool):
         raise ValueError("slope must be true or false; write slope = true to fit a tilt")  # noqa: TRY004
@@ -53,7 +53,7 @@ def _zero(name: str, value: object) -> str | bool | tuple[float, float]:
     if value is False or (isinstance(value, str) and value in words):
         return value
     if not isinstance(value, list) or len(value) != 2:
-        raise ValueError(f"{name} = {shown(value)} is no zero to be fitted; {what}")
+        raise ValueError(f"{name} = {shown(value)} is not a zero that can be fitted; {what}")
     numbers = []
     for end in value:
         try:
@@ -61,5 +61,5 @@ def _zero(name: str, value: object) -> str | bool | tuple[float, float]:
         except ValueError:
             raise ValueError(f"{name}: {shown(end)} is not {dimension} with its unit; {what}") from None
     if not numbers[0] < numbers[1]:
-        raise ValueError(f"{name} = {shown(value)}: the ends of a range rise; exchange the two")
+        raise ValueError(f"{name} = {shown(value)}: the ends of a range must rise; exchange the two")
     return numbers[0], numbers[1]

@@ -109,7 +109,7 @@ def points_of(
     folder
         Where the file is looked for.
     columns
-        What the file is known to hold, so that it is not read.
+        The columns of the file; it is then not read.
     """
     table = data.get("parameters")
     written = table.get("points") if isinstance(table, Mapping) else None
@@ -159,11 +159,11 @@ def _mistakes(data: Mapping[str, Any], found: Columns) -> Iterator[str]:
         elif name not in INPUTS:
             yield f"its column {shown(name)} is not a parameter; {did_you_mean(name, tuple(INPUTS))}"
         elif isinstance(table := data.get(INPUTS[name].table), Mapping) and name in table:
-            yield f"{name} stands under [{INPUTS[name].table}] and is a column of the file; keep one of the two"
+            yield f"{name} is given under [{INPUTS[name].table}] and as a column of the file; keep one of the two"
     if data.get("layout", "points") == "grid":
-        yield 'the rows of a file are points, and layout = "grid"; write layout = "points" or leave it out'
+        yield 'the rows of a file are points, but layout = "grid"; write layout = "points" or leave it out'
     if found.rows > MOST_VALUES:
-        yield f"the file has {found.rows:,} rows, and {MOST_VALUES:,} are read at most; split it"
+        yield f"the file has {found.rows:,} rows, but at most {MOST_VALUES:,} are read; split it"
 
 
 def _column(name: str, given: NDArray[np.float64], found: Columns) -> NDArray[np.float64]:

@@ -89,16 +89,15 @@ def _mistakes_of_spectrum(checked: Checked) -> Iterator[Mistake]:
         sentence = f"the shortest wave comes before the longest, first = {first}; use last = {first} or more"
         yield Mistake((*_SPECTRUM, "last"), last, sentence)
     elif last - first + 1 > MOST_HARMONICS:
-        sentence = f"{last - first + 1:,} waves, and a series has {MOST_HARMONICS} at most; use last = "
+        sentence = f"{last - first + 1:,} waves, but a series has at most {MOST_HARMONICS}; use last = "
         yield Mistake((*_SPECTRUM, "last"), last, f"{sentence}{first + MOST_HARMONICS - 1}, or a larger first")
     for other in ("harmonics", "file"):
         if other in written:
             sentence = f"the waves come from spectrum; remove {other}, or remove spectrum"
             yield Mistake(("profile", other), written[other], sentence)
     if checked.form.kind == "curve":
-        sentence = (
-            'random roughness has maps only; write kind = "map", or give harmonics to draw the curves of one punch'
-        )
+        sentence = 'random roughness is available only in maps; write kind = "map", '
+        sentence += "or give harmonics to draw the curves of one punch"
         yield Mistake(_SPECTRUM, dict(table), sentence)
 
 
@@ -109,7 +108,7 @@ def _mistakes_without_a_file(checked: Checked) -> Iterator[Mistake]:
         return
     for name in ("sha256", "terms", "up_to"):
         if name in table and ("profile", name) not in checked.wrong:
-            yield Mistake(("profile", name), table[name], f"this goes with a file; add file, or remove {name}")
+            yield Mistake(("profile", name), table[name], f"this key needs a file; add file, or remove {name}")
     if table.get("exponent") == "fit":
         sentence = "there is no file to fit it to; add file, or write for example exponent = 2.0"
         yield Mistake(("profile", "exponent"), "fit", sentence)
@@ -153,9 +152,7 @@ def _mistakes_of_default_only(checked: Checked, *, sound_series: bool) -> Iterat
             sentence = f"this curve is available only under displacement control: {why}; remove it, or remove [loading]"
             yield Mistake(("outputs", i), name, sentence)
         if name == "energy_residual" and form.loading.control == "load":
-            sentence = (
-                'a dead load closes no loop, so that there is no residual; remove it, or write control = "machine"'
-            )
+            sentence = 'under dead load the cycle is not closed; remove this output, or write control = "machine"'
             yield Mistake(("outputs", i), name, sentence)
     for one in form.method.solvers:
         if one in WITHOUT_LOAD and "[loading]" in others:
@@ -164,6 +161,6 @@ def _mistakes_of_default_only(checked: Checked, *, sound_series: bool) -> Iterat
             yield Mistake(("method", "solver"), form.method.solver, sentence)
     if "[profile]" in others and "a_max_over_a2" in form.entries:
         sentence = (
-            "a_2 is that of a paraboloid with one cosine wave; give a_max_over_R or a_max_over_L, or remove [profile]"
+            "a_2 is defined only for one cosine on a paraboloid; give a_max_over_R or a_max_over_L, or remove [profile]"
         )
         yield Mistake(("parameters", "a_max_over_a2"), checked.data["parameters"]["a_max_over_a2"], sentence)

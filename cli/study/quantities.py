@@ -86,7 +86,7 @@ def si_value(value: object, name: str) -> float:
     inside = result > 0.0 or result == key.bounds.get("ge") or not key.bounds
     if not inside or (math.isinf(result) and not key.infinite) or math.isnan(result):
         allowed = f"{WORDS[key.unit]} with {key.allowed}" if key.bounds else f"{WORDS[key.unit]} that is finite"
-        unpressed = '; a cycle that turns at no depth has indentation_max = "0 nm"' if name == "preload" else ""
+        unpressed = '; for a turn at zero depth write indentation_max = "0 nm"' if name == "preload" else ""
         raise ValueError(f"out of range; choose {allowed}{unpressed}")
     return result
 

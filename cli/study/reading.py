@@ -36,7 +36,7 @@ MOST_MISTAKES: Final = 30
 
 def load_study(path: str | Path, overrides: Iterable[str] = ()) -> Study:
     """
-    Read a study from a file, with `overrides` as `--set` takes them (`"parameters.A=0.02"`).
+    Read a study from a file, with `overrides` in the form of `--set` (`"parameters.A=0.02"`).
 
     Raises
     ------
@@ -61,11 +61,11 @@ def study_from(
     data
         The keys; lists may be arrays.
     name
-        What the study is called where it has no title.
+        The name of the study if it has no title.
     folder
-        Where the files are that it names; the current directory if left out.
+        The folder of the files that it names; the current directory by default.
     columns
-        What the file of its points is known to hold, in SI units, so that it is not read.
+        The columns of the file of its points, in SI units; the file is then not read.
 
     Raises
     ------

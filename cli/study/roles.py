@@ -100,7 +100,7 @@ def _mistakes_of_role(role: Key, checked: Checked, sound: Mapping[str, Values]) 
 def mixed(path: Path, checked: Checked, keys: list[str]) -> Mistake:
     """Say that a ratio stands beside quantities with units."""
     sentence = (
-        "a ratio, where [physical] gives quantities with units, and the two ways do not mix; remove it "
+        "a ratio, where [physical] gives quantities with units, and the two cannot be combined; remove it "
         f"and give {', '.join(keys)} under [physical], or remove [physical]"
     )
     return Mistake(path, checked.data[str(path[0])][path[1]], sentence)

@@ -88,19 +88,19 @@ def _mistakes_of_choice(checked: Checked) -> Iterator[Mistake]:
 
 def _mistakes_of_outputs(checked: Checked) -> Iterator[Mistake]:
     """Check that each output belongs to the kind of the study, and is asked for once."""
-    asked: Any = checked.data.get("outputs")
+    requested: Any = checked.data.get("outputs")
     kind = KINDS[_kind_of(checked)]
-    if not isinstance(asked, list) or not kind.outputs:
+    if not isinstance(requested, list) or not kind.outputs:
         return
     others = {name: other.name for other in KINDS.values() if other is not kind for name in other.outputs}
-    for i, name in enumerate(asked):
+    for i, name in enumerate(requested):
         path: Path = ("outputs", i)
         if not isinstance(name, str):
             continue
-        if name in kind.outputs and name in asked[:i]:
+        if name in kind.outputs and name in requested[:i]:
             yield Mistake(path, name, "this output is listed twice; remove one of the two")
         elif name in kind.outputs:
-            curve = next((one for one, own in CURVES.items() if name in own and one in asked and one != name), None)
+            curve = next((one for one, own in CURVES.items() if name in own and one in requested and one != name), None)
             if curve is not None:
                 yield Mistake(path, name, f'a variable of "{curve}", which is listed as a whole; remove one of the two')
         elif name in others:
@@ -115,7 +115,7 @@ def _mistakes_of_method(checked: Checked) -> Iterator[Mistake]:
     """Check that each solver is known, named once and has all outputs, and that a study of curves has no method."""
     method, has_solver = checked.form.method, KINDS[_kind_of(checked)].has_solver
     if not has_solver and method.solver != "exact":
-        sentence = "a curve study has no solver, its outputs choose the curves; remove this key"
+        sentence = "a curve study has no solver, since its outputs select the curves; remove this key"
         sentence += ', and add "asymptotic", "envelope" or "effective" to outputs'
         yield Mistake(("method", "solver"), method.solver, sentence)
     if not has_solver and not method.check_contact:

@@ -208,7 +208,7 @@ def _mistakes_of_goals(checked: Checked) -> Iterator[Mistake]:
         if name in names[:i]:
             yield Mistake(path, written[key], f"{shown(name)} is named twice; remove one of the two")
         elif name.endswith("_jumps"):
-            sentence = f"{shown(name)} is a count, which has no optimum but steps; choose another output"
+            sentence = f"{shown(name)} is a count, which changes in steps and has no optimum; choose another output"
             yield Mistake(path, written[key], sentence)
         elif name not in known:
             yield Mistake(path, written[key], f"{shown(name)} cannot be a goal; {did_you_mean(name, known)}")
@@ -252,7 +252,7 @@ def _mistakes_of_over(checked: Checked, sought: Sought, sound: Mapping[str, Valu
     if checked.form.layout == "grid":
         for name, values in sound.items():
             if name not in sought.over and isinstance(values, np.ndarray) and values.size == 1:
-                sentence = f"an axis of one value cannot stand beside searched inputs; write {name} = {values[0]!s}"
+                sentence = f"an axis of one value cannot be combined with searched inputs; write {name} = {values[0]!s}"
                 yield Mistake((INPUTS[name].table, name), values.tolist(), sentence)
 
 
@@ -281,7 +281,7 @@ def _mistakes_of_company(checked: Checked) -> Iterator[Mistake]:
     """Check that each cell has one punch and one solver."""
     form = checked.form
     if form.profile.spectrum is not None:
-        sentence = 'random roughness has no optimum of its own; give harmonics, or write kind = "map"'
+        sentence = 'optima are not available for random roughness; give harmonics, or write kind = "map"'
         yield Mistake(("profile", "spectrum"), dict(form.profile.spectrum), sentence)
     if not isinstance(form.method.solver, str):
         yield Mistake(("method", "solver"), form.method.solver, "an optimum has one solver; choose one of these")

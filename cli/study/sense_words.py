@@ -26,7 +26,7 @@ def refuse_order(depth: NDArray[np.float64], cycle: NDArray[np.int32] | None) ->
         turns = int(ways(depth)[1].max())
         raise LoopFileError(
             "file",
-            f"the points are in no order from which branches can be told ({turns:,} turns of the depth among "
+            f"the branches cannot be recognised from the order of the points ({turns:,} turns of the depth among "
             f'{depth.size:,} points); name a column that has them, branch = "branch", or sort the rows as they '
             "were measured",
         )
@@ -52,8 +52,8 @@ def refuse_sense(
     if sense == "straight":
         raise LoopFileError(
             "load",
-            "the load is a straight line of the depth to within its noise: there is no contact in the data; name a "
-            "file or a column with one",
+            "the load is linear in the depth within its noise: the data show no contact; name a "
+            "file or a column that does",
         )
     if sense in ("load", "both"):
         where = "deepest" if sense == "load" else "shallowest"

@@ -35,7 +35,7 @@ class Source:
     mistakes: tuple[str, ...] = ()
     """What was wrong with the overrides."""
     folder: Path = Path()
-    """Where the files are that it names."""
+    """The folder of the files that it names."""
 
 
 def read_source(path: Path, overrides: Iterable[str], most: int = MOST_BYTES) -> Source:
@@ -113,8 +113,8 @@ def _check_kind(path: Path) -> None:
 
 
 _REMEDIES: Final = {
-    "Cannot overwrite a value": "the key stands twice, remove one",
-    "Cannot declare": "the table stands twice, join the two",
+    "Cannot overwrite a value": "the key is given twice, remove one",
+    "Cannot declare": "the table is given twice, join the two",
 }
 """What to do about problems of TOML that no single line has, by what the parser calls them."""
 
@@ -167,12 +167,14 @@ def _override(data: dict[str, Any], overrides: Iterable[str]) -> tuple[dict[keys
             continue
         if len(steps) > places.DEEPEST or places.is_deep(parsed):
             shown = wording.shown(override)
-            mistakes.append(f"--set {shown}: nested more than {places.DEEPEST} deep, as no study is; remove levels")
+            mistakes.append(
+                f"--set {shown}: nested more than {places.DEEPEST} deep, too deep for a study; remove levels"
+            )
             continue
         if parsed.keys() != {"value"}:
             quoted = f"[{value.strip()}]" if _is_list(value) else json.dumps(value.strip(), ensure_ascii=False)
             if _is_list(value):
-                sentence = "several values stand in brackets, without spaces or in quotes"
+                sentence = "write several values in brackets, without spaces or in quotes"
                 mistakes.append(f"--set {override}: the value is not TOML; {sentence}, as in --set '{key}={quoted}'")
                 continue
             mistakes.append(f"--set {override}: the value is not TOML; quote strings, as in --set '{key}={quoted}'")

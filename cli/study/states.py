@@ -19,12 +19,12 @@ def mistakes_of_states(checked: Checked, sound: Mapping[str, Values]) -> Iterato
         return
     own = {*STATE_CURVES, *(name for curve in STATE_CURVES for name in CURVES[curve])}
     if ("outputs",) not in checked.wrong and not own & {*checked.form.outputs}:
-        sentence = 'no curve of a state is asked for; add "pressure" or "surface" to the outputs of a curve study'
+        sentence = 'no curve of states is requested; add "pressure" or "surface" to the outputs of a curve study'
         yield Mistake(_RADII, list(radii), f"{sentence}, or remove [states]")
     rim = float(np.min(sound["a_max_over_R"])) if "a_max_over_R" in sound else np.inf
     for i, radius in enumerate(radii):
         if radius in radii[:i]:
             yield Mistake((*_RADII, i), radius, "this radius is given twice; remove one of the two")
         elif radius > rim:
-            sentence = f"a contact is no wider than its punch, a_max_over_R = {rim:g}; use a radius in (0, {rim:g}]"
+            sentence = f"a contact cannot be wider than its punch, a_max_over_R = {rim:g}; use a radius in (0, {rim:g}]"
             yield Mistake((*_RADII, i), radius, sentence)

@@ -97,7 +97,7 @@ class Study:
     chunk: int = CHUNK
     """Cells of a chunk of the dataset of a map, at most; a block that is computed at a time has two."""
     folder: Path = Path()
-    """Where the files are that it names."""
+    """The folder of the files that it names."""
     points: Points = field(default_factory=Points)
     """The file with its scenes, and the parameters that are columns of it."""
     measured: Measured = field(default_factory=Measured)
@@ -123,7 +123,7 @@ class Study:
 
     @cached_property
     def variables(self) -> tuple[str, ...]:
-        """The names of all variables of its dataset but `status`."""
+        """The names of all variables of its dataset except `status`."""
         if self.search:
             return self._best
         physical = [name + OF_PHYSICAL for name in self.outputs if name in SENSITIVITIES and "R" in self.parameters]
@@ -205,7 +205,7 @@ class Study:
     @cached_property
     def labels(self) -> dict[str, tuple[str, ...]]:
         """What its sensitivities are to, by the dimension along which they stand; nothing if it has none."""
-        asked = {labels_of(name) for name in self.variables} - {""}
+        requested = {labels_of(name) for name in self.variables} - {""}
         more = [MACHINE] if self.loading.control == "machine" else []
         last = [self.turn] if self.turn else []
         last += [name for name in (CLOSING, *PATTERN) if self.gives(name)]
@@ -216,7 +216,7 @@ class Study:
             for key in given
             if key.table == "physical" and key.gives != RANGE and not np.all(np.isinf(self.parameters[key.name]))
         )
-        return {name: own for name, own in ((PARAMETER, keys), (PHYSICAL_PARAMETER, units)) if name in asked}
+        return {name: own for name, own in ((PARAMETER, keys), (PHYSICAL_PARAMETER, units)) if name in requested}
 
     @cached_property
     def made(self) -> tuple[str, ...]:

@@ -23,5 +23,5 @@ def mistakes_of_turn(checked: Checked) -> Iterator[Mistake]:
             yield mixed(path, checked, own)
     other = next((one for one in checked.form.method.solvers if one in ("asymptotic", "envelope")), None)
     if paths and other:
-        sentence = f'the solver "{other}" turns at the rim alone; write solver = "exact", or remove {paths[0][1]}'
+        sentence = f'the solver "{other}" turns only at the rim; write solver = "exact", or remove {paths[0][1]}'
         yield Mistake(("method", "solver"), checked.form.method.solver, sentence)

@@ -68,18 +68,18 @@ def mistakes_of_uncertainty(checked: Checked, sound: Mapping[str, Values]) -> It
         sentence = 'only maps have uncertain inputs; write kind = "map", or remove [uncertainty]'
         yield Mistake((TABLE,), None, sentence)
         return
-    asked = uncertainty_of(checked)
-    if not asked and not any(path[:1] == (TABLE,) for path in checked.wrong):
-        yield Mistake((TABLE,), None, 'nothing is uncertain; add for example modulus = "5 %", or remove [uncertainty]')
-    for name, one in asked.deviations:
+    requested = uncertainty_of(checked)
+    if not requested and not any(path[:1] == (TABLE,) for path in checked.wrong):
+        yield Mistake((TABLE,), None, 'no input is uncertain; add for example modulus = "5 %", or remove [uncertainty]')
+    for name, one in requested.deviations:
         if name not in form.entries:
             yield Mistake((TABLE, name), written[name], _sentence_of_absent(name, [*form.entries]))
         elif name in sound:
             yield from _mistakes_of_deviation(name, one, sound[name], written[name])
     if form.profile.spectrum and {*form.outputs} & {*OF_LINEAR}:
-        sentence = "standard deviations are those of one punch, and a spectrum draws many; remove [uncertainty]"
+        sentence = "standard deviations apply to one punch, but a spectrum draws many; remove [uncertainty]"
         yield Mistake((TABLE,), None, sentence)
-    yield from _mistakes_of_outputs(checked, asked)
+    yield from _mistakes_of_outputs(checked, requested)
 
 
 def _sentence_of_absent(name: str, known: list[str]) -> str:
@@ -87,7 +87,7 @@ def _sentence_of_absent(name: str, known: list[str]) -> str:
     kin = (one for one in known if INPUTS[one].gives == INPUTS[name].gives)
     near = next(kin, None) or nearest(name, known)
     remedy = f'use "{near}"' if near else f"name one that it gives, {', '.join(known)}"
-    return f"the study gives no {name} to be uncertain; {remedy}, or remove this key"
+    return f"the study gives no {name} that could be uncertain; {remedy}, or remove this key"
 
 
 def _mistakes_of_deviation(name: str, one: Deviation, values: Values, written: Any) -> Iterator[Mistake]:
@@ -108,17 +108,17 @@ def _mistakes_of_deviation(name: str, one: Deviation, values: Values, written: A
         yield Mistake(path, written, sentence)
 
 
-def _mistakes_of_outputs(checked: Checked, asked: Uncertainty) -> Iterator[Mistake]:
+def _mistakes_of_outputs(checked: Checked, requested: Uncertainty) -> Iterator[Mistake]:
     """Check that an output has a spread, and that samples are drawn for what no sensitivity is known of."""
     form, path = checked.form, (TABLE, "samples")
-    if ("outputs",) in checked.wrong or path in checked.wrong or not asked:
+    if ("outputs",) in checked.wrong or path in checked.wrong or not requested:
         return
     own = tuple(name for name in form.outputs if name in SPREADABLE)
     if not own:
         names = ", ".join(f'"{name}"' for name in OF_LINEAR)
         place: Path = ("outputs",)
         yield Mistake(place, list(form.outputs), f"none of these has a spread; add for example {names}")
-    elif not asked.samples and not asked.linear(own, exact=form.method.solver == "exact" and form.rate is None):
+    elif not requested.samples and not requested.linear(own, exact=form.method.solver == "exact" and form.rate is None):
         why = "are not those of the exact solver" if form.method.solver != "exact" else "have no sensitivities"
         sentence = f"the outputs {why}, and their spread needs samples; write samples = 1024 under [uncertainty]"
         yield Mistake(path, 0, sentence)

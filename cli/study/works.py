@@ -55,7 +55,7 @@ def _mistakes_of_order(checked: Checked, sound: Mapping[str, Values], *, points:
     if above.size:
         i = above[0]
         sentence = (
-            f"an edge closes at no more work than it opens at, and {CLOSING_WORK} = {closing[i]:g} J/m^2 stands beside "
+            f"an edge cannot close at more work than it opens at, but {CLOSING_WORK} = {closing[i]:g} J/m^2 exceeds "
             f"work_of_adhesion = {opening[i]:g} J/m^2; lower it, or raise work_of_adhesion"
         )
         yield Mistake(_WORK, checked.data["physical"][CLOSING_WORK], sentence)

@@ -46,7 +46,7 @@ def of_text(content: bytes, sha256: str, wanted: Wanted) -> Columns:
         if not header.read:
             if not looks_like_a_table(text, header):
                 raise ColumnsError(
-                    "the file is no table of numbers; name one whose first line has the names of its columns"
+                    "the file is not a table of numbers; name one whose first line has the names of its columns"
                 )
             return Columns(values={}, units=header.units, sha256=sha256, place=str, others=others)
         numbers = {name: WholeNumbers() for name in wanted.whole}
@@ -142,7 +142,7 @@ def _has_decimal_commas(text: Text, header: Header, columns: list[int]) -> bool:
         )
     if commas and not sure:
         raise ColumnsError(
-            f"line {commas}: {first} may be a decimal or thousands, as each number of the file with a comma; write a "
-            "point for the decimals, and nothing between thousands"
+            f"line {commas}: {first} may be a decimal or thousands, like every number of the file with a comma; "
+            "write a point for the decimals, and nothing between thousands"
         )
     return bool(commas)

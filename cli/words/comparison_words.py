@@ -29,14 +29,14 @@ def fits_compared(datasets: Sequence[xarray.Dataset], files: Sequence[Path]) -> 
     first = datasets[0]
     for dataset, file in zip(datasets, files, strict=True):
         if not is_fit(dataset):
-            raise DatasetError(f"{file}: holds no fit; of several datasets only fits are compared, so name one alone")
+            raise DatasetError(f"{file}: contains no fit; only fits can be compared, so name one file")
         if why := _apart(first, dataset):
             raise DatasetError(
                 f"{file}: {why} {files[0]}, so that their misfits cannot be compared; fit the same points with the "
                 "same noise"
             )
         if np.isnan(dataset["chi_square"].values).any():
-            raise DatasetError(f"{file}: a loop has no fit, so that there is no misfit of all; leave its file out")
+            raise DatasetError(f"{file}: a loop has no fit, so that the total misfit is undefined; leave its file out")
     values = [dataset.sizes[PARAMETER] * dataset.sizes.get(LOOP, 1) for dataset in datasets]
     misfits = [float(dataset["chi_square"].sum()) for dataset in datasets]
     criteria = np.array(misfits) + 2.0 * np.array(values)
@@ -54,7 +54,7 @@ def fits_compared(datasets: Sequence[xarray.Dataset], files: Sequence[Path]) -> 
         yield f"{files[i]!s:<{width}}  {row}"
     for dataset, file in zip(datasets, files, strict=True):
         if (dataset["status"].values & POOR_FIT).any():
-            yield f"{file}: a poor fit: what is left is no noise, and weights mean little"
+            yield f"{file}: a poor fit: the residual exceeds the noise, and weights mean little"
 
 
 def _apart(one: xarray.Dataset, other: xarray.Dataset) -> str:

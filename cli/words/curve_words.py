@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.dataset.curve_variables import variables_of_curves
 from gradhesion.cli.names import INTEGERS, RAGGED, STATE_CURVES
 from gradhesion.cli.study.tiling import tile
-from gradhesion.cli.words.jump_words import ITEMS, jumps_told, meaning_of
+from gradhesion.cli.words.jump_words import ITEMS, jump_lines, meaning_of
 
 CELLS: Final = 2**20
 """Values of a variable that are read at a time, unless a single curve has more."""
@@ -19,7 +19,7 @@ CELLS: Final = 2**20
 Scene = dict[str, NDArray[np.float64]]
 
 
-def curves_told(dataset: xarray.Dataset, cells: int = CELLS, jumps: int = ITEMS) -> Iterator[str]:
+def curve_lines(dataset: xarray.Dataset, cells: int = CELLS, jumps: int = ITEMS) -> Iterator[str]:
     """Describe the curves of a dataset, line by line, reading so many values of a variable, or jumps, at a time."""
     for curve, names in variables_of_curves(dataset).items():
         if curve in RAGGED:
@@ -35,12 +35,12 @@ def curves_told(dataset: xarray.Dataset, cells: int = CELLS, jumps: int = ITEMS)
                 ends[name] = float(np.min(values, initial=least)), float(np.max(values, initial=greatest))
         yield ""
         which = "state" if curve in STATE_CURVES else "scene"
-        yield f"{curve}: {_range(counts.pop('points'))} points a {which}"
+        yield f"{curve}: {_range(counts.pop('points'))} points per {which}"
         yield from (f"  {word:<30} {_range(numbers)}" for word, numbers in counts.items())
         for name, (least, greatest) in ends.items():
             extent = f"{least + 0.0:.6g} to {greatest + 0.0:.6g}" if least <= greatest else "no value in any scene"
             yield f"  {name:<30} {extent:<26} {meaning_of(dataset[name])}"
-    yield from jumps_told(dataset, jumps)
+    yield from jump_lines(dataset, jumps)
 
 
 def _scenes(dataset: xarray.Dataset, names: Sequence[str], cells: int) -> Iterator[Scene]:
@@ -63,7 +63,7 @@ def _events(scene: Scene) -> dict[str, int]:
         counts["stable branches"] = stable[:1].sum() + (stable[1:] & ~stable[:-1]).sum()
     if "path_branch" in scene:
         visited = np.unique(scene["path_branch"])
-        counts["branches visited, rim counted"] = (visited > 0.0).sum()
+        counts["branches followed, with rim"] = (visited > 0.0).sum()
     if {"path_jump", "path_unloading"} <= scene.keys():
         jumps = scene["path_jump"] == 1.0
         for word, way in (("loading", 0.0), ("unloading", 1.0)):

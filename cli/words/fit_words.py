@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.model_range import slope_told, tabor_told
+from gradhesion.cli.dataset.model_range import slope_warnings, tabor_warnings
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import FLAGS as WORDS
 from gradhesion.cli.names import MINIMUM, PARAMETER, PARAMETER_UNITS
@@ -44,7 +44,7 @@ def fit_described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
         )
     yield ""
     yield f"fitted, with 95 % intervals ({intervals_of(dataset)})"
-    yield from values_told(dataset)
+    yield from value_lines(dataset)
     yield from of_given(dataset)
     yield ""
     yield from _quality(dataset)
@@ -87,7 +87,7 @@ def noise_of(dataset: xarray.Dataset) -> tuple[float, float]:
     return depth, load
 
 
-def values_told(dataset: xarray.Dataset) -> Iterator[str]:
+def value_lines(dataset: xarray.Dataset) -> Iterator[str]:
     """Report each value with its interval."""
     for i, name in enumerate(map(str, dataset[PARAMETER].values)):
         unit = str(dataset[PARAMETER_UNITS].values[i])
@@ -106,7 +106,7 @@ def _quality(dataset: xarray.Dataset) -> Iterator[str]:
     status = int(dataset["status"])
     yield f"chi square: {chi_square:.6g} for {degrees:,} degrees of freedom; reduced {chi_square / degrees:.3g}"
     if status & POOR_FIT or chi_square > poor_from(degrees) * degrees:
-        yield f"  a poor fit: noise explains {poor_from(degrees):.3g} at most; try another model or other ranges"
+        yield f"  a poor fit: the noise explains {poor_from(degrees):.3g} at most; try another model or other ranges"
     if not int(dataset["converged"]):
         yield "  it did not converge"
     names, correlation = list(map(str, dataset[PARAMETER].values)), dataset["correlation"].values
@@ -118,13 +118,13 @@ def _quality(dataset: xarray.Dataset) -> Iterator[str]:
             if abs(correlation[i, j]) > TOGETHER:
                 yield f"correlation of {other} and {one}: {correlation[i, j]:.3f}"
     if "alike" in dataset.attrs:
-        yield f"not told apart: {dataset.attrs['alike']}"
+        yield f"indistinguishable: {dataset.attrs['alike']}"
     if "tabor_parameter" in dataset:
         tabor = float(dataset["tabor_parameter"])
         comment = str(dataset["tabor_parameter"].attrs.get("comment", ""))
-        beyond = list(tabor_told(tabor, comment))
+        beyond = list(tabor_warnings(tabor, comment))
         yield from beyond or [f"Tabor parameter {tabor:.3g} ({comment})"]
-    yield from (f"outside the range of the model: {line}" for line in slope_told(dataset))
+    yield from (f"outside the range of the model: {line}" for line in slope_warnings(dataset))
     for name, bit in FLAGS.items():
         if status & bit:
             yield f"status: {name}: {WORDS[name]}"

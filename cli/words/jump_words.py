@@ -22,7 +22,7 @@ JUMP: Final = EXTENTS["jumps"]
 Piece = dict[str, NDArray[Any]]
 
 
-def jumps_told(dataset: xarray.Dataset, items: int = ITEMS) -> Iterator[str]:
+def jump_lines(dataset: xarray.Dataset, items: int = ITEMS) -> Iterator[str]:
     """Report the jumps of a dataset, if it has them: how many, how large, and where the largest is."""
     if COUNT not in dataset:
         return
@@ -30,7 +30,7 @@ def jumps_told(dataset: xarray.Dataset, items: int = ITEMS) -> Iterator[str]:
     least, greatest = int(counts.min()), int(counts.max())
     each = f"{least:,}" if least == greatest else f"{least:,} to {greatest:,}"
     yield ""
-    yield f"jumps: {each} a scene, {int(counts.sum()):,} in all"
+    yield f"jumps: {each} per scene, {int(counts.sum()):,} in all"
     numbers = dict.fromkeys(("on unloading", "from or to the rim", "that gain energy"), 0)
     ends: dict[str, tuple[float, float]] = {}
     largest: dict[str, Any] = {}

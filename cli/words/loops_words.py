@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.model_range import slope_told, tabor_told
+from gradhesion.cli.dataset.model_range import slope_warnings, tabor_warnings
 from gradhesion.cli.names import LOOP, MINIMUM, PARAMETER, PARAMETER_UNITS
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.words.fit_words import COLUMNS, of_data, of_given, of_origin
@@ -32,7 +32,7 @@ def loops_described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
     yield ""
     yield from _aligned(list(_rows(dataset)))
     yield from _of_all(dataset)
-    said = [*_said(dataset), *(f"outside the range of the model: {line}" for line in slope_told(dataset))]
+    said = [*_said(dataset), *(f"outside the range of the model: {line}" for line in slope_warnings(dataset))]
     if said:
         yield ""
         yield from said
@@ -87,7 +87,7 @@ def _of_all(dataset: xarray.Dataset) -> Iterator[str]:
 
 
 def _said(dataset: xarray.Dataset) -> Iterator[str]:
-    """Say why loops have no values, which other minima there are, and what is not told apart."""
+    """Say why loops have no values, which other minima there are, and the alternatives that they cannot distinguish."""
     names = list(map(str, dataset[PARAMETER].values))
     comment = str(dataset["tabor_parameter"].attrs.get("comment", ""))
     for i, file in enumerate(map(str, dataset["file"].values)):
@@ -95,11 +95,11 @@ def _said(dataset: xarray.Dataset) -> Iterator[str]:
             yield f"{file}: {problem}"
         for values in dataset["minimum_value"].values[i] if MINIMUM in dataset.dims else ():
             if not np.isnan(values).any():
-                told = ", ".join(f"{name} = {value:.6g}" for name, value in zip(names, values, strict=True))
-                yield f"{file}: another minimum within the noise: {told}"
+                listed = ", ".join(f"{name} = {value:.6g}" for name, value in zip(names, values, strict=True))
+                yield f"{file}: another minimum within the noise: {listed}"
         if alike := str(dataset["alike"].values[i]):
-            yield f"{file}: not told apart: {alike}"
-        yield from (f"{file}: {line}" for line in tabor_told(float(dataset["tabor_parameter"].values[i]), comment))
+            yield f"{file}: indistinguishable: {alike}"
+        yield from (f"{file}: {line}" for line in tabor_warnings(float(dataset["tabor_parameter"].values[i]), comment))
 
 
 def loops_tabled(dataset: xarray.Dataset) -> Iterator[str]:

@@ -9,27 +9,27 @@ from gradhesion.cli.names import PARETO_POINT
 from gradhesion.cli.terminal.amounts import counted
 
 
-def bounds_told(variable: xarray.DataArray) -> Iterator[str]:
+def bound_lines(variable: xarray.DataArray) -> Iterator[str]:
     """Say at which bounds how many optima are."""
     values = variable.values
     ends = zip(np.atleast_1d(variable.attrs["flag_masks"]), variable.attrs["flag_meanings"].split(), strict=True)
-    told = [
+    counts = [
         (words.replace("_at_its_", " at its ").replace("_bound", " bound"), int((values & bit != 0).sum()))
         for bit, words in ends
     ]
-    for words, count in told:
+    for words, count in counts:
         if count:
             yield f"  {words:<44} {count:,} of {counted(values.size, 'optimum').replace('optimums', 'optima')}"
-    if not any(count for _, count in told):
+    if not any(count for _, count in counts):
         yield "  no optimum is at a bound"
 
 
-def points_told(dataset: xarray.Dataset) -> Iterator[str]:
-    """Say how many points the sets of best compromises have; nothing of another dataset."""
+def point_lines(dataset: xarray.Dataset) -> Iterator[str]:
+    """Say how many points the Pareto fronts have; nothing for another dataset."""
     if PARETO_POINT not in dataset.dims:
         return
     first = next(str(name) for name in dataset.data_vars if PARETO_POINT in dataset[name].dims)
     counts = np.asarray(dataset[first].notnull().sum(PARETO_POINT))
     least, greatest = int(counts.min()), int(counts.max())
     yield ""
-    yield f"best compromises: {least:,}" + (f" to {greatest:,}" if greatest > least else "") + " points a scene"
+    yield f"Pareto fronts: {least:,}" + (f" to {greatest:,}" if greatest > least else "") + " points per scene"

@@ -1,4 +1,4 @@
-"""Sensitivities told in words: what a value depends on most, and how much on each parameter."""
+"""Sensitivities in words: the parameter on which a value depends most, and the sensitivity to each."""
 
 from collections.abc import Iterator
 
@@ -10,7 +10,7 @@ from gradhesion.cli.dataset.sensitivities import strongest
 from gradhesion.cli.names import labels_of
 
 
-def sensitivity_told(variable: xarray.DataArray, name: str) -> Iterator[str]:
+def sensitivity_lines(variable: xarray.DataArray, name: str) -> Iterator[str]:
     """Tell which parameter is the strongest in how many scenes, and between what each sensitivity lies."""
     dimension = labels_of(name)
     labels = [str(label) for label in variable[dimension].values]
@@ -31,8 +31,8 @@ def sensitivity_told(variable: xarray.DataArray, name: str) -> Iterator[str]:
     total = int(counts.sum())
     order = [i for i in np.argsort(-counts, kind="stable") if counts[i]]
     if total:
-        told = ", ".join(f"{labels[i]} in {counts[i] / total:.3g} of the scenes" for i in order)
-        yield f"  strongest: {told}" if len(order) > 1 else f"  strongest: {labels[order[0]]}"
+        shares = ", ".join(f"{labels[i]} in {counts[i] / total:.3g} of the scenes" for i in order)
+        yield f"  strongest: {shares}" if len(order) > 1 else f"  strongest: {labels[order[0]]}"
     for label, low, high in zip(labels, least, greatest, strict=True):
         if low <= high:
             yield f"  {label:<22} {low:.4g}" + (f" to {high:.4g}" if high > low else "")

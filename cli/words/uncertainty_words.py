@@ -9,7 +9,7 @@ import xarray
 from gradhesion.cli.keys import keys_of
 
 
-def uncertainty_told(dataset: xarray.Dataset) -> Iterator[str]:
+def uncertainty_lines(dataset: xarray.Dataset) -> Iterator[str]:
     """Say which inputs are uncertain, by how much, and how many samples were drawn; nothing of another dataset."""
     table: object = None
     with suppress(ValueError, RecursionError):

@@ -10,7 +10,7 @@ from gradhesion.cli.names import CONTACT_SLOPE
 from gradhesion.cli.terminal.amounts import counted, percent
 
 
-def validity_told(dataset: xarray.Dataset) -> Iterator[str]:
+def validity_lines(dataset: xarray.Dataset) -> Iterator[str]:
     """Tell how many scenes leave the range of the model, by each number that is known."""
     scenes = dataset["status"].size
     for name, limit in LIMITS.items():

@@ -20,7 +20,7 @@ def is_of_one_scene(dataset: xarray.Dataset, name: str) -> bool:
     return dataset["status"].size == 1 and name != ON_BOUND and dataset[name].dims == dataset["status"].dims
 
 
-def values_told(dataset: xarray.Dataset, varying: Sequence[str]) -> Iterator[str]:
+def value_lines(dataset: xarray.Dataset, varying: Sequence[str]) -> Iterator[str]:
     """
     Tabulate the outputs of up to 12 scenes; nothing of other datasets.
 

@@ -15,12 +15,12 @@ from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import control_in_words
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
-from gradhesion.cli.words.curve_words import curves_told
-from gradhesion.cli.words.optimum_words import bounds_told, points_told
-from gradhesion.cli.words.sensitivity_words import sensitivity_told
-from gradhesion.cli.words.uncertainty_words import uncertainty_told
-from gradhesion.cli.words.validity_words import validity_told
-from gradhesion.cli.words.value_words import is_of_one_scene, values_told
+from gradhesion.cli.words.curve_words import curve_lines
+from gradhesion.cli.words.optimum_words import bound_lines, point_lines
+from gradhesion.cli.words.sensitivity_words import sensitivity_lines
+from gradhesion.cli.words.uncertainty_words import uncertainty_lines
+from gradhesion.cli.words.validity_words import validity_lines
+from gradhesion.cli.words.value_words import is_of_one_scene, value_lines
 from gradhesion.core import FAILED
 from gradhesion.core.answers.flags import FLAGS
 from gradhesion.core.problem.control import Loading
@@ -40,15 +40,15 @@ def described(dataset: xarray.Dataset, file: Path) -> Iterator[str]:
         yield f"control: {control_in_words(Loading(control=dataset.attrs.get('control', 'displacement')))}"
         yield from (f"{law}: {dataset.attrs[law]}" for law in ("toughness", "rate") if law in dataset.attrs)
     yield from _parameters(dataset)
-    yield from uncertainty_told(dataset)
-    yield from points_told(dataset)
+    yield from uncertainty_lines(dataset)
+    yield from point_lines(dataset)
     if has_curves(dataset):
-        yield from curves_told(dataset)
+        yield from curve_lines(dataset)
     else:
         yield from _outputs(dataset)
-        yield from values_told(dataset, _varying(dataset))
+        yield from value_lines(dataset, _varying(dataset))
     yield from _status(dataset)
-    if beyond := list(validity_told(dataset)):
+    if beyond := list(validity_lines(dataset)):
         yield ""
         yield "outside the range of the model"
         yield from beyond
@@ -156,10 +156,10 @@ def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
         yield ""
         yield f"{name}: {dataset[name].attrs.get('long_name', 'without a name')}{_unit(dataset[name], ', in ')}"
         if name == names.ON_BOUND:
-            yield from bounds_told(dataset[name])
+            yield from bound_lines(dataset[name])
             continue
         if parts_of(dataset, str(name)):
-            yield from sensitivity_told(dataset[name], str(name))
+            yield from sensitivity_lines(dataset[name], str(name))
             continue
         extremes = _extremes(dataset[name])
         if not extremes:

@@ -78,11 +78,11 @@ def drawn(study: Study, threads: int | None = None) -> Iterator[Drawing]:
 def _draw(study: Study, block: Block) -> Drawing:
     """Draw the curves of one scene; one that has none is one point without a value."""
     scene = {name: float(values.item()) for name, values in scenes_of(study, block).items()}
-    asked = [curve for curve, own in CURVES.items() if any(name in own for name in study.outputs)]
-    curves = [curve for curve in asked if curve not in STATE_CURVES]
+    requested = [curve for curve, own in CURVES.items() if any(name in own for name in study.outputs)]
+    curves = [curve for curve in requested if curve not in STATE_CURVES]
     found, status = core.draw_curves(scene, curves, study.profile, **driven_by(study))
-    if curves != asked:
-        of_states, more = _of_states(study, scene, [curve for curve in asked if curve in STATE_CURVES])
+    if curves != requested:
+        of_states, more = _of_states(study, scene, [curve for curve in requested if curve in STATE_CURVES])
         found |= of_states
         status |= more
     front = (1,) * len(block)

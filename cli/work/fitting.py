@@ -109,7 +109,7 @@ def range_of(study: FitStudy) -> float:
     return study.adhesion_range or USUAL_RANGE
 
 
-def range_told(study: FitStudy) -> str:
+def range_words(study: FitStudy) -> str:
     """Say which range of the attraction that is."""
     source = "assumed, as adhesion_range is not given" if study.adhesion_range is None else "given"
     return f"with a range of the attraction of {1e9 * range_of(study):.3g} nm, {source}"

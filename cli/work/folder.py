@@ -238,7 +238,7 @@ def refuse_foreign(folder: Folder, output: Path) -> None:
     reason = folder.foreign()
     if reason:
         raise OutputError(
-            f"{output}.parts: {reason}, so nothing in it is touched; move it away, or name another output with -o"
+            f"{output}.parts: {reason}, so it is left untouched; move it away, or name another output with -o"
         )
 
 
@@ -281,5 +281,5 @@ def _taken(folder: Folder, output: Path) -> str:
     who = ", ".join(f"process {state.pid} on {state.host}" for state in states)
     return (
         f"{output}: another run is writing it{f' ({who})' if who else ''}; wait for it "
-        f"(`gradhesion status {output}` shows how far it is), or name another output with -o"
+        f"(`gradhesion status {output}` shows its progress), or name another output with -o"
     )

@@ -116,8 +116,8 @@ def _solved(
     solvers = study.method.solver
     settings: dict[str, Any] = {"check_contact": study.method.check_contact, **driven_by(study), **how}
     _, _, profiles = study.apart(block)
-    asked = (solvers,) if isinstance(solvers, str) else solvers[several[0]]
-    return solved_by(scenes, study, asked, profiles, **settings)
+    requested = (solvers,) if isinstance(solvers, str) else solvers[several[0]]
+    return solved_by(scenes, study, requested, profiles, **settings)
 
 
 def solved_by(

@@ -94,7 +94,7 @@ def refuse_without_compiler() -> None:
         The environment says that they are not to be.
     """
     if numba.config.DISABLE_JIT:
-        raise CompilerError("NUMBA_DISABLE_JIT is set, and nothing can be solved without the compiler; unset it")
+        raise CompilerError("NUMBA_DISABLE_JIT is set, but the solver needs the compiler; unset it")
 
 
 def compile_kinds(kinds: Sequence[str], done: Callable[[str], None] = lambda _: None) -> None:

@@ -86,7 +86,7 @@ def study_in(folder: Folder, output: Path) -> Study:
     if points.mistakes:
         raise DatasetError(f"{output}: the points of its study, {points.written}: {points.mistakes[0].sentence}")
     raise DatasetError(
-        f"{output}: no study with parts is in {output}.parts; compute them first, with `gradhesion run --shard`"
+        f"{output}: there are no parts of a study in {output}.parts; compute them first, with `gradhesion run --shard`"
     )
 
 
@@ -101,13 +101,13 @@ def differences_of(old: Manifest, new: Manifest) -> list[str]:
             if name == "core":
                 found.append("the sources of the solver have changed since")
                 continue
-            there, here = (_told(table, content.get(name)) for content in (one, other))
+            there, here = (_written(table, content.get(name)) for content in (one, other))
             key = f"parameters.{name}" if table == "parameters" else f"{name} version" if table == "versions" else name
             found.append(f"{key} is {there} there and {here} here" + (", with other values" if there == here else ""))
     return found
 
 
-def _told(table: str, value: Any) -> str:
+def _written(table: str, value: Any) -> str:
     """Write a setting, or a parameter, in a few words."""
     if value is None:
         return "absent"

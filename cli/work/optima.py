@@ -168,8 +168,8 @@ def _reported(cells: _Cells, places: NDArray[np.float64], numbers: NDArray[np.in
     slopes = (study.search.slope,) if study.has_slopes else ()
     whole = replace(cells.plain, method=study.method)
     # the outputs of the search as well, so that status says of loading what it said there
-    asked = tuple(dict.fromkeys((*study.search.solved, *slopes)))
-    found = cells.solve(given, asked, study=whole, watch=study.watches_slope)
+    requested = tuple(dict.fromkeys((*study.search.solved, *slopes)))
+    found = cells.solve(given, requested, study=whole, watch=study.watches_slope)
     status = found["status"]
     steep = {STEEP: np.broadcast_to(found.pop(STEEP), status.shape)} if study.watches_slope else {}
     values = {

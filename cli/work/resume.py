@@ -14,7 +14,7 @@ from gradhesion.cli.work.parts import PartError, Results, read_part, types_of
 from gradhesion.core import FAILED, FLAGS
 
 ATTEMPTS: Final = 2
-"""Times that a block is tried: what raises twice, as for want of memory, hardly ends well a third time."""
+"""Times that a block is tried: what raises twice, as for lack of memory, hardly ends well a third time."""
 
 
 @dataclass(frozen=True)

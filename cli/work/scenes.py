@@ -35,9 +35,9 @@ def solve(
     (['wave_slope', 'pull_off_force', 'status'], 0.0628)
     """
     known = [name for name in outputs if name in VALIDITY]
-    asked = [name for name in outputs if name not in known]
-    more = [CONTACT_SLOPE] if watch and CONTACT_SLOPE not in asked else []
-    solved = core.solve(scenes, [*asked, *more], profile=profile, **settings)
+    requested = [name for name in outputs if name not in known]
+    more = [CONTACT_SLOPE] if watch and CONTACT_SLOPE not in requested else []
+    solved = core.solve(scenes, [*requested, *more], profile=profile, **settings)
     if watch:
         solved[STEEP] = is_steep(solved[CONTACT_SLOPE]).astype(np.int8)
     if more:

@@ -126,14 +126,14 @@ def _off_the_line(centre: _Centre, seed: int, found: Arrays, linear: Mapping[str
     return [*off.values()]
 
 
-def _sampled(centre: _Centre, asked: Uncertainty, shape: tuple[int, ...]) -> Arrays:
+def _sampled(centre: _Centre, requested: Uncertainty, shape: tuple[int, ...]) -> Arrays:
     """Give the statistics of all values by samples of the inputs."""
     outputs = tuple(name for name in centre.study.outputs if name in SPREADABLE)
     axis, made = len(centre.several), dict[str, NDArray[Any]]()
-    for part, _, samples in _samples_of(centre, asked.samples, asked.seed, outputs):
+    for part, _, samples in _samples_of(centre, requested.samples, requested.seed, outputs):
         place = (*(slice(None) for _ in range(axis)), *part)
         for name, values in samples.items():
-            whole = np.moveaxis(_whole(values, asked.samples, axis), axis, -1)
+            whole = np.moveaxis(_whole(values, requested.samples, axis), axis, -1)
             for way, one in statistics_of(whole, -1).items():
                 made.setdefault(_named(name, way), np.empty(shape))[place] = one
     return made

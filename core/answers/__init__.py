@@ -1,1 +1,1 @@
-"""Answers beyond a map of values, from arrays to arrays without a kernel: fits of measured data, and spectra."""
+"""Analyses beyond a map of values, arrays in and arrays out, without kernels: fits of measured data, and spectra."""

@@ -1,4 +1,4 @@
-"""What answers that are drawn from several scenes have to report, beside the flags of a scene (status.py)."""
+"""Flags of results that are drawn from several scenes, in addition to those of a scene (status.py)."""
 
 from typing import Final
 

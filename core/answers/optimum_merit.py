@@ -1,4 +1,4 @@
-"""What is to be as large as possible, of many cells at once, and when one merit is better than another."""
+"""The merit to be maximised, for many cells at once, and when one merit is better than another."""
 
 from typing import Final, Protocol, TypeAlias
 

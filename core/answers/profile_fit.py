@@ -140,7 +140,7 @@ def fit_profile(
     Raises
     ------
     ValueError
-        For values that are not finite, too few points, a place that stands twice with different heights, or heights
+        For values that are not finite, too few points, a position given twice with different heights, or heights
         that do not grow with the distance; the message says what to do.
 
     Examples

@@ -1,4 +1,4 @@
-"""Slopes of a value to whatever its scene is given by: parameters, reduced variables, quantities with units.
+"""Slopes of a value to the keys by which its scene is given: parameters, reduced variables, quantities with units.
 
 Sensitivities (sensitivity.py) are to the parameters of `solve`. How each of these follows from what is given
 (reduced.py) is found by differences of fourth order, of logarithms, which are exact for powers.

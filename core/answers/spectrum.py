@@ -25,11 +25,11 @@ class Spectrum:
     hurst
         H, 0 to 1.
     first, last
-        The longest and the shortest wave, in waves a wavelength: 1 <= first <= last <= 10,000, 64 of them at most.
+        The longest and the shortest wave, in waves per wavelength: 1 <= first <= last <= 10,000, 64 of them at most.
     realisations
         How many profiles are drawn, 1 or more.
     seed
-        What the phases follow from, 0 or more.
+        Seed of the random phases, 0 or more.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Arrays of general scenes that turn at a depth or a load: where they do."""
+"""The turning radii of arrays of general scenes that turn at a depth or a load."""
 
 from __future__ import annotations  # those of inner functions would be made anew in every call: 15 us each
 

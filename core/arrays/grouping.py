@@ -1,4 +1,4 @@
-"""Scenes in groups that share what they can: one table an exponent, one trace a curve, any number of rims on it."""
+"""Groups of scenes that share work: one table per exponent, one trace per curve, any number of rims on it."""
 
 import math
 from collections.abc import Mapping, Sequence

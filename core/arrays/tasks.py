@@ -1,4 +1,4 @@
-"""Tasks of one gradient exponent each, and the threads that do them: however many there are, a few are in memory."""
+"""Tasks of one gradient exponent each, and the threads that run them: only a few are in memory at a time."""
 
 import threading
 from collections.abc import Callable, Iterator

@@ -1,4 +1,4 @@
-"""The results of cycles that turn before the rim: those of a punch with its rim where they turn.
+"""The results of cycles that turn before the rim: those of a punch with its rim at the turning radius.
 
 Loading does not depend on where it will turn, and unloading from a branch not on how the contact got there, so that
 force, energy and counts are those of a punch whose rim is at the turning radius (docs/theory.md, section 16).

@@ -1,4 +1,4 @@
-"""Where the model applies: how short attraction must be, how steep waves are, how strong against adhesion.
+"""Where the model applies: the range of the attraction, the slope of the waves, their strength against adhesion.
 
     tabor_parameter        h/z0, the height h = L^m/R^(m-1) of the neck over the range z0 of the attraction, with
                            L^(2m-1+k) = R^(2m-2) dgamma/M;   m = 2:  L^2/(R z0),  L^(3+k) = R^2 dgamma/M
@@ -33,7 +33,7 @@ _CURVATURE: Final = -3.0
 def validity(
     parameters: Mapping[str, ArrayLike], outputs: Sequence[str] = VALIDITY, profile: Profile | None = None
 ) -> dict[str, _Array]:
-    """Return the numbers that say where the model applies.
+    """Return the numbers that show where the model applies.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ def validity(
         An array for each name of `PARAMETERS`, with their ranges; for the Tabor parameters also adhesion_range_over_R,
         the range z0/R of the attraction, > 0 and finite. All broadcastable; a_max_over_R has no effect.
     outputs
-        Names out of `VALIDITY`.
+        Names from `VALIDITY`.
     profile
         The shape of the punch, a paraboloid with one cosine wave if not given.
 
@@ -58,7 +58,7 @@ def validity(
 
     Examples
     --------
-    A steel ball of 1 mm on rubber has a Tabor number of hundreds; so JKR holds:
+    A steel ball of 1 mm on rubber has a Tabor number of thousands, so JKR applies:
 
     >>> ball = dict(k=0.0, nu=0.5, modulus=1e4, c0_over_R=1.0, lambda_over_R=1.0, A=0.0, a_max_over_R=np.inf)
     >>> numbers = validity(ball | {"adhesion_range_over_R": 3e-7}, ["tabor_parameter", "wave_slope"])

@@ -1,4 +1,4 @@
-"""How high the waves of a profile rise and how deep they fall, far out, where they keep their shape.
+"""The heights of crests and depths of troughs of a profile at large radii, where waves keep their shape.
 
 For short waves the depth swings by r zeta(x) a^c about its mean, c = (1-k)/2, with the r of one cosine and
 

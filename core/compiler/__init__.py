@@ -1,4 +1,4 @@
-"""How kernels are compiled, linked and kept; what is compiled here knows of no kernel.
+"""How kernels are compiled, linked and kept; nothing here depends on a particular kernel.
 
 jit         the one decorator of every kernel, and what is heard of compilations
 pipeline    the steps in which a kernel becomes code

@@ -1,4 +1,4 @@
-"""Code of kernels that was compiled ahead: what a wheel carries, and where it fits.
+"""Kernels that were compiled ahead: the contents of a wheel, and the machines that they fit.
 
 A wheel that is built so has a folder in core/, named after a processor. It holds a file for each kernel and
 types of arguments, and a manifest: what the code was compiled from and for, a digest of each file, and the kinds of

@@ -1,4 +1,4 @@
-"""Where compiled kernels are kept, and the removal of what no version uses any more.
+"""The folder of compiled kernels, and the removal of those that no version uses any more.
 
 Numba notices an edit in the file of a kernel, but not in the files of the kernels that it calls. The folder of the
 compiled code is therefore named after a digest of all sources of the core that have kernels and of where they stand
@@ -183,6 +183,6 @@ def remove_unused(folder: Path, now: float | None = None) -> None:
 @lru_cache(maxsize=1)
 def machine() -> str:
     """Return a digest of all that compiled code depends on beside the sources."""
-    asked = (numba.config.CPU_NAME, numba.config.CPU_FEATURES)
-    processor = (*asked, binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten())
+    requested = (numba.config.CPU_NAME, numba.config.CPU_FEATURES)
+    processor = (*requested, binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten())
     return hashlib.sha256(repr((sys.version, numba.__version__, processor)).encode()).hexdigest()[:16]

@@ -1,4 +1,4 @@
-"""The one decorator of every kernel, and what is heard of their compilation."""
+"""The decorator of all kernels, and messages about their compilation."""
 
 import threading
 from collections.abc import Callable, Iterator

@@ -1,4 +1,4 @@
-"""Where an entry is looked for before it is compiled: in what came with the program, and in the cache.
+"""The search for an entry before it is compiled: among those that came with the program, and in the cache.
 
 Numba's cache brings numba's whole library into memory before it reads a file, which takes a quarter of a second and is
 for compiling. It also keeps what only other compilations need: intermediate code, types in words, and the constants,

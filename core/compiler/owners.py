@@ -1,4 +1,4 @@
-"""Who can change what is kept in a folder: compiled code is run as it is read, and numba's index is a pickle.
+"""Who can change the contents of a folder: compiled code is run unchecked, and numba's index is a pickle.
 
 A folder is this user's own if nobody else can put anything in it, move it away, or change what it holds. The folders
 above it belong to this user or to the system, and others cannot rename what is in them: they cannot write there, or the

@@ -1,4 +1,4 @@
-"""Whether this version of numba links kernels as linking.py has it do: tried once, and kept beside the kernels.
+"""Whether this version of numba links kernels as linking.py needs: tested once, and kept beside the kernels.
 
 Private interfaces may change with any version of numba. Two small kernels, one of which calls the other, are compiled,
 linked, written and read as all kernels are, and called; if anything of this fails, numba links kernels its own way. One

@@ -1,4 +1,4 @@
-"""Digests of the sources of the core: what is computed by the same is comparable bit by bit."""
+"""Digests of the sources of the core: values from the same sources are comparable bit for bit."""
 
 import hashlib
 from pathlib import Path

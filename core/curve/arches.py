@@ -1,4 +1,4 @@
-"""The folds of one cosine on a paraboloid under any control, arch by arch (cosine_folds.py), a tenth of the work.
+"""The folds of one cosine on a paraboloid under any control, arch by arch (cosine_folds.py), at a tenth of the cost.
 
 With X = z^((3+k)/2) the folds stand where G(X) = b X + g Q(X) is equal to q, and G is concave or convex on an arch.
 Under a load q is one number, and cosine_folds.py tells all. A machine has a q that rises from (1-k)/2 to

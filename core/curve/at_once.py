@@ -1,4 +1,4 @@
-"""Folds and places of landing beyond z = 40, eight at a time.
+"""Folds and landing radii beyond z = 40, eight at a time.
 
 They are found as those of cosine_folds.py and branches.py, each for itself: none depends on which others it is found
 with. Out there the first guesses are so good that one step is the rule.

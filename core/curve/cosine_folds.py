@@ -1,4 +1,4 @@
-"""Where a curve folds: the zeros of D(z; level), arch by arch, none missed.
+"""The folds of a curve: all zeros of D(z; level), arch by arch.
 
 On an arch (struve/arches.py) the fold function F = b X + g Q - level is concave or convex in X. Its signs at the two
 edges, known from the table without any evaluation, leave three cases: different signs, one fold; equal signs on the

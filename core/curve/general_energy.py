@@ -1,4 +1,4 @@
-"""The energy lost in a jump at a fixed coordinate, whatever is prescribed (docs/theory.md, section 15).
+"""The energy lost in a jump at a fixed coordinate, under any control (docs/theory.md, section 15).
 
     e = int_{z1}^{z2} z [kappa^2 - rho^2] dz,    rho = kappa + (Y(z) - Y_j)/((alpha + beta z^(1+k)) z^c)
 

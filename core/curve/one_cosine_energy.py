@@ -1,4 +1,4 @@
-"""Energies of jumps of one cosine on a paraboloid under any control: those at a fixed depth, and what the machine adds.
+"""Energies of jumps of one cosine on a paraboloid under any control: those at a fixed depth, and the machine's part.
 
 At a fixed radius the load is linear in the depth, so that the energy of punch and machine is a parabola in the depth,
 lowest where the coordinate has its value. A jump from z1 to z2 at a fixed coordinate therefore loses what one at the

@@ -1,4 +1,4 @@
-"""The leading form of short waves, lambda << a: the curve of any profile whose waves are no more than zeta of them.
+"""The leading form of short waves, lambda << a: the curve of any profile with its waves reduced to zeta.
 
 In the units of curve/general.py, with S(z) for C times (5.17) of Jin, Guo & Wan (2013), (5.15) and (5.16) become
 

@@ -1,4 +1,4 @@
-"""Where folds can stand at all, from bounds of the waves.
+"""The radii between which folds can lie, from bounds of the waves.
 
 With C the amplitude of z^n S0 and h_n = |cos_n + i sin_n|, for every k (a scan)
 

@@ -100,21 +100,21 @@ def draw_curves(
     Parameters
     ----------
     scene
-        A number for each name of `PARAMETERS`, in the ranges of `solve`; a_max/R may be inf. Machine control takes
-        `machine_stiffness`, S/(E* R) > 0, besides, and `closing_ratio` may be there (works/curves.py). With one of
-        `TURNS` path, jumps and the effective path turn where the cycle of `solve` does.
+        A number for each name of `PARAMETERS`, in the ranges of `solve`; a_max/R may be inf. Machine control also needs
+        `machine_stiffness`, S/(E* R) > 0; `closing_ratio` is optional (works/curves.py). With one of `TURNS` path,
+        jumps and the effective path turn where the cycle of `solve` does.
     curves
-        Names out of `CURVES`: "equilibrium", the whole equilibrium curve, stable and unstable; "closing_equilibrium",
+        Names from `CURVES`: "equilibrium", the whole equilibrium curve, stable and unstable; "closing_equilibrium",
         that of closing; "path", the cycle of loading and unloading; "asymptotic", the curve for short waves
         (5.15)-(5.20); "envelope", its two envelopes (5.21)-(5.27); "effective", the path along them (5.28)-(5.35);
         "smooth", the curve of A = 0; "jumps", the jumps of the cycle, one by one. The equations are those of one
         cosine; other profiles have the same (docs/theory.md, section 15).
     profile, loading
-        Shape of the punch and what is prescribed, as in `solve`; another control than the displacement has the curves
-        of `GENERAL_CURVES` only.
+        Shape of the punch and its control, as in `solve`; under a control other than displacement only the curves of
+        `GENERAL_CURVES` are available.
     toughness
-        How the toughness varies with the radius, as in `solve`: with it there are "equilibrium", "path" and "jumps",
-        and `scene` has the parameters of the pattern.
+        How the toughness varies with the radius, as in `solve`: with it only "equilibrium", "path" and "jumps" are
+        available, and `scene` has the parameters of the pattern.
     rate
         How the work of adhesion grows with the speed, as in `solve`: the path is that of the moving edge then
         (rate/curves.py), and `scene` has speed_over_reference.
@@ -122,11 +122,11 @@ def draw_curves(
     Returns
     -------
     variables
-        All variables of each curve, one-dimensional, of one length a curve: radii a/R, depths delta/R and loads
-        P/(1.5 pi R dgamma), negative where the punch pulls, and energies over R^2 dgamma. Those of `INTEGERS` are
-        integers. A curve that has no value is one point, NaN (-1 for integers); jumps that have none are no item.
+        All variables of each curve, one-dimensional, of the same length within a curve: radii a/R, depths delta/R and
+        loads P/(1.5 pi R dgamma), negative where the punch pulls, and energies over R^2 dgamma. Those of `INTEGERS` are
+        integers. A curve without a value is one point, NaN (-1 for integers); without jumps their arrays are empty.
     status
-        Bits of status.FLAGS: no_value where a parameter is outside its range or a curve that was asked for can fold
+        Bits of status.FLAGS: no_value where a parameter is outside its range or a requested curve can fold
         more than 100,000 times within the range (20,000 times for another profile or control); with the path or its
         jumps, what `solve` reports of them.
 
@@ -137,17 +137,17 @@ def draw_curves(
 
     Notes
     -----
-    Stable is what is stable under the control in force. A jump is a straight line at what is prescribed: at the depth,
-    at the load, or at delta + P/S; a contact that is pinned at the rim is one too. Under load control the path ends at
-    the last fold, with radius 0 at its depth and load, as nothing holds the punch after it; the energy of that jump is
-    unbounded, and it is none of the jumps that are listed.
+    Stable means stable under the given control. A jump is a straight line at the prescribed depth, load, or
+    delta + P/S; a contact that is pinned at the rim is one too. Under load control the path ends at the last fold, with
+    radius 0 at its depth and load, since the punch then moves off freely; the energy of that jump is unbounded, and
+    the jump is not listed.
 
     Curves reach from zero contact to the rim. Those of an unbounded punch end at 1.5 times the radius where the smooth
     curve crosses zero depth, or 5 % beyond the last fold of depth, extremum of load or jump of loading; where a cycle
     turns at a depth or a load, 5 % beyond that and the pull-off. Folds of depth, extrema of load, jumps, start and rim
     are points of their own, exact to rounding. Between them chords stay within
     2e-4 of the drawn span in each of the planes of load and depth, depth and radius, load and radius, measured across
-    the chord. Most curves have some hundred points; waves far narrower than the picture take six to eight points each.
+    the chord. Most curves have some hundred points; waves far narrower than the picture need six to eight points each.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The curves that can be drawn, in reduced form: depth and load at a place.
+"""The curves that can be drawn, in reduced form: depth and load at a radius.
 
 EXACT      the curve of one wave (curve/cosine.py); a place is x = a/lambda
 PLAIN      a smooth punch of any pull (smooth.py, envelope.py), z^2/2 - pull z^((1-k)/2) and X [X/(3+k) - pull] with

@@ -1,4 +1,4 @@
-"""The jumps of a cycle, one by one: where they happen, and what each of them costs.
+"""The jumps of a cycle, one by one: where they occur, and the energy of each.
 
 They are the corners of the path (path.py) that are reached by a jump; their energies are those of core/face.py.
 """

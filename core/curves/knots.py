@@ -1,4 +1,4 @@
-"""Where a drawn curve turns: its folds of depth and its extrema of load, met to rounding."""
+"""Where a drawn curve turns: its folds of depth and its extrema of load, exact to rounding."""
 
 import math
 from typing import Final

@@ -1,4 +1,4 @@
-"""Rules for integrals of Abel's kind: nodes and weights that take the branch point at one end by their weight.
+"""Rules for integrals of Abel's kind: nodes, and weights that account for the branch point at one end.
 
 Panels are no wider than a width, which is half the shortest wave of what is integrated, and no wider than their
 distance from s = 0, where profiles have branch points of their own. On each the error is that of Gauss's rule of 24

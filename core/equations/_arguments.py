@@ -1,4 +1,4 @@
-"""The arguments that equations share, each described once, in its type: what it is, its unit and its range.
+"""The arguments that equations share, each described once, in its type: meaning, unit and range.
 
 A function lists its arguments by these types, and `documented` writes them into its docstring, so that `help` shows
 them all. Lengths are in R and the material is its one number M R^(1+k)/dgamma (core/problem/material.py).

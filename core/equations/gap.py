@@ -1,4 +1,4 @@
-"""The gap between the surfaces outside the contact (2.2), reference quality: one quadrature a point.
+"""The gap between the surfaces outside the contact (2.2), reference quality: one quadrature per point.
 
     gap(r) = u_z(r) - delta + f(r) = (2/pi) cos(k pi/2) int_a^r s^k (delta_H(s) - delta) (r^2-s^2)^(-(1+k)/2) ds
 

@@ -1,4 +1,4 @@
-"""Where folds end, and what short waves lose up to there (not in the paper).
+"""The end of folds, and the energy lost by short waves up to there (not in the paper).
 
 Depth over a short wave is a sine on a slope. With theta = 2 pi a/lambda - phi and r, s of envelopes.py, in units of the
 swing r a^((1-k)/2), one wave is

@@ -1,1 +1,1 @@
-"""What each kind of curve answers to core/face.py: a file a kind, and one of its sensitivities."""
+"""The answers of each kind of curve to core/face.py: a file for each kind, and one for its sensitivities."""

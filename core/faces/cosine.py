@@ -1,4 +1,4 @@
-"""What one cosine on a paraboloid under displacement control answers (core/face.py)."""
+"""The answers of one cosine on a paraboloid under displacement control (core/face.py)."""
 
 from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel

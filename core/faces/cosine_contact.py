@@ -1,4 +1,4 @@
-"""What one cosine on a paraboloid answers about the gap outside a contact (core/face.py): eight radii at once."""
+"""The answers of one cosine on a paraboloid about the gap outside a contact (core/face.py): eight radii at once."""
 
 import math
 from typing import Any, Final

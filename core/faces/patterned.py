@@ -1,4 +1,4 @@
-"""What a patterned interface answers (core/face.py): the path as any profile, the gap by the profile alone."""
+"""The answers of a patterned interface (core/face.py): the path as any profile, the gap by the profile alone."""
 
 import math
 from typing import Final

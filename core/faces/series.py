@@ -1,4 +1,4 @@
-"""What any profile under any control answers (core/face.py), and with it the leading form of its short waves."""
+"""The answers of any profile under any control (core/face.py), and of the leading form of its short waves."""
 
 import math
 

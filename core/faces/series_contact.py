@@ -1,4 +1,4 @@
-"""What any profile under any control answers about the gap outside a contact (core/face.py)."""
+"""The answers of any profile under any control about the gap outside a contact (core/face.py)."""
 
 import math
 from typing import Any

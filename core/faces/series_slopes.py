@@ -1,4 +1,4 @@
-"""What any profile under any control answers about its sensitivities (core/face.py)."""
+"""The answers of any profile under any control about its sensitivities (core/face.py)."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What the leading form of short waves answers (core/face.py), beside what it answers as any profile (series.py)."""
+"""The answers of the leading form of short waves (core/face.py) that differ from those of any profile (series.py)."""
 
 import numpy as np
 

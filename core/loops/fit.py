@@ -86,9 +86,9 @@ def fit_loop(
     noise_is_given
         Whether these are known, not estimated from the points: intervals are not widened then.
     counts
-        Of how many points each is the mean, 1 if not given: its noise is that of one over the root of it.
+        The number of points averaged in each, 1 if not given: its noise is that of one point over the root of it.
     offsets
-        Which zeros are fitted too, and within what; those of depth and load if not given.
+        The zeros that are fitted too, and their ranges; those of depth and load if not given.
     profile
         The shape of the punch, a paraboloid with one cosine wave if not given.
     loading
@@ -105,17 +105,17 @@ def fit_loop(
     starts
         How many starts are refined.
     seed
-        Of the Sobol set of what starts differ in.
+        Seed of the Sobol set of starts.
 
     Returns
     -------
-    The fit. It is not to be trusted where `converged` is false, `on_bound` has names, or `status` has `POOR_FIT` or
+    The fit. It is unreliable where `converged` is false, `on_bound` has names, or `status` has `POOR_FIT` or
     `ANOTHER_MINIMUM`.
 
     Raises
     ------
     CannotTellApartError
-        Some of the free parameters have one effect.
+        Some of the free parameters have the same effect.
     ValueError
         For other intervals, too few points, ranges or noise out of range, no base line where the contact point is to
         come from it, or where no start has a path.

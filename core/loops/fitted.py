@@ -32,9 +32,9 @@ class FittedLoop:
         By name; low and high bound the 95 % interval, of the linear problem (of its logarithm where that is searched)
         or by profile likelihood; never beyond the range that was searched.
     ranges
-        What was searched, by name.
+        The searched ranges, by name.
     correlation
-        Of all of them, a square in the order of the names.
+        The correlations of all of them, a square in the order of the names.
     on_bound
         The names that ended within 1 % of their range of an end of it.
     chi_square, degrees_of_freedom
@@ -50,9 +50,9 @@ class FittedLoop:
     others
         Other minima that the noise allows, the best first.
     alike
-        Sentences: what else would explain the data as well.
+        Sentences: other models that would explain the data as well.
     contact
-        The contact point at which the zero of depth was fixed, where that was asked for.
+        The contact point at which the zero of depth was fixed, if requested.
     turning_radius
         The radius a/R at which the fitted cycle turns.
     widening
@@ -83,7 +83,7 @@ class FittedLoop:
 
     @property
     def reduced_chi_square(self) -> float:
-        """The sum of squares a degree of freedom: near 1 where model and noise are right."""
+        """The sum of squares per degree of freedom: near 1 where model and noise are right."""
         return self.chi_square / self.degrees_of_freedom
 
 

@@ -1,1 +1,1 @@
-"""The path of a cycle: its branches, loading, unloading, near-degenerate decisions, and what jumps lose."""
+"""The path of a cycle: its branches, loading, unloading, near-degenerate decisions, and the energies of jumps."""

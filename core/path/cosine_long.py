@@ -1,4 +1,4 @@
-"""A cycle on a curve of one cosine with many waves: its first and last waves are walked, those between are summed.
+"""A cycle on a curve of one cosine with many waves: its first and last waves are traced, those in between are summed.
 
 The branches near the beginning and near the rim stand in one trace (curve/branches.py). The run of waves between them
 is regular, and what passes it enters as what loading has lost where it arrives beyond it, and as what unloading still
@@ -68,7 +68,7 @@ _BEFORE_RIM: Final = 2.5
 _MOST_NEAR_RIM: Final = 2.0e13
 """Arches up to which a phase is told near a rim: to a hundredth, of waves that are 10^-13 of all."""
 _ORDERED: Final = 20.0
-"""Times the square of what rounding leaves of a phase, below which neighbours need not be in order (is_told)."""
+"""Times the square of what rounding leaves of a phase, below which neighbours need not be in order (is_reported)."""
 _HALVINGS: Final = 200
 _NEWTON_STEPS: Final = 8
 _NEAR_WAVE: Final = 0.3
@@ -108,7 +108,7 @@ class Long(NamedTuple):
 
 
 @kernel()
-def is_told(table: Table, curve: Cosine, arch: float) -> bool:
+def is_reported(table: Table, curve: Cosine, arch: float) -> bool:
     """Return whether a float tells places on an arch well enough to walk there.
 
     A fold that is off by e has a depth that is off by e^2/2 of the wave; neighbours differ by 2 pi b z^n/(g C) of it.
@@ -385,7 +385,7 @@ def stride(table: Table, curve: Cosine, rim: float, long: Long, losses: bool, re
     if ends_folds(table, arches, rim):
         last, waves = final, reach * NEAR_RIM
     count, after = near, 0.0
-    if is_told(table, curve, last):
+    if is_reported(table, curve, last):
         count = append_branches(table, curve, 2 * int(0.5 * last - waves) - 1, final, rim, trace, near)
         after = wave_of(table, trace[START, near]) if count > near else 0.0
     nominal = count == near

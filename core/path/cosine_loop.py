@@ -1,4 +1,4 @@
-"""The energy lost in a cycle as the loop integral of the load over the depth: another way to what the jumps add up to.
+"""The energy lost in a cycle as the loop integral of the load over the depth: an independent check of the sum of jumps.
 
 Jumps pass at fixed depth and contribute nothing, and neither does a part of a branch that is passed both ways. What is
 left of a branch that loading climbs from its arrival to `top`, and unloading descends from its landing to its start, is

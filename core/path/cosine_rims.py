@@ -1,4 +1,4 @@
-"""Eight rims among the regular waves of a long curve at once: where each stands, and what is lost next to it.
+"""Eight rims among the regular waves of a long curve at once: the place of each, and the losses next to it.
 
 Far from its beginning, and from where its folds end, loading goes from every wave to the next one, and so does
 unloading. There a rim needs no branch of a trace (path/cosine_long.py). The slope of the curve at the rim tells whether

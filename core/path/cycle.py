@@ -1,4 +1,4 @@
-"""What a cycle up to one rim comes to."""
+"""The results of a cycle up to one rim."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""Near-degenerate decisions: those on the path that an error of 1e-12 in an input could turn.
+"""Near-degenerate decisions: those on the path that an error of 1e-12 in an input could change.
 
 Force, energy and depths are continuous in every parameter; the number of jumps and the radius of the pull-off are not.
 They change where one decision of the path does: whether a branch reaches higher than the depth of a jump outwards, or

@@ -1,1 +1,1 @@
-"""What is asked and what is answered: parameters, profiles, controls, materials, results, and the flags of a status."""
+"""The inputs and results of the solver: parameters, profiles, controls, materials, results, and the status bits."""

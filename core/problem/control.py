@@ -1,4 +1,4 @@
-"""How a punch is driven: by its displacement, by the load on it, or by a machine of finite stiffness."""
+"""The control of a punch: its displacement, the load on it, or a machine of finite stiffness."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -9,7 +9,7 @@ CONTROLS: Final = ("displacement", "load", "machine")
 
 @dataclass(frozen=True, kw_only=True)
 class Loading:
-    """What the loading prescribes.
+    """The control of the punch: the quantity that is prescribed.
 
     Parameters
     ----------

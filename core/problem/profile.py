@@ -39,9 +39,9 @@ class Harmonic:
     Parameters
     ----------
     n
-        Waves a wavelength, a whole number from 1 to 10,000.
+        Waves per wavelength, a whole number from 1 to 10,000.
     cos, sin
-        Amplitudes of 1 - cos and of sin, in units of A; finite. One that is left out is 0; where both are, cos is 1.
+        Amplitudes of 1 - cos and of sin, in units of A; finite. A missing one is 0; if both are missing, cos is 1.
 
     Raises
     ------
@@ -99,4 +99,4 @@ class Profile:
 
 
 WAVY: Final = Profile()
-"""The punch where no other is given: a paraboloid with one cosine wave."""
+"""The default punch: a paraboloid with one cosine wave."""

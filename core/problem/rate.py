@@ -1,4 +1,4 @@
-"""How fast the edge of the contact moves, and what that costs: opening at G = w_o [1 + (v/v*)^n]."""
+"""A work of adhesion that grows with the speed of the edge: opening at G = w_o [1 + (v/v*)^n]."""
 
 from dataclasses import dataclass
 from typing import Final

@@ -1,4 +1,4 @@
-"""The results of a scene: their names, their rows, and how a kernel stores those that were asked for.
+"""The results of a scene: their names, their rows, and how a kernel stores those requested.
 
 They go to `out[slots[row], rim]` of a record `Results`, where `slots` holds -1 for what is not wanted.
 """

@@ -1,4 +1,4 @@
-"""A profile as the kernels take it: its power's factor, its harmonics as rows, and when it is one cosine wave."""
+"""A profile in the form that kernels use: its power's factor, its harmonics as rows, and when it is one cosine wave."""
 
 from functools import lru_cache
 

@@ -1,4 +1,4 @@
-"""What a scene has to report: one small set of bit flags, 0 where there is nothing to say."""
+"""The status of a scene: a set of bit flags, 0 if there is nothing to report."""
 
 from typing import Final
 
@@ -23,12 +23,12 @@ NO_CONTACT: Final = 1024
 """The depth at which the cycle turns is below first contact: force, energies and jumps are 0, radii NaN. In studies
 that turn at a depth only, whose `status` is int16."""
 TOO_MANY_WAVES: Final = 8192
-"""More waves stand within the contact than are followed one by one: the values are NaN. In studies of patterns of
+"""The contact contains more waves than can be followed one by one: the values are NaN. In studies of patterns of
 toughness or of a speed only, whose `status` is int16."""
 POOR_FIT: Final = 2048
-"""Of fits: the residual of a loop is more than its noise; the values are not to be trusted."""
+"""Fits: the residual of a loop exceeds its noise; the values are unreliable."""
 ANOTHER_MINIMUM: Final = 4096
-"""Of fits: other values meet the loop as well, within what its noise allows."""
+"""Fits: other values fit the loop as well, within its noise."""
 
 FLAGS: Final = {
     "loading_contact_not_one_disc": LOADING_NOT_ONE_DISC,
@@ -43,12 +43,12 @@ FLAGS: Final = {
 }
 """Name of every flag, with its bit; not every solver sets every one."""
 OF_EVERY_MAP: Final = {name: bit for name, bit in FLAGS.items() if bit < 2**7}
-"""Those that a status of 8 bits has room for: all but of studies that turn at a depth."""
+"""The flags that fit into a status of 8 bits: those of all studies except the ones that turn at a depth."""
 OF_FITS: Final = {"poor_fit": POOR_FIT, "another_minimum": ANOTHER_MINIMUM}
 """Name of every flag that fits alone have, with its bit."""
 
 DOUBTFUL: Final = LOADING_NOT_ONE_DISC | UNLOADING_NOT_ONE_DISC | TOLERANCE_NOT_MET
-"""The bits of a scene whose values are there and may not hold."""
+"""The bits of a scene whose values exist but may be wrong."""
 _OF_LOADING: Final = (
     "dissipated_energy",
     "loading_energy",
@@ -64,8 +64,8 @@ _OF_LOADING: Final = (
 def doubts_about(result: str, *, turned: bool = False) -> int:
     """Return the bits of `DOUBTFUL` that cast doubt on a result or a curve.
 
-    Where cycles turn at a depth or a load (`turned`), loading decides where, and a loading that is not one disc casts
-    doubt on all that it leads to.
+    Where cycles turn at a depth or a load (`turned`), loading determines the turning radius, so a loading that is not
+    one disc casts doubt on every value.
     """
     value = result.split("_sensitivity", maxsplit=1)[0]  # which is as good as its value
     return DOUBTFUL if turned or value in _OF_LOADING else DOUBTFUL & ~LOADING_NOT_ONE_DISC

@@ -32,7 +32,7 @@ class ToughnessHarmonic:
     Parameters
     ----------
     n
-        Waves a wavelength, a whole number from 1 to 10,000.
+        Waves per wavelength, a whole number from 1 to 10,000.
     cos, sin
         Amplitudes in units of `toughness_amplitude`; finite, 0 if left out.
 

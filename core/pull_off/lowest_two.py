@@ -1,4 +1,4 @@
-"""The lowest load of those looked at so far, and the one above it: how close the place of the pull-off is."""
+"""The lowest load examined so far, and the next one above it: how close the pull-off is to another place."""
 
 from typing import TypeAlias
 

@@ -1,4 +1,4 @@
-"""Curves of one scene whose edge moves at a speed: the path by time, and what is known of the edge at rest.
+"""Curves of one scene whose edge moves at a speed: the path by time, and the curves of the edge at rest.
 
 The points of the path are the nodes of the steps by which the edge is followed: as many as its course needs. Between
 loading and opening the contact is pinned, a straight line at the turning radius.

@@ -169,14 +169,17 @@ def _put_moving(
     away = (bits & NO_CONTACT) != 0
     names = (*PARAMETERS, SPEED, "machine_stiffness")
     edge = {name: scenes[name] for name in names if name in scenes} | {"a_max_over_R": np.where(away, 1.0, radius)}
-    asked = [
+    requested = [
         name
         for name in _OF_OPENING
         if name in outputs or (name == "unloading_energy" and "dissipated_energy" in outputs)
     ]
-    asked = [name for name in asked if name != RATE[1]]
-    opened = open_at_speed(edge, rate, how.profile, how.loading, how.threads, outputs=asked)
-    values = {**{name: closed[name] for name in closed if name != "status"}, **{name: opened[name] for name in asked}}
+    requested = [name for name in requested if name != RATE[1]]
+    opened = open_at_speed(edge, rate, how.profile, how.loading, how.threads, outputs=requested)
+    values = {
+        **{name: closed[name] for name in closed if name != "status"},
+        **{name: opened[name] for name in requested},
+    }
     if "dissipated_energy" in outputs:
         values["dissipated_energy"] = values["loading_energy"] + values["unloading_energy"] + values["front_energy"]
     kept = NO_VALUE | NO_CONTACT | LOADING_NOT_ONE_DISC | CLOSE_TO_A_JUMP

@@ -1,4 +1,4 @@
-"""The law of the moving edge, for both ways of going, in the lag of rho behind equilibrium.
+"""The law of the moving edge, for both directions, in the lag of rho behind equilibrium.
 
     opening  rho = 1 + lag            u = rho^2 - 1
     closing  rho = sqrt(Gamma) - lag  u = Gamma/rho^2 - 1

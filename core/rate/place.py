@@ -1,4 +1,4 @@
-"""What a moving edge asks of a curve at a radius, in the reduced form of core/curve/general.py.
+"""What a moving edge needs from a curve at a radius, in the reduced form of core/curve/general.py.
 
 With rho = (delta_H - delta)/Delta the state at a radius is any rho, in equilibrium 1:
 

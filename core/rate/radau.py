@@ -1,4 +1,4 @@
-"""Radau's collocation of high order: nodes, weights, and what tells how fast a polynomial converges.
+"""Radau's collocation of high order: nodes, weights, and a measure of how fast a polynomial converges.
 
 For y' = f the values at the nodes are y_i = y_0 + h sum_j INTEGRALS[i, j] f_j, the last of them at the end of the step:
 order 2 STAGES - 1, L-stable, stiffly accurate (Hairer & Wanner, Solving Ordinary Differential Equations II, IV.5). The

@@ -1,4 +1,4 @@
-"""From the numbers of scenes to what their edges come to: one scene at a time."""
+"""From the numbers of scenes to the results of their moving edges: one scene at a time."""
 
 import math
 from collections.abc import Callable

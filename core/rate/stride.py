@@ -1,4 +1,4 @@
-"""Steps as long as they may be: what a step gets wrong, how long the next one is, and how far an error goes on.
+"""The control of steps: the error of a step, the length of the next one, and how an error propagates.
 
 What is wrong of an integral is told by the last coefficients of the Legendre series through the nodes: where they are t
 and the values T it is about T (t/T)^2.2, but where u^(-1/n) is not smooth, and where collocation loses its order.

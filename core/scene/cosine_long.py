@@ -1,4 +1,4 @@
-"""The rims of a punch with one cosine wave that no walk reaches (path/cosine_long.py)."""
+"""The rims of a punch with one cosine wave beyond the traced waves (path/cosine_long.py)."""
 
 import math
 
@@ -11,7 +11,7 @@ from gradhesion.core.curve.branches import GAP, NOWHERE, RUN, RUN_FIRST, RUN_LAS
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.face import is_always_one_disc
 from gradhesion.core.path.cosine import is_long, is_unresolved
-from gradhesion.core.path.cosine_long import NEAR_RIM, Long, begin_long, ends_folds, is_told, stride
+from gradhesion.core.path.cosine_long import NEAR_RIM, Long, begin_long, ends_folds, is_reported, stride
 from gradhesion.core.path.cosine_rims import FURTHEST, cycle_among, is_close_among, stand_at_once
 from gradhesion.core.path.ties import first_close_pair
 from gradhesion.core.problem.results import CONTACT, DEEPEST, TURNED, put, wants_cycle, wants_losses
@@ -127,7 +127,7 @@ def solve_long(
     """
     losses, final = wants_losses(scene.results.slots), arches[1]
     long = begin_long(table, curve, arches, scratch, losses, 1.0)
-    furthest, told = 0.0, is_told(table, curve, final)
+    furthest, told = 0.0, is_reported(table, curve, final)
     number, indices, places = NONE, eight(0.0), eight(math.nan)
     for i in range(rims.size):
         x = rims[i] / scene.wavelength

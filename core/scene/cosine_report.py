@@ -1,4 +1,4 @@
-"""What a scene can tell of itself on request: how good its values are, and how they compare with the smooth punch.
+"""Reports on a scene on request: the accuracy of its values, and their ratio to those of the smooth punch.
 
 Each is computed from the curve and from results that are there already, in a pass of its own: who does not ask pays
 nothing. In the units of curve/cosine.py the load is a difference of three terms, and the energy a sum of parts of the
@@ -24,7 +24,7 @@ from gradhesion.core.curve.branches import ARRIVAL, END, START, Trace
 from gradhesion.core.curve.cosine import Cosine, curve_of, depth, force_unit, slope, wave
 from gradhesion.core.curve.cosine_folds import fold_of_arch, survey_arch
 from gradhesion.core.path.cosine import MOST_ARCHES, extent, is_endless_wave, is_long, is_smooth, walk
-from gradhesion.core.path.cosine_long import begin_long, is_told, stride
+from gradhesion.core.path.cosine_long import begin_long, is_reported, stride
 from gradhesion.core.path.cosine_loop import loop_energy
 from gradhesion.core.path.loading import loading_to
 from gradhesion.core.path.unloading import unloading_from
@@ -163,7 +163,7 @@ def _report_energy(
         last = min(arches[1], 2.0 * x)
         least = min(_SUMMED_FAR, _SUMMED * (1.0 + max(0.0, (last - arches[0]) / _FAR - 1.0)))
         error = _APART * abs(energy - scale * (loaded + unloaded)) + least * scale * (abs(loaded) + abs(unloaded))
-        if not is_told(table, curve, last):
+        if not is_reported(table, curve, last):
             error += scale * _wave_terms(table, curve, last)
     else:
         count, trace = walk(table, curve, arches, x, scratch, YES)

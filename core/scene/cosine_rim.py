@@ -1,4 +1,4 @@
-"""One rim of a punch with one cosine wave, read off the trace of its curve: its cycle, and what there is to report."""
+"""One rim of a punch with one cosine wave, read off the trace of its curve: its cycle, and its status."""
 
 import math
 from typing import NamedTuple

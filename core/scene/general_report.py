@@ -1,4 +1,4 @@
-"""What a general scene can tell of itself on request, as core/scene/cosine_report.py does for one cosine wave.
+"""Reports on a general scene on request, as core/scene/cosine_report.py does for one cosine wave.
 
     error of the force   6 eps times the sizes of the terms of the load at pull-off, every wave for itself, and its
                          change with the logarithm of the radius if that is where a cycle turns

@@ -1,4 +1,4 @@
-"""What a scene on a patterned interface can tell of itself on request, as scene/general_report.py.
+"""Reports on a scene on a patterned interface on request, as scene/general_report.py.
 
 error of the force   6 eps times the sizes of the terms of the load at pull-off, with what a rounded place changes
                      of kappa, and its change with the radius if that is where a cycle turns

@@ -1,4 +1,4 @@
-"""How force and energy of one cosine wave change with what a scene is made of: M, lambda, A, a_max and k.
+"""How force and energy of one cosine wave change with the numbers of a scene: M, lambda, A, a_max and k.
 
 A curve has two numbers, b ~ lambda^(2-c) M^(1/2) and g ~ A lambda^(1-c) M^(1/2), and its rim x = a_max/lambda
 (curve/cosine.py). With the units lambda^(2-c) M^(1/2) of the force and lambda^2 of the energy, and f and h in these

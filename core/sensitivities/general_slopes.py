@@ -1,4 +1,4 @@
-"""How force and energy of a general curve change with what a scene is made of: M, lambda, A, a_max, k and the machine.
+"""How force and energy of a general curve change with the numbers of a scene: M, lambda, A, a_max, k and the machine.
 
 A curve has three numbers, B ~ lambda^(m-c) M^(1/2), g ~ A lambda^(1-c) M^(1/2) and the machine's share beta/alpha ~
 lambda^(1+k) M/S, c = (1-k)/2 (curve/general.py), and its rim x = a_max/lambda. With f and h in units of

@@ -1,4 +1,4 @@
-"""How force and energy on a patterned interface change with what a scene is made of: exact derivatives.
+"""How force and energy on a patterned interface change with the numbers of a scene: exact derivatives.
 
 At fixed radii (docs/theory.md): folds are stationary and the integrand of a jump vanishes where it lands, so that
 

@@ -79,13 +79,13 @@ def wanted_for(outputs: Sequence[str], *, turned: bool = False) -> list[str]:
     >>> wanted_for(["dissipated_energy_sensitivity"])
     ['dissipated_energy']
     """
-    asked = [name for name in outputs if name in SENSITIVITIES]
-    more = [one for name in asked for one in NEEDED[name]]
-    if turned and "pull_off_force_sensitivity" in asked:
+    requested = [name for name in outputs if name in SENSITIVITIES]
+    more = [one for name in requested for one in NEEDED[name]]
+    if turned and "pull_off_force_sensitivity" in requested:
         more.append("delta_max")
-    if turned and asked:
+    if turned and requested:
         more.append("turning_radius")
-    return list(dict.fromkeys([*(name for name in outputs if name not in asked), *more]))
+    return list(dict.fromkeys([*(name for name in outputs if name not in requested), *more]))
 
 
 def _move_with_turn(
@@ -167,7 +167,7 @@ def sensitivities(
     Arrays of shape (*scenes, 7), and one item more for the stiffness of a machine, for the turn, and for each of
     `PATTERN`, if there are such: they are the last ones. NaN where the value is not positive, and at k = 1 that to nu.
     """
-    asked = [name for name in SENSITIVITIES if name in outputs]
+    requested = [name for name in SENSITIVITIES if name in outputs]
     given = [name for name in (*PARAMETERS, MACHINE) if name in parameters]
     scenes: dict[str, ArrayLike] = {name: parameters[name] for name in given}
     shape = solved["status"].shape
@@ -178,7 +178,7 @@ def sensitivities(
         moves = radii < limits
         scenes["a_max_over_R"] = np.where(radii > 0.0, radii, limits)
     found, slopes = {}, theta_slopes(parameters["k"], parameters["nu"])
-    for name in asked:
+    for name in requested:
         part, values = SENSITIVITIES.index(name), solved[NEEDED[name][0]]
         to_turn, unknown = np.zeros(shape), np.full(shape, False)
         if turn is not None and part == 0:

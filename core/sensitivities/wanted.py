@@ -1,4 +1,4 @@
-"""Whether sensitivities are wanted, told by a type: what computes them is compiled to nothing where they are not.
+"""Whether sensitivities are requested, expressed by a type: where they are not, their code is not compiled.
 
 A solver takes a record `Sense` of this folder, or `NoSense` in its place, and makes of it what it needs for a curve
 and for a trace. Kernels of `if_wanted` may be called with either.

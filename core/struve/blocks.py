@@ -1,4 +1,4 @@
-"""Where the coefficients of an interpolated table stand: of each piece of [0, 1] that k may lie in, block by block.
+"""Where the coefficients of an interpolated table are stored: of each piece of [0, 1] that contains k, block by block.
 
 A block is what is filled at once: a bin of the pair or of the moments, four arches, or numbers of fields that are
 neighbours. Its coefficients are those of powers of t, -1 <= t <= 1 over the piece, of the shape (terms, numbers).

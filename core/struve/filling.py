@@ -1,4 +1,4 @@
-"""What an interpolated table lacks, filled when it is read for the first time.
+"""The missing parts of an interpolated table, filled when they are first read.
 
 An interpolated table (interpolated.py) is polynomials in k. It has hundreds of bins and arches, of which a force reads
 some, and a cycle some dozens. So each of them is asked for before it is read. A table of its own lacks nothing: that

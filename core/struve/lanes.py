@@ -1,4 +1,4 @@
-"""Eight numbers worked on at once: a type for kernels, whose operators act on each of the numbers for itself.
+"""Eight numbers processed at once: a type for kernels, whose operators act on each number separately.
 
 A formula is written with them as it is with one number, and a number beside them stands for eight. The compiler keeps
 them in one register or several, whatever the processor has.

@@ -1,4 +1,4 @@
-"""What a table holds: one record of constants and coefficients that depend on the gradient exponent k alone.
+"""The contents of a table: one record of constants and coefficients that depend on the gradient exponent k alone.
 
 With z = 2 pi a/lambda and alpha_j = (k-1)/2 + j, the universal pair is
 

@@ -1,4 +1,4 @@
-"""The waves of a series of many harmonics at the price of a few: a table for each exponent and series.
+"""The waves of a series of many harmonics at the cost of a few: a table for each exponent and series.
 
 Up to z = 40 the four sums of struve/series.py are polynomials in bins of x. From there on every integral is a sum of
 powers of 1/z, those of its wave with a sine and a cosine for factors, and with y = n z so are the sums,

@@ -1,4 +1,4 @@
-"""What depth or load loading passes on its way: where it lands on a branch, each extremum, and where it leaves.
+"""The corners in depth or load that loading passes: where it lands on a branch, each extremum, and where it leaves.
 
 Between two corners of one branch the measured coordinate, depth or load, rises or falls throughout. Where it is first
 as large as a target, loading has either just landed, or stands between two corners.

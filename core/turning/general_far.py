@@ -1,4 +1,4 @@
-"""Where a cycle turns on a long curve: before the regular waves that are not walked, on one of them, or beyond."""
+"""Where a cycle turns on a long curve: before the regular waves that are not traced, on one of them, or beyond."""
 
 import math
 from typing import TypeAlias

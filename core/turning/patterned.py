@@ -1,4 +1,4 @@
-"""Where cycles of a curve on a patterned interface turn, as turning/general.py: every branch is walked."""
+"""Where cycles of a curve on a patterned interface turn, as turning/general.py: every branch is traced."""
 
 import math
 from typing import Any

@@ -1,4 +1,4 @@
-"""What cycles turn at, and what is found of them."""
+"""The targets at which cycles turn, and the results."""
 
 from typing import NamedTuple
 

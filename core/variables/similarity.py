@@ -1,4 +1,4 @@
-"""The reduced variables of the problem: its length, and amplitudes in units of what adhesion can level.
+"""The reduced variables of the problem: its length, and amplitudes in units of the one that adhesion can level.
 
     L   = (R^2 dgamma/M)^(1/(3+k))
     chi = r/s,   r = pi^((1-k)/2) G((1+k)/2) A lambda^((1+k)/2),   s = sqrt(2^(1+k) pi dgamma/M)

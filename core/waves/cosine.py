@@ -1,4 +1,4 @@
-"""One wave far from zero contact: its folds, where a jump to its neighbour lands, and what the jump loses.
+"""One wave far from zero contact: its folds, where a jump to its neighbour lands, and the energy of the jump.
 
 A place is `whole` + x, in waves, and its phase comes from x alone. So `whole` may be any real number, of any size: what
 belongs to a wave is a smooth function of its index, and no digit of the phase is lost at 10^14 waves. The centre of

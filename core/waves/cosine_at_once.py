@@ -1,4 +1,4 @@
-"""Jumps of eight waves far from zero contact, worked on at once: each is that of waves/cosine.py.
+"""Jumps of eight waves far from zero contact, computed at once: each is that of waves/cosine.py.
 
 No search waits for another to end, and one instruction serves all eight (struve/lanes.py). Guesses are so good out here
 that a fold takes one step or two of Halley's method, and a landing two or three; a wave that needs more, or whose jump

@@ -1,4 +1,4 @@
-"""What the jumps of millions of waves lose, from a hundred of them at most.
+"""The energy lost in the jumps of millions of waves, from at most a hundred of them.
 
 Far from zero contact loading goes from every wave to the next one, and so does unloading. What such a jump loses is a
 smooth function e of the index of the wave, which may be any real number (waves/cosine.py). So the sum is an integral,

@@ -1,4 +1,4 @@
-"""What one wave far from zero contact adds to a cycle: a smooth function of its number.
+"""The contribution of one wave far from zero contact to a cycle: a smooth function of its number.
 
 A place is whole waves and a part, and phases come from the part alone (struve/series.py): the number of a wave may be
 any real one. Waves are cut where the leading term of V,

@@ -1,4 +1,4 @@
-"""Energies of jumps of any length: what passes many waves is summed (waves/general_sum.py)."""
+"""Energies of jumps of any length: those over many waves are summed (waves/general_sum.py)."""
 
 from typing import Final
 

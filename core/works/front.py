@@ -1,4 +1,4 @@
-"""What an edge that opens at a larger work of adhesion than it closes at adds to a cycle, in closed form.
+"""The energy of an edge that opens at a larger work of adhesion than it closes at, in closed form.
 
 With w_o = dgamma the work of opening, Gamma = w_c/w_o that of closing over it, and a_t the radius at which the edge
 turns, the edge itself takes up (w_o - w_c) int_0^{a_t} 2 pi a kappa^2 da in every cycle, pi a_t^2 (w_o - w_c) where its

@@ -172,7 +172,7 @@ def two_work_sensitivities(
     such, to closing_ratio, one-sided at 1 and 0 at 0, and to those of `PATTERN` that are given. NaN where the value is
     not positive and finite, and to the closing ratio of the energy of an unbounded punch that does not turn.
     """
-    asked = [name for name in SENSITIVITIES if name in outputs]
+    requested = [name for name in SENSITIVITIES if name in outputs]
     scenes = {name: value for name, value in parameters.items() if name != CLOSING}
     known: dict[str, Any] = {"threads": how.threads, "profile": how.profile, "loading": how.loading}
     known |= {"toughness": how.toughness}
@@ -203,7 +203,7 @@ def two_work_sensitivities(
 
     found: dict[str, NDArray[Any]] = {"status": cycle["status"]}
     last = len(rows)
-    for name in asked:
+    for name in requested:
         with np.errstate(all="ignore"):
             if name == SENSITIVITIES[0]:
                 value = opened["pull_off_force"]
@@ -234,8 +234,8 @@ def two_work_sensitivities(
         found[name] = total
     even = ratio == 1.0
     if even.any():
-        own = [item for item in range(found[asked[0]].shape[-1]) if item != to_ratio]
-        alike = solve(scenes, asked, **known)
-        for name in asked:
+        own = [item for item in range(found[requested[0]].shape[-1]) if item != to_ratio]
+        alike = solve(scenes, requested, **known)
+        for name in requested:
             found[name][..., own] = np.where(even[..., None], alike[name], found[name][..., own])
     return found

@@ -1,4 +1,4 @@
-"""How the radius at which a cycle turns moves with what a scene is made of.
+"""How the radius at which a cycle turns changes with the numbers of a scene.
 
 At a depth, or a load, Y(a_t; p) = target, so that d ln a_t/d ln p = -(dY/d ln p)/(dY/d ln a). Y is a depth or a load of
 the reduced form of curve/general.py in its unit: a product of powers of lambda and M and a function of the numbers of

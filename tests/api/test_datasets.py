@@ -99,9 +99,7 @@ def test_a_value_that_was_changed_is_found(tmp_path: Path) -> None:
 def test_what_cannot_be_verified_says_why() -> None:
     pytest.importorskip("flint")
     named = gr.solve(PUNCH, "pull_off_force", A=xarray.DataArray([0.0, 0.01], dims="x"))
-    with pytest.raises(
-        gr.DatasetError, match="the dataset: has no study, which would be its attributes study and study_sha256"
-    ):
+    with pytest.raises(gr.DatasetError, match="the dataset: lacks its study, the attributes study and study_sha256"):
         gr.verify(named)
     with pytest.raises(gr.StudyError, match="sample = 0, seed = None: a sample of 1 scene or more"):
         gr.verify(named, sample=0)

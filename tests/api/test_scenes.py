@@ -100,10 +100,10 @@ def test_units_are_strings_or_numbers_in_si_or_attributes() -> None:
         ({"A": [0.1, 1j]}, "gr.solve: A[1] = 1j: this must be a number"),
         ({"A": np.zeros((2, 3))}, 'gr.solve: A: an array of 2 x 3 values without names for its dimensions; write for example xarray.DataArray(A, dims=["x", "y"])'),
         ({"A": xarray.DataArray([0.1], dims="status")}, 'gr.solve: A: its dimension "status" has the name of a variable; rename it'),
-        ({"A": xarray.DataArray([0.1], dims="k")}, 'gr.solve: A: its dimension "k" has the name of a parameter that is no axis; rename it, or give k as a list'),
+        ({"A": xarray.DataArray([0.1], dims="k")}, 'gr.solve: A: its dimension "k" has the name of a parameter that is not an axis; rename it, or give k as a list'),
         ({"k": [0.0, 1.0]}, "gr.solve: k = 1.0: with k = 1 and nu = 0.27 the surface has no stiffness"),
-        ({"k": xarray.DataArray([0.0, 1.0], dims="x"), "nu": xarray.DataArray([0.5, 0.3], dims="x")}, "gr.solve: k = 1.0: with k = 1 and another nu"),
-        ({"R": "1 um"}, "gr.solve: modulus = 430.0: a ratio, beside quantities with units, and the two ways do not mix"),
+        ({"k": xarray.DataArray([0.0, 1.0], dims="x"), "nu": xarray.DataArray([0.5, 0.3], dims="x")}, "gr.solve: k = 1.0: with k = 1 and nu other than 0.5"),
+        ({"R": "1 um"}, "gr.solve: modulus = 430.0: a ratio, beside quantities with units, and the two cannot be combined"),
         ({"machine_stiffness": 3.0}, 'gr.solve: machine_stiffness = 3.0: control = "displacement" has no machine; remove this key, or write control = "machine"'),
     ],
 )  # fmt: skip
@@ -136,7 +136,7 @@ def test_dimensions_of_one_name_have_one_length_and_one_set_of_coordinates() -> 
         xarray.DataArray([0.0, 0.1, 0.2], dims="x"),
         xarray.DataArray([0.0, 0.1], dims="x", coords={"x": [1, 3]}),
     ):
-        assert "dimensions of one name have other lengths or other coordinates" in mistakes_of(
+        assert "dimensions of the same name differ in length or coordinates" in mistakes_of(
             PUNCH | {"A": A, "k": other}
         )
     other = xarray.DataArray([0.0, 0.1], dims="x")
@@ -215,7 +215,7 @@ def test_curves_are_those_of_a_study() -> None:
 @pytest.mark.parametrize(
     ("changes", "outputs", "sentence"),
     [
-        ({"A": [0.1, 0.0, 0.2]}, "path", "gr.curves: A: the values of an axis of curves rise or fall; sort them"),
+        ({"A": [0.1, 0.0, 0.2]}, "path", "gr.curves: A: the values of an axis of curves must rise or fall; sort them"),
         ({"A": xarray.DataArray([0.1], dims="x")}, "path", "gr.curves: A: curves are drawn over axes, or over one dimension scene"),
         ({}, "pull_off_force", 'outputs[0] = "pull_off_force": an output of studies of kind "map"'),
         ({"A": np.linspace(0.0, 0.1, 1001)}, "path", "gr.curves: parameters: they make 1,001 scenes, more than 1,000; use fewer values"),
@@ -235,5 +235,5 @@ def test_states_of_given_radii() -> None:
     assert gr.curves(punch, "pressure")["state"].values.tolist() == ["turning_point", "pull_off", "jump_out"]
     with pytest.raises(gr.StudyError, match=r"gr.curves: contact_radius_over_R\[1\] = 0.9: .* in \(0, 0.5\]"):
         gr.curves(punch | {"a_max_over_R": 0.5}, "pressure", contact_radius_over_R=[0.2, 0.9])
-    with pytest.raises(gr.StudyError, match="no curve of a state is asked for"):
+    with pytest.raises(gr.StudyError, match="no curve of states is requested"):
         gr.curves(punch, "path", contact_radius_over_R=[0.2])

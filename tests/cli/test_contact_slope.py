@@ -201,7 +201,7 @@ def test_python_says_it_once(capsys: pytest.CaptureFixture[str]) -> None:
     assert found.gr.outside("contact_slope").item()
     assert capsys.readouterr().err.count("contact reaches slopes that are not small") <= 1
     assert not gr.solve(punch, "dissipated_energy", a_max_over_R=0.5).gr.outside("contact_slope").item()
-    with pytest.raises(gr.GradhesionError, match="wave_slope: not known of this dataset"):
+    with pytest.raises(gr.GradhesionError, match="wave_slope: not a variable of this dataset"):
         found.gr.outside("wave_slope")
 
 

@@ -16,7 +16,7 @@ from gradhesion.cli.dataset.reader import opened
 from gradhesion.cli.keys import INPUTS, PARAMETERS
 from gradhesion.cli.names import CURVES, EXTENTS, GENERAL_CURVES, INTEGERS, MEANINGS, RAGGED, STATE_CURVES
 from gradhesion.cli.study.reading import load_study, study_from
-from gradhesion.cli.words.curve_words import curves_told
+from gradhesion.cli.words.curve_words import curve_lines
 from gradhesion.core import FAILED, FLAGS, draw_curves, solve
 from gradhesion.core import curves as core_curves
 
@@ -235,7 +235,7 @@ def test_info_tells_curves_in_words(gradhesion: Call, dataset_file: Path) -> Non
     for words in (
         "6 scenes",
         "axes A 0, 0.023, 0.071 a_max_over_R 0.41, inf fixed k 0.31",
-        f"equilibrium: {int(points.min())} to {int(points.max())} points a scene stable branches 1 to",
+        f"equilibrium: {int(points.min())} to {int(points.max())} points per scene stable branches 1 to",
         f"jumps on loading 1 to {int(loading.max())} jumps on unloading 1 to",
         f" load {least:.6g} to {greatest:.6g} load P/(1.5 pi R dgamma) in equilibrium",
         "smooth_contact_radius 0 to",
@@ -244,4 +244,4 @@ def test_info_tells_curves_in_words(gradhesion: Call, dataset_file: Path) -> Non
     ):
         assert words in told, words
     with opened(dataset_file) as dataset:
-        assert list(curves_told(dataset, cells=1)) == list(curves_told(dataset)), "read in whatever pieces"
+        assert list(curve_lines(dataset, cells=1)) == list(curve_lines(dataset)), "read in whatever pieces"

@@ -359,7 +359,7 @@ def test_other_axes_and_variables_are_chosen(maps: Path, open_page: Callable[...
     assert page.page.evaluate("window.broken === undefined")
     page.page.select_option("#along-x", label="A – amplitude over wavelength of the waviness")
     page.page.select_option("#along-y", label="λ/R – wavelength of the waviness")
-    page.page.select_option("#shown-1", label="number of jumps on loading, the jump-in counted")
+    page.page.select_option("#shown-1", label="number of jumps on loading, including the jump-in")
     page.settle()
     # what was across is up now, and what was up is free; two maps have one range
     figures = "explorer.parts.maps.map(map => map.figure)"
@@ -535,7 +535,7 @@ def test_the_address_brings_a_colleague_to_the_same_state(maps: Path, open_page:
     page.press("A", "End")
     page.press("k", "Home")
     page.page.select_option("#along-y", label="A – amplitude over wavelength of the waviness")
-    page.page.select_option("#shown-1", label="number of jumps on loading, the jump-in counted")
+    page.page.select_option("#shown-1", label="number of jumps on loading, including the jump-in")
     page.page.uncheck("#log-0")
     page.page.wait_for_function("location.hash.includes('loading_jumps')")
     there = open_page(maps, "#" + page.page.url.partition("#")[2])

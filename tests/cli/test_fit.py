@@ -226,8 +226,11 @@ FILES: dict[str, tuple[str, str]] = {
     "0 bytes": ("", "the file has 0 bytes"),
     "comments": ("# nothing\n", "the file has comments only"),
     "no numbers": ("depth,force\n1.0,x\n", "line 2: force is not a number; write one"),
-    "a line": ("depth,force\n" + "".join(f"{i},{i}\n" for i in range(50)), "there is no contact in the data"),
-    "few": ("depth,force\n0,1\n1,2\n0,1\n", "3 points cannot give 6 numbers (E_star, work_of_adhesion, wavelength, A"),
+    "a line": ("depth,force\n" + "".join(f"{i},{i}\n" for i in range(50)), "the data show no contact"),
+    "few": (
+        "depth,force\n0,1\n1,2\n0,1\n",
+        "3 points are too few for 6 fitted values (E_star, work_of_adhesion, wavelength, A",
+    ),
     "all nan": ("depth,force\nnan,1\nnan,2\n", "no row has numbers in all of its columns"),
     "flat": ("depth,force\n" + "".join(f"{i % 20},1\n" for i in range(50)), "all values of the load are the same"),
 }

@@ -120,7 +120,7 @@ def test_pauses_are_left_out_by_label_and_counted(folder: Path) -> None:
     assert "loop.csv: 100 rows of pauses were left out" in study.notes
     assert "rows are left out by the words of a column" in refused(data__leave_out=["pause"])
     written(folder / "loop.csv", rows, way=600 * ["pause"])
-    assert "every row is of a pause; name a file with some" in refused(data__branch="way")
+    assert "every row belongs to a pause; name a file with some" in refused(data__branch="way")
 
 
 def test_many_points_are_averaged_and_said(folder: Path) -> None:
@@ -161,7 +161,7 @@ def test_several_files_are_loops_by_name(gradhesion: Call, folder: Path) -> None
     result = gradhesion("validate", "stored.toml")
     assert result.exit_code == 2
     assert "the files are not the ones that this study was written for" in result.stderr
-    assert "no file has a name of this pattern" in refused(data__file="curve/*.csv")
+    assert "no file matches this pattern" in refused(data__file="curve/*.csv")
     told = refused(data__file="curves/e*.csv")
     assert "no row has numbers" in told
     for name in ("a", "b", "c"):
@@ -221,10 +221,10 @@ def test_more_of_the_model_is_read() -> None:
 
 
 WRONG: dict[str, tuple[dict[str, Any], str]] = {
-    "a zero": ({"fit__offsets": {"lod": False}}, '"lod" is no zero of an instrument; did you mean "load"?'),
+    "a zero": ({"fit__offsets": {"lod": False}}, '"lod" is not a zero of an instrument; did you mean "load"?'),
     "a length": ({"fit__offsets": {"load": ["1 nm", "2 nm"]}}, '"1 nm" is not a force with its unit; write load = '),
-    "no rise": ({"fit__offsets": {"load": ["2 nN", "1 nN"]}}, "the ends of a range rise; exchange the two"),
-    "no contact zero": ({"fit__offsets": {"load": "contact"}}, 'load = "contact" is no zero to be fitted'),
+    "no rise": ({"fit__offsets": {"load": ["2 nN", "1 nN"]}}, "the ends of a range must rise; exchange the two"),
+    "no contact zero": ({"fit__offsets": {"load": "contact"}}, 'load = "contact" is not a zero that can be fitted'),
     "slope": ({"fit__offsets": {"slope": 1}}, "slope must be true or false"),
     "average": ({"fit__average": 1}, "this must be true or false; write for example average = false"),
     "which": ({"data__which": "unload"}, 'the branch is "loading" or "unloading"; did you mean "unloading"?'),
@@ -249,7 +249,7 @@ WRONG: dict[str, tuple[dict[str, Any], str]] = {
     "no pattern": ({"parameters__toughness_amplitude": 0.5}, "without [toughness] this has no effect"),
     "above opening": (
         {"physical__work_of_adhesion_closing": "1 J/m^2"},
-        "an edge closes at no more work than it opens",
+        "an edge cannot close at more work than it opens",
     ),
     "both works": (
         {"physical__work_of_adhesion_closing": "1 mJ/m^2", "parameters__closing_ratio": 0.5},
@@ -290,12 +290,12 @@ def test_points_in_no_order_and_without_contact_are_refused(folder: Path) -> Non
     rows = points(600)
     mix = np.random.default_rng(1).permutation(600)
     written(folder / "loop.csv", {name: rows[name][mix] for name in ("depth", "force")}, way=rows["back"][mix])
-    assert "the points are in no order from which branches can be told" in refused()
+    assert "the branches cannot be recognised from the order of the points" in refused()
     shuffled = load(data__branch="way").loop
     assert shuffled.noise == pytest.approx((0.2e-9, 5e-9), rel=0.6), "a labelled branch needs no order"
     base = np.linspace(-500.0, -100.0, 600)
     written(folder / "loop.csv", {"depth": base, "force": np.random.default_rng(2).standard_normal(600)})
-    assert "the load is a straight line of the depth to within its noise: there is no contact in the data" in refused()
+    assert "the load is linear in the depth within its noise: the data show no contact" in refused()
 
 
 def test_a_gap_is_no_mistake(folder: Path) -> None:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.cli.dataset.model_range import tabor_told
+from gradhesion.cli.dataset.model_range import tabor_warnings
 from gradhesion.cli.work.fitting import doubts_of
 from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
@@ -76,6 +76,6 @@ def test_an_end_of_a_range_is_named_with_what_to_do() -> None:
 
 @pytest.mark.parametrize(("number", "words"), [(6.0, ""), (4.0, "is below 5: "), (0.09, "is below 0.1: ")])
 def test_a_small_tabor_parameter_is_said(number: float, words: str) -> None:
-    told = list(tabor_told(number, "with a range of 0.3 nm"))
+    told = list(tabor_warnings(number, "with a range of 0.3 nm"))
     assert len(told) == bool(words)
     assert all(words in one for one in told)

@@ -83,9 +83,9 @@ def test_a_dataset_has_minima_ranges_and_the_contact_point(study: FitStudy, tmp_
     for words in (
         "contact point: 2 +- 0.1 nm, found before the fit (the end of the base line)",
         "widened by 1.5 for residuals above the noise",
-        "a poor fit: noise explains",
+        "a poor fit: the noise explains",
         "another minimum within the noise: chi square 1400 at E_star = 1e+07",
-        "not told apart: waves too fine to be seen would have the same effect",
+        "indistinguishable: waves too fine to be seen would have the same effect",
         "Tabor parameter ",
     ):
         assert words in told, words

@@ -118,7 +118,7 @@ def test_shorter_loops_are_padded_and_one_that_fails_keeps_its_row(found: xarray
         assert (found["measured_unloading"].values[i, size:] == -1).all()
     assert np.isnan(found["value"].values[3]).all()
     assert int(found["status"][3]) == NO_VALUE
-    assert "3 points cannot give 4 numbers" in str(found["problem"].values[3])
+    assert "3 points are too few for 4 fitted values" in str(found["problem"].values[3])
     assert found["problem"].values[:3].tolist() == ["", "", ""]
 
 
@@ -142,7 +142,7 @@ def test_run_writes_them_and_says_which_failed(gradhesion: Call, folder: Path) -
     result = gradhesion("run", "many.toml", "-o", "again.nc", '--set=data.file="curves/[29].csv"')
     assert result.exit_code == 3
     assert "again.nc: 1 of 2 loops fitted" in result.stderr
-    assert "again.nc: curves/9.csv: 3 points cannot give 4 numbers" in result.stderr
+    assert "again.nc: curves/9.csv: 3 points are too few for 4 fitted values" in result.stderr
     assert (folder / "again.nc").exists()
 
 
@@ -181,7 +181,7 @@ def test_pictures_of_all_and_of_one(gradhesion: Call, found: xarray.Dataset) -> 
     assert heights == 30, "a histogram of all"
     for wish, words in {
         ("--at", "loop=7"): "there are 4 loops",
-        ("--at", "k=1"): "have the one axis loop",
+        ("--at", "k=1"): "have only the axis loop",
         ("--at", "loop=3"): "has no fit to draw: 3 points",
         ("--variable", "value"): "fits are drawn as a whole, or one with --at loop=0",
     }.items():
@@ -199,7 +199,7 @@ def test_what_is_of_scenes_refuses_them(gradhesion: Call, command: str) -> None:
 def test_no_loop_with_a_fit_is_refused(gradhesion: Call, folder: Path) -> None:
     result = gradhesion("run", "many.toml", "-o", "none.nc", '--set=data.file="curves/9*.csv"')
     assert result.exit_code == 2
-    assert "3 points cannot give 4 numbers" in result.stderr
+    assert "3 points are too few for 4 fitted values" in result.stderr
     assert not (folder / "none.nc").exists()
 
 

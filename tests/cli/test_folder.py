@@ -56,7 +56,7 @@ def test_a_folder_of_the_user_is_refused_and_not_touched(
         result = gradhesion("run", study_file, "-o", output, *options)
         assert result.exit_code == 4
         assert result.stderr == (
-            f"{output}.parts: is a folder that gradhesion has not made, so nothing in it is touched; "
+            f"{output}.parts: is a folder that gradhesion has not made, so it is left untouched; "
             "move it away, or name another output with -o\n"
         )
         assert contents(folder) == before
@@ -73,7 +73,7 @@ def test_a_link_in_its_place_is_refused(gradhesion: Call, study_file: Path, data
     before = contents(folder_of(other).path)
     result = gradhesion("run", study_file, "-o", output)
     assert result.exit_code == 4
-    assert result.stderr.startswith(f"{output}.parts: is a link, so nothing in it is touched")
+    assert result.stderr.startswith(f"{output}.parts: is a link, so it is left untouched")
     assert contents(folder_of(other).path) == before
     folder_of(output).path.unlink()
     folder_of(output).path.write_text("mine")

@@ -98,7 +98,7 @@ def test_a_file_is_named_by_its_option(gradhesion: Call, name: str, study: str) 
     result = gradhesion("init", name)
     assert result.exit_code == 2
     assert result.stderr.splitlines()[-1] == (
-        f'Error: "{name}" names no study; -o names the file: gradhesion init {study} -o {name}'
+        f'Error: "{name}" is not a study; -o names the file: gradhesion init {study} -o {name}'
     )
 
 

@@ -16,7 +16,7 @@ from gradhesion.cli.dataset.reader import opened
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import CURVES, INTEGERS
 from gradhesion.cli.study.reading import study_from
-from gradhesion.cli.words.jump_words import jumps_listed, jumps_told
+from gradhesion.cli.words.jump_words import jump_lines, jumps_listed
 from gradhesion.core import draw_curves, solve
 
 Call = Callable[..., Result]
@@ -106,7 +106,7 @@ def test_a_single_variable_brings_the_count_along(
         assert set(dataset.data_vars) == {"jump_count", asked, "status"}
         assert dataset["jump_count"].shape == ()
         told = gradhesion("info", path).stdout
-        assert f"jumps: {dataset['jump_count'].item()} a scene" in told
+        assert f"jumps: {dataset['jump_count'].item()} per scene" in told
 
 
 def test_info_tells_them_in_words(gradhesion: Call, dataset_file: Callable[..., Path]) -> None:
@@ -123,7 +123,7 @@ def test_info_tells_them_in_words(gradhesion: Call, dataset_file: Callable[..., 
     assert at_rim > 0
     assert counts.min() == 2, "the smooth punch jumps in and out"
     for words in (
-        f"jumps: 2 to {counts.max()} a scene, {counts.sum()} in all on unloading {unloading} from or to the rim {at_rim}",
+        f"jumps: 2 to {counts.max()} per scene, {counts.sum()} in all on unloading {unloading} from or to the rim {at_rim}",
         f"jump_energy {energies.min():.6g} to {energies.max():.6g} energy dissipated by the jump",
         f"the largest dissipates {energies.max():.6g}, on ",
         f" at the depth {depth:.6g}, from the radius ",
@@ -131,7 +131,7 @@ def test_info_tells_them_in_words(gradhesion: Call, dataset_file: Callable[..., 
     ):
         assert words in told, words
     with opened(path) as dataset:
-        assert list(jumps_told(dataset, items=7)) == list(jumps_told(dataset)), "read in whatever pieces"
+        assert list(jump_lines(dataset, items=7)) == list(jump_lines(dataset)), "read in whatever pieces"
 
 
 def test_info_lists_them_as_csv_without_losing_a_digit(gradhesion: Call, dataset_file: Callable[..., Path]) -> None:
@@ -164,7 +164,7 @@ def test_scenes_without_jumps_are_passed_over(gradhesion: Call, dataset_file: Ca
     assert {line.split(",")[0] for line in lines[1:]} == {"0.2"}
     path.unlink()
     path = dataset_file("outputs=['jumps']", "parameters.lambda_over_R=1e-9", "parameters.A=0.3", exit_code=3)
-    assert "jumps: 0 a scene, 0 in all" in gradhesion("info", path).stdout
+    assert "jumps: 0 per scene, 0 in all" in gradhesion("info", path).stdout
     assert gradhesion("info", "--jumps", path).stdout.splitlines() == [",".join(["a_max_over_R", *VARIABLES])]
 
 

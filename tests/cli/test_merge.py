@@ -91,7 +91,7 @@ def test_mistakes(gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatc
     assert gradhesion("run", study_file, "-o", output, "--shard", "1/2", "--fresh").exit_code == 2
     none = gradhesion("merge", output)
     assert none.exit_code == 2
-    assert "no study with parts" in none.stderr
+    assert "there are no parts of a study" in none.stderr
     monkeypatch.setenv("GRADHESION_CHUNK", "100")
     assert "run it without --shard" in gradhesion("run", study_file, "-o", output, "--shard", "1/2").stderr
     assert os.listdir(tmp_path) == ["study.toml"]

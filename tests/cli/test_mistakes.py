@@ -223,12 +223,12 @@ MISTAKES = {
     "key twice": (
         "nu = 0.3",
         "nu = 0.3\nnu = 0.4",
-        r":9: not valid TOML, cannot overwrite .*; the key stands twice, remove one",
+        r":9: not valid TOML, cannot overwrite .*; the key is given twice, remove one",
     ),
     "table twice": (
         "nu = 0.3",
         "nu = 0.3\n[parameters]",
-        r":9: not valid TOML, cannot declare .*; the table stands twice, join the two",
+        r":9: not valid TOML, cannot declare .*; the table is given twice, join the two",
     ),
     "unfinished": ("R = inf", "R = [", r"not valid TOML"),
     "nested too deeply": ("R = inf", "R = " + 3000 * "[", r"not a study, tables or lists are nested more than 32 deep"),

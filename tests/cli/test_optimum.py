@@ -155,7 +155,7 @@ def test_an_optimum_at_a_bound_is_an_answer(
     assert gradhesion("explore", path, "-o", tmp_path / "page.html").exit_code == 0
     told = gradhesion("verify", path)
     assert told.exit_code == 2
-    assert "holds an optimum; `gradhesion verify` takes maps" in told.stderr
+    assert "contains an optimum; `gradhesion verify` accepts only maps" in told.stderr
 
 
 def test_blocks_and_shards_have_the_same(
@@ -269,7 +269,7 @@ def test_a_front_of_two_outputs(
         # its ends are the refined optima of each output
         alone = gr.run(study)["best_pull_off_force"]
         np.testing.assert_allclose(found["best_pull_off_force"].max("pareto_point"), alone, rtol=1e-12)
-    assert "best compromises: " in gradhesion("info", path).stdout
+    assert "Pareto fronts: " in gradhesion("info", path).stdout
     picture = tmp_path / "front.svg"
     assert gradhesion("plot", path, "-o", picture, "--at", "k=0.3").exit_code == 0
     assert "have no page" in gradhesion("explore", path, "-o", tmp_path / "front.html").stderr
@@ -299,7 +299,10 @@ def test_a_peak_between_the_points_is_flagged(
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"optimum": {"maximise": "loading_jumps", "over": ["lambda_over_R"]}}, "is a count, which has no optimum but"),
+        (
+            {"optimum": {"maximise": "loading_jumps", "over": ["lambda_over_R"]}},
+            "is a count, which changes in steps and has no optimum",
+        ),
         ({"optimum": {"maximise": "pull_of_force", "over": ["lambda_over_R"]}}, 'did you mean "pull_off_force"'),
         (
             {"optimum": {"maximise": "pull_off_force", "over": ["A"]}},
@@ -343,7 +346,7 @@ def test_a_peak_between_the_points_is_flagged(
         ({"kind": "map", "outputs": ["pull_off_force"]}, "the study is of another kind; write kind = "),
         ({"uncertainty": {"modulus": "5 %"}}, "only maps have uncertain inputs"),
         ({"method": {"solver": ["exact", "envelope"]}}, "an optimum has one solver"),
-        ({"parameters": PUNCH | {"k": [0.3], "lambda_over_R": WAVES}}, "an axis of one value cannot stand beside"),
+        ({"parameters": PUNCH | {"k": [0.3], "lambda_over_R": WAVES}}, "an axis of one value cannot be combined"),
         (
             {"parameters": PUNCH | {"lambda_over_R": WAVES | {"num": 9}}},
             "a searched input has bounds only; remove num",
@@ -400,7 +403,5 @@ def test_what_of_optima_cannot_be_joined(study: dict[str, Any], gradhesion: Call
         assert result.exit_code == 2
         return str(result.stderr)
 
-    assert "has another search than" in refused("force0.0", "energy0.3")
-    assert "holds best compromises, whose number differs from cell to cell; only maps" in refused(
-        "front0.0", "front0.3"
-    )
+    assert "in search; join datasets that share it" in refused("force0.0", "energy0.3")
+    assert "contains Pareto fronts, whose size differs from cell to cell; only maps" in refused("front0.0", "front0.3")

@@ -87,7 +87,7 @@ def test_dry_run_is_the_plan(gradhesion: Call, study_file: Path, tmp_path: Path)
     assert "blocks    6; 0 reused; 6 not computed yet\n" in result.stdout
     assert "time      about " in result.stdout
     assert re.search(
-        r"engines   with --engine dask about .* on N workers elsewhere .* / N, .* a block\n", result.stdout
+        r"engines   with --engine dask about .* on N workers elsewhere .* / N, .* per block\n", result.stdout
     )
     assert os.listdir(tmp_path) == ["study.toml"]
 

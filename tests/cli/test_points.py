@@ -149,7 +149,7 @@ WRONG = {
     ("430.0,", "430.0"): "line 2 has 3 values under 4 names",
     ("1.7", "nan"): "line 2: a_max_over_R is missing (NaN)",
     ("0.9", "-0.9"): "line 4: a_max_over_R = -0.9 is out of range",
-    ("A,", "k,"): "k stands under [parameters] and is a column of the file; keep one of the two",
+    ("A,", "k,"): "k is given under [parameters] and as a column of the file; keep one of the two",
     ("0.11,0.0,1.7\n517.3", "nan,0.0,1.7\nnan"): "line 2: lambda_over_R is missing",
 }
 

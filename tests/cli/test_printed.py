@@ -172,4 +172,4 @@ def test_memory_that_is_not_there_is_a_sentence() -> None:
 def test_without_the_compiler_there_is_a_remedy(command: str, shell: Shell, study_file: Path) -> None:
     done = shell("gradhesion " + command.replace("STUDY", str(study_file)), NUMBA_DISABLE_JIT="1")
     assert done.returncode == 2
-    assert done.stderr == b"NUMBA_DISABLE_JIT is set, and nothing can be solved without the compiler; unset it\n"
+    assert done.stderr == b"NUMBA_DISABLE_JIT is set, but the solver needs the compiler; unset it\n"

@@ -121,7 +121,7 @@ def test_reports_of_any_shape_and_control(shaped: dict[str, Any], control: str) 
     if control != "machine":
         shaped["loading"] = {"control": control}
     if control == "load":
-        with pytest.raises(StudyError, match="a dead load closes no loop"):
+        with pytest.raises(StudyError, match="under dead load the cycle is not closed"):
             study_from(shaped | {"outputs": ["energy_residual"]})
     reports = [name for name in REPORTS if control != "load" or name != "energy_residual"]
     dataset = compute(study_from(shaped | {"outputs": [*OUTPUTS, *reports]}))
@@ -163,7 +163,7 @@ MISTAKES = {
     "exponent text": ("profile.exponent='2'", 'profile.exponent = "2": the power of the punch'),
     "no series": ("profile.harmonics=[]", "profile.harmonics = []: this must be a list of tables"),
     "a wave": ("profile.harmonics={n=1}", "profile.harmonics = { n = 1 }: this must be a list of tables"),
-    "n zero": ("profile.harmonics=[{n=0, cos=1}]", "profile.harmonics[0].n = 0: n is the number of waves a wavelength, an integer"),
+    "n zero": ("profile.harmonics=[{n=0, cos=1}]", "profile.harmonics[0].n = 0: n is the number of waves per wavelength, an integer"),
     "n half": ("profile.harmonics=[{n=0.5, cos=1}]", "profile.harmonics[0].n = 0.5: n is the number"),
     "n large": ("profile.harmonics=[{n=10001, cos=1}]", "an integer from 1 to 10,000; write for example n = 1"),
     "no n": ("profile.harmonics=[{cos=1}]", "profile.harmonics[0].n: n is the number of waves"),
@@ -186,7 +186,7 @@ MISTAKES = {
     "stiffness elsewhere": ("parameters.machine_stiffness=1", "this key belongs under [loading]; move it there"),
     "solver": ("method.solver='asymptotic'", 'the solver "asymptotic" is available only under displacement control: the leading terms of depth and load belong to one energy only up to the order of lambda/a'),
     "envelopes of a machine": ("method.solver=['exact', 'envelope']", 'the solver "envelope" is available only under displacement control: the path along the envelopes jumps'),
-    "jump-in radius": ("parameters.a_max_over_a2=2.0", "a_2 is that of a paraboloid with one cosine wave"),
+    "jump-in radius": ("parameters.a_max_over_a2=2.0", "a_2 is defined only for one cosine on a paraboloid"),
 }  # fmt: skip
 
 

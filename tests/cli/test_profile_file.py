@@ -154,7 +154,7 @@ WRONG: dict[str, tuple[str, str]] = {
     "terms": ("terms = 1", "terms = 65|profile.terms = 65: terms is the number of harmonics, an integer from 1 to 64"),
     "exponent": ("terms = 1", 'exponent = "fitt"|profile.exponent = "fitt": the power of the punch is a number of 1 or more'),
     "cone": ("terms = 1", "exponent = 1|exponent = 1.0: it is above 1"),
-    "without a file": ('file = "tip.csv"   # measured', "|profile.terms = 1: this goes with a file; add file, or remove terms"),
+    "without a file": ('file = "tip.csv"   # measured', "|profile.terms = 1: this key needs a file; add file, or remove terms"),
     "fit without a file": ('file = "tip.csv"   # measured\nterms = 1', 'exponent = "fit"|there is no file to fit it to'),
     "sha256": ("terms = 1", 'sha256 = "12"|profile.sha256 = "12": a sha256 has 64 digits'),
     "misspelt": ("terms = 1", 'trems = 1|profile.trems = 1: unknown key; did you mean "terms"?'),
@@ -199,7 +199,7 @@ def test_profile_prints_a_table_that_gives_the_same_punch(study: Path, gradhesio
     (tmp_path / "tip.csv").write_text(table(noise=0.1e-9) + "nan,3\n")
     result = gradhesion("profile", tmp_path / "tip.csv", "--terms", "2", "--exponent", "fit", "--up-to", "1.5 um")
     assert result.exit_code == 0, result.stderr
-    assert "1 row was left out, without two numbers" in result.stderr
+    assert "1 row was left out, for lack of two numbers" in result.stderr
     assert (tmp_path / "tip.png").read_bytes()[:4] == b"\x89PNG"
     printed = tomllib.loads(result.stdout)
     fitted = load_study(study, ["profile.terms=2", 'profile.exponent="fit"', 'profile.up_to="1.5 um"'])

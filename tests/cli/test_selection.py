@@ -135,7 +135,7 @@ def test_a_solver_is_chosen_by_its_name(dataset: xarray.Dataset) -> None:
     np.testing.assert_array_equal(narrow["pull_off_force"], 2.0 * dataset["pull_off_force"])
     with pytest.raises(DatasetError, match='not a solver of this dataset; did you mean "exact"'):
         selection_of(both, ["solver=exat"])
-    with pytest.raises(DatasetError, match="solvers are not reduced"):
+    with pytest.raises(DatasetError, match="solvers cannot be reduced"):
         selection_of(both, over=["solver=max"])
 
 

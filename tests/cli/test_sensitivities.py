@@ -204,7 +204,7 @@ def test_a_page_takes_each(gradhesion: Call, file: Path, tmp_path: Path) -> None
 def test_verify_leaves_them_out(gradhesion: Call, file: Path) -> None:
     result = gradhesion("verify", file, "--sample", "1")
     assert result.exit_code == 0
-    assert f"{FORCE}, {ENERGY}: there is nothing independent to compare with" in result.stdout
+    assert f"{FORCE}, {ENERGY}: there is no independent solution to compare with" in result.stdout
 
 
 def test_they_are_as_doubtful_as_their_values() -> None:

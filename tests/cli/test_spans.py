@@ -190,7 +190,7 @@ def test_best_compromises_take_limits_and_no_inset() -> None:
     ends = (least - 0.5, greatest + 0.25)
     (axes,) = drawn(front, [], looks=looks_of(xlim=ends)).axes
     assert axes.get_xlim() == pytest.approx(ends, rel=1e-12)
-    with pytest.raises(DatasetError, match=r"--inset 0:1: best compromises are drawn as they are; leave it out"):
+    with pytest.raises(DatasetError, match=r"--inset 0:1: Pareto fronts are drawn as they are; leave it out"):
         drawn(front, [], looks=looks_of(inset="0:1"))
 
 

@@ -85,7 +85,7 @@ def test_mistakes(outputs: list[str], radii: list[float] | None, more: dict[str,
 def test_words_and_picture(tmp_path: Path) -> None:
     dataset = compute(study(["pressure", "surface", "path"]))
     dataset.to_netcdf(tmp_path / "x.nc")
-    assert "pressure: 96 points a state" in "\n".join(described(dataset, tmp_path / "x.nc"))
+    assert "pressure: 96 points per state" in "\n".join(described(dataset, tmp_path / "x.nc"))
     with pytest.raises(DatasetError, match="pressure is drawn over the distance from the axis, and path is not"):
         drawn_curves(dataset, ["pressure", "path"])
     assert len(drawn_curves(dataset, []).axes) == 3  # the path

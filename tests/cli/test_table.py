@@ -71,7 +71,7 @@ def test_a_curve_has_a_line_for_each_of_its_points(gradhesion: Call, written: Ca
     assert frame["path_jump"].isin([0, 1]).all()
     assert (frame["path_branch"] % 1 == 0).all()
     for wrong, sentence in (
-        ([], "jumps have a table of their own; write it with gradhesion info --jumps"),
+        ([], "jumps have a separate table; write it with gradhesion info --jumps"),
         (
             ["--variable", "path", "--variable", "equilibrium"],
             "choose one with --variable equilibrium or --variable path",
@@ -95,4 +95,4 @@ def test_a_large_table_is_refused(
 def test_variables_belong_to_a_table(gradhesion: Call, written: Callable[..., Path]) -> None:
     result = gradhesion("info", written(), "--variable", "pull_off_force")
     assert result.exit_code == 2
-    assert "--variable chooses what a table has; add --format csv" in result.stderr
+    assert "--variable selects the columns of a table; add --format csv" in result.stderr

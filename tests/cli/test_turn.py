@@ -118,7 +118,7 @@ def test_commands(gradhesion: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPa
         (study({"indentation_max_over_R": "deep"}), ["this must be a number"]),
         (
             study({"load_max": 1.0}, method={"solver": ["exact", "envelope"]}),
-            ['the solver "envelope" turns at the rim alone; write solver = "exact", or remove load_max'],
+            ['the solver "envelope" turns only at the rim; write solver = "exact", or remove load_max'],
         ),
         (
             {"outputs": OUTPUTS, "parameters": {"k": 0, "nu": 0.3, "A": 0.1, "load_max": 1.0}, "physical": PROBE},

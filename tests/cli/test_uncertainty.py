@@ -180,11 +180,11 @@ def test_a_deviation_is_doubtful_where_the_line_is_off(data: dict[str, Any]) -> 
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"uncertainty": {"chi": "5 %"}}, "uncertainty.chi .* the study gives no chi to be uncertain"),
-        ({"uncertainty": {"c0": "1 nm"}}, 'the study gives no c0 to be uncertain; use "c0_over_R", or remove'),
+        ({"uncertainty": {"chi": "5 %"}}, "uncertainty.chi .* the study gives no chi that could be uncertain"),
+        ({"uncertainty": {"c0": "1 nm"}}, 'the study gives no c0 that could be uncertain; use "c0_over_R", or remove'),
         ({"uncertainty": {"colour": 1.0}}, "uncertainty.colour .* not an input of a study; choose from"),
         ({"uncertainty": {"modulos": "1 %"}}, 'not an input of a study; did you mean "modulus"'),
-        ({"uncertainty": {}}, "uncertainty: nothing is uncertain"),
+        ({"uncertainty": {}}, "uncertainty: no input is uncertain"),
         ({"uncertainty": {"modulus": "0 %"}}, "a percentage is above 0 and at most 100"),
         ({"uncertainty": {"modulus": "5"}}, "not a deviation; write for example modulus = "),
         ({"uncertainty": {"modulus": -3.0}}, "a standard deviation is above 0, and finite"),

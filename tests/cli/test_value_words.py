@@ -8,7 +8,7 @@ import pytest
 from click.testing import Result
 
 import gradhesion as gr
-from gradhesion.cli.words.value_words import MOST, WIDTH, values_told
+from gradhesion.cli.words.value_words import MOST, WIDTH, value_lines
 
 Call = Callable[..., Result]
 PUNCH: dict[str, Any] = {"k": 0.0, "nu": 0.3, "modulus": 500.0, "c0_over_R": 0.01, "lambda_over_R": 0.1, "a_max_over_R": 1.0}  # fmt: skip
@@ -16,7 +16,7 @@ TIP: dict[str, Any] = {"nu": 0.3, "A": 0.0, "R": "1 um", "E_star": "1 GPa", "wor
 
 
 def lines(dataset: Any, *varying: str) -> list[str]:
-    return list(values_told(dataset, varying))[1:]
+    return list(value_lines(dataset, varying))[1:]
 
 
 def test_each_scene_has_a_line_with_its_parameters_and_values() -> None:

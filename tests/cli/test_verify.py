@@ -106,10 +106,10 @@ def test_an_edited_study_is_told(gradhesion: Call, dataset_file: Path) -> None:
         ('"pull_off_radius", ', "", None),
         ("A = [", "B = [", "its study is not valid in this version (its study: parameters."),
         ("[parameters]", "[parameters", "its study is not valid TOML"),
-        ("[parameters]", "[method]\nsolver = 'asymptotic'\n[parameters]", "has no independent twin"),
+        ("[parameters]", "[method]\nsolver = 'asymptotic'\n[parameters]", "without an independent twin"),
         ("[parameters]", "[method]\nsolver = 'envelope'\n[parameters]", 3),
         ("[parameters]", "[method]\ncheck_contact = false\n[parameters]", None),
-        ("title = ", "kind = 'curve'\ntitle = ", "holds a curve; `gradhesion verify` takes maps"),
+        ("title = ", "kind = 'curve'\ntitle = ", "contains a curve; `gradhesion verify` accepts only maps"),
     ],
 )
 def test_a_study_of_another_dataset_is_told(
@@ -181,7 +181,7 @@ def test_scenes_without_a_value_must_have_none(gradhesion: Call, dataset_file: P
     result = gradhesion("verify", dataset_file, *ALL)
     assert result.exit_code == 0
     assert "12 of 24 scenes recomputed" in result.stdout
-    assert "12 scenes drawn have failed" in result.stdout
+    assert "12 sampled scenes have failed" in result.stdout
     with netCDF4.Dataset(dataset_file, "a") as file:
         file["pull_off_radius"][0, 1, 1, 1] = 0.2
     result = gradhesion("verify", dataset_file, *ALL)
@@ -206,7 +206,7 @@ def test_scenes_of_too_many_waves_are_left_out_and_others_drawn(
     result = gradhesion("verify", path, *ALL)
     assert result.exit_code == 0, result.stdout + result.stderr
     assert "12 of 16 scenes recomputed" in result.stdout  # without amplitude a wavelength of any size is fine
-    assert "4 scenes drawn have more waves than are followed" in result.stdout
+    assert "4 sampled scenes have more waves than can be followed" in result.stdout
     result = gradhesion(
         "run",
         study_file,
@@ -265,7 +265,7 @@ def test_of_several_solvers_those_with_a_twin_are_recomputed(
     result = gradhesion("verify", path, *ALL)
     assert result.exit_code == 0, result.stdout + result.stderr
     assert "48 of 48 scenes recomputed (--seed 1), 144 values, solver envelope and exact" in result.stdout
-    assert "all of the solver asymptotic: there is nothing independent to compare with" in result.stdout
+    assert "all of the solver asymptotic: there is no independent solution to compare with" in result.stdout
     with netCDF4.Dataset(path, "a") as file:
         file["pull_off_force"][0] *= 2.0  # nobody knows
         file["pull_off_force"][1, 0, 2, 1, 1] *= 1 + 1e-11
@@ -326,7 +326,7 @@ def test_a_tolerance_that_is_not_met_is_a_failure_with_values(gradhesion: Call, 
         file["pull_off_force"][0] *= 1.5
     result = gradhesion("verify", dataset_file, *ALL)
     assert result.exit_code == 0
-    assert "12 scenes drawn have failed, as their status says" in result.stdout
+    assert "12 sampled scenes have failed, as their status shows" in result.stdout
 
 
 GENERAL = (

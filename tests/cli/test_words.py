@@ -75,7 +75,7 @@ def test_an_uncertain_input_is_that_of_the_study() -> None:
     study = of_units(amplitude="1 nm")
     del study["parameters"]["A"]
     (sentence,) = mistakes_of(**study, uncertainty={"A": 0.01})
-    assert 'the study gives no A to be uncertain; use "amplitude"' in sentence
+    assert 'the study gives no A that could be uncertain; use "amplitude"' in sentence
     (sentence,) = mistakes_of(**study, uncertainty={"amplitude": 0.1})
     assert 'write amplitude = "10 %"' in sentence
 

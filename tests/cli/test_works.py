@@ -119,7 +119,7 @@ def test_an_optimum_may_be_sought_over_the_ratio() -> None:
         ),
         (
             OUTPUTS + PARAMETERS + PHYSICAL + 'a_max = "0.5 mm"\nwork_of_adhesion_closing = "60 mJ/m^2"\n',
-            "work_of_adhesion_closing = 0.06 J/m^2 stands beside work_of_adhesion = 0.05 J/m^2",
+            "work_of_adhesion_closing = 0.06 J/m^2 exceeds work_of_adhesion = 0.05 J/m^2",
         ),
         (
             OUTPUTS

@@ -215,7 +215,7 @@ RADII = {
     "file": ('"radii.csv"', '= "radii.csv": this must be a list of numbers in brackets; write'),
     "many": ("[" + ", ".join(f"{0.1 + i / 1e4}" for i in range(101)) + "]", "a study draws 100 states at most; leave some out"),
     "twice": ("[0.1, 0.10]", "[1] = 0.1: this radius is given twice; remove one of the two"),
-    "beyond the rim": ("[0.5]", "[0] = 0.5: a contact is no wider than its punch, a_max_over_R = 0.45; use"),
+    "beyond the rim": ("[0.5]", "[0] = 0.5: a contact cannot be wider than its punch, a_max_over_R = 0.45; use"),
     "no separator": ("[0.1 0.2]", "not valid TOML, unclosed array"),
     "hexadecimal": ("[0x1p-3]", "not valid TOML"),
 }  # fmt: skip

@@ -162,5 +162,7 @@ def test_the_waves_of_the_tutorial_are_as_high_as_it_says() -> None:
     """From crest to trough a wave A lambda cos(2 pi r/lambda) is 2 A lambda."""
     page = next(page for page in PAGES if page.stem == "tutorial")
     (study,) = [tomllib.loads(block.text) for block in blocks_of(page) if block.language == "toml"]
-    (said,) = re.findall(r"waves of a (\w+) of their length in height", page.read_text(encoding="utf-8"))
+    (said,) = re.findall(
+        r"height, from crest to trough, is a (\w+) of\s+their length", page.read_text(encoding="utf-8")
+    )
     assert 2.0 * study["parameters"]["A"] == {"tenth": 0.1, "twentieth": 0.05}[said]

@@ -151,7 +151,7 @@ def test_workers_that_all_die_end_the_run_and_lose_nothing(
     first, *_, last = result.stderr.splitlines()
     assert first.endswith("waiting for workers; without any for 3 s the run ends")
     assert last == (
-        "--engine dask: no worker has been there for 3 s; finished parts are kept, and the same command resumes once "
+        "--engine dask: no worker has been connected for 3 s; finished parts are kept, and the same command resumes once "
         "there are workers"
     )
     kept = len(folder.parts())

@@ -135,7 +135,7 @@ def test_a_scheduler_that_no_worker_is_left_for(
         cluster.end()
     assert alone.exit_code == 4, alone.stderr
     assert alone.stderr.splitlines()[-1] == (
-        f"--engine dask: no worker has been there for {1 if timeout else 2} s; finished parts are kept, and the "
+        f"--engine dask: no worker has been connected for {1 if timeout else 2} s; finished parts are kept, and the "
         "same command resumes once there are workers"
     )
     assert 0 < len(folder_of(output).parts()) < 6
@@ -175,7 +175,7 @@ def test_a_block_whose_worker_is_lost_before_it_is_looked_at(
     with dask.config.set({"distributed.scheduler.no-workers-timeout": "2s"}):
         alone = gradhesion("run", study_file, "-o", output, "--engine=dask", "--scheduler", by_hand.file)
     assert alone.exit_code == 4, alone.stderr
-    assert "--engine dask: no worker has been there for 2 s; finished parts are kept" in alone.stderr
+    assert "--engine dask: no worker has been connected for 2 s; finished parts are kept" in alone.stderr
     assert len(folder_of(output).parts()) == 1
     by_hand.orders.give()
     again = gradhesion("run", study_file, "-o", output)
@@ -216,13 +216,13 @@ def test_mistakes(
     for arguments in (["--scheduler=tcp://127.0.0.1:9"], ["--engine=dask", "--scheduler=f", "--threads=2"]):
         result = gradhesion(*run, *arguments)
         assert result.exit_code == 2
-        assert "--scheduler goes with --engine dask, and without --threads" in result.stderr
+        assert "--scheduler needs --engine dask, without --threads" in result.stderr
     for scheduler, sentence in (
         ("tcp://127.0.0.1:9", "no Dask scheduler answers"),
         ("nonsense://1", "no Dask scheduler answers"),
         ("tcp://127.0.0.1", "no Dask scheduler answers"),
         ("tls://127.0.0.1:9", "no Dask scheduler answers"),  # without a certificate
-        (str(tmp_path / "none.json"), "neither an address, as tcp://host:8786, nor the file of a scheduler"),
+        (str(tmp_path / "none.json"), "neither an address, such as tcp://host:8786, nor the file of a scheduler"),
     ):
         with dask.config.set({"distributed.comm.timeouts.connect": "300ms"}):
             result = gradhesion(*run, "--engine=dask", "--scheduler", scheduler)

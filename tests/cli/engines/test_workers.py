@@ -141,7 +141,7 @@ def test_workers_that_die_one_after_the_other_end_the_run(
         cluster.end()
     assert result.exit_code == 4, result.stderr
     assert result.stderr.splitlines()[-1].endswith(
-        "workers have come and gone since a block was last finished; give them the memory and the time that `gradhesion "
+        "workers have started and ended since the last finished block; give them the memory and the time that `gradhesion "
         "plan` shows; finished parts are kept, and the same command resumes"
     )
 
@@ -165,9 +165,9 @@ def test_workers_that_are_paused_end_the_run(
     finally:
         cluster.end()
     assert result.exit_code == 4, result.stderr
-    assert "as Dask has paused all workers for want of memory; after 2 s the run ends" in result.stderr
+    assert "because Dask has paused all workers for lack of memory; after 2 s the run ends" in result.stderr
     assert result.stderr.splitlines()[-1].endswith(
-        "Dask has paused all workers (1) for want of memory for 2 s; give them the memory that `gradhesion plan` shows; "
+        "Dask has paused all workers (1) for lack of memory for 2 s; give them the memory that `gradhesion plan` shows; "
         "finished parts are kept, and the same command resumes"
     )
 
@@ -207,4 +207,4 @@ def test_one_block_needs_no_cluster(
     monkeypatch.setenv("GRADHESION_CHUNK", "100")
     result = gradhesion("run", study_file, "-o", output, "--engine=dask")
     assert result.exit_code == 0
-    assert "the study is of one block or of curves, and is solved in this process" in result.stderr
+    assert "the study has one block or consists of curves, and is solved in this process" in result.stderr
