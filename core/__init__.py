@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from gradhesion.core.curves import draw_curves
     from gradhesion.core.kinds import (
         APART,
+        CPU_SECONDS,
         KERNELS,
         KINDS,
         MANY_SMOOTH,
@@ -61,6 +62,7 @@ __all__ = [
     "APART",
     "CACHE_FOLDER",
     "CONTROLS",
+    "CPU_SECONDS",
     "CURVES",
     "DOUBTFUL",
     "FAILED",
@@ -102,6 +104,7 @@ _HOMES: Final = {
     "curves": ("draw_curves",),
     "kinds": (
         "APART",
+        "CPU_SECONDS",
         "KERNELS",
         "KINDS",
         "MANY_SMOOTH",

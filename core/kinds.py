@@ -114,6 +114,35 @@ KERNELS: Final[dict[str, int]] = {
 }
 """About how many kernels a kind compiles after those that it needs, in one process."""
 
+CPU_SECONDS: Final[dict[str, float]] = {
+    "tables": 2.5,
+    "force": 2.0,
+    "energy": 11.0,
+    "smooth": 1.5,
+    "reports": 2.5,
+    "turning": 3.5,
+    "envelope": 0.5,
+    "curves": 3.5,
+    "sensitivities": 7.0,
+    "general_force": 5.0,
+    "general_energy": 16.0,
+    "general_reports": 4.5,
+    "general_turning": 6.0,
+    "general_sensitivities": 10.0,
+    "general_envelope": 0.0,
+    "general_curves": 7.5,
+    "edge": 1.0,
+    "asymptotic": 2.5,
+    "patterned": 9.0,
+    "patterned_reports": 2.0,
+    "patterned_turning": 3.5,
+    "patterned_sensitivities": 4.0,
+    "patterned_curves": 3.0,
+    "rate": 3.0,
+    "loops": 1.0,
+}
+"""About how long that takes one core, on a machine where both outputs of a first map take 14 s."""
+
 
 def before(kind: str) -> set[str]:
     """Return all kinds that are compiled before a kind.

@@ -89,7 +89,9 @@ def noise_of(dataset: xarray.Dataset) -> tuple[float, float]:
 
 def value_lines(dataset: xarray.Dataset) -> Iterator[str]:
     """Report each value with its interval."""
-    for i, name in enumerate(map(str, dataset[PARAMETER].values)):
+    names = list(map(str, dataset[PARAMETER].values))
+    width = max(20, *map(len, names))
+    for i, name in enumerate(names):
         unit = str(dataset[PARAMETER_UNITS].values[i])
         value, deviation, low, high = (float(dataset[column].values[i]) for column in COLUMNS[:4])
         at_end = "  at an end of its range" if dataset["on_bound"].values[i] else ""
@@ -97,7 +99,7 @@ def value_lines(dataset: xarray.Dataset) -> Iterator[str]:
             ends = (float(dataset[column].values[i]) for column in ("low_searched", "high_searched"))
             at_end += ", {:.6g} to {:.6g}".format(*ends)
         written = f"{value:.6g} +- {deviation:.2g}{'' if unit == '1' else ' ' + unit}"
-        yield f"  {name:<20} {written:<34} {low:.6g} to {high:.6g}{at_end}"
+        yield f"  {name:<{width}} {written:<34} {low:.6g} to {high:.6g}{at_end}"
 
 
 def _quality(dataset: xarray.Dataset) -> Iterator[str]:

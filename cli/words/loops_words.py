@@ -81,9 +81,11 @@ def _of_all(dataset: xarray.Dataset) -> Iterator[str]:
     sound = ~np.isnan(values).any(axis=1)
     yield ""
     yield f"median of {counted(int(sound.sum()), 'loop')}, with quartiles"
-    for name, column in zip(map(str, dataset[PARAMETER].values), values[sound].T, strict=True):
+    names = list(map(str, dataset[PARAMETER].values))
+    width = max(20, *map(len, names))
+    for name, column in zip(names, values[sound].T, strict=True):
         low, middle, high = np.quantile(column, [0.25, 0.5, 0.75])
-        yield f"  {name:<20} {middle:<12.6g} {low:.6g} to {high:.6g}"
+        yield f"  {name:<{width}} {middle:<12.6g} {low:.6g} to {high:.6g}"
 
 
 def _said(dataset: xarray.Dataset) -> Iterator[str]:

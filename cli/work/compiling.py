@@ -1,14 +1,14 @@
 """Compiling that explains itself: what is compiled, how far it is, and how long it took."""
 
+import math
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Final
 
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.work.kernels import compile_kinds, missing_of, refuse_without_compiler
-from gradhesion.core import KERNELS, place
+from gradhesion.core import CPU_SECONDS, KERNELS, place
 from gradhesion.core.compiler.ahead import why_not
 
 WORDS = {
@@ -33,9 +33,6 @@ WORDS = {
 }
 """The kinds of work, in words."""
 
-SECONDS: Final = 0.07
-"""Processor time to compile a kernel, about: 20 s for the 285 of cycles and energies; 0.05 to 0.15 elsewhere."""
-
 
 def prepare(kinds: Sequence[str], *, quiet: bool = False) -> None:
     """
@@ -50,7 +47,8 @@ def prepare(kinds: Sequence[str], *, quiet: bool = False) -> None:
     say_why()
     total = sum(KERNELS[kind] for kind in missing)
     what = _in_words(missing)
-    work = f"about {total} kernels, {SECONDS * total:.0f} CPU seconds of one core, " if total else ""
+    expected = math.ceil(sum(CPU_SECONDS[kind] for kind in missing))
+    work = f"about {total} kernels, {expected} CPU seconds of one core, " if total else ""
     messages.say("compile", f"compiling {work}for {what}, once per version and kind of work")
     start = time.monotonic()
     with _shown(total, quiet=quiet) as done:
