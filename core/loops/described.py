@@ -6,7 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import t
+from scipy.special import stdtrit
 
 from gradhesion.core.loops.alike import alike
 from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop, OtherMinimum, poor_from
@@ -39,7 +39,7 @@ def described(
     unit = max(1.0, float(residual @ residual) / degrees) if widened else 1.0
     covariance *= unit
     spread = np.sqrt(np.diag(covariance))
-    values, factor = misfit.named(done.x), float(t.ppf(0.5 * (1.0 + LEVEL), degrees))
+    values, factor = misfit.named(done.x), float(stdtrit(degrees, 0.5 * (1.0 + LEVEL)))
     ends = done.x - factor * spread, done.x + factor * spread
     if intervals == "profile":
         pairs = [

@@ -5,7 +5,7 @@ from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2
+from scipy.special import chdtri
 
 from gradhesion.core.loops.misfit import Misfit
 from gradhesion.core.loops.model import WAVELENGTHS
@@ -86,7 +86,7 @@ def polished(fine: Misfit, found: list[Any]) -> list[Any]:
 
 def _rise(done: Any) -> float:
     """Return by how much chi square rises from a minimum to what the noise allows."""
-    return float(chi2.ppf(_ALLOWED, done.x.size))
+    return float(chdtri(done.x.size, 1.0 - _ALLOWED))
 
 
 def others(found: list[Any], covariance: _Array, unit: float) -> list[Any]:

@@ -8,7 +8,6 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from gradhesion.core.loops.misfit import Misfit
 from gradhesion.core.loops.offsets import NAMES as OFFSETS
@@ -47,8 +46,12 @@ def smooth_starts(misfit: Misfit, load_zero: float, contact: float, seed: int) -
         shares = (np.arange(_CONTACTS) + 0.5) / _CONTACTS
         depths = np.append(lows[i] + shares * (highs[i] - lows[i]), contact)
         depths = np.clip(depths[np.isfinite(depths)], lows[i], highs[i])
-    others = [i for i, name in enumerate(names) if name not in OFFSETS and name not in _MODULI]
-    drawn = qmc.Sobol(max(1, len(others)), seed=seed).random(2**6)
+    others = [i for i, name in enumerate(names) if name not in (*OFFSETS, *_MODULI, "work_of_adhesion")]
+    drawn = np.empty((1, 0))
+    if others:
+        from scipy.stats import qmc  # noqa: PLC0415 (it takes longer than most fits)
+
+        drawn = qmc.Sobol(len(others), seed=seed).random(2**6)
     begun = []
     for number, depth in enumerate(np.tile(depths, _WORKS)):
         vector = 0.5 * (lows + highs)

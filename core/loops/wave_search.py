@@ -10,7 +10,6 @@ from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import find_peaks, lombscargle
 
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
 from gradhesion.core.loops.misfit import Misfit
@@ -35,6 +34,8 @@ _LEAST, _MOST = 8, 14
 
 def spectrum(smooth: Misfit, vector: _Array, lengths: tuple[float, float]) -> _Array:
     """Return the wavelengths in m at which the residual of a smooth punch repeats most, the strongest first."""
+    from scipy.signal import find_peaks, lombscargle  # noqa: PLC0415 (a loop without waves does without its half second)
+
     drawn = smooth.path(vector)
     if drawn is None:
         return np.empty(0)
