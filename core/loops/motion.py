@@ -46,14 +46,12 @@ def moving(model: LoopModel, vector: _Array, drawn: LoopPath) -> _Array:
         places = np.array([depth + scenes.compliance * load, load])
         if drawn.is_pressed:
             at = int(np.searchsorted(within, drawn.turn))
-            x, y = drawn.places[drawn.turn] - model.shift(vector)[:2]
-            turn = float(x), float(y - model.shift(vector)[2] * drawn.places[drawn.turn, 0])
-            _press(model, places[:, :, at], found.slope[:, at], scenes, turn)
+            _press(model, places[:, :, at], found.slope[:, at], scenes, _turned(model, vector, drawn))
         moves = (places[:, : len(inner)] - places[:, len(inner) :]) / (2.0 * steps[:, None])
         moved[within[0] : within[-1] + 1, :, inner] = moves.transpose(2, 0, 1)
     tilt = model.shift(vector)[2]
     if within.size:
-        _slide(model, drawn, moved)
+        _slide(model, drawn, moved, _turned(model, vector, drawn)[1])
     for axis, name in enumerate(OFFSETS[:2]):
         if name in model.names:
             moved[:, axis, model.names.index(name)] += 1.0
@@ -63,6 +61,14 @@ def moving(model: LoopModel, vector: _Array, drawn: LoopPath) -> _Array:
     return moved
 
 
+def _turned(model: LoopModel, vector: _Array, drawn: LoopPath) -> tuple[float, float]:
+    """Return the depth (of the machine, unless that of the specimen is given) and the load of the turn, unshifted."""
+    depth, load, tilt = model.shift(vector)
+    x, y = (float(each) for each in drawn.places[drawn.turn])
+    y -= load + tilt * x
+    return x - depth - (drawn.scene.compliance * y if model.turns_at_depth else 0.0), y
+
+
 def _press(model: LoopModel, places: _Array, slope: _Array, scenes: Scenes, turn: tuple[float, float]) -> None:
     """Press the contact of scenes, pinned at the rim, on to the coordinate of the turn; places of shape (2, n)."""
     compliance = np.broadcast_to(scenes.compliance, (slope.size, 1))[:, 0]
@@ -70,13 +76,16 @@ def _press(model: LoopModel, places: _Array, slope: _Array, scenes: Scenes, turn
     if model.loading.control == "load":
         places[0] += (y - places[1]) / slope
         places[1] = y
+    elif model.turns_at_depth:
+        places[1] += slope * (x - places[0] + compliance * places[1])
+        places[0] = x + compliance * places[1]
     else:
         places[1] += slope * (x - places[0]) / (1.0 + compliance * slope)
         places[0] = x
 
 
-def _slide(model: LoopModel, drawn: LoopPath, moved: _Array) -> None:
-    """Move the turn, and the places where jumps land, along their branches to stay at their coordinates."""
+def _slide(model: LoopModel, drawn: LoopPath, moved: _Array, load_max: float) -> None:
+    """Move the turn, at a load, and the places where jumps land, along their branches to stay at their coordinates."""
     scene, turn, axis = drawn.scene, drawn.turn, int(model.loading.control == "load")
     landings = np.flatnonzero(drawn.jump & (drawn.radius > 0.0))
     at = np.concatenate([[turn, turn + 1], landings])
@@ -99,8 +108,14 @@ def _slide(model: LoopModel, drawn: LoopPath, moved: _Array) -> None:
             for name, of in ((OFFSETS[by], -1.0), (OFFSETS[2], -by * model.furthest[0])):
                 if name in model.names:
                     target[model.names.index(name)] = of
-        if along[0, by] > 0.0:
-            rate = (target - moved[turn, by]) / along[0, by]
+        gone, ahead = moved[turn, by].copy(), along[0, by]
+        if by == 0 and model.turns_at_depth:  # depth of the specimen: that of the machine less what its spring yields
+            gone -= scene.compliance * moved[turn, 1]
+            ahead -= scene.compliance * along[0, 1]
+            if "spring_constant" in model.names:
+                gone[model.names.index("spring_constant")] += scene.compliance * load_max
+        if ahead > 0.0:
+            rate = (target - gone) / ahead
             ends = 1 if drawn.is_pressed else 2  # at the rim the edge stays
             moved[turn : turn + ends] += along[:ends, :, None] * rate
     for landing, slope in zip(landings, along[2:], strict=True):

@@ -135,6 +135,11 @@ class LoopModel(Model):
         super().__init__(fixed, names, profile, loading or Loading(), toughness)
         self.furthest, self.blur, self.first = furthest, blur, first
 
+    @property
+    def turns_at_depth(self) -> bool:
+        """Whether a given depth of the specimen is turned at, while the far end of a machine is driven."""
+        return self.turns == "indentation_max_over_R" and self.loading.control == "machine"
+
     def shift(self, vector: _Array) -> tuple[float, ...]:
         """Return the zeros of depth and load, and the tilt, of a vector."""
         return tuple(float(vector[self.names.index(name)]) if name in self.names else 0.0 for name in OFFSETS)
@@ -208,15 +213,26 @@ class LoopModel(Model):
                 return None
             states = self.states(scene, grid)
             up = Walk(*climb(grid, self._coordinate(scene, *states.at(scene.root)), 0.0))
-            levels = self.states(scene, up.radius).at(scene.root)[1] if by_load else up.level
-            place = _met(up.radius, up.jump, levels, aim)
+            passed = (up.level, up.level)
+            if by_load or self.turns_at_depth:
+                passed = self.states(scene, up.radius).at(scene.root)
+            place = _met(up.radius, up.jump, passed[int(by_load)], aim)
             if place is not None:
                 blurred = not by_load and not self.turns and self.blur > 0.0
                 turned = self._further(scene, up, place, targets) if blurred else (place, by_load)
                 return self._joined(scene, grid, states, up, turned, None, first)
             if end == rim:
-                return self._joined(scene, grid, states, up, (rim, False), aim if aim < math.inf else None, first)
+                pressed = self._pressed(scene, aim) if aim < math.inf else None
+                return self._joined(scene, grid, states, up, (rim, False), pressed, first)
         return None
+
+    def _pressed(self, scene: Scenes, aim: float) -> float:
+        """Return what is prescribed where a contact that is pinned at the rim is pressed on to the turn."""
+        if not self.turns_at_depth:
+            return aim
+        found = self.states(scene, np.array([scene.rim]))
+        (depth,), (load,) = found.at(scene.root)
+        return float(aim + scene.compliance * (load + float(found.slope[0]) * (aim - depth)))
 
     def _further(self, scene: Scenes, up: Walk, place: float, targets: tuple[float, float]) -> tuple[float, bool]:
         """Return the radius at which loading turns, and whether its load says so.

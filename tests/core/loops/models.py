@@ -68,6 +68,11 @@ CASES: Final = {
         {"loading": Loading(control="machine")},
         {"machine_stiffness": SPRING / (1e7 * R)},
     ),
+    "machine at the rim": Case(
+        {"spring_constant": SPRING, "indentation_max": TURN * R, "a_max": 0.2 * R},
+        {"loading": Loading(control="machine")},
+        {"machine_stiffness": SPRING / (1e7 * R), "a_max_over_R": 0.2},
+    ),
     "load control": Case(more={"loading": Loading(control="load")}, scene={"load_max": 5e-7 / UNIT}, highest=5e-7),
     "closing ratio 0.3": Case({"closing_ratio": 0.3}, scene={"closing_ratio": 0.3}),
     "closing ratio 0": Case({"closing_ratio": 0.0}, scene={"closing_ratio": 0.0}),

@@ -18,7 +18,8 @@ SEARCHED: dict[str, tuple[str, ...]] = {
     "series": ALL,
     "rim": ALL,
     "preload": ("preload", *ALL[:4], "load_offset"),
-    "machine": (*ALL[:4], "spring_constant", *NAMES),
+    "machine": (*ALL[:4], "spring_constant", "indentation_max", *NAMES),
+    "machine at the rim": ("indentation_max", "spring_constant", *ALL),
     "load control": ALL,
     "closing ratio 0.3": ("closing_ratio", *ALL),
     "closing ratio 0": ALL,
@@ -67,7 +68,7 @@ def test_distances_change_as_those_to_a_path_that_is_drawn_again(name: str) -> N
     own, here = misfit(name, seed=1)
     exact = own.jacobian(here)
     for i, one in enumerate(own.names):
-        step = STEP * (NOISE[NAMES.index(one)] if one in NAMES[:2] else 1.0)
+        step = STEP * {NAMES[0]: NOISE[0], NAMES[1]: NOISE[1], "indentation_max": NOISE[0]}.get(one, 1.0)
         ends = [here + sign * step * np.eye(here.size)[i] for sign in (1.0, -1.0)]
         places = [feet_of(own, end) for end in ends]
         same = np.hypot(*(places[0] - places[1]).T) < 0.3

@@ -17,24 +17,20 @@ def test_a_path_lies_where_drawn_curves_do(name: str) -> None:
     """Within 0.003 of a wave, jumps and turn included; ends of jumps along them to 1e-4 of the radius."""
     case = CASES[name]
     own, drawn = case.model(), case.drawn()
+    own.fineness = 3  # as a fit ends with
     found = own.path(vector(own))
     assert found is not None
     back, jump = drawn["path_unloading"] > 0, drawn["path_jump"] > 0
-    if name == "machine":  # what is drawn turns at a depth of the specimen, this path where its far end does
-        at = np.flatnonzero(~back & (drawn["x"] < found.places[found.turn, 0]))
-        back[at[-1] + 1 :], keep = True, slice(0, at[-1] + 1)
-    else:
-        keep = slice(None)
-        assert np.count_nonzero(found.jump & (found.radius > 0.0)) >= np.count_nonzero(jump) - 2
-        end = found.turn - found.is_pressed  # what is drawn turns at the rim
-        most = max(0.0, drawn["y"].max())
-        assert max(0.0, found.places[: end + 1, 1].max()) == pytest.approx(most, abs=1e-5 * UNIT), "by a cubic"
-        assert -found.places[:, 1].min() == pytest.approx(-drawn["y"].min(), rel=5e-4), "pull-off"
-        assert found.places[end, 0] == pytest.approx(drawn["x"].max(), rel=1e-6)
+    assert np.count_nonzero(found.jump & (found.radius > 0.0)) >= np.count_nonzero(jump) - 2
+    end = found.turn - found.is_pressed  # what is drawn turns at the rim
+    most = max(0.0, drawn["y"].max())
+    assert max(0.0, found.places[: end + 1, 1].max()) == pytest.approx(most, abs=1e-5 * UNIT), "by a cubic"
+    assert -found.places[:, 1].min() == pytest.approx(-drawn["y"].min(), rel=5e-4), "pull-off"
+    assert found.places[end, 0] == pytest.approx(drawn["x"].max(), rel=1e-6)
     points = np.column_stack([drawn["x"], drawn["y"]])
     for way, piece in ((~back, slice(0, found.turn + 1)), (back, slice(found.turn, None))):
-        own_points = points[keep][way[keep]]
-        if own_points.size and not (name == "machine" and piece.start):
+        own_points = points[way]
+        if own_points.size:
             nearest = feet(own_points / WAVE, found.places[piece] / WAVE, found.curved[piece])
             assert np.abs(nearest.distance).max() < 3e-3
 
