@@ -118,6 +118,8 @@ _REMEDIES: Final = {
 }
 """What to do about problems of TOML that no single line has, by what the parser calls them."""
 
+_COMMA: Final = re.compile(r"=\s*([+-]?\d+),(\d+)")
+
 
 def _syntax_sentence(path: Path, text: str, problem: str) -> str:
     """Say where a text is not TOML, and show the line of what is meant as a study: any other file may hold secrets."""
@@ -129,7 +131,9 @@ def _syntax_sentence(path: Path, text: str, problem: str) -> str:
     shown = f" in {wording.shown(lines[line - 1].strip())}" if path.suffix == ".toml" else ""
     column = f" (column {at[2]})" if at[2] else ""
     what = problem[: at.start()]
-    remedy = next((remedy for start, remedy in _REMEDIES.items() if what.startswith(start)), "fix this line")
+    comma = _COMMA.search(lines[line - 1]) if shown else None
+    usual = f"write a decimal point, {comma[1]}.{comma[2]}" if comma else "fix this line"
+    remedy = next((remedy for start, remedy in _REMEDIES.items() if what.startswith(start)), usual)
     return f"{path}:{line}: not valid TOML, {what[0].lower()}{what[1:]}{column}{shown}; {remedy}"
 
 

@@ -220,6 +220,12 @@ MISTAKES = {
         r':11: parameters.lambda_over_R = .*it has 3 values, but k has 2; with layout = "points"',
     ),
     "not TOML": ("kind = ", "kind ", r":2: not valid TOML, .*fix this line"),
+    "decimal comma": ("nu = 0.3", "nu = 0,3", r':8: not valid TOML, .* in "nu = 0,3"; write a decimal point, 0\.3$'),
+    "decimal comma in a range": (
+        "start = 0.1",
+        "start = 0,1",
+        r":11: not valid TOML, .*; write a decimal point, 0\.1$",
+    ),
     "key twice": (
         "nu = 0.3",
         "nu = 0.3\nnu = 0.4",

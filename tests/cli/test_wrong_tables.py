@@ -53,6 +53,8 @@ HEADS = {
 TABLES: dict[str, tuple[str, str]] = {
     "short row": ("@x,@y\n1,2\n\n# more\n3\n", "line 5 has 1 value under 2 names; give each row one value per column"),
     "decimal commas between commas": ("@x,@y\n1,5,2,3\n", "line 2 has 4 values under 2 names; if its numbers have decimal commas, write points"),
+    "decimal commas beside words": ("@x,@y,branch\n1,5,2,25,approach\n", "line 2 has 5 values under 3 names; if its numbers have decimal commas, write points"),
+    "commas in words": ("@x,@y,note\n1.5,2,a,b\n", "line 2 has 4 values under 3 names; give each row one value per column"),
     "decimal commas under unnamed columns": ("@x,@y,,\n1,5,2,3\n", "line 2 has 4 values under 2 names; if its numbers have decimal commas"),
     "decimals or thousands": ("@x;@y\n1,234;2\n", 'line 2: @x = "1,234" may be a decimal or thousands'),
     "commas and points": ("@x;@y\n1.5;2\n3;2,25\n", "line 3 has a comma and line 2 a point in a number; write points for the decimals"),
