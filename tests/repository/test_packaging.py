@@ -87,7 +87,8 @@ def test_the_source_has_what_a_build_needs_and_no_outputs(built: Path) -> None:
     (path,) = built.glob("*.tar.gz")
     with tarfile.open(path) as archive:
         names = {member.name.partition("/")[2] for member in archive.getmembers() if member.isfile()}
-    assert names >= _sources() | {"pyproject.toml", "README.md", "LICENSE"}
+    of_a_reader = {"README.md", "LICENSE", "CHANGELOG.md", "CITATION.cff"}
+    assert names >= _sources() | of_a_reader | {"pyproject.toml", "constraints.txt"}  # pip install -c constraints.txt .
     assert not [name for name in names if name.startswith(("outputs", "build", "."))]
 
 
