@@ -14,8 +14,11 @@ from sphinx.util import logging
 from sphinx.util.typing import ExtensionMetadata
 from sphinx.writers.html5 import HTML5Translator
 
-UNKNOWN: Final = {r"\dots": r"\ldots", r"\bigg|": "|"}
-"""What docutils does not know, and what it does."""
+UNKNOWN: Final = {r"\dots": r"\ldots", "*": r"\ast "}
+"""What docutils does not know or draws too high, and what it does."""
+
+FUNCTION: Final = r"<mi[^>]*>[a-z]{2,}</mi>\s*<mo>&ApplyFunction;</mo>"
+THIN: Final = '<mspace width="0.1667em"></mspace>'
 
 
 def _inline(writer: HTML5Translator, node: nodes.math) -> None:
@@ -36,10 +39,18 @@ def _translated(node: nodes.Element, *, block: bool) -> str:
     for command, known in UNKNOWN.items():
         formula = formula.replace(command, known)
     try:
-        return str(tex2mathml(formula, as_block=block))
+        return _spaced(str(tex2mathml(formula, as_block=block)))
     except MathError as error:
         logging.getLogger(__name__).warning("formula %r: %s", node.astext(), error, location=node)
         return ""
+
+
+def _spaced(drawn: str) -> str:
+    """Put the spaces of TeX beside functions such as sin, none beside a slash or a bar, and primes of the font."""
+    drawn = re.sub(rf"({FUNCTION})(?!\s*(<mrow>\s*)?<mo[^>]*>\()", rf"\1{THIN}", drawn)
+    drawn = re.sub(rf"((?:</m(?:i|n|frac|sub|sup|subsup|row)>|\)</mo>)\s*)({FUNCTION})", rf"\1{THIN}\2", drawn)
+    drawn = drawn.replace("<mo>'</mo>", "<mi>&prime;</mi>")
+    return re.sub(r'<mo stretchy="false">([/|])<', r'<mo lspace="0" rspace="0" stretchy="false">\1<', drawn)
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:
