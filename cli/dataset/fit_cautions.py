@@ -1,6 +1,7 @@
 """What a user should know of a fit: where its cycle leaves the model, and what the loop cannot tell apart."""
 
 from collections.abc import Iterator
+from typing import Final
 
 import numpy as np
 
@@ -10,6 +11,11 @@ from gradhesion.cli.study.fit_study import FitStudy
 from gradhesion.cli.work.fitting import range_words, tabor_of
 from gradhesion.core.arrays.reach import SMALL, is_steep, slopes_of
 from gradhesion.core.loops.fitted import FittedLoop
+from gradhesion.core.loops.offsets import NAMES as OFFSETS
+
+TILT: Final = OFFSETS[2]
+_CLEAR: Final = 6.0
+"""Standard deviations of a tilt that noise does not make: the points of the base line were chosen as level ones."""
 
 
 def cautions_of_fit(study: FitStudy, found: FittedLoop) -> Iterator[str]:
@@ -22,4 +28,16 @@ def cautions_of_fit(study: FitStudy, found: FittedLoop) -> Iterator[str]:
             "not small: the fitted values may be off"
         )
     yield from tabor_warnings(tabor_of(study, found), range_words(study))
+    yield from tilt_warnings(found)
     yield from found.alike
+
+
+def tilt_warnings(found: FittedLoop) -> Iterator[str]:
+    """Say that a base line is not level where that is clear and no tilt is fitted."""
+    line = found.base_line
+    if line is None or TILT in found.names or abs(line.slope) <= _CLEAR * line.slope_deviation:
+        return
+    yield (
+        f"the base line is tilted by {line.slope:.3g} N/m, {abs(line.slope) / line.slope_deviation:.0f} standard "
+        "deviations: write offsets = { slope = true } under [fit]"
+    )

@@ -20,6 +20,8 @@ from gradhesion.core.variables.reduced import parameters_from
 
 USUAL_RANGE: Final = 3e-10
 """The range of the attraction in m where a study has none: about the distance of atoms."""
+_ABSURD: Final = 30.0
+"""A reduced chi square of data that are of another kind."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -124,6 +126,7 @@ def doubts_of(found: FittedLoop) -> Iterator[str]:
             f"a poor fit: reduced chi square {found.reduced_chi_square:.3g}, where "
             f"{poor_from(found.degrees_of_freedom):.3g} is the most that noise explains; try another model, wider "
             "ranges, or the noise as it is (fit.noise)"
+            + (", and check the signs of depth and load" if found.reduced_chi_square > _ABSURD else "")
         )
     for other in found.others:
         yield (

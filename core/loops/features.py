@@ -42,8 +42,8 @@ class BaseLine:
         Its load, in N.
     spread
         Standard deviation of its points about that, in N.
-    slope
-        Its tilt, in N/m.
+    slope, slope_deviation
+        Its tilt and the standard deviation of that, in N/m.
     ends
         The depth in m at which it ends on loading and on unloading; NaN where a branch has none.
     """
@@ -51,6 +51,7 @@ class BaseLine:
     level: float
     spread: float
     slope: float
+    slope_deviation: float
     ends: tuple[float, float]
 
 
@@ -144,7 +145,9 @@ def base_line(points: _Array, back: NDArray[np.bool_], noise: float) -> BaseLine
     away = flat - mean
     across = float(away[:, 0] @ away[:, 0])
     slope = float(away[:, 0] @ away[:, 1]) / across if across > 0.0 else 0.0
-    return BaseLine(float(mean[1]), float(away[:, 1].std()), slope, (ends[0], ends[1]))
+    rest = away[:, 1] - slope * away[:, 0]
+    error = float(rest.std()) / across**0.5 if across > 0.0 else float("inf")
+    return BaseLine(float(mean[1]), float(away[:, 1].std()), slope, error, (ends[0], ends[1]))
 
 
 def contact_point(points: _Array, back: NDArray[np.bool_], noise: tuple[float, float]) -> ContactPoint | None:

@@ -173,6 +173,7 @@ def fit_loop(
             misfit = misfit.finer()
             found = polished(misfit, found)
         found_loop = described(misfit, found, intervals, ranges, widened=not noise_is_given)
+    found_loop = replace(found_loop, base_line=line)
     if contact is None:
         return found_loop
     moved = np.array([contact.depth, 0.0])

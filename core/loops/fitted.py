@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.loops.features import ContactPoint
+from gradhesion.core.loops.features import BaseLine, ContactPoint
 
 _Array = NDArray[np.float64]
 
@@ -51,6 +51,8 @@ class FittedLoop:
         Other minima that the noise allows, the best first.
     alike
         Sentences: other models that would explain the data as well.
+    base_line
+        The line of no load of the data, None where they have none.
     contact
         The contact point at which the zero of depth was fixed, if requested.
     turning_radius
@@ -77,6 +79,7 @@ class FittedLoop:
     status: int
     others: tuple[OtherMinimum, ...] = ()
     alike: tuple[str, ...] = ()
+    base_line: BaseLine | None = None
     contact: ContactPoint | None = None
     turning_radius: float = math.nan
     widening: float = 1.0

@@ -6,8 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gradhesion.cli.dataset.fit_cautions import tilt_warnings
 from gradhesion.cli.dataset.model_range import tabor_warnings
 from gradhesion.cli.work.fitting import doubts_of
+from gradhesion.core.loops.features import BaseLine
 from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 
@@ -51,6 +53,8 @@ def test_each_is_a_sentence_with_numbers() -> None:
     assert said(converged=False).startswith("the fit did not converge; ")
     poor = said(chi_square=900.0, status=POOR_FIT)
     assert "reduced chi square 4.5, where 2 is the most" in poor
+    assert "signs" not in poor
+    assert said(chi_square=9e4, status=POOR_FIT).endswith("and check the signs of depth and load")
     other = OtherMinimum(values=VALUES | {"E_star": 4e6}, chi_square=212.5)
     both = said(others=(other,), status=ANOTHER_MINIMUM)
     assert (
@@ -72,6 +76,19 @@ def test_an_end_of_a_range_is_named_with_what_to_do() -> None:
     assert one.endswith("the loop shows one work of adhesion for closing and opening: leave closing_ratio out")
     high = said(on_bound=("work_of_adhesion",), values=VALUES | {"work_of_adhesion": 0.2})
     assert "no adhesion" not in high
+
+
+@pytest.mark.parametrize(("slope", "names", "is_said"), [
+    (1e-3, NAMES, True), (-1e-3, NAMES, True), (5e-4, NAMES, False), (1e-3, (*NAMES, "load_slope"), False)])  # fmt: skip
+def test_a_tilted_base_line_is_said_unless_its_tilt_is_fitted(
+    slope: float, names: tuple[str, ...], is_said: bool
+) -> None:
+    line = BaseLine(level=0.0, spread=1e-9, slope=slope, slope_deviation=1e-4, ends=(0.0, 0.0))
+    found = list(tilt_warnings(fit(base_line=line, names=names)))
+    assert len(found) == is_said
+    if is_said:
+        assert found[0].endswith("10 standard deviations: write offsets = { slope = true } under [fit]")
+    assert not list(tilt_warnings(fit()))
 
 
 @pytest.mark.parametrize(("number", "words"), [(6.0, ""), (4.0, "is below 5: "), (0.09, "is below 0.1: ")])

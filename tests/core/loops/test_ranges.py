@@ -11,7 +11,7 @@ from gradhesion.core.loops.ranges import is_on_bound, searched, zeros_of
 
 POINTS = np.array([[-4.0, 2.0], [-2.0, 2.1], [0.0, 6.0], [1.0, 12.0], [-1.0, -3.0], [-4.0, 2.0]])
 BACK = np.array([False, False, False, False, True, True])
-LINE = BaseLine(level=2.0, spread=0.1, slope=0.0, ends=(-1.5, math.nan))
+LINE = BaseLine(level=2.0, spread=0.1, slope=0.0, slope_deviation=0.01, ends=(-1.5, math.nan))
 
 
 def test_depths_within_the_data_and_loads_by_the_pull_off_force() -> None:
