@@ -64,7 +64,7 @@ def _checked(
     if ("machine_stiffness" in parameters) != (loading.control == "machine"):
         raise ValueError(f"machine_stiffness belongs to control 'machine' and to no other; control {loading.control!r}")
     if loading.control == "load" and "energy_residual" in reports:
-        raise ValueError("energy_residual: a dead load closes no loop; ask for it under another control")
+        raise ValueError("energy_residual: under dead load the cycle is not closed; request it under another control")
     if solver != "exact" and loading != BY_DISPLACEMENT:
         raise ValueError(f"solver {solver!r} is known under displacement control only: {WITHOUT_LOAD[solver]}")
     if (PATTERN[0] in parameters) != (toughness is not None) or (toughness is None and PATTERN[1] in parameters):

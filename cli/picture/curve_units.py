@@ -72,8 +72,8 @@ def units_of(
     units = {}
     for quantity in LABELS:
         names = [variables_of(track)[quantity] for track in tracks]
-        rows = [scene[name] for scene in scenes for name in names if name in scene]
-        ends = np.array([end for row in rows for end in (np.nanmin(row), np.nanmax(row)) if np.isfinite(row).any()])
+        rows = [scene[name] for scene in scenes for name in names if name in scene and np.isfinite(scene[name]).any()]
+        ends = np.array([end for row in rows for end in (np.nanmin(row), np.nanmax(row))])
         sizes = np.clip(ends, *spans[quantity].limits(names[0])) if quantity in spans else ends
         units[quantity] = unit_for(names[0], sizes) if names else Unit()
     return units

@@ -130,7 +130,7 @@ WRONG: dict[str, tuple[dict[str, Any], str]] = {
     "hurst below 0": ({"spectrum": SPECTRUM | {"hurst": -0.2}}, "from 0 to 1"),
     "no last": ({"spectrum": {"hurst": 0.8}}, "profile.spectrum.last: a spectrum needs this key"),
     "first above last": ({"spectrum": SPECTRUM | {"first": 20}}, "profile.spectrum.last = 9: the shortest wave comes before the longest, first = 20; use last = 20 or more"),
-    "too many": ({"spectrum": SPECTRUM | {"last": 65}}, "65 waves, and a series has 64 at most; use last = 64, or a larger first"),
+    "too many": ({"spectrum": SPECTRUM | {"last": 65}}, "65 waves, but a series has at most 64; use last = 64, or a larger first"),
     "realisations": ({"spectrum": SPECTRUM | {"realisations": 0}}, "the number of profiles is an integer from 1 to 100,000"),
     "seed": ({"spectrum": SPECTRUM | {"seed": -1}}, "the seed is an integer of 0 or more"),
     "misspelt": ({"spectrum": SPECTRUM | {"hurts": 0.5}}, 'unknown key; did you mean "hurst"?'),
@@ -148,5 +148,5 @@ def test_every_mistake_names_key_value_and_remedy(name: str, study: dict[str, An
 
 
 def test_curves_are_of_one_punch(study: dict[str, Any]) -> None:
-    with pytest.raises(StudyError, match="random roughness has maps only"):
+    with pytest.raises(StudyError, match="random roughness is available only in maps"):
         study_from(study | {"kind": "curve", "outputs": ["path"]})
