@@ -13,7 +13,6 @@ from gradhesion.core.arrays.reach import SMALL, is_steep, slopes_of
 from gradhesion.core.loops.fitted import FittedLoop
 from gradhesion.core.loops.offsets import NAMES as OFFSETS
 
-TILT: Final = OFFSETS[2]
 _CLEAR: Final = 6.0
 """Standard deviations of a tilt that noise does not make: the points of the base line were chosen as level ones."""
 
@@ -35,7 +34,7 @@ def cautions_of_fit(study: FitStudy, found: FittedLoop) -> Iterator[str]:
 def tilt_warnings(found: FittedLoop) -> Iterator[str]:
     """Say that a base line is not level where that is clear and no tilt is fitted."""
     line = found.base_line
-    if line is None or TILT in found.names or abs(line.slope) <= _CLEAR * line.slope_deviation:
+    if line is None or OFFSETS[2] in found.names or abs(line.slope) <= _CLEAR * line.slope_deviation:
         return
     yield (
         f"the base line is tilted by {line.slope:.3g} N/m, {abs(line.slope) / line.slope_deviation:.0f} standard "

@@ -7,6 +7,7 @@ import numpy as np
 import xarray
 
 from gradhesion.cli.names import ON_BOUND, SI
+from gradhesion.cli.terminal.amounts import counted
 
 MOST: Final = 12
 """Scenes of a table, at most."""
@@ -62,7 +63,7 @@ def _of_several(dataset: xarray.Dataset, varying: Sequence[str], own: Sequence[s
         if written := "".join(GAP + cell for cell in line).rstrip():
             yield written
     if left := len(columns) - shown:
-        yield f"  and {left} more column{'s' if left > 1 else ''}: gradhesion info --format csv"
+        yield f"  and {counted(left, 'more column')}: gradhesion info --format csv"
 
 
 def _column(dataset: xarray.Dataset, name: str) -> list[str]:

@@ -40,17 +40,22 @@ def refined(misfit: Misfit, begun: list[_Array]) -> list[Any]:
     found = [_robust(misfit, start, few) for start in begun]
     found.sort(key=lambda done: done.cost)
     best = distinct([done.x for done in found], misfit)[:_WHOLE]
-    whole = sorted((misfit.refined(vector, most=100) for vector in best), key=lambda done: done.cost)
+    whole = _by_all(misfit, best)
     for _ in range(_HOPS):
         beside = sorted(
             (_robust(misfit, start, few) for start in _beside(misfit, whole[0].x)), key=lambda done: done.cost
         )
-        more = [misfit.refined(done.x, most=100) for done in beside[:2]]
-        is_better = bool(more) and min(done.cost for done in more) < whole[0].cost * (1.0 - _BETTER)
+        more = _by_all(misfit, [done.x for done in beside[:2]])
+        is_better = bool(more) and more[0].cost < whole[0].cost * (1.0 - _BETTER)
         whole = sorted([*whole, *more], key=lambda done: done.cost)
         if not is_better:
             break
     return whole
+
+
+def _by_all(misfit: Misfit, vectors: list[_Array]) -> list[Any]:
+    """Refine vectors by all points, the best first."""
+    return sorted((misfit.refined(vector, most=100) for vector in vectors), key=lambda done: done.cost)
 
 
 def _robust(misfit: Misfit, start: _Array, few: slice) -> Any:
@@ -81,7 +86,7 @@ def polished(fine: Misfit, found: list[Any]) -> list[Any]:
     """Refine the minima that the noise may allow by a finer grid; the best first."""
     allowed = _rise(found[0]) * max(1.0, 2.0 * found[0].cost / fine.back.size)
     near = [done.x for done in found if 2.0 * (done.cost - found[0].cost) <= 2.0 * allowed]
-    return sorted((fine.refined(vector, most=100) for vector in distinct(near, fine)), key=lambda done: done.cost)
+    return _by_all(fine, distinct(near, fine))
 
 
 def _rise(done: Any) -> float:

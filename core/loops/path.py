@@ -213,10 +213,10 @@ class LoopModel(Model):
                 return None
             states = self.states(scene, grid)
             up = Walk(*climb(grid, self._coordinate(scene, *states.at(scene.root)), 0.0))
-            passed = (up.level, up.level)
+            levels = up.level
             if by_load or self.turns_at_depth:
-                passed = self.states(scene, up.radius).at(scene.root)
-            place = _met(up.radius, up.jump, passed[int(by_load)], aim)
+                levels = self.states(scene, up.radius).at(scene.root)[int(by_load)]
+            place = _met(up.radius, up.jump, levels, aim)
             if place is not None:
                 blurred = not by_load and not self.turns and self.blur > 0.0
                 turned = self._further(scene, up, place, targets) if blurred else (place, by_load)

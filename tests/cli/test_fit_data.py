@@ -10,24 +10,15 @@ from click.testing import Result
 
 import gradhesion as gr
 from gradhesion.core.loops.averaging import MOST
+from tests.cli.ball import BALL, COLUMNS, WORK
 
 Call = Callable[..., Result]
 
-STUDY = """
+STUDY = f"""
 kind = "fit"
 [data]
 file = "loop.csv"
-indentation = { column = "depth", unit = "nm" }
-load = { column = "force", unit = "nN" }
-[parameters]
-k = 0.0
-nu = 0.3
-A = 0.0
-[physical]
-R = "5 um"
-E_star = { start = "1 MPa", stop = "100 MPa" }
-work_of_adhesion = { start = "5 mJ/m^2", stop = "200 mJ/m^2" }
-"""
+{COLUMNS}{BALL}{WORK}"""
 
 
 def points(count: int, seed: int = 0) -> dict[str, Any]:

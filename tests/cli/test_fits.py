@@ -17,12 +17,13 @@ from gradhesion.cli.dataset import fit_rows
 from gradhesion.cli.dataset.fit_rows import side_by_side
 from gradhesion.cli.picture.loops_picture import drawn_fits
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, NO_VALUE, POOR_FIT
+from tests.cli.ball import BALL, WORK
 
 Call = Callable[..., Result]
 R = 5e-6
 TRUE = {"0": (1.0e7, 0.030, 40), "1": (1.2e7, 0.035, 30), "2": (0.9e7, 0.040, 35)}
 """Modulus in Pa, work of adhesion in J/m^2 and points of loading, by the name of the file."""
-STUDY = """
+STUDY = f"""
 title = "Spots on a film"
 kind = "fit"
 [data]
@@ -30,17 +31,9 @@ file = "curves/*.csv"
 indentation = "depth"
 load = "force"
 branch = "way"
-[parameters]
-k = 0.0
-nu = 0.3
-A = 0.0
-[physical]
-R = "5 um"
-E_star = { start = "1 MPa", stop = "100 MPa" }
-work_of_adhesion = { start = "5 mJ/m^2", stop = "200 mJ/m^2" }
-[fit]
+{BALL}{WORK}[fit]
 intervals = "linear"
-noise = { indentation = "0.3 nm", load = "5 nN" }
+noise = {{ indentation = "0.3 nm", load = "5 nN" }}
 """
 
 

@@ -10,24 +10,16 @@ from click.testing import Result
 
 import gradhesion as gr
 from gradhesion.cli.picture.measured import read_points
+from tests.cli.ball import BALL, COLUMNS
 
 Call = Callable[..., Result]
 
 STUDIES = {
     "points": 'outputs = ["pull_off_force"]\n[parameters]\npoints = "table.csv"\nk = 0.0\nnu = 0.3\nlambda_over_R = 0.1\n',
-    "fit": """kind = "fit"
+    "fit": f"""kind = "fit"
 [data]
 file = "table.csv"
-indentation = { column = "depth", unit = "nm" }
-load = { column = "force", unit = "nN" }
-[parameters]
-k = 0.0
-nu = 0.3
-A = 0.0
-[physical]
-R = "5 um"
-E_star = { start = "1 MPa", stop = "100 MPa" }
-work_of_adhesion = "30 mJ/m^2"
+{COLUMNS}{BALL}work_of_adhesion = "30 mJ/m^2"
 """,
     "profile": """outputs = ["pull_off_force"]
 [parameters]
