@@ -14,7 +14,7 @@ from gradhesion.cli.dataset.sensitivities import parts_of
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import control_in_words
-from gradhesion.cli.terminal.amounts import bytes_in_words, counted
+from gradhesion.cli.terminal.amounts import bytes_in_words, counted, percent
 from gradhesion.cli.words.curve_words import curve_lines
 from gradhesion.cli.words.optimum_words import bound_lines, point_lines
 from gradhesion.cli.words.sensitivity_words import sensitivity_lines
@@ -205,7 +205,7 @@ def _status(dataset: xarray.Dataset) -> Iterator[str]:
     yield f"status: {scenes - failed:,} of {counted(scenes, 'scene')} ({(scenes - failed) / scenes:.1%}) have values"
     for name, count in counts.items():
         if count:
-            share = f"{count:,} of {counted(scenes, 'scene')} ({100 * count / scenes:.2g} %)"
+            share = f"{count:,} of {counted(scenes, 'scene')} ({percent(count, scenes)})"
             yield f"  {name:<30} {share:<26} {names.FLAGS[name]}"
 
 

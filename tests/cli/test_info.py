@@ -78,6 +78,12 @@ def test_every_flag_that_occurs_is_told_with_its_count_and_share_in_words(
         assert lines[first + 1 : lines.index("origin") - 1] == told[1:], "one that does not occur is not told"
 
 
+def test_a_flag_of_all_scenes_has_a_share_of_100_per_cent(gradhesion: Call, dataset_file: Path) -> None:
+    with netCDF4.Dataset(dataset_file, "a") as file:
+        file["status"][:] = np.ones(file["status"].shape)
+    assert "24 of 24 scenes (100 %)" in gradhesion("info", dataset_file).stdout
+
+
 def test_points_and_single_scenes(gradhesion: Call, study_file: Path, tmp_path: Path) -> None:
     single = [f"--set=parameters.{name}=0.2" for name in ("k", "lambda_over_R", "A", "a_max_over_R")]
     gradhesion("run", study_file, "-o", tmp_path / "1.nc", *single)
