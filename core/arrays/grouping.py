@@ -15,6 +15,10 @@ _TASK: Final = 2048
 """Scenes a task: some milliseconds, a thousand times the cost of handing it to a thread."""
 _FEW: Final = 64
 """Curves of an exponent from which on a table of its own is worth its time."""
+_SHORT: Final = 256
+"""Scenes of a call that one thread solves sooner than several are begun."""
+_SEVERAL: Final = 8
+"""Exponents whose own tables such a call reads side by side."""
 _TOGETHER: Final = 512
 """Exponents of few curves that are one task."""
 _MANY: Final = 128
@@ -42,7 +46,7 @@ class Task:
     Attributes
     ----------
     exponents
-        Their gradient exponents, shape (exponents,): one, or many of few curves each.
+        Their gradient exponents, shape (exponents,): one, several of a short call, or many of few curves each.
     which
         Of each curve, the number of its exponent; shape (curves,).
     index
@@ -55,6 +59,22 @@ class Task:
     which: NDArray[np.int64]
     index: NDArray[np.int64]
     interpolated: bool = False
+
+
+def _of_several(k: NDArray[np.float64], some: NDArray[np.int64] | None) -> Task | None:
+    """Return the task of curves with some exponents k, of shape (n,), None where these are too many.
+
+    `some` are the numbers of the curves, shape (n,); 0 to n - 1 if not given.
+    """
+    order = np.argsort(k, kind="stable")
+    ordered = k[order]
+    which = np.zeros(k.size, dtype=np.int64)
+    np.cumsum(ordered[1:] != ordered[:-1], out=which[1:])
+    count = int(which[-1]) + 1
+    if count > _SEVERAL:
+        return None
+    exponents = ordered[np.searchsorted(which, np.arange(count))]
+    return Task(exponents, which, order if some is None else some[order])
 
 
 @dataclass(frozen=True)
@@ -97,7 +117,7 @@ class Grouped:
         together: int = _TOGETHER,
         as_they_stand: bool = False,
     ) -> list[Task]:
-        """Cut curves into tasks: those of one exponent, or those of many that have few each.
+        """Cut curves into tasks: those of one exponent, of all in a short call, or of many that have few curves each.
 
         Parameters
         ----------
@@ -122,6 +142,8 @@ class Grouped:
                 Task(k[i : i + size], np.arange(min(size, k.size - i)), order[i : i + size], interpolated=True)
                 for i in range(0, k.size, size)
             ]
+        if k.size * self.rims[0].shape[1] <= _SHORT and (task := _of_several(k, some)):
+            return [task]
         order, first = groups_of(k)
         ordered = k[order]
         order = order if some is None else some[order]

@@ -27,13 +27,22 @@ def table_of(k: float) -> Any:
     return _own(k)[0]
 
 
-def tables_for(task: Task, *, forces: bool = False) -> NDArray[Any]:
-    """Return the tables of a task, for kernels that ask for each of them (struve/current.py); shape (1,).
+@lru_cache(maxsize=16)
+def _own_of_several(exponents: tuple[float, ...]) -> NDArray[Any]:
+    """Return the tables of some exponents side by side, of shape (exponents,)."""
+    return np.concatenate([_own(k) for k in exponents])
 
-    What is no exponent has that of exponent 0. With `forces` only pull-off forces are read from them.
+
+def tables_for(task: Task, *, forces: bool = False) -> NDArray[Any]:
+    """Return the tables of a task, for kernels that ask for each of them (struve/current.py).
+
+    What is no exponent has that of exponent 0. With `forces` only pull-off forces are read from them. Their shape is
+    (exponents,), or (1,) where they are interpolated one after the other.
     """
     exponents = np.where((task.exponents >= 0.0) & (task.exponents <= 1.0), task.exponents, 0.0)
-    return table_of_each(exponents, forces=forces) if task.interpolated else _own(float(exponents[0]))
+    if task.interpolated:
+        return table_of_each(exponents, forces=forces)
+    return _own(float(exponents[0])) if exponents.size == 1 else _own_of_several(tuple(exponents.tolist()))
 
 
 def neighbours_for(task: Task) -> tuple[NDArray[Any], NDArray[np.float64]]:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from gradhesion.core import solve
 from gradhesion.core.arrays.grouping import Grouped, grouped
 
 
@@ -27,7 +28,25 @@ def test_every_curve_is_in_one_task(counts: list[int], rims: int) -> None:
         assert task.which.shape == task.index.shape
         np.testing.assert_array_equal(task.exponents[task.which], k[task.index])
         assert task.index.size * rims <= 2048 or task.exponents.size == 1
-        assert task.interpolated or task.exponents.size == 1
+        short = k.size * rims <= 256 and task.exponents.size <= 8
+        assert task.interpolated or task.exponents.size == 1 or (short and len(tasks) == 1)
+
+
+@pytest.mark.parametrize("counts", [[3, 1, 4], [32] * 8])
+def test_a_short_call_is_one_task_and_has_the_bits_of_a_long_one(counts: list[int]) -> None:
+    rng = np.random.default_rng(6)
+    k = np.repeat(rng.uniform(0.0, 1.0, len(counts)), counts)
+    k[0] = np.nan
+    assert len(curves_of(k).tasks()) == (1 if len(counts) < 8 else 9)  # NaN is an exponent too
+    scenes = {"k": k, "nu": 0.3, "modulus": 300.0, "c0_over_R": 0.1, "lambda_over_R": 0.05, "a_max_over_R": 0.4}
+    scenes["A"] = rng.uniform(0.0, 0.05, k.size)
+    turned = scenes | {"indentation_max_over_R": 0.03}
+    for parameters, outputs in ((scenes, ("pull_off_force", "pull_off_force_error")), (scenes, ()), (turned, ())):
+        short = solve(parameters, outputs or ("pull_off_force", "dissipated_energy"))
+        for i in range(k.size):
+            alone = solve({name: np.broadcast_to(v, k.shape)[i] for name, v in parameters.items()}, [*short][:-1])
+            for name, value in alone.items():
+                np.testing.assert_array_equal(short[name][i], value)
 
 
 def test_exponents_of_few_curves_share_a_task() -> None:

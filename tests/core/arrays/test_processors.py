@@ -79,5 +79,9 @@ def test_a_solve_has_as_many_threads(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(tasks, "ThreadPoolExecutor", Pool)
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1, 2})
     scene = {"k": np.linspace(0.0, 0.5, 7), "nu": 0.3, "modulus": 430.0, "c0_over_R": 0.013}
-    solve(scene | {"lambda_over_R": 0.11, "A": 0.023, "a_max_over_R": math.inf}, ["pull_off_force"])
+    scene |= {"lambda_over_R": 0.11, "A": 0.023, "a_max_over_R": math.inf}
+    solve(scene, ["pull_off_force"])
+    assert asked == []  # solved sooner than threads begin
+    wavelengths = np.linspace(0.1, 0.2, 100)[:, None]
+    solve(scene | {"lambda_over_R": wavelengths}, ["pull_off_force"])
     assert asked == [3]
