@@ -10,10 +10,14 @@ from gradhesion.core.arrays.grouping import grouped
 from gradhesion.core.compiler.marks import note_compiled
 from gradhesion.core.kinds import KINDS, MANY_SMOOTH
 from gradhesion.core.problem.control import BY_DISPLACEMENT, Loading
+from gradhesion.core.problem.curves import Curves, GeneralCurves
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import OUTPUTS, REPORTS, SENSITIVITIES
 from gradhesion.core.problem.profile import WAVY, Harmonic, Profile
+from gradhesion.core.problem.results import Results, slots_of
+from gradhesion.core.sensitivities.wanted import NoSense
 from gradhesion.core.struve.interpolated import interpolated_tables
+from gradhesion.core.struve.layout import TABLE
 from gradhesion.core.struve.table import build_table
 from gradhesion.core.sweep import solve
 
@@ -27,8 +31,35 @@ SCENE: Final[dict[str, float]] = {
     "a_max_over_R": 0.5,
 }
 SPRING: Final[dict[str, float]] = {"machine_stiffness": 3.0}
+LOOPS: Final = ("force", "energy", "general_force", "general_energy")
+"""The kinds whose loop over curves can be compiled before the tables that it reads."""
 MANY: Final = Profile(exponent=2.5, harmonics=tuple(Harmonic(n=n, cos=1.0 / n) for n in range(1, 25)))
 """More harmonics than are summed one by one (struve/series_table.py)."""
+
+
+def compile_loop(kind: str) -> None:
+    """Compile the loop over curves of one of `LOOPS`, of no curve: it needs no table for that, nor its kernels.
+
+    So one process compiles the tables meanwhile. Afterwards `compile_kind` compiles what else the kind has.
+    """
+    none, numbers, rims = np.empty(0), np.empty(0, dtype=np.int64), np.empty((1, 1))
+    tables = np.zeros(1, dtype=TABLE)
+    results = Results(
+        slots_of([], check_contact=False, turned=False), np.empty((0, 0, 1)), np.empty((0, 1), dtype=np.int8)
+    )
+    if not kind.startswith("general_"):
+        from gradhesion.core.scene.solvers import LOOPS as SOLVERS  # noqa: PLC0415 (kernels of their own)
+        from gradhesion.core.scene.solvers import PULL_OFF_LOOP  # noqa: PLC0415
+
+        loop = PULL_OFF_LOOP if kind == "force" else SOLVERS["exact"]
+        loop(Curves(tables, numbers, numbers, none, none, none, rims), results, np.empty((1, 1)), NoSense())
+        return
+    from gradhesion.core.curve.general import Basis  # noqa: PLC0415 (kernels of their own)
+    from gradhesion.core.scene.general import solve_pull_offs, solve_scenes  # noqa: PLC0415
+
+    curves = GeneralCurves(numbers, 2.0, 1.0, none, none, none, none, rims)
+    loop = solve_pull_offs if kind == "general_force" else solve_scenes
+    loop(Basis(tables[0], none, np.empty((0, 3))), curves, results, NoSense())
 
 
 def _compile_curves() -> None:

@@ -17,6 +17,7 @@ from gradhesion.cli.work import compiling, kernels
 from gradhesion.cli.work.locks import closing, try_lock
 from gradhesion.core import KINDS, MANY_SMOOTH, NEEDS
 from gradhesion.core.compiler.cache import Place
+from gradhesion.core.compiler.probe import LAZY
 from gradhesion.core.warmup import SCENE
 
 MANY = {"start": 1.0, "stop": 100.0, "num": MANY_SMOOTH}
@@ -33,6 +34,7 @@ def compiled(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[str]:
     for module in (kernels, compiling):
         monkeypatch.setattr(module, "place", lambda: Place(tmp_path))
     monkeypatch.setattr(kernels, "PAUSE", 0.01)
+    monkeypatch.setattr("gradhesion.core.arrays.processors.processors", lambda: 1)
     return kinds
 
 
@@ -111,6 +113,30 @@ def test_where_nothing_can_be_kept_it_says_so(
     compiling.prepare(["force"])
     assert capsys.readouterr().err.splitlines()[0] == "nothing can be written"
     assert compiled == ["tables", "force"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("count", [1, 2])
+def test_where_a_processor_is_free_another_process_compiles_the_tables(count: int, tmp_path: Path) -> None:
+    code = (
+        "from gradhesion.cli.work import kernels\n"
+        "from gradhesion.core.arrays import processors\n"
+        f"processors.processors = lambda: {count}\n"
+        "kernels.compile_kinds(['force'], print)\n"
+        "print(kernels.missing_of(['force', 'tables']))\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        check=True,
+        env=os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)},
+    )
+    *names, missing = done.stdout.splitlines()
+    assert missing == "[]"
+    assert any("solvers" in name for name in names)
+    if LAZY:
+        assert any("_prepare" in name for name in names) == (count == 1)
 
 
 @pytest.mark.slow

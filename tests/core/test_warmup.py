@@ -30,7 +30,7 @@ from gradhesion.core.problem.names import PATTERN_CURVES
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 from gradhesion.core.sweep import How
-from gradhesion.core.warmup import SCENE, SPRING
+from gradhesion.core.warmup import LOOPS, SCENE, SPRING, compile_loop
 from gradhesion.core.works.snap_in import pulls_at
 from gradhesion.core.works.turn_slopes import turn_slopes
 
@@ -140,6 +140,13 @@ def test_nothing_is_left_to_compile(kind: str, works: list[Any]) -> None:
         for work in works:
             for change in ({}, {"k": 0.0, "A": 0.0}, {"k": 1.0, "nu": 0.5, "a_max_over_R": math.inf}):
                 work(SCENE | change)
+
+
+@pytest.mark.parametrize("kind", LOOPS)
+def test_the_loop_that_is_compiled_before_the_tables_is_that_of_the_kind(kind: str) -> None:
+    compile_kind(kind)
+    with watch_compilation(lambda name: pytest.fail(f"{name} is another one than the kind has")):
+        compile_loop(kind)
 
 
 def test_an_unknown_kind() -> None:
