@@ -9,6 +9,23 @@ from typing import Final
 ROOT: Final = Path(__file__).parents[1]
 PICTURES: Final = ROOT / "docs" / "figures" / "paper"
 
+NUMBER: Final = r"\d+(?:\.\d+)?"
+LETTER: Final = r"(?:delta|lambda|nu|a_(?:2|4|am|max)|c0|C[12]|[kPRrz]|A(?=,| =| and| is| lambda)|a(?=\.| =))(?!\w)"
+FORMULA: Final = (
+    rf"\(3\+k\)/3|(?<![\w'`.\\-])(?:{NUMBER} )?{LETTER}"
+    rf"(?:\^\(\(1\+k\)/2\)| A(?!\w)| {LETTER}|(?: [=<+] |/)(?:{NUMBER} )?(?:{LETTER}|[as]\b|{NUMBER}))*"
+)
+"""A formula in the plain text of a study: letters, numbers, and what joins them."""
+LATEX: Final = {letter: f"\\{letter}" for letter in ("delta", "lambda", "nu")} | {
+    "c0": "c_0",
+    "C1": "C_1",
+    "C2": "C_2",
+    "_am": r"_\mathrm{am}",
+    "_max": r"_\mathrm{max}",
+    "((1+k)/2)": "{(1+k)/2}",
+}
+NAME: Final = r"(?<!`)\b[a-z]{2,}(?:_[a-z]+)+\b"
+
 
 def page() -> str:
     """Write the page."""
@@ -36,7 +53,7 @@ def _of(name: str) -> Iterator[str]:
     """Write the section of a study of the paper."""
     panels = sorted(picture.stem for picture in PICTURES.glob("*.png") if re.fullmatch(rf"{name}[a-c]?", picture.stem))
     panels = [panel for panel in panels if panel == name or not (ROOT / "configs" / f"{panel}.toml").exists()]
-    yield "## " + _title(name)
+    yield "## " + _with_formulae(_title(name))
     yield "\n".join(f"![{panel}](figures/paper/{panel}.png)" for panel in panels)
     yield from _comment(name)
     targets = " ".join(f"outputs/figures/{panel}.png" for panel in panels)
@@ -52,7 +69,21 @@ def _comment(name: str) -> Iterator[str]:
     head = [
         line.removeprefix("#").strip() for line in lines[: next(i for i, line in enumerate(lines) if line[:1] != "#")]
     ]
-    yield from (paragraph.strip() for paragraph in " ".join(line or "\n" for line in head).split("\n"))
+    yield from (_with_formulae(paragraph.strip()) for paragraph in " ".join(line or "\n" for line in head).split("\n"))
+
+
+def _with_formulae(text: str) -> str:
+    """Set the formulae and names of plain text as the manual sets them."""
+    text = re.sub(NAME, r"`\g<0>`", text)
+    return re.sub(FORMULA, lambda formula: f"${_latex(formula[0])}$", text)
+
+
+def _latex(formula: str) -> str:
+    """Write a formula of plain text in LaTeX."""
+    formula = re.sub(r"(?<=\w)(?<!lambda) (?=\w)", "", formula)
+    for plain, latex in LATEX.items():
+        formula = formula.replace(plain, latex)
+    return formula
 
 
 def _title(name: str) -> str:
