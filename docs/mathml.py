@@ -4,7 +4,7 @@ A formula that docutils cannot translate is a warning, and so ends `make docs`.
 """
 
 import re
-from typing import Final
+from typing import Any, Final
 
 from docutils import nodes
 from docutils.utils.math import MathError
@@ -19,6 +19,9 @@ UNKNOWN: Final = {r"\dots": r"\ldots", "*": r"\ast "}
 
 FUNCTION: Final = r"<mi[^>]*>[a-z]{2,}</mi>\s*<mo>&ApplyFunction;</mo>"
 THIN: Final = '<mspace width="0.1667em"></mspace>'
+
+JOINED: Final = r"\(<math.*?</math>[,.;:)]*|<math(?:(?!block|</math>).)*</math>[,.;:)]+"
+"""A formula with what stands next to it."""
 
 
 def _inline(writer: HTML5Translator, node: nodes.math) -> None:
@@ -53,7 +56,14 @@ def _spaced(drawn: str) -> str:
     return re.sub(r'<mo stretchy="false">([/|])<', r'<mo lspace="0" rspace="0" stretchy="false">\1<', drawn)
 
 
+def _joined(_app: Sphinx, _page: str, _template: str, context: dict[str, Any], _doctree: nodes.document | None) -> None:
+    """Let no line end between a formula and its brackets, comma or full stop, where browsers would end it."""
+    if "body" in context:
+        context["body"] = re.sub(JOINED, r'<span class="joined">\g<0></span>', context["body"], flags=re.DOTALL)
+
+
 def setup(app: Sphinx) -> ExtensionMetadata:
     """Offer the renderer as `mathml`."""
+    app.connect("html-page-context", _joined)
     app.add_html_math_renderer("mathml", (_inline, None), (_displayed, None))
     return {"parallel_read_safe": True, "parallel_write_safe": True}

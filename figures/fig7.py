@@ -60,7 +60,7 @@ def _least_depths(axes: Axes, effective: float, exact: float, *, upright: bool) 
         axes.annotate(name, (middle, 0.04), (3, 0), xycoords=("data", "axes fraction"), **looks)
     else:
         axes.axhline(middle, color=INK, lw=0.5, ls=MARK, zorder=1)
-        axes.annotate(name, (0.02, middle), (0, 4), xycoords=("axes fraction", "data"), **looks)
+        axes.annotate(name, (0.03, middle), (0, 4), xycoords=("axes fraction", "data"), **looks)
 
 
 PICTURES = {f"fig7{plane}": partial(paths, plane=plane) for plane in PLANES}
