@@ -15,15 +15,15 @@ from gradhesion.core.loops.model import WAVELENGTHS, Model
 from gradhesion.core.loops.path import LoopPath
 
 _SEEN: Final = 5.0
-"""Standard deviations of a jump that shows that there are waves."""
+"""Size of a jump, in standard deviations of the noise, from which on it shows that there are waves."""
 _LEAST: Final = 0.01
-"""Strength of waves that is worth a word."""
+"""Strength of waves below which nothing is reported."""
 _PHASE: Final = 0.1
-"""Of a wave: where the waves within the contact are known as well, they are seen without jumps."""
+"""Error of the number of waves within the contact, below which waves are resolved without jumps."""
 
 
 def alike(model: Model, path: LoopPath, noise: NDArray[np.float64], spread: NDArray[np.float64]) -> tuple[str, ...]:
-    """Return a sentence on what else would explain a loop; none where the jumps tell.
+    """Return a sentence on what else would explain a loop; none where the jumps decide.
 
     Parameters
     ----------

@@ -13,25 +13,25 @@ _Array = NDArray[np.float64]
 _Ints = NDArray[np.intp]
 
 MOST: Final = 2000
-"""Points that are fitted as they are; of more, about as many means are."""
+"""Points that are fitted as they are; more are averaged to about as many means."""
 _SIGMAS: Final = 5.0
-"""How far the sum of squares about a straight line, or one step, may be above what noise gives."""
+"""Factor by which the sum of squares about a straight line, or one step, may exceed that of noise."""
 _NEIGHBOURS: Final = 15
-"""Blocks whose bends are judged together: together they show less than one of them alone does."""
+"""Blocks whose bends are tested together: together they show less than any one of them does."""
 _CLIPPED: Final = 9.0
-"""The most that the bend of one block counts among those of its neighbours, so that a jump stays its own matter."""
+"""The most that the bend of one block adds to those of its neighbours, so that a jump does not affect them."""
 _TOGETHER: Final = 1.0 + 4.0 * float(np.sqrt(2.0 / _NEIGHBOURS))
-"""The mean square of their bends, over that of noise, from which on they are halved."""
+"""Mean square of their bends over that of noise, above which they are halved."""
 _CORRELATED: Final = 1.3
-"""The variance about a parabola, over that of neighbours, from which on noise is not white."""
+"""Variance about a parabola over that of neighbours, above which noise is not white."""
 _ORDER: Final = 6
-"""Of the differences of means by which noise is told that is not white: bends of the curve are of lower order."""
+"""Order of the differences of means that detect noise which is not white: bends of the curve are of lower order."""
 _SLOWER: Final = 1.2
 """How much larger noise is then than that of neighbouring points, at least."""
 _LEAST: Final = 5
-"""Points of a block by which it is told whether noise is white."""
+"""Points of a block in the test of whether noise is white."""
 _ROUNDING: Final = 1e-10
-"""Squares over that of the length of a block that mean nothing, be a row as free of noise as it may."""
+"""Sum of squares, over that of the length of a block, below which it is rounding, even in a row free of noise."""
 _OF_SQUARE: Final = 0.4549364231195727
 """The median of the square of a normal variable of unit variance."""
 
@@ -47,7 +47,7 @@ class Averaged:
     counts: _Array
     """How many points each is the mean of."""
     noise: tuple[float, float]
-    """Standard deviations of a point as far as these means are concerned: higher where noise is not white."""
+    """Standard deviations of a point, from which those of these means follow: higher where noise is not white."""
 
 
 def averaged(
@@ -61,7 +61,7 @@ def averaged(
     """Average neighbouring points of one cycle and branch.
 
     Blocks of one length give about `most` means. A block whose points are not on a straight line along the branch, as
-    far as noise tells, is halved until they are, so that no mean lies across a jump or beside a bend of the curve by
+    far as noise shows, is halved until they are, so that no mean lies across a jump or beside a bend of the curve by
     more than about its own noise. Points that are in no order are sorted by depth.
 
     Parameters
@@ -72,7 +72,7 @@ def averaged(
         The way and the cycle of each point; shape (n,).
     noise
         Standard deviations of depth and load of a point (`gradhesion.core.loops.noise.noise_of`), both > 0. If that
-        about short parabolas is larger, noise is no white one, and they are taken for what it is.
+        about short parabolas is larger, noise is not white, and that larger value is used.
     most
         About how many means there are if the curve has no jumps.
 
@@ -96,7 +96,7 @@ def averaged(
     ends = [*begin[1:], depth.size]
     waiting = np.concatenate([np.arange(a, b, length) for a, b in zip(begin, ends, strict=True)])
     size = np.diff(waiting, append=depth.size)
-    middle = np.add.reduceat(rows, waiting, axis=1) / size  # near which squares keep their digits
+    middle = np.add.reduceat(rows, waiting, axis=1) / size  # about which squares lose no digits
     rows -= np.repeat(middle, size, axis=1)
     moments = _moments(rows, waiting, size)
     scale = _not_white(*moments, size)
@@ -159,7 +159,7 @@ def _not_white(rest: _Array, bend: _Array, size: _Ints) -> tuple[_Array, _Array]
 
 
 def _bent(rest: _Array, bend: _Array, size: _Ints, scale: tuple[_Array, _Array]) -> NDArray[np.bool_]:
-    """Tell which blocks are not straight."""
+    """Return which blocks are not straight."""
     free = np.maximum(size - 2.0, 0.0)
     scattered = rest / scale[0] > free + _SIGMAS * np.sqrt(2.0 * free) + _SIGMAS
     square = bend**2 / scale[1]
@@ -170,7 +170,7 @@ def _bent(rest: _Array, bend: _Array, size: _Ints, scale: tuple[_Array, _Array])
 
 
 def _apart(rows: _Array, first: _Ints, size: _Ints, scale: _Array, steps: _Array) -> NDArray[np.bool_]:
-    """Tell which pairs of points a jump parts: no scatter shows it."""
+    """Return which pairs of points lie on both sides of a jump: their difference is no scatter."""
     pair = size == 2
     apart = np.zeros(size.size, bool)
     step = np.abs(rows[:, first[pair] + 1] - rows[:, first[pair]])

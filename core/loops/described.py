@@ -1,4 +1,4 @@
-"""What a minimum of the misfit says: values, intervals, correlations, and what speaks against them."""
+"""The results at a minimum of the misfit: values, intervals, correlations and warnings."""
 
 import math
 from collections.abc import Mapping
@@ -21,17 +21,17 @@ from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 _Array = NDArray[np.float64]
 
 _SINGULAR: Final = 1e-6
-"""Of singular values over the largest: below it a combination of parameters has no effect but that of rounding."""
+"""Singular value over the largest, below which a combination of parameters has no effect but rounding."""
 _WITHOUT: Final = 1e-6
-"""Of the effect of a parameter over the largest: below it there is none."""
+"""Effect of a parameter over the largest, below which it has none."""
 LEVEL: Final = 0.95
-"""What an interval covers."""
+"""Probability that an interval covers."""
 
 
 def described(
     misfit: Misfit, found: list[Any], intervals: str, ranges: Mapping[str, tuple[float, float]], *, widened: bool
 ) -> FittedLoop:
-    """Describe the first of some minima; where noise was estimated, intervals are `widened` by what is left."""
+    """Describe the first of some minima; where noise was estimated, intervals are `widened` by the reduced chi square."""
     done = found[0]
     names, residual = misfit.names, misfit.residual(done.x)
     degrees = residual.size - len(names)
@@ -80,7 +80,7 @@ def described(
 
 
 def covariance_of(misfit: Misfit, vector: _Array) -> _Array:
-    """Return the covariance of the numbers at a minimum, for residuals of variance 1; refuse what has one effect."""
+    """Return the covariance of the numbers at a minimum, for residuals of variance 1; refuse parameters with the same effect."""
     names, jacobian = misfit.names, misfit.jacobian(vector)
     sizes = np.array([high - low for low, high in zip(misfit.low, misfit.high, strict=True)])
     lengths = np.linalg.norm(jacobian * sizes, axis=0)

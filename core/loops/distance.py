@@ -1,8 +1,8 @@
 """The distance of points to a connected curve in the plane, with its derivatives when the curve moves.
 
-The curve is known by vertices. Where it bends between two of them, it leaves their chord as the cubic does that has the
-tangents of the parabolas through three vertices; the foot of a point is looked for on the chord, and its distance is
-taken to the cubic.
+The curve is given by vertices. Where it bends between two of them, it is the cubic over their chord whose tangents are
+those of the parabolas through three vertices; the foot of a point is searched on the chord, and its distance measured
+to the cubic.
 """
 
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from gradhesion.core.types import Floats, Integers, Truths
 _Array = NDArray[np.float64]
 
 _BLOCK: Final = 16
-"""Pieces of a box: a point further away than its nearest piece so far passes over all of them."""
+"""Pieces in a box: where a box is further from a point than the nearest piece so far, all of them are skipped."""
 
 _STEPS: Final = 2
 """Steps of Newton's from the foot on a chord to that on the curve."""
@@ -146,7 +146,7 @@ def _feet(
         size = np.hypot(left[0], left[1])
         way = run, rise
         at_end = not 0.0 < t < 1.0
-        if at_end:  # of a corner the side is that of both its pieces
+        if at_end:  # at a corner both its pieces decide the side
             other = min(i + 1, last) if t == 1.0 else max(i - 1, 0)
             ahead, over = chain[other + 1, 0] - chain[other, 0], chain[other + 1, 1] - chain[other, 1]
             far = np.hypot(ahead, over)

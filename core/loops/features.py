@@ -1,7 +1,7 @@
 """What a measured loop shows whatever its zeros and spans are: its base line, and how far the load falls below it.
 
-Out of contact the load does not change with depth. Of each branch the points at the least depths are taken, as many as
-lie on a straight line within the noise; that line is the base line if it is flat against the slopes of contact.
+Out of contact the load does not change with depth. On each branch the points at the least depths, as many as lie on a
+straight line within the noise, give a line; that line is the base line if it is flat against the slopes of contact.
 """
 
 from dataclasses import dataclass
@@ -15,19 +15,19 @@ _Array = NDArray[np.float64]
 _SIGMAS: Final = 3.0
 """Standard deviations of the noise by which points of a base line scatter at most, drift included."""
 _WHITE: Final = 1.05
-"""Standard deviations by which they scatter without drift, beside what chance adds."""
+"""Standard deviations by which they scatter without drift, apart from chance."""
 _FLAT: Final = 0.05
-"""Of the mean slope of the loop: what is steeper is no base line."""
+"""Slope over the mean slope of the loop: a steeper line is no base line."""
 _DOUBT: Final = 2.5
-"""Of that slope: where the slope of some points is known worse, they are too near together to be flat."""
+"""Error of a slope over that mean slope: with a larger one the points are too close together to be called flat."""
 _AROUND: Final = 20
 """Points on either side of the end of a base line, at least, among which contact may begin."""
 _TRIED: Final = 300
-"""Of these, how many are tried."""
+"""How many of these are tried."""
 _ALLOWED: Final = 4.0
-"""Squares, in variances of the noise, that a contact point within its deviation may cost."""
+"""Rise of the sum of squares, in variances of the noise, within the deviation of a contact point."""
 _LEAST: Final = 6
-"""Points of a base line at least."""
+"""Least number of points of a base line."""
 _CLEAR: Final = 5.0
 """Standard deviations from the base line at which contact is certain."""
 
@@ -89,14 +89,14 @@ def _flat_part(depth: _Array, load: _Array, noise: float, steep: float) -> int:
     is_flat = (np.abs(slope) <= steep + _SIGMAS * doubt) & (doubt <= _DOUBT * steep)
     is_flat[: _LEAST - 1] = False
     white = noise * (_WHITE + _SIGMAS / np.sqrt(2.0 * number))
-    for most in (white, _SIGMAS * noise):  # first as if noise were all; where there is none, with drift
+    for most in (white, _SIGMAS * noise):  # first as if there were only noise; if that gives no line, with drift
         found = np.flatnonzero(is_flat & (scatter <= most))
         if found.size:
             break
     else:
         return 0
     last = int(found[-1])
-    # the last of them may be in contact already: two that leave the line one after the other are not of it
+    # the last ones may be in contact already: two consecutive ones off the line do not belong to it
     away = np.abs(y[: last + 1] - (my[last] + slope[last] * (x[: last + 1] - mx[last])))
     out = away > _SIGMAS * max(noise, float(scatter[last]))
     begun = np.flatnonzero(out[1:] & out[:-1])
@@ -141,7 +141,7 @@ def base_line(points: _Array, back: NDArray[np.bool_], noise: float) -> BaseLine
         return None
     mean = flat.mean(axis=0)
     if np.isnan(ends[0]) and mean[1] - float(points[:, 1].min()) < _CLEAR * noise:
-        return None  # flat at the pull-off, which no load lies below
+        return None  # flat at the pull-off, the lowest load of all
     away = flat - mean
     across = float(away[:, 0] @ away[:, 0])
     slope = float(away[:, 0] @ away[:, 1]) / across if across > 0.0 else 0.0
@@ -179,7 +179,7 @@ def contact_point(points: _Array, back: NDArray[np.bool_], noise: tuple[float, f
 
 
 def _two_parts(depth: _Array, load: _Array, at: int, level: float) -> float:
-    """Return the squares that a level up to a place, and a cubic from there on, leave of a load; arrays (n,)."""
+    """Return the squares of a load about a level up to a place and a cubic from there on; arrays (n,)."""
     before = load[:at] - level
     scaled = (depth[at:] - depth[at]) / max(float(depth[-1] - depth[at]), np.finfo(float).tiny)
     powers = np.vander(scaled, 4)

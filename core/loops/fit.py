@@ -6,9 +6,9 @@ axes are scaled by their noise. Loading begins, and unloading ends, on the line 
 data do.
 
 There are many local minima: contact points anywhere in the data, and each wavelength with another number of waves in
-the contact. Starts are found by what no zero of the instrument and no span hides (smooth_search.py, wave_search.py,
-speed.py), several are refined with exact derivatives, and other minima that the noise allows are named. Standard
-deviations are those of the linear problem at the minimum. Parameters that the loop cannot tell apart (E*, c0 and nu act
+the contact. Starts come from features that depend on no zero of the instrument (smooth_search.py, wave_search.py,
+speed.py), several are refined with exact derivatives, and other minima that the noise allows are reported. Standard
+deviations are those of the linear problem at the minimum. Parameters with the same effect on the loop (E*, c0 and nu act
 through one number M, docs/theory.md) make its Jacobian singular and are refused.
 """
 
@@ -40,11 +40,11 @@ from gradhesion.core.problem.toughness import Toughness
 _Array = NDArray[np.float64]
 
 ONE_NUMBER: Final = ("E_star", "E", "modulus", "c0", "c0_over_R", "nu")
-"""What acts on a loop through M = theta(k, nu) E*/c0^k alone."""
+"""Parameters that act on a loop through M = theta(k, nu) E*/c0^k alone."""
 INTERVALS: Final = ("linear", "profile")
-"""Where intervals come from."""
+"""Methods for intervals."""
 _BLUR: Final = 6.0
-"""Standard deviations of the depth by which the path goes on beyond the deepest point at most."""
+"""Most standard deviations of the depth by which the path continues beyond the deepest point."""
 
 
 def fit_loop(
@@ -169,7 +169,7 @@ def fit_loop(
         found = refined(misfit, begun)
         if misfit.path(found[0].x) is None:
             raise ValueError("no combination within the ranges has a path; widen them")
-        if not misfit.model.by_differences:  # of which each costs a second
+        if not misfit.model.by_differences:  # where each one takes a second
             misfit = misfit.finer()
             found = polished(misfit, found)
         found_loop = described(misfit, found, intervals, ranges, widened=not noise_is_given)
@@ -182,7 +182,7 @@ def fit_loop(
 
 
 def _starts(misfit: Misfit, own: Mapping[str, Any], zeros: tuple[float, float], count: int, seed: int) -> list[_Array]:
-    """Return starts: near the smooth curve, then of waves, then of speeds, each from what the one before has found."""
+    """Return starts: near the smooth curve, then of waves, then of speeds, each from the results of the one before."""
 
     def part(bare: Mapping[str, float], names: tuple[str, ...]) -> Misfit:
         use = [misfit.names.index(name) for name in names]

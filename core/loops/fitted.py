@@ -1,4 +1,4 @@
-"""What a fit of a loop has found."""
+"""The results of a fit of a loop."""
 
 import math
 from collections.abc import Sequence
@@ -36,15 +36,15 @@ class FittedLoop:
     correlation
         The correlations of all of them, a square in the order of the names.
     on_bound
-        The names that ended within 1 % of their range of an end of it.
+        The names whose values are within 1 % of their range of one of its ends.
     chi_square, degrees_of_freedom
-        The sum of squares of the residual, and the number of points less that of what is fitted.
+        The sum of squares of the residual, and the number of points less that of fitted values.
     residual
         The signed distance of every point to the path, in standard deviations of the noise.
     loading, unloading
         The vertices of the path, offsets included: rows of depth in m and load in N.
     converged
-        Whether the last refinement did.
+        Whether the last refinement converged.
     status
         What `solve` reports of the fitted cycle, with `POOR_FIT` and `ANOTHER_MINIMUM`.
     others
@@ -91,7 +91,7 @@ class FittedLoop:
 
 
 class CannotTellApartError(ValueError):
-    """The free parameters have one effect; `names` has those of them that a loop cannot tell apart."""
+    """The free parameters have the same effect; `names` lists those that a loop does not determine separately."""
 
     def __init__(self, names: Sequence[str]) -> None:
         self.names = tuple(names)

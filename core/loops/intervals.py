@@ -1,8 +1,8 @@
 """Intervals of fitted numbers by profile likelihoods: how far each can be moved, all others fitted anew.
 
-The sum of squares of the residuals, less its minimum, grows as the square of the way for a linear problem; an interval
-ends where it has grown to the square of a quantile of Student's t. The root of it is nearly linear in the way, so that
-a secant finds the end in a few steps.
+For a linear problem the sum of squares of the residuals, less its minimum, grows as the square of the displacement; an
+interval ends where it has grown to the square of a quantile of Student's t. Its root is nearly linear in the
+displacement, so that a secant finds the end in a few steps.
 """
 
 from typing import Final
@@ -15,13 +15,13 @@ from gradhesion.core.loops.misfit import Misfit
 _Array = NDArray[np.float64]
 
 _NEAR: Final = 0.01
-"""Of the quantile: as near as the end of an interval is looked for."""
+"""Accuracy of the end of an interval, in parts of the quantile."""
 _FINE: Final = 1e-5
-"""Of the sum of squares and of the numbers: what grows by a square of 4 is known to a hundredth of it."""
+"""Tolerance for the sum of squares and the numbers: a rise by 4 is known to a hundredth of it."""
 _TRIALS: Final = 8
 """Steps to an end, at most."""
 _FURTHEST: Final = 4.0
-"""Of a step, in parts of the way so far: beyond, a linear estimate is not to be relied on."""
+"""Longest step, in parts of the displacement so far: beyond it a linear estimate is unreliable."""
 
 
 def profile_interval(
@@ -38,10 +38,10 @@ def profile_interval(
     number
         Which of its numbers is moved.
     along
-        How all numbers move with it, by the linear problem: its standard deviation times the correlations; its own item
-        is that standard deviation. Shape (unknown,).
+        How all numbers move with it in the linear problem: standard deviation times correlation; its own item
+        is its standard deviation. Shape (unknown,).
     factor
-        The quantile that an interval reaches to, in standard deviations.
+        The quantile at which an interval ends, in standard deviations.
     unit
         The variance of a residual, by which sums of squares are divided.
 

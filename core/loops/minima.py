@@ -1,4 +1,4 @@
-"""The minima of the misfit of a loop: several starts refined, and what of them the noise allows."""
+"""The minima of the misfit of a loop: several starts refined, and which of them the noise allows."""
 
 import math
 from typing import Any, Final
@@ -14,20 +14,20 @@ from gradhesion.core.loops.search import coarse, distinct, is_noise
 _Array = NDArray[np.float64]
 
 _FEW: Final = 300
-"""Points that starts are refined by, at most."""
+"""Largest number of points by which starts are refined."""
 _WHOLE: Final = 4
-"""Starts that are refined by all points, of those that are best by few."""
+"""How many of the starts that fit some of the points best are refined by all points."""
 _ALLOWED: Final = 0.95
-"""Of the distribution of the rise of chi square: other minima below it are allowed by the noise."""
+"""Quantile of the rise of chi square: the noise allows other minima below it."""
 _WAVES: Final = (-1.0, -0.5, 0.5, 1.0)
-"""Waves that the contact of other minima has more."""
+"""Differences of the number of waves within the contact that are tried."""
 _HOPS: Final = 5
-"""Times that these are tried at most."""
+"""Most rounds in which these are tried."""
 _BETTER: Final = 1e-6
-"""Of the sum of squares: what is lower by less is the same minimum."""
+"""Relative difference of sums of squares, below which two minima are the same."""
 _APART: Final = 9.0, 4.0
-"""Squared distance in standard deviations of another minimum: more than the first, and than the second times the rise
-of chi square, which both are where two places are of one valley."""
+"""Another minimum is further away, in squared standard deviations, than the first, and than the second times the rise
+of chi square; two places in one valley are not."""
 
 
 def refined(misfit: Misfit, begun: list[_Array]) -> list[Any]:
@@ -59,7 +59,7 @@ def _by_all(misfit: Misfit, vectors: list[_Array]) -> list[Any]:
 
 
 def _robust(misfit: Misfit, start: _Array, few: slice) -> Any:
-    """Refine a start by some of the points, first with a loss that outliers hardly move, unless it leaves but noise."""
+    """Refine a start by some of the points, first with a loss that outliers hardly move, unless only noise is left."""
     if not is_noise(misfit, start, few):
         start = misfit.refined(start, few, loss="soft_l1", most=40, tolerance=1e-6).x
     return misfit.refined(start, few, most=30, tolerance=1e-6)

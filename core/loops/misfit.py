@@ -16,11 +16,11 @@ _Array = NDArray[np.float64]
 _All: Final = slice(None)
 
 _STEP: Final = 1e-5
-"""Of a range, of differences of paths."""
+"""Step of differences of paths, in parts of a range."""
 _FINER: Final = 3
-"""How much finer the grid is by which minima are found: they are then good to 0.05 standard deviations, 0.5 before."""
+"""How much finer the last grid is: minima are then accurate to 0.05 standard deviations, 0.5 before."""
 LOST: Final = 1e3
-"""Distance, in standard deviations, of points of a scene that has no path."""
+"""Distance, in standard deviations, of every point where a scene has no path."""
 
 
 class Data(NamedTuple):
@@ -45,7 +45,7 @@ class Misfit:
     data
         The points.
     model
-        What draws the path.
+        The model that draws the path.
     low, high
         Ends of the range of each number, as it is searched.
     """
@@ -57,7 +57,7 @@ class Misfit:
         self._kept: tuple[bytes, Any, list[tuple[NDArray[np.bool_], slice, Feet]], LoopPath | None] | None = None
 
     def finer(self) -> "Misfit":
-        """Return the same of paths by a grid that is `_FINER` times as fine."""
+        """Return the same misfit on a grid that is `_FINER` times as fine."""
         model = copy(self.model)
         model.fineness *= _FINER
         return Misfit(self.data, model, self.low, self.high)
@@ -100,12 +100,12 @@ class Misfit:
         ])  # fmt: skip
 
     def feet(self, vector: _Array) -> list[tuple[NDArray[np.bool_], slice, Feet]]:
-        """Return, of each branch, which points are its own, its vertices, and where these points are nearest to it."""
+        """Return, for each branch, its points, its vertices, and where these points are nearest to it."""
         parts: list[tuple[NDArray[np.bool_], slice, Feet]] = self._at(vector, _All)[2]
         return parts
 
     def _at(self, vector: _Array, use: slice) -> Any:
-        """Find where points are nearest to the path; the last answer is kept, for the derivatives."""
+        """Find where points are nearest to the path; the last result is kept, for the derivatives."""
         key = vector.tobytes()
         if self._kept is None or self._kept[:2] != (key, use):
             drawn = self.path(vector)
@@ -129,11 +129,11 @@ class Misfit:
         held: Sequence[int] = (),
         tolerance: float = 1e-8,
     ) -> Any:
-        """Refine a start within the ranges, the numbers `held` kept as they are.
+        """Refine a start within the ranges, the numbers `held` fixed.
 
         Returns
         -------
-        What `scipy.optimize.least_squares` does, `x` with all numbers.
+        The result of `scipy.optimize.least_squares`, `x` with all numbers.
         """
         searched = np.setdiff1d(np.arange(start.size), held)
         low, high = self.low[searched], self.high[searched]

@@ -1,4 +1,4 @@
-"""What a loop is made of: depth and load of equilibrium at any contact radius, from the numbers that are searched.
+"""The curves of a loop: depth and load of equilibrium at any contact radius, from the numbers that are searched.
 
 At a contact radius a the depth and the load are closed forms (docs/theory.md),
 
@@ -30,11 +30,11 @@ from gradhesion.core.variables.reduced import WAYS, parameters_from
 _Array = NDArray[np.float64]
 
 LINEAR: Final = ("k", "nu", "indentation_max", "closing_ratio", "toughness_amplitude", "exponent", *OFFSETS)
-"""What is searched as it is; all else by its logarithm."""
+"""Names searched on a linear scale; all others are searched by their logarithm."""
 _INSTEAD: Final[dict[str, frozenset[str]]] = {
     parameter: frozenset(WAYS[parameter]) for parameter in ("c0_over_R", "lambda_over_R", "a_max_over_R")
 }
-"""The keys in whose place something without effect stands by default."""
+"""Keys whose default values have no effect."""
 AMPLITUDES: Final = ("A", *WAYS["A"])
 WAVELENGTHS: Final = ("lambda_over_R", *WAYS["lambda_over_R"])
 
@@ -45,7 +45,7 @@ class Scenes(NamedTuple):
     `stiffness` is M R^(1+k)/dgamma, `wavelength` and `pattern`, the wavelength of the toughness, are over R; `swing` is
     the amplitude of the toughness, `root` the root of the closing ratio, `compliance` that of the machine in m/N, `rim`
     a_max in m. `rise`, `disc` and `adhesion` are depth, stiffness and pull at the radius R. `turn` is the depth, or
-    under a preload the load, at which loading turns; NaN where the data say.
+    under a preload the load, at which loading turns; NaN where that comes from the data.
     """
 
     k: Any
@@ -90,7 +90,7 @@ class States(NamedTuple):
 
 @lru_cache(maxsize=64)
 def _units_at(k: float, nu: float, m: float) -> tuple[Any, ...]:
-    """Return what `_units` does, of plain numbers."""
+    """Return the result of `_units` for plain numbers."""
     return (
         stiffness(k, nu, 1.0, 1.0), hertz.power_indentation(k, 1.0, m), hertz.disc_stiffness(k, 1.0, 1.0),
         jkr.adhesive_depth(k, 1.0, 1.0),
@@ -105,7 +105,7 @@ def _units(k: Any, nu: Any, m: float) -> tuple[Any, ...]:
 
 
 class Model:
-    """What gives a loop.
+    """A loop as a function of the numbers that are searched.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ class Model:
         }
 
     def given(self, own: Mapping[str, Any]) -> dict[str, Any]:
-        """Put what is searched beside what is fixed, and what has no effect in the place of what is left out."""
+        """Join the searched and the fixed numbers, with defaults without effect for what is left out."""
         given = {"a_max_over_R": math.inf, "c0_over_R": 1.0, "lambda_over_R": 1.0} | self.fixed
         given |= {name: value for name, value in own.items() if name not in OFFSETS}
         for role, others in _INSTEAD.items():

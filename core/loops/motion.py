@@ -1,6 +1,6 @@
 """How the path of a loop moves with what is fitted.
 
-A distance to a curve changes with a parameter as the curve moves across itself, whatever moves along it. So vertices
+A distance to a curve changes only as the curve moves normal to itself, not as its vertices move along it. So vertices
 are moved at fixed contact radius, where depth and load are closed forms (model.py), and no derivative of a fold is
 needed: it is a stationary point. Corners are moved along their branches as well: a landing stays at the coordinate of
 its jump, and the turn, with the radius at which the edge is pinned, at that of the data. Closed forms are
@@ -19,7 +19,7 @@ from gradhesion.core.loops.path import LoopModel, LoopPath
 _Array = NDArray[np.float64]
 
 _STEP: Final = 1e-5
-"""Of the differences: the error is that of its square, or 1e-16 over it."""
+"""Relative step of the differences: their error is of its square, or of 1e-16 over it."""
 
 
 def moving(model: LoopModel, vector: _Array, drawn: LoopPath) -> _Array:
@@ -109,7 +109,7 @@ def _slide(model: LoopModel, drawn: LoopPath, moved: _Array, load_max: float) ->
                 if name in model.names:
                     target[model.names.index(name)] = of
         gone, ahead = moved[turn, by].copy(), along[0, by]
-        if by == 0 and model.turns_at_depth:  # depth of the specimen: that of the machine less what its spring yields
+        if by == 0 and model.turns_at_depth:  # depth of the specimen: that of the machine less the stretch of its spring
             gone -= scene.compliance * moved[turn, 1]
             ahead -= scene.compliance * along[0, 1]
             if "spring_constant" in model.names:

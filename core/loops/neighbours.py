@@ -14,7 +14,7 @@ _Places = NDArray[np.intp]
 _OF_NORMAL: Final = 0.6744897501960817
 """The median of the absolute value of a normal variable of unit variance."""
 _SHUFFLED: Final = 3.0
-"""How much smaller the differences of load are in the order of depth, where the points are in no other order."""
+"""How much smaller differences of load are in the order of depth, if the points are in no order of their own."""
 _STEP: Final = 0.05
 """Steps of the depth, in parts of its span, below which points are in order."""
 
@@ -77,7 +77,7 @@ def of_differences(row: _Array, begin: _Places, order: int = 2, sound: _Bools | 
     begin
         Where its pieces begin.
     order
-        Of the differences: the higher, the less do bends of the curve move them, and the more do jumps.
+        Of the differences: the higher, the less bends of the curve affect them, and the more jumps do.
     sound
         Whether each value may be used, shape (n,); all if not given.
 

@@ -1,4 +1,4 @@
-"""How noisy the points of a measured loop are, told from the points alone."""
+"""The noise of the points of a measured loop, estimated from the points alone."""
 
 from typing import Final
 
@@ -12,13 +12,13 @@ _Bools = NDArray[np.bool_]
 _Ints = NDArray[np.int32]
 
 FLOOR: Final = 1e-6
-"""The least noise, in parts of the span, which numbers need: below the digits of any instrument."""
+"""Least noise, in parts of the span, that computing needs: below the digits of any instrument."""
 _UNSEEN: Final = 0.04
-"""What noise of depth adds to the variance of the load where that does not show it, in parts of it."""
+"""Part of the variance of the load that noise of the depth may add without being noticed."""
 _REPEATED: Final = 0.7
-"""Different values over all, below which a row is digitised more coarsely than its steps."""
+"""Number of different values over that of all, below which a row is digitised more coarsely than its steps."""
 _WINDOW: Final = 16
-"""Neighbouring points by which slopes are told, of points in no order; of many points, a share of a branch."""
+"""Neighbouring points that give a slope, of points in no order; of many points, a share of a branch."""
 
 
 def noise_of(depth: _Array, load: _Array, unloading: _Bools, cycle: _Ints) -> tuple[float, float]:
@@ -35,7 +35,7 @@ def noise_of(depth: _Array, load: _Array, unloading: _Bools, cycle: _Ints) -> tu
     -------
     Standard deviations: of white noise by the median of second differences, which neither drift nor jumps move, and of
     a coarse digit at least (its step over the root of 12). Where the points of a branch are in no
-    order, that of load is told where the curve is flat and that of depth where it is steep. They are a millionth of the
+    order, that of load is found where the curve is flat and that of depth where it is steep. They are a millionth of the
     span at least. Of points that are further apart than the curve bends they are too high.
 
     Examples

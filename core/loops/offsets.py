@@ -9,7 +9,7 @@ NAMES: Final = ("indentation_offset", "load_offset", "load_slope")
 CONTACT: Final = "contact"
 """The zero of depth at the contact point, which is found before the fit."""
 FREE: Final = "free"
-"""A zero that is searched as widely as the data make sense."""
+"""A zero that is searched over the whole range that the data allow."""
 
 
 @dataclass(frozen=True, kw_only=True)

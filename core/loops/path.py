@@ -1,6 +1,6 @@
 """The path of a loop with its units and offsets: up the branches of loading, down those of unloading, out of contact.
 
-Vertices lie on the curve itself, at radii that a grid shows to be passed (walk.py).
+Vertices lie on the curve itself, at radii through which the path passes on a grid (walk.py).
 """
 
 import math
@@ -32,13 +32,13 @@ _MOST: Final = 400_000
 _FEWEST: Final = 5
 """Radii of a grid at least."""
 _PARTS: Final = np.linspace(0.0, 1.0, 9)
-"""Of the way that loading goes on within the noise."""
+"""Radii of the grid over which loading continues within the noise."""
 _REACH: Final = (1.25, 2.5, 10.0)
 """How far the grid reaches, in radii of contact without adhesion at the depth: the next if one is not enough."""
 
 
 class Walk(NamedTuple):
-    """What `climb` returns."""
+    """The results of `climb`."""
 
     radius: _Array
     jump: _Bits
@@ -65,7 +65,7 @@ class LoopPath:
     turn
         The number of the vertex at which loading ends and unloading begins; the edge is pinned up to the next.
     scene
-        What it was drawn of.
+        The scene that was drawn.
     is_pressed
         Whether the contact is pressed on at the rim, up to the turn.
     by_load
@@ -101,7 +101,7 @@ def _met(radius: _Array, jump: _Bits, level: _Array, target: float) -> float | N
 
 
 class LoopModel(Model):
-    """What draws the path of a loop from the numbers that are searched.
+    """The path of a loop as a function of the numbers that are searched.
 
     Parameters
     ----------
@@ -116,9 +116,9 @@ class LoopModel(Model):
     """
 
     by_differences = False
-    """Whether only differences of paths tell how they move."""
+    """Whether derivatives are differences of paths."""
     fineness = 1
-    """Of the grid of radii, over that of the search: what errors its vertices make falls as the fourth power."""
+    """Points of the grid of radii over those of the search: the errors of its vertices fall as the fourth power."""
 
     def __init__(
         self,
@@ -137,7 +137,7 @@ class LoopModel(Model):
 
     @property
     def turns_at_depth(self) -> bool:
-        """Whether a given depth of the specimen is turned at, while the far end of a machine is driven."""
+        """Whether loading turns at a given depth of the specimen, while the far end of a machine is driven."""
         return self.turns == "indentation_max_over_R" and self.loading.control == "machine"
 
     def shift(self, vector: _Array) -> tuple[float, ...]:
@@ -145,7 +145,7 @@ class LoopModel(Model):
         return tuple(float(vector[self.names.index(name)]) if name in self.names else 0.0 for name in OFFSETS)
 
     def _targets(self, scene: Scenes, vector: _Array) -> tuple[float, float]:
-        """Return the coordinate at which loading turns and the load that it reaches there; inf is met by none."""
+        """Return the coordinate at which loading turns and the load that it reaches there; inf is never reached."""
         if self.turns:
             turn = float(scene.turn)
             return (math.inf, turn) if self.turns == "load_max" else (turn, -math.inf)
@@ -168,13 +168,13 @@ class LoopModel(Model):
         return drawn
 
     def _grid(self, scene: Scenes, end: float) -> _Array | None:
-        """Return the radii at which branches are looked for, up to an end, of shape (n,); None for too many."""
+        """Return the radii between which branches are searched, up to an end, of shape (n,); None for too many."""
         step, count = self.shortest(scene) / (_A_WAVE * self.fineness), _SMOOTH * self.fineness
         if end / step > _MOST:
             return None
         low = min(_SMALLEST * scene.neck, 0.02 * end)
         growth = math.log(end / low) / count
-        begin = max(step / growth, low)  # where steps of the one kind are those of the other
+        begin = max(step / growth, low)  # where both kinds of steps are equal
         if begin >= end:
             return low * np.exp(growth * np.arange(count + 1.0))
         inner, outer = math.ceil(math.log(begin / low) / growth), max(7, math.ceil((end - begin) / step))
@@ -235,10 +235,10 @@ class LoopModel(Model):
         return float(aim + scene.compliance * (load + float(found.slope[0]) * (aim - depth)))
 
     def _further(self, scene: Scenes, up: Walk, place: float, targets: tuple[float, float]) -> tuple[float, bool]:
-        """Return the radius at which loading turns, and whether its load says so.
+        """Return the radius at which loading turns, and whether its load decides.
 
-        Where the load rises by many deviations within one of the depth, it tells better where the data end. The path
-        goes on to the largest load, within the noise of the depth, but over no fold.
+Where the load rises by many deviations within one of the depth, it determines the turn better. The path then
+continues to the largest load, within the noise of the depth, but over no fold.
         """
         target, highest = targets
         end = _met(up.radius, up.jump, up.level, target + self.blur)

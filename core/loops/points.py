@@ -12,13 +12,13 @@ _Bools = NDArray[np.bool_]
 _Ints = NDArray[np.int32]
 
 TURN: Final = 0.2
-"""How far the depth goes back for a turn, in parts of its span: noise, drift and creep in a pause are less."""
+"""How far the depth moves back at a turn, in parts of its span: noise, drift and creep in a pause are less."""
 _STILL: Final = 8.0
 """Standard deviations of the depth within which a point has not moved."""
 _BLOCKS: Final = 4096
-"""Blocks of points whose extremes are looked through for turns."""
+"""Blocks of points whose extremes are searched for turns."""
 _SPIKE: Final = 5
-"""Points of the running median in which a spike is lost."""
+"""Points of the running median, which removes a spike."""
 
 
 def ways(depth: _Array, cycle: _Ints | None = None) -> tuple[_Bools, _Ints]:
@@ -35,7 +35,7 @@ def ways(depth: _Array, cycle: _Ints | None = None) -> tuple[_Bools, _Ints]:
     Returns
     -------
     unloading
-        Whether each point does, shape (n,).
+        Whether each point unloads, shape (n,).
     cycle
         The number of its cycle, from 1 if these were found here; shape (n,).
 
@@ -61,11 +61,11 @@ def ways(depth: _Array, cycle: _Ints | None = None) -> tuple[_Bools, _Ints]:
         if ahead:
             at = i
         elif abs(smooth[i] - smooth[at]) >= far > 0.0:
-            if smooth is not depth:  # the running median blunts a turn
+            if smooth is not depth:  # the running median flattens a turn
                 least = max(0, at - _SPIKE // 2)
                 near = depth[least : at + _SPIKE // 2 + 1] * (-1.0 if falling else 1.0)
                 at = least + near.size - 1 - int(np.argmax(near[::-1]))
-            if falling:  # what stays there, as a jump out of contact does, belongs to what has led there
+            if falling:  # points that stay there, as after a jump out of contact, belong to the branch before
                 at += int(np.flatnonzero(depth[at : max(at, i) + 1] <= depth[at] + still)[-1])
             falling = not falling
             now += not falling
@@ -81,7 +81,7 @@ def _without_spikes(row: _Array) -> _Array:
 
 
 def _extremes(row: _Array) -> NDArray[np.intp]:
-    """Give the places of the extremes of short blocks, among which those of the row are."""
+    """Give the places of the extremes of short blocks; those of the row are among them."""
     if row.size <= 2 * _BLOCKS:
         return np.arange(row.size)
     length = -(-row.size // _BLOCKS)

@@ -1,4 +1,4 @@
-"""What is searched in a fit of a loop: zeros within what the data show; and which values end at an end of it."""
+"""The ranges of a fit of a loop, those of zeros from the data; and which values lie at an end of their range."""
 
 import math
 from collections.abc import Mapping
@@ -13,15 +13,15 @@ from gradhesion.core.loops.offsets import NAMES, Offsets
 _Array = NDArray[np.float64]
 
 _NEAR: Final = 0.01
-"""Of a range: what is nearer to an end of it is on it."""
+"""Part of a range: a value closer than this to an end is on the bound."""
 _WIDE: Final = 10.0
-"""Of stop over start: a wider range is measured by its logarithm."""
+"""Ratio of stop to start above which a range is measured by its logarithm."""
 
 
 def zeros_of(
     points: _Array, back: NDArray[np.bool_], line: BaseLine | None, contact: ContactPoint | None
 ) -> tuple[float, float]:
-    """Return the load out of contact and the depth at which contact begins, as they seem to be."""
+    """Return estimates of the load out of contact and of the depth at which contact begins."""
     first = points[~back] if not back.all() else points
     at = int(np.argmin(first[:, 0]))
     level = float(first[at, 1]) if line is None else line.level

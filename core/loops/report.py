@@ -1,4 +1,4 @@
-"""What the solver reports of the cycle that a fit ends at."""
+"""The status that the solver gives the fitted cycle."""
 
 import math
 from typing import Any
@@ -21,7 +21,7 @@ def status_of(model: Model, vector: NDArray[np.float64], radius: float) -> int:
     more = ("machine_stiffness", CLOSING, *(PATTERN if model.toughness is not None else ()))
     scene = {name: made[name] for name in (*PARAMETERS, *more) if name in made}
     scene["a_max_over_R"] = min(scene["a_max_over_R"], radius)
-    if CLOSING in scene:  # of equal works, two that are fitted are in either order, by their noise
+    if CLOSING in scene:  # where the works are equal, two fitted ones are in either order, by noise
         scene[CLOSING] = min(scene[CLOSING], 1.0)
     own: dict[str, Any] = {"profile": model.profile, "loading": model.loading, "toughness": model.toughness}
     wanted = ["pull_off_force", "loading_jumps"] if model.loading.control == "load" else [

@@ -1,4 +1,4 @@
-"""What all searches for starts share: a part of the points, and which vectors are worth a look."""
+"""What all searches for starts share: a part of the points, and which vectors are worth refining."""
 
 from typing import Final
 
@@ -12,15 +12,15 @@ _Array = NDArray[np.float64]
 COARSE: Final = 140
 """Points that starts are compared with."""
 _WORSE: Final = 0.5
-"""Of the robust size of a misfit, a point: what is worse by more is refined no further."""
+"""Robust size of a misfit for each point: a vector worse than the best by more is refined no further."""
 _NOISE: Final = 0.533, 0.518
 """Mean and standard deviation of the robust size of a point whose distance is its noise: of ln(1 + z^2), z normal."""
 _CLEAR: Final = 4.0
-"""Standard deviations of the robust size of a loop within which it is noise."""
+"""Standard deviations of the robust size of a loop within which a misfit is noise."""
 
 
 def coarse(misfit: Misfit, count: int) -> slice:
-    """Choose about so many of the points, evenly."""
+    """Choose about this many of the points, evenly."""
     return slice(None, None, max(1, misfit.back.size // count))
 
 
@@ -42,7 +42,7 @@ def distinct(vectors: list[_Array], misfit: Misfit, near: float = 1e-3) -> list[
 
 
 def near_best(vectors: list[_Array], misfit: Misfit) -> list[_Array]:
-    """Return those of some vectors, the best first, that are not far worse than the best: they may be as good yet."""
+    """Return those of some vectors, the best first, that are not far worse than the best: refined, they may be as good."""
     few = coarse(misfit, COARSE)
     sizes = [misfit.size(vector, few) for vector in vectors]
     most = sizes[0] + _WORSE * misfit.back[few].size
@@ -56,6 +56,6 @@ def best_of(misfit: Misfit, vectors: list[_Array], few: slice, count: int) -> li
 
 
 def is_noise(misfit: Misfit, vector: _Array, few: slice) -> bool:
-    """Say whether a vector leaves no more than noise of some of the points."""
+    """Say whether a vector leaves no more than noise at some of the points."""
     count = misfit.back[few].size
     return misfit.size(vector, few) <= _NOISE[0] * count + _CLEAR * _NOISE[1] * count**0.5

@@ -1,4 +1,4 @@
-"""Whether the points of a loop make sense: in an order, with a contact, and with the right signs."""
+"""Whether the points of a loop are plausible: in an order, with a contact, and with the right signs."""
 
 from typing import Final
 
@@ -10,19 +10,19 @@ from gradhesion.core.loops.points import ways
 _Array = NDArray[np.float64]
 
 FEWEST: Final = 40
-"""Points below which nothing is said."""
+"""Number of points below which nothing is tested."""
 _STEP: Final = 0.12
-"""The step between neighbours, in parts of the span of the depth, above which many turns are those of no order."""
+"""The step between neighbours, in parts of the span of the depth, above which many turns mean that there is no order."""
 _END: Final = 0.1
-"""What an end of the depths is, in parts of their span."""
+"""Length of an end of the depths, in parts of their span."""
 _STRAIGHT: Final = 5.0
-"""Standard deviations of chi square about a straight line, up to which there is nothing else."""
+"""Standard deviations of chi square about a straight line, up to which the data are a straight line."""
 _FLAT: Final = 0.03
-"""How much the load changes over an end of the depths that is flat, in parts of its span."""
+"""Largest change of the load over a flat end of the depths, in parts of its span."""
 
 
 def has_order(depth: _Array, cycle: NDArray[np.int32] | None = None) -> bool:
-    """Tell whether points are in an order in which a loop can be measured.
+    """Return whether points are in an order in which a loop can be measured.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def has_order(depth: _Array, cycle: NDArray[np.int32] | None = None) -> bool:
 
 
 def sense_of(depth: _Array, load: _Array, noise: _Array, unloading: NDArray[np.bool_]) -> str:
-    """Tell whether points can be those of a contact, by the ends of their depths.
+    """Test by the ends of their depths whether points can be those of a contact.
 
     Parameters
     ----------
@@ -58,11 +58,11 @@ def sense_of(depth: _Array, load: _Array, noise: _Array, unloading: NDArray[np.b
     noise
         The standard deviation of each load, shape (n,).
     unloading
-        Whether each point does; signs are told from one branch.
+        Whether each point unloads; signs are tested on one branch.
 
     Returns
     -------
-    "" where they can. "straight": the load is a straight line of the depth and noise, without contact. "load": it falls
+    "" if they can. "straight": the load is a straight line of the depth and noise, without contact. "load": it falls
     towards the deepest points and is farthest from the other end there, so that its sign is wrong. "depth": it does so
     rising towards the shallowest points, so that the sign of the depth is wrong. "both".
 
@@ -88,7 +88,7 @@ def sense_of(depth: _Array, load: _Array, noise: _Array, unloading: NDArray[np.b
 
 
 def _signs(x: _Array, load: _Array, noise: _Array) -> str | None:
-    """Tell which signs of a branch are wrong; None where its ends do not say."""
+    """Return which signs of a branch are wrong; None where its ends do not decide."""
     span = float(np.ptp(np.quantile(load, [0.002, 0.998])))
     shallow, deep = (_end(x, load, noise, float(side)) for side in (x.min(), x.max()))
     if shallow is None or deep is None:

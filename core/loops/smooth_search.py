@@ -1,6 +1,6 @@
 """Where to start a fit of a smooth punch: contact points over all depths of the data, some works of adhesion with each.
 
-With each goes the modulus that meets the largest load. Those that leave least are refined on a part of the points.
+Each has the modulus that gives the largest load. Those with the least misfit are refined on a part of the points.
 """
 
 import math
@@ -23,7 +23,7 @@ _WORKS: Final = 3
 _KEPT: Final = 8
 """Starts of a smooth punch that are refined."""
 _ROBUST: Final = 4
-"""Of these, how many are refined with a loss that outliers hardly move as well."""
+"""How many of these are also refined with a loss that outliers hardly affect."""
 
 
 def smooth_starts(misfit: Misfit, load_zero: float, contact: float, seed: int) -> list[_Array]:
@@ -36,7 +36,7 @@ def smooth_starts(misfit: Misfit, load_zero: float, contact: float, seed: int) -
     load_zero, contact
         Load of the base line, and the depth at which it ends (NaN if it has none).
     seed
-        Of the Sobol set of what is searched besides.
+        Of the Sobol set of the other searched numbers.
     """
     names, few = misfit.names, coarse(misfit, COARSE)
     lows, highs = misfit.low, misfit.high
@@ -70,7 +70,7 @@ def smooth_starts(misfit: Misfit, load_zero: float, contact: float, seed: int) -
     for number, i in enumerate(order):
         found.append(misfit.refined(begun[i], few, most=40, tolerance=1e-6).x)
         if is_noise(misfit, found[-1], few):
-            break  # other contact points leave more
+            break  # other contact points have a larger misfit
         if number < _ROBUST:
             found.append(misfit.refined(begun[i], few, loss="soft_l1", most=40, tolerance=1e-6).x)
     squares = [float(np.sum(misfit.residual(vector, few) ** 2)) for vector in found]
@@ -78,7 +78,7 @@ def smooth_starts(misfit: Misfit, load_zero: float, contact: float, seed: int) -
 
 
 def held_start(misfit: Misfit, begun: _Array, load_zero: float, contact: float) -> _Array:
-    """Return a start with both zeros at what the base line says, refined in everything else."""
+    """Return a start with both zeros from the base line, refined in everything else."""
     vector, held = begun.copy(), []
     for name, value in ((OFFSETS[0], contact), (OFFSETS[1], load_zero)):
         if name in misfit.names and math.isfinite(value):

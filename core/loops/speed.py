@@ -1,7 +1,7 @@
 """Loops whose edge opens, or closes too, at a work that grows with its speed: paths by time, and where to start.
 
-Loading at rest is that of any loop (path.py). The edge at a speed is followed by core/rate/, step by step, and how its
-path moves is told by differences.
+Loading at rest is that of any loop (path.py). A moving edge is integrated by core/rate/, and the derivatives of its path
+are differences.
 """
 
 import math
@@ -33,7 +33,7 @@ _KEPT: Final = 3
 
 
 class SpeedModel(LoopModel):
-    """What draws the path of a loop whose edge has a speed.
+    """The path of a loop whose edge has a speed, as a function of the numbers that are searched.
 
     Parameters
     ----------

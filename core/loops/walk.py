@@ -1,9 +1,9 @@
-"""Which radii a contact passes, read from a grid of radii: those where what is prescribed has a new extreme.
+"""Which radii a contact passes, from a grid of radii: those where the prescribed coordinate has a new extreme.
 
 Loading visits the radii at which the coordinate is larger than at all smaller radii, unloading those at which it is
 smaller than at all larger ones; what lies between is jumped over. A grid shows the branches; their ends are the
 extrema of parabolas through three of its points, and the places where a jump lands are roots of cubics through four.
-A vertex of a path is put on the curve itself at such a radius: what the radius is off by moves it along the curve.
+A vertex of a path is put on the curve itself at such a radius: an error of the radius moves it along the curve.
 """
 
 import math
@@ -65,7 +65,7 @@ def _ended(radii: Floats, jump: Truths, size: int, end: float) -> int:
 
 @kernel(entry=True)
 def climb(radius: Floats, level: Floats, start: float) -> tuple[Floats, Truths, Floats]:
-    """Return the radii that a level passes as it grows.
+    """Return the radii that the contact passes as a level grows.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def climb(radius: Floats, level: Floats, start: float) -> tuple[Floats, Truths, 
     level
         What is prescribed, at these; shape (n,).
     start
-        The level that it grows from. What begins above it is reached by a jump.
+        The level from which it grows. A branch that begins above it is reached by a jump.
 
     Returns
     -------
@@ -96,7 +96,7 @@ def climb(radius: Floats, level: Floats, start: float) -> tuple[Floats, Truths, 
     for i in range(count):
         if not level[i] > top:
             continue
-        if last < i - 1 or size == 0:  # a branch ends, and the next is met
+        if last < i - 1 or size == 0:  # a branch ends, and the next one begins
             target = start
             if last >= 0:
                 end, target = _top(radius, level, last)

@@ -1,4 +1,4 @@
-"""Where to start a fit of waves: at what a smooth punch leaves over, which repeats with the contact radius.
+"""Where to start a fit of waves: the residual of a smooth punch is periodic in the contact radius.
 
 The peaks of its spectrum, then wavelengths over the whole range, each with some amplitudes, are refined in everything
 else, and the best of them in all, until one leaves no more than noise.
@@ -23,9 +23,9 @@ _HEIGHTS: Final = 3
 _PEAKS: Final = 6
 """Peaks of the spectrum that are tried."""
 _BESIDE: Final = 2
-"""Of them with a third of a wave more, and less, within the contact."""
+"""Peaks that are tried with a third of a wave more, and less, within the contact."""
 _ALIKE: Final = 0.05
-"""Of the ranges: smooth curves as near serve one search for waves."""
+"""Distance in parts of the ranges: closer smooth curves share one search for waves."""
 _PER_WAVE: Final = 3.0
 """Wavelengths tried, over the number of waves by which the shortest and the longest differ within the contact."""
 _LEAST, _MOST = 8, 14
@@ -115,7 +115,7 @@ def _lengths(misfit: Misfit, smooth: Misfit, begun: _Array, middle: _Array, i: i
 
 
 def _softened(misfit: Misfit, vector: _Array) -> _Array:
-    """Take from the work of adhesion of the smooth punch what waves add: the roots of both add up."""
+    """Subtract what waves add from the work of adhesion of the smooth punch: the roots of both add up."""
     if "work_of_adhesion" not in misfit.names:
         return vector
     i = misfit.names.index("work_of_adhesion")
