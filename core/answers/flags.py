@@ -1,4 +1,4 @@
-"""Flags of results that are drawn from several scenes, in addition to those of a scene (status.py)."""
+"""Flags of results of several scenes, in addition to those of one scene (status.py)."""
 
 from typing import Final
 

@@ -4,7 +4,7 @@ The search is global to a stated resolution: a sweep over all searched inputs fi
 each that can hold the optimum is refined between the neighbours of its highest point (optimum_one_input.py,
 optimum_many_inputs.py). Merits are smooth but for kinks.
 
-All searched inputs are counted from 0 to 1 over their ranges here.
+Here each searched input runs from 0 to 1 over its range.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ from gradhesion.core.answers.optimum_merit import CLOSE, Array, Merit
 from gradhesion.core.answers.optimum_one_input import peaks_between, refine_one
 
 SCENES: Final = 2**18
-"""That are evaluated at a time in a sweep."""
+"""Number of scenes evaluated at a time in a sweep."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -30,8 +30,8 @@ class Optima:
     """From 0 to 1; shape (inputs, cells). NaN where nothing is feasible."""
     merits: Array
     too_coarse: NDArray[np.bool_]
-    """Whether the sweep at the stated resolution, half of that which was made, does not show the basin; nor is it shown
-    where a peak was found between the points of the finer one."""
+    """Whether the sweep at the stated resolution, half of that computed, misses the basin, as it does where a peak was
+    found between the points of the finer one."""
 
 
 def axis_of(resolution: int) -> Array:
@@ -65,7 +65,7 @@ def optima(merit: Merit, inputs: int, cells: int, resolution: int) -> Optima:
     Parameters
     ----------
     merit
-        What is to be as large as possible.
+        The merit to be maximised.
     inputs, cells
         How many inputs are searched, in how many cells.
     resolution
@@ -81,7 +81,7 @@ def optima(merit: Merit, inputs: int, cells: int, resolution: int) -> Optima:
 
 
 def optima_of(merit: Merit, merits: Array, margins: Array) -> Optima:
-    """Return the optima from a sweep that is made."""
+    """Return the optima from a computed sweep."""
     inputs, cells = merits.ndim - 1, merits.shape[-1]
     heights = np.where((margins >= 0.0) & ~np.isnan(merits), merits, -np.inf)
     basins, promised = basins_of(heights)

@@ -1,6 +1,6 @@
 """Basins of a sweep: the points from which an optimum is refined.
 
-All searched inputs are counted from 0 to 1 over their ranges.
+Each searched input runs from 0 to 1 over its range.
 """
 
 from typing import Final
@@ -12,14 +12,14 @@ from scipy.ndimage import maximum_filter
 from gradhesion.core.answers.optimum_merit import WIDTH, Array
 
 _MOST_BASINS: Final = 12
-"""That are refined in a cell: those whose neighbours promise the most."""
+"""Number of basins refined in a cell: those with the highest bounds."""
 
 
 def basins_of(heights: Array) -> tuple[tuple[NDArray[np.int64], ...], Array]:
     """Find the highest points of basins that may hold the optimum of their cell: indices, the cells last.
 
-    And what each of them promises: its height, and as much more as it is above its neighbours, of shape (basins,). The
-    axes of `heights` are those of a sweep, cells last.
+    And a bound for each of them: its height plus its height above its neighbours, of shape (basins,). The axes of
+    `heights` are those of a sweep, cells last.
     """
     inputs = heights.ndim - 1
     neighbours = maximum_filter(heights, size=(*(3 for _ in range(inputs)), 1), mode="nearest")
@@ -27,7 +27,7 @@ def basins_of(heights: Array) -> tuple[tuple[NDArray[np.int64], ...], Array]:
     rise = np.zeros_like(heights)
     for axis in range(inputs):
         steps = np.abs(np.diff(np.where(np.isfinite(heights), heights, np.nan), axis=axis))
-        steps = np.where(np.isnan(steps), np.inf, steps)  # beside what is not feasible there is no saying
+        steps = np.where(np.isnan(steps), np.inf, steps)  # next to infeasible points there is no bound
         ends = [(0, 0)] * heights.ndim
         ends[axis] = (1, 1)
         padded = np.pad(steps, ends)
@@ -56,7 +56,7 @@ def is_new(heights: Array, places: Array) -> NDArray[np.bool_]:
         coarse
     )
     indices = np.nonzero(peaks)
-    shown: NDArray[np.bool_] = np.any(np.isnan(places), axis=0)  # where nothing is feasible there is nothing to miss
+    shown: NDArray[np.bool_] = np.any(np.isnan(places), axis=0)  # where nothing is feasible no optimum is missed
     spacing = 1.0 / (coarse.shape[0] - 1)
     near = np.ones(indices[-1].size, bool)
     for own, index in zip(places, indices[:-1], strict=True):

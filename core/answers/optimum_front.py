@@ -14,7 +14,7 @@ def front(values: Sequence[Array]) -> NDArray[np.int64]:
     Parameters
     ----------
     values
-        Two arrays of one dimension, each to be as large as possible; points with NaN are left out.
+        Two arrays of one dimension, each to be maximised; points with NaN are left out.
 
     Examples
     --------

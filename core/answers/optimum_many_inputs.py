@@ -1,7 +1,7 @@
 """Optima of several searched inputs: basins are refined one after the other.
 
-By SciPy's L-BFGS-B with exact slopes, by Nelder and Mead's simplex where that ends on a kink or at the edge of what is
-feasible (found by SLSQP), and by the zero of the slopes.
+By SciPy's L-BFGS-B with exact slopes, by Nelder and Mead's simplex where that ends on a kink or at the edge of the
+feasible region (found by SLSQP), and by the zero of the slopes.
 """
 
 from collections.abc import Callable
@@ -28,7 +28,7 @@ def refine_many(
 ) -> tuple[Array, Array]:
     """Refine the basins of several searched inputs, one after the other; of a cell the highest first.
 
-    Those that promise no more than another has turned out to hold are left as they are.
+    Those whose bound is below an optimum already found are not refined.
     """
     *indices, cells = basins
     spacing = 1.0 / (heights.shape[0] - 1)
@@ -53,7 +53,7 @@ def _refined(
     low, high = np.array(bounds).T
 
     def height(place: Array) -> float:
-        """Return what is to be least: infinite where something is not met."""
+        """Return the value to be minimised: infinite where a requirement is not met."""
         merits, margins = merit.values(np.clip(place, low, high), cell)
         return -float(merits) if float(margins) >= 0.0 and not np.isnan(merits) else np.inf
 
@@ -104,7 +104,7 @@ def _along_the_edge(
     best: Array,
     bounds: list[tuple[float, float]],
 ) -> Array:
-    """Move a feasible place (inputs,) to a better one where what is required is met, smooth as far as that goes."""
+    """Move a feasible place (inputs,) to a better feasible one, by steps that assume smoothness."""
 
     def plain(place: Array) -> float:
         merits, _ = merit.values(place, cell)
@@ -143,7 +143,7 @@ def _along_the_edge(
 
 
 def _is_stationary(slopes: Array, place: Array, low: Array, high: Array, size: float) -> bool:
-    """Report whether no slope leads on, but against an end of the range."""
+    """Report whether all slopes are zero, but for those towards an end of the range."""
     at_end = ((place <= low) & (slopes > 0.0)) | ((place >= high) & (slopes < 0.0))
     inner_edge = at_end & (place > 0.0) & (place < 1.0)
     return bool(np.all((np.abs(slopes) <= 1e3 * _STEEP * size) | at_end) and not inner_edge.any())

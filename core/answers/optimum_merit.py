@@ -8,16 +8,16 @@ from numpy.typing import NDArray
 Array: TypeAlias = NDArray[np.float64]
 
 CLOSE: Final = 1e-9
-"""By what share of its size a merit is better than another."""
+"""Relative difference by which a merit is better than another."""
 WIDTH: Final = 1e-12
-"""To which a peak is bracketed, over its range."""
+"""Width to which a peak is bracketed, in parts of its range."""
 
 
 class Merit(Protocol):
-    """What is to be as large as possible, of cells that differ in what is not searched."""
+    """The merit to be maximised, of cells that differ in the inputs that are not searched."""
 
     def values(self, places: Array, cells: NDArray[np.int64]) -> tuple[Array, Array]:
-        """Return merits, and margins that are not negative where all is met that is required.
+        """Return merits, and margins that are not negative where all requirements are met.
 
         Parameters
         ----------

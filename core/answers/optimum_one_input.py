@@ -16,9 +16,9 @@ from gradhesion.core.answers.optimum_merit import CLOSE, WIDTH, Array, Merit
 _ROUGH: Final = 2.0**-24
 """The width of a bracket where a zero of the slope is to follow."""
 _NEAR: Final = 2.0**-20
-"""Where the slopes beside a peak are looked at for its zero."""
+"""Where the slopes beside a peak are evaluated for its zero."""
 _BETWEEN: Final = 7
-"""Points that are looked at between two of a sweep, where there may be a peak that is higher than the best."""
+"""Points tried between two of a sweep, where there may be a peak that is higher than the best."""
 
 
 def refine_one(merit: Merit, heights: Array, basins: tuple[NDArray[np.int64], ...]) -> tuple[Array, Array]:
@@ -41,7 +41,7 @@ def refine_one(merit: Merit, heights: Array, basins: tuple[NDArray[np.int64], ..
         sides.append(beside)
 
     def inside(places: Any, cell: Any, low: Any, high: Any) -> Any:
-        """Return what is to be least, mirrored where the range ends or what is feasible does."""
+        """Return the value to be minimised, mirrored at the ends of the range and of the feasible region."""
         merits, _ = merit.values(_into(places, low, high)[None], cell.astype(np.int64))
         return -np.where(np.isnan(merits), -np.inf, merits)
 
@@ -61,7 +61,7 @@ def refine_one(merit: Merit, heights: Array, basins: tuple[NDArray[np.int64], ..
 
     def peaks(bracket: tuple[Any, Any, Any], some: Any, width: float) -> tuple[Any, Any]:
         """Return the peaks within brackets, and brackets of them that are as narrow."""
-        with np.errstate(all="ignore"):  # beside what is not feasible, merits are infinite
+        with np.errstate(all="ignore"):  # next to infeasible points merits are infinite
             found = find_minimum(
                 inside,
                 bracket,
@@ -90,11 +90,11 @@ def refine_one(merit: Merit, heights: Array, basins: tuple[NDArray[np.int64], ..
 
 
 def peaks_between(merit: Merit, heights: Array, best: Array, where: Array) -> tuple[NDArray[np.int64], Array, Array]:
-    """Look for peaks between two points of a sweep that the sweep does not show, where they can be above the best.
+    """Search for peaks between two points of a sweep that the sweep does not show, where they can be above the best.
 
-    `best` and `where` are the optima of the cells so far. Between two points the merit is trusted to rise above both by
-    no more than it changes between these, or between one of them and the next; and between two of the points that are
-    then looked at, the same.
+    `best` and `where` are the optima of the cells so far. Between two points the merit is assumed to rise above both by
+    no more than it changes between these, or between one of them and the next; the same is assumed between two of the
+    points that are then tried.
 
     Returns
     -------
@@ -121,7 +121,7 @@ def peaks_between(merit: Merit, heights: Array, best: Array, where: Array) -> tu
     cells = cells[which]
 
     def depth(at: Any, cell: Any) -> Any:
-        """Return what is to be least."""
+        """Return the value to be minimised."""
         values, allowed = merit.values(at[None], cell.astype(np.int64))
         return np.where((allowed >= 0.0) & ~np.isnan(values), -values, np.inf)
 
@@ -134,7 +134,7 @@ def peaks_between(merit: Merit, heights: Array, best: Array, where: Array) -> tu
 
 
 def _promised(heights: Array) -> Array:
-    """Return for each interval of the first axis how high a peak within may be; -inf beside what is not feasible."""
+    """Return for each interval of the first axis how high a peak within may be; -inf next to infeasible points."""
     with np.errstate(invalid="ignore"):
         steps = np.abs(np.diff(heights, axis=0))
     steps[~np.isfinite(steps)] = 0.0
@@ -146,7 +146,7 @@ def _promised(heights: Array) -> Array:
 
 
 def _edges(merit: Merit, inside: Array, outside: Array, cells: NDArray[np.int64]) -> Array:
-    """Return where what is required ceases to be met between places (n,) of two sides, where it still is."""
+    """Return the edges of the feasible region between places (n,) on its two sides, on the feasible side."""
 
     def side(places: Any, cell: Any) -> Any:
         merits, margins = merit.values(places[None], cell.astype(np.int64))
@@ -194,6 +194,6 @@ def _folded(places: Array) -> Array:
 
 
 def _into(places: Array, lowest: Array, highest: Array) -> Array:
-    """Mirror places into what is feasible, and into the range."""
+    """Mirror places into the feasible region, and into the range."""
     inner = np.where(places < lowest, 2.0 * lowest - places, np.where(places > highest, 2.0 * highest - places, places))
     return _folded(inner)

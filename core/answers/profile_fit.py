@@ -4,8 +4,8 @@
 
 Height, factor of the power and coefficients are linear: for each exponent m, period lambda and centre r0 they are those
 of linear least squares, and only these three are searched (Golub & Pereyra 1973). Where the period may lie follows from
-the spectrum of what a power leaves: the sum of its density over the harmonics of a period. Every multiple of a period
-holds the same series, so that of all that fit as well the shortest is taken.
+the spectrum of the residual of a power: the sum of its density over the harmonics of a period. Every multiple of a
+period contains the same series, so that the shortest of those that fit equally well is chosen.
 
 A weight that falls to 0 over the last tenth keeps the edge, where the profile is cut, from ringing through the series.
 """
@@ -26,9 +26,9 @@ _Array = NDArray[np.float64]
 TAPER: Final = 0.1
 """The part of the radius over which the weight falls at the edge."""
 EXPONENTS: Final = (1.05, 10.0)
-"""Between which the exponent is searched: at 1 the radius has no effect."""
+"""Range in which the exponent is searched: at 1 the radius has no effect."""
 _SEARCHED: Final = 3000
-"""Points that the search goes by, at most; what it finds is refined on all."""
+"""Most points used in the search; its result is refined on all."""
 _PADDING: Final = 8
 """Samples of the spectrum for one wave over the radius."""
 _CANDIDATES: Final = 40
@@ -37,7 +37,7 @@ _REFINED: Final = 10
 _ALIKE: Final = 4.0
 """Standard deviations of a sum of squares within which two periods fit as well."""
 _ROUNDING: Final = 64.0 * 2.0**-52
-"""Of the range of heights: a residual below it is rounding."""
+"""Residual, in parts of the range of heights, below which it is rounding."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -191,7 +191,7 @@ def _in_order(places: _Array, heights: _Array) -> tuple[_Array, _Array]:
 
 
 def _is_lowest_inside(heights: _Array) -> bool:
-    """Tell whether a line, of shape (n,), has two flanks: at both its ends it is well above its lowest point."""
+    """Return whether a line, of shape (n,), has two flanks: at both its ends it is well above its lowest point."""
     few = max(1, heights.size // 50)
     ends = min(float(np.median(heights[:few])), float(np.median(heights[-few:])))
     return ends - float(heights.min()) > 0.25 * float(np.ptp(heights))
@@ -206,7 +206,7 @@ def _vertex(places: _Array, heights: _Array) -> float:
 
 
 class _Fit:
-    """Points within a radius, in its unit, and the search for what is not linear."""
+    """Points within a radius, in its unit, and the search for the numbers that are not linear."""
 
     def __init__(
         self, places: _Array, heights: _Array, reach: float, terms: int, exponent: float | None, centre: float | None
@@ -232,7 +232,7 @@ class _Fit:
         return columns, np.sin(0.5 * math.pi * edge)
 
     def projected(self, vector: _Array, x: _Array, y: _Array) -> _Array:
-        """Return what the best linear part leaves, weighted."""
+        """Return the residual of the best linear part, weighted."""
         m, waves, centre = self.split(vector)
         columns, roots = self.design(m, waves, centre, x)
         q, _ = np.linalg.qr(columns * roots[:, None])
@@ -241,7 +241,7 @@ class _Fit:
         return left
 
     def split(self, vector: _Array) -> tuple[float, float, float]:
-        """Name what is searched."""
+        """Name the numbers that are searched."""
         rest = list(vector[1:])
         m = float(rest.pop(0)) if self.exponent is None else self.exponent
         return m, float(vector[0]), float(rest[0]) if self.both else 0.0
@@ -279,7 +279,7 @@ class _Fit:
         return float(minimize_scalar(size, bounds=(grid[max(0, i - 1)], grid[min(29, i + 1)]), method="bounded").x)
 
     def _periods(self, m: float, x: _Array, y: _Array) -> _Array:
-        """Return waves over the radius at which the harmonics of what a power leaves are largest."""
+        """Return waves over the radius at which the harmonics of the residual of a power are largest."""
         rho = np.abs(x - self.start_centre)
         order = np.argsort(rho)
         columns = np.column_stack([np.ones_like(rho), rho**m])
@@ -300,7 +300,7 @@ class _Fit:
         return np.unique(np.concatenate([[1.0], waves[best]]))
 
     def _refined(self, start: _Array, x: _Array, y: _Array) -> tuple[float, _Array]:
-        """Return the sum of squares and what is searched, the best near a start."""
+        """Return the least sum of squares near a start, and the searched numbers there."""
         low, high = start.copy(), start.copy()
         low[0], high[0] = max(1.0, start[0] - 0.5), max(1.0, start[0] - 0.5) + 1.0
         if self.exponent is None:
@@ -381,7 +381,7 @@ class _Fit:
         return float(radius * math.sqrt(np.array(gradient) @ covariance @ np.array(gradient)))
 
     def _slope(self, linear: _Array, vector: _Array, i: int) -> _Array:
-        """Return the derivative of the heights by one of what is searched, by a central difference."""
+        """Return the derivative of the heights by one of the searched numbers, by a central difference."""
 
         def model(where: _Array) -> _Array:
             heights: _Array = self.design(*self.split(where), self.x)[0] @ linear

@@ -1,6 +1,6 @@
 """Slopes of a value to the keys by which its scene is given: parameters, reduced variables, quantities with units.
 
-Sensitivities (sensitivity.py) are to the parameters of `solve`. How each of these follows from what is given
+Sensitivities (sensitivity.py) are to the parameters of `solve`. How each of these depends on the given keys
 (reduced.py) is found by differences of fourth order, of logarithms, which are exact for powers.
 """
 
@@ -15,9 +15,9 @@ from gradhesion.core.variables.reduced import WAYS, parameters_from
 PLAIN: Final = ("k", "nu")
 """Parameters whose sensitivities are to themselves, not to their logarithms: they may be 0."""
 _STEP: Final = 2.0**-6
-"""Of a logarithm: 4 eps/step is left of rounding, and of what is no power step^4/30 of the fifth derivative."""
+"""Step of a logarithm: the error is 4 eps/step of rounding, and step^4/30 of the fifth derivative if no power."""
 _PLAIN_STEP: Final = 2.0**-9
-"""Of k and nu."""
+"""Step of k and nu."""
 _CENTRED: Final = {-2: 1.0 / 12.0, -1: -2.0 / 3.0, 1: 2.0 / 3.0, 2: -1.0 / 12.0}
 _FORWARD: Final = {0: -25.0 / 12.0, 1: 4.0, 2: -3.0, 3: 4.0 / 3.0, 4: -0.25}
 
@@ -37,11 +37,11 @@ def slopes_to_keys(
     Parameters
     ----------
     given
-        What gives the scenes, as `parameters_from` takes it; all broadcast to the scenes.
+        The keys of the scenes, as arguments of `parameters_from`; all broadcast to the scenes.
     keys
-        To what.
+        The keys of the derivatives.
     parameters
-        What `sensitivity` is to, in order.
+        The parameters of `sensitivity`, in order.
     value
         The value, of shape `scenes`.
     sensitivity
@@ -98,7 +98,7 @@ def _influences(given: Mapping[str, _Array], key: str, parameters: Sequence[str]
     for weight, moved in points:
         made = parameters_from({**given, key: moved})
         for name in parameters:
-            with np.errstate(all="ignore"):  # what is 0 or infinite has no logarithm, and no influence
+            with np.errstate(all="ignore"):  # a key that is 0 or infinite has no logarithm, and no effect
                 one = made[name] if name in PLAIN else np.log(np.abs(made[name]))
                 found[name] = found.get(name, np.zeros(())) + weight * one
     influences = {}

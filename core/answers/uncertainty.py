@@ -4,8 +4,8 @@ With independent inputs of standard deviations sigma_i, to first order
 
     sigma^2 = sum_i (dV/dp_i)^2 sigma_i^2
 
-This holds where no kink of the value lies within the spread of the inputs. Whether one does is asked of the value
-itself, at a few samples: there the straight line and the value are to have the same deviation.
+This is valid where no kink of the value lies within the spread of the inputs, which a few samples test: there the
+straight line and the value must have the same deviation.
 """
 
 from collections.abc import Mapping, Sequence
@@ -22,10 +22,10 @@ QUANTILES: Final = {"p05": 0.05, "p50": 0.5, "p95": 0.95}
 TENTH: Final = 0.1
 """Two standard deviations differ where they do by more of the larger one."""
 FEW: Final = 32
-"""Samples that check a straight line, where no more are asked for. Of 600 values with six inputs known to 1 %, those
+"""Samples that check a straight line, if no more are requested. Of 600 values with six inputs known to 1 %, those
 that pass are right to 3 %, but for three that are off by 8 to 10 %; 8 samples miss some that are off by half."""
 AT_FEW: Final = 0.02
-"""By what share deviations of these samples may differ."""
+"""Relative difference allowed between deviations of these samples."""
 _LEAST_SHARE: Final = 2.0**-54
 """Samples are strictly between the bounds: a modulus of 0 has no value."""
 
@@ -100,7 +100,7 @@ def drawn_shares(inputs: int, count: int, seed: int) -> _Array:
     count
         Of samples, a power of two.
     seed
-        What the scrambling follows from.
+        Seed of the scrambling.
 
     Examples
     --------
@@ -150,7 +150,7 @@ def statistics_of(samples: _Array, axis: int) -> Mapping[str, _Array]:
     """
     there = ~np.isnan(samples)
     counts = there.sum(axis)
-    with np.errstate(all="ignore"):  # none has no mean, and infinite ones have no deviation
+    with np.errstate(all="ignore"):  # without samples there is no mean, and infinite ones have no deviation
         mean = np.sum(samples, axis, where=there) / counts
         apart = samples - np.expand_dims(mean, axis)
         found = {"mean": mean, "std": np.sqrt(np.sum(apart * apart, axis, where=there) / counts)}

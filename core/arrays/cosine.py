@@ -36,13 +36,13 @@ from gradhesion.core.turning.cosine import turn_curves
 from gradhesion.core.turning.turns import Turns
 
 SLOPES: Final = "slopes"
-"""The name of the sensitivities to the numbers of a scene, from which those to its parameters are put together."""
+"""The name of the sensitivities to the numbers of a scene, from which those to its parameters are computed."""
 BRANCHES: Final = 192
 """Branches of a curve that a task has room for."""
 _SENSED: Final = 64
-"""Exponents a task whose neighbours have tables too, four each."""
+"""Exponents of a task whose neighbours have tables too, four each."""
 _SMOOTH: Final = 16384
-"""Smooth scenes a task: what takes half a millisecond."""
+"""Smooth scenes of a task, solved in half a millisecond."""
 _are_endless: Final[Any] = unwrap(is_endless_wave)
 """The same of arrays, without numba."""
 _NO_CURVES: Final = np.empty(0, dtype=np.int64)
@@ -58,7 +58,7 @@ def run_tasks(
 ) -> None:
     """Do the work on every task: with the tables of its exponents, the task itself, and the stiffness of all curves.
 
-    With `forces` the tables serve pull-off forces alone; `how` to cut curves into tasks is as in `Grouped.tasks`.
+    With `forces` the tables are for pull-off forces only; `how` to cut curves into tasks is as in `Grouped.tasks`.
     """
     stiffness = np.empty(curves.k.size)
 
@@ -78,12 +78,12 @@ def curves_of(curves: Grouped, task: Task, tables: NDArray[Any], stiffness: NDAr
 def _smooth_and_others(curves: Grouped) -> tuple[NDArray[np.int64] | None, NDArray[np.int64] | None]:
     """Return the numbers (n,) of the curves that are solved as smooth ones, and of the others; None for all of them.
 
-    They are those whose waves count for nothing, if they have many scenes: the values are the same either way.
+    They are those whose waves have no effect, if they have many scenes: the values are the same either way.
     """
     count, rims = curves.size
     if count * rims < MANY_SMOOTH:
         return _NO_CURVES, None
-    with np.errstate(all="ignore"):  # what overflows has no value
+    with np.errstate(all="ignore"):  # a scene that overflows has no value
         smooth = _are_endless(curves.lambda_over_R, curves.A)
     if np.count_nonzero(smooth) * rims < MANY_SMOOTH:
         return _NO_CURVES, None
@@ -157,7 +157,7 @@ def solve_cosine(
 def turning_cosine(
     parameters: Mapping[str, ArrayLike], turn: str, threads: int | None, *, check_contact: bool = True
 ) -> tuple[NDArray[np.float64], NDArray[np.int8]]:
-    """Return where the cycles turn, and what `status` has to say of that.
+    """Return where the cycles turn, and the bits of `status` for the turn.
 
     Parameters
     ----------

@@ -54,7 +54,7 @@ def solve_general(
     sensed = np.full((3, COUNT, *status.shape), np.nan) if slopes else None
 
     def sense_at(exponent: float) -> Any:
-        """Return what the sensitivities of the curves of one exponent need."""
+        """Return the inputs for the sensitivities of the curves of one exponent."""
         if sensed is None or slopes is None:
             return NoSense()
         change, m = changes_of(exponent, series), profile.exponent

@@ -1,6 +1,6 @@
 """Reports on arrays of general scenes: stated errors, the residual of the energy, gains over the smooth punch.
 
-What stands between is the same on a plain interface and on one with a pattern of toughness (arrays/patterned.py).
+The code between is the same on a plain interface and on one with a pattern of toughness (arrays/patterned.py).
 """
 
 from __future__ import annotations  # those of inner functions would be made anew in every call: 15 us each
@@ -22,7 +22,7 @@ from gradhesion.core.problem.status import NO_VALUE
 from gradhesion.core.scene.general_report import ROWS, Solved, report_scenes
 
 _GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
-"""What is compared with the smooth punch on the same interface."""
+"""Results compared with the smooth punch on the same interface."""
 Found: TypeAlias = dict[str, NDArray[Any]]
 Work: TypeAlias = Callable[[float, NDArray[np.int64], bool], None]
 

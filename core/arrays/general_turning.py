@@ -26,7 +26,7 @@ def turning_general(
     *,
     check_contact: bool = True,
 ) -> tuple[NDArray[np.float64], NDArray[np.int8], NDArray[np.bool_]]:
-    """Return where the cycles turn, what `status` has to say of that, and whether a jump has passed the target.
+    """Return where the cycles turn, the bits of `status` for the turn, and whether a jump has passed the target.
 
     Parameters
     ----------

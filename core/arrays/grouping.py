@@ -12,20 +12,20 @@ from gradhesion.core.arrays.tasks import groups_of
 from gradhesion.core.problem.names import PARAMETERS
 
 _TASK: Final = 2048
-"""Scenes a task: some milliseconds, a thousand times the cost of handing it to a thread."""
+"""Scenes of a task: some milliseconds, a thousand times the cost of starting it on a thread."""
 _FEW: Final = 64
-"""Curves of an exponent from which on a table of its own is worth its time."""
+"""Curves of an exponent from which on computing a table for it saves time."""
 _SHORT: Final = 256
-"""Scenes of a call that one thread solves sooner than several are begun."""
+"""Scenes of a call that one thread solves before several could start."""
 _SEVERAL: Final = 8
 """Exponents whose own tables such a call reads side by side."""
 _TOGETHER: Final = 512
 """Exponents of few curves that are one task."""
 _MANY: Final = 128
-"""Exponents of few curves from which on it is worth being able to interpolate tables."""
+"""Exponents of few curves from which on interpolating tables saves time."""
 
 _LOOKED_AT: Final = 1024
-"""Curves whose exponents tell whether all differ."""
+"""Curves by whose exponents it is judged whether all differ."""
 
 
 def are_few(counts: NDArray[np.int64]) -> NDArray[np.bool_]:
@@ -41,7 +41,7 @@ def _seem_to_differ(k: NDArray[np.float64]) -> bool:
 
 @dataclass(frozen=True)
 class Task:
-    """Curves that are worked on at once.
+    """Curves of one task.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class Task:
     index
         Of each curve, its number among all; shape (curves,).
     interpolated
-        Whether its tables are worth no more than being interpolated (struve/interpolated.py).
+        Whether its tables are interpolated (struve/interpolated.py), which takes less time for few curves.
     """
 
     exponents: NDArray[np.float64]

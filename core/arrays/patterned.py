@@ -45,7 +45,7 @@ def _patterns_of(toughness: Toughness, scenes: Scenes) -> Patterns:
     rims = scenes.rim
     wavelength, amplitude = scenes.others
     rows, (low, high) = rows_of_pattern(toughness), _extremes(toughness)
-    with np.errstate(all="ignore"):  # what is out of range has no value
+    with np.errstate(all="ignore"):  # a scene out of range has no value
         least = 1.0 + np.minimum(amplitude * low, amplitude * high)
     limit = np.full(least.shape, math.inf)
     within = rims if rims.shape[0] > 1 else np.broadcast_to(rims, (least.size, rims.shape[1]))
@@ -62,7 +62,7 @@ def _patterns_of(toughness: Toughness, scenes: Scenes) -> Patterns:
 def curves_of_scenes(
     scenes: Scenes, profile: Profile, toughness: Toughness | None
 ) -> tuple[NDArray[np.float64], Any, Patterns]:
-    """Return the series of a profile, what makes the curves of one exponent from their numbers, and the patterns."""
+    """Return the series of a profile, a function for the curves of one exponent by their numbers, and the patterns."""
     assert toughness is not None  # noqa: S101 -- else these are not the scenes
     return *curves_of(scenes, profile), _patterns_of(toughness, scenes)
 

@@ -41,7 +41,7 @@ def compliance_of(
 
 @dataclass(frozen=True)
 class Scenes:
-    """The scenes of broadcast parameters as curves with their rims, and what the kernels take of them.
+    """The scenes of broadcast parameters as curves with their rims, and the arguments of the kernels.
 
     `rim`, and `target` at which cycles turn, have the shape (curves, rims), or (1, rims) where all curves have the
     same; the others have the shape (curves,). `shape` is that of the parameters, in the order of curves and rims.
@@ -111,7 +111,7 @@ def run_by_exponent(
 ) -> None:
     """Do the work on curves by their numbers, in tasks of one gradient exponent each; k is of shape (curves,).
 
-    It is given the exponent, the curves, and whether a table of its own is not worth its time (arrays/grouping.py).
+    Its arguments are the exponent, the curves, and whether its table is interpolated (arrays/grouping.py).
     """
     tasks = tasks_of(k, max(1, _TASK // max(1, rims)))
     few = set(k[tasks.order[tasks.ends[:-1][are_few(np.diff(tasks.ends))]]].tolist())

@@ -24,7 +24,7 @@ from gradhesion.core.rate.scenes import CLOSED, OPENED, Edges, close_scenes, ope
 SPEED: Final = "speed_over_reference"
 """The parameter V/v*: the speed of the depth, or of the far end of the spring, over the speed of the law."""
 OPENING: Final = (*OPENED, "unloading_energy", "rate_coefficient")
-"""What `open_at_speed` returns."""
+"""The results of `open_at_speed`."""
 _MORE: Final = {"displacement": (), "machine": ("machine_stiffness",)}
 _OF_CLOSING: Final = {"closing_ratio": 1.0, "delta_max": math.inf}
 MOST_POINTS: Final = 2**18
@@ -96,7 +96,7 @@ def open_at_speed(
     int 2 pi a G da, and unloading_energy, that less pi a_t^2, in R^2 dgamma; delta_jump_out in R, the depth at
     separation, where there is no load and the far end of the spring is as deep; edge_speed_at_pull_off in v*;
     rate_coefficient, the factor of (V/v*)^n in F/F_0 - 1 of a slow edge (NaN where the pull-off at rest is at a_t);
-    pull_off_force_error and opening_energy_error, estimates in the unit of the value, mostly above what is wrong.
+    pull_off_force_error and opening_energy_error, estimates in the unit of the value, mostly above the true error.
     `status` (int16) has pull_off_at_rim (the edge has moved by less than 1e-9 of a_t), tolerance_not_met (an estimate
     above 1e-9 of its value, or (V/v*)^n below 1e-15), no_value (all values are NaN), and too_many_waves with it.
 

@@ -2,7 +2,7 @@
 
     contact_slope = (a/R)^(m-1)    the slope of r^m/(m R^(m-1)) at a
 
-a is the pull-off radius for what belongs to the pull-off alone; else the turning radius, or for an unbounded punch
+a is the pull-off radius for results of the pull-off only; else the turning radius, or for an unbounded punch
 without a turn the largest end of a jump: beyond it the saturated cycle loses nothing. Loading arrives there, on the
 last branch, by its last jump, and unloading leaves from further inside.
 """

@@ -34,10 +34,10 @@ def _own_of_several(exponents: tuple[float, ...]) -> NDArray[Any]:
 
 
 def tables_for(task: Task, *, forces: bool = False) -> NDArray[Any]:
-    """Return the tables of a task, for kernels that ask for each of them (struve/current.py).
+    """Return the tables of a task, for kernels that look up each of them (struve/current.py).
 
-    What is no exponent has that of exponent 0. With `forces` only pull-off forces are read from them. Their shape is
-    (exponents,), or (1,) where they are interpolated one after the other.
+    A value that is no exponent has the table of exponent 0. With `forces` only pull-off forces are computed from them.
+    Their shape is (exponents,), or (1,) where they are interpolated one after the other.
     """
     exponents = np.where((task.exponents >= 0.0) & (task.exponents <= 1.0), task.exponents, 0.0)
     if task.interpolated:
@@ -46,7 +46,7 @@ def tables_for(task: Task, *, forces: bool = False) -> NDArray[Any]:
 
 
 def neighbours_for(task: Task) -> tuple[NDArray[Any], NDArray[np.float64]]:
-    """Return what differentiates by the exponents of a task (sensitivities/neighbours.py), a row for each of them.
+    """Return the weights of derivatives by the exponents of a task (sensitivities/neighbours.py), a row for each.
 
     Returns
     -------
@@ -63,7 +63,7 @@ def neighbours_for(task: Task) -> tuple[NDArray[Any], NDArray[np.float64]]:
 
 
 _NO_SINES: Final = np.zeros(COSINES)
-"""In the place of the table of sines where a profile has none: no value depends on it, the sizes of terms a little."""
+"""Used for the table of sines where a profile has none: no value depends on it, the sizes of terms a little."""
 
 
 @lru_cache(maxsize=128)
@@ -96,7 +96,7 @@ def tables_of(
 
 @lru_cache(maxsize=16)
 def _changes(k: float, rows: bytes) -> tuple[NDArray[Any], NDArray[np.float64]]:
-    """Return what `changes_of` does, of a series by its rows as bytes."""
+    """Return the result of `changes_of` for a series, given its rows as bytes."""
     series = np.frombuffer(rows).reshape(-1, 3).copy()
     exponents, weights = exponents_beside(k)
     return change_of(tables_of(k, series), [tables_of(other, series) for other in exponents], weights)

@@ -14,15 +14,15 @@ from gradhesion.core.arrays.processors import processors
 _T = TypeVar("_T")
 _Made_co = TypeVar("_Made_co", covariant=True)
 _LIKE: Final = 32
-"""The first exponents, by which all are judged to differ."""
+"""Number of first exponents by which all are judged to differ."""
 _PARTS: Final = 2.0**16 - 1.0
-"""Parts of [0, 1] that whole numbers of 16 bits can tell apart: numpy sorts these by counting."""
+"""Parts of [0, 1] that integers of 16 bits resolve: numpy sorts these by counting."""
 Task: TypeAlias = tuple[float, NDArray[np.int64]]
 """A gradient exponent, and the indices of curves that have it."""
 
 
 class Several(Protocol[_Made_co]):
-    """So many of something, made when they are asked for."""
+    """A sequence whose items are made on access."""
 
     def __len__(self) -> int: ...
 
@@ -31,7 +31,7 @@ class Several(Protocol[_Made_co]):
 
 @dataclass(frozen=True)
 class Tasks:
-    """The tasks of some curves, made when they are asked for.
+    """The tasks of some curves, made on access.
 
     Attributes
     ----------
@@ -109,7 +109,7 @@ def tasks_of(k: NDArray[np.float64], size: int) -> Tasks:
 
 
 def run_one_by_one(tasks: Several[_T], work: Callable[[_T], None], threads: int | None) -> None:
-    """Do the work on every task, by some threads that take the next one each; what one of them raises ends all.
+    """Do the work on every task, on threads that each take the next one; an exception in one of them ends all.
 
     A pool with a future a task would hold all of them: 2 kB each, for what may be one scene. Processors, which
     `threads` = None is for, are counted only where there are two tasks: that takes as long as 300 scenes.

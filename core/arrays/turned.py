@@ -16,13 +16,13 @@ from gradhesion.core.problem.status import JUMP_IN_TO_RIM, NO_CONTACT, NO_VALUE,
 Results: TypeAlias = dict[str, NDArray[Any]]
 _GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
 _OF_THE_CURVE: Final = ("roughness_parameter", "saturation_radius")
-"""What belongs to the curve, whether or not contact is made."""
+"""Results of the curve, whether or not contact is made."""
 _NOTHING: Final = {"pull_off_radius": np.nan, "delta_jump_out": np.nan}
-"""What a cycle without contact has not; all else of it is 0."""
+"""Results without a value where there is no contact; all others are 0 then."""
 
 
 class Solver(Protocol):
-    """What solves scenes up to their rims."""
+    """A function that solves scenes up to their rims."""
 
     def __call__(self, scenes: Mapping[str, ArrayLike], wanted: Sequence[str], *, turned: bool) -> Results:
         """Return the results `wanted` and `status`, all of the broadcast shape."""
@@ -46,13 +46,13 @@ def turned_results(
     parameters, turn, outputs
         As those of `solve` in core/sweep.py; `turn` is the one of `TURNS` that `parameters` has.
     radii, flags
-        Where unloading starts, and what the status has to say of it; of the broadcast shape (turning_cosine).
+        Where unloading starts, and the bits of the status for it; of the broadcast shape (turning_cosine).
     passed
         Whether a jump has passed the depth or load, under a load or by a machine (turning_general).
     solve
-        What solves scenes up to their rims.
+        The function that solves scenes up to their rims.
     smooth
-        What solves scenes that turn as these do; the gains are over those of the smooth punch.
+        The function that solves scenes with the same turn, for the gains over the smooth punch.
 
     Returns
     -------

@@ -26,8 +26,8 @@ def draw_asymptotic(subject: Subject, profile: Profile) -> dict[str, NDArray[np.
 
     Returns
     -------
-    The variables `asymptotic_...` (draw.CURVES). Depth holds the mean height that the printed form drops, lambda A of
-    one cosine. Nothing is claimed where the contact is no larger than a wave.
+    The variables `asymptotic_...` (draw.CURVES). Depth includes the mean height that the printed form drops, lambda A
+    of one cosine. The form is not valid where the contact is no larger than a wave.
     """
     if subject.mean_height == 0.0:
         smooth = general.draw_smooth if isinstance(subject.exact.numbers, General) else draw_smooth

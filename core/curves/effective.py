@@ -45,9 +45,9 @@ def draw_effective(subject: Subject, profile: Profile) -> dict[str, NDArray[Any]
     Returns
     -------
     The variables `effective_...` (draw.CURVES); `effective_jump` is 1 at a point that is reached by a jump. Depths
-    hold the mean height lambda A. Loading starts without contact at depth 0, touches the mean surface at lambda A and
-    jumps in there, to the a_2 of (5.34). For r >= s the radius a_2 does not exist: contact grows from a point, without
-    a jump. A rim within a_2 is reached by the jump-in, and unloading starts from there along the line (5.32). At k = 1
+    include the mean height lambda A. Loading starts without contact at depth 0, touches the mean surface at lambda A
+    and jumps in there, to the a_2 of (5.34). For r >= s there is no radius a_2: contact grows from a point, without a
+    jump. A rim within a_2 is reached by the jump-in, and unloading starts from there along the line (5.32). At k = 1
     contact ends by shrinking to a point. An unbounded punch is loaded up to 2 a_2, or to the pull-off radius of the
     unloading envelope if that is larger.
 
@@ -65,7 +65,7 @@ def draw_effective(subject: Subject, profile: Profile) -> dict[str, NDArray[Any]
         turns = levels.places((rise,), turn)
         loading = up.states(np.concatenate([[start], turns[turns > start], [turn]]))
         if start > 0.0:
-            loading[1, 0] = height  # to rounding it is that already
+            loading[1, 0] = height  # already so to rounding
     else:  # the rim is reached by the jump-in, and contact there is a flat punch
         loading = np.array([[turn], [height], [last_load + down.flat_stiffness(turn) * (height - last_depth)]])
     turns = levels.places((fall,), turn)[::-1]

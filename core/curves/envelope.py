@@ -50,7 +50,7 @@ def draw_envelope(subject: Subject, profile: Profile) -> dict[str, NDArray[np.fl
     Returns
     -------
     The variables `envelope_contact_radius`, `loading_envelope_...` and `unloading_envelope_...` (draw.CURVES). Depths
-    hold the mean height of the waves, lambda A of one cosine, without which they would not lie between.
+    include the mean height of the waves, lambda A of one cosine; without it the exact curve would not lie between.
     """
     up, down, pulls, turns = envelopes_of(subject, profile)
     end = subject.end / up.radius_scale

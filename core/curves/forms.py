@@ -136,7 +136,7 @@ def general_point(basis: Basis, numbers: General, place: float) -> tuple[float, 
 @ripple.answers(General)
 @kernel()
 def general_ripple(basis: Basis, numbers: General, place: float) -> tuple[float, float, float]:
-    """Answer with the waves of all harmonics together."""
+    """Return this for the waves of all harmonics together."""
     z = TWO_PI * place
     power = amplitude_power(basis.table, z)
     return numbers.half_wave, numbers.ripple * z * power, numbers.ripple * z / power
@@ -144,6 +144,6 @@ def general_ripple(basis: Basis, numbers: General, place: float) -> tuple[float,
 
 @kernel()
 def fill_points(table: AnyTable, numbers: Any, knots: Floats) -> None:
-    """Put depth and load in the second and third row of `knots`, of shape (3, n), whose first row holds places."""
+    """Put depth and load in the second and third row of `knots`, of shape (3, n), whose first row has the places."""
     for i in range(knots.shape[1]):
         knots[1, i], knots[2, i] = point(table, numbers, knots[0, i])

@@ -45,7 +45,7 @@ def _turns(basis: Basis, curve: Series, furthest: float) -> NDArray[np.float64] 
 def trace_of(
     basis: Basis, curve: Series, furthest: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | tuple[None, NDArray[np.float64]]:
-    """Return the branches with what path/general.py notes of them, and the other extrema of depth and load.
+    """Return the branches with the rows of path/general.py, and the other extrema of depth and load.
 
     The rim is no end of a branch.
     """
@@ -94,7 +94,7 @@ def subject_of(scene: Mapping[str, float], profile: Profile, loading: Loading) -
 
     Returns
     -------
-    The subject; its range is that of curves/subject.py, with folds of the coordinate among what it goes beyond.
+    The subject; its range is that of curves/subject.py, which extends beyond the folds of the coordinate too.
     """
     k, nu, modulus, c0, wavelength, amplitude, rim = (float(scene[name]) for name in PARAMETERS)
     machine = [np.array(float(scene["machine_stiffness"]))] if loading.control == "machine" else []

@@ -19,7 +19,7 @@ from gradhesion.core.struve.circle import TWO_PI
 
 @kernel()
 def lost(table: Any, curve: Any, start: float, end: float, level: float, work: Any) -> float:
-    """Return what a jump at a level loses from one place to another, over 2 pi l^2 dgamma; one of them may be 0."""
+    """Return the energy lost in a jump at a level between two places, over 2 pi l^2 dgamma; one of them may be 0."""
     if start == 0.0:
         return loss_from_zero(table, curve, end)
     if end == 0.0:
@@ -28,7 +28,7 @@ def lost(table: Any, curve: Any, start: float, end: float, level: float, work: A
 
 
 def _lost_by(form: Form, start: float, end: float, level: float, work: Any) -> float:
-    """Return that of a form: a smooth punch jumps from zero contact and to zero contact only."""
+    """Return this energy for a form: a smooth punch jumps from zero contact and to zero contact only."""
     if not form.is_plain:
         return lost(form.table, form.curve, start, end, level, work)
     energy: float = smooth_energy_from_zero(form.table["k"], max(start, end), level)
@@ -49,12 +49,12 @@ def list_jumps(subject: Subject) -> dict[str, NDArray[Any]]:
     which it happens (0: no contact), the energy that it dissipates over R^2 dgamma, the loads P/(1.5 pi R dgamma)
     before and after, whether it is on unloading, and whether it starts or ends at the rim. An energy may be negative: a
     jump on loading over a groove that adhesion does not close gains some, but the contact is no single disc then
-    (status.LOADING_NOT_ONE_DISC). An unbounded punch has all the jumps that there are. The jump-out under load control
+    (status.LOADING_NOT_ONE_DISC). An unbounded punch has all jumps of its curve. The jump-out under load control
     has no bounded energy and is left out, as in `dissipated_energy`.
 
     Notes
     -----
-    The energies sum up to the `dissipated_energy` of `solve`: to 1e-12, whether that walks every wave or sums over
+    The energies add up to the `dissipated_energy` of `solve`: to 1e-12, whether that traces every wave or sums over
     them.
     """
     form, corners = subject.exact, find_corners(subject)

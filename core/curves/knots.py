@@ -31,11 +31,11 @@ def polished(table: Table, curve: Cosine, level: float, x: float) -> float:
 
 @kernel()
 def landed(table: Table, curve: Cosine, target: float, x: float) -> float:
-    """Return where a branch meets a depth to rounding from a place of some nine digits (two steps of Newton's)."""
+    """Return where a branch reaches a depth, to rounding, from a place of some nine digits (two steps of Newton's)."""
     for _ in range(2):
         d, _, _, depth = slope(table, curve, 0.5 * (1.0 - table.k), x)
         step = (depth - target) / d / TWO_PI
-        if not abs(step) < 1e-6 * min(1.0, x):  # at a fold, where the depth is met to rounding anyway
+        if not abs(step) < 1e-6 * min(1.0, x):  # at a fold, where the depth is reached to rounding anyway
             break
         x -= step
     return x

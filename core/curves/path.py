@@ -1,8 +1,8 @@
 """The path of a cycle, read from the trace of its branches: branches, jumps, and the contact pinned at the rim.
 
 The corners of the path come first, in order: where it starts, where it jumps to, where depth or load turns, where a
-branch ends. They say how they are reached: along the curve or by a straight line, by a jump or not, on which branch,
-loading or unloading. What lies between is sampled (sampling.py).
+branch ends. Flags mark how they are reached: along the curve or by a straight line, by a jump or not, on which branch,
+loading or unloading. The curve between them is sampled (sampling.py).
 
 Jumps keep the coordinate Y = alpha depth + beta load that is prescribed: the depth for one cosine. Without contact the
 load is zero and the depth Y/alpha. Under load control (alpha = 0) the punch falls without end once contact is lost: the
@@ -27,7 +27,7 @@ PLACE, DEPTH, LOAD, JOINED, BRANCH, JUMP, UNLOADING = 0, 1, 2, 3, 4, 5, 6
 
 
 class _Walk:
-    """The corners of a path as they are met, with NaN for what follows from the curve or from the corner before."""
+    """The corners of a path in order, with NaN for values that follow from the curve or from the corner before."""
 
     def __init__(self, subject: Subject) -> None:
         self.form, self.turns = subject.exact, subject.load_folds
@@ -55,7 +55,7 @@ class _Walk:
             self.put(place, branch, True, False, unloading)
 
     def filled(self) -> NDArray[np.float64]:
-        """Return the corners, one a column, with depth and load; after a jump what is prescribed is as before it."""
+        """Return the corners, one a column, with depth and load; a jump keeps what is prescribed."""
         corners = np.ascontiguousarray(np.array(self.corners).T)
         found = self.form.states(corners[PLACE])
         for row in (DEPTH, LOAD):
@@ -128,7 +128,7 @@ def draw_path(subject: Subject) -> dict[str, NDArray[Any]]:
 
     Returns
     -------
-    The variables `path_...` (draw.CURVES). Flags and branch tell how a point is reached: the line from the point before
+    The variables `path_...` (draw.CURVES). Flags and branch mark how a point is reached: the line from the point before
     is a jump, or unloading, if the point is marked so. A jump is one straight line at its coordinate. Loading ends
     where contact is full, at the largest coordinate on the way; unloading begins pinned at the rim if the equilibrium
     at the rim is not as deep. The path of an unbounded punch turns round on the last, endless branch, at the end of the

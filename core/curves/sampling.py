@@ -26,7 +26,7 @@ _HALVINGS: Final = 30
 def _across(r: float, d: float, p: float, start: Floats, end: Floats, scales: Floats) -> bool:
     """Return whether a step is within the tolerance of the chord from start to end, in all three planes.
 
-    Points are (place, depth, load), of shape (3,); so is what they are multiplied by, the scales.
+    Points are (place, depth, load), of shape (3,); the scales that multiply them too.
     """
     r1, d1, p1 = (end[0] - start[0]) * scales[0], (end[1] - start[1]) * scales[1], (end[2] - start[2]) * scales[2]
     r, d, p = r * scales[0], d * scales[1], p * scales[2]

@@ -35,7 +35,7 @@ _WAVES_BEYOND: Final = 2.0
 
 
 def series_of(amplitude: float, profile: Profile) -> tuple[list[float], list[float]]:
-    """Return a profile's waves as general.py takes them: a_1, a_2, ... and b_1, b_2, ...
+    """Return a profile's waves as coefficients of general.py: a_1, a_2, ... and b_1, b_2, ...
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def equilibrium_states(scene: Mapping[str, float], radii: Sequence[float], profi
 def named_states(
     scene: Mapping[str, float], profile: Profile | None = None, loading: Loading | None = None
 ) -> tuple[Array, int]:
-    """Return the states of a loading cycle that have a name, and what there is to report of the cycle.
+    """Return the states of a loading cycle that have a name, and the status of the cycle.
 
     Parameters
     ----------

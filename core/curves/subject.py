@@ -20,7 +20,7 @@ from gradhesion.core.problem.names import PARAMETERS
 from gradhesion.core.struve.circle import TWO_PI
 
 BEYOND: Final = 1.05
-"""How far an unbounded punch is drawn beyond the last that happens to it."""
+"""How far an unbounded punch is drawn beyond its last fold or jump."""
 BEYOND_SMOOTH: Final = 1.5
 """How far an unbounded punch is drawn at least, in radii where the smooth curve is at zero depth."""
 _SMALLEST: Final = 1e-140
@@ -49,7 +49,7 @@ class Form:
 
     @property
     def curve(self) -> Any:
-        """The curve as core/path/ takes it; that of a smooth punch stands for one without waves."""
+        """The curve in the form of core/path/; that of a smooth punch is one without waves."""
         numbers = self.numbers
         return numbers.curve if isinstance(numbers, General) else Cosine(numbers.first, numbers.second, 0.0)
 
@@ -79,9 +79,9 @@ class Form:
 
 @dataclass(frozen=True)
 class Subject:
-    """What all curves of a scene are drawn from.
+    """The data from which all curves of a scene are drawn.
 
-    Lengths are in R. `trace` holds the branches of the exact curve (curve/branches.py) and `load_folds` the places
+    Lengths are in R. `trace` has the branches of the exact curve (curve/branches.py) and `load_folds` the places
     where its load is extremal, both in places of the form `exact`; it is None where the curve folds too often to be
     drawn.
     """

@@ -17,7 +17,7 @@ from gradhesion.core.equations._domain import Array
 _NODES: Final = 24
 _LEGENDRE: Final = roots_legendre(_NODES)
 _GRADES: Final = 56
-"""Halvings towards 0, after which nothing of a bounded function is left."""
+"""Halvings towards 0, after which the rest of the integral of a bounded function is below rounding."""
 
 
 def below(a: float, power: float, widest: float = math.inf) -> tuple[Array, Array]:

@@ -38,7 +38,7 @@ _SECTION: Final = re.compile(r"^(?=[A-Z][a-z]+\n-{3,}$)", re.MULTILINE)
 def documented(function: Function) -> Function:
     """Write the sections Parameters and Returns of a docstring, unless it has them, from the types of the arguments.
 
-    The signature that `help` shows is left without types: the words say them.
+    The signature that `help` shows has no types: the text gives them.
     """
     contract, *sections = _SECTION.split(inspect.getdoc(function) or "")
     types = dict(function.__annotations__)

@@ -1,4 +1,4 @@
-"""What all formulae share: arrays of floats that are NaN out of range, and the unit of load."""
+"""Shared by all formulae: arrays of floats that are NaN out of range, and the unit of load."""
 
 import math
 from collections.abc import Callable

@@ -78,7 +78,7 @@ def load(k: Gradient, stiffness: Stiffness, radius: Radius, slope: Slope, shorte
 
     Examples
     --------
-    A sphere holds a little less than its paraboloid, here with E* R/dgamma = 500:
+    A sphere adheres a little less than its paraboloid, here with E* R/dgamma = 500:
 
     >>> a = np.linspace(0.1, 0.3, 201)
     >>> float(load(0.0, 500.0, a, lambda r: r / np.sqrt(1 - r**2)).min().round(4))

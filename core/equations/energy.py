@@ -11,8 +11,8 @@ between the envelopes from a_2 to a_am. Both are closed forms, so that none need
 
     H ~ F0 dgamma L^2 + F1 A lambda^((1+k)/2) dgamma R L^((1-k)/2) + C2,   L = (R^2 dgamma/M)^(1/(3+k))        (5.43)
 
-F0 and F1 are closed forms in k as well; the paper has polynomials fitted to them. C2 grows without end with a_am: the
-envelopes know nothing of the radius at which folds end. A paraboloid with one cosine wave, lengths in R, energies in
+F0 and F1 are closed forms in k as well; the paper has polynomials fitted to them. C2 grows without bound with a_am: the
+envelopes do not include the radius at which folds end. A paraboloid with one cosine wave, lengths in R, energies in
 R^2 dgamma. Source: Jin, Guo & Wan (2013) as corrected in docs/theory.md.
 """
 

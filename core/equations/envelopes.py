@@ -38,7 +38,7 @@ from gradhesion.core.equations.general import harmonics
 
 _SAMPLES = 64
 _NEWTON_STEPS = 6
-"""From 1/128 of the shortest wave: its quadratic convergence is done after four."""
+"""Newton's steps from 1/128 of the shortest wave: four suffice."""
 
 Pull = Annotated[ArrayLike, "s - r for loading, s + r for unloading, over R^((1+k)/2)."]
 PositivePull = Annotated[ArrayLike, "s - r for loading, s + r for unloading, over R^((1+k)/2), > 0."]
@@ -76,7 +76,7 @@ def series_strengths(k: Gradient, wavelength: Wavelength, cosines: Cosines, sine
     Returns
     -------
     Two arrays of the broadcast shape; NaN outside the ranges. The extrema of zeta are the true ones: every local
-    extremum of 64 samples for each wave of the shortest harmonic is refined by Newton's method, and the best is taken.
+    extremum of 64 samples for each wave of the shortest harmonic is refined by Newton's method; the best counts.
 
     Examples
     --------

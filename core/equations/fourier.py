@@ -3,9 +3,9 @@
     f2(xi) = a0/2 + sum_n [a_n cos 2 pi n xi + b_n sin 2 pi n xi]
     a_n = 2 int_{-1/2}^{1/2} f2(xi) cos(2 pi n xi) d(xi),   b_n = 2 int_{-1/2}^{1/2} f2(xi) sin(2 pi n xi) d(xi)
 
-They are the way from a waviness that is measured, or given as a function, to the series of general.py. The rule is that
+They turn a waviness that is measured, or given as a function, into the series of general.py. The rule is that
 of equal steps, which is exact for a series and converges faster than any power of the step for a smooth periodic f2. As
-f2(0) = 0 in the theory, a0/2 = -sum a_n takes no part: a constant height of f2 does nothing but shift the punch.
+f2(0) = 0 in the theory, a0/2 = -sum a_n is not needed: a constant height of f2 only shifts the punch.
 Source: Jin, Guo & Wan (2013).
 """
 
@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 from gradhesion.core.equations._domain import Array
 
 _MOST: Final = 2**20
-"""Samples of a period beyond which no answer comes."""
+"""Most samples of a period."""
 
 
 def sampled_coefficients(heights: ArrayLike, terms: int) -> tuple[list[float], list[float]]:
@@ -39,7 +39,7 @@ def sampled_coefficients(heights: ArrayLike, terms: int) -> tuple[list[float], l
     Raises
     ------
     ValueError
-        For more harmonics than the samples can tell apart, or for samples that are not finite.
+        For more harmonics than the samples resolve, or for samples that are not finite.
 
     Examples
     --------
@@ -70,7 +70,7 @@ def coefficients(waviness: Callable[[Array], Array], terms: int) -> tuple[list[f
     Returns
     -------
     The lists a_1, a_2, ... and b_1, b_2, ..., as general.py takes them. Samples are doubled until no coefficient
-    changes by more than 1e-11 of the largest |f2|; for a smooth f2 they hold more than that. One with corners takes
+    changes by more than 1e-11 of the largest |f2|; for a smooth f2 they are more accurate. One with corners needs
     some 2^19 samples.
 
     Raises

@@ -2,11 +2,11 @@
 
     gap(r) = u_z(r) - delta + f(r) = (2/pi) cos(k pi/2) int_a^r s^k (delta_H(s) - delta) (r^2-s^2)^(-(1+k)/2) ds
 
-which is (3.5) with the adhesive part (4.10), in one integral. Contact over one disc asks for gap(r) >= 0 for all
+which is (3.5) with the adhesive part (4.10), in one integral. Contact over one disc requires gap(r) >= 0 for all
 r > a; delta_H(s) >= delta for all s > a is sufficient. The integral is a sum of Gauss rules: Jacobi's in the last
 panel, which takes the singular end r by its weight, and Legendre's in panels that grow from there by a factor of 2 to
 at most half a wave, and likewise from a, where s^k is not smooth at s = 0. As k tends to 1 all of the weight moves to
-r: what it takes there is left out of the sum. Millions of points ask for a faster way.
+r: that part is left out of the sum. For millions of points this is slow.
 Source: Jin, Guo & Wan (2013), section 12 of docs/theory.md.
 """
 

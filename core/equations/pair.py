@@ -18,7 +18,7 @@ from gradhesion.core.equations._domain import Array, exponent_of, not_negative
 from gradhesion.core.struve.table import struve_pair
 
 _LARGEST = 2.0**49
-"""Turns beyond which a double holds no phase."""
+"""Turns beyond which a double resolves no phase."""
 Turns = Annotated[ArrayLike, "Contact radius over wavelength, 0 <= x < 2**49."]
 
 

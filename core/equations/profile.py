@@ -48,7 +48,7 @@ def slope(radius: Distance, wavelength: Wavelength, amplitude: Amplitude, expone
 def largest_monotonic_amplitude(wavelength: Wavelength) -> Array:
     """Return the largest A at which a wavy paraboloid without a rim still rises everywhere.
 
-      f' >= 0 for all r asks for A <= 4.6033 lambda/(4 pi^2 R), where 1/4.6033 = -min sin(y)/y. A monotonic profile is
+      f' >= 0 for all r requires A <= 4.6033 lambda/(4 pi^2 R), where 1/4.6033 = -min sin(y)/y. A monotonic profile is
       the paper's condition for contact over one disc, after Guduru (2007). It is not sufficient: see gap.py.
 
     Examples

@@ -41,7 +41,7 @@ def end_of_folds(k: Gradient, wavelength: Wavelength, amplitude: Amplitude) -> A
     """Return a_e/R, the radius beyond which a short wave has no folds.
 
     For A = 0.03 and lambda/R = 0.01 the last fold is 0.2 to 1.6 % further out (k from 0 to 0.5); with waves as long as
-    the contact it only tells the size.
+    the contact it is only an estimate.
 
     Examples
     --------

@@ -6,7 +6,7 @@
 
 with delta_1, P_1 of the smooth adhesive punch. The printed form leaves out the second term of delta, the mean height of
 the waviness over the apex; P has none to this order. The error of delta and of P is of the order lambda/a of the term
-in zeta, so that nothing is claimed where the contact is no larger than a wave. Lengths are in R, loads in
+in zeta, so that it is not valid where the contact is no larger than a wave. Lengths are in R, loads in
 1.5 pi R dgamma, M in dgamma/R^(1+k). Source: Jin, Guo & Wan (2013) as corrected in docs/theory.md.
 """
 

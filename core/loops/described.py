@@ -31,7 +31,7 @@ LEVEL: Final = 0.95
 def described(
     misfit: Misfit, found: list[Any], intervals: str, ranges: Mapping[str, tuple[float, float]], *, widened: bool
 ) -> FittedLoop:
-    """Describe the first of some minima; where noise was estimated, intervals are `widened` by the reduced chi square."""
+    """Describe the first of some minima; where noise was estimated, intervals are `widened` by reduced chi square."""
     done = found[0]
     names, residual = misfit.names, misfit.residual(done.x)
     degrees = residual.size - len(names)
@@ -80,7 +80,7 @@ def described(
 
 
 def covariance_of(misfit: Misfit, vector: _Array) -> _Array:
-    """Return the covariance of the numbers at a minimum, for residuals of variance 1; refuse parameters with the same effect."""
+    """Return the covariance of the numbers at a minimum, for residuals of variance 1; refuse equal effects."""
     names, jacobian = misfit.names, misfit.jacobian(vector)
     sizes = np.array([high - low for low, high in zip(misfit.low, misfit.high, strict=True)])
     lengths = np.linalg.norm(jacobian * sizes, axis=0)

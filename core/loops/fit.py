@@ -8,8 +8,8 @@ data do.
 There are many local minima: contact points anywhere in the data, and each wavelength with another number of waves in
 the contact. Starts come from features that depend on no zero of the instrument (smooth_search.py, wave_search.py,
 speed.py), several are refined with exact derivatives, and other minima that the noise allows are reported. Standard
-deviations are those of the linear problem at the minimum. Parameters with the same effect on the loop (E*, c0 and nu act
-through one number M, docs/theory.md) make its Jacobian singular and are refused.
+deviations are those of the linear problem at the minimum. Parameters with the same effect on the loop (E*, c0 and nu
+act through one number M, docs/theory.md) make its Jacobian singular and are refused.
 """
 
 from collections.abc import Mapping

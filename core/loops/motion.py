@@ -109,14 +109,14 @@ def _slide(model: LoopModel, drawn: LoopPath, moved: _Array, load_max: float) ->
                 if name in model.names:
                     target[model.names.index(name)] = of
         gone, ahead = moved[turn, by].copy(), along[0, by]
-        if by == 0 and model.turns_at_depth:  # depth of the specimen: that of the machine less the stretch of its spring
+        if by == 0 and model.turns_at_depth:  # depth of the specimen: the machine's less the stretch of its spring
             gone -= scene.compliance * moved[turn, 1]
             ahead -= scene.compliance * along[0, 1]
             if "spring_constant" in model.names:
                 gone[model.names.index("spring_constant")] += scene.compliance * load_max
         if ahead > 0.0:
             rate = (target - gone) / ahead
-            ends = 1 if drawn.is_pressed else 2  # at the rim the edge stays
+            ends = 1 if drawn.is_pressed else 2  # at the rim the edge is pinned
             moved[turn : turn + ends] += along[:ends, :, None] * rate
     for landing, slope in zip(landings, along[2:], strict=True):
         if slope[axis] != 0.0 and landing != turn + 1:

@@ -35,8 +35,8 @@ def noise_of(depth: _Array, load: _Array, unloading: _Bools, cycle: _Ints) -> tu
     -------
     Standard deviations: of white noise by the median of second differences, which neither drift nor jumps move, and of
     a coarse digit at least (its step over the root of 12). Where the points of a branch are in no
-    order, that of load is found where the curve is flat and that of depth where it is steep. They are a millionth of the
-    span at least. Of points that are further apart than the curve bends they are too high.
+    order, that of load is found where the curve is flat and that of depth where it is steep. They are at least a
+    millionth of the span. Of points that are further apart than the curve bends they are too high.
 
     Examples
     --------

@@ -237,8 +237,8 @@ class LoopModel(Model):
     def _further(self, scene: Scenes, up: Walk, place: float, targets: tuple[float, float]) -> tuple[float, bool]:
         """Return the radius at which loading turns, and whether its load decides.
 
-Where the load rises by many deviations within one of the depth, it determines the turn better. The path then
-continues to the largest load, within the noise of the depth, but over no fold.
+        Where the load rises by many deviations within one of the depth, it determines the turn better. The path then
+        continues to the largest load, within the noise of the depth, but over no fold.
         """
         target, highest = targets
         end = _met(up.radius, up.jump, up.level, target + self.blur)

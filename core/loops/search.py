@@ -42,7 +42,7 @@ def distinct(vectors: list[_Array], misfit: Misfit, near: float = 1e-3) -> list[
 
 
 def near_best(vectors: list[_Array], misfit: Misfit) -> list[_Array]:
-    """Return those of some vectors, the best first, that are not far worse than the best: refined, they may be as good."""
+    """Return those of some vectors, the best first, that are not far worse than the best: refining may change that."""
     few = coarse(misfit, COARSE)
     sizes = [misfit.size(vector, few) for vector in vectors]
     most = sizes[0] + _WORSE * misfit.back[few].size

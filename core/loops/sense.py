@@ -12,7 +12,7 @@ _Array = NDArray[np.float64]
 FEWEST: Final = 40
 """Number of points below which nothing is tested."""
 _STEP: Final = 0.12
-"""The step between neighbours, in parts of the span of the depth, above which many turns mean that there is no order."""
+"""Step between neighbours, in parts of the span of the depth, above which many turns mean that there is no order."""
 _END: Final = 0.1
 """Length of an end of the depths, in parts of their span."""
 _STRAIGHT: Final = 5.0

@@ -1,6 +1,6 @@
 """Loops whose edge opens, or closes too, at a work that grows with its speed: paths by time, and where to start.
 
-Loading at rest is that of any loop (path.py). A moving edge is integrated by core/rate/, and the derivatives of its path
+Loading at rest is that of any loop (path.py). A moving edge is integrated by core/rate/, and derivatives of its path
 are differences.
 """
 

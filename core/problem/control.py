@@ -35,4 +35,4 @@ class Loading:
 
 
 BY_DISPLACEMENT: Final = Loading()
-"""What is prescribed where nothing is said."""
+"""The default control."""

@@ -1,7 +1,7 @@
 """Curves of one call as kernels read them: the numbers of each, and its rims.
 
-A curve is one punch, surface and wave; its rims, or what else varies along it, are solved together. The first record is
-that of one cosine under displacement control, the second that of any profile under any control.
+A curve is one punch, surface and wave; its rims, or other values that vary along it, are solved together. The first
+record is that of one cosine under displacement control, the second that of any profile under any control.
 """
 
 import math

@@ -17,13 +17,13 @@ RESULTS: Final = (
 )
 """The results of a cycle that the kernels compute, in the order of their rows (problem/results.py)."""
 EDGE: Final = ("front_energy", "snap_in_force", "pinned_depth")
-"""What a cycle has besides whose edge opens at a larger work of adhesion than it closes at (works/cycle.py)."""
+"""Further results of a cycle whose edge opens at a larger work of adhesion than it closes at (works/cycle.py)."""
 RATE: Final = ("edge_speed_at_pull_off", "rate_coefficient")
-"""What a cycle has besides whose edge opens at a work that grows with its speed (rate/cycle.py)."""
+"""Further results of a cycle whose edge opens at a work that grows with its speed (rate/cycle.py)."""
 OUTPUTS: Final = (*RESULTS, "turning_radius")
 """All results of a scene: those of its cycle, and where it turns."""
 REACH: Final = "reach"
-"""The largest end of a jump of an unbounded punch, a/R: a result that `contact_slope` is made of (arrays/reach.py)."""
+"""The largest end of a jump of an unbounded punch, a/R: `contact_slope` is computed from it (arrays/reach.py)."""
 CONTACT_SLOPE: Final = "contact_slope"
 """The slope (a/R)^(m-1) of the punch at the largest radius on which the other outputs depend (arrays/reach.py)."""
 TURNS: Final = ("indentation_max_over_R", "load_max")
@@ -45,11 +45,11 @@ REPORTS: Final = (
     "adhesion_gain",
     "energy_gain",
 )
-"""All that can be asked for beside the results, in the order of the rows (scene/cosine_report.py)."""
+"""All other outputs on request, in the order of the rows (scene/cosine_report.py)."""
 SENSITIVITIES: Final = ("pull_off_force_sensitivity", "dissipated_energy_sensitivity")
 """How strongly a value depends on each parameter: along a last axis of parameters (sensitivities/sensitivity.py)."""
 VALIDITY: Final = ("tabor_parameter", "wave_tabor_parameter", "wave_slope", "johnson_alpha")
-"""What says where the model applies (closed/applicability.py): known without solving anything, whatever the solver."""
+"""Measures of where the model applies (closed/applicability.py): they need no solution, whatever the solver."""
 RANGE: Final = "adhesion_range_over_R"
 """The parameter of the Tabor parameters: the range of the attraction."""
 SOLVERS: Final = ("exact", "asymptotic", "envelope")
@@ -61,7 +61,7 @@ WITHOUT_LOAD: Final[dict[str, str]] = {
     "through a spring it leaves them at other radii, and loses what the load does in its fall, or the spring in its "
     "recoil",
 }
-"""Why the other solvers, and the curves of short waves, know displacement control alone."""
+"""Why the other solvers, and the curves of short waves, have displacement control only."""
 PATTERN_CURVES: Final = ("equilibrium", "closing_equilibrium", "path", "jumps")
 """The curves of an interface whose toughness varies with the radius."""
 CURVES: Final[dict[str, tuple[str, ...]]] = {

@@ -16,7 +16,7 @@ MOST_HARMONICS: Final = 64
 
 
 def check_harmonic(name: str, n: float, cos: float, sin: float) -> None:
-    """Raise ValueError for a wave of a series that is out of range; `name` is what it is called."""
+    """Raise ValueError for a wave of a series that is out of range; `name` is its name in the message."""
     if not (1 <= n <= HIGHEST and n == int(n)):
         raise ValueError(f"{name} n = {n}: n is a whole number from 1 on, {HIGHEST:,} at most")
     if not (math.isfinite(cos) and math.isfinite(sin)):
@@ -24,7 +24,7 @@ def check_harmonic(name: str, n: float, cos: float, sin: float) -> None:
 
 
 def check_numbers(name: str, numbers: Sequence[int]) -> None:
-    """Raise ValueError for waves that are none, too many or given twice; `name` is what they are called."""
+    """Raise ValueError for waves that are none, too many or given twice; `name` is their name in the message."""
     if not 1 <= len(numbers) <= MOST_HARMONICS:
         raise ValueError(f"{len(numbers)} {name}: a series has 1 to {MOST_HARMONICS}")
     repeated = sorted({n for n in numbers if numbers.count(n) > 1})
@@ -94,7 +94,7 @@ class Profile:
     def __post_init__(self) -> None:
         if not 1.0 <= self.exponent < math.inf:
             raise ValueError(f"exponent = {self.exponent}: the power of the punch is a finite number from 1 on")
-        object.__setattr__(self, "exponent", float(self.exponent))  # kernels of a whole number would be others
+        object.__setattr__(self, "exponent", float(self.exponent))  # an int would compile other kernels
         check_numbers("harmonics", [harmonic.n for harmonic in self.harmonics])
 
 

@@ -6,7 +6,7 @@ from typing import Final
 CLOSINGS: Final = ("quasi-static", "same")
 """How the contact closes: at the work of closing whatever the speed, or at w_c/[1 + (v/v*)^n]."""
 MOST_WAVES: Final = 100_000.0
-"""Waves of the shortest harmonic that are followed: about a second."""
+"""Most waves of the shortest harmonic that are followed, in about a second."""
 EXPONENTS: Final = (0.1, 2.0)
 """The range of n within which the solver has been measured; elastomers have 0.1 to 0.8."""
 

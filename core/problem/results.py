@@ -1,6 +1,6 @@
 """The results of a scene: their names, their rows, and how a kernel stores those requested.
 
-They go to `out[slots[row], rim]` of a record `Results`, where `slots` holds -1 for what is not wanted.
+They go to `out[slots[row], rim]` of a record `Results`, where `slots` is -1 for those not wanted.
 """
 
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ from gradhesion.core.problem.names import REACH, RESULTS
 from gradhesion.core.types import Bits, Floats, Integers
 
 INTEGERS: Final = ("loading_jumps", "unloading_jumps")
-"""Those that count."""
+"""Results that are counts."""
 FORCE, RADIUS, ENERGY, LOADING, UNLOADING, DEEPEST, LAST, LOADED, UNLOADED = map(constant, range(len(RESULTS)))
 """The rows."""
 LOADING_PART, UNLOADING_PART, WHOLE_CYCLE = 1, 2, 3
@@ -22,7 +22,7 @@ LOADING_PART, UNLOADING_PART, WHOLE_CYCLE = 1, 2, 3
 CONTACT = len(RESULTS)
 """One more slot, not -1 if `status` reports where loading does not keep the contact one disc."""
 TURNED = CONTACT + 1
-"""And another one, 1 if the rims are turning points (turning/cosine.py): places that loading surely reaches."""
+"""And another one, 1 if the rims are turning points (turning/cosine.py), which loading certainly reaches."""
 OUTERMOST = constant(TURNED + 1)
 """The last one: the row of the largest end of a jump, REACH of names.py, stored of rims at infinity only."""
 
@@ -65,7 +65,7 @@ def wants_force(slots: Slots) -> bool:
 
 @kernel()
 def wants_losses(slots: Slots) -> bool:
-    """Return whether anything is wanted that needs what the jumps lose; `slots` as of `Results`."""
+    """Return whether anything is wanted that needs the energies of jumps; `slots` as of `Results`."""
     return slots[ENERGY] >= 0 or slots[LOADED] >= 0 or slots[UNLOADED] >= 0
 
 

@@ -27,7 +27,7 @@ def in_own_wavelength(profile: Profile) -> tuple[float, NDArray[np.float64]]:
 
 
 def depth_factor_of(k: float, exponent: float) -> float:
-    """Return G(m/2) G((1+k)/2)/(2 G((1+k+m)/2)), by which r^m/m presses a^m deep."""
+    """Return G(m/2) G((1+k)/2)/(2 G((1+k+m)/2)), the depth of r^m/m over a^m."""
     if exponent == 2.0:
         return 1.0 / (1.0 + k)
     from scipy.special import beta  # noqa: PLC0415 (200 ms that a paraboloid does not need)

@@ -45,7 +45,7 @@ FLAGS: Final = {
 OF_EVERY_MAP: Final = {name: bit for name, bit in FLAGS.items() if bit < 2**7}
 """The flags that fit into a status of 8 bits: those of all studies except the ones that turn at a depth."""
 OF_FITS: Final = {"poor_fit": POOR_FIT, "another_minimum": ANOTHER_MINIMUM}
-"""Name of every flag that fits alone have, with its bit."""
+"""Name of every flag that only fits have, with its bit."""
 
 DOUBTFUL: Final = LOADING_NOT_ONE_DISC | UNLOADING_NOT_ONE_DISC | TOLERANCE_NOT_MET
 """The bits of a scene whose values exist but may be wrong."""
@@ -67,7 +67,7 @@ def doubts_about(result: str, *, turned: bool = False) -> int:
     Where cycles turn at a depth or a load (`turned`), loading determines the turning radius, so a loading that is not
     one disc casts doubt on every value.
     """
-    value = result.split("_sensitivity", maxsplit=1)[0]  # which is as good as its value
+    value = result.split("_sensitivity", maxsplit=1)[0]  # which is as reliable as its value
     return DOUBTFUL if turned or value in _OF_LOADING else DOUBTFUL & ~LOADING_NOT_ONE_DISC
 
 

@@ -18,9 +18,9 @@ from gradhesion.core.problem.profile import check_harmonic, check_numbers
 OF: Final = ("toughness", "work")
 """What a pattern multiplies."""
 _SAMPLES: Final = 16
-"""Parts of the shortest wave that the search for the lowest value begins with."""
+"""Parts of the shortest wave with which the search for the lowest value begins."""
 _ROUNDING: Final = 8.0 * 2.0**-52
-"""Of the sum of the sizes of all terms, by which a sum of them may be off."""
+"""Error of a sum, in parts of the sum of the sizes of its terms."""
 _NARROW: Final = 1e-15
 """Part of the wavelength below which the search ends."""
 
@@ -109,8 +109,8 @@ def lowest(rows: NDArray[np.float64], end: float = 1.0) -> float:
 def _searched(rows: NDArray[np.float64], end: float, limit: float) -> tuple[float, float]:
     """Return the lowest value of a series up to `end` wavelengths, or the first one below a limit; and its place.
 
-    Parts of the wavelength are halved as long as the bound of the curvature lets the series be lower in them than what
-    has been met, or lower than the limit before that: no minimum is missed, and rounding is left.
+    Parts of the wavelength are halved as long as the bound of the curvature allows the series to be lower in them than
+    the lowest value so far, or before that lower than the limit: no minimum is missed, up to rounding.
     """
     sizes = np.hypot(rows[:, 1], rows[:, 2])
     if not sizes.any():
@@ -138,7 +138,7 @@ def _searched(rows: NDArray[np.float64], end: float, limit: float) -> tuple[floa
 
 
 def violation(toughness: Toughness, amplitude: float, wavelength: float, rim: float) -> float | None:
-    """Return the first radius up to a rim at which a pattern has not the sign that it must have, None if there is none.
+    """Return the first radius up to a rim at which a pattern has the wrong sign, None if there is none.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 """A zero between two places at which a function has different signs, by the rule of false position (Illinois).
 
-What is between two tries is the caller's: a function that is a whole step cannot be handed to a kernel.
+The caller evaluates the function between two tries: a function that is a whole step cannot be passed to a kernel.
 """
 
 import math
@@ -32,7 +32,7 @@ def place_to_try(bracket: Bracket) -> float:
 
 @kernel()
 def narrowed(bracket: Bracket, place: float, value: float) -> Bracket:
-    """Return the bracket with what was found at a place within it."""
+    """Return the bracket updated by the value at a place within it."""
     low, high, first, second, side = bracket
     if (value < 0.0) == (first < 0.0):
         return Bracket(place, high, value, 0.5 * second if side < 0 else second, -1)
@@ -41,5 +41,5 @@ def narrowed(bracket: Bracket, place: float, value: float) -> Bracket:
 
 @kernel()
 def is_found(bracket: Bracket, value: float, small: float) -> bool:
-    """Return whether the last value is as small as asked for, or nothing is left between the two places."""
+    """Return whether the last value is small enough, or no double is left between the two places."""
     return abs(value) <= small or not bracket.high - bracket.low > _SURE * bracket.high or not abs(value) < math.inf

@@ -21,7 +21,7 @@ _INNERMOST: Final = 1e-12
 
 
 class Reached(NamedTuple):
-    """Where an edge has come to on its way out, in reduced units; NaN where it could not be followed."""
+    """The state of an edge on its way outwards, in reduced units; NaN where it could not be followed."""
 
     x: float
     lag: float
@@ -40,7 +40,7 @@ def _value(curve: Series, law: Law, room: Room, of_rho: bool) -> float:
 
 
 class _Target(NamedTuple):
-    """What a step is to end with, and what it has at the start and at the end of one that goes too far."""
+    """The target of a step, and the values at its start and at the end of one that goes too far."""
 
     before: float
     after: float

@@ -65,7 +65,7 @@ def draw_at_speed(
     """Return curves of one scene with a speed, as `draw_curves` (curves/draw.py) those of other scenes.
 
     The path is that of the moving edge, `path_branch` being 1 in contact; the other curves are those of an edge at
-    rest. At speed 0 all are. Jumps there are none: they are refused.
+    rest. At speed 0 all are. There are no jumps, and the curve "jumps" is refused.
     """
     rest = {name: value for name, value in scene.items() if name != SPEED}
     if scene[SPEED] == 0.0 or "path" not in curves:

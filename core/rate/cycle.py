@@ -6,7 +6,7 @@ H_open and H_close those of 2 pi a G,
     dissipated_energy = H_open - H_close = loading_energy + unloading_energy + front_energy
     unloading_energy = H_open - area,   front_energy = (1 - Gamma) area,   loading_energy = Gamma area - H_close
 
-in R^2 w_o; where the contact closes at rest loading_energy is what its jumps lose (works/cycle.py). At speed 0 a cycle
+in R^2 w_o; where the contact closes at rest loading_energy is lost in its jumps (works/cycle.py). At speed 0 a cycle
 is that of an edge at rest, to the bit.
 """
 
@@ -29,11 +29,11 @@ from gradhesion.core.sweep import How, solve
 from gradhesion.core.works.front import adhesive_depth, front_energy
 
 KNOWN: Final = (*(name for name in OUTPUTS if not name.endswith("_jumps")), *EDGE, *RATE)
-"""What is known of such a cycle."""
+"""Results of such a cycle."""
 _OF_OPENING: Final = ("pull_off_force", "pull_off_radius", "unloading_energy", "delta_jump_out", *RATE)
 _OF_CLOSING: Final = ("loading_energy", "front_energy", "snap_in_force", "pinned_depth", "delta_max", "turning_radius")
 _WITHOUT_CONTACT: Final = dict.fromkeys(("pull_off_radius", "delta_jump_out", "snap_in_force", RATE[0]), math.nan)
-"""What a cycle without contact has not; all else of it is 0."""
+"""Results without a value where there is no contact; all others are 0 then."""
 _STEPS: Final = 60
 _SURE: Final = 4.0 * 2.0**-52
 Array = NDArray[np.float64]
@@ -52,7 +52,7 @@ def _turned_at_a_depth(scenes: dict[str, Array], target: Array, how: How, rate: 
     found = closed(high)
     for _ in range(_STEPS):
         short = found["depth_at_turn"] < target
-        short &= found["coordinate_at_turn"] >= high * (1.0 - 1e-12)  # else the rim is met before
+        short &= found["coordinate_at_turn"] >= high * (1.0 - 1e-12)  # else the rim is reached first
         if not short.any():
             break
         low, high = np.where(short, high, low), np.where(short, 2.0 * high, high)
@@ -68,7 +68,7 @@ def _turned_at_a_depth(scenes: dict[str, Array], target: Array, how: How, rate: 
 
 
 def _closed(parameters: dict[str, Array], ratio: Array, how: How, rate: Rate) -> Results:
-    """Return what contacts that close by the same law come to, by the names of `_OF_CLOSING`, and `status`."""
+    """Return the results of contacts that close by the same law, by the names of `_OF_CLOSING`, and `status`."""
     depth = parameters.get(TURNS[0], np.asarray(math.inf))
     scenes = {name: value for name, value in parameters.items() if name != TURNS[0]} | {CLOSING: ratio}
     if how.loading.control == "machine" and np.isfinite(depth).any():

@@ -1,7 +1,7 @@
 """Opening from a radius a_t, where rho = 1, down to separation: pull-off, energy, depth at separation.
 
-Near a_t the lag rises as (a_t - a)^(n/(1+n)): the way from there is counted by a root of s that makes the lag, and the
-terms that follow its first one, smooth. Near a = 0 the depth settles, and the rest of the energy is that of a depth.
+Near a_t the lag rises as (a_t - a)^(n/(1+n)): the distance from there is measured by a root of s in which the lag and
+its later terms are smooth. Near a = 0 the depth is constant, and so is the depth in the rest of the energy.
 """
 
 import math
@@ -17,12 +17,12 @@ from gradhesion.core.rate.step import Room, Start, advance, note_nodes, place_in
 from gradhesion.core.rate.stride import PART, longest, stride
 
 _END: Final = math.log(1e12)
-"""How far inwards the edge is followed, in ln a: what is left of the energy is 1e-12 of it, or less."""
+"""How far inwards the edge is followed, in ln a: at most 1e-12 of the energy remains."""
 _SURE: Final = 1e-14
 
 
 class Opened(NamedTuple):
-    """What opening comes to, in reduced units; NaN where it could not be followed."""
+    """The results of opening, in reduced units; NaN where it could not be followed."""
 
     load: float  # the lowest
     z: float  # where it is
@@ -51,7 +51,7 @@ def smooth_power(n: float) -> float:
 
 @kernel()
 def _start_of(law: Law, place: Place, x: float, shortest: float) -> Start:
-    """Return how y counts the way from a_t until, at y = 1, the edge moves about as the equilibrium curve does."""
+    """Return the scale in which, at y = 1, the edge moves about as the equilibrium curve does."""
     n = law.exponent
     force, need = law.pace * place.drag, place.push - place.level
     far = min(0.1, PART * shortest / x)
@@ -64,7 +64,7 @@ def _start_of(law: Law, place: Place, x: float, shortest: float) -> Start:
 
 @kernel()
 def _node(k: float, law: Law, room: Room, i: int) -> _Node:
-    """Return what the load does at node i: a dP/da = z^(1+k) Delta [drag pace u^(-1/n) - (1+k) rho/(1+tau)]."""
+    """Return load and slope at node i: a dP/da = z^(1+k) Delta [drag pace u^(-1/n) - (1+k) rho/(1+tau)]."""
     place, rho = place_in(room, i), 1.0 + room.lags[i]
     need = (0.5 * (3.0 + k) - place.level) * rho
     force = law.pace * place.drag * room.slow[i]

@@ -1,4 +1,4 @@
-"""What a moving edge needs from a curve at a radius, in the reduced form of core/curve/general.py.
+"""The quantities of a curve at a radius that a moving edge needs, in the reduced form of core/curve/general.py.
 
 With rho = (delta_H - delta)/Delta the state at a radius is any rho, in equilibrium 1:
 
@@ -31,7 +31,7 @@ class Place(NamedTuple):
 
 @kernel(contract=True)
 def place_at(basis: Basis, curve: Series, x: float) -> Place:
-    """Return what the curve is at x > 0."""
+    """Return the curve at x > 0."""
     table, _, _ = basis
     B, m, g, alpha, beta = curve
     z = TWO_PI * x

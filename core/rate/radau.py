@@ -42,5 +42,5 @@ INTEGRALS: Final = _integrals(NODES)
 TAIL: Final = np.ascontiguousarray(np.linalg.inv(legendre.legvander(2.0 * NODES - 1.0, STAGES - 1))[-2:])
 """Of values at the nodes, the last two coefficients of the Legendre series through them; shape (2, STAGES)."""
 SPARED: Final = STAGES / (STAGES - 1.0)
-"""With r the size of those over that of the values, what a step gets wrong is r^SPARED times their size, or less."""
+"""With r the size of those over that of the values, the error of a step is r^SPARED times their size, or less."""
 ORDER: Final = 2.0 * STAGES - 1.0

@@ -27,7 +27,7 @@ PROMISED: Final = 1e-9
 _SLOWEST: Final = 1e-15
 """(V/v*)^n below which a step may pass the end of a branch unseen: the lag there is below rounding."""
 _AT_RIM: Final = 1e-9
-"""An edge that has moved less than this, over a_t, is where it was."""
+"""Relative distance, over a_t, below which an edge has not moved."""
 OPENED: Final = (
     "pull_off_force",
     "pull_off_radius",
@@ -37,7 +37,7 @@ OPENED: Final = (
     "pull_off_force_error",
     "opening_energy_error",
 )
-"""What opening comes to, in the order of the rows."""
+"""The results of opening, in the order of the rows."""
 CLOSED: Final = (
     "turning_radius",
     "closing_energy",
@@ -51,7 +51,7 @@ CLOSED: Final = (
     "rho_edge_stops",
     "closing_energy_error",
 )
-"""What closing comes to, in the order of the rows."""
+"""The results of closing, in the order of the rows."""
 
 
 class Edges(NamedTuple):
@@ -151,7 +151,7 @@ def _close(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Fl
 
 
 def loop_of(*, opens: bool) -> Callable[..., None]:
-    """Return the kernel that opens many scenes, or closes them: numba drops the other before it looks at it."""
+    """Return the kernel that opens many scenes, or closes them: numba drops the other before it compiles it."""
 
     @kernel()
     def move_edges(basis: Basis, edges: Edges, out: Floats, status: Integers) -> None:

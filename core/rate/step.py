@@ -26,12 +26,12 @@ _MOST: Final = 16
 _CLOSE: Final = 1e-7
 """A change whose square is below rounding."""
 _MUCH: Final = 0.9
-"""Of the slowness, what it may lose at once."""
+"""Largest relative drop of the slowness in one step of Newton's."""
 _EPS: Final = 2.0**-52
 
 
 class Start(NamedTuple):
-    """Where an edge starts, and how the step's variable y counts its way: s = scale y^power."""
+    """Where an edge starts, and the variable y of the step: s = scale y^power."""
 
     x: float  # in wavelengths
     sign: float  # -1 inwards, 1 outwards
@@ -160,7 +160,7 @@ def _set_equations(law: Law, lag: float, h: float, room: Room) -> None:
 def advance(
     basis: Basis, curve: Series, law: Law, start: Start, state: tuple[float, float], h: float, room: Room
 ) -> bool:
-    """Solve a step of length h from the state (y, lag); `room` then has what is at the nodes.
+    """Solve a step of length h from the state (y, lag); `room` then has the values at the nodes.
 
     Return whether Newton's method converged.
     """

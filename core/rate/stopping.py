@@ -29,7 +29,7 @@ _SAME: Final = 4.0 * 2.0**-52
 _TOLERANCE: Final = 1e-15
 """Of ln a and of the lag, in a step: there are few."""
 _LEFT: Final = 1e-13
-"""Of ln a, what is left to the leading term of the way to lag = 0."""
+"""Remaining ln a that is left to the leading term near lag = 0."""
 _STEPS: Final = 200_000
 
 
@@ -50,7 +50,7 @@ def _step(
 ) -> tuple[float, float, float, float]:
     """Solve a step of length h from the state (s, lag), with room for nodes, shape (5, STAGES).
 
-    Return s, lag and energy at its end, and about what it gets wrong of s and lag: inf where it cannot be solved.
+    Return s, lag and energy at its end, and estimated errors of s and lag: inf where it cannot be solved.
     """
     s, lag = state
     failed = (s, lag, 0.0, math.inf)
@@ -107,7 +107,7 @@ def stop_edge(
     turn
         Where the edge is then.
     track
-        Where it goes is noted there (rate/step.py).
+        Its places are stored there (rate/step.py).
     """
     nodes = np.empty((5, STAGES))
     x, end = turn.x, math.log(rim / turn.x)

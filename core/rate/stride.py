@@ -1,7 +1,7 @@
 """The control of steps: the error of a step, the length of the next one, and how an error propagates.
 
-What is wrong of an integral is told by the last coefficients of the Legendre series through the nodes: where they are t
-and the values T it is about T (t/T)^2.2, but where u^(-1/n) is not smooth, and where collocation loses its order.
+The error of an integral follows from the last coefficients of the Legendre series through the nodes: where they are t
+and the values T it is about T (t/T)^2.2, except where u^(-1/n) is not smooth, and where collocation loses its order.
 """
 
 import math
@@ -21,7 +21,7 @@ _STIFF: Final = 10.0
 """Where the edge relaxes within a step, collocation loses its higher order (order reduction): from about such a rate on
 by this part of the last coefficients. Both from experiment: without, 1e-11 of the force."""
 _KINK: Final = 8.0
-"""By how much what is wrong may exceed the last coefficients at a kink: from experiment."""
+"""By how much the error may exceed the last coefficients at a kink: from experiment."""
 _SAFE: Final = 0.9
 _SHORTER: Final = 0.15
 _LONGER: Final = 4.0
@@ -30,7 +30,7 @@ _SHORTEST: Final = 1e-40
 LONGEST: Final = 2.0
 """Of a step, in ln a."""
 PART: Final = 0.25
-"""Of the shortest wave: a slow edge follows the curve whose nodes it has been given, and would pass a fold unseen."""
+"""Longest step in parts of the shortest wave: a slow edge follows the curve between nodes, and could miss a fold."""
 
 
 @kernel()
@@ -45,14 +45,14 @@ def energy_of(law: Law, h: float, room: Room) -> float:
 
 @kernel()
 def spared(first: float, second: float, most: float, stiff: float) -> float:
-    """Return what is wrong of an integral, by the last two coefficients of its values, the largest `most`."""
+    """Return the error of an integral, by the last two coefficients of its values, the largest `most`."""
     tail = max(abs(first), 0.1 * abs(second))
     return tail * ((tail / most) ** SPARED + stiff) if tail > 0.0 else 0.0
 
 
 @kernel()
 def _nearly_followed(law: Law, room: Room) -> float:
-    """Return about what the step gets wrong of rho if it passes rho = 0 near by, where u^(-1/n) is not smooth."""
+    """Return the estimated error of rho of a step that passes near rho = 0, where u^(-1/n) is not smooth."""
     if law.sense > 0.0 or room.slow[0] + room.slow[STAGES - 1] == 0.0:
         return 0.0
     low, high, first, second = math.inf, -math.inf, 0.0, 0.0
@@ -65,7 +65,7 @@ def _nearly_followed(law: Law, room: Room) -> float:
 
 @kernel()
 def errors_of(law: Law, h: float, scale: float, room: Room) -> tuple[float, float]:
-    """Return about what the step gets wrong: of rho over its size, and of the energy over z^2 = `scale`."""
+    """Return the estimated errors of the step: of rho over its size, and of the energy over z^2 = `scale`."""
     c = room.curve
     a0, a1, a_most, e0, e1, e_most = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for j in range(STAGES):
@@ -80,7 +80,7 @@ def errors_of(law: Law, h: float, scale: float, room: Room) -> tuple[float, floa
 
 
 class Stride(NamedTuple):
-    """A step that was taken."""
+    """A step of the edge."""
 
     good: bool
     h: float
@@ -105,7 +105,7 @@ def stride(
 ) -> Stride:
     """Take a step as long as `TOLERANCE` allows, from the state (y, lag); `lengths` are one to try and the longest.
 
-    One that rounding lets be no shorter is taken as it is, with its errors.
+    One that cannot be shorter for rounding is accepted, with its errors.
     """
     h, most = lengths
     least = max(_SHORTEST * most, 4.0 * _EPS * state[0])

@@ -1,15 +1,15 @@
 """Cycles that open at a larger work of adhesion than they close at: loading on one curve, unloading on another one.
 
 dgamma is the work of opening w_o; w_c = Gamma w_o that of closing. Loading is that of a punch whose work is w_c, for
-which modulus stands as modulus/Gamma and a load in units of w_o as load/Gamma; it turns at a radius a_t, and unloading
-is that of today's punch with its rim there. With energies in R^2 w_o
+which modulus is modulus/Gamma and a load in units of w_o is load/Gamma; it turns at a radius a_t, and unloading is that
+of the given punch with its rim there. With energies in R^2 w_o
 
     dissipated = Gamma loading_energy(modulus/Gamma) + unloading_energy(modulus; rim a_t) + front_energy
 
-and the pull-off force is that of the opening curve up to a_t. At ratio 1 both are one curve, solved as ever.
+and the pull-off force is that of the opening curve up to a_t. At ratio 1 both are one curve.
 
 Without adhesion on approach (ratio 0) the edge closes along the contact without adhesion. sqrt(Gamma) is what enters
-its depth and load, and Gamma = 2^-120 leaves 1e-18 of it, which no double keeps; what is left of the jump-in, to a
+its depth and load, and at Gamma = 2^-120 it is 1e-18, below rounding; the remainder of the jump-in, to a
 radius at which neither depth nor load is more than that, is no jump. Smaller ratios than that have the same curve.
 """
 
@@ -40,14 +40,14 @@ LEAST: Final = 2.0**-120
 """The ratio below which closing is that without adhesion."""
 _OF_LOADING: Final = ("loading_energy", "loading_jumps", "delta_max", REACH)
 _OF_BOTH: Final = ("dissipated_energy", "dissipated_energy_error", "energy_residual")
-"""What is a sum over both curves."""
+"""Results that are sums over both curves."""
 _PARTS: Final = ("loading_energy", "unloading_energy")
 _FROM_BOTH: Final = (*_OF_BOTH, "loading_energy")
 _RADII: Final = ("pull_off_radius", "delta_jump_out")
-"""What a cycle without contact has not; all else of it is 0."""
+"""Results without a value where there is no contact; all others are 0 then."""
 _GAINS: Final = {"adhesion_gain": "pull_off_force", "energy_gain": "dissipated_energy"}
 _OF_THE_PUNCH: Final = ("roughness_parameter", "saturation_radius")
-"""What belongs to the opening curve, whether or not contact is made."""
+"""Results of the opening curve, whether or not contact is made."""
 _LOADING_BITS: Final = (
     LOADING_NOT_ONE_DISC | JUMP_IN_TO_RIM | CLOSE_TO_A_JUMP | TOLERANCE_NOT_MET | NO_CONTACT | TOO_MANY_WAVES
 )
@@ -92,7 +92,7 @@ def starts_downwards(parameters: Mapping[str, ArrayLike], how: How) -> NDArray[n
 
 
 def _without_adhesion(found: Results, ratio: NDArray[np.float64], jumps: NDArray[np.bool_]) -> None:
-    """Take the jump of a point from the loading of scenes that close without adhesion."""
+    """Remove the jump of a point from the loading of scenes that close without adhesion."""
     bare = (ratio == 0.0) & ~jumps
     if "loading_jumps" in found:
         found["loading_jumps"] = np.where(
@@ -106,7 +106,7 @@ def _without_adhesion(found: Results, ratio: NDArray[np.float64], jumps: NDArray
 def _opened(
     scenes: Mapping[str, ArrayLike], radius: NDArray[np.float64], wanted: Sequence[str], how: How, turn: str | None
 ) -> Results:
-    """Return what opens from radii a_t/R; without contact forces, energies and counts are 0."""
+    """Return the results of opening from radii a_t/R; without contact forces, energies and counts are 0."""
     limits = np.asarray(scenes["a_max_over_R"], dtype=float)
     if turn is None:
         return solve(scenes, wanted, **_known(how))
@@ -190,7 +190,7 @@ def solve_two_works(parameters: Mapping[str, ArrayLike], outputs: Sequence[str],
     Returns
     -------
     The outputs and `status`, of the broadcast shape. Energy, front_energy and pinned_depth of an unbounded punch that
-    does not turn are inf at ratios below 1. The bit close_to_a_jump also tells of unloading on the closing curve and of
+    does not turn are inf at ratios below 1. The bit close_to_a_jump also applies to unloading on the closing curve and
     loading on the opening one; the other bits are those of the parts that the cycle has. energy_residual is the sum of
     those of a whole cycle on each curve, in the unit of the energy.
     """

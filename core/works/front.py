@@ -1,10 +1,10 @@
 """The energy of an edge that opens at a larger work of adhesion than it closes at, in closed form.
 
 With w_o = dgamma the work of opening, Gamma = w_c/w_o that of closing over it, and a_t the radius at which the edge
-turns, the edge itself takes up (w_o - w_c) int_0^{a_t} 2 pi a kappa^2 da in every cycle, pi a_t^2 (w_o - w_c) where its
-toughness kappa does not vary, beside what its jumps lose. Where loading ends the contact is pinned: in depth the two
-curves are (1 - sqrt(Gamma)) kappa Delta(a_t) apart, Delta(a) = s a^((1-k)/2) being what adhesion at w_o adds to the
-depth, and a machine of stiffness S goes 1 + K a^(1+k)/S times as far (docs/theory.md, section 18).
+turns, the edge itself dissipates (w_o - w_c) int_0^{a_t} 2 pi a kappa^2 da in every cycle, pi a_t^2 (w_o - w_c) where
+its toughness kappa does not vary, besides the losses of its jumps. Where loading ends the contact is pinned: in depth
+the two curves are (1 - sqrt(Gamma)) kappa Delta(a_t) apart, Delta(a) = s a^((1-k)/2) being the change of depth by
+adhesion at w_o, and a machine of stiffness S moves 1 + K a^(1+k)/S times as far (docs/theory.md, section 18).
 """
 
 from __future__ import annotations  # those of inner functions would be made anew in every call: 15 us each
@@ -42,7 +42,7 @@ def edge_area(parameters: Mapping[str, ArrayLike], how: How, radius: NDArray[np.
 
 
 def front_energy(ratio: NDArray[np.float64], area: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return what the edge takes up in R^2 dgamma, of closing ratios and areas that broadcast; 0 at ratio 1."""
+    """Return the energy lost at the edge in R^2 dgamma, of closing ratios and areas that broadcast; 0 at ratio 1."""
     with np.errstate(invalid="ignore"):  # infinite areas at ratio 1
         return np.where(ratio == 1.0, 0.0, area * (1.0 - ratio))
 
@@ -50,7 +50,7 @@ def front_energy(ratio: NDArray[np.float64], area: NDArray[np.float64]) -> NDArr
 def adhesive_depth(parameters: Mapping[str, ArrayLike], how: How, radius: Array) -> tuple[Array, Array]:
     """Return kappa Delta/R at the radii a/R of scenes, and what a machine's far end moves beside the depth over that.
 
-    The second is K a^(1+k)/S, 0 under displacement control and under a load, whose depth is what is asked for.
+    The second is K a^(1+k)/S, 0 under displacement control and under a load, whose result is the depth.
     `parameters` are those of `solve` of core/sweep.py but for the ratio; all broadcast.
     """
     others = (*PATTERN, CLOSING)

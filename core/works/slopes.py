@@ -2,7 +2,7 @@
 
     H = Gamma L(modulus/Gamma) + U(modulus) + (1 - Gamma) area(a_t)
 
-L is what loading loses and U what unloading from a_t does. So that to modulus holds w_c/w_o, and that to Gamma is
+L is lost on loading and U on unloading from a_t. The sensitivity to modulus is at constant w_c/w_o, that to Gamma is
 
     dH/d ln Gamma = Gamma (L - dL/d ln modulus) - Gamma area(a_t)
 

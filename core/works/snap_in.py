@@ -70,7 +70,7 @@ def snap_in_force(scenes: Mapping[str, ArrayLike], ratio: NDArray[np.float64], h
 
 def pulls_at(scenes: Mapping[str, ArrayLike], how: How) -> NDArray[np.float64]:
     """Return the pulls in 1.5 pi R dgamma of contacts up to a_max at the coordinate 0, of the broadcast shape."""
-    plain = {name: value for name, value in scenes.items() if name not in PATTERN}  # at the depth 0 it is no part
+    plain = {name: value for name, value in scenes.items() if name not in PATTERN}  # no effect at the depth 0
     found = prepared(plain, how.loading)
     series, curves_at = curves_of(found, how.profile)
     out = np.full((found.k.size, found.rim.shape[1]), np.nan)

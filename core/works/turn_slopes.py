@@ -35,7 +35,7 @@ from gradhesion.core.types import Floats
 
 @kernel()
 def _put(basis: Basis, held: Series, own: Sensed, unit: float, x: float, i: int) -> float:
-    """Store the slopes of what is held, the depth (1, 0) or the load (0, 1), at rim number i, x; return its value.
+    """Store the slopes of the prescribed depth (1, 0) or load (0, 1) at rim number i, x; return its value.
 
     `unit` is its unit in R or in 1.5 pi R dgamma.
     """
