@@ -5,8 +5,8 @@
     ShortWave   the leading form of any profile's short waves           curve/short_wave.py   faces/short_wave.py
     Patterned   any profile and control on a patterned interface        curve/patterned.py    faces/patterned.py
 
-Numba takes the answer by the type of `curve` when it compiles (compiler/dispatch.py); what is written for one kind of
-curve names its functions directly. All declarations share these arguments:
+Numba chooses the answer by the type of `curve` when it compiles (compiler/dispatch.py); code for one kind of curve
+calls its functions directly. All declarations share these arguments:
 
     table       what the curve is computed from: the table of the exponent (struve/table.py) for one cosine, the `Basis`
                 of a series or of short waves, which begins with that table
@@ -28,11 +28,11 @@ from gradhesion.core.curve.branches import Trace
 from gradhesion.core.types import Floats, Slopes, Table, Work
 
 AnyTable: TypeAlias = Any
-"""What a curve is computed from, by its kind (above)."""
+"""The tables and series of a curve, by its kind (above)."""
 AnyCurve: TypeAlias = Any
 """A curve of any kind."""
 AnyNear: TypeAlias = Any
-"""What sensitivities of a curve need, by its kind: `Near` of sensitivities/neighbours.py, or how a basis changes."""
+"""The inputs for sensitivities of a curve, by kind: `Near` of sensitivities/neighbours.py, or how a basis changes."""
 _OF_PATHS: Final = tuple(f"gradhesion.core.faces.{kind}" for kind in ("cosine", "series", "short_wave", "patterned"))
 _OF_EXACT: Final = (*_OF_PATHS[:2], _OF_PATHS[3])
 _OF_SERIES: Final = _OF_PATHS[1:]
@@ -53,7 +53,7 @@ def find_place(table: AnyTable, curve: AnyCurve, level: float, trace: Trace, bra
 
 @face(*_OF_PATHS)
 def loss_between(table: AnyTable, curve: AnyCurve, start: float, end: float, work: Work) -> float:
-    """Return the energy that a jump from one place to another one loses, at the level of the place that it leaves.
+    """Return the energy that a jump from one place to another one loses, at the level of its start.
 
     `work` is room for 16 floats. The end may be 0 where k = 1: there the contact shrinks to a point.
     """
@@ -117,7 +117,7 @@ def find_all_folds(table: Any, curve: Any, first: float, last: float, zeros: Flo
 
     Returns
     -------
-    Their number, -1 if there are too many for `zeros` or to be looked for; whether the coordinate rises at the first x;
+    Their number, -1 if there are too many for `zeros` or to be searched; whether the coordinate rises at the first x;
     and the first x of a pair of folds that an error of CLOSE (curve/cosine_folds.py) could make or unmake, else inf.
     """
 
@@ -131,7 +131,7 @@ def measured_by(curve: Any, by_load: bool) -> Any:
 def reach(table: Any, curve: Any, target: float) -> float:
     """Return x from which on the coordinate exceeds a target by the sizes of its waves, inf if beyond all counting.
 
-    It is too large by some percent, and not rigorous near zero contact, where the waves have not their far form.
+    It is too large by some percent, and not rigorous near zero contact, where the waves do not have their far form.
     """
 
 
@@ -176,7 +176,7 @@ def coordinate_at(table: AnyTable, curve: AnyCurve, x: float, whole: float) -> f
 
 @face(*_OF_CONTACT)
 def surely_open(table: AnyTable, curve: AnyCurve, x: float) -> float:
-    """Return by how much the coordinate may fall over a jump of loading that leaves x > 0 and surely one disc."""
+    """Return the fall of the coordinate over a jump of loading from x > 0 up to which it surely leaves one disc."""
 
 
 @face(*_OF_CONTACT)
@@ -196,7 +196,7 @@ def waves_are_one_disc(table: AnyTable, curve: AnyCurve, trace: Trace) -> bool:
 
 @face(*_OF_CONTACT)
 def panels_of(table: AnyTable, curve: AnyCurve) -> tuple[float, float]:
-    """Return the shortest wave in lambda, inf for none, and what radii of one panel may have for a ratio, inf for all.
+    """Return the shortest wave in lambda, inf for none, and the largest ratio of radii in one panel, inf for any.
 
     In a panel of that ratio the power of the profile is a polynomial to 1e-12.
     """
@@ -239,7 +239,7 @@ def rim_slope(table: AnyTable, curve: AnyCurve, level: float, x: float) -> float
 def add_slopes(
     table: AnyTable, curve: AnyCurve, near: AnyNear, start: float, end: float, work: Work, total: Slopes
 ) -> None:
-    """Add the slopes of `loss_between`, of a jump whose ends are held; `work` is room for 48 floats."""
+    """Add the slopes of `loss_between`, of a jump whose ends are fixed; `work` is room for 48 floats."""
 
 
 @face(*_OF_SLOPES)

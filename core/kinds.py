@@ -2,7 +2,7 @@
 
     force              the pull-off of one cosine wave under displacement control, by the exact solver
     energy             anything else of `OUTPUTS` of it
-    smooth             both of many punches whose waves count for nothing
+    smooth             both of many punches whose waves have no effect
     reports            `REPORTS` of it
     turning            where its cycles turn before the rim
     envelope           the envelopes of it
@@ -23,7 +23,7 @@
     patterned_sensitivities
     patterned_curves
     rate               opening and closing at a speed, of any profile and control
-    loops              fits of measured loops, but for what is reported of the cycle that is found
+    loops              fits of measured loops, but for the reports on the fitted cycle
 
 and `tables` is what all of them share.
 """
@@ -211,7 +211,7 @@ def kind_of_turning(
 def kind_of_sensitivities(
     profile: Profile | None = None, loading: Loading | None = None, toughness: Toughness | None = None
 ) -> str:
-    """Return the kind of work that `solve` does besides where sensitivities are asked for.
+    """Return the kind of work that `solve` does besides where sensitivities are requested.
 
     Parameters
     ----------

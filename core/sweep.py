@@ -1,6 +1,6 @@
 """Arrays of scenes: requests are checked, passed to the solver concerned, and their results named.
 
-What solves other profiles and controls is imported when it is asked for: it takes half as long as a small map.
+Solvers of other profiles and controls are imported on request: that takes half as long as a small map.
 """
 
 from __future__ import annotations  # those of inner functions would be made anew in every call: 15 us each
@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 def _checked(
     parameters: Mapping[str, ArrayLike], outputs: Sequence[str], solver: str, loading: Loading, toughness: Any
 ) -> str | None:
-    """Refuse what cannot be solved; return the name of what the cycles turn at, None if that is the rim."""
+    """Refuse what cannot be solved; return the name of the target at which cycles turn, None if that is the rim."""
     reports = [name for name in outputs if name in REPORTS]
     slopes = [name for name in outputs if name in SENSITIVITIES]
     unknown = [name for name in outputs if name not in (*OUTPUTS, *EDGE, *RATE, REACH, *reports, *slopes)]
@@ -86,7 +86,7 @@ def _as_one_wave(
 
 
 def wanted_for(outputs: Sequence[str], *, turned: bool) -> Sequence[str]:
-    """Return what is solved: sensitivities start from values."""
+    """Return the results to solve for: sensitivities start from values."""
     if not set(outputs) & {*SENSITIVITIES}:
         return outputs
     from gradhesion.core.sensitivities.sensitivity import wanted_for as all_wanted  # noqa: PLC0415 (kernels of their own)

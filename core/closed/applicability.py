@@ -75,7 +75,7 @@ def validity(
     shape = np.broadcast_shapes(*(np.shape(array) for array in arrays.values()))
     k, nu, modulus, c0, wavelength, amplitude = (arrays[name] for name in PARAMETERS[:6])
     rows = tuple((float(wave.n), wave.cos, wave.sin) for wave in profile.harmonics if wave.cos or wave.sin)
-    with np.errstate(all="ignore"):  # what overflows has no value
+    with np.errstate(all="ignore"):  # a scene that overflows has no value
         M = stiffness(k, nu, modulus, c0)
         sound = np.isfinite(M) & (wavelength > 0.0) & (amplitude >= 0.0) & (arrays["a_max_over_R"] > 0.0)
         sound &= np.isfinite(wavelength) & np.isfinite(amplitude)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 _SAMPLES: Final = 32
 """Of each wave of the shortest harmonic: a maximum lies within 1/64 of a wave of a sample that no neighbour exceeds."""
 _STEPS: Final = 6
-"""Newton's from there: after four nothing changes."""
+"""Newton's steps from there: after four nothing changes."""
 _CANDIDATES: Final = 64
 """Samples that are refined; all of a sum that are within its curvature of the best."""
 

@@ -13,7 +13,7 @@ rho = (depth_H - depth)/z^c, depth_H = z^2/2, the path is
     unloading  rho = 1 + chi down to z_4 = [c (1+chi)]^(2/(3+k)), then the last depth; z_4 is at most the rim
 
 and the energy int z [rho_unloading^2 - rho_loading^2] dz, a sum of powers, is that of (5.36)-(5.43) for any rim; the
-fits of (5.43) are not needed. It grows by 2 chi z_rim^2 without end: the envelopes know nothing of the radius at which
+fits of (5.43) are not needed. It grows by 2 chi z_rim^2 without bound: the envelopes do not include the radius at which
 the folds end and hysteresis saturates, so that the energy of an unbounded punch is inf.
 
 The printed formulae leave out the mean height lambda A of the wave. It is added to delta_max and delta_jump_out. The
@@ -64,7 +64,7 @@ def _loss_of_jump_out(k: float, chi: float, z: float, depth: float) -> float:
 
 @kernel()
 def envelope_cycle(k: float, chi: float, z_rim: float) -> tuple[float, float, float, float, float, float]:
-    """Return what loading and unloading lose, their jumps, the depth of loading at the rim and the last depth.
+    """Return the losses of loading and unloading, their jumps, the depth of loading at the rim and the last depth.
 
     The square of the wave, chi^2/2 in the mean, is a part of both and cancels in their sum.
     """

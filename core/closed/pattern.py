@@ -1,4 +1,4 @@
-"""What the edge of a contact would release over a pattern of toughness: the area, each part by its work of adhesion.
+"""The area of a contact on a pattern of toughness, each part weighted by its work of adhesion.
 
 int_0^a 2 pi r kappa^2 dr      kappa^2 = t of a pattern of work, t^2 of one of toughness (problem/toughness.py)
 """

@@ -3,7 +3,7 @@
 A wheel that is built so has a folder in core/, named after a processor. It holds a file for each kernel and
 types of arguments, and a manifest: what the code was compiled from and for, a digest of each file, and the kinds of
 work that are complete. Where all of it fits, that code is used and nothing is compiled. Anywhere else, and where a file
-is missing or is not what was written, kernels are compiled as from the sources.
+is missing or has been changed, kernels are compiled as from the sources.
 
 The code is that of numba's own cache, for a processor that most have instead of the one at hand. It has the same bits
 (tests/wheels).
@@ -42,7 +42,7 @@ FEATURES: Final = (
 )  # fmt: skip
 """What that processor has, by LLVM's names."""
 OTHERS: Final = ("BOUNDSCHECK", "CPU_FEATURES", "CPU_NAME", "DEBUGINFO", "ENABLE_AVX", "LOOP_VECTORIZE", "OPT")
-"""Settings of numba, NUMBA_... in the environment, that ask for other code."""
+"""Settings of numba, NUMBA_... in the environment, that require other code."""
 
 
 def needed() -> dict[str, str]:
@@ -79,7 +79,7 @@ class Ahead:
     digests: Mapping[str, str]
 
     def read(self, name: str) -> Any:
-        """Return what a file holds; None if there is no such file or it is not the one that was written."""
+        """Return the contents of a file; None if there is no such file or it has been changed."""
         digest = self.digests.get(name)
         if digest is None:
             return None
@@ -100,7 +100,7 @@ def name_of(function: Callable[..., Any], types: Any) -> str:
 def fitting(folder: Path) -> tuple[Ahead | None, str]:
     """Return the code of a folder, if there is any and it fits here, and otherwise why not.
 
-    The second is "" as well where there is no code, or where the environment asks for other code.
+    The second is "" as well where there is no code, or where the environment requires other code.
     """
     own = os.environ.get("GRADHESION_KERNELS") == "own" or any(f"NUMBA_{name}" in os.environ for name in OTHERS)
     if own or LINKING == "ordinary" or not folder.is_dir():
@@ -163,7 +163,7 @@ def write(folder: Path, code: Mapping[str, bytes], kinds: Iterable[str]) -> None
     folder
         A new folder.
     code
-        What each file holds, by its name.
+        The contents of each file, by its name.
     kinds
         The kinds of work whose kernels are all there.
     """

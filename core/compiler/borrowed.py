@@ -1,7 +1,7 @@
 """Kernels that own no array count no references to those of others.
 
 An array that a kernel is given, or a part of one, belongs to a caller, which keeps it until the kernel returns. Numba
-would count who holds it all the same, at each call and each view, atomically, and all threads count the arrays that
+would count its references all the same, at each call and each view, atomically, and all threads count the arrays that
 they share at one place in memory: that took a quarter of the time of a displacement-controlled scene of one cosine, and
 more than half of that of a general one. So the counting is left out of a kernel that makes no array, gets none from
 what it calls, and returns none. What else it may do with arrays stands in `_BORROWING`; whatever is not named there
@@ -16,7 +16,7 @@ from numba.core.compiler_machinery import FunctionPass, register_pass
 from numba.core.typed_passes import NopythonRewrites
 
 _BORROWING: Final = ("build_tuple", "cast", "exhaust_iter", "getattr", "getitem", "static_getitem")
-"""Operations whose result, if it holds an array, holds one of their operands, or a view of it."""
+"""Operations whose result, if it contains an array, contains one of their operands, or a view of it."""
 _ITEMS: Final = (ir.SetItem, ir.StaticSetItem)
 
 
@@ -26,12 +26,12 @@ def _counted(state: Any, kind: Any) -> bool:
 
 
 def _borrows(state: Any, value: Any) -> bool:
-    """Return whether what is assigned, and counts references, belongs to somebody else."""
+    """Return whether what is assigned, and counts references, belongs to a caller."""
     if isinstance(value, (ir.Arg, ir.Var, ir.Global, ir.FreeVar, ir.Const)):
         return True
     if not isinstance(value, ir.Expr):
         return False
-    if value.op == "call":  # a record holds what it is made of
+    if value.op == "call":  # a record contains its fields
         return isinstance(state.typemap[value.func.name], types.NamedTupleClass)
     if value.op not in _BORROWING:
         return False

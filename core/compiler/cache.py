@@ -38,7 +38,7 @@ _KEPT: Final = re.compile(r".*\.(nbi|nbc)(\.tmp\..*)?|(compiled|linking)-.*|lock
 _UNUSED: Final = 30 * 86400.0
 """Seconds after which the folder of another version is removed."""
 _DAY: Final = 86400.0
-"""Seconds since the last use of the folder in use beyond which the clock is not believed: it may have been set."""
+"""Seconds since the last use of the folder in use beyond which the clock may have been set, and is not used."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Place:
 
 
 def _refused(folder: Path) -> str:
-    """Make a folder, and return why nothing is kept there: what cannot be written, or who else can; "" if it serves."""
+    """Make a folder, and return why nothing is kept there: what cannot be written, or who else can; else ""."""
     try:
         make_private(folder)
         others = changeable(folder)

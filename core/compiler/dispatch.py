@@ -1,7 +1,7 @@
 """One name, a kernel for each kind of curve: numba chooses by the type of an argument when it compiles.
 
 `functools.singledispatch` does so for Python. A face is declared once, as a function without a body whose docstring is
-the contract; what answers it for a kind of curve are kernels as all others, with their own types and options.
+the contract; its implementations for kinds of curve are ordinary kernels, with their own types and options.
 """
 
 import inspect
@@ -28,8 +28,8 @@ class Face(Generic[Given, Result]):
     declared
         The function without a body.
     answered_in
-        The modules that hold the answers. They are imported when the first answer is needed, since they need what
-        needs the face.
+        The modules with the answers. They are imported when the first answer is needed, since they import modules
+        that need the face.
     by
         The argument whose type chooses.
     """
@@ -69,7 +69,7 @@ class Face(Generic[Given, Result]):
         Raises
         ------
         TypeError
-            None does.
+            No kernel does.
         """
         for module in self._answered_in:  # one after the other: no more are entered than are needed
             if kind in self._answers:

@@ -26,7 +26,7 @@ def constant(value: int) -> Any:
 YES: Final = constant(True)
 NO: Final = constant(False)
 NONE: Final = constant(0)
-"""The number of what there is none of yet."""
+"""The number of an item that does not exist yet."""
 ONE: Final = constant(1)
 
 _Compiler: Any = OrdinaryCompiler
@@ -115,7 +115,7 @@ def kernel(*, contract: bool = False, inline: bool = False, entry: bool = False)
             "error_model": "numpy",
             "fastmath": {"contract"} if contract else False,
             "inline": "always" if inline else "never",
-            "no_cfunc_wrapper": True,  # none is handed over as a function
+            "no_cfunc_wrapper": True,  # none is passed as a function
             "no_cpython_wrapper": function.__name__.startswith("_") and not entry,
         }
         if not LAZY or inline:
@@ -143,7 +143,7 @@ def _kept(function: Function, options: dict[str, Any]) -> Function:
 
 
 class _Compilation(event.Listener):  # type: ignore[misc] # numba has no types
-    """Hears of every kernel that is compiled; one that is read from the cache is none."""
+    """Is notified of every kernel that is compiled, not of those read from the cache."""
 
     def __init__(self) -> None:
         self.begun = False
@@ -180,7 +180,7 @@ def watch_compilation(listener: Callable[[str], None], *, kept: bool = False) ->
     Parameters
     ----------
     listener
-        It gets the name, as "scene.solve_curve", when the kernel is done. What it raises ends the compilation.
+        It gets the name, as "scene.solve_curve", when the kernel is done. An exception in it ends the compilation.
         `KERNELS` (kinds.py) has the number to expect.
     kept
         Only of those whose code is kept by itself, not as a part of that of others (linking.py).

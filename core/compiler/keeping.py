@@ -46,7 +46,7 @@ def _nothing() -> bytes:
 
 
 def reduced(result: Any) -> tuple[Any, ...]:
-    """Return of a compiled entry what calling it needs, without intermediate code, words and empty constants."""
+    """Return the parts of a compiled entry for calling it, without intermediate code, words and empty constants."""
     (name, form, (code, _)), *between, _words, reload_init, environments = result._reduce()  # noqa: SLF001
     return (name, form, code), *between, reload_init, tuple(one for one in environments if one.consts)
 
@@ -92,7 +92,7 @@ class _Files(FunctionCache):  # type: ignore[misc]
 
 
 class Kept(NullCache):  # type: ignore[misc]
-    """What numba asks for an entry before it compiles it, and gives it to afterwards.
+    """The cache from which numba reads an entry before it compiles it, and to which it writes it afterwards.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ class Kept(NullCache):  # type: ignore[misc]
 
 
 def keep(entry: Any, folder: Path | None) -> None:
-    """Have an entry, as numba decorates it, looked for and kept so."""
+    """Have an entry, as numba decorates it, read and written by this cache."""
     entry._cache = Kept(entry.py_func, folder)  # noqa: SLF001
 
 

@@ -22,7 +22,7 @@ from numba.core.registry import cpu_target
 from gradhesion.core.compiler.resolving import remember_calls
 
 _entries: Final[WeakSet[Any]] = WeakSet()
-"""What Python calls."""
+"""The kernels that Python calls."""
 _compiling: Final[list[Any]] = []
 """What is being compiled, each for the one before; numba compiles under a lock of the process."""
 
@@ -53,7 +53,7 @@ class _Library(JITCodeLibrary):  # type: ignore[misc]
     """Whether it stays intermediate code, without that of the kernels that it calls."""
 
     def _optimize_functions(self, module: Any) -> None:
-        """Leave to the entry what would be optimised there again."""
+        """Skip the optimisation that the entry repeats."""
         if _is_inside():
             module.data_layout = self._codegen._data_layout  # noqa: SLF001
         else:
@@ -84,7 +84,7 @@ def _all_below(libraries: list[Any]) -> list[Any]:
 
 
 def install() -> Callable[[], None]:
-    """Have numba make its code so in this process; return what has it make code its own way again."""
+    """Have numba make its code so in this process; return a function that undoes this."""
     codegen = cpu_target.target_context.codegen()
     make_library, set_environment = codegen._library_class, codegen.set_env  # noqa: SLF001
 
@@ -109,12 +109,12 @@ def install() -> Callable[[], None]:
 
 
 def note_entry(dispatcher: Any) -> None:
-    """Keep that Python calls a kernel: what is compiled for it is linked into it."""
+    """Record that Python calls a kernel: code compiled for it is linked into it."""
     _entries.add(dispatcher)
 
 
 def entries() -> list[Any]:
-    """Return what Python calls, of all modules that are imported."""
+    """Return the kernels that Python calls, of all imported modules."""
     return list(_entries)
 
 

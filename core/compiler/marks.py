@@ -24,7 +24,7 @@ def compiled_before(kind: str) -> bool:
 
 
 def note_compiled(kind: str) -> None:
-    """Keep that the kernels of a kind of work have been compiled, for this process and those after it."""
+    """Record that the kernels of a kind of work have been compiled, for this process and those after it."""
     if kind in _here:
         return
     _here.add(kind)

@@ -1,12 +1,12 @@
 """Who can change the contents of a folder: compiled code is run unchecked, and numba's index is a pickle.
 
-A folder is this user's own if nobody else can put anything in it, move it away, or change what it holds. The folders
+A folder is this user's own if nobody else can put anything in it, move it away, or change its contents. The folders
 above it belong to this user or to the system, and others cannot rename what is in them: they cannot write there, or the
 sticky bit keeps them from it, as in `/tmp`. The folder belongs to this user, and all in it to this user or to root;
 there are no links in it. What is beyond a folder that others cannot enter may be writable by a group, as it is with
 many an umask.
 
-Windows has other rights, which are not looked at: the user's cache and the temporary folder are private there.
+Windows has other rights, which are not checked: the user's cache and the temporary folder are private there.
 """
 
 import os

@@ -75,7 +75,7 @@ def _kept(mark: Path) -> str:
 
 @contextmanager
 def _alone(lock: Path) -> Iterator[None]:
-    """Hold a lock; nothing where a folder has none."""
+    """Acquire a lock; do nothing where a folder has none."""
     from filelock import FileLock  # noqa: PLC0415 (10 ms, once)
 
     held = FileLock(lock)

@@ -1,4 +1,4 @@
-"""What numba's own functions give for arguments of some types, found once.
+"""The result types of numba's own functions for arguments of some types, found once.
 
 For each `a + b` of a kernel numba tries the many forms that an addition can have, one after the other, once when it
 infers types and once more when it makes code: a tenth of the time. What it finds depends on the types alone, so that it
@@ -12,7 +12,7 @@ from numba.core import types
 
 
 def remember_calls(is_ours: Callable[[], bool]) -> Callable[[], None]:
-    """Have numba remember in this process, while what it compiles is ours; return what has it do so no longer."""
+    """Have numba keep these in this process while it compiles our kernels; return a function that undoes this."""
     resolve = types.Function.get_call_type
 
     def get_call_type(self: Any, context: Any, args: Any, kws: Any) -> Any:

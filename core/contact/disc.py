@@ -1,13 +1,13 @@
 """Whether the contact stays one disc while it is loaded up to a rim: the gap outside it must nowhere be negative.
 
-Only radii that a jump of loading passes have to be looked at, for the contact that the jump leaves (docs/theory.md,
+Only radii that a jump of loading passes have to be tested, for the contact before the jump (docs/theory.md,
 sections 12 and 15); the jump from zero contact leaves the profile itself. Unloading is always one disc. On a branch the
 gap at a given radius falls as the contact grows, so that its end is the worst place. And where the gap is not negative
 up to the place of landing, it is not beyond either: on the branch of landing depth_H exceeds the depth, and every later
 end of a branch stands deeper than this one.
 
-A jump is surely open if the coordinate falls over it by no more than the stretch of the contact that is left, which the
-trace tells. Else the least opening is looked for (contact/least.py).
+A jump is surely open if the coordinate falls over it by no more than the stretch of the contact before it, which the
+trace shows. Else the least opening is searched (contact/least.py).
 """
 
 import math
@@ -116,8 +116,8 @@ def limits_from(
 def disc_limits(table: AnyTable, curve: AnyCurve, count: int, trace: Trace, furthest: float) -> tuple[float, float]:
     """Return the radius up to which loading keeps the contact one disc, and that from which on it does not.
 
-    They are those of the first jump that does not, as far as `furthest`; for a rim between the two `is_one_disc` looks
-    anew. Infinite where loading keeps one disc throughout.
+    They are those of the first jump that does not, as far as `furthest`; for a rim between the two `is_one_disc` tests
+    again. Infinite where loading keeps one disc throughout.
 
     Parameters
     ----------

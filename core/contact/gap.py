@@ -1,4 +1,4 @@
-"""The gap outside a contact at the depth delta(a), for any curve whose kind answers about it (core/face.py).
+"""The gap outside a contact at the depth delta(a), for any curve whose kind has the functions for it (core/face.py).
 
     gap(r) = (2/pi) cos(k pi/2) int_a^r s^k (delta_H(s) - delta(a)) (r^2 - s^2)^(-(1+k)/2) ds
 
@@ -29,13 +29,13 @@ _PANEL: Final = 2.0
 _NEAR: Final = 0.75
 """Inner over outer radius of the last panel, at least: the branch point at s = 0 then leaves 1e-13."""
 _FAR: Final = 2.0
-"""Contact radii from which on the integral over the contact is taken."""
+"""Contact radii from which on the integral over the contact is used."""
 GROWTH: Final = 4.0
 """Logarithm of how much the power z^m may grow in a panel: 16 nodes leave 1e-12 of it."""
 _LOW_POWER: Final = 7.0
 """m up to which z^m is smooth enough for the panel at the centre; above it must have become negligible there."""
 _NEGLIGIBLE: Final = 40.0
-"""Logarithm of what is."""
+"""Logarithm of a negligible power."""
 
 
 class Edge(NamedTuple):

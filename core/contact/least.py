@@ -1,7 +1,7 @@
 """The least opening (contact/gap.py) at the radii around a contact: below 0 the contact is not one disc.
 
-The opening is taken at 17 radii in a little more than the shortest wave, and searched for its least value only where
-that is near zero.
+The opening is computed at 17 radii in a little more than the shortest wave, and its least value searched only where it
+is near zero.
 """
 
 import math
@@ -17,14 +17,14 @@ from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Floats
 
 _WINDOW: Final = 1.125
-"""Shortest waves that are looked at together."""
+"""Shortest waves in one window."""
 _CLEAR: Final = 0.02
-"""The parabola through three of 17 openings is nearer than this to their least value, in parts of what they span."""
+"""The parabola through three of 17 openings is nearer than this to their least value, in parts of their range."""
 _MOST_WINDOWS: Final = 64.0
-"""Windows of one wave, or wavelengths of a series, over which nothing is left out."""
+"""Windows of one wave, or wavelengths of a series, in which every radius is tested."""
 GOLDEN: Final = 0.5 * (math.sqrt(5.0) - 1.0)
 STEPS: Final = 30
-"""Of the golden section: they leave 1e-6 of the bracket, and 1e-12 of the least value."""
+"""Steps of the golden section: they leave 1e-6 of the bracket, and 1e-12 of the least value."""
 
 
 @kernel()
@@ -35,7 +35,7 @@ def place_of(low: float, high: float, i: int) -> float:
 
 @kernel()
 def _search(table: AnyTable, curve: AnyCurve, edge: Edge, low: float, high: float) -> float:
-    """Return the least opening between two radii, or the first negative one that is met (golden section)."""
+    """Return the least opening between two radii, or the first negative one found (golden section)."""
     inner, outer = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
     first, second = opening(table, curve, edge, inner), opening(table, curve, edge, outer)
     for _ in range(STEPS):
@@ -84,12 +84,12 @@ def _least_in_window(
     `heights` and `openings` are room for F and the openings at the places of the window (contact/gap.py), of shapes
     (NODES.size,) and (NODES.size + 1,).
 
-    Beyond `low` > a the opening is no less than what the radii from there on contribute, which is taken first. What
-    those within contribute, over (x^2 - low^2)^c, falls outwards: at `high` it serves the whole window.
+    Beyond `low` > a the opening is no less than the contribution of the radii from there on, which is computed first.
+    That of the radii within, over (x^2 - low^2)^c, falls outwards: its value at `high` is a bound for the whole window.
     """
     a, count = edge.x, NODES.size
     openings_between(table, curve, edge, low, high, heights, openings)
-    # the polynomial in x^2 feels the branch point at x = 0
+    # the polynomial in x^2 is limited by the branch point at x = 0
     distance = 1.0 + 2.0 * low * low / ((high - low) * (high + low))
     error = 1e-9 + 10.0 * (distance + math.sqrt(distance * distance - 1.0)) ** (-count)
     at, most, highest = 0, -math.inf, 1.0

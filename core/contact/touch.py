@@ -2,8 +2,8 @@
 
     f(r) = B z^m/(m front) + g sum_n [cos_n (1 - cos 2 pi n x) + sin_n sin 2 pi n x]     in the units of depth
 
-must not be negative up to the radius where this jump lands. It repeats with more of the power from one wavelength to
-the next, so that the first is enough. A cosine of positive amplitude is never negative; sines, and cosines of negative
+must not be negative up to the radius where this jump lands. From one wavelength to the next only the power grows, so
+that the first is enough. A cosine of positive amplitude is never negative; sines, and cosines of negative
 amplitude, may be.
 """
 
@@ -17,7 +17,7 @@ from gradhesion.core.types import Harmonics
 
 _EPS: Final = 2.0**-52
 _ROUNDING: Final = 8.0
-"""Units in the last place by which the sum over the waves may be off."""
+"""Error of the sum over the waves in units of the last place."""
 _MOST_STEPS: Final = 100_000_000
 """More than any series needs: some ten steps for each of its shortest waves."""
 

@@ -1,7 +1,7 @@
 """Whether the contact of one cosine is one disc on the waves that a trace leaves out: a smooth function of the wave.
 
 The opening outside the end of a wave's branch is sampled at a few of them (waves/cosine.py makes the wave a real
-number), and its least value is searched for only where it is near zero.
+number), and its least value is searched only where it is near zero.
 """
 
 import math
@@ -17,9 +17,9 @@ from gradhesion.core.types import Table
 from gradhesion.core.waves.cosine import end_of_wave
 
 _SAMPLES: Final = 12
-"""Waves of a regular run at which the opening is taken."""
+"""Waves of a regular run at which the opening is computed."""
 _SMOOTH: Final = 0.25
-"""Least opening of the samples from which on nothing lower is looked for between them."""
+"""Least opening of the samples from which on nothing lower is searched between them."""
 
 
 @kernel()
@@ -70,9 +70,9 @@ def least_of_gap(table: Table, curve: Cosine, trace: Trace) -> float:
 
 @kernel()
 def note_run(table: Table, curve: Cosine, last: float, trace: Trace) -> None:
-    """Note whether the contact is one disc on the waves of a gap, where that serves all rims.
+    """Note whether the contact is one disc on the waves of a gap, where the result is the same for all rims.
 
-    It does if the first of them is none, and if all up to wave `last` surely are.
+    It is if it is no disc on the first of them, or surely one on all up to wave `last`.
     """
     first = trace[RUN, RUN_FIRST]
     if is_always_one_disc(table, curve) or not first < last < math.inf:

@@ -1,11 +1,11 @@
 """The folds of one cosine on a paraboloid under any control, arch by arch (cosine_folds.py), at a tenth of the cost.
 
 With X = z^((3+k)/2) the folds stand where G(X) = b X + g Q(X) is equal to q, and G is concave or convex on an arch.
-Under a load q is one number, and cosine_folds.py tells all. A machine has a q that rises from (1-k)/2 to
+Under a load q is one number, and cosine_folds.py applies. A machine has a q that rises from (1-k)/2 to
 (3+k)/2. Where an arch has the same number of folds for the q of its inner edge and for that of its outer edge, it has
 as many for what lies between, one on each flank, if G has a margin over what q may rise by within the arch: on a flank
 G is monotone, concave or convex, and steeper than its chord on one side of a fold, so that G - q goes through zero
-once. Where that does not tell, the arch is cut into pieces on which G - q is monotone, or surely not zero.
+once. Where that does not decide, the arch is cut into pieces on which G - q is monotone, or surely not zero.
 """
 
 import math
@@ -26,7 +26,7 @@ from gradhesion.core.types import Harmonics, Table
 
 _PIECES: Final = 64
 _NARROW: Final = 1e-6
-"""Piece over its place below which its folds hardly can be told apart."""
+"""Piece over its place below which its folds can hardly be separated."""
 _STEPS: Final = 100
 _LAST_STEP: Final = 1e-4
 """A cubically convergent step of this size, over the length on which the slope changes, leaves 1e-12 of that."""
@@ -216,7 +216,7 @@ def _on_arch_of_machine(
     margin = steepest * (high_abscissa - low_abscissa)
     concave = i % 2 == 0
     peak, peak_abscissa, peak_height = summit(table, i)
-    if kind == 2 and one[2] != peak:  # too flat for the summit to tell
+    if kind == 2 and one[2] != peak:  # too flat for the summit to decide
         return -1, math.inf
     if kind == 2 and other[2] != peak:
         return -1, math.inf

@@ -1,7 +1,7 @@
 """Folds and landing radii beyond z = 40, eight at a time.
 
-They are found as those of cosine_folds.py and branches.py, each for itself: none depends on which others it is found
-with. Out there the first guesses are so good that one step is the rule.
+They are found as in cosine_folds.py and branches.py, each independently of the other seven. Out there the first guesses
+are so good that one step is the rule.
 """
 
 import math

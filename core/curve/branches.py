@@ -2,7 +2,7 @@
 
 They are kept in a *trace*, an array of one column a branch with the rows named here: the two folds that bound the
 branch, how loading arrives on it, where unloading goes from its start, and what it loses from there to the end of
-contact. One row more is room for the nodes of curve/cosine_energy.py and the waves of waves/cosine_sum.py, one tells of
+contact. One row more is room for the nodes of curve/cosine_energy.py and the waves of waves/cosine_sum.py, one is for
 waves that are not walked, and the first column of another one has the innermost place at which a pair of folds is about
 to be born (path/ties.py).
 """
@@ -37,7 +37,7 @@ UNLOADING_LOSS, UNLOADING_JUMPS, LAST_DEPTH, CALLER = 9, 10, 11, 12
 WORK, RUN = 13, 14
 GAP, RUN_FIRST, RUN_LAST, RUN_LANDING = 0, 1, 2, 3
 RUN_BEFORE, RUN_AFTER, RUN_LOWEST, RUN_LEAST = 4, 5, 6, 7
-"""What the row RUN holds: the first branch beyond waves that were not walked, the first and the last of these waves
+"""The row RUN: the first branch beyond waves that were not walked, the first and the last of these waves
 that loading leaves, and where it lands among them (0 if on the way from one wave to the next); the wave of the last
 branch before the gap, that of the first one after it, and the one of them or between that starts lowest; the least
 opening outside the ends of the waves of the gap (contact/waves.py), NaN if it is not known for all of them."""
@@ -49,7 +49,7 @@ ROWS = 19
 Trace: TypeAlias = Floats
 """A trace, of shape (ROWS, branches or more): places in wavelengths, depths in s l^c, energies in 2 pi l^2 dgamma."""
 Waiting: TypeAlias = tuple[int, Lanes, Lanes, Lanes, Lanes]
-"""How many folds wait; their arches, 1 where a branch starts and -1 where one ends, and the brackets."""
+"""Folds not yet in the trace: their number, arches, 1 where a branch starts and -1 where one ends, and the brackets."""
 NOWHERE: Final = constant(-1)
 """The branch of no contact."""
 UNKNOWN: Final = -1.0
@@ -113,13 +113,13 @@ def find_depth(table: Table, curve: Cosine, target: float, branch: tuple[float, 
             high = x
         square, bend = d * d, rest * d1
         if endless:
-            if abs(bend) > square:  # that of the last waves, which says nothing of a place far beyond them
+            if abs(bend) > square:  # that of the last waves, which does not apply far beyond them
                 bend = 0.0
             step = -rest * d / (square - 0.5 * bend)
         else:
             step = -rest * (square - 0.5 * bend) / (d * (square - bend) + rest * rest * d2 / 6.0)
         x += step / TWO_PI
-        # the loss is stationary at the place of landing: its error is the square of what is left here
+        # the loss is stationary at the place of landing: its error is the square of the remaining step
         enough = _LAST_ENDLESS_STEP if endless else _LAST_STEP
         if low <= x <= high and abs(step) * (abs(d1) + abs(d)) < enough * abs(d):
             return x

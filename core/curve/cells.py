@@ -49,12 +49,12 @@ MATRIX: Final = _to_bernstein()
 NOISE: Final = 2.0**-53 * float(
     (np.abs(MATRIX[:PLACES]).sum(axis=0) + _STEEPEST * np.abs(MATRIX[PLACES:]).sum(axis=0)).max()
 )
-"""Rounding of a Bernstein coefficient over the largest value, or what that is the difference of (1e-12)."""
+"""Rounding of a Bernstein coefficient over the largest value, or over the terms that cancel in it (1e-12)."""
 
 
 BINOMIALS: Final = np.array([float(comb(DEGREE, j)) for j in range(DEGREE + 1)])
 _NEWTON: Final = 4
-"""Steps from the control polygon's zero: of a wave 1e-9 and less is left, mostly."""
+"""Steps from the control polygon's zero: the error is then mostly below 1e-9 of a wave."""
 
 
 @kernel(contract=True)

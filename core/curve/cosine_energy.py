@@ -2,14 +2,14 @@
 
     e = int_{z1}^{z2} z [1 - rho^2] dz,   rho = (depth_H - depth_j)/z^c,   depth_H = b z^2/2 + g z S0
 
-in units of 2 pi l^2 dgamma, from the radius that is left to the one that is reached, where depth_j is the depth of the
-jump and rho = 1 on the equilibrium curve. The sign matters: unloading always loses energy, and so does loading as long
+in units of 2 pi l^2 dgamma, from the radius where the jump starts to the one where it lands, at the depth depth_j of
+the jump; rho = 1 on the equilibrium curve. The sign matters: unloading always loses energy, and so does loading as long
 as rho > -1 on the way, but a jump outwards over a deep groove passes states of rho < -1 (the edge pressed shut, where
 the contact is no longer one disc) and may gain some. The sum over a cycle is the loop integral of P d(depth) all the
 same.
 
-Between two radii the integrand is smooth and Gauss's rule takes it. From or to zero contact it has a branch point z^k
-at 0, and an antiderivative serves, in which E1 = int y^(k+1) S0 = z^(k+2) S1/(k+1) and the moments E2 and W of
+Between two radii the integrand is smooth, and Gauss's rule is used. From or to zero contact it has a branch point z^k
+at 0, and an antiderivative is used, in which E1 = int y^(k+1) S0 = z^(k+2) S1/(k+1) and the moments E2 and W of
 moments.py enter:
 
     z^2/2 - [ b^2/4 z^(5+k)/(5+k) + b g E2 + g^2 W ] + d [ b z^(3+k)/(3+k) + 2 g E1 ] - d^2 z^(1+k)/(1+k)
@@ -53,7 +53,7 @@ Left: TypeAlias = tuple[float, float, float]
 _POWER_TERMS: Final = 12
 """Terms of (1 + eta)^c - 1 for |eta| <= 0.1, the half of a panel over its z."""
 _SMALL_LAG: Final = 0.1
-"""Distance of the place that is left from the middle of a panel, over its z, up to which those terms serve."""
+"""Distance of the start of a jump from the middle of a panel, over its z, up to which those terms suffice."""
 
 
 @kernel(contract=True)

@@ -25,7 +25,7 @@ LAST_STEP: Final = 1e-3
 """A step of the fourth order of this size (relative to a curvature length) leaves 1e-12, and
 depth, load and energy are stationary at a fold: their error is the square of that."""
 LAST_STEP_OF_DEPTH: Final = 3e-3
-"""The same where only depth and energy count: 1e-10 is left of the place, and 1e-15 of the depth."""
+"""The same where only depth and energy matter: the error is 1e-10 of the place, and 1e-15 of the depth."""
 Edge: TypeAlias = tuple[float, float, float]
 """x, X and F at the edge of an arch."""
 CLOSE: Final = 4e-12
@@ -112,8 +112,8 @@ def half_wave(share: float) -> float:
 def guess_zero(table: Table, curve: Cosine, level: float, i: int, place: float, outer: bool) -> float:
     """Return about where D = 0 on arch i, inside or outside its summit.
 
-    At large z, D z^(n-1) = g C cos(z - phi) + b z^n - level/z: the cosine is known where the slow part is, for which
-    `place` serves first and the first guess then; the next term of the expansion turns the phase by shift/z. The first
+    At large z, D z^(n-1) = g C cos(z - phi) + b z^n - level/z: the cosine is known where the slow part is, first at
+    `place` and then at the first guess; the next term of the expansion turns the phase by shift/z. The first
     fold of all may lie at a tiny z, where V = 2 z/(1+k).
     """
     b, g, lag = curve

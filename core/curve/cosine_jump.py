@@ -1,7 +1,7 @@
 """The energy of a jump from its two ends: an antiderivative of z (1 - rho^2) in place of a quadrature.
 
 At the depth d of the curve at z1, q(z) = b z^2/2 - d is known from differences to z1 alone, q1 = z1^c - g z1 S0(z1), so
-that nothing of the size of d^2 is subtracted. Two forms serve; both leave a smooth integral to a few Gauss nodes.
+that nothing of the size of d^2 is subtracted. Two forms are used; both leave a smooth integral to a few Gauss nodes.
 
 With the moments E2 and W (struve/moments.py) from one end to the other,
 
@@ -44,11 +44,11 @@ End: TypeAlias = tuple[float, float, float]
 _horner_of_slow = make_horner(2, TAIL_TERMS)
 NODES, WEIGHTS = gauss_rule(8)
 ENOUGH: Final = 0.03
-"""Of the size of its terms: a smaller energy is left to quadrature, which loses no digits."""
+"""Energy over the size of its terms, below which quadrature is used: it loses no digits."""
 REACH: Final = 0.1
 """Half a jump over its middle, for which 8 nodes, and the series of z^(-c) in the table, leave 1e-16."""
 _NEAR: Final = 0.15
-"""The same where powers are not expanded; over longer jumps the smooth integral is taken in closed form."""
+"""The same where powers are not expanded; over longer jumps the smooth integral has a closed form."""
 
 
 @kernel(contract=True, inline=True)
@@ -210,7 +210,7 @@ def _anywhere(table: Table, curve: Cosine, start: float, end: float) -> tuple[fl
 def energy_between(table: Table, curve: Cosine, start: float, end: float) -> tuple[float, float]:
     """Return e of a jump from x = start > 0 on the curve to x = end > 0, and the size of the terms it is made of.
 
-    The size is infinite where neither form serves.
+    The size is infinite where neither form applies.
     """
     _, _, lag = curve
     if TWO_PI * min(start, end) >= SWITCH:

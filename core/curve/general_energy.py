@@ -4,8 +4,8 @@
 
 in units of 2 pi l^2 dgamma, from the radius that is left to the one that is reached; rho = kappa on the equilibrium
 curve, 1 on a plain interface. Gauss's rule in panels short against the shortest wave, and against the distance from the
-branch point at z = 0. rho knows nothing of kappa, and kappa^2 is a series or its square: even where kappa is a root the
-rule needs no more than the waves of the two.
+branch point at z = 0. rho - kappa is free of kappa, and kappa^2 is a series or its square: even where kappa is a root
+the rule needs no more than the waves of the two.
 """
 
 import math
@@ -32,7 +32,7 @@ from gradhesion.core.types import Floats
 
 
 class Left(NamedTuple):
-    """A place on the curve that tells the coordinate of a jump; depths in s l^c."""
+    """A place on the curve that defines the coordinate of a jump; depths in s l^c."""
 
     waves: float  # whole waves, and x beyond them
     x: float

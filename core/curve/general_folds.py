@@ -15,7 +15,7 @@ from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.types import Floats, Harmonics
 
 MOST_CELLS: Final = 333_000
-"""Cells of three quarters of the shortest wave that are looked at."""
+"""Most cells, of three quarters of the shortest wave, that are searched."""
 MOST_FOLDS: Final = 400_000
 _SHARE: Final = 0.7
 """Longest cell over its distance from zero contact, where powers of z have a branch point."""
@@ -37,7 +37,7 @@ class Search(NamedTuple):
     """Room for a search for folds (curve/cells.py)."""
 
     values: Floats  # D and its slopes at the places of a cell, of shape (DEGREE + 1,)
-    stack: Floats  # polynomials that are to be looked through, of shape (STACK, DEGREE + 1)
+    stack: Floats  # polynomials that are still to be searched, of shape (STACK, DEGREE + 1)
     spans: Floats  # where they stand, of shape (STACK, 3)
     found: Floats  # what is found, of shape (MOST, 5)
 
@@ -176,7 +176,7 @@ def find_folds(
 
     Returns
     -------
-    Their number, -1 if there are too many for `zeros` or too many cells to look at; whether the coordinate rises at the
+    Their number, -1 if there are too many for `zeros` or too many cells; whether the coordinate rises at the
     first radius; and the first place of a pair of folds that an error of CLOSE could make or unmake, else inf.
     """
     _, _, series = basis

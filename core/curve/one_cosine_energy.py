@@ -1,8 +1,8 @@
 """Energies of jumps of one cosine on a paraboloid under any control: those at a fixed depth, and the machine's part.
 
 At a fixed radius the load is linear in the depth, so that the energy of punch and machine is a parabola in the depth,
-lowest where the coordinate has its value. A jump from z1 to z2 at a fixed coordinate therefore loses what one at the
-depth that it leaves loses, and what the depth gives then by following the load: with the load P(z; d) at the depth d,
+lowest where the coordinate has its value. A jump from z1 to z2 at a fixed coordinate therefore loses the energy of a
+jump at its initial depth, and the work as the depth then follows the load: with the load P(z; d) at the depth d,
 
     e = e_depth(z1 -> z2) + beta F^2/((1+k) (alpha + beta z2^(1+k))),    F = P(z1; d) - P(z2; d)
 
@@ -11,8 +11,8 @@ belong to the coordinate at z,
 
     e = e_depth(0 -> z) - beta P^2/((1+k) alpha)
 
-A soft machine has so small an alpha that P must be exact to roots of it: there it comes from the coordinate, which it
-nearly is.
+A soft machine has so small an alpha that P must be exact to its root: there it follows from the coordinate, which is
+nearly the load.
 """
 
 from typing import Final
@@ -30,7 +30,7 @@ _SOFT: Final = 1e-9
 
 @kernel(contract=True)
 def jump_of_one_cosine(basis: Basis, curve: Series, start: float, end: float) -> tuple[bool, float]:
-    """Return whether the formula serves, and e of a jump from x = start > 0 on the curve to x = end > 0."""
+    """Return whether the formula applies, and e of a jump from x = start > 0 on the curve to x = end > 0."""
     table, _, series = basis
     _, _, _, alpha, beta = curve
     k = table.k
@@ -51,7 +51,7 @@ def jump_of_one_cosine(basis: Basis, curve: Series, start: float, end: float) ->
 
 @kernel(contract=True)
 def jump_of_one_cosine_from_zero(basis: Basis, curve: Series, x: float, level: float) -> tuple[bool, float]:
-    """Return whether the formula serves, and e of a jump at Y = level from zero contact to x > 0."""
+    """Return whether the formula applies, and e of a jump at Y = level from zero contact to x > 0."""
     table, _, series = basis
     _, _, _, alpha, beta = curve
     k = table.k

@@ -1,7 +1,7 @@
 """Panels of Gauss's rule along a jump on a general curve, as many nodes in each as its waves need.
 
 The integrand has the square of every wave, and branch points where powers of z have them: at z = 0, and under a machine
-beside the panel. A panel is as long as the longest rule serves, and short against its distance from those. Its places
+beside the panel. A panel is as long as the longest rule allows, and short against its distance from those. Its places
 are a part of `PLACES`, with the weights `SHARES`.
 """
 
@@ -15,7 +15,7 @@ from gradhesion.core.curve.cosine_energy import LONG, NODES, WEIGHTS, unit_rule
 from gradhesion.core.struve.circle import TWO_PI
 
 _RULES: Final = {12: 0.8, 16: LONG, 20: 1.85, 24: 2.6, 32: 4.2}
-"""The shortest waves that a rule of so many nodes serves: 1e-15 of the square of a wave is left."""
+"""The most of the shortest waves for a rule of so many nodes: its error is 1e-15 of the square of a wave."""
 _REACH: Final = np.array([*_RULES.values()])
 _BEGIN: Final = np.cumsum([0, *_RULES])
 PLACES: Final = np.concatenate([unit_rule(nodes)[0] for nodes in _RULES])

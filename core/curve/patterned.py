@@ -207,7 +207,7 @@ def window(basis: Basis, curve: Patterned) -> tuple[float, float]:
 
 @kernel()
 def are_too_many(basis: Basis, first: float, last: float) -> bool:
-    """Return whether there are too many cells to look at between two places."""
+    """Return whether there are too many cells to search between two places."""
     return not highest_harmonic(basis.series) * (last - first) < WAVES * MOST_CELLS
 
 

@@ -7,7 +7,7 @@ In the units of curve/general.py, with S(z) for C times (5.17) of Jin, Guo & Wan
     S(z)     = C sum n^c [cos_n sin(n z - phi) + sin_n cos(n z - phi)],     mean = sum cos_n,   phi = (1+k) pi/4
 
 One cosine is a series of one. The term g mean is the mean height of the waves, which the printed form drops; the load
-has none to this order. The error is of the order lambda/a, and nothing is claimed where the contact is no larger than a
+has none to this order. The error is of the order lambda/a; the form is not valid where the contact is no larger than a
 wave: there depth tends to g mean, not to 0. At k = 1 the depth is exact.
 
 Depth and load have slopes of their own: d load/dz is not z^(1+k) d depth_H/dz, as of every exact curve, but off by
@@ -31,7 +31,7 @@ from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.types import Harmonics, Table
 
 MOST_WAVES: Final = 2.0**17
-"""Shortest waves that are walked at most: the energy of more, which is that of the envelopes to 1e-5, has no value."""
+"""Most of the shortest waves that are walked: with more there is no energy; it is that of the envelopes to 1e-5."""
 SMALLEST: Final = 1e-100
 """Places from which on, and up to one over which, powers are tabulated with room to spare."""
 _INNERMOST: Final = 1e-9
@@ -40,7 +40,7 @@ _OUTERMOST: Final = 1e250
 _NARROW: Final = 1e-7
 """Least step in shortest waves: where F and its slope are zero to rounding."""
 _MOST_PLACES: Final = 64 * 2**17
-"""Places at which F is looked at: some ten a wave."""
+"""Most places at which F is evaluated: some ten a wave."""
 _SURE: Final = 1e-8
 _STEPS: Final = 100
 _CLOSE: Final = 0.02

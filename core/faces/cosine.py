@@ -32,7 +32,7 @@ def loss_to_zero(table: Table, curve: Cosine, x: float, level: float) -> float:
 @face.depth_at.answers(Cosine)
 @kernel()
 def depth_at(_table: Table, _curve: Cosine, _x: float, level: float) -> float:
-    """Answer that the coordinate is the depth."""
+    """Return the depth: it is the coordinate."""
     return level
 
 

@@ -35,7 +35,7 @@ def coordinate_at(table: Table, curve: Cosine, x: float, whole: float) -> float:
 @face.surely_open.answers(Cosine)
 @kernel()
 def surely_open(table: Table, _curve: Cosine, x: float) -> float:
-    """Answer with the stretch: between starts of branches depth_H exceeds the depth of the outer one by it at least."""
+    """Return the stretch: between starts of branches depth_H exceeds the depth of the outer one by it at least."""
     return TWO_PI * x * amplitude_power(table, TWO_PI * x)
 
 
@@ -48,28 +48,28 @@ def is_always_one_disc(table: Table, curve: Cosine) -> bool:
 @face.touches_at_centre.answers(Cosine)
 @kernel()
 def touches_at_centre(_table: Table, _curve: Cosine, _end: float) -> bool:
-    """Answer that it does: the wave has a trough of the gap there, and is no lower anywhere."""
+    """Return True: the wave has a trough of the gap there, and is no lower anywhere."""
     return True
 
 
 @face.waves_are_one_disc.answers(Cosine)
 @kernel()
 def waves_are_one_disc(table: Table, curve: Cosine, trace: Trace) -> bool:
-    """Answer by what is noted of them, else by samples."""
+    """Return what is noted of them, else the result of samples."""
     return least_of_gap(table, curve, trace) >= 0.0
 
 
 @face.panels_of.answers(Cosine)
 @kernel()
 def panels_of(_table: Table, _curve: Cosine) -> tuple[float, float]:
-    """Answer that the paraboloid is a polynomial."""
+    """Return no limit for the ratio: the paraboloid is a polynomial."""
     return 1.0, math.inf
 
 
 @face.profile_at.answers(Cosine)
 @kernel()
 def profile_at(table: Table, curve: Cosine, x: float) -> float:
-    """Answer with what has depth_H for its depth."""
+    """Return the profile, whose depth without adhesion is depth_H."""
     z, half = TWO_PI * x, math.sin(0.5 * TWO_PI * x)
     return 0.25 * (1.0 + table.k) * curve.bend * z * z + 2.0 * curve.gain * half * half
 

@@ -23,6 +23,6 @@ def steepness_at(table: Table, curve: Cosine, x: float) -> float:
 @face.start_of_wave.answers(Cosine)
 @kernel()
 def start_of_wave(table: Table, curve: Cosine, wave: float) -> tuple[float, float]:
-    """Answer by the expansion of the wave."""
+    """Return them by the expansion of the wave."""
     start, level, _, _ = branch_of_wave(table, curve, wave)
     return start, level

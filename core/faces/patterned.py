@@ -36,7 +36,7 @@ face.fill_heights.answers(Patterned)(series_contact.fill_heights)
 @face.waves_at.answers(Patterned)
 @kernel(contract=True)
 def waves_at(basis: Basis, curve: Patterned, x: float, whole: float) -> tuple[float, float, float, float]:
-    """Answer with the waves of the profile, and what kappa is short of 1; `whole` is added to x."""
+    """Return the waves of the profile with 1 - kappa; `whole` is added to x."""
     table, pattern, _ = basis
     x += whole
     z = TWO_PI * x
@@ -138,7 +138,7 @@ def reach(basis: Basis, curve: Patterned, target: float) -> float:
 @face.size_at.answers(Patterned)
 @kernel()
 def size_at(basis: Basis, curve: Patterned, x: float) -> float:
-    """Answer with the terms of the profile, and that of the largest kappa."""
+    """Return the size of the terms of the profile, and of that of the largest kappa."""
     table, pattern, _ = basis
     z = TWO_PI * x
     power = amplitude_power(table, z)
@@ -174,7 +174,7 @@ def touches_at_centre(basis: Basis, curve: Patterned, end: float) -> bool:
 @face.surely_open.answers(Patterned)
 @kernel()
 def surely_open(basis: Basis, curve: Patterned, x: float) -> float:
-    """Answer with the least stretch there is outside: depth_H exceeds the depth by that of where it is."""
+    """Return the least stretch outside: at each radius depth_H exceeds the depth by the stretch there."""
     low = basis.cosine_bins.least
     own = math.sqrt(low) if basis.cosine_bins.of_work else low
     return own * series_contact.surely_open(basis, curve, x)
@@ -183,7 +183,7 @@ def surely_open(basis: Basis, curve: Patterned, x: float) -> float:
 @face.is_always_one_disc.answers(Patterned)
 @kernel()
 def is_always_one_disc(basis: Basis, _curve: Patterned) -> bool:
-    """Answer that it is where the punch is smooth: depth_H rises with the radius, whatever the edge holds."""
+    """Return True where the punch is smooth: depth_H rises with the radius, whatever the toughness of the edge."""
     return basis.cosine_bins.waves.shape[0] == 0
 
 
@@ -197,7 +197,7 @@ def panels_of(basis: Basis, curve: Patterned) -> tuple[float, float]:
 @face.excess_at.answers(Patterned)
 @kernel(contract=True)
 def excess_at(basis: Basis, curve: Patterned, edge: Edge, x: float) -> tuple[float, float]:
-    """Answer as any profile: what the edge's kappa is short of 1 stands in its wave."""
+    """Return it as for any profile: 1 - kappa at the edge is part of its wave."""
     table, pattern, _ = basis
     z = TWO_PI * x
     w0, _, _, _ = sums(table, pattern.cosine_bins, pattern.waves, x, 0.0)

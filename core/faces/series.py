@@ -28,7 +28,7 @@ def find_place(basis: Basis, curve: Series, level: float, trace: Trace, branch: 
 @face.loss_between.answers(Series)
 @kernel()
 def loss_between(basis: Basis, curve: Series, start: float, end: float, _work: Work) -> float:
-    """Answer in closed form for one cosine where that serves, else by quadrature."""
+    """Return it in closed form for one cosine where that is accurate, else by quadrature."""
     if is_one_cosine(basis[2], curve.exponent) and end > 0.0:
         served, energy = jump_of_one_cosine(basis, curve, start, end)
         if served:
@@ -55,14 +55,14 @@ def loss_from_zero(basis: Basis, curve: Series, x: float) -> float:
 @face.loss_to_zero.answers(Series)
 @kernel()
 def loss_to_zero(basis: Basis, curve: Series, x: float, level: float) -> float:
-    """Answer as `loss_between` does; nothing under a dead load."""
+    """Return it as `loss_between` does; 0 under a dead load."""
     return 0.0 if curve.alpha == 0.0 else -_from_zero(basis, curve, x, level)
 
 
 @face.depth_at.answers(Series, ShortWave)
 @kernel()
 def depth_at(basis: Basis, curve: Series, x: float, _level: float) -> float:
-    """Answer with the depth of the contact, whatever is prescribed."""
+    """Return the depth of the contact, whatever is prescribed."""
     if x == 0.0:
         return face.depth_of_point(basis, curve)
     _, _, _, depth, _ = state(basis, curve, x, 0.0)
@@ -125,7 +125,7 @@ def size_at(basis: Basis, curve: Series, x: float) -> float:
 @face.most_size_at.answers(Series)
 @kernel()
 def most_size_at(_basis: Basis, _curve: Series, _x: float) -> float:
-    """Answer that no bound is known without a power."""
+    """Return inf: no bound is known without a power."""
     return math.inf
 
 
@@ -139,5 +139,5 @@ def fold_at(basis: Basis, curve: Series, x: float) -> tuple[float, float]:
 @face.gap_in.answers(Series)
 @kernel()
 def gap_in(_curve: Series, _trace: Trace) -> float:
-    """Answer that there is none: a long curve has notes instead (path/general_long.py)."""
+    """Return inf: a long curve has notes instead (path/general_long.py)."""
     return math.inf

@@ -29,7 +29,7 @@ def table_of(basis: Basis, _curve: Series) -> Any:
 @face.surely_open.answers(Series)
 @kernel()
 def surely_open(basis: Basis, curve: Series, x: float) -> float:
-    """Answer with the stretch, and the load that goes with it."""
+    """Return the stretch, with its load."""
     z = TWO_PI * x
     power = amplitude_power(basis[0], z)
     return (curve.alpha + curve.beta / (power * power)) * z * power
@@ -38,14 +38,14 @@ def surely_open(basis: Basis, curve: Series, x: float) -> float:
 @face.is_always_one_disc.answers(Series)
 @kernel()
 def is_always_one_disc(_basis: Basis, _curve: Series) -> bool:
-    """Answer that nothing is known beforehand."""
+    """Return False: nothing is known beforehand."""
     return False
 
 
 @face.waves_are_one_disc.answers(Series)
 @kernel()
 def waves_are_one_disc(_basis: Basis, _curve: Series, _trace: Trace) -> bool:
-    """Answer that no waves are left out of a trace."""
+    """Return True: no waves are left out of a trace."""
     return True
 
 
@@ -68,7 +68,7 @@ def edge_at(basis: Basis, curve: Series, x: float) -> Edge:
 @face.excess_at.answers(Series)
 @kernel(contract=True)
 def excess_at(basis: Basis, curve: Series, edge: Edge, x: float) -> tuple[float, float]:
-    """Answer by the differences of the terms, each first, as in curve/general_energy.py."""
+    """Return them by the differences of the terms, each first, as in curve/general_energy.py."""
     table, _, _ = basis
     z = TWO_PI * x
     w0, _, _, _ = face.waves_at(basis, curve, x, 0.0)

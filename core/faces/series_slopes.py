@@ -21,28 +21,28 @@ def steepness_at(basis: Basis, curve: Series, x: float) -> float:
 @face.rim_slope.answers(Series)
 @kernel()
 def rim_slope(basis: Basis, curve: Series, level: float, x: float) -> float:
-    """Answer at a place before which no waves were left out."""
+    """Return it for a place before which no waves were left out."""
     return rim_slope_of(basis, curve, level, x)
 
 
 @face.add_slopes.answers(Series)
 @kernel()
 def add_slopes(basis: Basis, curve: Series, near: Change, start: float, end: float, _work: Work, total: Slopes) -> None:
-    """Answer for places before which no waves were left out."""
+    """Add them for places before which no waves were left out."""
     add_jump(basis, curve, near, start, end, 0.0, total)
 
 
 @face.add_slopes_to_zero.answers(Series)
 @kernel()
 def add_slopes_to_zero(basis: Basis, curve: Series, near: Change, x: float, inwards: bool, total: Slopes) -> None:
-    """Answer for a place before which no waves were left out."""
+    """Add them for a place before which no waves were left out."""
     add_jump_from_zero(basis, curve, near, x, 0.0, inwards, total)
 
 
 @face.start_of_wave.answers(Series)
 @kernel()
 def start_of_wave(_basis: Basis, _curve: Series, _wave: float) -> tuple[float, float]:
-    """Answer that there is none."""
+    """Return NaN: there is none."""
     return math.nan, math.nan
 
 
@@ -58,5 +58,5 @@ def add_slopes_of_waves(
     _work: Work,
     total: Slopes,
 ) -> None:
-    """Answer that there are none."""
+    """Add NaN: there are none."""
     total[:] = math.nan

@@ -31,7 +31,7 @@ def _waves(rows: Harmonics, x: float) -> tuple[float, float, float]:
 @face.waves_at.answers(ShortWave)
 @kernel(contract=True)
 def waves_at(basis: Basis, curve: ShortWave, x: float, whole: float) -> tuple[float, float, float, float]:
-    """Answer with v of the depth or of the load, whichever is prescribed."""
+    """Return v of the depth or of the load, whichever is prescribed."""
     table, mean, rows = basis
     c = 0.5 * (1.0 - table.k)
     level = level_at(table.k, curve.alpha, curve.beta)
@@ -79,7 +79,7 @@ def _from_zero(basis: Basis, curve: ShortWave, x: float, level: float) -> float:
 @face.loss_between.answers(ShortWave)
 @kernel()
 def loss_between(basis: Basis, curve: ShortWave, start: float, end: float, _work: Work) -> float:
-    """Answer by Gauss's rule in panels."""
+    """Return it by Gauss's rule in panels."""
     far, stretch = _excess(basis, curve, start)
     if end == 0.0:
         return -_from_zero(basis, curve, start, far - stretch + curve.gain * basis.cosine_bins)

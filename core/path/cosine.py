@@ -32,7 +32,7 @@ SMALLEST: Final = 1e-60
 _FURTHEST: Final = 1e300
 """An arch that stands for all beyond: numbers of arches are subtracted from each other."""
 MOST_ARCHES: Final = 2.0e9
-"""Arches up to which the phase of a radius is told well enough to walk there."""
+"""Arches up to which a double resolves the phase of a radius well enough to walk there."""
 _NEGLIGIBLE: Final = 2.0**-56
 """Curvature of the waviness over that of the paraboloid below which it is lost in rounding."""
 

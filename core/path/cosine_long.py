@@ -109,7 +109,7 @@ class Long(NamedTuple):
 
 @kernel()
 def is_reported(table: Table, curve: Cosine, arch: float) -> bool:
-    """Return whether a float tells places on an arch well enough to walk there.
+    """Return whether a double resolves places on an arch well enough to walk there.
 
     A fold that is off by e has a depth that is off by e^2/2 of the wave; neighbours differ by 2 pi b z^n/(g C) of it.
     """
@@ -353,7 +353,7 @@ def _unload_through(table: Table, curve: Cosine, after: float, long: Long, runni
 
 @kernel()
 def _nominal_branch(table: Table, curve: Cosine, rim: float, final: float, trace: Trace, near: int) -> float:
-    """Put the branch of a rim whose phase no float tells into the trace, by the envelopes; return its wave.
+    """Put the branch of a rim whose phase no double resolves into the trace, by the envelopes; return its wave.
 
     Beyond the end of the folds at wave `final` it is the last one, which has no end.
     """
@@ -373,9 +373,9 @@ def _nominal_branch(table: Table, curve: Cosine, rim: float, final: float, trace
 def stride(table: Table, curve: Cosine, rim: float, long: Long, losses: bool, reach: float) -> int:
     """Put what `begin_long` leaves out into the trace, for a rim x = a/lambda; return the number of branches.
 
-    A rim for which `ends_folds` holds serves all those before it for which it holds too, unless the phase there is not
-    told. A `reach` of up to 2 walks that many times as many waves at either end, and sums those between for the rim
-    alone, which tells how good the sums are (scene/cosine_report.py).
+    The trace of a rim for which `ends_folds` holds is valid for all rims before it that do so too, unless the phase is
+    not resolved there. A `reach` of up to 2 walks that many times as many waves at either end, and sums those between
+    for the rim alone, which measures the accuracy of the sums (scene/cosine_report.py).
     """
     arches, trace, shared = long.arches, long.trace, long.shared[0]
     final, near = arches[1], shared.near

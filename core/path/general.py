@@ -1,9 +1,9 @@
 """The branches of a general curve with the cycle on them: where loading arrives, where unloading goes, what they lose.
 
 The records are those of one cosine (core/curve/branches.py), and the same kernels fill and read them
-(core/path/loading.py, core/path/unloading.py), which ask what core/face.py declares, as `walk` asks for the folds. They
-serve all rims of a curve: loading does not depend on the rim until it gets there, and unloading does not depend on
-where it came from.
+(core/path/loading.py, core/path/unloading.py), by the functions of core/face.py, as `walk` finds the folds. They are
+the same for all rims of a curve: loading does not depend on the rim until it gets there, and unloading does not depend
+on where it came from.
 """
 
 import math

@@ -1,7 +1,7 @@
 """Cycles of long curves: the regular waves between the beginning and the rim, or the end of folds, are summed.
 
 Near its beginning, and near its end, a curve is walked fold by fold (path/general.py). Between them the highest ends of
-branches of every wave, and their lowest starts, are looked at on some waves: loading goes up, wave by wave, where the
+branches of every wave, and their lowest starts, are computed on some waves: loading goes up, wave by wave, where the
 one rise, and unloading goes down where the other fall inwards. Where they do not, waves are passed.
 """
 
@@ -70,7 +70,7 @@ MOST_WAVES: Final = 1e14
 
 
 class Middle(NamedTuple):
-    """What of a long curve is summed."""
+    """The waves of a long curve that are summed."""
 
     kind: int  # IRREGULAR, FEW or REGULAR
     until: float  # x up to which folds are searched for

@@ -4,7 +4,7 @@ Loading follows the running maximum of the coordinate outwards, unloading its ru
 array of branches in the rows of curve/general_branches.py, with places x beyond some whole waves (struve/series.py);
 its last branch may end at the rim.
 
-Each jump may be noted, for whoever asks more of a cycle than what it loses: a row of kind, whole waves, start, end, and
+Each jump may be noted, for results other than the energy: a row of kind, whole waves, start, end, and
 whether the rim cuts the jump short. The first row counts; without rows there are no notes.
 """
 

@@ -5,11 +5,11 @@ They change where one decision of the path does: whether a branch reaches higher
 lower than that of a jump inwards, whether the rim lies on a branch, and whether there is a pair of folds at all. Each
 is a comparison of two numbers of known size; one that they win or lose by less than CLOSE of that size is close.
 
-The curve is any whose kind answers about them (core/face.py). Decisions of loading are noted with the branches up to
-which they are taken, those of unloading with the branches from which on, so that all rims of a curve read them.
+The curve is any whose kind has the functions for them (core/face.py). Decisions of loading are noted with the branches
+up to which they are made, those of unloading with the branches from which on, so that all rims of a curve read them.
 
-On a long curve (path/cosine_long.py) the branches that are summed are not looked at: each is visited, and their
-neighbours stand apart by a wave. Where loading enters them, and unloading leaves them, is.
+On a long curve (path/cosine_long.py) the branches that are summed are not tested: each is visited, and their
+neighbours are a wave apart. The places where loading enters them, and unloading leaves them, are tested.
 """
 
 import math

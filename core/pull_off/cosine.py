@@ -5,7 +5,7 @@ Since -z (S0 - S1) <= C z^c (1 + 2.1/z^2) for every k, the load nowhere lies bel
     load >= X [ b X/(3+k) - 1 - C g (1 + 2.1/z^2) ]
 
 So the search starts at the parabola's lowest point and goes outwards, arch by arch, until the parabola is higher than
-the best trough found: two or three troughs of a thousand are ever looked at. Beyond some 10^7 waves the lowest trough
+the best trough found: only two or three troughs of a thousand are computed. Beyond some 10^7 waves the lowest trough
 is one of a few about that point, or before the rim, to all digits of its load; there places are whole waves and a part,
 which alone has a phase.
 """
@@ -26,14 +26,14 @@ from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Table
 
 FURTHEST: Final = 2.0**25
-"""Waves from which on a double does not tell the phase of a place well enough."""
+"""Waves from which on a double does not resolve the phase of a place well enough."""
 _ABOUT: Final = 4.0
-"""Waves on either side that are looked at there: beyond, troughs are higher by the square of that part of all waves."""
+"""Waves on either side that are searched there: beyond, troughs are higher by the square of that part of all waves."""
 _STEPS: Final = 60
 _SURE: Final = 1e-9
 """Newton's step, in waves, whose square is lost in rounding."""
 _WORTH: Final = 1.0 + 4.0 * 2.0**-52
-"""A trough that is not deeper by this factor is none: two floats cannot tell them apart."""
+"""A trough that is not deeper by this factor is none: doubles do not resolve it."""
 
 
 @kernel(contract=True)
@@ -122,7 +122,7 @@ def _lowest_about(table: Table, curve: Cosine, start: float, x_rim: float, x_rim
 
 @kernel()
 def lowest_load(table: Table, curve: Cosine, x_rim: float, x_rim_low: float) -> Lowest:
-    """Return the lowest reduced load over (0, x_rim], the x where it is met, and the second lowest trough (or 0)."""
+    """Return the lowest reduced load over (0, x_rim], its x, and the second lowest trough (or 0)."""
     b, g, _ = curve
     k = table.k
     chi = g * table.amplitude
@@ -139,7 +139,7 @@ def lowest_load(table: Table, curve: Cosine, x_rim: float, x_rim_low: float) -> 
         at_rim = load_at_rim(table, curve, x_rim, x_rim_low)
         if at_rim < 0.0:
             best = (at_rim, x_rim, 0.0)
-    # an arch holds nothing lower than the parabola's lowest point over it: at the near edge, or between the edges
+    # on an arch nothing is lower than the parabola's lowest point over it: at the near edge, or between the edges
     i = start
     while True:
         x, abscissa, _ = inner_edge(table, i)

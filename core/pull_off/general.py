@@ -9,10 +9,10 @@ and, for z small, within sum h_n n z T0(0)/(2+k). So the load lies nowhere below
     X [ B m/(1+k+m) z^(m-c) - 1 - chi(z) ],   X = z^((3+k)/2)
 
 with a chi that falls as z grows. The search starts where this is lowest and goes outwards cell by cell on both sides,
-leaving out what cannot hold anything lower than the best trough found. The bound is too low by some parts in a hundred,
-which may be many waves: of those the lowest is found by bisection (waves/lowest.py). Beyond some 10^7 waves the lowest
-trough stands next to where the bound of the leading term is lowest, or next to the rim, to all digits of its load, and
-places are whole waves and a part (struve/series.py).
+skipping cells that cannot contain anything lower than the best trough found. The bound is too low by some parts in a
+hundred, which may be many waves: of those the lowest is found by bisection (waves/lowest.py). Beyond ~10^7 waves the
+lowest trough is next to where the bound of the leading term is lowest, or next to the rim, to all digits of its load,
+and places are whole waves and a part (struve/series.py).
 """
 
 import math
@@ -35,7 +35,7 @@ from gradhesion.core.waves.general import NEAREST, cut_of, falls_at_cut, room_fo
 from gradhesion.core.waves.lowest import lowest_of_waves
 
 Terms: TypeAlias = tuple[float, float, float, float, float]
-"""What `chi_terms` returns."""
+"""The result of `chi_terms`."""
 _EXCESS: Final = 2.1
 _REMAINDER: Final = 2.53
 WORTH: Final = 1.0 + 4.0 * 2.0**-52
@@ -181,7 +181,7 @@ def _in_question(terms: Terms, curve: Series, k: float, start: float, rim: float
 def _lowest_far(
     basis: Basis, curve: Series, terms: Any, start: float, x_rim: float, x_rim_low: float, best: Lowest, search: Search
 ) -> tuple[bool, Lowest]:
-    """Do what `lowest_load` does where it is one of many waves; tell whether it is."""
+    """Do what `lowest_load` does where it is one of many waves; return whether it is."""
     table, _, series = basis
     cut = cut_of(table, series)
     wave = np.floor(min(start, x_rim - 1.0) - cut)
@@ -199,7 +199,7 @@ def _lowest_far(
     found, best = lowest_of_waves(basis, curve, cut, low, last, best, work)
     if not found:
         return False, best
-    if high + 2.0 >= x_rim:  # what is left of a wave before the rim
+    if high + 2.0 >= x_rim:  # the rest of a wave before the rim
         whole = last + 1.0
         end = (x_rim - whole) + x_rim_low
         place = cut
@@ -234,8 +234,8 @@ def lowest_load(
 ) -> tuple[float, float, float]:
     """Return the lowest reduced load over (0, x_rim], the x where it is met, and the second lowest trough (or 0).
 
-    NaN if there are too many waves to look at. `work` is the room of a search for folds, `deepest` what `deepest_wave`
-    returns. Of one cosine on a paraboloid core/pull_off/cosine.py knows it; what is prescribed does not matter.
+    NaN if there are too many waves to search. `work` is the room of a search for folds, `deepest` the result of
+    `deepest_wave`. One cosine on a paraboloid has core/pull_off/cosine.py; the result is the same under any control.
     """
     table, _, series = basis
     B, m, g, _, _ = curve

@@ -45,7 +45,7 @@ def lowest_load(
 ) -> tuple[float, float, float]:
     """Return the lowest reduced load up to a rim, the x where it is met, and the second lowest trough (or 0).
 
-    NaN if there are too many waves to look at, 0 without a place where no load is below zero: the centre may have no
+    NaN if there are too many waves to search, 0 without a place where no load is below zero: the centre may have no
     adhesion. `rim` is x and its rounding error, `deepest` what `deepest_wave`
     (pull_off/general.py) returns.
     """
@@ -96,7 +96,7 @@ def lowest_loads(
     """Put what `lowest_load` returns for each rim x + its rounding error into a row of `found`, of shape (rims, 3).
 
     Rims and rounding errors are of shape (rims,); those that are not above 0 are left out. That of the largest one
-    serves all beyond its place.
+    is valid for all beyond its place.
     """
     furthest = 0
     for i in range(rims.size):

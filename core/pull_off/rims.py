@@ -1,7 +1,7 @@
 """The pull-off of many rims of one curve.
 
-That of the largest rim serves all beyond its place. For the others the search goes from the rim inwards
-(pull_off/general.py), in cells that are the same for all of them: what troughs a cell holds is found once.
+That of the largest rim is valid for all beyond its place. For the others the search goes from the rim inwards
+(pull_off/general.py), in cells that are the same for all of them: the troughs of a cell are found once.
 """
 
 import math
@@ -31,7 +31,7 @@ from gradhesion.core.types import Floats, Integers
 
 _MOST_CELLS: Final = 8192
 _FEW: Final = 4
-"""Rims for which cells are not worth being kept."""
+"""Number of rims up to which keeping cells saves no time."""
 _UNKNOWN: Final = -1
 
 
@@ -39,7 +39,7 @@ class Cells(NamedTuple):
     """Cells of a curve from a place inwards, and the troughs of the load in them."""
 
     ends: Floats  # x between which they stand, falling, of shape (cells + 1,)
-    counts: Integers  # the troughs of each, _UNKNOWN as long as nobody has searched it, int64 of shape (cells + 1,)
+    counts: Integers  # the troughs of each, _UNKNOWN until it is searched, int64 of shape (cells + 1,)
     troughs: Floats  # x and load of each trough, of shape (cells + 1, 4, 2)
     zeros: Floats  # room for the folds of one cell, of shape (MOST,)
 

@@ -5,7 +5,7 @@ The load touches from above, once in every wave,
     X [ B m/(1+k+m) z^(m-c) - 1 - chi ],   X = z^((3+k)/2),   chi = max(-g S)
 
 so that the lowest load stands within a wave or two of where this is lowest. The search goes from there outwards and
-inwards, wave by wave of the highest harmonic, as long as one can hold anything lower than the best trough found.
+inwards, wave by wave of the highest harmonic, as long as one can contain anything lower than the best trough found.
 """
 
 import math
@@ -21,7 +21,7 @@ from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.series import highest_harmonic
 
 _PHASELESS: Final = 1e12
-"""z beyond which a double no longer tells the phase well."""
+"""z beyond which a double no longer resolves the phase well."""
 _SHARP: Final = 1.0 + 1e-13
 """How far below the best trough the parabola must be for a wave to be searched: rounding of chi is less."""
 _INNERMOST: Final = 1e-12
@@ -29,12 +29,12 @@ _INNERMOST: Final = 1e-12
 _MOST: Final = 100_000
 """Waves of the highest harmonic that are searched on either side."""
 _ROOM: Final = 32
-"""Folds that a wave of the highest harmonic has room for."""
+"""Room for the folds of a wave of the highest harmonic."""
 
 
 @kernel()
 def _floor(basis: Basis, curve: ShortWave, chi: float, x: float) -> float:
-    """Return what the load touches from above."""
+    """Return the bound that the load touches from above."""
     k, z = basis.table.k, TWO_PI * x
     B, m, _, _, _ = curve
     return z ** (0.5 * (3.0 + k)) * (B * m / (1.0 + k + m) * z ** (m - 0.5 * (1.0 - k)) - 1.0 - chi)

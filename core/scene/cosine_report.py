@@ -1,13 +1,13 @@
 """Reports on a scene on request: the accuracy of its values, and their ratio to those of the smooth punch.
 
-Each is computed from the curve and from results that are there already, in a pass of its own: who does not ask pays
+Each is computed from the curve and from existing results, in a pass of its own: without a request it costs
 nothing. In the units of curve/cosine.py the load is a difference of three terms, and the energy a sum of parts of the
 drop int z (1 - rho^2) dz, of which |rho| <= 1 + 2 chi; rounding leaves some units in the last place of their sizes:
 
     error of the force   ROUNDING eps z^(1+k) [b z^2/(3+k) + g (C z^c + 1) + z^c],  and z dP/dz where a cycle turns,
     error of the energy  ROUNDING eps 2 pi a^2 (1 + chi)^2 dgamma, a the outermost radius of a jump,
 
-and a sum over waves is as good as one that starts and ends elsewhere agrees with it. The factors are measured: on 2,184
+and the error of a sum over waves is that from one that starts and ends elsewhere. The factors are measured: on 2,184
 scenes of an independent solver (tests/twin) the true error is at most 4.2 of the first and 3.2 of the second; of 3,000
 random curves of 160 to 4,000 arches, each walked wave by wave, none is beyond the estimate of its sum, of which the
 true error is the thirtieth part in the median (tests/core/test_stated_errors.py).
@@ -57,7 +57,7 @@ _APART: Final = 10.0
 _SUMMED: Final = 22.0 * 2.0**-52
 """The least error of a sum over waves, in parts of the energies of loading and unloading."""
 _SUMMED_FAR: Final = 5e-13
-"""The most, where the limits of closed form are the only truth there is (tests/core/waves/test_cosine_sum.py)."""
+"""The most, where limits of closed form are the only comparison (tests/core/waves/test_cosine_sum.py)."""
 _FAR: Final = 4000.0
 """Arches within which every wave can be walked to all digits, and from which on the least error grows."""
 _LOOPED: Final = 4096.0
@@ -147,7 +147,7 @@ def _report_energy(
     i: int,
     scratch: Trace,
 ) -> None:
-    """Tell how good the energy of rim number i, at x, is, in its status too if it is not as good as promised.
+    """Store the error of the energy of rim number i, at x, and the flag if it is not as accurate as promised.
 
     The energy is in R^2 dgamma; `arches` are the first and the last one on which the curve can fold, `scratch` is room
     for a trace, of shape (ROWS, branches).
@@ -276,7 +276,7 @@ def report_curves(curves: Curves, solved: Slots, results: Results, scratch: Trac
         row = rims[i if rims.shape[0] > 1 else 0]
         own = Results(results.slots, results.out[:, i], results.status[i])
         stretch = math.sqrt(stretch_factor / stiffness[i])
-        if np.any((own.status & NO_VALUE) == 0):  # what solve gives no value may be out of every range
+        if np.any((own.status & NO_VALUE) == 0):  # scenes without a value may be out of every range
             _report_curve(table, stretch, wavelength[i], amplitude[i], row, solved, own, scratch)
         for rim in range(own.status.size):
             if own.status[rim] & NO_VALUE:

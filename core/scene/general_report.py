@@ -256,7 +256,7 @@ def _energy_reports(
 
 
 class Solved(NamedTuple):
-    """What is known of scenes that are solved, of all of them, of shape (scenes,)."""
+    """The results of solved scenes that reports use, of shape (scenes,)."""
 
     radius: Floats  # a/R of the pull-off
     energy: Floats  # the dissipated energy in R^2 dgamma
@@ -270,7 +270,7 @@ def report_scenes(basis: Basis, curves: GeneralCurves, solved: Solved, wanted: T
 
     `wanted` are those of ROWS that are found, of shape (4,), and `out` where they go, of shape (4, scenes): the error
     of the force in 1.5 pi R dgamma, error and residual of the energy in R^2 dgamma, the radius of saturation in R. The
-    status of what is solved tells as well where an energy is not as good as promised.
+    status also has a flag where an energy is not as accurate as promised.
     """
     table, wavelength = basis.table, curves.wavelength
     radius, energy, turned, status = solved

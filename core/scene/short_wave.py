@@ -1,6 +1,6 @@
 """The leading form of short waves: from the numbers of scenes to their results, one curve with all its rims at a time.
 
-The path is that of path/loading.py and path/unloading.py, which ask what core/face.py declares; each wave is walked.
+The path is that of path/loading.py and path/unloading.py, by the functions of core/face.py; each wave is walked.
 """
 
 import math

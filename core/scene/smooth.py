@@ -173,7 +173,7 @@ def _find_flags(count: int, block: Block, force: bool, folds: bool) -> None:
 
 @kernel()
 def _solve_block(count: int, block: Block, slots: Slots, far: bool) -> None:
-    """Compute what is asked of scenes."""
+    """Compute the requested results of scenes."""
     _find_abscissas(count, block, far)
     if slots[FORCE] >= 0:
         for e in range(count):
@@ -241,7 +241,7 @@ def _refuse(index: Integers, block: Block, results: Results) -> None:
 
 @kernel()
 def solve_smooth(k: Floats, curves: Curves, results: Results, scratch: Floats) -> None:
-    """Solve curves whose waves count for nothing; their tables are not read.
+    """Solve curves whose waves have no effect; their tables are not read.
 
     Parameters
     ----------

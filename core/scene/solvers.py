@@ -1,6 +1,6 @@
 """The solvers of one cosine, and the one loop over curves that they share.
 
-The solver is a constant of the loop: numba drops the branches of the others before it looks at them, so that only the
+The solver is a constant of the loop: numba drops the branches of the others before it compiles them, so that only the
 solver in use is compiled, and keeps one version of the loop for each. (A loop that took the solver as an argument, or
 closed over its kernel, would be compiled anew in every process.)
 """
@@ -20,7 +20,7 @@ from gradhesion.core.struve.current import ready
 from gradhesion.core.types import Floats
 
 EXACT, ENVELOPE, PULL_OFF = 0, 1, 2
-"""The last one is the exact solver where nothing but the pull-off is asked for: a third of the code to compile."""
+"""The last one is the exact solver where only the pull-off is requested: a third of the code to compile."""
 
 
 def loop_of(solver: int) -> Callable[..., None]:

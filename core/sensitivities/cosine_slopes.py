@@ -9,7 +9,7 @@ units,
     d ln F/d ln a_max = x f_x/f                           d ln H/d ln a_max = x h_x/h
     d ln F/d ln lambda = (2-c) + [(2-c) b f_b + (1-c) g f_g - x f_x]/f,    2 in the place of the first for H
 
-The pull-off is a minimum of the load, or stands at the rim: its place may be held.
+The pull-off is a minimum of the load, or stands at the rim: its place may be fixed.
 """
 
 import math
@@ -50,7 +50,7 @@ COUNT = 6
 FORCE, ENERGY, DEPTH = 0, 1, 2
 """What is differentiated: the last one is the depth at the rim, over R, not its logarithm."""
 _PHASELESS: Final = 1e12
-"""z from which on a place tells no phase; the slopes are those of the lowest troughs then."""
+"""z from which on a double resolves no phase; the slopes are those of the lowest troughs then."""
 
 
 class Sense(NamedTuple):

@@ -3,13 +3,13 @@
     e = int_{z1}^{z2} z [1 - rho^2] dz,    rho = 1 + u,    u = (Y(z) - Y_j)/((alpha + beta z^(1+k)) z^c)
 
 (curve/general_energy.py). What is prescribed is stationary at a fold, and the integrand vanishes where a jump lands, so
-that as of one cosine (sensitivities/jump_slopes.py) the ends may be held:
+that as of one cosine (sensitivities/jump_slopes.py) the ends may be fixed:
 
     de/dp = int -2 z rho (du/dp) dz
 
 Here the slopes are those by ln B, ln g, ln(beta/alpha), the machine's share, and k at fixed B, g and share, each with
-the coordinate of the jump that follows, and by that coordinate Y_j alone. Only the ratio of alpha and beta counts:
-alpha may be held.
+the coordinate of the jump that follows, and by that coordinate Y_j alone. Only the ratio of alpha and beta matters:
+alpha may be fixed.
 """
 
 import math

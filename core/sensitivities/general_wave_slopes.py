@@ -1,7 +1,7 @@
 """The slopes of jumps of any length on a general curve, and of sums over its waves.
 
-At a fixed pattern the slopes of a wave are as smooth a function of its number as its loss, so that what sums the losses
-(waves/general_sum.py) sums them: all of them at once, since they stand between the same places.
+At a fixed pattern the slopes of a wave are as smooth a function of its number as its loss, so that they are summed as
+the losses are (waves/general_sum.py): all of them at once, since they stand between the same places.
 """
 
 from typing import NamedTuple
@@ -40,7 +40,7 @@ from gradhesion.core.waves.general_sum import add_waves, common_size, fill_wave
 
 
 class WaveSlopes(NamedTuple):
-    """What is added up over waves: the slopes of what their jumps lose, by the numbers of jump_slopes.py."""
+    """The summands over waves: the slopes of the losses of their jumps, by the numbers of jump_slopes.py."""
 
     change: Change
     jump: Jump  # the one that passes the waves, NO_JUMP else
@@ -51,7 +51,7 @@ class WaveSlopes(NamedTuple):
 def slopes_of_step(
     basis: Basis, curve: Series, term: WaveSlopes, waves: Waves, wave: float, found: Slopes
 ) -> tuple[float, int]:
-    """Answer in 2 pi l^2 dgamma, with the slopes of what `step_of_wave` of waves/general.py adds; counts no jumps."""
+    """Return the slopes of the losses of `step_of_wave` (waves/general.py) in 2 pi l^2 dgamma; counts no jumps."""
     change, jump = term
     kind, cut, _, work = waves
     found[:] = 0.0
@@ -89,7 +89,7 @@ def slopes_of_step(
 @common_size.answers(WaveSlopes)
 @kernel()
 def size_of_slopes(_term: WaveSlopes, sizes: Slopes) -> float:
-    """Answer with the largest by a number of the curve: one may be 0 but for rounding."""
+    """Return the size of the largest by a number of the curve: one may be 0 but for rounding."""
     return float(max(sizes[BEND], sizes[GAIN], sizes[SHARE], sizes[EXPONENT]))
 
 

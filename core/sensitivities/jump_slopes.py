@@ -2,8 +2,8 @@
 
     e = int_{z1}^{z2} z [1 - rho^2] dz,   rho = (depth_H - depth_j)/z^c   (curve/cosine_energy.py)
 
-A fold is a stationary point of the depth, and the integrand vanishes where a jump lands, so that the ends may be held
-while a parameter p changes (docs/theory.md, section 17): with depth_j that of the place that is left,
+A fold is a stationary point of the depth, and the integrand vanishes where a jump lands, so that the ends may be fixed
+while a parameter p changes (docs/theory.md, section 17): with depth_j the depth at the start of the jump,
 
     de/dp = int -2 z rho (d rho/dp) dz,   d rho/db = (z^2 - z1^2)/(2 z^c),   d rho/dg = (z S0 - z1 S0(z1))/z^c
 
@@ -38,7 +38,7 @@ from gradhesion.core.types import Floats, Slopes, Table, Work
 
 BEND, GAIN, EXPONENT, DEPTH, SHARE, SLOPES = 0, 1, 2, 3, 4, 5
 _FURTHEST: Final = 64.0
-"""In waves: over longer jumps the antiderivative serves, as in curve/cosine_energy.py."""
+"""In waves: over longer jumps the antiderivative is used, as in curve/cosine_energy.py."""
 _POWER_TERMS: Final = 12
 
 

@@ -2,9 +2,9 @@
 
 Slopes are kept with the branches, as a trace keeps losses: those of loading up to where it arrives on a branch, and
 those of unloading from the start of a branch to the end of contact. So all rims of a curve share them. One row more
-than the slopes tells whether those of unloading are there.
+than the slopes marks whether those of unloading are there.
 
-The curve is any whose kind answers about its sensitivities (core/face.py).
+The curve is any whose kind has the functions for sensitivities (core/face.py).
 """
 
 import math

@@ -29,7 +29,7 @@ NEEDED: Final = {
 MACHINE: Final = "machine_stiffness"
 _STEP: Final = 2e-3
 _FORWARD: Final = (-25.0 / 12.0, 4.0, -3.0, 4.0 / 3.0, -0.25)
-"""Of a force that is met where a jump lands beyond the turn: the one case that is left to differences, good to 1e-9."""
+"""For a force that occurs where a jump lands beyond the turn: the one case by differences, accurate to 1e-9."""
 
 
 def by_parameters(
@@ -145,7 +145,7 @@ def sensitivities(
     passed: NDArray[np.bool_],
     force_of: Callable[[Mapping[str, ArrayLike]], NDArray[np.float64]],
 ) -> dict[str, NDArray[np.float64]]:
-    """Return the sensitivities that are asked for.
+    """Return the requested sensitivities.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
 """The slopes of a sum over waves: those of each jump, summed as waves/cosine_sum.py sums the energies of jumps.
 
 At a fixed index of the wave the slope is as smooth a function of the index as the loss, with the same branch points; at
-the inner one its power is 1/2 in the place of 3/2, which Gauss's rule takes in v as well.
+the inner one its power is 1/2 in the place of 3/2, for which Gauss's rule in v is exact as well.
 """
 
 import math

@@ -6,7 +6,7 @@ With n = (1+k)/2, V = S0 + z S0' and X = z^(1+n), the folds of any curve of one 
 
 (physics in curve/cosine.py): where the curve Q(X), which depends on k alone, meets a straight line. Between two
 inflections Q(X) is concave or convex, and a line meets such an *arch* at most twice. So the signs at the two edges of
-an arch, and at most one extremum between them, tell the number of folds on it for certain.
+an arch, and at most one extremum between them, give the exact number of folds on it.
 
     dQ/dX = R/(1+n),   R = n V/z + V'
     V' = 2 S0' + z (S1 - S0),   V'' = (1-k) S1 - (2-k) S0 - z S0',   V''' = (1-k) S1' - (3-k) S0' - z (S1 - S0)
@@ -46,7 +46,7 @@ def find_inflection(table: Table, i: int) -> tuple[float, float, float]:
     k = table.k
     n = 0.5 * (1.0 + k)
     place = table.phase + (i - 0.5) * math.pi
-    if i > ARCHES:  # the next term of the expansion leaves 1e-8
+    if i > ARCHES:  # with the next term of the expansion the error is 1e-8
         return _abscissa_and_height(table, (place + (2.125 - k - 0.125 * k * k) / place) / TWO_PI)
     x = (place + 0.9 * (2.0 - k) / (place + 1.0)) / TWO_PI
     for _ in range(_STEPS):

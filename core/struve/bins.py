@@ -23,7 +23,7 @@ from gradhesion.core.types import Floats
 Taylor: TypeAlias = Floats
 """Taylor coefficients in t, each a sum of two floats: of shape (terms, 2)."""
 TAYLOR: Final = 20
-"""Taylor coefficients a bin: h^20/20! and the smallness of S0 leave nothing above 1e-20."""
+"""Taylor coefficients of a bin: as h^20/20! and S0 are small, the rest is below 1e-20."""
 _SERIES: Final = 14
 """Terms of the power series at z = 1/4."""
 

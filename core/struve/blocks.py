@@ -61,5 +61,6 @@ OF_FORCES: Final = Blocks("theta_front", "", 3, 32, 81, 0, OF_ARCHES.end)
 OF_MANTISSAS: Final = Blocks("power_mantissa", "", 14, 32, 448, 0, OF_FORCES.end, 6)
 OF_CYCLES: Final = Blocks("jump_tail", "", 12, 32, 367, 0, OF_MANTISSAS.end)
 OF_ENERGIES: Final = Blocks("moment_series", "", 5, 32, 150, 2, OF_CYCLES.end)
-"""What every force reads, theta_front to power_mantissa; and what cycles read: to fractional, to moment_logarithm."""
+"""Fields that every force reads, theta_front to power_mantissa; and that cycles read: to fractional, to
+moment_logarithm."""
 ALL: Final = (OF_BINS, OF_MOMENTS, OF_ARCHES, OF_FORCES, OF_MANTISSAS, OF_CYCLES, OF_ENERGIES)

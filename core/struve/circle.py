@@ -34,7 +34,7 @@ def _sine_cosine(r: float) -> tuple[float, float]:
 
 @kernel(contract=True)
 def sine_cosine_of_turns(x: float) -> tuple[float, float]:
-    """Return sin(2 pi x) and cos(2 pi x) for 0 <= x < 2^49; beyond, x tells no phase, and 0 stands for it.
+    """Return sin(2 pi x) and cos(2 pi x) for 0 <= x < 2^49; beyond, x resolves no phase, and 0 is used.
 
     x is a number or eight (lanes.py).
     """

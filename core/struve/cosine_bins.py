@@ -7,7 +7,7 @@ the part that has no wave,
 
     z T0'' + (k+1) T0' + z T0 = 0,    T0' = -z T1/(1+k),    T1' = ((1+k) T0 - (2+k) T1)/z
 
-so that no slope needs polynomials of its own: none cancels. From z = 40 on the tail of the pair serves (large.py):
+so that no slope needs polynomials of its own: none cancels. From z = 40 on the tail of the pair is used (large.py):
 T_j = Re[...] of what S_j is G_j + Im[...].
 
 Accuracy: on 1,800 points of nine k (z up to 2,500) the error of T0 and T1 is at most 1.0e-15 of the larger of the

@@ -1,7 +1,7 @@
 """One record that is the table of one exponent after the other: what is not filled when it is read (filling.py).
 
-Of many exponents with a scene or two each, all the tables would leave the caches between them. So kernels ask for the
-table of the next exponent before they read it: it takes the place of the last one. A table of its own stays what it is.
+Of many exponents with a scene or two each, all the tables would leave the caches between them. So kernels request the
+table of the next exponent before they read it: it replaces the last one. A table built for its exponent stays as it is.
 """
 
 import math

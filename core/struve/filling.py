@@ -1,8 +1,8 @@
 """The missing parts of an interpolated table, filled when they are first read.
 
 An interpolated table (interpolated.py) is polynomials in k. It has hundreds of bins and arches, of which a force reads
-some, and a cycle some dozens. So each of them is asked for before it is read. A table of its own lacks nothing: that
-is one byte, which is zero, and a branch that is never taken.
+some, and a cycle some dozens. So each of them is requested before it is read. A table built for its exponent is
+complete: the cost is one byte, which is zero, and a branch that is never taken.
 """
 
 from typing import Any, Final
@@ -27,7 +27,7 @@ from gradhesion.core.struve.layout import EXPONENT_SPAN, TABLE
 _STEP: Final = 32
 """Powers of 2^e are products of one for e/32 and one for the rest."""
 _COLD: Final = "preserve_mostcc"
-"""How functions are called that keep the registers of their callers, which are hot where they are cold."""
+"""The calling convention of functions that are rarely called and keep the registers of their callers."""
 _WORD: Final = 8
 _LANES: Final = 8
 """Numbers of one vector operation; 4 are left at the end of a block."""
@@ -105,7 +105,7 @@ def _call_filling(builder: Any, blocks: Blocks, record: Any, block: Any) -> None
 
 
 def _make_asking(blocks: Blocks) -> Any:
-    """Make `ask(table, block)`: what has a table have a block, which is not negative."""
+    """Make `ask(table, block)`: a function that fills a block (not negative) of a table if it is missing."""
 
     @intrinsic
     def ask(typingctx: Any, table: Any, block: Any) -> Any:
@@ -158,7 +158,7 @@ def _fill_powers(builder: Any, record: Any, power: Any) -> None:
 
 
 def _define_refilling(module: Any) -> Any:
-    """Return the function that fills what is filled at once: `refill(record, power)`."""
+    """Return the function that fills all fields but the blocks: `refill(record, power)`."""
     name = "gradhesion.refill"
     if name in module.globals:
         return module.globals[name]
@@ -188,7 +188,7 @@ def _define_refilling(module: Any) -> Any:
 
 @intrinsic
 def refill(typingctx: Any, table: Any, power: Any) -> Any:
-    """Fill a table with all but what is filled when it is read; `power` is 2^(-16 (1+k))."""
+    """Fill all of a table but the blocks, which are filled when they are read; `power` is 2^(-16 (1+k))."""
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         record = builder.bitcast(arguments[0], _BYTE.as_pointer())
@@ -200,7 +200,7 @@ def refill(typingctx: Any, table: Any, power: Any) -> Any:
 
 @intrinsic
 def fill_theta(typingctx: Any, table: Any) -> Any:
-    """Fill what theta needs."""
+    """Fill the fields for theta."""
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         record = builder.bitcast(arguments[0], _BYTE.as_pointer())

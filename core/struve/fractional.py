@@ -67,7 +67,7 @@ def build_fractional(k: float, matrix: Floats) -> None:
             place = NODES[row] * (1.0 - NODES[j])
             total = 0.0
             for i in range(count):
-                parts[i] = _BARYCENTRIC[i] / (place - NODES[i])  # no two products of nodes meet a node
+                parts[i] = _BARYCENTRIC[i] / (place - NODES[i])  # no product of two nodes is a node
                 total += parts[i]
             for i in range(count):
                 matrix[i, row] += weights[j] * parts[i] / total

@@ -2,9 +2,9 @@
 
 A table of its own costs 0.2 ms, hundreds of times a force. Over G((1+k)/2), or its square where squares of S0 are
 integrated, every entry is so smooth on 0 <= k <= 1 that the polynomial of degree 15 through 24 tables at Chebyshev
-nodes leaves its rounding. It is expanded anew on each of 24 pieces of [0, 1], where 8 coefficients serve (against
-tables of their own, on scenes of random k: forces within 3e-15 of the terms they are the difference of, energies within
-5e-14). Of bins, moments and arches those are filled that are read (filling.py), all else at once.
+nodes is accurate to its rounding. It is expanded anew on each of 24 pieces of [0, 1], where 8 coefficients suffice
+(against tables of their own, on scenes of random k: forces within 3e-15 of the terms they are the difference of,
+energies within 5e-14). Bins, moments and arches are filled when they are read (filling.py), all else at once.
 """
 
 import math
@@ -32,13 +32,13 @@ _EDGES: Final = 0.5 - 0.5 * np.cos(np.pi / _PIECES * np.arange(_PIECES + 1))
 """Pieces are narrow near the ends, where a polynomial through the nodes, and so its rounding, bends most."""
 _CENTRES, _HALVES = 0.5 * (_EDGES[1:] + _EDGES[:-1]), 0.5 * np.diff(_EDGES)
 ROUNDING: Final = 4.0
-"""Errors of an interpolated table over those of one of its own: what stated errors multiply by."""
+"""Errors of an interpolated table over those of one built for its exponent: a factor of stated errors."""
 _WORD: Final = 8
 
 
 @lru_cache(maxsize=1)
 def _at_nodes() -> tuple[Floats, list[Floats]]:
-    """Return the exponents of the nodes, and what their tables hold: arrays of the shape (blocks, nodes, numbers)."""
+    """Return the exponents of the nodes, and the numbers of their tables, of the shape (blocks, nodes, numbers)."""
     places, _ = chebyshev_fit(_NODES, _DEGREES)
     exponents = 0.5 * (1.0 + places)
     tables = np.array([build_table(k) for k in exponents.tolist()]).view(np.float64).reshape(_NODES, -1)
@@ -84,11 +84,11 @@ def _made(piece: int) -> Floats:
 
 
 _pieces: Final[dict[int, Floats]] = {}
-"""What has been made, for good: tables know its address."""
+"""Coefficients made so far, kept for good: tables have their addresses."""
 
 
 def _piece(piece: int) -> Floats:
-    """Return the coefficients of a piece, of shape (floats,), of many threads' the first one's."""
+    """Return the coefficients of a piece, of shape (floats,); if many threads make them, those of the first one."""
     if piece not in _pieces:
         return _pieces.setdefault(piece, _made(piece))
     return _pieces[piece]
@@ -96,7 +96,7 @@ def _piece(piece: int) -> Floats:
 
 @kernel()
 def complete(tables: Tables) -> None:
-    """Fill what some records, shape (n,), lack of bins, moments and arches."""
+    """Fill the missing bins, moments and arches of some records, shape (n,)."""
     for j in range(tables.size):
         for i in range(tables[j].lacks_bin.size):
             ask_for_bin(tables[j], i)
@@ -132,7 +132,7 @@ def interpolated_tables(exponents: Floats, *, whole: bool = False) -> NDArray[An
     exponents
         Gradient exponents, 0 to 1, shape (n,).
     whole
-        Whether to fill everything (2 us a table): for kernels that ask for nothing before they read it.
+        Whether to fill everything (2 us a table): for kernels that do not request blocks before they read them.
 
     Returns
     -------
@@ -156,7 +156,7 @@ def table_of_each(exponents: Floats, *, forces: bool) -> NDArray[Any]:
     exponents
         Gradient exponents, 0 to 1, shape (n,).
     forces
-        Whether only pull-off forces are read from them: what no force reads is left out.
+        Whether only pull-off forces are computed from them: fields that no force reads are left out.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""What a jump between two radii beyond z = 40 needs of the pair of one cosine: oscillating and slow parts, apart.
+"""The parts of the pair of one cosine for a jump between two radii beyond z = 40: oscillating and slow ones, apart.
 
 With S0 = G0 + w0 and S1 = G1 + (k+1)/z w1, where w0 and w1 oscillate (large.py), the wave's part of z^(k+2) S0^2 has
 the oscillating integral of moments.py,

@@ -58,7 +58,7 @@ _CASES: Final = [(LANES_TYPE, LANES_TYPE), (LANES_TYPE, types.float64), (types.f
 
 
 def _add_operator(function: Any, instruction: str) -> None:
-    """Have numba know an operator on lanes, or on lanes and a number."""
+    """Register with numba an operator on lanes, or on lanes and a number."""
 
     class Template(ConcreteTemplate):  # type: ignore[misc]
         cases: ClassVar = [signature(LANES_TYPE, *pair) for pair in _CASES]

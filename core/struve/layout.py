@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 SWITCH: Final = 40.0
-"""z from which the expansion at large z serves."""
+"""z from which the expansion at large z is used."""
 BIN_WIDTH: Final = 0.5
 BINS: Final = 80
 BIN_TERMS: Final = 11
@@ -31,7 +31,7 @@ MOMENT_BINS: Final = 76
 MOMENT_TERMS: Final = 14
 MOMENT_TAIL_TERMS: Final = 24
 ARCHES: Final = 256
-"""Arches of the fold function that are tabulated, two a wave; those further out are found when asked for."""
+"""Arches of the fold function that are tabulated, two a wave; those further out are computed on request."""
 ARCHES_AT_ONCE: Final = 4
 """Arches that are filled together where a table is interpolated."""
 STRETCH_TERMS: Final = 15

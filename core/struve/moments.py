@@ -1,4 +1,4 @@
-"""The two moments of S0 that the energy of a jump from or to zero contact needs.
+"""The two moments of S0 in the energy of a jump from or to zero contact.
 
     E2(z) = int_0^z y^(k+3) S0 dy,    W(z) = int_0^z y^(k+2) S0^2 dy
 

@@ -71,7 +71,7 @@ def amplitude_power(table: Table, z: float) -> float:
 
 @kernel(contract=True)
 def _logarithms(m: Lanes) -> Lanes:
-    """Return the logarithms of base 2 of eight numbers from sqrt(1/2) to sqrt(2): 4e-17 of their size is left."""
+    """Return the logarithms of base 2 of eight numbers from sqrt(1/2) to sqrt(2): the error is 4e-17 of their size."""
     s = (m - 1.0) / (m + 1.0)
     u = s * s
     v = u * u
@@ -82,7 +82,7 @@ def _logarithms(m: Lanes) -> Lanes:
 
 @kernel(contract=True)
 def _powers_of_two(r: Lanes) -> Lanes:
-    """Return 2^r for eight r from -1/2 to 1/2: 2e-17 is left."""
+    """Return 2^r for eight r from -1/2 to 1/2: the error is 2e-17."""
     u = r * r
     v = u * u
     low = 0.24022650695910158 + 0.055504108664821625 * r + u * (0.009618129107587256 + 0.001333355814640647 * r)
@@ -97,7 +97,7 @@ def _powers_of_two(r: Lanes) -> Lanes:
 def amplitude_powers(table: Table, z: Lanes) -> Lanes:
     """Return the powers of eight z, to two units in the last place, for 2^-512 <= z < 2^512.
 
-    They come from polynomials of least maximal error, for logarithm and exponential: eight do not read tables well.
+    They come from polynomials of least maximal error, for logarithm and exponential: table look-ups of eight are slow.
     """
     m, e = parts_of(z)
     n = 0.5 * (1.0 + table.k)

@@ -1,6 +1,6 @@
 """The waves of a profile at one radius, and how they change with the gradient exponent.
 
-All tables are linear in what they hold, so that the derivative by k of every polynomial is kept as a table of the same
+All tables are linear in their entries, so that the derivative by k of every polynomial is kept as a table of the same
 shape: differences of tables of neighbouring exponents. Where z >= 40 the waves have a factor z^(-(1+k)/2) more.
 """
 

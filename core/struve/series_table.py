@@ -26,7 +26,7 @@ from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Floats, Harmonics, Table
 
 FEWEST: Final = 6
-"""Harmonics from which on a table pays."""
+"""Harmonics from which on a table saves time."""
 HIGHEST: Final = 64
 """The shortest wave of a table, which then takes 4 MB."""
 BINS: Final = 7
@@ -93,7 +93,7 @@ _FAR_BIN: Final = TAIL_TERMS * _FAR_ORDER
 
 
 def has_table(rows: Harmonics) -> bool:
-    """Return whether a table of the series pays."""
+    """Return whether a table of the series saves time."""
     return bool(len(rows) >= FEWEST and rows[:, 0].max() <= HIGHEST)
 
 
@@ -174,7 +174,7 @@ def near_bins(bins: int) -> int:
 
 @kernel(contract=True)
 def tabulated_sums(table: Table, waves: Flat, x: float, whole: float) -> tuple[float, float, float, float]:
-    """Return what `sums` of struve/series.py does from the table of a series."""
+    """Return the result of `sums` of struve/series.py from the table of a series."""
     place = whole + x
     bins = int(waves[COSINES])
     if place < NEAR:  # whole = 0

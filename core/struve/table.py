@@ -67,7 +67,7 @@ def build_table(k: float) -> Table:
 
 
 _kept: Final = lru_cache(maxsize=16)(build_table)
-"""For those who ask for a few points again and again: building a table takes as long as 40,000 points."""
+"""Kept for repeated calls with a few points: building a table takes as long as 40,000 points."""
 
 
 @kernel(entry=True)

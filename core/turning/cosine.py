@@ -2,7 +2,7 @@
 
 Nothing beyond the place is walked where the lower envelope reaches the target, and no branch before the place where the
 upper one does (turning/cosine_reach.py). All scenes of a curve share one trace. Depths that are reached among the waves
-of a long curve are looked for eight at a time (turning/cosine_at_once.py).
+of a long curve are searched eight at a time (turning/cosine_at_once.py).
 """
 
 import math
@@ -72,7 +72,7 @@ def _is_first_contact(k: float, b: float, target: float) -> bool:
 
 @kernel()
 def _is_vague(table: Table, arches: tuple[float, float], reach: float) -> bool:
-    """Return whether folds stand so far out that no float tells the waves at which loading looks."""
+    """Return whether folds stand so far out that a double does not resolve the waves on the way of loading."""
     return is_long(table, arches, reach) and min(arches[1], 2.0 * reach) > MOST_ARCHES
 
 

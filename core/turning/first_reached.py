@@ -45,7 +45,7 @@ Peaks: TypeAlias = Floats
 """The largest load of loading on each branch of a trace, or a bound of it, of shape (branches,): `peaks_of`."""
 _STEPS: Final = 200
 _FEW: Final = 3
-"""Turning points of a curve up to which each looks for itself."""
+"""Number of turning points of a curve up to which each is searched separately."""
 
 
 @kernel()

@@ -26,7 +26,7 @@ Left: TypeAlias = tuple[float, float, float]
 NEAREST: Final = 8.0
 """The innermost wave: z > 40 from the one before it on."""
 FAR: Final = 4.0e6
-"""Waves up to which a float tells a place and its phase together well enough to sum a gap."""
+"""Waves up to which a double resolves a place and its phase together well enough to sum a gap."""
 _STEPS: Final = 100
 LAST_STEP: Final = 1e-4
 """A cubically convergent step of this size leaves 1e-12, and the loss is stationary at a fold (cosine_folds.py)."""
@@ -64,7 +64,7 @@ def _slope(table: Table, curve: Cosine, whole: float, x: float) -> tuple[float, 
 
 @kernel(contract=True)
 def _rise(table: Table, curve: Cosine, left: Left, step: float, z: float, wave: float) -> float:
-    """Return the depth less that of the place that is left, `step` waves further in; `wave` is z S0 here."""
+    """Return the depth less that at the start of the jump, `step` waves further in; `wave` is z S0 here."""
     b, g, _ = curve
     z1, wave1, stretch1 = left
     c = 0.5 * (1.0 - table.k)
@@ -163,7 +163,7 @@ def _landing(table: Table, curve: Cosine, whole: float, left: Left, start: float
             high = x
         step = -rest * d / (d * d - 0.5 * rest * d1)
         x += step / TWO_PI
-        # the loss is stationary at the place of landing: its error is the square of what is left here
+        # the loss is stationary at the place of landing: its error is the square of the remaining step
         if low <= x <= high and abs(step) * (abs(d1) + abs(d)) < LAST_LANDING * abs(d):
             return x
         if not low < x < high:
@@ -175,7 +175,7 @@ def _landing(table: Table, curve: Cosine, whole: float, left: Left, start: float
 
 @kernel()
 def _ends_of_jump(table: Table, curve: Cosine, whole: float, outwards: bool) -> tuple[float, float, Left]:
-    """Return where the jump from the wave `whole` + 2 to the next one starts and lands, and what is left there."""
+    """Return where the jump from the wave `whole` + 2 to the next one starts and lands, and the place at its start."""
     centre = table.phase / TWO_PI + 2.0
     start = _fold(table, curve, whole, centre, not outwards)
     _, _, _, z, height, stretch = _slope(table, curve, whole, start)
@@ -230,8 +230,8 @@ def branch_of_wave(table: Table, curve: Cosine, wave: float) -> tuple[float, flo
 def end_of_wave(table: Table, curve: Cosine, wave: float) -> tuple[Cosine, float]:
     """Return a curve that lags (curve/cosine.py), and the place on it where the branch of a wave ends.
 
-    Beyond FAR it is that of a wave nearer to zero contact with the same cosine at its folds: as good as chi z is large,
-    and enough for the sign of a gap.
+    Beyond FAR it is that of a wave nearer to zero contact with the same cosine at its folds: accurate where chi z is
+    large, and enough for the sign of a gap.
     """
     b, g, _ = curve
     whole = np.floor(wave)

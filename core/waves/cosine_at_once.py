@@ -1,11 +1,11 @@
 """Jumps of eight waves far from zero contact, computed at once: each is that of waves/cosine.py.
 
-No search waits for another to end, and one instruction serves all eight (struve/lanes.py). Guesses are so good out here
+No search waits for another to end, and one instruction does all eight (struve/lanes.py). Guesses are so good out here
 that a fold takes one step or two of Halley's method, and a landing two or three; a wave that needs more, or whose jump
 has no place to land, has NaN here. Powers are (1 + e)^(-c) from one place near the middle of each jump.
 
 What a jump loses comes from the antiderivative of curve/cosine_jump.py, whose bracket keeps its digits here. Where the
-folds are about to end, jumps are short and little is left of it: there, Gauss's rule takes all of the integrand.
+folds are about to end, jumps are short and it cancels: there Gauss's rule is used for all of the integrand.
 """
 
 import math
@@ -28,7 +28,7 @@ from gradhesion.core.types import Floats, Table
 from gradhesion.core.waves.cosine import LAST_LANDING, LAST_STEP, WIDE, Left, jump_of_wave, slope_of
 
 Middle: TypeAlias = tuple[float, Lanes, Lanes]
-"""A place x beyond whole waves, near the middle of all that a jump meets, and z and z^c there."""
+"""A place x beyond whole waves, near the middle of a jump, and z and z^c there."""
 FIRST: Final = 8.5
 """The innermost wave: z > 40 from the one before it on."""
 BATCH: Final = 16
@@ -36,7 +36,7 @@ BATCH: Final = 16
 WORK: Final = 22
 WAVES: Final = WORK
 LOSSES: Final = WORK + BATCH
-"""Where in their room the waves stand, and where what their jumps lose is put; one jump by itself works before them."""
+"""Rows of the room for the waves, and for the losses of their jumps; a single jump uses the rows before them."""
 Batch: TypeAlias = Floats
 """Room for a batch of waves, of shape (LOSSES + BATCH,)."""
 _BETWEEN: Final = 0.875
@@ -46,9 +46,9 @@ _LANDING_STEPS: Final = 5
 _SHORT: Final = 0.55
 _SHORT_NODES, _SHORT_WEIGHTS = unit_rule(11)
 _NODES, _WEIGHTS = unit_rule(14)
-"""Of jumps of so many waves, and of a wave: 1e-15 of a term cos 2 z is left."""
+"""For jumps of so many waves, and of a wave: the error is 1e-15 of a term cos 2 z."""
 _ENOUGH: Final = 0.1
-"""Of the size of its terms: a smaller loss is left to the nodes, which lose no digits."""
+"""Loss over the size of its terms, below which quadrature is used: it loses no digits."""
 
 
 @kernel()
@@ -131,7 +131,7 @@ def _land(
 ) -> Lanes:
     """Return where the branches around a centre meet the depth of the folds that are left, NaN where that takes longer.
 
-    What bounds the search, and guesses the place, is what `_landing` of waves/cosine.py takes for it.
+    The bounds of the search and the guess are those of `_landing` of waves/cosine.py.
     """
     _, g, _ = curve
     fold, origin, left, risen = start
@@ -216,7 +216,7 @@ def _by_nodes(
 def folds_at_once(table: Table, curve: Cosine, waves: Lanes, signs: Lanes) -> tuple[Lanes, Lanes]:
     """Return the places in waves where branches start (sign 1) or end (-1), and the depths there.
 
-    They are those of `fold_of_wave`, for waves whose phase a float tells with their place; NaN where that takes longer.
+    They are those of `fold_of_wave`, for waves whose place and phase a double resolves; NaN where that takes longer.
     """
     level = 0.5 * (1.0 - table.k)
     low = waves + (table.phase / TWO_PI - 0.25) - 0.25 * signs

@@ -43,13 +43,13 @@ _MIDDLE: Final = 0.5
 _LATE: Final = 0.85
 """Begins of the last two panels, in parts of the way from one branch point to the other."""
 _OUTER_HALF: Final = 0.7
-"""Part of the way to `_MIDDLE` from which on a panel is taken in y."""
+"""Part of the way to `_MIDDLE` from which on a panel is a polynomial in y."""
 _LEAST: Final = 8.0
 """Waves that a panel has at least."""
 _BEFORE: Final = 8.0
 """Waves from the last one of any sum to the outer branch point, at least."""
 _MOST: Final = 2.0**52
-"""Waves up to which half a wave is told."""
+"""Waves up to which a double resolves half a wave."""
 _LINKED: Final = 3
 """Panels in a row, of which the first one begins with a sum of its own and the others with that of the one before."""
 _PANELS: Final = 32
@@ -73,7 +73,7 @@ SUMS: Final = np.dtype(
         ("panels", "f8", (_PANELS, _COLUMNS)),  # the first row is not used
     ]
 )
-"""What the sums in one direction share."""
+"""The record of the sums in one direction."""
 Sums: TypeAlias = Any
 """One record `SUMS`; numba knows its fields."""
 _AROUND: Final = np.array([-1.25, -0.75, -0.25, 0.25, 0.75, 1.25, 1.25, 1.25])

@@ -2,14 +2,14 @@
 
 Far from zero contact loading goes from every wave to the next one, and so does unloading. What such a jump loses is a
 smooth function e of the index of the wave, which may be any real number (waves/cosine.py). So the sum is an integral,
-and Euler and Maclaurin tell the rest from a few single waves at both ends:
+with Euler's and Maclaurin's terms from a few single waves at both ends:
 
     sum_{w=p}^{q} e_w = int_{p-1/2}^{q+1/2} e dw - [e'/24 - 7 e'''/5760 + 31 e^(5)/967680 - ...] between the limits
 
 The function has two branch points, both outside of the sum. At one, w = `outer`, the last fall of the coordinate
-vanishes: e is a power series in the root of the distance there, and in w^((1+k)/4) further in. Gauss's rule takes it in
+vanishes: e is a power series in the root of the distance there, and in w^((1+k)/4) further in. Gauss's rule is used in
 y, with w = outer (1 - y^2)^4. At the other, w = `inner`, neighbouring waves are level, and a jump just reaches the fold
-of the wave on which it lands: e has the power 3/2 of the distance. Gauss's rule takes what is near in v,
+of the wave on which it lands: e has the power 3/2 of the distance. Near it Gauss's rule is used in v,
 w = inner + v^2.
 
     outer   b z^n = g C + (1-k)/(2 z), half a wave before it (outwards) or after it (inwards)
@@ -29,21 +29,21 @@ from gradhesion.core.types import Floats, Table
 from gradhesion.core.waves.cosine_at_once import BATCH, LOSSES, WAVES, Batch, jumps_in_a_row, jumps_of_batch
 
 _EDGE: Final = 4
-"""Waves at a limit of the integral that are taken one by one: its derivatives there come from eight around it."""
+"""Waves at a limit of the integral that are added one by one: its derivatives there come from eight around it."""
 _FIRST: Final = BATCH - _EDGE
 """The same at the first limit: waves next to a branch point are no polynomial."""
 _DIRECT: Final = 4 * BATCH
 """Waves that are summed one by one."""
 _WIDE: Final = 0.3
-"""The inner branch point over the first wave from which on the integral is taken in two parts."""
+"""The inner branch point over the first wave from which on the integral is split into two parts."""
 _LONG: Final = 500.0
 """Last wave over the first one from which on it is, too."""
 _PART: Final = 6.0
 """Outer end of the inner part over its begin."""
 _EVEN: Final = 2.0e7
-"""Waves from which on what single waves at the limits add to the integral is below rounding, 1/(12 N^2)."""
+"""Number of waves from which on the terms at the limits are below rounding, 1/(12 N^2)."""
 _LONGEST: Final = 1e4
-"""End of the outer part over its begin from which on that is taken in two."""
+"""End of the outer part over its begin from which on it is split in two."""
 _FRACTION: Final = 0.03
 """Begin of the last part of such an integral over its end."""
 _REMOTE: Final = 1e8

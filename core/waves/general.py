@@ -5,7 +5,7 @@ any real one. Waves are cut where the leading term of V,
 
     z^c F(u),    F = C sum n^(1+c) [cos_n cos(2 pi n u - phi) - sin_n sin(2 pi n u - phi)],
 
-is least. What else is in D changes slowly, so that there the coordinate falls as long as it falls anywhere in the wave:
+is least. The rest of D changes slowly, so that there the coordinate falls as long as it falls anywhere in the wave:
 every branch lies within one wave.
 
 Loading goes from the highest end of branches of each wave to that of the next, past every end that is higher than all
@@ -39,7 +39,7 @@ class Room(NamedTuple):
 
 
 class Waves(NamedTuple):
-    """How far waves add to a cycle."""
+    """Which contribution of waves to a cycle is computed."""
 
     kind: int  # UP, DOWN or PASSING
     cut: float  # where waves are cut, 0 .. 1
@@ -49,13 +49,13 @@ class Waves(NamedTuple):
 
 NOWHERE: Final = Left(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 Step: TypeAlias = tuple[float, float, int]
-"""What the jumps of a wave lose, their number, and the pattern they make: 0 for none, -1 where they are not regular."""
+"""The loss of the jumps of a wave, their number, and their pattern: 0 for none, -1 where they are not regular."""
 UP, DOWN, PASSING = map(constant, range(3))
 """Loading through a wave, unloading through it, and a jump that passes it."""
 NEAREST: Final = 8.0
 """The innermost wave: z > 40 there."""
 _ROUNDING: Final = 32.0 * 2.0**-52
-"""Of the size of a coordinate: what rounding may leave of the difference of two."""
+"""Rounding of the difference of two coordinates, in parts of their size."""
 _SAMPLES: Final = 16
 _HALVINGS: Final = 50
 _STEPS: Final = 8

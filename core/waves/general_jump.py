@@ -38,7 +38,7 @@ def _pass(basis: Basis, curve: Series, left: Left, low: float, high: float, whol
 def near_zero(start: float, end: float, whole: float) -> tuple[float, float, float]:
     """Return two places beyond whole waves, as places alone if one is so near zero contact that it has no whole waves.
 
-    A place at z < 40 is told by x alone (struve/series.py).
+    A place at z < 40 is given by x alone (struve/series.py).
     """
     if whole > 0.0 and TWO_PI * (whole + min(start, end)) < SWITCH and abs(end - start) <= LONG:
         return whole + start, whole + end, 0.0

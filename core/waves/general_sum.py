@@ -11,8 +11,8 @@ of a branch overtakes another: there e is a power series in the root of the dist
 
     log w = log a + (log b - log a) sin^2(theta/2)
 
-it is analytic in theta, and so are powers of w. The integral is taken at 17 Chebyshev points of theta, halved until the
-last coefficients vanish. Runs are told by their patterns at those points, and where they end by bisection.
+it is analytic in theta, and so are powers of w. The integral uses 17 Chebyshev points of theta, on parts halved until
+the last coefficients vanish. Runs are found by their patterns at those points, and their ends by bisection.
 """
 
 import math
@@ -96,7 +96,7 @@ def _last_of_run(basis: Basis, curve: Series, waves: Waves, low: float, high: fl
 
 
 class Losses(NamedTuple):
-    """What is added up: one number, what the jumps of a wave lose."""
+    """The summand: one number, the loss of the jumps of a wave."""
 
     wanted: bool  # else 0 stands for it, and jumps alone are counted
 
@@ -114,7 +114,7 @@ def common_size(term: Any, sizes: Floats) -> float:
 @fill_wave.answers(Losses)
 @kernel()
 def fill_loss(basis: Basis, curve: Series, term: Losses, waves: Waves, wave: float, found: Floats) -> tuple[float, int]:
-    """Answer in 2 pi l^2 dgamma."""
+    """Return the loss in 2 pi l^2 dgamma."""
     found[0], jumps, pattern = step_of_wave(basis, curve, waves, wave, term.wanted)
     return jumps, pattern
 
@@ -122,7 +122,7 @@ def fill_loss(basis: Basis, curve: Series, term: Losses, waves: Waves, wave: flo
 @common_size.answers(Losses)
 @kernel()
 def size_of_losses(_term: Losses, sizes: Floats) -> float:
-    """Answer that it is alone."""
+    """Return the size of this one number."""
     return float(sizes[0])
 
 
@@ -134,7 +134,7 @@ class Part(NamedTuple):
     pattern: int
     runs: Floats  # else the runs to take instead, rows (first, last), of shape (number or more, 2)
     number: int
-    steps: int  # the waves that were looked up
+    steps: int  # the waves that were evaluated
 
 
 @kernel()
@@ -232,7 +232,7 @@ def _add_ends(
 def add_waves(basis: Basis, curve: Series, term: Any, waves: Waves, first: float, last: float, total: Floats) -> float:
     """Add the numbers of the waves `first` to `last` to `total`, of shape (numbers,), NaN where they are not regular.
 
-    `term` says what they are: `Losses`, or another type that answers `fill_wave` and `common_size`. The jumps of these
+    `term` is their type: `Losses`, or another one with `fill_wave` and `common_size`. The jumps of these
     waves are returned.
     """
     stack = np.empty((_ROOM, 2))

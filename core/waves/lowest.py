@@ -1,7 +1,7 @@
 """The lowest load of millions of waves.
 
 The lowest trough of a wave is a smooth function of its number (waves/general.py), which falls up to one wave and rises
-from it on: some waves in equal steps tell where that is, bisection finds it, and its neighbours are looked at one by
+from it on: some waves in equal steps bracket that wave, bisection finds it, and its neighbours are compared one by
 one.
 """
 
