@@ -42,7 +42,7 @@ def turning_general(
     have the broadcast shape.
     """
     scenes = prepared(parameters, loading, (*PARAMETERS[-1:], turn))
-    assert scenes.target is not None  # noqa: S101 -- it was asked for
+    assert scenes.target is not None  # noqa: S101 -- it was requested
     rims = scenes.rim
     series, curves_at = curves_of(scenes, profile)
     radii = np.empty((scenes.k.size, rims.shape[1]))

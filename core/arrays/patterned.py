@@ -137,7 +137,7 @@ def turning_patterned(
 ) -> tuple[NDArray[np.float64], NDArray[np.int16], NDArray[np.bool_]]:
     """Return where the cycles turn, and the rest, as `turning_general` (arrays/general_turning.py)."""
     scenes = prepared({PATTERN[1]: 1.0, **parameters}, how.loading, (*PARAMETERS[-1:], turn), PATTERN)
-    assert scenes.target is not None  # noqa: S101 -- it was asked for
+    assert scenes.target is not None  # noqa: S101 -- it was requested
     series, curves_at, patterns = curves_of_scenes(scenes, how.profile, how.toughness)
     radii = np.empty((scenes.k.size, scenes.rim.shape[1]))
     flags, passed = np.zeros(radii.shape, dtype=np.int16), np.zeros(radii.shape, dtype=np.bool_)

@@ -1,6 +1,6 @@
 """Kernels that were compiled ahead: the contents of a wheel, and the machines that they fit.
 
-A wheel that is built so has a folder in core/, named after a processor. It holds a file for each kernel and
+A wheel that is built so has a folder in core/, named after a processor. It has a file for each kernel and
 types of arguments, and a manifest: what the code was compiled from and for, a digest of each file, and the kinds of
 work that are complete. Where all of it fits, that code is used and nothing is compiled. Anywhere else, and where a file
 is missing or has been changed, kernels are compiled as from the sources.

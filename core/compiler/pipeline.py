@@ -1,8 +1,9 @@
 """The steps in which a kernel becomes code.
 
 Numba has thirty, most of which are for features that no kernel here has: closures, generators, `with` blocks,
-expressions of whole arrays, literals that choose a type. Each goes through all of a kernel, and after many of them numba
-finds anew where every variable lives. With only those that change something, the same code takes a seventh less time.
+expressions of whole arrays, literals that choose a type. Each goes through all of a kernel, and after many of them
+numba finds anew where every variable lives. With only those that change something, the same code takes a seventh less
+time.
 """
 
 from typing import Any, Final

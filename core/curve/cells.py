@@ -4,7 +4,7 @@ On a cell of three quarters of the shortest wave, no longer than 0.7 of its dist
 curve/general.py is its Hermite interpolant at nine places, by D at all and dD/dx at eight of them, to 3e-13, and
 rounding moves Bernstein coefficients by `NOISE`. A polynomial has no more zeros in an interval than its Bernstein
 coefficients change sign there, and as many up to an even number; intervals with two changes or more are halved (de
-Casteljau). A pair that is not told apart after 16 halvings is two zeros on either side of an extremum of the function
+Casteljau). A pair that is not separated after 16 halvings is two zeros on either side of an extremum of the function
 itself, or none.
 """
 

@@ -198,7 +198,7 @@ def fold_of_arch(
     guess: float,
     last_step: float = LAST_STEP,
 ) -> tuple[float, float]:
-    """Return where D rises (or falls) through zero on an arch, as its survey told, and the depth there.
+    """Return where D rises (or falls) through zero on an arch, from its survey, and the depth there.
 
     A `guess` that cannot be right is replaced by a better one. The `last_step` is that of `find_zero`.
     """

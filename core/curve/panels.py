@@ -35,7 +35,7 @@ SMOOTH: Final = 1.0 / 9.0
 
 @kernel()
 def _rule(waves: float, least: int) -> tuple[int, int]:
-    """Return where the places of a rule begin and end that serves some of the shortest waves; `least` is the first."""
+    """Return where the places of a rule for so many of the shortest waves begin and end; `least` is the first."""
     rule = least
     while rule < _REACH.size - 1 and waves > _REACH[rule]:
         rule += 1

@@ -7,7 +7,7 @@ PowerLaw   a smooth punch of any power, z^m - pull z^c and z^(1+k) [m/(1+k+m) z^
 General    any power and any waves (core/curve/general.py), or their leading form (core/curve/short_wave.py); a place is
            x = a/lambda, and the basis of the curve stands for the table
 
-The first two are one type, `Reduced`, so that one compiled sampler serves both.
+The first two are one type, `Reduced`, so that one compiled sampler works for both.
 """
 
 import math

@@ -4,7 +4,7 @@ The branches near the beginning and near the rim stand in one trace (curve/branc
 is regular, and what passes it enters as what loading has lost where it arrives beyond it, and as what unloading still
 has to lose.
 
-The beginning serves all rims, and so do the samples of the sums (waves/cosine_running.py): a rim adds the branch on
+The beginning is shared by all rims, as are the samples of the sums (waves/cosine_running.py): a rim adds the branch on
 which it stands and the one before, or less (path/cosine_rims.py). Only where the folds end are the last waves walked.
 What a rim gets does not depend on the other rims of its curve.
 """
@@ -66,7 +66,7 @@ NEAR_RIM: Final = 10.0
 _BEFORE_RIM: Final = 2.5
 """Waves before a rim that its own branch and the one before stand on."""
 _MOST_NEAR_RIM: Final = 2.0e13
-"""Arches up to which a phase is told near a rim: to a hundredth, of waves that are 10^-13 of all."""
+"""Arches up to which a phase is resolved near a rim: to a hundredth, of waves that are 10^-13 of all."""
 _ORDERED: Final = 20.0
 """Times the square of what rounding leaves of a phase, below which neighbours need not be in order (is_reported)."""
 _HALVINGS: Final = 200
@@ -97,7 +97,7 @@ SHARED: Final = np.dtype(
 
 
 class Long(NamedTuple):
-    """A long curve: what `begin_long` has made, and what serves all its rims."""
+    """A long curve: the results of `begin_long`, and those shared by all its rims."""
 
     arches: tuple[float, float]  # the first and the last arch on which the curve can fold
     trace: Trace  # the branches of the beginning, and from there on those of one rim; (ROWS, branches):
@@ -231,7 +231,7 @@ def ends_folds(table: Table, arches: tuple[float, float], rim: float) -> bool:
 def sum_of_gap(
     table: Table, curve: Cosine, long: Long, first: float, last: float, outwards: bool, running: bool
 ) -> float:
-    """Return what the waves `first` to `last` of the gap lose, for one rim or from what serves all of them (running).
+    """Return the loss of the waves `first` to `last` of the gap, for one rim or from the sums of all rims (running).
 
     It is in 2 pi l^2 dgamma, of loading (outwards) or unloading.
     """

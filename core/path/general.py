@@ -33,7 +33,7 @@ def walk(
 
     Returns
     -------
-    The number of branches, -1 if there are too many to be looked at; the trace, whose last branch ends at `furthest` if
+    The number of branches, -1 if there are too many to trace; the trace, whose last branch ends at `furthest` if
     no fold ends it before; and the innermost place at which a pair of folds is about to be born or to vanish, else inf.
     """
     zeros = np.empty(MOST_FOLDS)

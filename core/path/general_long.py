@@ -66,7 +66,7 @@ _TESTED: Final = 12
 IRREGULAR, FEW, REGULAR = map(constant, range(3))
 """Long curves that cannot be summed; whose folds end so early that they can be walked; and that are summed."""
 MOST_WAVES: Final = 1e14
-"""Waves beyond which the coordinates of neighbours cannot be told apart."""
+"""Waves beyond which doubles do not resolve the coordinates of neighbours."""
 
 
 class Middle(NamedTuple):

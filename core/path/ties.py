@@ -68,7 +68,7 @@ def first_close_pair(count: int, trace: Trace) -> float:
 
 @kernel()
 def note_loading_from(table: AnyTable, curve: AnyCurve, first: int, count: int, trace: Trace, furthest: float) -> None:
-    """Do what `note_loading` does from a branch on; what is noted of those before it holds."""
+    """Do what `note_loading` does from a branch on; the notes of those before it are kept."""
     highest, close = 0.0, 0.0
     if first > 0:
         highest, close = trace[HIGHEST, first - 1], trace[LOADING_IS_CLOSE, first - 1]

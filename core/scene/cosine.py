@@ -100,7 +100,7 @@ def _solve_smooth(k: float, stretch: float, rims: Floats, results: Results) -> N
 
 @kernel()
 def _solve_force(table: Table, curve: Cosine, scale: float, wavelength: float, rims: Floats, results: Results) -> None:
-    """Find the pull-off of a wavy punch for all its rims a_max/R, shape (rims,); the free one serves all beyond it.
+    """Find the pull-off of a wavy punch for all its rims a_max/R, shape (rims,); the free one is that of all beyond it.
 
     `scale` is the unit of load in 1.5 pi R dgamma.
     """

@@ -35,7 +35,7 @@ from gradhesion.core.waves.cosine_sum import (
 _SAMPLES: Final = 64
 """Where the rows of `work` begin that hold slopes: the nodes of a panel stand before them."""
 ROOM: Final = 112
-"""Floats that `work` holds."""
+"""Number of floats of `work`."""
 
 
 @kernel()

@@ -1,6 +1,6 @@
 """The fractional integral of order c = (1-k)/2, by which the surface outside a contact follows from its depths.
 
-For a function on [0, 1] that is known at the nodes of Gauss's rule, and thereby as a polynomial F, a table holds
+For a function on [0, 1] that is known at the nodes of Gauss's rule, and thereby as a polynomial F, a table has
 
     (J F)(x) = c int_0^1 v^(c-1) F(x (1 - v)) dv = x^(-c) c int_0^x (x - y)^(c-1) F(y) dy
 

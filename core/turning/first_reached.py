@@ -1,6 +1,6 @@
 """Where loading of one cosine first reaches a depth or a load, branch by branch of a trace (curve/branches.py).
 
-Loading holds at the running maximum of the depth. So a depth is first reached on the first branch that ends deeper.
+Loading follows the running maximum of the depth. So a depth is first reached on the first branch that ends deeper.
 Along a branch the load, whose slope has the level (3+k)/2 (curve/cosine.py), falls at first and in the end; it is
 searched arch by arch, between the place where loading arrives and the place that it leaves. A load that a jump passes
 turns the cycle where the jump ends.

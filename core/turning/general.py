@@ -164,7 +164,7 @@ def _turn_curve(basis: Basis, curve: Series, unit: float, wavelength: float, tur
     own = Turns(edges, reduced, by_load, check, places, flags)
     chosen, alone = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
     together, bound = False, 0.0
-    for i in range(count):  # that of the largest serves all that are walked together
+    for i in range(count):  # that of the largest is for all that are walked together
         if abs(targets[i]) < math.inf:
             bound = max(bound, targets[i] / unit)
     bound = reach(basis, measured, bound)

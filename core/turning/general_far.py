@@ -99,7 +99,7 @@ def turn_far(
 
     Returns
     -------
-    Whether it could be done; what it has found; and the whole waves beyond which the place is told.
+    Whether it could be done; what it has found; and the whole waves beyond which the place is given.
     """
     _, _, series = basis
     by_load, target, last = way

@@ -1,6 +1,6 @@
 """Scenes given in other variables than those of `solve`: in reduced ones, or in SI units.
 
-Each of the parameters of `solve` may be left out where others tell it:
+Each of the parameters of `solve` may be left out where others determine it:
 
     modulus         R, E_star, work_of_adhesion     E* R/dgamma
                     R, E, work_of_adhesion          with E* = E/(1 - nu^2)
@@ -55,12 +55,12 @@ WAYS: Final[dict[str, dict[str, tuple[str, ...]]]] = {
     SPEED: {"speed": ("reference_speed",)},
     RANGE: {"adhesion_range": ("R",)},
 }
-"""By what a parameter can be told, and what else that takes; in the order in which they follow from one another."""
+"""Variables that can give a parameter, and what else that needs; in the order in which they follow from another."""
 
 _IN_WAYS: Final = {name for ways in WAYS.values() for way, needed in ways.items() for name in (way, *needed)}
-"""What parameters follow from, none of which is an answer."""
+"""Inputs from which parameters follow; none of them is a parameter itself."""
 _OPTIONAL: Final = (_MACHINE, *TURNS, CLOSING, *PATTERN, SPEED, RANGE)
-"""What not every scene has."""
+"""Parameters that not every scene has."""
 
 _FOLLOWS: Final[dict[str, Callable[..., Any]]] = {
     "E": lambda E, nu: E / ((1.0 - nu) * (1.0 + nu)),
@@ -102,7 +102,7 @@ def parameters_from(given: Mapping[str, ArrayLike]) -> dict[str, _Array]:
     Raises
     ------
     ValueError
-        For a parameter that nothing given tells.
+        For a parameter that nothing given determines.
 
     Examples
     --------
@@ -144,7 +144,7 @@ def sources_of(parameter: str, given: Mapping[str, Any]) -> tuple[str, ...]:
     Raises
     ------
     ValueError
-        For a parameter that nothing given tells.
+        For a parameter that nothing given determines.
 
     Examples
     --------
@@ -165,7 +165,7 @@ def _given_for(name: str, given: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def _way(parameter: str, given: Mapping[str, Any]) -> tuple[str, tuple[str, ...]]:
-    """Return by what a parameter is told, and what else that takes."""
+    """Return the variable that gives a parameter, and what else that needs."""
     for way, needed in WAYS.get(parameter, {}).items():
         if way in given or any(other in given for other in WAYS.get(way, {})):
             return way, needed
