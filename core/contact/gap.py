@@ -129,8 +129,8 @@ def openings_between(
     """Fill F at the nodes of low .. high, and what F contributes from there to the opening, at the nodes and at `high`.
 
     The contributions are over (x^2 - low^2)^c in place of X^c: for low = a they are the opening itself, else their
-    signs are what matters. The nodes divide x^2. Use it for at most one shortest wave at a time. `heights` has the shape
-    (16,), `openings` (17,).
+    signs are what matters. The nodes divide x^2. At most one shortest wave at a time. `heights` has the shape (16,),
+    `openings` (17,).
     """
     own, count = table_of(table, curve), NODES.size
     fill_heights(table, curve, edge, low, (high - low) * (high + low), heights)

@@ -58,7 +58,7 @@ WAYS: Final[dict[str, dict[str, tuple[str, ...]]]] = {
 """Variables that can give a parameter, and what else that needs; in the order in which they follow from another."""
 
 _IN_WAYS: Final = {name for ways in WAYS.values() for way, needed in ways.items() for name in (way, *needed)}
-"""Inputs from which parameters follow; none of them is a parameter itself."""
+"""Inputs from which parameters follow: left out of the result, unless they are wanted themselves."""
 _OPTIONAL: Final = (_MACHINE, *TURNS, CLOSING, *PATTERN, SPEED, RANGE)
 """Parameters that not every scene has."""
 
