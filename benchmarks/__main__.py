@@ -138,8 +138,8 @@ Six unknowns, {loop_fits.POINTS:,} points, one thread. Aim: 2 s.
 {loop_fits.times_table(2 if quick else 12)}"""
     yield f"""### Is the contact one disc?
 
-The rigorous test of `docs/theory.md`, section 12, on the same mixtures. Tests without cost (mainly r/s up to 1/2) and
-the depths of the path settle some of the scenes, the integral of the gap the others. Aim: 30 % at most.
+The rigorous test of [the theory](theory.md), section 12, on the same mixtures. Tests without cost (mainly r/s up to
+1/2) and the depths of the path settle some of the scenes, the integral of the gap the others. Aim: 30 % at most.
 
 {contact.contact_table(20_000 if quick else 200_000, 200 if quick else 2000)}"""
     if not quick:

@@ -89,7 +89,8 @@ def picture(forces: list[Point], both: list[Point], grids: list[Point]) -> None:
         axis.errorbar(
             half, seconds, xerr=[0 * half, np.maximum(0, most - half)], fmt=".-", capsize=2, label="dense grid"
         )
-        axis.set(xscale="log", yscale="log", xlabel=f"relative error, {name.replace('_', ' ')}", ylim=(1e-7, 10))
+        words = name.replace("pull_off", "pull-off").replace("_", " ")
+        axis.set(xscale="log", yscale="log", xlabel=f"relative error, {words}", ylim=(1e-7, 10))
         axis.grid(alpha=0.3)
     axes[0].set_ylabel("seconds a scene")
     axes[0].legend()

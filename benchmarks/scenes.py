@@ -90,7 +90,7 @@ def picture(by_waves: NDArray[np.float64], by_rims: NDArray[np.float64], by_numb
     axes[1].loglog(by_number[:, 0], by_number[:, 2], "s-", label="force and energy")
     axes[1].set(xlabel="scenes in a call", ylabel="µs a scene")
     axes[2].loglog(by_rims[:, 0], by_rims[:, 1], "o-")
-    axes[2].set(xlabel="a_max on one curve", ylabel="force and energy, µs a curve")
+    axes[2].set(xlabel="number of a_max on one curve", ylabel="force and energy, µs a curve")
     for axis in axes:
         axis.grid(alpha=0.3)
         axis.set_ylim(bottom=0.1)
