@@ -158,6 +158,20 @@ def test_no_command_hides_in_an_indented_block() -> None:
         assert not re.search(r"^    (gradhesion|make|pip|python) ", outside, flags=re.MULTILINE), page
 
 
+def test_the_sources_that_a_page_names_exist() -> None:
+    folders = ("api", "benchmarks", "cli", "core", "docs", "figures", "tests", "twin", "wheels")
+    sources = [f"/{path.relative_to(ROOT).as_posix()}" for name in folders for path in (ROOT / name).rglob("*.py")]
+    for page in PAGES:
+        for named in re.findall(r"`([\w/]+\.py)\b", page.read_text(encoding="utf-8")):
+            assert any(source.endswith(f"/{named}") for source in sources), f"{page.name}: {named}"
+
+
+def test_no_paragraph_ends_within_a_sentence() -> None:
+    for page in PAGES:
+        text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+        assert not re.search(r"^[^#|\n].*[\w-]\n\n[a-z]", text, flags=re.MULTILINE), page.name
+
+
 def test_the_waves_of_the_tutorial_are_as_high_as_it_says() -> None:
     """From crest to trough a wave A lambda cos(2 pi r/lambda) is 2 A lambda."""
     page = next(page for page in PAGES if page.stem == "tutorial")
