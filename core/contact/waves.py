@@ -72,7 +72,7 @@ def least_of_gap(table: Table, curve: Cosine, trace: Trace) -> float:
 def note_run(table: Table, curve: Cosine, last: float, trace: Trace) -> None:
     """Note whether the contact is one disc on the waves of a gap, where the result is the same for all rims.
 
-    It is if it is no disc on the first of them, or surely one on all up to wave `last`.
+    That is so if it is not one disc on the first of them, or surely is on all up to wave `last`.
     """
     first = trace[RUN, RUN_FIRST]
     if is_always_one_disc(table, curve) or not first < last < math.inf:

@@ -32,7 +32,7 @@ _MOST: Final = 400_000
 _FEWEST: Final = 5
 """Radii of a grid at least."""
 _PARTS: Final = np.linspace(0.0, 1.0, 9)
-"""Radii of the grid over which loading continues within the noise."""
+"""Places, in parts of the way by which loading continues within the noise."""
 _REACH: Final = (1.25, 2.5, 10.0)
 """How far the grid reaches, in radii of contact without adhesion at the depth: the next if one is not enough."""
 

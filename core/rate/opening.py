@@ -51,7 +51,7 @@ def smooth_power(n: float) -> float:
 
 @kernel()
 def _start_of(law: Law, place: Place, x: float, shortest: float) -> Start:
-    """Return the scale in which, at y = 1, the edge moves about as the equilibrium curve does."""
+    """Return the start, with y such that at y = 1 the edge moves about as the equilibrium curve does."""
     n = law.exponent
     force, need = law.pace * place.drag, place.push - place.level
     far = min(0.1, PART * shortest / x)

@@ -27,7 +27,7 @@ _MOST: Final = 40
 """Repetitions."""
 _SAME: Final = 4.0 * 2.0**-52
 _TOLERANCE: Final = 1e-15
-"""Of ln a and of the lag, in a step: there are few."""
+"""Error of ln a and of the lag in a step: there are few steps."""
 _LEFT: Final = 1e-13
 """Remaining ln a that is left to the leading term near lag = 0."""
 _STEPS: Final = 200_000

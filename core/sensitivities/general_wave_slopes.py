@@ -51,7 +51,7 @@ class WaveSlopes(NamedTuple):
 def slopes_of_step(
     basis: Basis, curve: Series, term: WaveSlopes, waves: Waves, wave: float, found: Slopes
 ) -> tuple[float, int]:
-    """Return the slopes of the losses of `step_of_wave` (waves/general.py) in 2 pi l^2 dgamma; counts no jumps."""
+    """Put the slopes of the losses of `step_of_wave` (waves/general.py), in 2 pi l^2 dgamma; counts no jumps."""
     change, jump = term
     kind, cut, _, work = waves
     found[:] = 0.0

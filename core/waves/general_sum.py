@@ -114,7 +114,7 @@ def common_size(term: Any, sizes: Floats) -> float:
 @fill_wave.answers(Losses)
 @kernel()
 def fill_loss(basis: Basis, curve: Series, term: Losses, waves: Waves, wave: float, found: Floats) -> tuple[float, int]:
-    """Return the loss in 2 pi l^2 dgamma."""
+    """Put the loss of its jumps, in 2 pi l^2 dgamma."""
     found[0], jumps, pattern = step_of_wave(basis, curve, waves, wave, term.wanted)
     return jumps, pattern
 
@@ -122,7 +122,7 @@ def fill_loss(basis: Basis, curve: Series, term: Losses, waves: Waves, wave: flo
 @common_size.answers(Losses)
 @kernel()
 def size_of_losses(_term: Losses, sizes: Floats) -> float:
-    """Return the size of this one number."""
+    """Return the size of the one number."""
     return float(sizes[0])
 
 
