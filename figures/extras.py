@@ -119,7 +119,7 @@ def roughness(force: Axes, energy: Axes, dataset: xarray.Dataset) -> None:
             low, high = (values.quantile(share, "realisation") for share in (0.05, 0.95))
             axes.fill_between(slope, low, high, color=colour, alpha=0.2, lw=0)
             axes.plot(slope, values.mean("realisation"), color=colour, ls=dash, label=f"$k = {k:g}$")
-        axes.set(xlabel=r"rms slope $\sqrt{\langle f_2^{\prime\,2}\rangle}$", ylabel=label, xlim=(0.0, slope.max()))
+        axes.set(xlabel=r"rms slope $\sqrt{\langle (df_2/d\xi)^2\rangle}$", ylabel=label, xlim=(0.0, slope.max()))
         axes.set_ylim(bottom=0.0)
         axes.legend(loc="upper left")
 
