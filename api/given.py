@@ -12,11 +12,11 @@ import xarray
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.keys import INPUTS, PHYSICAL, SETTINGS
 from gradhesion.cli.names import OUTPUTS, PARAMETER, PHYSICAL_PARAMETER, SCENE, SOLVER
-from gradhesion.cli.study.axes import Values, mistakes_of_grid
-from gradhesion.cli.study.foreign import as_written
-from gradhesion.cli.study.kinds import KINDS
+from gradhesion.cli.study.form.axes import Values, mistakes_of_grid
+from gradhesion.cli.study.form.kinds import KINDS
 from gradhesion.cli.study.reading import study_from, text_of
 from gradhesion.cli.study.study import Study
+from gradhesion.cli.study.text.foreign import as_written
 from gradhesion.cli.terminal.wording import did_you_mean, nearest
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate

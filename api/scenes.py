@@ -11,8 +11,8 @@ import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.names import SCENE
 from gradhesion.cli.study.reading import study_from
-from gradhesion.cli.work.compiling import prepare
-from gradhesion.cli.work.kernels import kinds_of
+from gradhesion.cli.work.kernels.compiling import prepare
+from gradhesion.cli.work.kernels.kernels import kinds_of
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.toughness import Toughness

@@ -34,8 +34,8 @@ def info(files: tuple[Path, ...], form: str, variables: tuple[str, ...], jumps: 
     """
     from contextlib import ExitStack
 
-    from gradhesion.cli.dataset.reader import opened
-    from gradhesion.cli.dataset.soundness import is_fit
+    from gradhesion.cli.dataset.read.reader import opened
+    from gradhesion.cli.dataset.read.soundness import is_fit
     from gradhesion.cli.words.jump_words import jumps_listed
     from gradhesion.cli.words.table import tabled
     from gradhesion.cli.words.words import described

@@ -12,8 +12,8 @@ from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
-from gradhesion.cli.work import curves
-from gradhesion.cli.work.blocks import solved
+from gradhesion.cli.work.solve import curves
+from gradhesion.cli.work.solve.blocks import solved
 
 Part = tuple[Block, dict[str, NDArray[Any]]]
 """A block of scenes with the values of its variables."""

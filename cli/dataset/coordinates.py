@@ -10,10 +10,10 @@ from gradhesion.cli import names
 from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.keys import INPUTS, REDUCED
 from gradhesion.cli.study.points import COMMENT
-from gradhesion.cli.study.roles import ABSENT
+from gradhesion.cli.study.rules.roles import ABSENT
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
-from gradhesion.cli.work.given import scenes_from
+from gradhesion.cli.work.solve.given import scenes_from
 
 RMS: Final = {
     "A": "rms height over wavelength of the random waviness",

@@ -15,13 +15,13 @@ from gradhesion.cli.dataset.cautions import cautions, flagged_in
 from gradhesion.cli.dataset.contents import CONTENTS
 from gradhesion.cli.dataset.coordinates import coordinates
 from gradhesion.cli.dataset.variable import Variable
-from gradhesion.cli.study.fit_study import FitStudy
+from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.shape_words import profile_table, rate_in_words, shape_in_words, toughness_in_words
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import messages
-from gradhesion.cli.work import curves
-from gradhesion.cli.work.compiling import prepare
-from gradhesion.cli.work.kernels import kinds_of
+from gradhesion.cli.work.kernels.compiling import prepare
+from gradhesion.cli.work.kernels.kernels import kinds_of
+from gradhesion.cli.work.solve import curves
 from gradhesion.core import FLAGS
 from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
 from gradhesion.core.problem.status import OF_EVERY_MAP, TOO_MANY_WAVES

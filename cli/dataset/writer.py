@@ -26,13 +26,13 @@ from gradhesion.cli.names import RAGGED, STATE, STEEP
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, size_of
 from gradhesion.cli.terminal.amounts import counted, two_in_words
-from gradhesion.cli.work.curves import is_ragged, within
-from gradhesion.cli.work.folder import Folder, claimed, folder_of, identity
-from gradhesion.cli.work.manifest import adopt, manifest_of
-from gradhesion.cli.work.parts import types_of
-from gradhesion.cli.work.records import Finished, read_record, write_record
-from gradhesion.cli.work.resume import Solved, place_of
-from gradhesion.cli.work.state import Keeper
+from gradhesion.cli.work.parts.folder import Folder, claimed, folder_of, identity
+from gradhesion.cli.work.parts.manifest import adopt, manifest_of
+from gradhesion.cli.work.parts.parts import types_of
+from gradhesion.cli.work.parts.records import Finished, read_record, write_record
+from gradhesion.cli.work.parts.resume import Solved, place_of
+from gradhesion.cli.work.parts.state import Keeper
+from gradhesion.cli.work.solve.curves import is_ragged, within
 
 LEAST_SHARE: Final = 0.1
 """Values hardly compress to less than this share: what cannot fit is refused before it is begun."""

@@ -6,12 +6,12 @@ from typing import Final
 import xarray
 
 from gradhesion.cli.dataset.curve_variables import curve_of
-from gradhesion.cli.dataset.reader import has_curves
-from gradhesion.cli.dataset.selection import selection_of
-from gradhesion.cli.dataset.sensitivities import parts_of, spread
+from gradhesion.cli.dataset.read.reader import has_curves
+from gradhesion.cli.dataset.read.selection import selection_of
+from gradhesion.cli.dataset.read.sensitivities import parts_of, spread
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import PARETO_POINT, RAGGED, SCENE, SI, STATE_CURVES
-from gradhesion.cli.picture.curve_units import wants_si
+from gradhesion.cli.picture.curves.units import wants_si
 from gradhesion.cli.terminal.wording import did_you_mean
 
 MOST: Final = 20_000_000

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import names
 from gradhesion.cli.dataset.curve_variables import curve_of
-from gradhesion.cli.dataset.doubtful import DOUBTS, doubts_of
-from gradhesion.cli.dataset.reader import is_turned
-from gradhesion.cli.dataset.sensitivities import PLAIN, part_of
+from gradhesion.cli.dataset.read.doubtful import DOUBTS, doubts_of
+from gradhesion.cli.dataset.read.reader import is_turned
+from gradhesion.cli.dataset.read.sensitivities import PLAIN, part_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.plain import in_order, symbol, title, words
 from gradhesion.cli.keys import INPUTS

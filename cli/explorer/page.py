@@ -12,8 +12,8 @@ from bokeh.palettes import Viridis256
 from bokeh.resources import INLINE
 from jinja2 import Environment
 
-from gradhesion.cli.dataset.model_range import slope_warnings
-from gradhesion.cli.dataset.reader import has_curves
+from gradhesion.cli.dataset.read.model_range import slope_warnings
+from gradhesion.cli.dataset.read.reader import has_curves
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.choice import chosen
 from gradhesion.cli.explorer.data import Entry, study_data

@@ -3,7 +3,7 @@
 import re
 from typing import Final
 
-from gradhesion.cli.dataset.sensitivities import part_of
+from gradhesion.cli.dataset.read.sensitivities import part_of
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import SI, SPREADS, SYMBOLS
 

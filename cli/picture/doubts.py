@@ -10,9 +10,9 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from gradhesion.cli import names
-from gradhesion.cli.dataset import doubtful
-from gradhesion.cli.dataset.doubtful import doubts_of
-from gradhesion.cli.dataset.model_range import LIMITS
+from gradhesion.cli.dataset.read import doubtful
+from gradhesion.cli.dataset.read.doubtful import doubts_of
+from gradhesion.cli.dataset.read.model_range import LIMITS
 from gradhesion.core.answers.flags import FLAGS
 
 INK: Final = "0.25"

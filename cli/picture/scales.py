@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.selection import is_log
+from gradhesion.cli.dataset.read.selection import is_log
 from gradhesion.cli.picture.labels import Unit, number, unit_for
 from gradhesion.cli.picture.spans import ALL, Span
 

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import keys
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.study import places
-from gradhesion.cli.study.mistakes import Mistake
-from gradhesion.cli.study.quantities import si_value
+from gradhesion.cli.study.form.mistakes import Mistake
+from gradhesion.cli.study.text import places
+from gradhesion.cli.study.text.quantities import si_value
 from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, example, shown

@@ -25,13 +25,13 @@ from gradhesion.cli.names import (
     UNITS,
     labels_of,
 )
-from gradhesion.cli.study.axes import Values
-from gradhesion.cli.study.kinds import KINDS, PARETO, Kind
+from gradhesion.cli.study.form.axes import Values
+from gradhesion.cli.study.form.kinds import KINDS, PARETO, Kind
 from gradhesion.cli.study.points import Points
 from gradhesion.cli.study.profile_file import Measured
-from gradhesion.cli.study.search import Search
+from gradhesion.cli.study.rules.search import Search
+from gradhesion.cli.study.rules.uncertainty import Uncertainty
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
-from gradhesion.cli.study.uncertainty import Uncertainty
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.arrays.reach import depends_on_contact
 from gradhesion.core.problem.control import Loading

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.model_range import slope_warnings, tabor_warnings
+from gradhesion.cli.dataset.read.model_range import slope_warnings, tabor_warnings
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import FLAGS as WORDS
 from gradhesion.cli.names import MINIMUM, PARAMETER, PARAMETER_UNITS

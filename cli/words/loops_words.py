@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.model_range import slope_warnings, tabor_warnings
+from gradhesion.cli.dataset.read.model_range import slope_warnings, tabor_warnings
 from gradhesion.cli.names import LOOP, MINIMUM, PARAMETER, PARAMETER_UNITS
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.words.fit_words import COLUMNS, of_data, of_given, of_origin

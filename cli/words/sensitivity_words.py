@@ -5,8 +5,8 @@ from collections.abc import Iterator
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.reader import tiling_of
-from gradhesion.cli.dataset.sensitivities import strongest
+from gradhesion.cli.dataset.read.reader import tiling_of
+from gradhesion.cli.dataset.read.sensitivities import strongest
 from gradhesion.cli.names import labels_of
 
 

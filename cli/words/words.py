@@ -9,8 +9,8 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli import names
-from gradhesion.cli.dataset.reader import has_curves, tiling_of
-from gradhesion.cli.dataset.sensitivities import parts_of
+from gradhesion.cli.dataset.read.reader import has_curves, tiling_of
+from gradhesion.cli.dataset.read.sensitivities import parts_of
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import control_in_words

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gradhesion as gr
-from gradhesion.cli.work.fitting import fitted
+from gradhesion.cli.work.solve.fitting import fitted
 from tests.cli.test_fit_data import STUDY, points
 
 afmformats = pytest.importorskip("afmformats")

@@ -8,7 +8,7 @@ import xarray
 
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.picture.doubts import BOUND
-from gradhesion.cli.picture.picture import drawn
+from gradhesion.cli.picture.values.picture import drawn
 from gradhesion.cli.study.reading import study_from
 
 

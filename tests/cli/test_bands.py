@@ -9,11 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.dataset.selection import selection_of
+from gradhesion.cli.dataset.read.selection import selection_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.picture.curve_picture import drawn_curves
+from gradhesion.cli.picture.curves.picture import drawn_curves
 from gradhesion.cli.picture.looks import looks_of
-from gradhesion.cli.picture.picture import drawn
+from gradhesion.cli.picture.values.picture import drawn
 from gradhesion.cli.study.reading import study_from
 
 PARAMETERS = {

@@ -16,10 +16,10 @@ from matplotlib.path import Path
 
 from gradhesion.cli import names
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.picture.curve_picture import drawn_curves
+from gradhesion.cli.picture.curves.picture import drawn_curves
 from gradhesion.cli.picture.doubts import BEYOND, CROSS, DOUBTS, GAP, GREY, Doubt, doubts_in
-from gradhesion.cli.picture.picture import drawn
 from gradhesion.cli.picture.pictured import save
+from gradhesion.cli.picture.values.picture import drawn
 from gradhesion.cli.study.reading import study_from
 from gradhesion.core import CURVES, DOUBTFUL, FLAGS, OUTPUTS, REPORTS, solve
 from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS

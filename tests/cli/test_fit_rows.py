@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 import gradhesion as gr
-from gradhesion.cli.dataset.fit import dataset_of, write_fit
-from gradhesion.cli.dataset.reader import opened
+from gradhesion.cli.dataset.fits.fit import dataset_of, write_fit
+from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.cli.names import FIT_MORE
-from gradhesion.cli.picture.fit_picture import drawn_fit
-from gradhesion.cli.study.fit_study import FitStudy
+from gradhesion.cli.picture.fits.fit import drawn_fit
+from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.words.fit_words import fit_described
 from gradhesion.cli.words.loops_words import loops_described
-from gradhesion.cli.work.fitting import Fit
+from gradhesion.cli.work.solve.fitting import Fit
 from gradhesion.core.loops.features import ContactPoint
 from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, NO_VALUE, POOR_FIT

@@ -14,9 +14,9 @@ from gradhesion.cli.dataset.writer import write, write_shard
 from gradhesion.cli.engines.threads import Threads
 from gradhesion.cli.errors import OutputError
 from gradhesion.cli.study.reading import study_from
-from gradhesion.cli.work.folder import claimed, folder_of
-from gradhesion.cli.work.manifest import adopt, manifest_of
-from gradhesion.cli.work.records import Finished, Manifest, read_record, write_record
+from gradhesion.cli.work.parts.folder import claimed, folder_of
+from gradhesion.cli.work.parts.manifest import adopt, manifest_of
+from gradhesion.cli.work.parts.records import Finished, Manifest, read_record, write_record
 
 Call = Callable[..., Result]
 

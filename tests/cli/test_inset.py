@@ -9,9 +9,9 @@ from matplotlib.axes import Axes
 
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.picture.curve_picture import drawn_curves
+from gradhesion.cli.picture.curves.picture import drawn_curves
 from gradhesion.cli.picture.looks import looks_of
-from gradhesion.cli.picture.picture import drawn
+from gradhesion.cli.picture.values.picture import drawn
 from gradhesion.cli.study.reading import study_from
 
 PARAMETERS: dict[str, Any] = {"k": [0.0, 0.4], "nu": 0.3, "modulus": 430.0, "c0_over_R": 0.013, "A": 0.02}

@@ -12,7 +12,7 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.dataset.reader import opened
+from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.cli.keys import INPUTS
 from gradhesion.cli.names import CURVES, INTEGERS
 from gradhesion.cli.study.reading import study_from

@@ -12,9 +12,9 @@ from typing import Any
 
 import pytest
 
+from gradhesion.cli.locks import closing, try_lock
 from gradhesion.cli.study import study_from
-from gradhesion.cli.work import compiling, kernels
-from gradhesion.cli.work.locks import closing, try_lock
+from gradhesion.cli.work.kernels import compiling, kernels
 from gradhesion.core import KINDS, MANY_SMOOTH, NEEDS
 from gradhesion.core.compiler.cache import Place
 from gradhesion.core.compiler.probe import LAZY
@@ -143,7 +143,7 @@ def test_where_a_processor_is_free_another_process_compiles_the_tables(count: in
 def test_processes_side_by_side_keep_each_kernel_once(tmp_path: Path) -> None:
     """No index of the cache forgets a file that another process wrote, and none has two for a kernel."""
     code = (
-        "from gradhesion.cli.work.warming import warm\n"
+        "from gradhesion.cli.work.kernels.warming import warm\n"
         "if __name__ == '__main__':\n"
         "    warm(['envelope', 'edge'], 2, lambda kind, names: print(kind, len(names)), kept=True)\n"
     )

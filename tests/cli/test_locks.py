@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from gradhesion.cli.work import locks
-from gradhesion.cli.work.locks import is_locked, try_lock
+from gradhesion.cli import locks
+from gradhesion.cli.locks import is_locked, try_lock
 
 
 def test_one_handle_holds_it_at_a_time(tmp_path: Path) -> None:

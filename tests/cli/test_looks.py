@@ -18,10 +18,10 @@ from matplotlib.path import Path as Outline
 
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.picture.curve_picture import drawn_curves
+from gradhesion.cli.picture.curves.picture import drawn_curves
 from gradhesion.cli.picture.looks import STYLE, looks_of
-from gradhesion.cli.picture.picture import drawn
-from gradhesion.cli.picture.points_picture import DENSE
+from gradhesion.cli.picture.values.picture import drawn
+from gradhesion.cli.picture.values.points import DENSE
 from gradhesion.cli.study.reading import study_from
 
 Call = Callable[..., Result]

@@ -11,7 +11,7 @@ from click.testing import Result
 from matplotlib.axes import Axes
 
 import gradhesion as gr
-from gradhesion.cli.picture.measured import POINTS
+from gradhesion.cli.picture.curves.measured import POINTS
 
 pytestmark = pytest.mark.slow
 

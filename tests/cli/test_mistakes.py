@@ -412,7 +412,7 @@ def test_a_file_that_is_no_study(
 
 def test_an_endless_file_is_not_read_for_ever() -> None:
     from gradhesion.cli.errors import StudyError
-    from gradhesion.cli.study.source import read_source
+    from gradhesion.cli.study.text.source import read_source
 
     with pytest.raises(StudyError, match="larger than 1 MiB"):
         read_source(Path("/dev/zero"), (), most=2**20)

@@ -16,10 +16,10 @@ from gradhesion.cli.errors import OutputError
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal.amounts import counted
-from gradhesion.cli.work.folder import claimed, folder_of
-from gradhesion.cli.work.parts import PartError, key_of, read_part, write_part
-from gradhesion.cli.work.resume import blank
-from gradhesion.cli.work.scenes import solve as real_solve
+from gradhesion.cli.work.parts.folder import claimed, folder_of
+from gradhesion.cli.work.parts.parts import PartError, key_of, read_part, write_part
+from gradhesion.cli.work.parts.resume import blank
+from gradhesion.cli.work.solve.scenes import solve as real_solve
 
 Call = Callable[..., Result]
 
@@ -69,7 +69,7 @@ def begun(gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.
 
     def begin(number: int, *options: str) -> int:
         with monkeypatch.context() as patch:
-            patch.setattr("gradhesion.cli.work.given.solve", Power(number).solve)
+            patch.setattr("gradhesion.cli.work.solve.given.solve", Power(number).solve)
             assert gradhesion("run", study_file, "-o", output, *options).exit_code == 1, "click's, without main()"
         return len(list(output.parent.glob("out.nc.parts/*.part")))
 
@@ -156,7 +156,7 @@ def test_parts_of_another_version_are_refused(
 ) -> None:
     begun(4)
     for name, value in change.items():
-        monkeypatch.setattr(f"gradhesion.cli.work.parts.{name}", value)
+        monkeypatch.setattr(f"gradhesion.cli.work.parts.parts.{name}", value)
     result = gradhesion("run", study_file, "-o", output)
     assert result.exit_code == 4
     assert "the sources of the solver have changed" in result.stderr or "format version is 1 there" in result.stderr
@@ -258,10 +258,10 @@ def test_a_folder_that_is_removed_under_way_is_told(
         for path in folder_of(output).path.glob("*"):
             path.unlink()
         folder_of(output).path.rmdir()
-        monkeypatch.setattr("gradhesion.cli.work.given.solve", real_solve)
+        monkeypatch.setattr("gradhesion.cli.work.solve.given.solve", real_solve)
         return real_solve(*arguments, **options)
 
-    monkeypatch.setattr("gradhesion.cli.work.given.solve", removing)
+    monkeypatch.setattr("gradhesion.cli.work.solve.given.solve", removing)
     result = gradhesion("run", study_file, "-o", output, "--quiet")
     assert result.exit_code == 4
     assert result.stderr.startswith(f"{output}: cannot be written (No such file or directory)")
@@ -298,7 +298,7 @@ def test_a_block_that_raises_once_is_tried_again(
             raise error
         return real_solve(*arguments, **options)
 
-    monkeypatch.setattr("gradhesion.cli.work.given.solve", once)
+    monkeypatch.setattr("gradhesion.cli.work.solve.given.solve", once)
     assert gradhesion("run", study_file, "-o", output).exit_code == 0
     assert values_of(output) == values_of(whole)
 
@@ -308,7 +308,7 @@ def test_a_block_that_always_raises_has_no_value_and_its_neighbours_stay(
 ) -> None:
     power = Power(4, MemoryError)
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.work.given.solve", power.solve)
+        patch.setattr("gradhesion.cli.work.solve.given.solve", power.solve)
         result = gradhesion("run", study_file, "-o", output, "--quiet")
     assert result.exit_code == 3
     assert power.calls == 4 + 2 * 2
@@ -327,7 +327,7 @@ def test_a_block_that_always_raises_has_no_value_and_its_neighbours_stay(
 def test_if_no_block_can_be_solved_nothing_is_written(
     gradhesion: Call, study_file: Path, output: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gradhesion.cli.work.given.solve", Power(0, MemoryError).solve)
+    monkeypatch.setattr("gradhesion.cli.work.solve.given.solve", Power(0, MemoryError).solve)
     result = gradhesion("run", study_file, "-o", output)
     assert result.exit_code == 3
     assert "raised MemoryError; nothing is written" in result.stderr
@@ -346,11 +346,11 @@ def test_a_run_killed_after_the_last_rename_is_complete(
     gradhesion: Call, study_file: Path, output: Path, whole: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.work.folder._remove", lambda *_: None)
-        patch.setattr("gradhesion.cli.work.folder._give_up", lambda _, lock: os.close(lock))
+        patch.setattr("gradhesion.cli.work.parts.folder._remove", lambda *_: None)
+        patch.setattr("gradhesion.cli.work.parts.folder._give_up", lambda _, lock: os.close(lock))
         assert gradhesion("run", study_file, "-o", output).exit_code == 0
     assert json.loads(folder_of(output).finished.read_bytes())["failed"] == 0
-    monkeypatch.setattr("gradhesion.cli.work.given.solve", Power(0).solve)
+    monkeypatch.setattr("gradhesion.cli.work.solve.given.solve", Power(0).solve)
     result = gradhesion("run", study_file, "-o", output)
     assert result.exit_code == 0
     assert result.stderr.endswith("were complete already\n")
@@ -368,7 +368,7 @@ def test_a_file_that_appears_at_the_output_during_a_run_stays_and_the_dataset_is
 
     monkeypatch.setenv("GRADHESION_CHUNK", cells)
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.work.given.solve", beside)
+        patch.setattr("gradhesion.cli.work.solve.given.solve", beside)
         result = gradhesion("run", study_file, "-o", output, "--quiet")
     assert result.exit_code == 4
     assert result.stderr == (

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray
 
-from gradhesion.cli.dataset.selection import Selection, axes_of, is_log, selection_of
+from gradhesion.cli.dataset.read.selection import Selection, axes_of, is_log, selection_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names import SOLVER
 from gradhesion.core import FLAGS

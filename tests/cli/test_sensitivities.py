@@ -13,7 +13,7 @@ from click.testing import Result
 
 import gradhesion as gr
 from gradhesion.cli.dataset import compute
-from gradhesion.cli.dataset.sensitivities import parts_of, spread, strongest, with_influence
+from gradhesion.cli.dataset.read.sensitivities import parts_of, spread, strongest, with_influence
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study import study_from
 from gradhesion.core import SENSITIVITIES, doubts_about, solve

@@ -10,12 +10,12 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.dataset.selection import Selection, selection_of
+from gradhesion.cli.dataset.read.selection import Selection, selection_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.picture.curve_picture import drawn_curves
+from gradhesion.cli.picture.curves.picture import drawn_curves
+from gradhesion.cli.picture.fits.loops import drawn_fits
 from gradhesion.cli.picture.looks import looks_of
-from gradhesion.cli.picture.loops_picture import drawn_fits
-from gradhesion.cli.picture.picture import drawn
+from gradhesion.cli.picture.values.picture import drawn
 from gradhesion.cli.study.reading import study_from
 
 Call = Callable[..., Result]

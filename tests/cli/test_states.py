@@ -9,7 +9,7 @@ import xarray
 
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.errors import DatasetError, StudyError
-from gradhesion.cli.picture.curve_picture import drawn_curves
+from gradhesion.cli.picture.curves.picture import drawn_curves
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.words.words import described

@@ -13,7 +13,7 @@ from click.testing import Result
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.study.reading import study_from
-from gradhesion.cli.study.turn import KEYS
+from gradhesion.cli.study.rules.turn import KEYS
 from gradhesion.core import TURNS, solve
 from gradhesion.core.problem.status import doubts_about
 

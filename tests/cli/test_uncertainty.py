@@ -218,7 +218,7 @@ def test_a_percentage_of_zero(data: dict[str, Any]) -> None:
 
 
 def test_parts_of_other_uncertain_inputs_are_not_reused(data: dict[str, Any]) -> None:
-    from gradhesion.cli.work.parts import key_of, settings_of
+    from gradhesion.cli.work.parts.parts import key_of, settings_of
 
     plain, one = (study_from({**data, "uncertainty": own}) for own in (INPUTS, INPUTS | {"seed": 1}))
     assert key_of(plain, plain.tiling[0]) != key_of(one, one.tiling[0])

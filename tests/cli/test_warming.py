@@ -4,7 +4,7 @@ import random
 
 import pytest
 
-from gradhesion.cli.work.warming import next_kind
+from gradhesion.cli.work.kernels.warming import next_kind
 from gradhesion.core import APART, KERNELS, KINDS, NEEDS
 from gradhesion.core.kinds import before
 

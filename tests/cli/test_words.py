@@ -11,7 +11,7 @@ from click.testing import Result
 import gradhesion as gr
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.terminal.wording import MEANT, nearest
-from gradhesion.cli.work import compiling
+from gradhesion.cli.work.kernels import compiling
 
 Call = Callable[..., Result]
 
