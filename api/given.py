@@ -11,7 +11,8 @@ import xarray
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.keys import INPUTS, PHYSICAL, SETTINGS
-from gradhesion.cli.names import OUTPUTS, PARAMETER, PHYSICAL_PARAMETER, SCENE, SOLVER
+from gradhesion.cli.names.outputs import OUTPUTS, PARAMETER, PHYSICAL_PARAMETER
+from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.study.form.axes import Values, mistakes_of_grid
 from gradhesion.cli.study.form.kinds import KINDS
 from gradhesion.cli.study.reading import study_from, text_of

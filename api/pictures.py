@@ -17,7 +17,7 @@ from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.errors import DatasetError, OutputError
 from gradhesion.cli.installation import checked
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import SCENE, SOLVER
+from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.picture.curves.picture import drawn_curves
 from gradhesion.cli.picture.fits.loops import drawn_fits
 from gradhesion.cli.picture.looks import Looks, looks_of

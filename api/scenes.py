@@ -9,7 +9,7 @@ import xarray
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.names import SCENE
+from gradhesion.cli.names.scenes import SCENE
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.work.kernels.compiling import prepare
 from gradhesion.cli.work.kernels.kernels import kinds_of

@@ -6,7 +6,7 @@ from typing import Any, Final
 
 from docs.tables import code, table
 from gradhesion.cli.keys import INPUTS, KEYS, PHYSICAL, REDUCED, SETTINGS, keys_of
-from gradhesion.cli.names import OUTPUTS
+from gradhesion.cli.names.outputs import OUTPUTS
 from gradhesion.cli.study.fit.form import FitForm
 from gradhesion.cli.study.form.form import Form
 from gradhesion.cli.study.form.kinds import KINDS

@@ -67,7 +67,7 @@ def info(files: tuple[Path, ...], form: str, variables: tuple[str, ...], jumps: 
 
 def _of_fit(dataset: "Dataset", file: Path, form: str) -> "Iterator[str]":
     """Report a fit, or fits of several loops, in words or as a table."""
-    from gradhesion.cli.names import LOOP
+    from gradhesion.cli.names.fits import LOOP
     from gradhesion.cli.words.fit_words import fit_described, fit_tabled
     from gradhesion.cli.words.loops_words import loops_described, loops_tabled
 

@@ -22,7 +22,8 @@ from gradhesion.cli.disk import refuse_beside, refuse_existing, refuse_unnamed, 
 from gradhesion.cli.engines import Engine, Work
 from gradhesion.cli.engines.threads import Threads
 from gradhesion.cli.errors import OutputError, ScenesFailedError
-from gradhesion.cli.names import RAGGED, STATE, STEEP
+from gradhesion.cli.names.curves import RAGGED, STATE, is_ragged
+from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, size_of
 from gradhesion.cli.terminal.amounts import counted, two_in_words
@@ -32,7 +33,7 @@ from gradhesion.cli.work.parts.parts import types_of
 from gradhesion.cli.work.parts.records import Finished, read_record, write_record
 from gradhesion.cli.work.parts.resume import Solved, place_of
 from gradhesion.cli.work.parts.state import Keeper
-from gradhesion.cli.work.solve.curves import is_ragged, within
+from gradhesion.cli.work.solve.curves import within
 
 LEAST_SHARE: Final = 0.1
 """Values hardly compress to less than this share: what cannot fit is refused before it is begun."""

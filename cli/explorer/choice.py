@@ -5,12 +5,13 @@ from typing import Final
 
 import xarray
 
-from gradhesion.cli.dataset.curve_variables import curve_of
 from gradhesion.cli.dataset.read.reader import has_curves
 from gradhesion.cli.dataset.read.selection import selection_of
 from gradhesion.cli.dataset.read.sensitivities import parts_of, spread
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import PARETO_POINT, RAGGED, SCENE, SI, STATE_CURVES
+from gradhesion.cli.names.curves import RAGGED, STATE_CURVES, curve_of
+from gradhesion.cli.names.outputs import PARETO_POINT, SI
+from gradhesion.cli.names.scenes import SCENE
 from gradhesion.cli.picture.curves.units import wants_si
 from gradhesion.cli.terminal.wording import did_you_mean
 

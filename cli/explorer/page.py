@@ -21,7 +21,7 @@ from gradhesion.cli.explorer.figures import Part, map_of, plane_of, ranges, sect
 from gradhesion.cli.explorer.lines import lines_of
 from gradhesion.cli.explorer.plain import words
 from gradhesion.cli.explorer.scene_study import scene_study
-from gradhesion.cli.names import SCENE, SOLVER
+from gradhesion.cli.names.scenes import SCENE, SOLVER
 
 _OWN: Final = Path(__file__).parent
 _SCRIPTS: Final = (

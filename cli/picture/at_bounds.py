@@ -2,7 +2,7 @@
 
 import xarray
 
-from gradhesion.cli.names import BEST, ON_BOUND
+from gradhesion.cli.names.outputs import BEST, ON_BOUND
 
 
 def at_bound(dataset: xarray.Dataset, name: str) -> xarray.DataArray | None:

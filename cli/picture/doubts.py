@@ -9,10 +9,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from gradhesion.cli import names
 from gradhesion.cli.dataset.read import doubtful
 from gradhesion.cli.dataset.read.doubtful import doubts_of
 from gradhesion.cli.dataset.read.model_range import LIMITS
+from gradhesion.cli.names.scenes import FLAG_WORDS
 from gradhesion.core.answers.flags import FLAGS
 
 INK: Final = "0.25"
@@ -47,7 +47,7 @@ def _doubts() -> tuple[Doubt, ...]:
     flags = [(name, bit) for name, bit in FLAGS.items() if bit & doubtful.DOUBTS]
     looks = (("////", "o", 3.5), ("\\\\\\\\", "s", 5.5), ("xxxx", "D", 7.0), ("----", "v", 8.0), ("||||", "p", 8.0))
     return tuple(
-        Doubt(bit=bit, words=names.FLAGS[name], hatch=hatch, mark=mark, size=size)
+        Doubt(bit=bit, words=FLAG_WORDS[name], hatch=hatch, mark=mark, size=size)
         for (name, bit), (hatch, mark, size) in zip(flags, looks, strict=True)
     )
 

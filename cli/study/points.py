@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import keys
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import OUTPUTS, SI
+from gradhesion.cli.names.outputs import OUTPUTS, SI
 from gradhesion.cli.study.form.axes import MOST_VALUES, Values
 from gradhesion.cli.study.form.mistakes import Mistake
 from gradhesion.cli.study.text import places

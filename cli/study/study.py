@@ -12,19 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.keys import CLOSING, INPUTS, MACHINE, PATTERN, TURNS
-from gradhesion.cli.names import (
-    BEST,
-    OF_PHYSICAL,
-    ON_BOUND,
-    PARAMETER,
-    PHYSICAL_PARAMETER,
-    REALISATION,
-    SCENE,
-    SI,
-    SOLVER,
-    UNITS,
-    labels_of,
-)
+from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, ON_BOUND, PARAMETER, PHYSICAL_PARAMETER, SI, labels_of
+from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
+from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.form.axes import Values
 from gradhesion.cli.study.form.kinds import KINDS, PARETO, Kind
 from gradhesion.cli.study.points import Points

@@ -9,7 +9,8 @@ import xarray
 
 from gradhesion.cli.dataset.read.soundness import is_fit
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import LOOP, PARAMETER
+from gradhesion.cli.names.fits import LOOP
+from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.problem.status import POOR_FIT
 

@@ -8,8 +8,7 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.curve_variables import variables_of_curves
-from gradhesion.cli.names import INTEGERS, RAGGED, STATE_CURVES
+from gradhesion.cli.names.curves import INTEGERS, RAGGED, STATE_CURVES, variables_of_curves
 from gradhesion.cli.study.tiling import tile
 from gradhesion.cli.words.jump_words import ITEMS, jump_lines, meaning_of
 

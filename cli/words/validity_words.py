@@ -6,7 +6,7 @@ import xarray
 
 from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, is_cone
 from gradhesion.cli.dataset.read.reader import tiling_of
-from gradhesion.cli.names import CONTACT_SLOPE
+from gradhesion.cli.names.outputs import CONTACT_SLOPE
 from gradhesion.cli.terminal.amounts import counted, percent
 
 

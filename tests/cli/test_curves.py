@@ -14,7 +14,7 @@ from click.testing import Result
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.cli.keys import INPUTS, PARAMETERS
-from gradhesion.cli.names import CURVES, EXTENTS, GENERAL_CURVES, INTEGERS, MEANINGS, RAGGED, STATE_CURVES
+from gradhesion.cli.names.curves import CURVES, EXTENTS, GENERAL_CURVES, INTEGERS, MEANINGS, RAGGED, STATE_CURVES
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.words.curve_words import curve_lines
 from gradhesion.core import FAILED, FLAGS, draw_curves, solve

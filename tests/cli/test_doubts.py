@@ -14,8 +14,8 @@ from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.path import Path
 
-from gradhesion.cli import names
 from gradhesion.cli.dataset.dataset import compute
+from gradhesion.cli.names.scenes import FLAG_WORDS
 from gradhesion.cli.picture.curves.picture import drawn_curves
 from gradhesion.cli.picture.doubts import BEYOND, CROSS, DOUBTS, GAP, GREY, Doubt, doubts_in
 from gradhesion.cli.picture.pictured import save
@@ -63,7 +63,7 @@ MAP = {"k": {"start": 0.0, "stop": 0.9, "num": 7}}
 
 
 def test_every_flag_has_words_and_every_doubt_looks_of_its_own() -> None:
-    assert list(names.FLAGS) == [*ALL_FLAGS, *OF_FITS]
+    assert list(FLAG_WORDS) == [*ALL_FLAGS, *OF_FITS]
     assert sum(doubt.bit for doubt in (LOADING, UNLOADING, TOLERANCE)) == DOUBTFUL
     assert {doubt.bit for doubt in OF_ANSWERS} <= {*ALL_FLAGS.values()} - {*FLAGS.values()}
     for looks in ([doubt.hatch for doubt in DOUBTS], [doubt.mark for doubt in DOUBTS]):

@@ -10,7 +10,7 @@ import pytest
 import gradhesion as gr
 from gradhesion.cli.dataset.fits.fit import dataset_of, write_fit
 from gradhesion.cli.dataset.read.reader import opened
-from gradhesion.cli.names import FIT_MORE
+from gradhesion.cli.names.fits import FIT_MORE
 from gradhesion.cli.picture.fits.fit import drawn_fit
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.words.fit_words import fit_described

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.cli.dataset.read.selection import selection_of
-from gradhesion.cli.names import SYMBOLS
+from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.picture.curves.picture import drawn_curves
 from gradhesion.cli.picture.doubts import END
 from gradhesion.cli.picture.pictured import save

@@ -8,7 +8,7 @@ import xarray
 
 from gradhesion.cli.dataset.read.selection import Selection, axes_of, is_log, selection_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import SOLVER
+from gradhesion.cli.names.scenes import SOLVER
 from gradhesion.core import FLAGS
 
 K = np.array([0.0, 0.2, 0.5, 0.9])

@@ -12,7 +12,7 @@ from click.testing import Result
 import gradhesion as gr
 from gradhesion.cli.dataset import compute
 from gradhesion.cli.errors import StudyError
-from gradhesion.cli.names import SPREAD
+from gradhesion.cli.names.outputs import SPREAD
 from gradhesion.cli.study import study_from
 
 Call = Callable[..., Result]

@@ -6,11 +6,22 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from gradhesion.cli import names
 from gradhesion.cli.dataset.dataset import origin
 from gradhesion.cli.dataset.fits.rows import refuse_size, rows_of, side_by_side
 from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.keys import INPUTS, INTERACTION
+from gradhesion.cli.names.fits import (
+    FIT,
+    FIT_MORE,
+    FIT_POINTS,
+    FIT_UNITS,
+    FIT_WORDS,
+    LOOP,
+    OTHER_PARAMETER,
+    PARAMETER_UNITS,
+)
+from gradhesion.cli.names.outputs import PARAMETER
+from gradhesion.cli.names.scenes import STEEP, STEEP_CONTACT
 from gradhesion.cli.study.fit.loop_files import fingerprint
 from gradhesion.cli.study.fit.study import FitStudy, unit_of_parameter
 from gradhesion.cli.study.shape_words import rate_in_words, shape_in_words, toughness_in_words
@@ -62,7 +73,7 @@ def dataset_of(study: FitStudy, fits: Sequence[Fit], history: str) -> "xarray.Da
     made = {name: xarray.Variable(dims, values, _attributes_of(study, name)) for name, (dims, values) in rows.items()}
     labels = np.array(study.parameters, dtype=object)
     units = np.array([unit_of_parameter(name) for name in study.parameters], dtype=object)
-    parameter = (names.PARAMETER,)
+    parameter = (PARAMETER,)
     fixed = {
         name: xarray.Variable((), value, {"units": key.unit, "long_name": key.about})
         for name, key in INPUTS.items()
@@ -70,9 +81,9 @@ def dataset_of(study: FitStudy, fits: Sequence[Fit], history: str) -> "xarray.Da
     }
     attributes = {"long_name": "fitted quantity"}
     coordinates = {
-        names.PARAMETER: xarray.Variable(parameter, labels, attributes),
-        names.OTHER_PARAMETER: xarray.Variable((names.OTHER_PARAMETER,), labels, attributes),
-        names.PARAMETER_UNITS: xarray.Variable(parameter, units, {"long_name": "unit of the fitted quantity"}),
+        PARAMETER: xarray.Variable(parameter, labels, attributes),
+        OTHER_PARAMETER: xarray.Variable((OTHER_PARAMETER,), labels, attributes),
+        PARAMETER_UNITS: xarray.Variable(parameter, units, {"long_name": "unit of the fitted quantity"}),
     }
     if not study.is_of_one:
         words = {
@@ -82,9 +93,9 @@ def dataset_of(study: FitStudy, fits: Sequence[Fit], history: str) -> "xarray.Da
             "alike": ["; ".join(fit.found.alike) if fit.found else "" for fit in fits],
         }
         for name, values in words.items():
-            own = {"long_name": names.FIT_WORDS[name]}
-            coordinates[name] = xarray.Variable((names.LOOP,), np.array(values, dtype=object), own)
-    marks = {name: made.pop(name) for name in (names.STEEP,) if name in made}
+            own = {"long_name": FIT_WORDS[name]}
+            coordinates[name] = xarray.Variable((LOOP,), np.array(values, dtype=object), own)
+    marks = {name: made.pop(name) for name in (STEEP,) if name in made}
     return xarray.Dataset(made, coordinates | fixed | marks, origin(study, history, _attributes(study, fits)))
 
 
@@ -114,17 +125,17 @@ def _attributes_of(study: FitStudy, name: str) -> dict[str, Any]:
     """Describe a variable."""
     if name == "status":
         return _of_status()
-    if name == names.STEEP:
-        return {"units": "1", "long_name": names.STEEP_CONTACT}
-    for own in (names.FIT, names.FIT_MORE):
+    if name == STEEP:
+        return {"units": "1", "long_name": STEEP_CONTACT}
+    for own in (FIT, FIT_MORE):
         if name in own:
             attributes: dict[str, Any] = {"long_name": own[name][1]}
             if name in ("on_bound", "converged"):
                 return attributes | _YES
             if name == "tabor_parameter":
                 attributes["comment"] = range_words(study)
-            return attributes if name in _OWN_UNITS else attributes | {"units": names.FIT_UNITS.get(name, "1")}
-    words = next(own[name] for own in names.FIT_POINTS.values() if name in own)
+            return attributes if name in _OWN_UNITS else attributes | {"units": FIT_UNITS.get(name, "1")}
+    words = next(own[name] for own in FIT_POINTS.values() if name in own)
     if study.loading.control == "machine" and name.endswith("_indentation"):
         words = words.replace("indentation depth", "displacement of the machine")
     if name.endswith("_unloading"):

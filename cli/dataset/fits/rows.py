@@ -6,8 +6,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gradhesion.cli import names
 from gradhesion.cli.errors import StudyError
+from gradhesion.cli.names.fits import FIT, FIT_MORE, LOOP
+from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.terminal.amounts import bytes_in_words
 from gradhesion.cli.work.solve.fitting import Fit, tabor_of
@@ -49,7 +50,7 @@ def rows_of(study: FitStudy, fit: Fit) -> dict[str, Row]:
     rows: dict[str, Row] = {}
 
     def put(name: str, values: ArrayLike, dtype: type[np.generic] = np.float64) -> None:
-        dims = next(own[name][0] for own in (names.FIT, names.FIT_MORE) if name in own)
+        dims = next(own[name][0] for own in (FIT, FIT_MORE) if name in own)
         rows[name] = (dims, np.asarray(values, dtype=dtype))
 
     depth_noise, load_noise = study.noise_of(loop)
@@ -92,7 +93,7 @@ def rows_of(study: FitStudy, fit: Fit) -> dict[str, Row]:
     back = np.arange(len(path)) >= len(found.loading)
     _put_points(rows, {"indentation": path[:, 0], "load": path[:, 1]}, "fitted", back)
     if is_steep(slopes_of(np.array(found.turning_radius), study.profile)):
-        rows[names.STEEP] = ((), np.asarray(1, np.int8))
+        rows[STEEP] = ((), np.asarray(1, np.int8))
     return rows
 
 
@@ -116,7 +117,7 @@ def side_by_side(fits: Sequence[dict[str, Row]]) -> dict[str, Row]:
                 values = rows[name][1]
                 place: tuple[int | slice, ...] = (i, *(slice(size) for size in values.shape))
                 together[place] = values
-        stacked[name] = ((names.LOOP, *dims), together)
+        stacked[name] = ((LOOP, *dims), together)
     return stacked
 
 

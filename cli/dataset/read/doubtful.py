@@ -2,7 +2,8 @@
 
 from typing import Final
 
-from gradhesion.cli.names import BEST, CURVES, value_of
+from gradhesion.cli.names.curves import curve_of
+from gradhesion.cli.names.outputs import BEST, value_of
 from gradhesion.core import doubts_about
 from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF, RESOLUTION_TOO_COARSE
 from gradhesion.core.problem.status import DOUBTFUL
@@ -21,8 +22,7 @@ def doubts_of(variable: str, *, turned: bool = False) -> int:
     True
     """
     plain = value_of(variable)
-    curve = next((curve for curve, own in CURVES.items() if plain in own), plain)
-    bits = doubts_about(curve, turned=turned)
+    bits = doubts_about(curve_of(plain) or plain, turned=turned)
     if variable.startswith(BEST):
         bits |= RESOLUTION_TOO_COARSE
     return bits | LINEAR_DEVIATION_OFF if variable.removesuffix("_si").endswith("_std") else bits

@@ -6,7 +6,7 @@ import numpy as np
 import xarray
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import FIT_POINTS, FIT_WORDS, LOOP
+from gradhesion.cli.names.fits import FIT_POINTS, FIT_WORDS, LOOP
 from gradhesion.cli.terminal.amounts import counted
 
 

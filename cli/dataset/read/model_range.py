@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.reader import tiling_of
 from gradhesion.cli.keys import ADHESION_RANGE
-from gradhesion.cli.names import CONTACT_SLOPE, STEEP
+from gradhesion.cli.names.outputs import CONTACT_SLOPE
+from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.arrays.reach import SMALL, is_steep

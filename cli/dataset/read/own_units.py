@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from gradhesion.cli.names import unit_of
+from gradhesion.cli.names.units import unit_of
 from gradhesion.cli.study.text.foreign import apart, filled
 from gradhesion.cli.study.text.quantities import factor_between, scaled
 

@@ -14,7 +14,7 @@ from gradhesion.cli.dataset.read.soundness import check_form, check_size
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.files import is_file, kind_of
 from gradhesion.cli.keys import TURNS
-from gradhesion.cli.names import EXTENTS, RAGGED
+from gradhesion.cli.names.curves import EXTENTS, RAGGED
 from gradhesion.cli.study.tiling import CHUNK, Tiling
 
 if TYPE_CHECKING:

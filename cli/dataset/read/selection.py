@@ -22,7 +22,7 @@ from gradhesion.cli.dataset.read.reductions import (
 )
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS, PHYSICAL
-from gradhesion.cli.names import SCENE, SOLVER
+from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.study.text.quantities import si_value
 from gradhesion.cli.terminal.wording import did_you_mean
 

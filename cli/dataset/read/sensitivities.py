@@ -7,7 +7,7 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import BEST, OF_PHYSICAL, SENSITIVITIES, labels_of
+from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, SENSITIVITIES, labels_of
 
 PLAIN: Final = ("k", "nu")
 """What has no logarithm: the strongest is looked for among the others."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.engines import Work
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import STEEP
+from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block

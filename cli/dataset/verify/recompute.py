@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.verify.belonging import study_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import REALISATION, SI, SOLVER, labels_of
+from gradhesion.cli.names.outputs import SI, labels_of
+from gradhesion.cli.names.scenes import REALISATION, SOLVER
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.core import FAILED, PARAMETERS
 from gradhesion.core.answers.spectrum import random_profile

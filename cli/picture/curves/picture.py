@@ -13,9 +13,8 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from gradhesion.cli.dataset.curve_variables import variables_of_curves
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import RAGGED, STATE_CURVES
+from gradhesion.cli.names.curves import RAGGED, STATE_CURVES, variables_of_curves
 from gradhesion.cli.picture.curves.limits import in_units, set_limits, spans_of
 from gradhesion.cli.picture.curves.measured import Points, draw_points, legend_entry, planes_of, read_points
 from gradhesion.cli.picture.curves.panels import (

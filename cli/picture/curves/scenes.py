@@ -8,9 +8,9 @@ import numpy as np
 import xarray
 from matplotlib.colors import to_rgb
 
-from gradhesion.cli.dataset.curve_variables import variables_of_curves
 from gradhesion.cli.dataset.read.model_range import slope_warnings
-from gradhesion.cli.names import RAGGED, SCENE, STATE_CURVES
+from gradhesion.cli.names.curves import RAGGED, STATE_CURVES, variables_of_curves
+from gradhesion.cli.names.scenes import SCENE
 from gradhesion.cli.picture.curves.panels import Colour, Values
 from gradhesion.cli.picture.doubts import CROSS, Doubt, doubts_in
 from gradhesion.cli.picture.labels import effective, equation, given

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import CURVES, SI, STATE
+from gradhesion.cli.names.curves import CURVES, STATE
+from gradhesion.cli.names.outputs import SI
 from gradhesion.cli.picture.labels import Unit, effective, equation, number, unit_for
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.pictured import finite, heading, in_lines, lay_out, styled

@@ -8,7 +8,8 @@ from typing import Final
 import numpy as np
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import SI, UNITS
+from gradhesion.cli.names.outputs import SI
+from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.picture.curves.panels import Track, Values
 from gradhesion.cli.picture.labels import Unit, unit_for
 from gradhesion.cli.picture.spans import Span

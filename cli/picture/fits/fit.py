@@ -9,7 +9,8 @@ import xarray
 from matplotlib.figure import Figure
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import PARAMETER, SYMBOLS
+from gradhesion.cli.names.outputs import PARAMETER
+from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.picture.labels import Unit, number, unit_for
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.pictured import CAPTION, heading, in_lines, styled

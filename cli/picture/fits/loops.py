@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.loop_choice import one_loop
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import LOOP, PARAMETER
+from gradhesion.cli.names.fits import LOOP
+from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.picture.fits.fit import COLOURS, drawn_fit, named
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.pictured import CAPTION, heading, in_lines, styled

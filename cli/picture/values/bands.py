@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.selection import Selection
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import SI, SPREADABLE, SPREADS
+from gradhesion.cli.names.outputs import SI, SPREADABLE, SPREADS
 from gradhesion.cli.picture.doubts import BAND_WORDS, INK
 from gradhesion.cli.picture.looks import Looks
 

@@ -12,7 +12,7 @@ from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.dataset.read.selection import Selection
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import BEST, PARETO_POINT, SI
+from gradhesion.cli.names.outputs import BEST, PARETO_POINT, SI
 from gradhesion.cli.picture.labels import effective, equation, equations, label, unit_for
 from gradhesion.cli.picture.looks import Looks
 from gradhesion.cli.picture.pictured import CAPTION, heading, in_lines, styled

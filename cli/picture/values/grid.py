@@ -20,7 +20,8 @@ from gradhesion.cli.dataset.read.reader import is_turned
 from gradhesion.cli.dataset.read.selection import Selection
 from gradhesion.cli.dataset.read.sensitivities import parameters_of
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import SOLVER, SYMBOLS
+from gradhesion.cli.names.scenes import SOLVER
+from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.picture.at_bounds import at_bound
 from gradhesion.cli.picture.doubts import BEYOND, BOUND, END, Doubt, doubts_in, entries
 from gradhesion.cli.picture.labels import Unit, equations, label, unit_for

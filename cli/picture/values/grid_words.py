@@ -9,7 +9,8 @@ import xarray
 from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.dataset.read.reductions import Taken
 from gradhesion.cli.dataset.read.selection import Selection
-from gradhesion.cli.names import SOLVER, SYMBOLS
+from gradhesion.cli.names.scenes import SOLVER
+from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.picture.labels import Unit, effective, equation, label
 from gradhesion.cli.picture.values.layout import Plan
 

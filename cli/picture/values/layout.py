@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.read.selection import Selection, axes_of, check_axis, is_log
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import SCENE, SOLVER
+from gradhesion.cli.names.scenes import SCENE, SOLVER
 from gradhesion.cli.picture.looks import Kind
 from gradhesion.cli.picture.spans import Span
 

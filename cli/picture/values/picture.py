@@ -9,7 +9,8 @@ from matplotlib.figure import Figure
 from gradhesion.cli.dataset.read.selection import Selection
 from gradhesion.cli.dataset.read.sensitivities import parts_of, spread, with_influence
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import BEST, ON_BOUND, PARETO_POINT, SCENE, SI
+from gradhesion.cli.names.outputs import BEST, ON_BOUND, PARETO_POINT, SI
+from gradhesion.cli.names.scenes import SCENE
 from gradhesion.cli.picture.doubts import ORDER
 from gradhesion.cli.picture.inset import add_inset
 from gradhesion.cli.picture.looks import PLAIN, Looks

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from gradhesion.cli.names import CURVES, OUTPUTS, RAGGED
+from gradhesion.cli.names.curves import CURVES, RAGGED
+from gradhesion.cli.names.outputs import OUTPUTS
 from gradhesion.cli.study.tiling import CHUNK, Tiling
 
 

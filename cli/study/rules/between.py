@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.cli.keys import INPUTS, Path
-from gradhesion.cli.names import CURVES
+from gradhesion.cli.names.curves import CURVES
 from gradhesion.cli.study.form.axes import Values, expanded, mistake_of_range, mistakes_of_grid, mistakes_of_points
 from gradhesion.cli.study.form.form import Range
 from gradhesion.cli.study.form.kinds import KINDS

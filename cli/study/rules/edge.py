@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from gradhesion.cli.keys import CLOSING, INPUTS, PATTERN, SPEED, Path
-from gradhesion.cli.names import CURVES, STATE_CURVES
+from gradhesion.cli.names.curves import CURVES, STATE_CURVES
 from gradhesion.cli.study.form.axes import Values
 from gradhesion.cli.study.form.form import RateTable, ToughnessTable
 from gradhesion.cli.study.form.mistakes import Checked, Mistake

@@ -6,7 +6,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.cli.keys import MACHINE, SPRING, Path
-from gradhesion.cli.names import CURVES, GENERAL_CURVES
+from gradhesion.cli.names.curves import CURVES, GENERAL_CURVES
 from gradhesion.cli.study.form.axes import Values
 from gradhesion.cli.study.form.form import ProfileTable
 from gradhesion.cli.study.form.mistakes import Checked, Mistake

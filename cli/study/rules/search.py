@@ -7,7 +7,8 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.cli.keys import INPUTS, Path
-from gradhesion.cli.names import CONTACT_SLOPE, OF_LINEAR, OUTPUTS, SENSITIVITIES, SI, SPREADABLE, UNITS
+from gradhesion.cli.names.outputs import CONTACT_SLOPE, OF_LINEAR, OUTPUTS, SENSITIVITIES, SI, SPREADABLE
+from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.form.axes import Values
 from gradhesion.cli.study.form.form import OptimumTable, Range
 from gradhesion.cli.study.form.mistakes import Checked, Mistake

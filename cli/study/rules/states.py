@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from gradhesion.cli.keys import Path
-from gradhesion.cli.names import CURVES, STATE_CURVES
+from gradhesion.cli.names.curves import CURVES, STATE_CURVES
 from gradhesion.cli.study.form.axes import Values
 from gradhesion.cli.study.form.mistakes import Checked, Mistake
 

@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 
 from gradhesion.cli.keys import INPUTS, Path
-from gradhesion.cli.names import OF_LINEAR, SPREAD, SPREADABLE
+from gradhesion.cli.names.outputs import OF_LINEAR, SPREAD, SPREADABLE
 from gradhesion.cli.study.form.axes import Values
 from gradhesion.cli.study.form.deviation import Deviation
 from gradhesion.cli.study.form.mistakes import Checked, Mistake

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from gradhesion.cli.keys import CLOSING, CLOSING_WORK, INPUTS, Path
-from gradhesion.cli.names import OUTPUTS, SI
+from gradhesion.cli.names.outputs import OUTPUTS, SI
 from gradhesion.cli.study.form.axes import Values
 from gradhesion.cli.study.form.mistakes import Checked, Mistake
 from gradhesion.cli.study.rules.roles import is_given

@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.disk import write_whole
 from gradhesion.cli.files import read_at_most
-from gradhesion.cli.names import ON_BOUND, STEEP
+from gradhesion.cli.names.outputs import ON_BOUND
+from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
 from gradhesion.core import SOURCES

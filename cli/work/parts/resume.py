@@ -5,7 +5,8 @@ from typing import Final
 
 import numpy as np
 
-from gradhesion.cli.names import ON_BOUND, STEEP
+from gradhesion.cli.names.outputs import ON_BOUND
+from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of, size_of
 from gradhesion.cli.work.parts.folder import Folder

@@ -9,7 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion import core
-from gradhesion.cli.names import CURVES, EXTENTS, INTEGERS, RAGGED, SI, STATE_CURVES, STEEP, UNITS
+from gradhesion.cli.names.curves import CURVES, INTEGERS, RAGGED, STATE_CURVES, is_ragged
+from gradhesion.cli.names.outputs import SI
+from gradhesion.cli.names.scenes import STEEP
+from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work.solve.blocks import awaited
@@ -27,26 +30,6 @@ _CONTACT_RADII: Final = tuple(
 """The variables with the radii of contact that are drawn."""
 
 Drawing = tuple[Block, dict[str, NDArray[Any]]]
-
-
-def extent_of(variable: str) -> str:
-    """
-    Name the dimension along the curve that a variable belongs to.
-
-    >>> extent_of("path_load")
-    'path_point'
-    """
-    return next(EXTENTS[curve] for curve, own in CURVES.items() if variable.removesuffix(SI) in own)
-
-
-def is_ragged(variable: str) -> bool:
-    """
-    Report whether a variable has the items of one scene after those of the other.
-
-    >>> is_ragged("jump_energy"), is_ragged("jump_count"), is_ragged("path_load")
-    (True, False, False)
-    """
-    return any(variable.removesuffix(SI) in CURVES[curve] and variable != count for curve, count in RAGGED.items())
 
 
 def blank_of(variable: str) -> float:

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import OF_PHYSICAL, PARAMETER, PHYSICAL_PARAMETER, SI, UNITS
+from gradhesion.cli.names.outputs import OF_PHYSICAL, PARAMETER, PHYSICAL_PARAMETER, SI
+from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
 from gradhesion.cli.work.solve.scenes import solve

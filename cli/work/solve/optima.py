@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli.names import BEST, ON_BOUND, PARAMETER, SI, STEEP
+from gradhesion.cli.names.outputs import BEST, ON_BOUND, PARAMETER, SI
+from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.rules.search import Search
 from gradhesion.cli.study.study import Method, Study
 from gradhesion.cli.study.tiling import Block, shape_of

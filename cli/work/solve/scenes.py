@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion import core
-from gradhesion.cli.names import STEEP
+from gradhesion.cli.names.scenes import STEEP
 from gradhesion.core import SENSITIVITIES, VALIDITY
 from gradhesion.core.arrays.reach import is_steep
 from gradhesion.core.problem.names import CONTACT_SLOPE

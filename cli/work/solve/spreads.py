@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.keys import CLOSING_WORK
-from gradhesion.cli.names import PARAMETER, SI, SPREADABLE, STEEP
+from gradhesion.cli.names.outputs import PARAMETER, SI, SPREADABLE
+from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.study.rules.uncertainty import Uncertainty
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, shape_of
