@@ -126,7 +126,7 @@ def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = N
     measured = measured_in(source.data, source.folder)
     sought = sought_in(source.data)
     found = checked(measured.beside(points.beside(sought.beside())))
-    sound, between = mistakes_between_keys(found, points, sought)
+    sound, between = mistakes_between_keys(found, points.columns, sought)
     mistakes = [
         mistake
         for mistake in (*points.mistakes, *measured.mistakes, *found.mistakes, *between)

@@ -261,8 +261,8 @@ class Study:
 
     @cached_property
     def tiling(self) -> Tiling:
-        """The blocks of its scenes."""
-        return self.sort.tiling(self.shape, self.cells)
+        """The blocks of its scenes; of curves, each of which has chunks of its own, a block is one scene."""
+        return Tiling(self.shape, 1, 1) if self.kind == "curve" else Tiling(self.shape, self.cells)
 
     @property
     def cells(self) -> int:

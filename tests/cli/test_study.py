@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradhesion.cli.study.form.axes import expanded
-from gradhesion.cli.study.form.form import Range
+from gradhesion.cli.study.form.inputs import Range
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.text.places import lines_of

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Final
 from pydantic import BeforeValidator, Field, StringConstraints, WithJsonSchema
 
 from gradhesion.cli.keys import KEYS
-from gradhesion.cli.study.form.form import Table
+from gradhesion.cli.study.form.table import Table
 from gradhesion.cli.terminal.wording import did_you_mean, example
 
 WAYS: Final = ("loading", "unloading")

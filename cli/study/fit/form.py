@@ -9,15 +9,10 @@ from pydantic import BeforeValidator, Field, WithJsonSchema, create_model
 from gradhesion.cli.keys import ADHESION_RANGE, CLOSING, INPUTS, INTERACTION, KEYS, MACHINE, PATTERN, Key
 from gradhesion.cli.study.fit.data_form import DataTable
 from gradhesion.cli.study.fit.offset_form import offsets_of
-from gradhesion.cli.study.form.form import (
-    FASTEST,
-    SLOWEST,
-    LoadingTable,
-    MethodTable,
-    ProfileTable,
-    Table,
-    ToughnessTable,
-)
+from gradhesion.cli.study.form.edge import FASTEST, SLOWEST, ToughnessTable
+from gradhesion.cli.study.form.form import LoadingTable, MethodTable
+from gradhesion.cli.study.form.profile import ProfileTable
+from gradhesion.cli.study.form.table import Table
 from gradhesion.cli.study.text.quantities import ratio_sentence, si_value
 from gradhesion.cli.terminal.wording import did_you_mean, example
 

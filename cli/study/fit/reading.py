@@ -1,11 +1,8 @@
 """A study of a fit, read and checked as a whole."""
 
-import json
-import tomllib
 from collections.abc import Mapping
-from typing import Any, Final
+from typing import Any
 
-from gradhesion.cli import keys
 from gradhesion.cli.keys import INTERACTION
 from gradhesion.cli.study.fit.form import NUMBER_ALONE, REQUIRED, FitForm, Search
 from gradhesion.cli.study.fit.loop_file import LoopFile
@@ -15,13 +12,10 @@ from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.form.mistakes import Mistake, checked
 from gradhesion.cli.study.rules.edge import toughness_of
 from gradhesion.cli.study.rules.punch import profile_of
-from gradhesion.cli.study.text import places
 from gradhesion.cli.study.text.source import Source
-from gradhesion.cli.study.text.written import toml_of
+from gradhesion.cli.study.text.written import toml_of, with_fingerprint
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.rate import Rate
-
-KEY: Final[keys.Path] = ("data", "file")
 
 
 def fit_from(source: Source) -> tuple[FitStudy | None, list[Mistake]]:
@@ -74,16 +68,5 @@ def _stored(source: Source, data: Mapping[str, Any], sha256: str) -> str:
     """Give the text of a study with the fingerprint of its file."""
     if source.text and data["data"].get("sha256"):
         return source.text
-    data = {**data, "data": {**data["data"], "sha256": sha256}}
-    number = places.lines_of(source.text).get(KEY, 0) if source.text else 0
-    if number:
-        lines = source.text.split("\n")
-        dot = "data." if lines[number - 1].lstrip().startswith("data.") else ""
-        lines.insert(number, f"{dot}sha256 = {json.dumps(sha256)}")
-        text = "\n".join(lines)
-        try:
-            if tomllib.loads(text) == data:
-                return text
-        except ValueError:
-            pass
-    return toml_of(data)
+    data, text = with_fingerprint(data, source.text, "data", sha256)
+    return text or toml_of(data)

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.keys import INPUTS, Path
-from gradhesion.cli.study.form.form import Entry, Range
+from gradhesion.cli.study.form.inputs import Entry, Range
 from gradhesion.cli.study.form.mistakes import Mistake
 from gradhesion.cli.terminal.wording import shown
 

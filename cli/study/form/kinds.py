@@ -6,7 +6,6 @@ from typing import Final
 
 from gradhesion.cli.names.curves import CURVES, RAGGED
 from gradhesion.cli.names.outputs import OUTPUTS
-from gradhesion.cli.study.tiling import CHUNK, Tiling
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,23 +27,15 @@ class Kind:
         """Give the variables that are asked for, in the order of the dataset."""
         return tuple(output for output in self.outputs if output in requested)
 
-    def tiling(self, shape: tuple[int, ...], chunk: int = CHUNK) -> Tiling:
-        """Cut the scenes into blocks."""
-        return Tiling(shape, chunk)
-
 
 class _Curves(Kind):
-    """Curves are drawn scene by scene: a block has one."""
+    """Curves are asked for by name, or by their variables."""
 
     def variables(self, requested: Sequence[str]) -> tuple[str, ...]:
         """Give the variables asked for: a curve stands for all of its own, and a ragged one needs its count."""
         counts = {RAGGED[curve] for curve, own in CURVES.items() if curve in RAGGED and own.keys() & {*requested}}
         wanted = {*requested} | counts
         return tuple(name for curve, own in CURVES.items() for name in own if curve in requested or name in wanted)
-
-    def tiling(self, shape: tuple[int, ...], chunk: int = 1) -> Tiling:  # noqa: ARG002 (the chunks of curves are their own)
-        """Cut the scenes into blocks of one."""
-        return Tiling(shape, cells=1, chunks=1)
 
 
 PARETO: Final = Kind(

@@ -1,7 +1,7 @@
 """What the keys of a study have to do with each other."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
 import numpy as np
@@ -9,10 +9,9 @@ import numpy as np
 from gradhesion.cli.keys import INPUTS, Path
 from gradhesion.cli.names.curves import CURVES
 from gradhesion.cli.study.form.axes import Values, expanded, mistake_of_range, mistakes_of_grid, mistakes_of_points
-from gradhesion.cli.study.form.form import Range
+from gradhesion.cli.study.form.inputs import Range
 from gradhesion.cli.study.form.kinds import KINDS
 from gradhesion.cli.study.form.mistakes import Checked, Mistake
-from gradhesion.cli.study.points import Points
 from gradhesion.cli.study.rules.edge import mistakes_of_rate, mistakes_of_toughness
 from gradhesion.cli.study.rules.punch import mistakes_of_punch
 from gradhesion.cli.study.rules.roles import mistakes_of_roles
@@ -31,8 +30,14 @@ EXACT_ONLY: Final = (*REPORTS, *SENSITIVITIES, "snap_in_force")
 """The outputs that come with the exact solver alone."""
 
 
-def mistakes_between_keys(checked: Checked, points: Points, sought: Sought) -> tuple[dict[str, Values], list[Mistake]]:
-    """Expand the inputs that are right, and list what is wrong between the keys of a study."""
+def mistakes_between_keys(
+    checked: Checked, columns: Mapping[str, Values], sought: Sought
+) -> tuple[dict[str, Values], list[Mistake]]:
+    """
+    Expand the inputs that are right, and list what is wrong between the keys of a study.
+
+    The columns of a file of points stand in the place of the values that stood for them.
+    """
     mistakes = [*_mistakes_of_choice(checked), *_mistakes_of_outputs(checked), *_mistakes_of_method(checked)]
     sound: dict[str, Values] = {}
     for name, entry in checked.form.entries.items():
@@ -46,7 +51,7 @@ def mistakes_between_keys(checked: Checked, points: Points, sought: Sought) -> t
             mistakes.append(mistake)
         else:
             sound[name] = expanded(entry)
-    sound = points.into(sound)
+    sound = {name: columns.get(name, values) for name, values in sound.items()}
     axes = {name: values for name, values in sound.items() if name not in sought.over}
     is_points = nearest(checked.form.layout, LAYOUTS) == "points"
     mistakes += mistakes_of_points(axes) if is_points else mistakes_of_grid(sound)

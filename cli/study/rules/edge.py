@@ -8,7 +8,7 @@ import numpy as np
 from gradhesion.cli.keys import CLOSING, INPUTS, PATTERN, SPEED, Path
 from gradhesion.cli.names.curves import CURVES, STATE_CURVES
 from gradhesion.cli.study.form.axes import Values
-from gradhesion.cli.study.form.form import RateTable, ToughnessTable
+from gradhesion.cli.study.form.edge import RateTable, ToughnessTable
 from gradhesion.cli.study.form.mistakes import Checked, Mistake
 from gradhesion.cli.study.rules.roles import has_units, is_given, mixed
 from gradhesion.cli.study.rules.turn import KEYS as TURN_KEYS

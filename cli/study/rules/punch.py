@@ -8,8 +8,8 @@ import numpy as np
 from gradhesion.cli.keys import MACHINE, SPRING, Path
 from gradhesion.cli.names.curves import CURVES, GENERAL_CURVES
 from gradhesion.cli.study.form.axes import Values
-from gradhesion.cli.study.form.form import ProfileTable
 from gradhesion.cli.study.form.mistakes import Checked, Mistake
+from gradhesion.cli.study.form.profile import ProfileTable
 from gradhesion.cli.terminal.wording import did_you_mean, example
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.problem.control import CONTROLS

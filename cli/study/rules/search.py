@@ -10,8 +10,9 @@ from gradhesion.cli.keys import INPUTS, Path
 from gradhesion.cli.names.outputs import CONTACT_SLOPE, OF_LINEAR, OUTPUTS, SENSITIVITIES, SI, SPREADABLE
 from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.form.axes import Values
-from gradhesion.cli.study.form.form import OptimumTable, Range
+from gradhesion.cli.study.form.inputs import Range
 from gradhesion.cli.study.form.mistakes import Checked, Mistake
+from gradhesion.cli.study.form.optimum import OptimumTable
 from gradhesion.cli.terminal.wording import did_you_mean, example, nearest, shown
 
 KIND: Final = "optimum"

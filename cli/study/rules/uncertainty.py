@@ -9,8 +9,8 @@ import numpy as np
 from gradhesion.cli.keys import INPUTS, Path
 from gradhesion.cli.names.outputs import OF_LINEAR, SPREAD, SPREADABLE
 from gradhesion.cli.study.form.axes import Values
-from gradhesion.cli.study.form.deviation import Deviation
 from gradhesion.cli.study.form.mistakes import Checked, Mistake
+from gradhesion.cli.study.form.uncertainty import Deviation
 from gradhesion.cli.terminal.wording import nearest
 
 TABLE: Final = "uncertainty"

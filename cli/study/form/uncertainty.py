@@ -1,16 +1,25 @@
-"""How far an input may be off, as a study says it: a number, a percentage, or the ends of a uniform distribution."""
+"""The form of [uncertainty]: how far each input may be off, and by how many samples that is followed."""
 
 import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
-from gradhesion.cli.keys import INPUTS, keys_of
+from pydantic import BeforeValidator, Field, WithJsonSchema, create_model
+
+from gradhesion.cli.keys import INPUTS, Key, keys_of
+from gradhesion.cli.study.form.table import Table, of_key
 from gradhesion.cli.study.text.quantities import ratio_sentence, si_value
-from gradhesion.cli.terminal.wording import did_you_mean, shown
+from gradhesion.cli.terminal.wording import did_you_mean, example, shown
+
+MOST_SAMPLES: Final = 2**20
+"""Samples of the inputs of one scene: all are in memory."""
+
 
 _PERCENTAGE: Final = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*%\s*")
+
+
 LONGEST: Final = 60
 """Characters of a percentage."""
 
@@ -103,3 +112,46 @@ def _forms(name: str) -> str:
     """Say what may be written."""
     own = f'{name} = "5 %"'
     return f"write for example {own} of the value, a standard deviation in its unit, or {{ low = .., high = .. }}"
+
+
+def _deviation(key: Key) -> Any:
+    """Make the type of the deviation of an input."""
+    schema = {"type": ["number", "string", "object"]}
+    read = BeforeValidator(lambda value: None if value is None else deviation_of(value, key.name))
+    about = f"uncertainty of {key.name}: {key.about}"
+    return Annotated[Deviation | None, read, WithJsonSchema(schema), Field(description=about)]
+
+
+def _samples(value: object) -> object:
+    """Check the number of samples."""
+    if (
+        isinstance(value, int)
+        and not isinstance(value, bool)
+        and (value == 0 or (2 <= value <= MOST_SAMPLES and value & (value - 1) == 0))
+    ):
+        return value
+    raise ValueError(
+        f"the number of samples is a power of two up to {MOST_SAMPLES:,}, or 0 for none; "
+        f"{example(('uncertainty', 'samples'))}"
+    )
+
+
+def _uncertainty() -> type[Table]:
+    """Make the table of uncertain inputs."""
+    fields: Any = {
+        **{name: (_deviation(key), None) for name, key in INPUTS.items()},
+        "samples": (of_key("samples", Annotated[int, BeforeValidator(_samples)]), 0),
+        "seed": (of_key("seed", int, ge=0, lt=2**63), 0),
+    }
+    return create_model("UncertaintyTable", __base__=Table, **fields)
+
+
+if TYPE_CHECKING:
+
+    class UncertaintyTable(Table):
+        """How far the inputs may be off."""
+
+        samples: int
+        seed: int
+else:
+    UncertaintyTable = _uncertainty()
