@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
+import xarray
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from gradhesion.cli.dataset.read import doubtful
 from gradhesion.cli.dataset.read.doubtful import doubts_of
 from gradhesion.cli.dataset.read.model_range import LIMITS
+from gradhesion.cli.names.outputs import BEST, ON_BOUND
 from gradhesion.cli.names.scenes import FLAG_WORDS
 from gradhesion.core.answers.flags import FLAGS
 
@@ -77,6 +79,7 @@ BEYOND: Final = {
 BOUND: Final = Doubt(bit=0, words="optimum at a bound of its range", hatch="//..", mark=">", size=6.0)
 """How an optimum is shown that would be better beyond a bound of what was searched, perhaps."""
 
+
 BAND_WORDS: Final = {"quantiles": "5 % to 95 % of samples", "std": "a standard deviation on each side"}
 """What a legend says of a band."""
 
@@ -85,6 +88,20 @@ GAP: Final = "no finite value"
 
 ORDER: Final = (*(doubt.words for doubt in (*DOUBTS, *BEYOND.values(), END, BOUND)), GAP, *BAND_WORDS.values())
 """The order of the entries of a legend."""
+
+
+def at_bound(dataset: xarray.Dataset, name: str) -> xarray.DataArray | None:
+    """
+    Report which scenes have an optimum at a bound: of a parameter that was searched at its own, else at any.
+
+    None where the dataset has no optima, or the variable is not of them.
+    """
+    if ON_BOUND not in dataset or not name.startswith(BEST):
+        return None
+    flags = dataset[ON_BOUND]
+    meanings = str(flags.attrs["flag_meanings"]).split()
+    own = [one for one in meanings if one.startswith(f"{name.removeprefix(BEST)}_at_its_")] or meanings
+    return (flags.astype(int) & sum(1 << meanings.index(one) for one in own)) != 0
 
 
 def entries(doubts: Sequence[Doubt], *, in_map: bool, gaps: bool) -> list[Patch | Line2D]:

@@ -13,7 +13,7 @@ from click.testing import Result
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.work.parts.folder import claimed, folder_of
 from gradhesion.cli.work.parts.manifest import adopt
-from gradhesion.cli.work.parts.state import Keeper
+from gradhesion.cli.work.parts.records import Keeper
 from gradhesion.cli.work.solve.scenes import solve as real_solve
 
 Call = Callable[..., Result]
@@ -50,7 +50,7 @@ def test_under_way_stopped_and_complete(
 
     with monkeypatch.context() as patch:
         patch.setattr("gradhesion.cli.work.solve.given.solve", spying)
-        patch.setattr("gradhesion.cli.work.parts.state.PERIOD", 0.0)
+        patch.setattr("gradhesion.cli.work.parts.records.PERIOD", 0.0)
         assert gradhesion("run", study_file, "-o", output).exit_code == 1
     running, words = seen
     assert running["state"] == "running"

@@ -15,7 +15,16 @@ from matplotlib.lines import Line2D
 
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.curves import RAGGED, STATE_CURVES, variables_of_curves
-from gradhesion.cli.picture.curves.limits import in_units, set_limits, spans_of
+from gradhesion.cli.picture.curves.axes import (
+    axis_label,
+    in_si,
+    in_unit,
+    in_units,
+    set_limits,
+    spans_of,
+    units_of,
+    wants_si,
+)
 from gradhesion.cli.picture.curves.measured import Points, draw_points, legend_entry, planes_of, read_points
 from gradhesion.cli.picture.curves.panels import (
     JUMP,
@@ -38,7 +47,6 @@ from gradhesion.cli.picture.curves.panels import (
 )
 from gradhesion.cli.picture.curves.scenes import Scene, scenes_of
 from gradhesion.cli.picture.curves.states import draw_states
-from gradhesion.cli.picture.curves.units import axis_label, in_si, in_unit, units_of, wants_si
 from gradhesion.cli.picture.doubts import DOUBTS, entries
 from gradhesion.cli.picture.inset import add_inset
 from gradhesion.cli.picture.labels import Unit

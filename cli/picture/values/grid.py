@@ -1,13 +1,11 @@
 """One variable of a grid of scenes: a map, lines, or panels of them over further axes."""
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any, Final
 
 import numpy as np
 import xarray
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
@@ -22,50 +20,25 @@ from gradhesion.cli.dataset.read.sensitivities import parameters_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.scenes import SOLVER
 from gradhesion.cli.names.symbols import SYMBOLS
-from gradhesion.cli.picture.at_bounds import at_bound
-from gradhesion.cli.picture.doubts import BEYOND, BOUND, END, Doubt, doubts_in, entries
+from gradhesion.cli.picture.doubts import BEYOND, BOUND, END, Doubt, at_bound, doubts_in, entries
 from gradhesion.cli.picture.labels import Unit, equations, label, unit_for
 from gradhesion.cli.picture.looks import PLAIN, Looks
-from gradhesion.cli.picture.pictured import LETTER, letters_of
 from gradhesion.cli.picture.scales import scale
 from gradhesion.cli.picture.values import panels
 from gradhesion.cli.picture.values.bands import Band, band_entry, band_of
 from gradhesion.cli.picture.values.grid_words import axis_of_place, caption_of, named_in
 from gradhesion.cli.picture.values.layout import PANELS, Plan, items_of
 from gradhesion.cli.picture.values.levels import Levels, levels_of, levels_of_flags, levels_of_names, limited
+from gradhesion.cli.picture.values.part import Part
 
 APART: Final = 0.17
 """The least distance of numbers at a colour bar, in inches."""
-
-LINE: Final = 0.55
-"""The width of a line in a legend with the space around it, in inches."""
 
 
 def shape_of(sizes: Mapping[str, int], plan: Plan) -> tuple[int, int]:
     """Report the rows and columns of panels."""
     rows, columns = (min(PANELS, sizes[axis]) if axis else 1 for axis in (plan.rows, plan.columns))
     return rows, columns
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Part:
-    """What is drawn of a variable, as the figure around it needs it."""
-
-    width: float
-    height: float
-    """The size that suits it, in inches."""
-    entries: Sequence[Artist]
-    """The marks of doubtful scenes that a legend explains."""
-    lines: Sequence[Artist] = ()
-    """The lines that a legend names, if there are several."""
-    contours: Sequence[tuple[QuadContourSet, Unit]] = ()
-    """Contours that want numbers."""
-    caption: Sequence[str] = ()
-    """What is said above it."""
-    again: Callable[[Axes], object] | None = None
-    """What draws its only panel once more, in other axes."""
-    units: tuple[str, Unit, Unit] = ("", Unit(), Unit())
-    """What is along that panel, its unit, and the unit of what is up."""
 
 
 def draw_grid(
@@ -253,16 +226,3 @@ def _dress(
             return
         some = levels.ticks(int(height / APART))
         bar.ax.set_yticks(some, unit.numbers(some))
-
-
-def add_legends(
-    body: SubFigure, parts: Sequence[SubFigure], lines: Sequence[Sequence[Artist]], width: float, beside: int
-) -> None:
-    """Put one legend below all variables, `beside` of them in a width, if their lines mean the same, else one each."""
-    meant = {tuple(str(line.get_label()) for line in own) for own in lines}
-    shared = len(lines) > 1 and len(meant) == 1
-    for part, own in [(body, lines[0])] if shared else zip(parts, lines, strict=False):
-        if own:
-            longest = max(letters_of(str(line.get_label())) for line in own)
-            room = (width if shared else width / beside) / (LINE + LETTER * longest)
-            part.legend(handles=own, loc="outside lower center", ncols=int(min(len(own), max(1.0, room))))

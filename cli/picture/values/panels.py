@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.picture.doubts import CROSS, GREY, INK, Doubt
 from gradhesion.cli.picture.labels import Unit
-from gradhesion.cli.picture.scales import Scale, limit
-from gradhesion.cli.picture.ticks import Numbers
+from gradhesion.cli.picture.scales import Numbers, Scale, limit
 from gradhesion.cli.picture.values.bands import Edges, draw_band, draw_bars
 from gradhesion.cli.picture.values.levels import FLAT, Levels, Values
 

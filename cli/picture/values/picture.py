@@ -18,8 +18,9 @@ from gradhesion.cli.picture.pictured import CAPTION, heading, in_lines, lay_out,
 from gradhesion.cli.picture.values.alignment import Aligned
 from gradhesion.cli.picture.values.contour_numbers import number_contours
 from gradhesion.cli.picture.values.front import draw_fronts
-from gradhesion.cli.picture.values.grid import add_legends, draw_grid, shape_of
+from gradhesion.cli.picture.values.grid import draw_grid, shape_of
 from gradhesion.cli.picture.values.layout import placed, plan_of, seen
+from gradhesion.cli.picture.values.part import add_legends
 from gradhesion.cli.picture.values.points import draw_scenes
 from gradhesion.cli.terminal.wording import did_you_mean
 

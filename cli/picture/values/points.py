@@ -13,17 +13,16 @@ from gradhesion.cli.dataset.read.sensitivities import parameters_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.scenes import SOLVER
 from gradhesion.cli.names.symbols import SYMBOLS
-from gradhesion.cli.picture.at_bounds import at_bound
-from gradhesion.cli.picture.doubts import BOUND, doubts_in, entries
+from gradhesion.cli.picture.doubts import BOUND, at_bound, doubts_in, entries
 from gradhesion.cli.picture.labels import effective, equation, label, unit_for
 from gradhesion.cli.picture.looks import PLAIN, Looks
 from gradhesion.cli.picture.scales import scale
 from gradhesion.cli.picture.values import panels
 from gradhesion.cli.picture.values.bands import band_entry, band_of
 from gradhesion.cli.picture.values.density import draw_density, number_scenes
-from gradhesion.cli.picture.values.grid import Part
 from gradhesion.cli.picture.values.layout import seen
 from gradhesion.cli.picture.values.levels import levels_of, levels_of_flags, levels_of_names, limited
+from gradhesion.cli.picture.values.part import Part
 
 DENSE: Final = 2000
 """Points that can still be seen one by one; more are drawn as their number in small cells."""

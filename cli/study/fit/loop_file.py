@@ -1,9 +1,8 @@
 """A measured loop: depth and load in SI units, which way the points go, how noisy they are, and their means."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -155,9 +154,3 @@ def notes_of(loop: LoopFile) -> list[str]:
             f"{loop.file}: {counted(loop.points, 'point')} averaged along the path; {loop.depth.size:,} kept"
         )
     return sentences
-
-
-def table_of(data: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Give the table [data] of a study, empty where it is none."""
-    table = data.get("data")
-    return table if isinstance(table, Mapping) else {}

@@ -12,7 +12,7 @@ import numpy as np
 from gradhesion.cli.keys import Path as Key
 from gradhesion.cli.study.fit.form import FitForm, Search
 from gradhesion.cli.study.fit.loop_columns import LoopFileError
-from gradhesion.cli.study.fit.loop_file import LoopFile, nothing, read_loops, table_of
+from gradhesion.cli.study.fit.loop_file import LoopFile, nothing, read_loops
 from gradhesion.cli.study.fit.rules import form_of
 from gradhesion.cli.study.form.mistakes import Checked, Mistake
 from gradhesion.cli.study.text.source import Source
@@ -38,7 +38,7 @@ def names_of(folder: Path, file: str) -> list[str]:
 
 def loops_of(source: Source, found: Checked) -> tuple[tuple[LoopFile, ...], list[Mistake]]:
     """Read all loops; one of several that cannot be read is kept with its problem, unless none can."""
-    form, written = form_of(found), table_of(found.data)
+    form, written = form_of(found), _table(found.data)
     file, table = form.data.file, form.data
     names = names_of(source.folder, file)
     if not names or len(names) > MOST:
@@ -116,3 +116,9 @@ def _enough(loop: LoopFile, form: FitForm) -> LoopFile:
             "file", f"all values of the {row} are the same, so that there is no loop; name another column"
         )
     return loop
+
+
+def _table(data: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Give the table [data] of a study, empty where it is none."""
+    table = data.get("data")
+    return table if isinstance(table, Mapping) else {}

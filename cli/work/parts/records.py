@@ -1,5 +1,8 @@
 """The small files of a run's folder, whose fields have types: one that is not whole, or not of ours, reads as None."""
 
+import os
+import platform
+import time
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,6 +16,9 @@ from gradhesion.cli.study.tiling import CHUNK
 
 MOST_BYTES: Final = 2**29
 """Of a small file: the text of the largest study that is read, and more."""
+
+PERIOD: Final = 1.0
+"""Seconds between two states."""
 
 Count = Annotated[int, Field(ge=0, lt=2**63)]
 Time = Annotated[float, Field(ge=0.0, lt=1e11)]
@@ -83,3 +89,39 @@ def read_record(path: Path, kind: type[Record]) -> Record | None:
 def write_record(path: Path, record: Record, *, sync: bool = True) -> None:
     """Write a small file, whole or not at all."""
     write_whole(path, TypeAdapter(type(record)).dump_json(record, indent=1), sync=sync)
+
+
+class Keeper:
+    """Keeps the file of a state up to date; a file that cannot be written is no reason to end a run."""
+
+    def __init__(self, path: Path, *, scenes: int, blocks: int) -> None:
+        self.state = State(scenes, blocks, _now(), pid=os.getpid(), host=platform.node())
+        self._path = path
+        self._begun = time.monotonic()
+        self._last = -PERIOD
+        self.write()
+
+    def add(self, *, scenes: int, failed: int, reused: bool, raised: bool) -> None:
+        """Count a block that is done."""
+        state = self.state
+        state.blocks_done += 1
+        state.scenes_done += scenes
+        state.scenes_failed += failed
+        state.blocks_reused += reused
+        state.scenes_reused += scenes * reused
+        state.blocks_raised += raised
+        if time.monotonic() - self._last >= PERIOD:
+            self.write()
+
+    def write(self) -> None:
+        """Write the state now."""
+        self.state.updated = _now()
+        self._last = time.monotonic()
+        self.state.seconds = self._last - self._begun
+        with suppress(OSError):
+            write_record(self._path, self.state, sync=False)
+
+
+def _now() -> float:
+    """Give the seconds since 1970; a clock that is set to before says 0."""
+    return max(0.0, time.time())
