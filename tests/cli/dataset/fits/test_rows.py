@@ -20,7 +20,7 @@ from gradhesion.core.loops.features import ContactPoint
 from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, NO_VALUE, POOR_FIT
 
-CONFIGS = Path(__file__).parents[2] / "configs"
+CONFIGS = Path(__file__).parents[4] / "configs"
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,7 @@ import pytest
 
 import gradhesion as gr
 from gradhesion.cli.work.solve.fitting import fitted
-from tests.cli.test_fit_data import STUDY, points
+from tests.cli.study.fit.test_fit_data import STUDY, points
 
 afmformats = pytest.importorskip("afmformats")
 
