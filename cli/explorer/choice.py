@@ -30,7 +30,7 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
 
     See Also
     --------
-    gradhesion.cli.dataset.dataset.selection : how a value is found on an axis.
+    gradhesion.cli.dataset.read.selection : how a value is found on an axis.
     """
     if PARETO_POINT in dataset.dims:
         raise DatasetError("Pareto fronts have no page; draw them with `gradhesion plot`")

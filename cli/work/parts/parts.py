@@ -57,7 +57,6 @@ def settings_of(study: Study) -> dict[str, Any]:
         "spectrum",
         "uncertainty",
         "search",
-        "without",
     )
     settings = {field.name: getattr(study, field.name) for field in fields(study) if field.name not in aside}
     settings |= {name: repr(own) for name, own in (("uncertainty", study.uncertainty), ("search", study.search)) if own}

@@ -38,27 +38,26 @@ def kinds_of_fit(study: FitStudy) -> tuple[str, ...]:
     return (kind_of_map(["dissipated_energy"], "exact", study.profile, study.loading), "loops")
 
 
-def fitted(study: FitStudy, loop: LoopFile | None = None) -> FittedLoop:
+def fitted(study: FitStudy, loop: LoopFile) -> FittedLoop:
     """
-    Fit a loop of a study, the first if none is given.
+    Fit a loop of a study.
 
     Raises
     ------
     StudyError
         What is searched cannot be told apart, has no effect, or has no path within its ranges.
     """
-    own = study.loop if loop is None else loop
     law: dict[str, Any] = {"rate": study.rate} if study.rate else {}
     try:
         return fit_loop(
-            own.depth,
-            own.load,
-            own.unloading,
+            loop.depth,
+            loop.load,
+            loop.unloading,
             study.fixed,
             study.free,
-            noise=study.noise_of(own),
+            noise=study.noise_of(loop),
             noise_is_given=study.noise_is_given,
-            counts=own.counts,
+            counts=loop.counts,
             offsets=study.offsets,
             profile=study.profile,
             loading=study.loading,
@@ -68,7 +67,7 @@ def fitted(study: FitStudy, loop: LoopFile | None = None) -> FittedLoop:
             **law,
         )
     except ValueError as error:
-        raise StudyError(f"{study.name if study.is_of_one else own.file}: {error}") from None
+        raise StudyError(f"{study.name if study.is_of_one else loop.file}: {error}") from None
 
 
 def fits_of(study: FitStudy, advance: Callable[[int], None] = lambda _: None) -> list[Fit]:

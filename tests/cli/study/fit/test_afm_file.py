@@ -170,7 +170,8 @@ def test_a_long_curve_far_from_zero_gives_what_it_was_made_with(folder: Path) ->
     meta = {"path": "long.h5", "enum": 0, "imaging mode": "force-distance", "spring constant": spring}
     AFMForceDistance(data, meta | {"point count": 10_000}).export_data(folder / "long.h5", fmt="hdf5")
     wide = {"start": "0.1 MPa", "stop": "10 MPa"}
-    found = fitted(load("long.h5", physical__E_star=wide, parameters__nu=0.5, fit__intervals="linear"))
+    study = load("long.h5", physical__E_star=wide, parameters__nu=0.5, fit__intervals="linear")
+    found = fitted(study, study.loop)
     for name, true in {"E_star": E_star, "work_of_adhesion": work, "indentation_offset": -7e-6}.items():
         assert abs(found.values[name] - true) < 4.0 * found.standard_deviations[name], name
     assert found.standard_deviations["E_star"] < 1e-3 * E_star
