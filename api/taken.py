@@ -34,7 +34,6 @@ ARGUMENTS: Final = (
 )
 """What `solve` takes beside parameters; they are no parameters themselves."""
 
-
 _TABLES: Final = ("parameters", "physical", "loading", "states", "method")
 
 

@@ -18,7 +18,6 @@ CACHE: Final = 2**22
 """Bytes of chunks to be held of each variable: blocks are whole chunks, so there is nothing to wait for. The
 library's own choice took more memory than all else that a run has."""
 
-
 POINTS: Final = 1024
 """Points of a curve in a chunk: most curves have fewer, and unwritten chunks take no room."""
 

@@ -79,7 +79,6 @@ BEYOND: Final = {
 BOUND: Final = Doubt(bit=0, words="optimum at a bound of its range", hatch="//..", mark=">", size=6.0)
 """How an optimum is shown that would be better beyond a bound of what was searched, perhaps."""
 
-
 BAND_WORDS: Final = {"quantiles": "5 % to 95 % of samples", "std": "a standard deviation on each side"}
 """What a legend says of a band."""
 

@@ -10,9 +10,7 @@ from gradhesion.cli.study.form.table import Table
 MOST_RESOLUTION: Final = 1_000_000
 """Points of a sweep along one input."""
 
-
 Limit = Annotated[float, Field(allow_inf_nan=False)]
-
 
 Goals = Annotated[
     Annotated[str, Tag("name")] | Annotated[list[str], Field(min_length=1), Tag("list")],

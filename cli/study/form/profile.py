@@ -14,7 +14,6 @@ from gradhesion.core.problem.profile import MOST_HARMONICS
 MOST_WAVES: Final = 10_000
 """The shortest wave of a series, in waves a wavelength: beyond it hardly any scene can be followed."""
 
-
 MOST_REALISATIONS: Final = 100_000
 """Profiles of one study: each is solved by itself."""
 

@@ -16,9 +16,7 @@ from gradhesion.cli.terminal.wording import did_you_mean, example, shown
 MOST_SAMPLES: Final = 2**20
 """Samples of the inputs of one scene: all are in memory."""
 
-
 _PERCENTAGE: Final = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*%\s*")
-
 
 LONGEST: Final = 60
 """Characters of a percentage."""
