@@ -298,7 +298,7 @@ def test_noise_is_estimated_where_it_is_not_given(gradhesion: Call, folder: Path
     text = (folder / "fit.toml").read_text()
     (folder / "fit.toml").write_text("\n".join(line for line in text.splitlines() if not line.startswith("noise")))
     study = gr.load("fit.toml")
-    assert study.noise_of(study.loop) == pytest.approx((0.25e-9, 7e-9), rel=0.5)
+    assert study.noise == pytest.approx((0.25e-9, 7e-9), rel=0.5)
     assert "noise estimated from differences of neighbours" in gradhesion("validate", "fit.toml").stderr
 
 

@@ -119,7 +119,7 @@ def test_where_nothing_can_be_kept_it_says_so(
 @pytest.mark.parametrize("count", [1, 2])
 def test_where_a_processor_is_free_another_process_compiles_the_tables(count: int, tmp_path: Path) -> None:
     code = (
-        "from gradhesion.cli.work import kernels\n"
+        "from gradhesion.cli.work.kernels import kernels\n"
         "from gradhesion.core.arrays import processors\n"
         f"processors.processors = lambda: {count}\n"
         "kernels.compile_kinds(['force'], print)\n"
