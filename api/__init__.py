@@ -23,7 +23,8 @@ if TYPE_CHECKING:
         OutputError,
         StudyError,
     )
-    from gradhesion.cli.names import CURVES, OUTPUTS
+    from gradhesion.cli.names.curves import CURVES
+    from gradhesion.cli.names.outputs import OUTPUTS
     from gradhesion.cli.study.study import Study
     from gradhesion.core.answers.flags import FLAGS
     from gradhesion.core.problem.control import CONTROLS
@@ -72,7 +73,8 @@ _HOMES: Final = {
         "OutputError",
         "StudyError",
     ),
-    "cli.names": ("CURVES", "OUTPUTS"),
+    "cli.names.curves": ("CURVES",),
+    "cli.names.outputs": ("OUTPUTS",),
     "cli.study.study": ("Study",),
     "core.problem.control": ("CONTROLS",),
     "core.problem.names": ("SOLVERS",),

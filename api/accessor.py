@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.doubtful import doubts_of
-from gradhesion.cli.dataset.model_range import LIMITS, beyond_by, is_cone
-from gradhesion.cli.dataset.reader import check_ours, is_turned
+from gradhesion.cli.dataset.read.doubtful import doubts_of
+from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, is_cone
+from gradhesion.cli.dataset.read.reader import check_ours, is_turned
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.terminal.wording import did_you_mean
 from gradhesion.core.answers.flags import FLAGS

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 import xarray
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
-from gradhesion.cli.dataset.own_units import in_own_units
-from gradhesion.cli.dataset.reader import check_ours, found, opened
-from gradhesion.cli.dataset.soundness import check_form
+from gradhesion.cli.dataset.read.own_units import in_own_units
+from gradhesion.cli.dataset.read.reader import check_ours, found, opened
+from gradhesion.cli.dataset.read.soundness import check_form
 from gradhesion.cli.errors import DatasetError, StudyError
 from gradhesion.cli.installation import checked
 from gradhesion.wording import in_python
 
 if TYPE_CHECKING:
-    from gradhesion.cli.dataset.recompute import Recomputed
+    from gradhesion.cli.dataset.verify.recompute import Recomputed
 
 Data = xarray.Dataset | str | Path
 """A dataset, or the path of its file."""
@@ -88,7 +88,7 @@ def verify(dataset: Data, *, sample: int = 20, seed: int | None = None) -> "Reco
             f"gr.verify: sample = {sample}, seed = {seed}: a sample of 1 scene or more, a seed of 0 or more"
         )
     with checked():
-        from gradhesion.cli.dataset.recompute import recompute  # noqa: PLC0415 (python-flint)
+        from gradhesion.cli.dataset.verify.recompute import recompute  # noqa: PLC0415 (python-flint)
     path = Path(dataset) if isinstance(dataset, str | Path) else Path("the dataset")
     with in_python(), data_of(dataset) as values:
         return recompute(values, path, sample=sample, seed=seed, progress=lambda _: nullcontext(lambda _: None))

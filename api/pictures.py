@@ -10,20 +10,20 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
-from gradhesion.cli.dataset.reader import has_curves
-from gradhesion.cli.dataset.selection import selection_of
-from gradhesion.cli.dataset.soundness import is_fit, refuse_fit
+from gradhesion.cli.dataset.read.reader import has_curves
+from gradhesion.cli.dataset.read.selection import selection_of
+from gradhesion.cli.dataset.read.soundness import is_fit, refuse_fit
 from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.errors import DatasetError, OutputError
 from gradhesion.cli.installation import checked
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import SCENE, SOLVER
-from gradhesion.cli.picture.curve_picture import drawn_curves
+from gradhesion.cli.names.scenes import SCENE, SOLVER
+from gradhesion.cli.picture.curves.picture import drawn_curves
+from gradhesion.cli.picture.fits.loops import drawn_fits
 from gradhesion.cli.picture.looks import Looks, looks_of
-from gradhesion.cli.picture.loops_picture import drawn_fits
-from gradhesion.cli.picture.picture import drawn
 from gradhesion.cli.picture.pictured import styled
-from gradhesion.cli.study.foreign import as_written
+from gradhesion.cli.picture.values.picture import drawn
+from gradhesion.cli.study.text.foreign import as_written
 from gradhesion.datasets import Data, data_of
 from gradhesion.shown import is_shown, show_later
 from gradhesion.wording import in_python

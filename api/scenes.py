@@ -9,16 +9,16 @@ import xarray
 
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.names import SCENE
+from gradhesion.cli.names.scenes import SCENE
 from gradhesion.cli.study.reading import study_from
-from gradhesion.cli.work.compiling import prepare
-from gradhesion.cli.work.kernels import kinds_of
+from gradhesion.cli.work.kernels.compiling import prepare
+from gradhesion.cli.work.kernels.kernels import kinds_of
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.toughness import Toughness
-from gradhesion.given import given_in
 from gradhesion.names import Given
 from gradhesion.solved import solved
+from gradhesion.taken import given_in
 
 FORCE_AND_ENERGY: Final = ("pull_off_force", "dissipated_energy")
 

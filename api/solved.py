@@ -9,13 +9,15 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.dataset.dataset import attributes, variables, with_steep_contact
-from gradhesion.cli.dataset.model_range import slope_warnings
+from gradhesion.cli.dataset.read.model_range import slope_warnings
 from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import PHYSICAL_PARAMETER, REALISATION, SI, SOLVER, STEEP, UNITS, labels_of
+from gradhesion.cli.names.outputs import PHYSICAL_PARAMETER, SI, labels_of
+from gradhesion.cli.names.scenes import REALISATION, SOLVER, STEEP
+from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import messages
-from gradhesion.cli.work.given import driven_by, physical_of, solved_by
+from gradhesion.cli.work.solve.given import driven_by, physical_of, solved_by
 from gradhesion.core import PARAMETERS
 from gradhesion.core.variables.reduced import parameters_from, scales_in_si, sources_of
 

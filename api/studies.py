@@ -10,10 +10,10 @@ import xarray
 import gradhesion.accessor  # noqa: F401 (registers `dataset.gr`)
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.installation import checked
-from gradhesion.cli.study.fit_study import FitStudy
-from gradhesion.cli.study.foreign import as_written
+from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.reading import any_from, load_any
 from gradhesion.cli.study.study import Study
+from gradhesion.cli.study.text.foreign import as_written
 from gradhesion.wording import in_python
 
 
@@ -102,7 +102,7 @@ def run(
             study = any_from(_changed(tomllib.loads(study.text), set), folder=study.folder)
     if isinstance(study, FitStudy):
         with checked():
-            from gradhesion.cli.dataset.fit import compute_fit  # noqa: PLC0415 (the compiler, for which `load` has no use)
+            from gradhesion.cli.dataset.fits.fit import compute_fit  # noqa: PLC0415 (the compiler, for which `load` has no use)
 
         with in_python():
             return compute_fit(study)

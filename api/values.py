@@ -7,8 +7,8 @@ import xarray
 from numpy.typing import NDArray
 
 from gradhesion.cli.keys import INPUTS, PHYSICAL
-from gradhesion.cli.study.foreign import apart, as_written, filled
-from gradhesion.cli.study.quantities import in_si, si_value
+from gradhesion.cli.study.text.foreign import apart, as_written, filled
+from gradhesion.cli.study.text.quantities import in_si, si_value
 
 
 def array_of(name: str, value: Any) -> xarray.DataArray:

@@ -15,7 +15,7 @@ from scipy.optimize import differential_evolution
 
 from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.work.blocks import solve_block
+from gradhesion.cli.work.solve.blocks import solve_block
 from gradhesion.core import solve
 
 WAVES = (0.05, 1.0)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.study.reading import study_from
-from gradhesion.cli.work.blocks import solve_block
+from gradhesion.cli.work.solve.blocks import solve_block
 from gradhesion.core import solve
 from gradhesion.core.answers.flags import RESOLUTION_TOO_COARSE
 

@@ -17,7 +17,7 @@ from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.work import probe
 from gradhesion.cli.work.estimate import estimate
-from gradhesion.cli.work.kernels import compile_kinds, kinds_of
+from gradhesion.cli.work.kernels.kernels import compile_kinds, kinds_of
 
 BOTH: Final = ["pull_off_force", "dissipated_energy"]
 FORCE: Final = ["pull_off_force"]

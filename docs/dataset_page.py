@@ -7,9 +7,32 @@ from itertools import pairwise
 from typing import Any, Final
 
 from docs.tables import code, table
-from gradhesion.cli import names
 from gradhesion.cli.dataset.dataset import attributes
 from gradhesion.cli.keys import INPUTS, PARAMETERS
+from gradhesion.cli.names.curves import CURVES, EXTENTS, MEANINGS, RAGGED
+from gradhesion.cli.names.fits import (
+    FIT,
+    FIT_MORE,
+    FIT_POINTS,
+    FIT_WORDS,
+    LOOP,
+    MINIMUM,
+    OTHER_PARAMETER,
+    PARAMETER_UNITS,
+)
+from gradhesion.cli.names.outputs import (
+    BEST,
+    OF_LINEAR,
+    ON_BOUND,
+    OUTPUTS,
+    PARAMETER,
+    PARETO_POINT,
+    SI,
+    SPREAD,
+    SPREADABLE,
+)
+from gradhesion.cli.names.scenes import FLAG_WORDS, SCENE, SOLVER, STATUS, STEEP, STEEP_CONTACT
+from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.reading import study_from
 from gradhesion.core import DOUBTFUL, FAILED, REPORTS, SENSITIVITIES
 from gradhesion.core.answers import flags as flags_module
@@ -58,8 +81,8 @@ def _sections() -> Iterator[str]:
     yield "## Dimensions and coordinates"
     yield (
         "Each axis of a study is a dimension with a coordinate of the same name; a fixed parameter is a "
-        f'coordinate without a dimension. With `layout = "points"` there is one dimension, `{names.SCENE}`. Several '
-        f"solvers form the first dimension, `{names.SOLVER}`. Dimensions are in the order below. If a parameter was "
+        f'coordinate without a dimension. With `layout = "points"` there is one dimension, `{SCENE}`. Several '
+        f"solvers form the first dimension, `{SOLVER}`. Dimensions are in the order below. If a parameter was "
         "given by another key, the dataset has both."
     )
     coordinates = ([code(name), code(key.unit), key.about] for name, key in INPUTS.items())
@@ -67,32 +90,32 @@ def _sections() -> Iterator[str]:
     yield "## Variables of a map"
     yield (
         "One value per scene. For a study in units, each dimensional variable has an SI copy with the suffix "
-        f"`{names.SI}`. Variables marked in the last column are available with the exact solver only."
+        f"`{SI}`. Variables marked in the last column are available with the exact solver only."
     )
     yield table(("variable", "long_name", "in SI", "exact solver only"), _outputs())
     yield "## Spreads of uncertain inputs"
     yield (
         "With `[uncertainty]` a map has a standard deviation for each output: a linear one, from sensitivities, for "
-        f"{_listed(names.OF_LINEAR)}; that of the samples for the others. With samples it also has their statistics. "
-        f"`X` stands for any of {_listed(names.SPREADABLE)}; copies in SI end in `{names.SI}`."
+        f"{_listed(OF_LINEAR)}; that of the samples for the others. With samples it also has their statistics. "
+        f"`X` stands for any of {_listed(SPREADABLE)}; copies in SI end in `{SI}`."
     )
-    spreads = ([code(f"X_{how}"), words.format("output")] for how, words in names.SPREAD.items())
+    spreads = ([code(f"X_{how}"), words.format("output")] for how, words in SPREAD.items())
     yield table(("variable", "meaning"), spreads)
     yield "## Variables of optima"
     yield (
         "The dataset has one value per cell of the axes that are not searched. `X` stands for a goal, for an output "
         "with a limit, or for a searched input; copies of outputs in SI end in `_si`. With two goals, "
-        f"variables have a last dimension `{names.PARETO_POINT}` along which shorter fronts are padded."
+        f"variables have a last dimension `{PARETO_POINT}` along which shorter fronts are padded."
     )
     yield table(
         ("variable", "meaning"),
         [
-            [code(f"{names.BEST}X"), "the output at the optimum, or the place of the optimum"],
+            [code(f"{BEST}X"), "the output at the optimum, or the place of the optimum"],
             [
-                code(f"{names.BEST}X_sensitivity"),
+                code(f"{BEST}X_sensitivity"),
                 "of a force or an energy as the goal: its sensitivities at the optimum",
             ],
-            [code(names.ON_BOUND), "the bounds at which the optimum lies, as flags; 0: none"],
+            [code(ON_BOUND), "the bounds at which the optimum lies, as flags; 0: none"],
         ],
     )
     yield "## Variables of curves"
@@ -103,26 +126,26 @@ def _sections() -> Iterator[str]:
     yield table(("curve", "dimension", "variable", "long_name", "0 and 1 mean"), _curves())
     yield "## Variables of a fit"
     yield (
-        f"A fit has the dimension `{names.PARAMETER}`, the fitted values, with their units in "
-        f"`{names.PARAMETER_UNITS}`; `{names.OTHER_PARAMETER}` is the same list, for correlations. Fixed parameters "
+        f"A fit has the dimension `{PARAMETER}`, the fitted values, with their units in "
+        f"`{PARAMETER_UNITS}`; `{OTHER_PARAMETER}` is the same list, for correlations. Fixed parameters "
         "are coordinates without a dimension, in SI units. Offsets are added to the path, so that it passes "
         "through the data. `status` (int16) has the flags of the fitted cycle, and two of the fit. Variables of other "
-        f"minima, along `{names.MINIMUM}`, exist if the noise allows such minima, those of the contact point if it was "
+        f"minima, along `{MINIMUM}`, exist if the noise allows such minima, those of the contact point if it was "
         "found before the fit. The attribute `alike` names what the loop cannot distinguish, `noise_is` the origin of "
         "the noise, `intervals` the kind of intervals, and `data_file` and `data_sha256` the fitted data."
     )
     yield (
-        f"Fits of several loops have the first dimension `{names.LOOP}`, along which shorter loops are padded, and the "
-        f"words {_listed(names.FIT_WORDS)} of each. A loop without a fit keeps its row, with `no_value`."
+        f"Fits of several loops have the first dimension `{LOOP}`, along which shorter loops are padded, and the "
+        f"words {_listed(FIT_WORDS)} of each. A loop without a fit keeps its row, with `no_value`."
     )
     yield table(("variable", "dimensions", "long_name"), _of_fits())
     yield "## Status"
     yield (
-        f"Every dataset has `status`, {names.STATUS}. Each bit is a flag. A scene with {_named(FAILED)} has failed. "
+        f"Every dataset has `status`, {STATUS}. Each bit is a flag. A scene with {_named(FAILED)} has failed. "
         f"Its values are doubtful with {_named(DOUBTFUL)}. The approximate solvers set `no_value` only. The flags "
         "after it occur with uncertain inputs and optima, the last ones where cycles turn at a depth, with patterns "
         "and speeds, and in fits; `status` is int16 there. A map or a curve study has the coordinate "
-        f"`{names.STEEP}`, {names.STEEP_CONTACT}, where it is for any scene."
+        f"`{STEEP}`, {STEEP_CONTACT}, where it is for any scene."
     )
     yield table(("flag", "bit", "in words", "of a scene"), _flags())
     yield "## Global attributes"
@@ -137,8 +160,8 @@ def _listed(names_of: Iterable[str]) -> str:
 def _outputs() -> list[list[str]]:
     """Write a row for each output of a map."""
     return [
-        [code(name), words, code(names.UNITS.get(name, "")), "yes" if name in (*REPORTS, *SENSITIVITIES) else ""]
-        for name, words in names.OUTPUTS.items()
+        [code(name), words, code(UNITS.get(name, "")), "yes" if name in (*REPORTS, *SENSITIVITIES) else ""]
+        for name, words in OUTPUTS.items()
     ]
 
 
@@ -147,21 +170,21 @@ def _curves() -> list[list[str]]:
     return [
         [
             code(curve),
-            "" if name in names.RAGGED.values() else code(names.EXTENTS[curve]),
+            "" if name in RAGGED.values() else code(EXTENTS[curve]),
             code(name),
             words,
-            code(names.MEANINGS.get(name, "")),
+            code(MEANINGS.get(name, "")),
         ]
-        for curve, own in names.CURVES.items()
+        for curve, own in CURVES.items()
         for name, words in own.items()
     ]
 
 
 def _of_fits() -> list[list[str]]:
     """Write a row for each variable of a fit."""
-    rows = [[code(name), code(", ".join(dims)), words] for name, (dims, words) in (names.FIT | names.FIT_MORE).items()]
-    rows += [[code(name), code(names.LOOP), words] for name, words in names.FIT_WORDS.items()]
-    points = ((along, name, words) for along, each in names.FIT_POINTS.items() for name, words in each.items())
+    rows = [[code(name), code(", ".join(dims)), words] for name, (dims, words) in (FIT | FIT_MORE).items()]
+    rows += [[code(name), code(LOOP), words] for name, words in FIT_WORDS.items()]
+    points = ((along, name, words) for along, each in FIT_POINTS.items() for name, words in each.items())
     return rows + [[code(name), code(along), words] for along, name, words in points]
 
 
@@ -179,7 +202,7 @@ def _flags() -> list[list[str]]:
         for constant, text in said.items()
         if constant not in NO_FLAGS and hasattr(module, constant)
     }
-    return [[code(name), str(bit), names.FLAGS[name], constants[bit]] for name, bit in (FLAGS | OF_FITS).items()]
+    return [[code(name), str(bit), FLAG_WORDS[name], constants[bit]] for name, bit in (FLAGS | OF_FITS).items()]
 
 
 def _named(bits: int) -> str:

@@ -6,13 +6,13 @@ from typing import Any, Final
 
 from docs.tables import code, table
 from gradhesion.cli.keys import INPUTS, KEYS, PHYSICAL, REDUCED, SETTINGS, keys_of
-from gradhesion.cli.names import OUTPUTS
-from gradhesion.cli.study.fit_form import FitForm
-from gradhesion.cli.study.form import Form
-from gradhesion.cli.study.kinds import KINDS
-from gradhesion.cli.study.quantities import WORDS
-from gradhesion.cli.study.roles import ABSENT
-from gradhesion.cli.study.rules import LAYOUTS
+from gradhesion.cli.names.outputs import OUTPUTS
+from gradhesion.cli.study.fit.form import FitForm
+from gradhesion.cli.study.form.form import Form
+from gradhesion.cli.study.form.kinds import KINDS
+from gradhesion.cli.study.rules.between import LAYOUTS
+from gradhesion.cli.study.rules.roles import ABSENT
+from gradhesion.cli.study.text.quantities import WORDS
 from gradhesion.core import CONTROLS, SOLVERS
 from gradhesion.core.problem.rate import CLOSINGS
 from gradhesion.core.problem.toughness import OF

@@ -5,7 +5,7 @@
 
 from itertools import combinations
 
-from gradhesion.cli.work.warming import warm
+from gradhesion.cli.work.kernels.warming import warm
 from gradhesion.core import APART, KINDS
 from gradhesion.core.kinds import before
 

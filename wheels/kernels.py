@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from gradhesion.cli.work.warming import warm
+from gradhesion.cli.work.kernels.warming import warm
 from gradhesion.core import KINDS, compile_kind
 from gradhesion.core.arrays.processors import processors
 from gradhesion.core.compiler import ahead, keeping, linking

@@ -28,9 +28,9 @@ def explore(
         raise click.UsageError(f"{path}: the name of a page ends in .html; name another with -o")
     names = [name.strip() for word in variables for name in word.split(",")]
 
-    from gradhesion.cli.dataset.reader import opened
-    from gradhesion.cli.dataset.selection import nearest_values
-    from gradhesion.cli.dataset.soundness import refuse_fit
+    from gradhesion.cli.dataset.read.reader import opened
+    from gradhesion.cli.dataset.read.selection import nearest_values
+    from gradhesion.cli.dataset.read.soundness import refuse_fit
     from gradhesion.cli.disk import replacement, writing
     from gradhesion.cli.explorer.page import page
 

@@ -34,8 +34,8 @@ def info(files: tuple[Path, ...], form: str, variables: tuple[str, ...], jumps: 
     """
     from contextlib import ExitStack
 
-    from gradhesion.cli.dataset.reader import opened
-    from gradhesion.cli.dataset.soundness import is_fit
+    from gradhesion.cli.dataset.read.reader import opened
+    from gradhesion.cli.dataset.read.soundness import is_fit
     from gradhesion.cli.words.jump_words import jumps_listed
     from gradhesion.cli.words.table import tabled
     from gradhesion.cli.words.words import described
@@ -67,7 +67,7 @@ def info(files: tuple[Path, ...], form: str, variables: tuple[str, ...], jumps: 
 
 def _of_fit(dataset: "Dataset", file: Path, form: str) -> "Iterator[str]":
     """Report a fit, or fits of several loops, in words or as a table."""
-    from gradhesion.cli.names import LOOP
+    from gradhesion.cli.names.fits import LOOP
     from gradhesion.cli.words.fit_words import fit_described, fit_tabled
     from gradhesion.cli.words.loops_words import loops_described, loops_tabled
 

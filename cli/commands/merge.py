@@ -60,8 +60,8 @@ def _merge_shards(file: Path, start: float, *, overwrite: bool, quiet: bool) -> 
     """Join the parts of shards."""
     from gradhesion.cli.dataset.writer import Written, write
     from gradhesion.cli.engines.kept import Kept
-    from gradhesion.cli.work.folder import claimed, folder_of
-    from gradhesion.cli.work.manifest import study_in
+    from gradhesion.cli.work.parts.folder import claimed, folder_of
+    from gradhesion.cli.work.parts.manifest import study_in
 
     folder = folder_of(file)
     if folder.manifest() is None and not folder.foreign() and is_file(file):
@@ -87,7 +87,7 @@ def _merge_shards(file: Path, start: float, *, overwrite: bool, quiet: bool) -> 
 
 def _counted(file: Path) -> tuple[int, int]:
     """Count the scenes of a dataset, and those that have failed."""
-    from gradhesion.cli.dataset.reader import opened, tiling_of
+    from gradhesion.cli.dataset.read.reader import opened, tiling_of
     from gradhesion.core.problem.status import FAILED
 
     with opened(file) as dataset:
@@ -99,7 +99,7 @@ def _merge_datasets(
     files: tuple[Path, ...], output: Path, start: float, chunk: int | None, *, overwrite: bool, quiet: bool
 ) -> None:
     """Join datasets along the axis in which they differ."""
-    from gradhesion.cli.dataset.joining import joined, opened_all
+    from gradhesion.cli.dataset.verify.joining import joined, opened_all
     from gradhesion.cli.dataset.writer import write
 
     with ExitStack() as stack:

@@ -12,7 +12,7 @@ from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.terminal.output import show, show_block
 
 if TYPE_CHECKING:
-    from gradhesion.cli.study.fit_study import FitStudy
+    from gradhesion.cli.study.fit.study import FitStudy
     from gradhesion.cli.study.study import Study
     from gradhesion.cli.work.estimate import Estimate
 
@@ -43,7 +43,7 @@ def plan(
     Prints scenes and blocks, what an earlier run has left and why the rest cannot be reused, disk space, memory and
     time. The time is estimated by solving scenes of STUDY for a second or two. Nothing is written.
     """
-    from gradhesion.cli.study.fit_study import FitStudy
+    from gradhesion.cli.study.fit.study import FitStudy
     from gradhesion.cli.study.reading import load_any
 
     requested = load_any(study, overrides)
@@ -79,9 +79,9 @@ def show_fit_plan(study: "FitStudy", output: Path, *, as_json: bool = False) -> 
 
 def show_plan(study: "Study", output: Path, threads: int | None, *, as_json: bool = False) -> None:
     """Print the plan of a run."""
-    from gradhesion.cli.work.compiling import prepare
     from gradhesion.cli.work.estimate import estimate
-    from gradhesion.cli.work.kernels import kinds_of
+    from gradhesion.cli.work.kernels.compiling import prepare
+    from gradhesion.cli.work.kernels.kernels import kinds_of
 
     prepare(kinds_of(study), quiet=as_json)
     found = estimate(study, output, threads)

@@ -69,16 +69,16 @@ def plot(
         raise click.UsageError(f"{path}: the name of a picture ends in .png, .svg or .pdf; name another with -o")
     names = [name.strip() for word in variables for name in word.split(",")]
 
-    from gradhesion.cli.dataset.reader import has_curves, opened
-    from gradhesion.cli.dataset.selection import nearest_values, selection_of
-    from gradhesion.cli.dataset.soundness import is_fit
+    from gradhesion.cli.dataset.read.reader import has_curves, opened
+    from gradhesion.cli.dataset.read.selection import nearest_values, selection_of
+    from gradhesion.cli.dataset.read.soundness import is_fit
     from gradhesion.cli.disk import replacement, writing
     from gradhesion.cli.errors import DatasetError
-    from gradhesion.cli.picture.curve_picture import drawn_curves
+    from gradhesion.cli.picture.curves.picture import drawn_curves
+    from gradhesion.cli.picture.fits.loops import drawn_fits
     from gradhesion.cli.picture.looks import looks_of
-    from gradhesion.cli.picture.loops_picture import drawn_fits
-    from gradhesion.cli.picture.picture import drawn
     from gradhesion.cli.picture.pictured import save
+    from gradhesion.cli.picture.values.picture import drawn
 
     chosen = looks_of(**looks)
     choices = {"--over": over, "--variable": names, "--x": x, "--y": y, "--data": data}

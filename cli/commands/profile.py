@@ -31,10 +31,10 @@ def profile(
         raise click.UsageError(f"{path}: the name of a picture ends in .png, .svg or .pdf; name another with -o")
     from gradhesion.cli.disk import replacement, writing
     from gradhesion.cli.errors import StudyError
+    from gradhesion.cli.picture.fits.profile import drawn_profile
     from gradhesion.cli.picture.pictured import save
-    from gradhesion.cli.picture.profile_picture import drawn_profile
     from gradhesion.cli.study.profile_file import exponent_of, fitted, read_profile
-    from gradhesion.cli.study.quantities import si_value
+    from gradhesion.cli.study.text.quantities import si_value
     from gradhesion.cli.terminal.output import show_block
     from gradhesion.cli.words.profile_words import tables_of
 

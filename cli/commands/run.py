@@ -90,10 +90,10 @@ def run(
     STUDY is a TOML file. Interrupted runs resume where they stopped: give the same command again.
     """
     from gradhesion.cli.dataset.writer import write
-    from gradhesion.cli.study.fit_study import FitStudy
+    from gradhesion.cli.study.fit.study import FitStudy
     from gradhesion.cli.study.reading import load_any
-    from gradhesion.cli.work.compiling import prepare
-    from gradhesion.cli.work.kernels import kinds_of
+    from gradhesion.cli.work.kernels.compiling import prepare
+    from gradhesion.cli.work.kernels.kernels import kinds_of
 
     if scheduler is not None and (engine != "dask" or threads is not None):
         raise click.UsageError("--scheduler needs --engine dask, without --threads: its workers have their own")

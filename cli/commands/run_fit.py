@@ -12,8 +12,8 @@ from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.terminal.progress import progress
 
 if TYPE_CHECKING:
-    from gradhesion.cli.study.fit_study import FitStudy
-    from gradhesion.cli.work.fitting import Fit
+    from gradhesion.cli.study.fit.study import FitStudy
+    from gradhesion.cli.work.solve.fitting import Fit
 
 SAID: Final = 20
 """Sentences on several loops that are printed; `gradhesion info` has all of them."""
@@ -28,12 +28,12 @@ def run_fit(study: "FitStudy", path: Path, *, history: str, overwrite: bool, qui
     FitDoubtfulError
         It is written, and some of it is not to be trusted.
     """
-    from gradhesion.cli.dataset.fit import write_fit
-    from gradhesion.cli.dataset.fit_cautions import cautions_of_fit
-    from gradhesion.cli.dataset.fit_rows import refuse_size
+    from gradhesion.cli.dataset.fits.cautions import cautions_of_fit
+    from gradhesion.cli.dataset.fits.fit import write_fit
+    from gradhesion.cli.dataset.fits.rows import refuse_size
     from gradhesion.cli.disk import refuse_existing
-    from gradhesion.cli.work.compiling import prepare
-    from gradhesion.cli.work.fitting import doubts_of, fits_of, kinds_of_fit
+    from gradhesion.cli.work.kernels.compiling import prepare
+    from gradhesion.cli.work.solve.fitting import doubts_of, fits_of, kinds_of_fit
 
     refuse_existing(path, path, overwrite=overwrite)
     refuse_size(study)

@@ -16,7 +16,7 @@ from gradhesion.cli.terminal.output import show, show_block
 from gradhesion.cli.terminal.progress import rate
 
 if TYPE_CHECKING:
-    from gradhesion.cli.work.records import State
+    from gradhesion.cli.work.parts.records import State
 
 
 @click.command(epilog=example("status outputs/study.nc"))
@@ -50,8 +50,8 @@ def status_of(file: Path) -> dict[str, Any]:
     DatasetError
         Neither a dataset nor a run is there.
     """
-    from gradhesion.cli.work.folder import folder_of
-    from gradhesion.cli.work.records import State, read_record
+    from gradhesion.cli.work.parts.folder import folder_of
+    from gradhesion.cli.work.parts.records import State, read_record
 
     folder = folder_of(file)
     study = folder.manifest()

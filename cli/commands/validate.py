@@ -19,7 +19,7 @@ def validate(study: Path, overrides: tuple[str, ...]) -> None:
 
     STUDY is a TOML file. Each error is printed with its line and a suggested fix. Nothing is computed.
     """
-    from gradhesion.cli.study.fit_study import FitStudy
+    from gradhesion.cli.study.fit.study import FitStudy
     from gradhesion.cli.study.reading import load_any
 
     requested = load_any(study, overrides)
@@ -43,8 +43,8 @@ def schema() -> None:
     """
     from pydantic.json_schema import models_json_schema
 
-    from gradhesion.cli.study.fit_form import FitForm
-    from gradhesion.cli.study.form import Form
+    from gradhesion.cli.study.fit.form import FitForm
+    from gradhesion.cli.study.form.form import Form
 
     places, own = models_json_schema([(Form, "validation"), (FitForm, "validation")])
     document = {

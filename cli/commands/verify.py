@@ -26,9 +26,9 @@ def verify(file: Path, sample: int, seed: int | None, digits: bool) -> None:
 
     The exit code is 3 if a value deviates by more than its stated error.
     """
-    from gradhesion.cli.dataset.deviations import lines_of
-    from gradhesion.cli.dataset.reader import opened
-    from gradhesion.cli.dataset.recompute import recompute
+    from gradhesion.cli.dataset.read.reader import opened
+    from gradhesion.cli.dataset.verify.deviations import lines_of
+    from gradhesion.cli.dataset.verify.recompute import recompute
 
     with opened(file) as dataset:
         found = recompute(dataset, file, sample=sample, seed=seed, progress=lambda total: progress(total, quiet=False))

@@ -20,14 +20,14 @@ def warmup(everything: bool, workers: int | None, quiet: bool) -> None:
     one cosine wave are compiled. They are kept in the user's cache, or in the folder NUMBA_CACHE_DIR, for all runs of
     this version.
     """
-    from gradhesion.cli.work.kernels import missing_of, refuse_without_compiler
+    from gradhesion.cli.work.kernels.kernels import missing_of, refuse_without_compiler
     from gradhesion.core import KINDS, place
     from gradhesion.core.arrays.processors import processors
     from gradhesion.core.compiler.ahead import is_complete
 
     refuse_without_compiler()
-    from gradhesion.cli.work.compiling import say_why
-    from gradhesion.cli.work.warming import warm  # it imports kernels, which need the compiler
+    from gradhesion.cli.work.kernels.compiling import say_why
+    from gradhesion.cli.work.kernels.warming import warm  # it imports kernels, which need the compiler
 
     kinds = KINDS if everything else ("energy", "envelope", "curves")
     missing, folder, count, start = missing_of(kinds), place().folder, 0, time.monotonic()

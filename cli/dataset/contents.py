@@ -7,13 +7,35 @@ from typing import Any, Final, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli import names
 from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.names.curves import (
+    CURVES,
+    EXTENTS,
+    INTEGERS,
+    MEANINGS,
+    RAGGED,
+    STATE,
+    extent_of,
+    is_of_a_state,
+    is_ragged,
+)
+from gradhesion.cli.names.outputs import (
+    BEST,
+    OF_PHYSICAL,
+    ON_BOUND,
+    OUTPUTS,
+    PARETO_POINT,
+    SPREADS,
+    labels_of,
+    value_of,
+)
+from gradhesion.cli.names.scenes import STEEP
+from gradhesion.cli.names.units import unit_of
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block
-from gradhesion.cli.work import curves
-from gradhesion.cli.work.blocks import solved
+from gradhesion.cli.work.solve import curves
+from gradhesion.cli.work.solve.blocks import solved
 
 Part = tuple[Block, dict[str, NDArray[Any]]]
 """A block of scenes with the values of its variables."""
@@ -37,9 +59,9 @@ class Contents(Protocol):
 
 def _long_name(name: str) -> str:
     """Say what an output of a map is, also the sensitivity of one in SI units."""
-    if not name.endswith(names.OF_PHYSICAL):
-        return (names.OUTPUTS | names.SPREADS)[name]
-    meaning = names.OUTPUTS[name.removesuffix(names.OF_PHYSICAL)]
+    if not name.endswith(OF_PHYSICAL):
+        return (OUTPUTS | SPREADS)[name]
+    meaning = OUTPUTS[name.removesuffix(OF_PHYSICAL)]
     return meaning.split(" to each parameter")[0] + " in SI units to each quantity q with a unit: d ln/d ln q"
 
 
@@ -51,13 +73,13 @@ class _OfMap:
     def described(self, study: Study, name: str) -> Variable:
         attributes = {"units": "1", "ancillary_variables": "status", "long_name": _long_name(name)}
         if name.endswith("_std"):
-            linear = names.value_of(name) in study.linear
+            linear = value_of(name) in study.linear
             attributes["comment"] = "linear, by sensitivities" if linear else "of samples of the uncertain inputs"
         if name in ("dissipated_energy", "unloading_energy") and study.loading.control == "load":
-            attributes["long_name"] = names.OUTPUTS[name].replace(",", " without its jump-out, which has no bound,")
+            attributes["long_name"] = OUTPUTS[name].replace(",", " without its jump-out, which has no bound,")
         if name.endswith("_jumps"):
             return Variable(dimensions=tuple(study.sizes), dtype="i4", attributes=attributes)
-        own = (*study.sizes, names.labels_of(name)) if names.labels_of(name) else tuple(study.sizes)
+        own = (*study.sizes, labels_of(name)) if labels_of(name) else tuple(study.sizes)
         return Variable(dimensions=own, dtype="f8", attributes=attributes, blank=np.nan)
 
     def parts(self, study: Study, threads: int | None) -> Iterator[Part]:
@@ -79,21 +101,19 @@ class _OfCurves:
     filled = False
 
     def described(self, study: Study, name: str) -> Variable:
-        dimensions, dtype = tuple(study.sizes), names.INTEGERS.get(name, "f8")
+        dimensions, dtype = tuple(study.sizes), INTEGERS.get(name, "f8")
         attributes: dict[str, Any] = {"units": "1", "ancillary_variables": "status"}
-        attributes["long_name"] = next(own[name] for own in names.CURVES.values() if name in own)
-        if name in names.MEANINGS:
-            attributes |= {"flag_values": np.array([0, 1], dtype=dtype), "flag_meanings": names.MEANINGS[name]}
-        if name in names.RAGGED.values():
-            attributes["sample_dimension"] = next(
-                names.EXTENTS[one] for one in names.RAGGED if name in names.CURVES[one]
-            )
+        attributes["long_name"] = next(own[name] for own in CURVES.values() if name in own)
+        if name in MEANINGS:
+            attributes |= {"flag_values": np.array([0, 1], dtype=dtype), "flag_meanings": MEANINGS[name]}
+        if name in RAGGED.values():
+            attributes["sample_dimension"] = next(EXTENTS[one] for one in RAGGED if name in CURVES[one])
             return Variable(dimensions=dimensions, dtype=dtype, attributes=attributes)
-        if curves.is_ragged(name):
+        if is_ragged(name):
             del attributes["ancillary_variables"]  # `status` has other dimensions
-            return Variable(dimensions=(curves.extent_of(name),), dtype=dtype, attributes=attributes)
-        states = (names.STATE,) if names.is_of_a_state(name) else ()
-        dimensions = (*dimensions, *states, curves.extent_of(name))
+            return Variable(dimensions=(extent_of(name),), dtype=dtype, attributes=attributes)
+        states = (STATE,) if is_of_a_state(name) else ()
+        dimensions = (*dimensions, *states, extent_of(name))
         return Variable(dimensions=dimensions, dtype=dtype, attributes=attributes, blank=curves.blank_of(name))
 
     def parts(self, study: Study, threads: int | None) -> Iterator[Part]:
@@ -107,12 +127,12 @@ class _OfOptima(_OfMap):
     """The best of what is searched, a value a cell."""
 
     def described(self, study: Study, name: str) -> Variable:
-        if name != names.ON_BOUND:
-            plain = name.removeprefix(names.BEST)
-            own = (*study.sizes, names.labels_of(name)) if names.labels_of(name) else tuple(study.sizes)
+        if name != ON_BOUND:
+            plain = name.removeprefix(BEST)
+            own = (*study.sizes, labels_of(name)) if labels_of(name) else tuple(study.sizes)
             long_name = INPUTS[plain].about if plain in INPUTS else _long_name(plain)
             attributes: dict[str, Any] = {
-                "units": names.unit_of(name),
+                "units": unit_of(name),
                 "ancillary_variables": "status",
                 "long_name": f"best {long_name}",
             }
@@ -136,14 +156,14 @@ class _OfFronts(_OfOptima):
 
     def described(self, study: Study, name: str) -> Variable:
         plain = super().described(study, name)
-        return replace(plain, dimensions=(*plain.dimensions, names.PARETO_POINT))
+        return replace(plain, dimensions=(*plain.dimensions, PARETO_POINT))
 
     def joined(self, study: Study, parts: Iterable[Part]) -> dict[str, NDArray[Any]]:
         every = list(parts)
         longest = max(values[study.variables[0]].shape[-1] for _, values in every)
         whole: dict[str, NDArray[Any]] = {name: np.full((*study.shape, longest), np.nan) for name in study.variables}
         whole["status"] = np.zeros(study.shape, np.int16)
-        whole[names.STEEP] = np.zeros(study.shape, np.int8)
+        whole[STEEP] = np.zeros(study.shape, np.int8)
         for block, values in every:
             for name, part in values.items():
                 whole[name][curves.within(name, block, part)] = part

@@ -6,14 +6,15 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli import names
 from gradhesion.cli.dataset.variable import Variable
 from gradhesion.cli.keys import INPUTS, REDUCED
+from gradhesion.cli.names.curves import NAMED_STATES, STATE, is_of_a_state
+from gradhesion.cli.names.scenes import IDLE, REALISATION, REALISATIONS, SOLVER, SOLVERS
 from gradhesion.cli.study.points import COMMENT
-from gradhesion.cli.study.roles import ABSENT
+from gradhesion.cli.study.rules.roles import ABSENT
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, shape_of
-from gradhesion.cli.work.given import scenes_from
+from gradhesion.cli.work.solve.given import scenes_from
 
 RMS: Final = {
     "A": "rms height over wavelength of the random waviness",
@@ -27,20 +28,20 @@ def coordinates(study: Study) -> dict[str, Variable]:
     """Describe the coordinates of a study's dataset."""
     axes = tuple(study.axes)
     described = {}
-    if names.SOLVER in study.sizes:
+    if SOLVER in study.sizes:
         solvers = np.array(study.method.solver, dtype=object)
-        described[names.SOLVER] = Variable(
-            dimensions=(names.SOLVER,), dtype="str", attributes={"long_name": names.SOLVERS}, values=solvers
+        described[SOLVER] = Variable(
+            dimensions=(SOLVER,), dtype="str", attributes={"long_name": SOLVERS}, values=solvers
         )
     if study.spectrum is not None:
-        described[names.REALISATION] = Variable(
-            dimensions=(names.REALISATION,),
+        described[REALISATION] = Variable(
+            dimensions=(REALISATION,),
             dtype="i4",
-            attributes={"units": "1", "long_name": names.REALISATIONS},
+            attributes={"units": "1", "long_name": REALISATIONS},
             values=np.arange(study.spectrum.realisations, dtype=np.int32),
         )
-    if any(names.is_of_a_state(name) for name in study.outputs):
-        described[names.STATE] = _states(study)
+    if any(is_of_a_state(name) for name in study.outputs):
+        described[STATE] = _states(study)
     for name, own_labels in study.labels.items():
         values = np.array(own_labels, dtype=object)
         attributes = {"long_name": "parameter of the sensitivity"}
@@ -51,7 +52,7 @@ def coordinates(study: Study) -> dict[str, Variable]:
             continue
         attributes = {"units": key.unit, "long_name": key.about}
         if name in study.left_out:
-            attributes["comment"] = f"{names.IDLE} where {ABSENT[name][1]}; the study leaves it out"
+            attributes["comment"] = f"{IDLE} where {ABSENT[name][1]}; the study leaves it out"
         if study.spectrum is not None:
             attributes["long_name"] = RMS.get(name, key.about)
         if name in study.points.columns:
@@ -75,10 +76,10 @@ def _states(study: Study) -> Variable:
     """Describe the states whose curves are drawn: their contact radii, or their names."""
     if study.states:
         attributes = {"units": "1", "long_name": "contact radius a/R of a state of equilibrium"}
-        return Variable(dimensions=(names.STATE,), dtype="f8", attributes=attributes, values=np.array(study.states))
+        return Variable(dimensions=(STATE,), dtype="f8", attributes=attributes, values=np.array(study.states))
     attributes = {"long_name": "state of a loading cycle"}
-    values = np.array(names.NAMED_STATES)
-    return Variable(dimensions=(names.STATE,), dtype="str", attributes=attributes, values=values)
+    values = np.array(NAMED_STATES)
+    return Variable(dimensions=(STATE,), dtype="str", attributes=attributes, values=values)
 
 
 def following(study: Study, name: str) -> tuple[str, ...]:

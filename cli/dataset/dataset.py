@@ -10,18 +10,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.cli import names
 from gradhesion.cli.dataset.cautions import cautions, flagged_in
 from gradhesion.cli.dataset.contents import CONTENTS
 from gradhesion.cli.dataset.coordinates import coordinates
 from gradhesion.cli.dataset.variable import Variable
-from gradhesion.cli.study.fit_study import FitStudy
+from gradhesion.cli.names.curves import STATE, is_ragged
+from gradhesion.cli.names.outputs import CONTACT_SLOPE, SI
+from gradhesion.cli.names.scenes import REFERENCES, STATUS, STEEP, STEEP_CONTACT
+from gradhesion.cli.names.units import long_name_in_si, unit_of
+from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.shape_words import profile_table, rate_in_words, shape_in_words, toughness_in_words
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import messages
-from gradhesion.cli.work import curves
-from gradhesion.cli.work.compiling import prepare
-from gradhesion.cli.work.kernels import kinds_of
+from gradhesion.cli.work.kernels.compiling import prepare
+from gradhesion.cli.work.kernels.kernels import kinds_of
 from gradhesion.core import FLAGS
 from gradhesion.core.answers.flags import FLAGS as ALL_FLAGS
 from gradhesion.core.problem.status import OF_EVERY_MAP, TOO_MANY_WAVES
@@ -33,24 +35,24 @@ if TYPE_CHECKING:
 def variables(study: Study) -> dict[str, Variable]:
     """Describe the variables of a study's dataset, coordinates first."""
     described = coordinates(study)
-    apart = (*study.sizes, *study.labels, names.STATE)
+    apart = (*study.sizes, *study.labels, STATE)
     beside = " ".join(name for name in described if name not in apart)
     outputs = {name: _output(study, name) for name in study.variables}
     outputs["status"] = _status(study)
     if beside:
         for name, variable in outputs.items():
-            if not curves.is_ragged(name):
+            if not is_ragged(name):
                 variable.attributes["coordinates"] = beside
     return described | outputs
 
 
 def _output(study: Study, name: str) -> Variable:
     """Describe a result, perhaps in SI units."""
-    plain = CONTENTS[study.sort.name].described(study, name.removesuffix(names.SI))
-    if not name.endswith(names.SI):
+    plain = CONTENTS[study.sort.name].described(study, name.removesuffix(SI))
+    if not name.endswith(SI):
         return plain
-    long_name = names.long_name_in_si(plain.attributes["long_name"])
-    return replace(plain, attributes=plain.attributes | {"units": names.unit_of(name), "long_name": long_name})
+    long_name = long_name_in_si(plain.attributes["long_name"])
+    return replace(plain, attributes=plain.attributes | {"units": unit_of(name), "long_name": long_name})
 
 
 def _status(study: Study) -> Variable:
@@ -62,7 +64,7 @@ def _status(study: Study) -> Variable:
     dtype = study.status_type
     attributes = {
         "units": "1",
-        "long_name": names.STATUS,
+        "long_name": STATUS,
         "flag_masks": np.array(list(flags.values()), dtype=dtype),
         "flag_meanings": " ".join(flags),
     }
@@ -73,7 +75,7 @@ def steep_contact(study: Study) -> Variable:
     """Describe the coordinate that marks the scenes whose contact reaches a slope that is not small."""
     attributes = {
         "units": "1",
-        "long_name": names.STEEP_CONTACT,
+        "long_name": STEEP_CONTACT,
         "flag_values": np.array([0, 1], dtype="i1"),
         "flag_meanings": "shallow steep",
     }
@@ -82,7 +84,7 @@ def steep_contact(study: Study) -> Variable:
 
 def marks_steep_contact(study: Study) -> bool:
     """Report whether the dataset of a study has that coordinate where it marks any scene: not beside the slope."""
-    return names.CONTACT_SLOPE not in study.variables
+    return CONTACT_SLOPE not in study.variables
 
 
 def attributes(study: Study, history: str) -> dict[str, Any]:
@@ -104,7 +106,7 @@ def origin(study: Study | FitStudy, history: str, own: Mapping[str, Any]) -> dic
         "title": study.title,
         "source": _source(),
         "history": history,
-        "references": names.REFERENCES,
+        "references": REFERENCES,
         **own,
         "study": study.text,
         "study_sha256": study.sha256,
@@ -164,7 +166,7 @@ def compute(study: Study, *, threads: int | None = None) -> "xarray.Dataset":
     described = variables(study)
     kind = CONTENTS[study.sort.name]
     found = kind.joined(study, kind.parts(study, threads))
-    steep = found.pop(names.STEEP, np.zeros(1, np.int8))
+    steep = found.pop(STEEP, np.zeros(1, np.int8))
     for sentence in cautions(study, flagged_in(found["status"]), int(np.count_nonzero(steep))):
         messages.say("caution", f"{study.name}: {sentence}")
     made = {}
@@ -184,4 +186,4 @@ def with_steep_contact(dataset: "xarray.Dataset", study: Study, steep: NDArray[n
     if not steep.any() or not marks_steep_contact(study):
         return dataset
     mark = (dataset["status"].dims, steep, steep_contact(study).attributes)
-    return dataset.assign_coords({names.STEEP: mark})
+    return dataset.assign_coords({STEEP: mark})

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Protocol
 
 from gradhesion.cli.study.study import Study
-from gradhesion.cli.work.folder import Folder
-from gradhesion.cli.work.resume import Solved
+from gradhesion.cli.work.parts.folder import Folder
+from gradhesion.cli.work.parts.resume import Solved
 
 
 @dataclass(frozen=True)

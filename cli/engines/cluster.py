@@ -10,9 +10,9 @@ from gradhesion.cli.engines.dispatch import Dispatch
 from gradhesion.cli.engines.local import local_client
 from gradhesion.cli.engines.scheduler import client_of, silent
 from gradhesion.cli.engines.watch import DESERTED, DESERTED_HERE
-from gradhesion.cli.work.kernels import compile_kinds, kinds_of
-from gradhesion.cli.work.parts import key_of
-from gradhesion.cli.work.resume import Solved, found
+from gradhesion.cli.work.kernels.kernels import compile_kinds, kinds_of
+from gradhesion.cli.work.parts.parts import key_of
+from gradhesion.cli.work.parts.resume import Solved, found
 
 
 @dataclass(frozen=True)

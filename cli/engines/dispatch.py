@@ -12,8 +12,8 @@ from gradhesion.cli.engines.watch import Watch, without_workers
 from gradhesion.cli.engines.worker import RefusedError, UnsolvedError, UnwritableError, carry_out, needed, seen
 from gradhesion.cli.errors import ClusterError, OutputError
 from gradhesion.cli.terminal import interrupts
-from gradhesion.cli.work.parts import key_of
-from gradhesion.cli.work.resume import Solved, blank, found
+from gradhesion.cli.work.parts.parts import key_of
+from gradhesion.cli.work.parts.resume import Solved, blank, found
 
 TASKS: Final = 256
 """With the scheduler at least, so that a cluster that adapts sees what is to be done."""

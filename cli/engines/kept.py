@@ -5,9 +5,9 @@ from functools import partial
 
 from gradhesion.cli.engines import Work
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.work.blocks import one_ahead
-from gradhesion.cli.work.parts import key_of
-from gradhesion.cli.work.resume import Solved, found
+from gradhesion.cli.work.parts.parts import key_of
+from gradhesion.cli.work.parts.resume import Solved, found
+from gradhesion.cli.work.solve.blocks import one_ahead
 
 
 class Kept:

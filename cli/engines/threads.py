@@ -6,9 +6,9 @@ from functools import partial
 
 from gradhesion.cli.disk import writing
 from gradhesion.cli.engines import Work
-from gradhesion.cli.work.blocks import one_ahead
-from gradhesion.cli.work.parts import key_of, write_part
-from gradhesion.cli.work.resume import Solved, attempted, found
+from gradhesion.cli.work.parts.parts import key_of, write_part
+from gradhesion.cli.work.parts.resume import Solved, attempted, found
+from gradhesion.cli.work.solve.blocks import one_ahead
 
 
 @dataclass(frozen=True)

@@ -75,7 +75,7 @@ def needed() -> dict[str, Any]:
     """List the versions that a worker has to share with its client, for one to go on where the other ends."""
     import numpy as np  # noqa: PLC0415 (with what follows, a second: not where a worker only looks up a name)
 
-    from gradhesion.cli.work.parts import versions  # noqa: PLC0415
+    from gradhesion.cli.work.parts.parts import versions  # noqa: PLC0415
 
     return versions() | {"numpy": np.__version__}
 
@@ -100,9 +100,9 @@ def _differences(here: dict[str, Any], there: dict[str, Any]) -> str:
 
 def _solve(folder: Path, fingerprint: str, number: int) -> str:
     """Solve a block into its part, or say why this worker cannot."""
-    from gradhesion.cli.work.folder import Folder  # noqa: PLC0415
-    from gradhesion.cli.work.parts import key_of, write_part  # noqa: PLC0415
-    from gradhesion.cli.work.resume import attempted, found  # noqa: PLC0415
+    from gradhesion.cli.work.parts.folder import Folder  # noqa: PLC0415
+    from gradhesion.cli.work.parts.parts import key_of, write_part  # noqa: PLC0415
+    from gradhesion.cli.work.parts.resume import attempted, found  # noqa: PLC0415
 
     study = seen(lambda: _study(folder, fingerprint), folder.parent)
     if isinstance(study, str):
@@ -131,9 +131,9 @@ def _study(folder: Path, fingerprint: str) -> Any:
 def _loaded(folder: Path, fingerprint: str) -> Any:
     """Read the study of a folder, and compile what it needs; once in a process."""
     from gradhesion.cli.errors import DatasetError  # noqa: PLC0415
-    from gradhesion.cli.work.folder import Folder  # noqa: PLC0415
-    from gradhesion.cli.work.kernels import compile_kinds, kinds_of  # noqa: PLC0415
-    from gradhesion.cli.work.manifest import study_in  # noqa: PLC0415
+    from gradhesion.cli.work.kernels.kernels import compile_kinds, kinds_of  # noqa: PLC0415
+    from gradhesion.cli.work.parts.folder import Folder  # noqa: PLC0415
+    from gradhesion.cli.work.parts.manifest import study_in  # noqa: PLC0415
 
     study = study_in(Folder(folder), folder)
     if study.sha256 != fingerprint:

@@ -5,13 +5,14 @@ from typing import Final
 
 import xarray
 
-from gradhesion.cli.dataset.curve_variables import curve_of
-from gradhesion.cli.dataset.reader import has_curves
-from gradhesion.cli.dataset.selection import selection_of
-from gradhesion.cli.dataset.sensitivities import parts_of, spread
+from gradhesion.cli.dataset.read.reader import has_curves
+from gradhesion.cli.dataset.read.selection import selection_of
+from gradhesion.cli.dataset.read.sensitivities import parts_of, spread
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import PARETO_POINT, RAGGED, SCENE, SI, STATE_CURVES
-from gradhesion.cli.picture.curve_units import wants_si
+from gradhesion.cli.names.curves import RAGGED, STATE_CURVES, curve_of
+from gradhesion.cli.names.outputs import PARETO_POINT, SI
+from gradhesion.cli.names.scenes import SCENE
+from gradhesion.cli.picture.curves.axes import wants_si
 from gradhesion.cli.terminal.wording import did_you_mean
 
 MOST: Final = 20_000_000
@@ -29,7 +30,7 @@ def chosen(dataset: xarray.Dataset, variables: Sequence[str], places: Sequence[s
 
     See Also
     --------
-    gradhesion.cli.dataset.dataset.selection : how a value is found on an axis.
+    gradhesion.cli.dataset.read.selection : how a value is found on an axis.
     """
     if PARETO_POINT in dataset.dims:
         raise DatasetError("Pareto fronts have no page; draw them with `gradhesion plot`")

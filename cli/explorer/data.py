@@ -8,15 +8,14 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli import names
-from gradhesion.cli.dataset.curve_variables import curve_of
-from gradhesion.cli.dataset.doubtful import DOUBTS, doubts_of
-from gradhesion.cli.dataset.reader import is_turned
-from gradhesion.cli.dataset.sensitivities import PLAIN, part_of
+from gradhesion.cli.dataset.read.doubtful import DOUBTS, doubts_of
+from gradhesion.cli.dataset.read.reader import is_turned
+from gradhesion.cli.dataset.read.sensitivities import PLAIN, part_of
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.plain import in_order, symbol, title, words
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import INTEGERS, SCENE, SOLVER
+from gradhesion.cli.names.curves import INTEGERS, curve_of
+from gradhesion.cli.names.scenes import FLAG_WORDS, SCENE, SOLVER, SOLVERS
 from gradhesion.cli.picture.labels import Unit, unit_for
 from gradhesion.cli.picture.scales import scale
 from gradhesion.core import FAILED
@@ -94,7 +93,7 @@ def study_data(dataset: xarray.Dataset, units: Mapping[str, Unit] = MappingProxy
         "parameters": [_parameter(dataset, name, axes) for name in (*solvers, *in_order(known))],
         "status": status,
         "flags": [
-            {"bit": bit, "words": names.FLAGS[name], "doubtful": bool(bit & DOUBTS), "failed": bool(bit & FAILED)}
+            {"bit": bit, "words": FLAG_WORDS[name], "doubtful": bool(bit & DOUBTS), "failed": bool(bit & FAILED)}
             for name, bit in FLAGS.items()
         ],
         "found": int(np.bitwise_or.reduce(status, initial=0)),
@@ -113,7 +112,7 @@ def _axis(dataset: xarray.Dataset, name: str) -> Entry:
     if name == SCENE or dataset[name].dtype.kind not in "fiu":
         size = dataset.sizes[name]
         own = range(1, size + 1) if name == SCENE else dataset[name].values
-        long_name = "number of the scene" if name == SCENE else names.SOLVERS
+        long_name = "number of the scene" if name == SCENE else SOLVERS
         return {
             "name": name,
             "symbol": name,
@@ -175,8 +174,8 @@ def _parameter(dataset: xarray.Dataset, name: str, axes: Sequence[str]) -> Entry
         return {
             "name": name,
             "symbol": name,
-            "words": names.SOLVERS,
-            "title": names.SOLVERS,
+            "words": SOLVERS,
+            "title": SOLVERS,
             "unit": "",
             "axes": [],
             "values": [str(dataset[name].item())],

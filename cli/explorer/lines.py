@@ -10,9 +10,9 @@ from matplotlib.colors import to_hex
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.data import Entry
 from gradhesion.cli.explorer.plain import plain
-from gradhesion.cli.picture.curve_panels import JUMP, THIN, TRACKS, Dash, Track, faded
-from gradhesion.cli.picture.curve_picture import PLANES
-from gradhesion.cli.picture.curve_units import axis_label, in_si, units_of, variables_of, wants_si
+from gradhesion.cli.picture.curves.axes import axis_label, in_si, units_of, variables_of, wants_si
+from gradhesion.cli.picture.curves.panels import JUMP, THIN, TRACKS, Dash, Track, faded
+from gradhesion.cli.picture.curves.picture import PLANES
 from gradhesion.cli.picture.labels import Unit
 
 _WIDTH: Final = 1.5

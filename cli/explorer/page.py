@@ -12,8 +12,8 @@ from bokeh.palettes import Viridis256
 from bokeh.resources import INLINE
 from jinja2 import Environment
 
-from gradhesion.cli.dataset.model_range import slope_warnings
-from gradhesion.cli.dataset.reader import has_curves
+from gradhesion.cli.dataset.read.model_range import slope_warnings
+from gradhesion.cli.dataset.read.reader import has_curves
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.explorer.choice import chosen
 from gradhesion.cli.explorer.data import Entry, study_data
@@ -21,7 +21,7 @@ from gradhesion.cli.explorer.figures import Part, map_of, plane_of, ranges, sect
 from gradhesion.cli.explorer.lines import lines_of
 from gradhesion.cli.explorer.plain import words
 from gradhesion.cli.explorer.scene_study import scene_study
-from gradhesion.cli.names import SCENE, SOLVER
+from gradhesion.cli.names.scenes import SCENE, SOLVER
 
 _OWN: Final = Path(__file__).parent
 _SCRIPTS: Final = (

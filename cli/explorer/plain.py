@@ -3,9 +3,10 @@
 import re
 from typing import Final
 
-from gradhesion.cli.dataset.sensitivities import part_of
+from gradhesion.cli.dataset.read.sensitivities import part_of
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import SI, SPREADS, SYMBOLS
+from gradhesion.cli.names.outputs import SI, SPREADS
+from gradhesion.cli.names.symbols import SYMBOLS
 
 _TEX: Final = (
     (r"\ln$ ", "ln "),

@@ -5,14 +5,16 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
+import xarray
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from gradhesion.cli import names
-from gradhesion.cli.dataset import doubtful
-from gradhesion.cli.dataset.doubtful import doubts_of
-from gradhesion.cli.dataset.model_range import LIMITS
+from gradhesion.cli.dataset.read import doubtful
+from gradhesion.cli.dataset.read.doubtful import doubts_of
+from gradhesion.cli.dataset.read.model_range import LIMITS
+from gradhesion.cli.names.outputs import BEST, ON_BOUND
+from gradhesion.cli.names.scenes import FLAG_WORDS
 from gradhesion.core.answers.flags import FLAGS
 
 INK: Final = "0.25"
@@ -47,7 +49,7 @@ def _doubts() -> tuple[Doubt, ...]:
     flags = [(name, bit) for name, bit in FLAGS.items() if bit & doubtful.DOUBTS]
     looks = (("////", "o", 3.5), ("\\\\\\\\", "s", 5.5), ("xxxx", "D", 7.0), ("----", "v", 8.0), ("||||", "p", 8.0))
     return tuple(
-        Doubt(bit=bit, words=names.FLAGS[name], hatch=hatch, mark=mark, size=size)
+        Doubt(bit=bit, words=FLAG_WORDS[name], hatch=hatch, mark=mark, size=size)
         for (name, bit), (hatch, mark, size) in zip(flags, looks, strict=True)
     )
 
@@ -85,6 +87,20 @@ GAP: Final = "no finite value"
 
 ORDER: Final = (*(doubt.words for doubt in (*DOUBTS, *BEYOND.values(), END, BOUND)), GAP, *BAND_WORDS.values())
 """The order of the entries of a legend."""
+
+
+def at_bound(dataset: xarray.Dataset, name: str) -> xarray.DataArray | None:
+    """
+    Report which scenes have an optimum at a bound: of a parameter that was searched at its own, else at any.
+
+    None where the dataset has no optima, or the variable is not of them.
+    """
+    if ON_BOUND not in dataset or not name.startswith(BEST):
+        return None
+    flags = dataset[ON_BOUND]
+    meanings = str(flags.attrs["flag_meanings"]).split()
+    own = [one for one in meanings if one.startswith(f"{name.removeprefix(BEST)}_at_its_")] or meanings
+    return (flags.astype(int) & sum(1 << meanings.index(one) for one in own)) != 0
 
 
 def entries(doubts: Sequence[Doubt], *, in_map: bool, gaps: bool) -> list[Patch | Line2D]:

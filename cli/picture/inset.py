@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.picture.labels import Unit
+from gradhesion.cli.picture.scales import few_ticks
 from gradhesion.cli.picture.spans import Span
-from gradhesion.cli.picture.ticks import few_ticks
 
 Places = NDArray[np.float64]
 

@@ -1,14 +1,16 @@
-"""Axes of a dataset as axes of a picture: their order, their spacing, and a place for infinity."""
+"""Axes of a dataset as axes of a picture: their order, their spacing, a place for infinity, and numbers at ticks."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
+from matplotlib.axis import Axis
+from matplotlib.ticker import Formatter, LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.selection import is_log
+from gradhesion.cli.dataset.read.selection import is_log
 from gradhesion.cli.picture.labels import Unit, number, unit_for
 from gradhesion.cli.picture.spans import ALL, Span
 
@@ -97,3 +99,29 @@ def scale(values: NDArray[np.float64], name: str = "", span: Span = ALL) -> Scal
         unit=unit_for(name, seen, log=log),
         limits=(low, high),
     )
+
+
+class Numbers(Formatter):
+    """Plain numbers in a unit; all ticks of an axis together, so that those which differ read differently."""
+
+    def __init__(self, unit: Unit) -> None:
+        self.unit = unit
+
+    def __call__(self, value: float, pos: Any = None) -> str:  # noqa: ARG002 (matplotlib gives it)
+        """Write one number."""
+        return self.unit.number(value)
+
+    def format_ticks(self, values: Sequence[float]) -> list[str]:
+        """Write the numbers of an axis."""
+        return self.unit.numbers(values)
+
+
+def few_ticks(axis: Axis, unit: Unit, count: int = 3) -> None:
+    """Put about so many ticks at round numbers between the limits of an axis, whatever its scale."""
+    low, high = sorted(axis.get_view_interval())
+    slack = 1e-9 * (high - low)  # an end that is a round number is one of them
+    found = MaxNLocator(count, steps=[1, 2, 5, 10]).tick_values(low, high)
+    places = [float(place) for place in found if low - slack <= place <= high + slack]
+    axis.set_minor_locator(NullLocator())
+    axis.set_ticks(places, unit.numbers(places))
+    axis.set_view_interval(low, high, ignore=True)

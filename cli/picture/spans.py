@@ -8,8 +8,8 @@ from decimal import Decimal
 from typing import Any, Final
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import unit_of
-from gradhesion.cli.study.quantities import factor_between
+from gradhesion.cli.names.units import unit_of
+from gradhesion.cli.study.text.quantities import factor_between
 
 _QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\D.*)")
 

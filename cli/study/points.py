@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import keys
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import OUTPUTS, SI
-from gradhesion.cli.study import places
-from gradhesion.cli.study.axes import MOST_VALUES, Values
-from gradhesion.cli.study.mistakes import Mistake
-from gradhesion.cli.study.quantities import in_si
+from gradhesion.cli.names.outputs import OUTPUTS, SI
+from gradhesion.cli.study.form.axes import MOST_VALUES
+from gradhesion.cli.study.form.mistakes import Mistake
+from gradhesion.cli.study.text import places
+from gradhesion.cli.study.text.quantities import in_si
 from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, shown
@@ -73,10 +73,6 @@ class Points:
     def unread(self) -> bool:
         """Whether the file could not be read, so that what it would give is not missing."""
         return bool(self.mistakes) and not self.file
-
-    def into(self, sound: dict[str, Values]) -> dict[str, Values]:
-        """Put the columns in the place of the values that stood for them."""
-        return {name: self.columns.get(name, values) for name, values in sound.items()}
 
     def stored(self, data: Mapping[str, Any], text: str) -> tuple[dict[str, Any], str]:
         """Give the keys and the text of a study with the fingerprint of the file; no text where it is to be made."""

@@ -1,8 +1,6 @@
 """A profile from a measurement: heights in a file, as the shape of a punch with its radius and its waves."""
 
-import json
 import math
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,9 +11,9 @@ from numpy.typing import NDArray
 
 from gradhesion.cli import keys
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.study import places
-from gradhesion.cli.study.mistakes import Mistake
-from gradhesion.cli.study.quantities import si_value
+from gradhesion.cli.study.form.mistakes import Mistake
+from gradhesion.cli.study.text.quantities import si_value
+from gradhesion.cli.study.text.written import with_fingerprint
 from gradhesion.cli.tables.columns import Columns, ColumnsError
 from gradhesion.cli.tables.reading import read_columns
 from gradhesion.cli.terminal.wording import did_you_mean, example, shown
@@ -70,18 +68,7 @@ class Measured:
         """Give the keys and the text of a study with the fingerprint of the file; no text where it is to be made."""
         if not self.file or data["profile"].get("sha256"):
             return dict(data), text
-        data = {**data, "profile": {**data["profile"], "sha256": self.sha256}}
-        number = places.lines_of(text).get(KEY, 0) if text else 0
-        if number:
-            lines = text.split("\n")
-            dot = "profile." if lines[number - 1].lstrip().startswith("profile.") else ""
-            lines.insert(number, f"{dot}sha256 = {json.dumps(self.sha256)}")
-            text = "\n".join(lines)
-        try:
-            same = bool(number) and tomllib.loads(text) == data
-        except ValueError:
-            same = False
-        return data, text if same else ""
+        return with_fingerprint(data, text, "profile", self.sha256)
 
 
 def measured_in(data: Mapping[str, Any], folder: Path) -> Measured:

@@ -10,22 +10,22 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.errors import StudyError
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.study import places
-from gradhesion.cli.study.edge import rate_of, toughness_of
-from gradhesion.cli.study.fit_study import FitStudy
-from gradhesion.cli.study.foreign import as_written
-from gradhesion.cli.study.kinds import KINDS
-from gradhesion.cli.study.mistakes import Mistake, checked
+from gradhesion.cli.study.fit.study import FitStudy
+from gradhesion.cli.study.form.kinds import KINDS
+from gradhesion.cli.study.form.mistakes import Mistake, checked
 from gradhesion.cli.study.points import points_of
 from gradhesion.cli.study.profile_file import measured_in
-from gradhesion.cli.study.punch import profile_of, spectrum_of
-from gradhesion.cli.study.roles import left_out
-from gradhesion.cli.study.rules import mistakes_between_keys
-from gradhesion.cli.study.search import search_of, sought_in
-from gradhesion.cli.study.source import Source, read_source
+from gradhesion.cli.study.rules.between import mistakes_between_keys
+from gradhesion.cli.study.rules.edge import rate_of, toughness_of
+from gradhesion.cli.study.rules.punch import profile_of, spectrum_of
+from gradhesion.cli.study.rules.roles import left_out
+from gradhesion.cli.study.rules.search import search_of, sought_in
+from gradhesion.cli.study.rules.uncertainty import uncertainty_of
 from gradhesion.cli.study.study import Method, Study
-from gradhesion.cli.study.uncertainty import uncertainty_of
-from gradhesion.cli.study.written import toml_of
+from gradhesion.cli.study.text import places
+from gradhesion.cli.study.text.foreign import as_written
+from gradhesion.cli.study.text.source import Source, read_source
+from gradhesion.cli.study.text.written import toml_of
 from gradhesion.cli.terminal import wording
 from gradhesion.cli.terminal.wording import nearest
 from gradhesion.core.problem.control import Loading
@@ -100,7 +100,7 @@ def is_fit(data: Mapping[str, Any]) -> bool:
 
 def _fit(source: Source) -> FitStudy:
     """Check a fit as a whole and read its data."""
-    from gradhesion.cli.study.fit import fit_from  # noqa: PLC0415 (its form, which no study of scenes needs)
+    from gradhesion.cli.study.fit.reading import fit_from  # noqa: PLC0415 (its form, which no study of scenes needs)
 
     fit, mistakes = fit_from(source)
     _refuse(source, mistakes)
@@ -126,7 +126,7 @@ def _study(source: Source, columns: Mapping[str, NDArray[np.float64]] | None = N
     measured = measured_in(source.data, source.folder)
     sought = sought_in(source.data)
     found = checked(measured.beside(points.beside(sought.beside())))
-    sound, between = mistakes_between_keys(found, points, sought)
+    sound, between = mistakes_between_keys(found, points.columns, sought)
     mistakes = [
         mistake
         for mistake in (*points.mistakes, *measured.mistakes, *found.mistakes, *between)

@@ -12,26 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.keys import CLOSING, INPUTS, MACHINE, PATTERN, TURNS
-from gradhesion.cli.names import (
-    BEST,
-    OF_PHYSICAL,
-    ON_BOUND,
-    PARAMETER,
-    PHYSICAL_PARAMETER,
-    REALISATION,
-    SCENE,
-    SI,
-    SOLVER,
-    UNITS,
-    labels_of,
-)
-from gradhesion.cli.study.axes import Values
-from gradhesion.cli.study.kinds import KINDS, PARETO, Kind
+from gradhesion.cli.names.outputs import BEST, OF_PHYSICAL, ON_BOUND, PARAMETER, PHYSICAL_PARAMETER, SI, labels_of
+from gradhesion.cli.names.scenes import REALISATION, SCENE, SOLVER
+from gradhesion.cli.names.units import UNITS
+from gradhesion.cli.study.form.axes import Values
+from gradhesion.cli.study.form.kinds import KINDS, PARETO, Kind
 from gradhesion.cli.study.points import Points
 from gradhesion.cli.study.profile_file import Measured
-from gradhesion.cli.study.search import Search
+from gradhesion.cli.study.rules.search import Search
+from gradhesion.cli.study.rules.uncertainty import Uncertainty
 from gradhesion.cli.study.tiling import CHUNK, Block, Tiling
-from gradhesion.cli.study.uncertainty import Uncertainty
 from gradhesion.core.answers.spectrum import Spectrum, random_profile
 from gradhesion.core.arrays.reach import depends_on_contact
 from gradhesion.core.problem.control import Loading
@@ -271,8 +261,8 @@ class Study:
 
     @cached_property
     def tiling(self) -> Tiling:
-        """The blocks of its scenes."""
-        return self.sort.tiling(self.shape, self.cells)
+        """The blocks of its scenes; of curves, each of which has chunks of its own, a block is one scene."""
+        return Tiling(self.shape, 1, 1) if self.kind == "curve" else Tiling(self.shape, self.cells)
 
     @property
     def cells(self) -> int:

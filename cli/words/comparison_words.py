@@ -7,9 +7,10 @@ from typing import Final
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.soundness import is_fit
+from gradhesion.cli.dataset.read.soundness import is_fit
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.names import LOOP, PARAMETER
+from gradhesion.cli.names.fits import LOOP
+from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.problem.status import POOR_FIT
 

@@ -8,10 +8,9 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.curve_variables import variables_of_curves
-from gradhesion.cli.names import INTEGERS, RAGGED, STATE_CURVES
+from gradhesion.cli.names.curves import INTEGERS, RAGGED, STATE_CURVES, variables_of_curves
 from gradhesion.cli.study.tiling import tile
-from gradhesion.cli.words.jump_words import ITEMS, jump_lines, meaning_of
+from gradhesion.cli.words.jump_words import jump_lines, meaning_of
 
 CELLS: Final = 2**20
 """Values of a variable that are read at a time, unless a single curve has more."""
@@ -19,8 +18,8 @@ CELLS: Final = 2**20
 Scene = dict[str, NDArray[np.float64]]
 
 
-def curve_lines(dataset: xarray.Dataset, cells: int = CELLS, jumps: int = ITEMS) -> Iterator[str]:
-    """Describe the curves of a dataset, line by line, reading so many values of a variable, or jumps, at a time."""
+def curve_lines(dataset: xarray.Dataset, cells: int = CELLS) -> Iterator[str]:
+    """Describe the curves of a dataset, line by line, reading so many values of a variable at a time."""
     for curve, names in variables_of_curves(dataset).items():
         if curve in RAGGED:
             continue
@@ -40,7 +39,7 @@ def curve_lines(dataset: xarray.Dataset, cells: int = CELLS, jumps: int = ITEMS)
         for name, (least, greatest) in ends.items():
             extent = f"{least + 0.0:.6g} to {greatest + 0.0:.6g}" if least <= greatest else "no value in any scene"
             yield f"  {name:<30} {extent:<26} {meaning_of(dataset[name])}"
-    yield from jump_lines(dataset, jumps)
+    yield from jump_lines(dataset)
 
 
 def _scenes(dataset: xarray.Dataset, names: Sequence[str], cells: int) -> Iterator[Scene]:

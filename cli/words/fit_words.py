@@ -7,10 +7,11 @@ from typing import Final
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.model_range import slope_warnings, tabor_warnings
+from gradhesion.cli.dataset.read.model_range import slope_warnings, tabor_warnings
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import FLAGS as WORDS
-from gradhesion.cli.names import MINIMUM, PARAMETER, PARAMETER_UNITS
+from gradhesion.cli.names.fits import MINIMUM, PARAMETER_UNITS
+from gradhesion.cli.names.outputs import PARAMETER
+from gradhesion.cli.names.scenes import FLAG_WORDS
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.core.loops.fitted import poor_from
 from gradhesion.core.problem.status import FLAGS, POOR_FIT
@@ -129,7 +130,7 @@ def _quality(dataset: xarray.Dataset) -> Iterator[str]:
     yield from (f"outside the range of the model: {line}" for line in slope_warnings(dataset))
     for name, bit in FLAGS.items():
         if status & bit:
-            yield f"status: {name}: {WORDS[name]}"
+            yield f"status: {name}: {FLAG_WORDS[name]}"
 
 
 def of_origin(dataset: xarray.Dataset) -> Iterator[str]:

@@ -8,10 +8,9 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli.dataset.curve_variables import curve_of, variables_of_curves
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import EXTENTS, INTEGERS, RAGGED
+from gradhesion.cli.names.curves import EXTENTS, INTEGERS, RAGGED, curve_of, variables_of_curves
 
 ITEMS: Final = 2**16
 """Jumps that are read at a time."""

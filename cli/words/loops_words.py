@@ -9,8 +9,9 @@ from typing import Final
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.model_range import slope_warnings, tabor_warnings
-from gradhesion.cli.names import LOOP, MINIMUM, PARAMETER, PARAMETER_UNITS
+from gradhesion.cli.dataset.read.model_range import slope_warnings, tabor_warnings
+from gradhesion.cli.names.fits import LOOP, MINIMUM, PARAMETER_UNITS
+from gradhesion.cli.names.outputs import PARAMETER
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.words.fit_words import COLUMNS, of_data, of_given, of_origin
 from gradhesion.core.problem.status import FLAGS, OF_FITS

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 import xarray
 
-from gradhesion.cli.names import PARETO_POINT
+from gradhesion.cli.names.outputs import PARETO_POINT
 from gradhesion.cli.terminal.amounts import counted
 
 

@@ -5,9 +5,9 @@ from collections.abc import Iterator
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.reader import tiling_of
-from gradhesion.cli.dataset.sensitivities import strongest
-from gradhesion.cli.names import labels_of
+from gradhesion.cli.dataset.read.reader import tiling_of
+from gradhesion.cli.dataset.read.sensitivities import strongest
+from gradhesion.cli.names.outputs import labels_of
 
 
 def sensitivity_lines(variable: xarray.DataArray, name: str) -> Iterator[str]:

@@ -7,12 +7,12 @@ from typing import Final
 import numpy as np
 import xarray
 
-from gradhesion.cli.dataset.curve_variables import variables_of_curves
-from gradhesion.cli.dataset.reader import tiling_of
-from gradhesion.cli.dataset.sensitivities import parts_of, spread
+from gradhesion.cli.dataset.read.reader import tiling_of
+from gradhesion.cli.dataset.read.sensitivities import parts_of, spread
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import INTEGERS, REALISATION, SOLVER
+from gradhesion.cli.names.curves import INTEGERS, variables_of_curves
+from gradhesion.cli.names.scenes import REALISATION, SOLVER
 from gradhesion.cli.terminal.wording import did_you_mean
 
 MOST: Final = 1_000_000

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 import xarray
 
-from gradhesion.cli.dataset.model_range import LIMITS, beyond_by, is_cone
-from gradhesion.cli.dataset.reader import tiling_of
-from gradhesion.cli.names import CONTACT_SLOPE
+from gradhesion.cli.dataset.read.model_range import LIMITS, beyond_by, is_cone
+from gradhesion.cli.dataset.read.reader import tiling_of
+from gradhesion.cli.names.outputs import CONTACT_SLOPE
 from gradhesion.cli.terminal.amounts import counted, percent
 
 

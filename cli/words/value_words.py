@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 import xarray
 
-from gradhesion.cli.names import ON_BOUND, SI
+from gradhesion.cli.names.outputs import ON_BOUND, SI
 from gradhesion.cli.terminal.amounts import counted
 
 MOST: Final = 12

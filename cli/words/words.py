@@ -8,11 +8,11 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
-from gradhesion.cli import names
-from gradhesion.cli.dataset.reader import has_curves, tiling_of
-from gradhesion.cli.dataset.sensitivities import parts_of
+from gradhesion.cli.dataset.read.reader import has_curves, tiling_of
+from gradhesion.cli.dataset.read.sensitivities import parts_of
 from gradhesion.cli.keys import INPUTS
-from gradhesion.cli.names import REALISATION, SCENE, SOLVER
+from gradhesion.cli.names.outputs import ON_BOUND
+from gradhesion.cli.names.scenes import FLAG_WORDS, IDLE, REALISATION, SCENE, SOLVER
 from gradhesion.cli.study.shape_words import control_in_words
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted, percent
 from gradhesion.cli.words.curve_words import curve_lines
@@ -120,7 +120,7 @@ def _unit(variable: xarray.DataArray, before: str = " ") -> str:
 def _remark(variable: xarray.DataArray) -> str:
     """Say of a parameter that is there for completeness that it has no effect."""
     comment = str(variable.attrs.get("comment", "")).partition(";")[0]
-    return f"  ({comment})" if comment.startswith(names.IDLE) else ""
+    return f"  ({comment})" if comment.startswith(IDLE) else ""
 
 
 def _number(value: float | str) -> str:
@@ -155,7 +155,7 @@ def _outputs(dataset: xarray.Dataset) -> Iterator[str]:
             continue
         yield ""
         yield f"{name}: {dataset[name].attrs.get('long_name', 'without a name')}{_unit(dataset[name], ', in ')}"
-        if name == names.ON_BOUND:
+        if name == ON_BOUND:
             yield from bound_lines(dataset[name])
             continue
         if parts_of(dataset, str(name)):
@@ -206,7 +206,7 @@ def _status(dataset: xarray.Dataset) -> Iterator[str]:
     for name, count in counts.items():
         if count:
             share = f"{count:,} of {counted(scenes, 'scene')} ({percent(count, scenes)})"
-            yield f"  {name:<30} {share:<26} {names.FLAGS[name]}"
+            yield f"  {name:<30} {share:<26} {FLAG_WORDS[name]}"
 
 
 def _origin(dataset: xarray.Dataset) -> Iterator[str]:

@@ -9,11 +9,11 @@ from typing import Final
 
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import size_of
-from gradhesion.cli.work.folder import Folder, folder_of
-from gradhesion.cli.work.manifest import differences_of, manifest_of
-from gradhesion.cli.work.parts import bytes_of, key_of
+from gradhesion.cli.work.parts.folder import Folder, folder_of
+from gradhesion.cli.work.parts.manifest import differences_of, manifest_of
+from gradhesion.cli.work.parts.parts import bytes_of, key_of
+from gradhesion.cli.work.parts.resume import found
 from gradhesion.cli.work.probe import probe
-from gradhesion.cli.work.resume import found
 from gradhesion.core.arrays.processors import processors
 
 BASE: Final = 220e6

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from gradhesion.cli.study.study import Study
 from gradhesion.cli.study.tiling import Block, Tiling, shape_of, size_of
-from gradhesion.cli.work.blocks import solve_block
-from gradhesion.cli.work.parts import digest_of
+from gradhesion.cli.work.parts.parts import digest_of
+from gradhesion.cli.work.solve.blocks import solve_block
 
 clock = time.perf_counter
 SECONDS: Final = 2.0

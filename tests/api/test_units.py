@@ -16,7 +16,7 @@ import xarray
 from numpy.typing import NDArray
 
 import gradhesion as gr
-from gradhesion.given import given_in
+from gradhesion.taken import given_in
 
 ureg = pint.UnitRegistry()
 um = ureg.um

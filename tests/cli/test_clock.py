@@ -13,10 +13,9 @@ import pytest
 from click.testing import Result
 
 from gradhesion.cli.study.reading import study_from
-from gradhesion.cli.work.folder import claimed, folder_of
-from gradhesion.cli.work.manifest import adopt
-from gradhesion.cli.work.records import State, read_record
-from gradhesion.cli.work.state import Keeper
+from gradhesion.cli.work.parts.folder import claimed, folder_of
+from gradhesion.cli.work.parts.manifest import adopt
+from gradhesion.cli.work.parts.records import Keeper, State, read_record
 from tests.cli.engines.orders import values_of
 
 Call = Callable[..., Result]
@@ -44,7 +43,7 @@ def test_a_run_resumes_whatever_the_clock_says(
 ) -> None:
     whole, output = tmp_path / "whole.nc", tmp_path / "out.nc"
     assert gradhesion("run", study_file, "-o", whole, "--quiet").exit_code == 0
-    monkeypatch.setattr("gradhesion.cli.work.state.PERIOD", 0.0)
+    monkeypatch.setattr("gradhesion.cli.work.parts.records.PERIOD", 0.0)
     monkeypatch.setattr(time, "time", clock(*offsets))
     assert gradhesion("run", study_file, "-o", output, "--shard", "1/2").exit_code == 0
     (run,) = json.loads(gradhesion("status", output, "--json").stdout)["runs"]

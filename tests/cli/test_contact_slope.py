@@ -13,9 +13,9 @@ from matplotlib.contour import QuadContourSet
 
 import gradhesion as gr
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.names import STEEP
+from gradhesion.cli.names.scenes import STEEP
 from gradhesion.cli.picture.doubts import BEYOND
-from gradhesion.cli.picture.picture import drawn
+from gradhesion.cli.picture.values.picture import drawn
 from gradhesion.cli.study.reading import study_from
 
 Call = Callable[..., Result]

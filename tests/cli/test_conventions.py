@@ -11,11 +11,11 @@ import pint_xarray  # noqa: F401 (registers the accessor)
 import pytest
 import xarray
 
-from gradhesion.cli.dataset.fit import write_fit
+from gradhesion.cli.dataset.fits.fit import write_fit
 from gradhesion.cli.dataset.writer import write
-from gradhesion.cli.study.fit_study import FitStudy
+from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.reading import load_any, study_from
-from gradhesion.cli.work.fitting import fits_of
+from gradhesion.cli.work.solve.fitting import fits_of
 
 CONFIGS = Path(__file__).parents[2] / "configs"
 UNITS = {"R": ["1 um", "2 um"], "E_star": "1 GPa", "work_of_adhesion": "50 mJ/m^2", "c0": "10 nm", "a_max": "inf"}

@@ -12,11 +12,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import gradhesion as gr
-from gradhesion.cli.dataset.reader import opened
+from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.cli.explorer import choice
 from gradhesion.cli.explorer.data import rounded, study_data
 from gradhesion.cli.explorer.plain import title
-from gradhesion.cli.names import SPREADS
+from gradhesion.cli.names.outputs import SPREADS
 
 Call = Callable[..., Result]
 

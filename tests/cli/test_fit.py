@@ -12,7 +12,7 @@ import xarray
 from click.testing import Result
 
 import gradhesion as gr
-from gradhesion.cli.dataset.reader import opened
+from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 
 Call = Callable[..., Result]

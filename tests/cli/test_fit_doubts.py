@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gradhesion.cli.dataset.fit_cautions import tilt_warnings
-from gradhesion.cli.dataset.model_range import tabor_warnings
-from gradhesion.cli.work.fitting import doubts_of
+from gradhesion.cli.dataset.fits.cautions import tilt_warnings
+from gradhesion.cli.dataset.read.model_range import tabor_warnings
+from gradhesion.cli.work.solve.fitting import doubts_of
 from gradhesion.core.loops.features import BaseLine
 from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT

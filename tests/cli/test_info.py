@@ -59,7 +59,7 @@ def test_extremes_are_found_across_blocks(
 def test_every_flag_that_occurs_is_told_with_its_count_and_share_in_words(
     gradhesion: Call, dataset_file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gradhesion.cli import names
+    from gradhesion.cli.names.scenes import FLAG_WORDS
     from gradhesion.core.problem.status import OF_EVERY_MAP as FLAGS
 
     status = np.zeros(24, dtype=np.int8)
@@ -72,7 +72,7 @@ def test_every_flag_that_occurs_is_told_with_its_count_and_share_in_words(
         lines = [" ".join(line.split()) for line in gradhesion("info", dataset_file).stdout.splitlines()]
         first = lines.index("status: 6 of 24 scenes (25.0%) have values")  # the last flag, no_value, is set in 18
         told = [
-            f"{name} {3 * number} of 24 scenes ({12.5 * number:.2g} %) {names.FLAGS[name]}"
+            f"{name} {3 * number} of 24 scenes ({12.5 * number:.2g} %) {FLAG_WORDS[name]}"
             for number, name in enumerate(FLAGS)
         ]
         assert lines[first + 1 : lines.index("origin") - 1] == told[1:], "one that does not occur is not told"

@@ -12,7 +12,7 @@ import pytest
 from click.testing import Result
 
 from gradhesion.cli.commands.init import studies
-from gradhesion.cli.study.fit_study import FitStudy
+from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.study.reading import load_any
 
 Call = Callable[..., Result]

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from gradhesion.cli.work import locks
-from gradhesion.cli.work.locks import is_locked, try_lock
+from gradhesion.cli import locks
+from gradhesion.cli.locks import is_locked, try_lock
 
 
 def test_one_handle_holds_it_at_a_time(tmp_path: Path) -> None:
@@ -31,7 +31,7 @@ def test_it_dies_with_its_process(tmp_path: Path) -> None:
     code = f"""
 import time
 from pathlib import Path
-from gradhesion.cli.work.locks import try_lock
+from gradhesion.cli.locks import try_lock
 handle = try_lock(Path({str(path)!r}))
 print("held" if handle is not None else "not held", flush=True)
 time.sleep(600)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from click.testing import Result
 
-from gradhesion.cli.work.folder import claimed, folder_of
+from gradhesion.cli.work.parts.folder import claimed, folder_of
 
 Call = Callable[..., Result]
 

@@ -10,7 +10,7 @@ import pytest
 from click.testing import Result
 
 from gradhesion.cli.engines import worker
-from gradhesion.cli.work.folder import folder_of
+from gradhesion.cli.work.parts.folder import folder_of
 from tests.cli.engines.orders import values_of
 
 Call = Callable[..., Result]

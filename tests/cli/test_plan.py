@@ -15,7 +15,7 @@ from gradhesion.cli.study.reading import study_from
 from gradhesion.cli.study.tiling import Tiling, size_of
 from gradhesion.cli.work import probe
 from gradhesion.cli.work.estimate import FILE, estimate
-from gradhesion.cli.work.folder import folder_of
+from gradhesion.cli.work.parts.folder import folder_of
 
 Call = Callable[..., Result]
 

@@ -11,16 +11,16 @@ from click.testing import Result
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 
-from gradhesion.cli.dataset.reader import opened
-from gradhesion.cli.dataset.selection import selection_of
-from gradhesion.cli.names import SYMBOLS
-from gradhesion.cli.picture import layout
-from gradhesion.cli.picture.curve_picture import drawn_curves
+from gradhesion.cli.dataset.read.reader import opened
+from gradhesion.cli.dataset.read.selection import selection_of
+from gradhesion.cli.names.symbols import SYMBOLS
+from gradhesion.cli.picture.curves.picture import drawn_curves
 from gradhesion.cli.picture.doubts import END
-from gradhesion.cli.picture.layout import Plan, plan_of
-from gradhesion.cli.picture.picture import drawn
 from gradhesion.cli.picture.pictured import save
 from gradhesion.cli.picture.scales import scale
+from gradhesion.cli.picture.values import layout
+from gradhesion.cli.picture.values.layout import Plan, plan_of
+from gradhesion.cli.picture.values.picture import drawn
 
 Call = Callable[..., Result]
 INF = "a_max_over_R=[0.5, 1.0, 2.0, inf]"

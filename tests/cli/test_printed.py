@@ -144,7 +144,7 @@ def test_a_study_takes_no_more_memory_than_it_has(shell: Shell, study_file: Path
     done = shell(
         f"""{sys.executable} -c "
 import resource
-from gradhesion.cli.study.source import read_source
+from gradhesion.cli.study.text.source import read_source
 from pathlib import Path
 import gradhesion.cli.study.study
 now = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize()

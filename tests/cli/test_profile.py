@@ -13,7 +13,7 @@ import xarray
 from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.names import CURVES, STATE_CURVES
+from gradhesion.cli.names.curves import CURVES, STATE_CURVES
 from gradhesion.cli.study.reading import load_study, study_from
 from gradhesion.core import draw_curves, solve
 from gradhesion.core.problem.control import Loading

@@ -17,10 +17,10 @@ from click.testing import Result
 
 from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.keys import PARAMETERS
-from gradhesion.cli.names import OUTPUTS
+from gradhesion.cli.names.outputs import OUTPUTS
 from gradhesion.cli.study.reading import load_study, study_from
-from gradhesion.cli.study.rules import EXACT_ONLY
-from gradhesion.cli.work.scenes import solve as real_solve
+from gradhesion.cli.study.rules.between import EXACT_ONLY
+from gradhesion.cli.work.solve.scenes import solve as real_solve
 from gradhesion.core import FAILED
 from gradhesion.core.problem.status import OF_EVERY_MAP
 
@@ -186,7 +186,7 @@ def test_quiet_is_silent(gradhesion: Call, study_file: Path, tmp_path: Path) -> 
 def test_a_first_run_says_that_it_compiles(
     gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gradhesion.cli.work.kernels.compiled_before", lambda _kind: False)
+    monkeypatch.setattr("gradhesion.cli.work.kernels.kernels.compiled_before", lambda _kind: False)
     quiet = gradhesion("run", study_file, "-o", tmp_path / "quiet.nc", "--quiet").stderr.splitlines()
     lines = gradhesion("run", study_file, "-o", tmp_path / "x.nc").stderr.splitlines()
     assert quiet == lines[:1]
@@ -203,7 +203,7 @@ def test_an_existing_output_stays_without_overwrite(
     path = tmp_path / "out.nc"
     path.write_text("precious")
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.work.given.solve", lambda *_, **__: pytest.fail("nothing is computed"))
+        patch.setattr("gradhesion.cli.work.solve.given.solve", lambda *_, **__: pytest.fail("nothing is computed"))
         result = gradhesion("run", study_file, "-o", path)
     assert result.exit_code == 4
     assert result.stderr == f"{path}: exists already; add --overwrite to replace it, or name another output with -o\n"
@@ -225,7 +225,7 @@ def test_a_link_is_followed(gradhesion: Call, study_file: Path, tmp_path: Path) 
 def test_an_output_that_cannot_be_is_refused_before_computing(
     output: str, gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gradhesion.cli.work.given.solve", lambda *_, **__: pytest.fail("nothing is computed"))
+    monkeypatch.setattr("gradhesion.cli.work.solve.given.solve", lambda *_, **__: pytest.fail("nothing is computed"))
     (tmp_path / "folder").mkdir()
     (tmp_path / "file").touch()
     result = gradhesion("run", study_file, "-o", tmp_path / output, "--overwrite")
@@ -243,7 +243,7 @@ def test_failed_scenes_are_written_and_told(
         values["pull_off_force"].flat[3] = np.nan
         return values
 
-    monkeypatch.setattr("gradhesion.cli.work.given.solve", failing)
+    monkeypatch.setattr("gradhesion.cli.work.solve.given.solve", failing)
     result = gradhesion("run", study_file, "-o", tmp_path / "out.nc", "--quiet")
     assert result.exit_code == 3
     assert f"1 of 24 scenes failed; `gradhesion info {tmp_path}/out.nc` reports why" in result.stderr

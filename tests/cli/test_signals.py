@@ -80,7 +80,7 @@ def test_an_interrupt_that_a_library_swallows_is_heard_all_the_same(
     from gradhesion.cli.terminal import interrupts
 
     monkeypatch.setattr(interrupts, "_heard", [0.0])
-    monkeypatch.setattr("gradhesion.cli.work.given.solve", lambda *_, **__: time.sleep(0.5))
+    monkeypatch.setattr("gradhesion.cli.work.solve.given.solve", lambda *_, **__: time.sleep(0.5))
     with pytest.raises(KeyboardInterrupt):
         write(load_study(study_file), tmp_path / "out" / "out.nc", history="")
     assert os.listdir(tmp_path / "out") == []

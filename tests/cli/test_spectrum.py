@@ -116,7 +116,7 @@ def test_blocks_shards_and_resumed_runs_give_the_same(study: dict[str, Any], gra
 
 
 def test_quantiles_are_those_of_numpy(study: dict[str, Any]) -> None:
-    from gradhesion.cli.dataset.reductions import QUANTILES, reduced
+    from gradhesion.cli.dataset.read.reductions import QUANTILES, reduced
 
     found = compute(study_from(study))
     for name, share in QUANTILES.items():

@@ -11,10 +11,10 @@ import pytest
 from click.testing import Result
 
 from gradhesion.cli.study.reading import study_from
-from gradhesion.cli.work.folder import claimed, folder_of
-from gradhesion.cli.work.manifest import adopt
-from gradhesion.cli.work.scenes import solve as real_solve
-from gradhesion.cli.work.state import Keeper
+from gradhesion.cli.work.parts.folder import claimed, folder_of
+from gradhesion.cli.work.parts.manifest import adopt
+from gradhesion.cli.work.parts.records import Keeper
+from gradhesion.cli.work.solve.scenes import solve as real_solve
 
 Call = Callable[..., Result]
 
@@ -49,8 +49,8 @@ def test_under_way_stopped_and_complete(
         return real_solve(*arguments, **options)
 
     with monkeypatch.context() as patch:
-        patch.setattr("gradhesion.cli.work.given.solve", spying)
-        patch.setattr("gradhesion.cli.work.state.PERIOD", 0.0)
+        patch.setattr("gradhesion.cli.work.solve.given.solve", spying)
+        patch.setattr("gradhesion.cli.work.parts.records.PERIOD", 0.0)
         assert gradhesion("run", study_file, "-o", output).exit_code == 1
     running, words = seen
     assert running["state"] == "running"

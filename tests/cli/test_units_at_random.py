@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from gradhesion.cli.dataset.dataset import compute
-from gradhesion.cli.names import SI, UNITS
+from gradhesion.cli.names.outputs import SI
+from gradhesion.cli.names.units import UNITS
 from gradhesion.cli.study.reading import study_from
 
 EPS: Final = Fraction(1, 2**52)

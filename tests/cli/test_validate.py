@@ -8,8 +8,8 @@ from pathlib import Path
 from click.testing import Result
 
 from gradhesion.cli.keys import keys_of
-from gradhesion.cli.study.fit_form import FitForm
-from gradhesion.cli.study.form import Form
+from gradhesion.cli.study.fit.form import FitForm
+from gradhesion.cli.study.form.form import Form
 
 Call = Callable[..., Result]
 

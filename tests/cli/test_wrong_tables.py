@@ -9,7 +9,7 @@ import pytest
 from click.testing import Result
 
 import gradhesion as gr
-from gradhesion.cli.picture.measured import read_points
+from gradhesion.cli.picture.curves.measured import read_points
 from tests.cli.ball import BALL, COLUMNS
 
 Call = Callable[..., Result]

@@ -30,7 +30,7 @@ from gradhesion.cli.dataset.dataset import compute
 from gradhesion.cli.main import main as gradhesion
 from gradhesion.cli.study.reading import load_study
 from gradhesion.cli.terminal import interrupts
-from gradhesion.cli.work import state
+from gradhesion.cli.work.parts import records as state
 from tests.memory import in_memory
 
 STUDY = """\

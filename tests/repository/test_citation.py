@@ -64,7 +64,7 @@ def test_the_citation_is_valid_and_that_of_the_project() -> None:
 
 
 def test_the_paper_is_cited_as_the_program_cites_it() -> None:
-    from gradhesion.cli.names import REFERENCES
+    from gradhesion.cli.names.scenes import REFERENCES
 
     (paper,) = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))["references"]
     names = [author["family-names"] for author in paper["authors"]]

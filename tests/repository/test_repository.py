@@ -247,9 +247,9 @@ SHIPPED_BEYOND = {"fig4a": "unbounded", "cone": "cone"}
 
 
 def test_shipped_studies_stay_where_slopes_are_small_or_say_why_not() -> None:
-    from gradhesion.cli.study.fit_study import FitStudy
+    from gradhesion.cli.study.fit.study import FitStudy
     from gradhesion.cli.study.reading import load_any
-    from gradhesion.cli.work.given import scenes_of
+    from gradhesion.cli.work.solve.given import scenes_of
     from gradhesion.core import VALIDITY, solve
 
     for path in sorted((ROOT / "configs").glob("*.toml")):

@@ -22,7 +22,7 @@ PRELOAD = """
 import json, os, signal, time
 from contextlib import suppress
 from pathlib import Path
-import gradhesion.cli.work.given as given
+import gradhesion.cli.work.solve.given as given
 
 orders = Path({folder!r})
 if (orders / "dead").exists():

@@ -21,7 +21,7 @@ from distributed import Scheduler, Security
 from distributed.comm import CommClosedError, connect
 
 from gradhesion.cli.engines.local import local_client
-from gradhesion.cli.work.folder import folder_of
+from gradhesion.cli.work.parts.folder import folder_of
 from tests.cli.engines.orders import HUGE, Call, Orders, values_of
 
 pytestmark = pytest.mark.slow

@@ -16,7 +16,7 @@ from distributed import Client
 from gradhesion.cli.engines.scheduler import client_of
 from gradhesion.cli.engines.watch import Watch
 from gradhesion.cli.errors import ClusterError
-from gradhesion.cli.work.folder import folder_of
+from gradhesion.cli.work.parts.folder import folder_of
 from tests.cli.engines.orders import HUGE, ByHand, Call, Orders, values_of
 
 pytestmark = pytest.mark.slow

@@ -13,7 +13,7 @@ import pytest
 from click.testing import Result
 from distributed import LocalCluster, get_worker
 
-from gradhesion.cli.work.folder import folder_of
+from gradhesion.cli.work.parts.folder import folder_of
 from tests.cli.engines.orders import ByHand, Call, Orders, values_of
 
 pytestmark = pytest.mark.slow
@@ -175,7 +175,7 @@ def test_workers_that_are_paused_end_the_run(
 def test_workers_that_come_late_and_leave_early(
     gradhesion: Call, study_file: Path, whole: dict[str, bytes], output: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gradhesion.cli.work import given
+    from gradhesion.cli.work.solve import given
 
     really, seen = given.solve, set()
 

@@ -1,0 +1,154 @@
+"""What the dataset of a fit holds: values with intervals, correlations, the data, the fitted path and residuals."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from gradhesion.cli.dataset.dataset import origin
+from gradhesion.cli.dataset.fits.rows import refuse_size, rows_of, side_by_side
+from gradhesion.cli.disk import replacement, writing
+from gradhesion.cli.keys import INPUTS, INTERACTION
+from gradhesion.cli.names.fits import (
+    FIT,
+    FIT_MORE,
+    FIT_POINTS,
+    FIT_UNITS,
+    FIT_WORDS,
+    LOOP,
+    OTHER_PARAMETER,
+    PARAMETER_UNITS,
+)
+from gradhesion.cli.names.outputs import PARAMETER
+from gradhesion.cli.names.scenes import STEEP, STEEP_CONTACT
+from gradhesion.cli.study.fit.loop_files import fingerprint
+from gradhesion.cli.study.fit.study import FitStudy, unit_of_parameter
+from gradhesion.cli.study.shape_words import rate_in_words, shape_in_words, toughness_in_words
+from gradhesion.cli.work.kernels.compiling import prepare
+from gradhesion.cli.work.solve.fitting import Fit, fits_of, kinds_of_fit, range_words
+from gradhesion.core.problem.status import FLAGS, OF_FITS
+
+if TYPE_CHECKING:
+    import xarray
+
+_UNITS: Final = {"indentation": "m", "load": "N"}
+_WAYS: Final = {"flag_values": np.array([0, 1], np.int8), "flag_meanings": "loading unloading"}
+_WAYS_OR_NONE: Final = {"flag_values": np.array([-1, 0, 1], np.int8), "flag_meanings": "none loading unloading"}
+_YES: Final = {"flag_values": np.array([0, 1], np.int8), "flag_meanings": "no yes"}
+_OWN_UNITS: Final = ("value", "standard_deviation", "low", "high", "low_searched", "high_searched", "minimum_value")
+"""What is in the units of what is fitted."""
+
+
+def compute_fit(study: FitStudy) -> "xarray.Dataset":
+    """Fit a study in memory: the dataset that `gradhesion run` writes to a file."""
+    refuse_size(study)
+    prepare(kinds_of_fit(study))
+    return dataset_of(study, fits_of(study), "computed in memory")
+
+
+def write_fit(study: FitStudy, fits: Sequence[Fit], path: Path, *, history: str, overwrite: bool) -> None:
+    """
+    Write fits into a file, which takes the place of `path` when it is complete and on disk.
+
+    Raises
+    ------
+    OutputError
+        It cannot be written, or exists.
+    """
+    dataset = dataset_of(study, fits, history)
+    packed = {"zlib": True, "complevel": 1, "shuffle": True}
+    along = {name: packed for name, variable in dataset.variables.items() if variable.dims and variable.dtype != object}
+    own = {name: along.get(name, {}) | {"_FillValue": None} for name in dataset.variables}
+    with replacement(path, overwrite=overwrite) as temporary, writing(path):
+        dataset.to_netcdf(temporary, format="NETCDF4", engine="netcdf4", encoding=own)
+
+
+def dataset_of(study: FitStudy, fits: Sequence[Fit], history: str) -> "xarray.Dataset":
+    """Put the fits of a study into a dataset: that of one loop, or of several along a first dimension."""
+    import xarray  # noqa: PLC0415 (450 ms)
+
+    each = [rows_of(study, fit) for fit in fits]
+    rows = each[0] if study.is_of_one else side_by_side(each)
+    made = {name: xarray.Variable(dims, values, _attributes_of(study, name)) for name, (dims, values) in rows.items()}
+    labels = np.array(study.parameters, dtype=object)
+    units = np.array([unit_of_parameter(name) for name in study.parameters], dtype=object)
+    parameter = (PARAMETER,)
+    fixed = {
+        name: xarray.Variable((), value, {"units": key.unit, "long_name": key.about})
+        for name, key in INPUTS.items()
+        if (value := study.adhesion_range if name == INTERACTION else study.fixed.get(name)) is not None
+    }
+    attributes = {"long_name": "fitted quantity"}
+    coordinates = {
+        PARAMETER: xarray.Variable(parameter, labels, attributes),
+        OTHER_PARAMETER: xarray.Variable((OTHER_PARAMETER,), labels, attributes),
+        PARAMETER_UNITS: xarray.Variable(parameter, units, {"long_name": "unit of the fitted quantity"}),
+    }
+    if not study.is_of_one:
+        words = {
+            "file": [fit.loop.file for fit in fits],
+            "sha256": [fit.loop.sha256 for fit in fits],
+            "problem": [fit.problem for fit in fits],
+            "alike": ["; ".join(fit.found.alike) if fit.found else "" for fit in fits],
+        }
+        for name, values in words.items():
+            own = {"long_name": FIT_WORDS[name]}
+            coordinates[name] = xarray.Variable((LOOP,), np.array(values, dtype=object), own)
+    marks = {name: made.pop(name) for name in (STEEP,) if name in made}
+    return xarray.Dataset(made, coordinates | fixed | marks, origin(study, history, _attributes(study, fits)))
+
+
+def _attributes(study: FitStudy, fits: Sequence[Fit]) -> dict[str, Any]:
+    """List the attributes that fits alone have."""
+    found = [fit.found for fit in fits if fit.found is not None]
+    methods = {one.contact.method for one in found if one.contact is not None}
+    exponent = ", with a fitted exponent" if "exponent" in study.free else ""
+    intervals = "profile likelihoods" if study.intervals == "profile" else "linear"
+    return {
+        "profile": shape_in_words(study.profile),
+        "control": study.loading.control,
+        **({} if study.toughness is None else {"toughness": toughness_in_words(study.toughness)}),
+        **({} if study.rate is None else {"rate": f"{rate_in_words(study.rate)}{exponent}"}),
+        "data_file": study.file,
+        "data_sha256": fingerprint(study.loops),
+        "data_rows_left_out": np.int64(sum(loop.dropped for loop in study.loops)),
+        "data_rows_of_pauses": np.int64(sum(loop.paused for loop in study.loops)),
+        "noise_is": "given" if study.noise_is_given else "estimated from differences of neighbours",
+        "intervals": intervals,
+        **({"contact_point": "; ".join(sorted(methods))} if methods else {}),
+        **({"alike": "; ".join(found[0].alike)} if study.is_of_one and found[0].alike else {}),
+    }
+
+
+def _attributes_of(study: FitStudy, name: str) -> dict[str, Any]:
+    """Describe a variable."""
+    if name == "status":
+        return _of_status()
+    if name == STEEP:
+        return {"units": "1", "long_name": STEEP_CONTACT}
+    for own in (FIT, FIT_MORE):
+        if name in own:
+            attributes: dict[str, Any] = {"long_name": own[name][1]}
+            if name in ("on_bound", "converged"):
+                return attributes | _YES
+            if name == "tabor_parameter":
+                attributes["comment"] = range_words(study)
+            return attributes if name in _OWN_UNITS else attributes | {"units": FIT_UNITS.get(name, "1")}
+    words = next(own[name] for own in FIT_POINTS.values() if name in own)
+    if study.loading.control == "machine" and name.endswith("_indentation"):
+        words = words.replace("indentation depth", "displacement of the machine")
+    if name.endswith("_unloading"):
+        return {"long_name": words} | (_WAYS if study.is_of_one else _WAYS_OR_NONE)
+    return {"long_name": words, "units": _UNITS.get(name.rpartition("_")[2], "1")}
+
+
+def _of_status() -> dict[str, Any]:
+    """Describe the status of the fitted cycle."""
+    flags = FLAGS | OF_FITS
+    return {
+        "units": "1",
+        "long_name": "flags of the fitted cycle (0: nothing to report)",
+        "flag_masks": np.array(list(flags.values()), dtype=np.int16),
+        "flag_meanings": " ".join(flags),
+    }

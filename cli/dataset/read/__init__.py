@@ -1,0 +1,1 @@
+"""Datasets that are read: opened, checked, selected from, and what their values mean."""

@@ -1,0 +1,279 @@
+"""Parts of a dataset: axes fixed at a value, and axes reduced to an extreme or a mean.
+
+The words of `--at` and `--over` become a `Selection` here; it narrows a dataset without loading it.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+import numpy as np
+import xarray
+from numpy.typing import NDArray
+
+from gradhesion.cli.dataset.read.reductions import (
+    REDUCTIONS,
+    Between,
+    Taken,
+    interpolated,
+    placed,
+    reduced,
+    without_failed,
+)
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.keys import INPUTS, PHYSICAL
+from gradhesion.cli.names.scenes import SCENE, SOLVER
+from gradhesion.cli.study.text.quantities import si_value
+from gradhesion.cli.terminal.wording import did_you_mean
+
+SLACK: Final = 1e-9
+"""How far beyond an end of an axis a value may be, over the end: it is typed with fewer digits than it has."""
+
+SAME: Final = 1e-12
+"""Values this near to each other, over their size, are one: ends of ranges are rounded."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Selection:
+    """What of a dataset is wanted."""
+
+    fixed: Mapping[str, int] = field(default_factory=dict)
+    """The item at which each of some axes is fixed."""
+    between: tuple[Between, ...] = ()
+    """Axes fixed at a value between two items."""
+    scenes: NDArray[np.intp] | None = None
+    """The scenes that are left of a dataset of points."""
+    over: Mapping[str, str] = field(default_factory=dict)
+    """The reduction of each of some axes, in the order in which they are done."""
+
+    def narrowed(self, dataset: xarray.Dataset) -> xarray.Dataset:
+        """
+        Fix axes; nothing is loaded.
+
+        An axis that is fixed becomes a coordinate without dimension that has the value really used. One that is
+        fixed between two items keeps these two, and one that is to be reduced stays: that takes values, see `taken`.
+        """
+        narrow = dataset.isel({axis: item for axis, item in self.fixed.items() if axis in dataset.dims})
+        narrow = narrow.isel({one.axis: [*one.items] for one in self.between})
+        return narrow if self.scenes is None else narrow.isel({SCENE: self.scenes})
+
+    def taken(self, values: xarray.DataArray, status: xarray.DataArray) -> Taken:
+        """Interpolate and reduce a variable of a narrowed dataset, with its status; scenes without a value are NaN."""
+        values, status = values.load(), status.load()
+        if values.dtype.kind == "f":
+            values = values.where(np.isfinite(values))
+        for one in self.between:
+            values, status = interpolated(values, status, one)
+        left_out = 0
+        if self.over:
+            values, left_out = without_failed(values, status)
+        at_end, flat = None, 0
+        for axis, how in self.over.items():
+            wide = values
+            values, status = reduced(values, status, axis, how)
+            at_end, flat = None, 0
+            if how.startswith("arg"):
+                at_end, equal = placed(wide, axis, how)
+                values, flat = values.where(~equal), int(equal.sum())
+        return Taken(values=values, status=status, left_out=left_out, at_end=at_end, flat=flat)
+
+
+def selection_of(
+    dataset: xarray.Dataset, at: Sequence[str] = (), over: Sequence[str] = (), *, interpolate: bool = False
+) -> Selection:
+    """
+    Read wishes such as at = ["lambda_over_R=0.1", "solver=exact"] and over = ["A=max"].
+
+    Parameters
+    ----------
+    dataset
+        What the wishes are about; of it only the axes are looked at.
+    at
+        An axis is fixed at the value nearest to the one that is written (in the logarithm of an axis that is
+        log-spaced). Values of an axis with a unit are in SI, or have one: "R=2 um". Of a dataset of points the
+        scenes with the nearest value stay.
+    over
+        An axis is reduced by "max", "min", "mean", a quantile ("p05", "p50", "p95"), or to the place of the extreme,
+        "argmax" or "argmin".
+    interpolate
+        Whether `at` interpolates, linearly in the axis or in its logarithm, instead of taking the nearest value.
+
+    Raises
+    ------
+    DatasetError
+        A wish cannot be read or met; the message says which, and what to write instead.
+    """
+    points = SCENE in dataset["status"].dims
+    fixed: dict[str, int] = {}
+    between: list[Between] = []
+    scenes: NDArray[np.intp] | None = None
+    named: set[str] = set()
+    for option, axis, text in _choices("--at", at, "AXIS=VALUE"):
+        check_axis(dataset, option, axis)
+        _check_once(option, axis, named)
+        if axis == SOLVER:
+            fixed[axis] = _solver(dataset, option, text)
+            continue
+        values = np.asarray(dataset[axis].values, dtype=float)
+        value = _checked(option, values, axis, _number(option, axis, text))
+        nearest = _nearest(values, value)
+        if points and axis not in dataset["status"].dims:
+            if interpolate:
+                raise DatasetError(f"{option}: points cannot be interpolated; leave --interpolate out")
+            same = np.flatnonzero(values == values[nearest])
+            scenes = same if scenes is None else np.intersect1d(scenes, same)
+        elif interpolate and not np.isinf(value) and abs(values[nearest] - value) > SAME * abs(value):
+            between.append(_between(values, axis, value))
+        else:
+            fixed[axis] = nearest
+    if scenes is not None and not scenes.size:
+        raise DatasetError(f"--at {' --at '.join(at)}: no scene has all these values; leave one of them out")
+    if interpolate and not at:
+        raise DatasetError("--interpolate: there is nothing to interpolate; add --at AXIS=VALUE")
+    return Selection(fixed=fixed, between=tuple(between), scenes=scenes, over=_reductions(dataset, over, named))
+
+
+def nearest_values(dataset: xarray.Dataset, at: Sequence[str]) -> list[str]:
+    """Say which wishes of `--at` are met by another value, the nearest of the axis."""
+    notes = []
+    for option, axis, text in _choices("--at", at, "AXIS=VALUE"):
+        if axis == SOLVER:
+            continue
+        values = np.asarray(dataset[axis].values, dtype=float)
+        value = _number(option, axis, text)
+        near = float(values[_nearest(values, value)])
+        if not np.isinf(value) and abs(near - value) > SAME * abs(value):
+            unit = f" {PHYSICAL[axis].unit}" if axis in PHYSICAL else ""
+            notes.append(f"{option}: shows {axis} = {near:.10g}{unit}, its nearest value")
+    return notes
+
+
+def is_log(values: NDArray[np.float64]) -> bool:
+    """Report whether the ratios of the finite values of an axis are more even than their differences."""
+    finite = np.unique(values[np.isfinite(values)])
+    if finite.size < 2 or finite[0] <= 0 or finite[-1] < 5 * finite[0]:
+        return False
+    steps, ratios = np.diff(finite), np.diff(np.log(finite))
+    return bool(finite.size == 2 or np.std(ratios) / np.mean(ratios) < np.std(steps) / np.mean(steps))
+
+
+def _reductions(dataset: xarray.Dataset, over: Sequence[str], named: set[str]) -> dict[str, str]:
+    """Read the wishes of `--over`."""
+    reductions: dict[str, str] = {}
+    for option, axis, how in _choices("--over", over, "AXIS=max"):
+        check_axis(dataset, option, axis)
+        _check_once(option, axis, named)
+        if SCENE in dataset["status"].dims and axis not in dataset["status"].dims:
+            raise DatasetError(f"{option}: points have no axes to reduce; choose some of them with --at")
+        if axis == SOLVER:
+            raise DatasetError(f"{option}: solvers cannot be reduced; choose one with --at solver=NAME")
+        if how not in REDUCTIONS:
+            raise DatasetError(f"{option}: not a reduction; {did_you_mean(how, list(REDUCTIONS))}")
+        if how.startswith("arg") and any(other.startswith("arg") for other in reductions.values()):
+            raise DatasetError(f"{option}: the place of an extreme is already requested; reduce by max, min or mean")
+        reductions[axis] = how
+    return reductions
+
+
+def _choices(option: str, words: Sequence[str], form: str) -> list[tuple[str, str, str]]:
+    """Take wishes apart: what was written, the axis and the rest."""
+    choices = []
+    for word in words:
+        axis, sign, rest = (part.strip() for part in word.partition("="))
+        if not (axis and sign and rest):
+            raise DatasetError(f"{option} {word}: write {option} {form}")
+        choices.append((f"{option} {word}", axis, rest))
+    return choices
+
+
+def axes_of(dataset: xarray.Dataset) -> list[str]:
+    """List the axes of a dataset; of points, the parameters that they have instead, and the solvers."""
+    dims = [str(axis) for axis in dataset["status"].dims]
+    return [axis for axis in dims if axis != SCENE] + (
+        [name for name in INPUTS if name in dataset.coords and dataset[name].dims == (SCENE,)] if SCENE in dims else []
+    )
+
+
+def check_axis(dataset: xarray.Dataset, option: str, axis: str) -> None:
+    """Refuse what is not an axis of a dataset."""
+    known = axes_of(dataset)
+    if axis in known:
+        return
+    if axis in dataset.coords and dataset[axis].ndim == 0:
+        unit = str(dataset[axis].attrs.get("units", "1"))
+        written = f"{dataset[axis].item():g}" + ("" if unit == "1" else f" {unit}")
+        raise DatasetError(f"{option}: not an axis; {axis} is {written} in the whole dataset")
+    if axis in dataset.coords:
+        raise DatasetError(f"{option}: not an axis; {axis} follows from {' and '.join(map(str, dataset[axis].dims))}")
+    remedy = did_you_mean(axis, known) if known else "it has a single scene and no axes"
+    raise DatasetError(f"{option}: not an axis of this dataset; {remedy}")
+
+
+def _check_once(option: str, axis: str, named: set[str]) -> None:
+    """Refuse an axis that is named twice."""
+    if axis in named:
+        raise DatasetError(f"{option}: {axis} is fixed or reduced already; keep one of the two")
+    named.add(axis)
+
+
+def _solver(dataset: xarray.Dataset, option: str, name: str) -> int:
+    """Find a solver."""
+    known = [str(solver) for solver in dataset[SOLVER].values]
+    if name not in known:
+        raise DatasetError(f"{option}: not a solver of this dataset; {did_you_mean(name, known)}")
+    return known.index(name)
+
+
+def _number(option: str, axis: str, text: str) -> float:
+    """Read a value of an axis, in SI or with its unit."""
+    try:
+        value = float(text)
+    except ValueError:
+        if axis not in PHYSICAL:
+            raise DatasetError(f"{option}: {text} is not a number; write for example --at {axis}=0.1") from None
+        try:
+            value = si_value(text, axis)
+        except ValueError as error:
+            raise DatasetError(f"{option}: {error}") from None
+    if np.isnan(value):
+        raise DatasetError(f"{option}: {text} is not a number; write for example --at {axis}=0.1")
+    return value
+
+
+def _checked(option: str, values: NDArray[np.float64], axis: str, value: float) -> float:
+    """Refuse a value outside the range of an axis."""
+    finite = values[np.isfinite(values)]
+    inside = np.isinf(value) and bool((values == value).any())
+    if finite.size and not np.isinf(value):
+        least, greatest = float(finite.min()), float(finite.max())
+        inside = least - SLACK * abs(least) <= value <= greatest + SLACK * abs(greatest)
+    if not inside:
+        written = f"{finite.min():g} to {finite.max():g}" if finite.size else ""
+        written = " and ".join(filter(None, (written, "inf" if np.isinf(values).any() else "")))
+        unit = f" {PHYSICAL[axis].unit}" if axis in PHYSICAL else ""
+        raise DatasetError(f"{option}: outside the axis, which has values of {written}{unit}; choose one within")
+    return value
+
+
+def _nearest(values: NDArray[np.float64], value: float) -> int:
+    """Find the item of an axis nearest to a value, by ratio where it is log-spaced."""
+    if np.isinf(value):
+        return int(np.flatnonzero(values == value)[0])
+    if is_log(values):
+        with np.errstate(divide="ignore"):
+            return int(np.argmin(np.abs(np.log(values / value))))
+    return int(np.argmin(np.abs(values - value)))
+
+
+def _between(values: NDArray[np.float64], axis: str, value: float) -> Between:
+    """Find the two items of an axis that a value lies between."""
+    order: NDArray[Any] = np.argsort(values, kind="stable")
+    rising = values[order]
+    upper = min(int(np.searchsorted(rising, value)), int(np.isfinite(values).sum()) - 1)
+    low, high = rising[upper - 1], rising[upper]
+    if is_log(values):
+        low, high, place = np.log(low), np.log(high), np.log(value)
+    else:
+        place = value
+    share = float(np.clip((place - low) / (high - low), 0.0, 1.0))
+    return Between(axis=axis, value=value, items=(int(order[upper - 1]), int(order[upper])), share=share)

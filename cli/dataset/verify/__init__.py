@@ -1,0 +1,1 @@
+"""Datasets against the studies in them: whether they belong together, recomputed, and several joined."""

@@ -1,0 +1,127 @@
+"""Whether a dataset is that of the study in it: the text unchanged, and the coordinates those that it gives."""
+
+import hashlib
+import tomllib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+import xarray
+
+from gradhesion.cli.dataset.coordinates import following
+from gradhesion.cli.dataset.read.reader import study_text
+from gradhesion.cli.errors import DatasetError, StudyError
+from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.names.outputs import labels_of
+from gradhesion.cli.names.scenes import SOLVER
+from gradhesion.cli.study.points import COMMENT, points_of
+from gradhesion.cli.study.reading import study_from
+from gradhesion.cli.study.study import Study
+
+CLOSE: Final = 16 * 2.0**-52
+"""Of a coordinate: logarithmic spacing may differ by some units in the last place from one numpy to the next."""
+
+
+def study_of(
+    dataset: xarray.Dataset,
+    path: Path,
+    *,
+    kinds: Sequence[str] = ("map",),
+    wanted: str = "`gradhesion verify` accepts only maps",
+) -> Study:
+    """
+    Read the study of some kinds out of its dataset; `wanted` says of another which are wanted.
+
+    Raises
+    ------
+    DatasetError
+        The study was edited, is not that of the dataset, or is of another kind.
+    """
+    text = study_text(dataset, path)
+    if hashlib.sha256(text.encode()).hexdigest() != dataset.attrs["study_sha256"]:
+        raise _apart(path, "the text of its study was changed: its sha256 is not that of the dataset")
+    try:
+        data = tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise _apart(path, f"its study is not valid TOML ({error})") from None
+    if (kind := data.get("kind", "map")) not in kinds:
+        raise DatasetError(f"{path}: contains {'an' if kind == 'optimum' else 'a'} {kind}; {wanted}")
+    try:
+        study = study_from(_with_fit(dataset, data), "its study", **_points_of(dataset, data, path))
+    except StudyError as error:
+        raise DatasetError(
+            f"{path}: its study is not valid in this version ({error.mistakes[0]}); write it again"
+        ) from None
+    if study.search.is_front:
+        raise DatasetError(f"{path}: contains Pareto fronts, whose size differs from cell to cell; {wanted}")
+    _check_variables(dataset, study, path)
+    _check_coordinates(dataset, study, path)
+    return study
+
+
+def _with_fit(dataset: xarray.Dataset, data: dict[str, Any]) -> dict[str, Any]:
+    """Put what was fitted to the file of a profile in its place: the dataset has it."""
+    table = data.get("profile")
+    if not isinstance(table, Mapping) or "file" not in table:
+        return data
+    fit = tomllib.loads(str(dataset.attrs.get("profile_fit", "")))
+    names = ("R", "wavelength", "amplitude") if isinstance(data.get("physical"), Mapping) else ("lambda_over_R", "A")
+    home = "physical" if len(names) == 3 else "parameters"
+    numbers = {name: float(dataset[name]) for name in names}
+    own = {name: f"{value!r} m" if home == "physical" else value for name, value in numbers.items()}
+    return {**data, "profile": fit, home: {**data[home], **own}}
+
+
+def _points_of(dataset: xarray.Dataset, data: dict[str, Any], path: Path) -> dict[str, Any]:
+    """Find the file of its points, in the current directory or beside the dataset; else what the dataset has of it."""
+    columns = {
+        str(name): np.asarray(values.values, dtype=np.float64)
+        for name, values in dataset.coords.items()
+        if name in INPUTS and values.ndim == 1 and str(values.attrs.get("comment", "")).startswith(COMMENT)
+    }
+    if not columns:
+        return {}
+    for folder in (Path(), path.parent):
+        if not points_of(data, folder).mistakes:
+            return {"folder": folder}
+    return {"columns": columns}
+
+
+def _check_variables(dataset: xarray.Dataset, study: Study, path: Path) -> None:
+    """Check that a dataset has what its study asks for."""
+    for name in (*study.variables, "status"):
+        if name not in dataset.data_vars:
+            raise _apart(path, f"its study requests {name}, which the dataset lacks")
+        own = labels_of(name)
+        if dict(dataset[name].sizes) != study.sizes | ({own: len(study.labels[own])} if own else {}):
+            raise _apart(path, f"the axes of {name} are not those of its study")
+    if SOLVER in study.sizes and (
+        SOLVER not in dataset.coords or tuple(dataset[SOLVER].values) != tuple(study.method.solver)
+    ):
+        raise _apart(path, "its solvers are not those of its study")
+
+
+def _check_coordinates(dataset: xarray.Dataset, study: Study, path: Path) -> None:
+    """Check that the parameters of a dataset are those of its study."""
+    for name, values in study.parameters.items():
+        if name not in dataset.coords:
+            raise _apart(path, f"its study has {name}, which the dataset lacks")
+        here = np.asarray(dataset[name].values)
+        given = np.broadcast_to(values, tuple(study.axes.values()) if study.layout == "points" else np.shape(values))
+        if here.shape != given.shape:
+            raise _apart(path, f"it has {here.size:,} values of {name}, its study {given.size:,}")
+        wrong = np.flatnonzero(~np.isclose(here, given, rtol=CLOSE, atol=0.0))
+        if wrong.size:
+            at = f"[{wrong[0]}]" if here.ndim else ""
+            both = f"{here.flat[wrong[0]]!s}, in its study {given.flat[wrong[0]]!s}"
+            raise _apart(path, f"{name}{at} is {both}")
+    for name in study.made:
+        if name not in dataset.coords or dataset[name].dims != following(study, name):
+            raise _apart(path, f"the axes of {name} are not those of its study")
+
+
+def _apart(path: Path, what: str) -> DatasetError:
+    return DatasetError(
+        f"{path}: {what}, so that its study and its values do not belong together; write it again with `gradhesion run`"
+    )

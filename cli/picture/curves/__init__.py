@@ -1,0 +1,1 @@
+"""Pictures of the curves of scenes and of the states of contact, with measured points."""

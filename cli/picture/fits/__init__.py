@@ -1,0 +1,1 @@
+"""Pictures of fits: of one loop, of several, and of a measured profile."""

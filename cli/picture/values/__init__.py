@@ -1,0 +1,1 @@
+"""Pictures of values over scenes: maps, lines, points and Pareto fronts."""

@@ -1,0 +1,1 @@
+"""The kernels that a study needs, and how they are compiled ahead."""

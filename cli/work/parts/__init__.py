@@ -1,0 +1,1 @@
+"""The folder of a run: its lock, the parts of its finished blocks, and its small files."""

@@ -1,0 +1,150 @@
+"""The fits of a study: points given to the core, what cannot be fitted, and why a fit is not to be trusted."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, Final
+
+from gradhesion.cli.errors import StudyError
+from gradhesion.cli.study.fit.loop_file import LoopFile
+from gradhesion.cli.study.fit.study import FitStudy
+from gradhesion.core import kind_of_map
+from gradhesion.core.closed.applicability import validity
+from gradhesion.core.loops.fit import fit_loop
+from gradhesion.core.loops.fitted import FittedLoop, poor_from
+from gradhesion.core.loops.model import Model
+from gradhesion.core.loops.offsets import NAMES as OFFSETS
+from gradhesion.core.loops.speed import EXPONENT
+from gradhesion.core.problem.names import CLOSING, PARAMETERS, RANGE
+from gradhesion.core.problem.status import POOR_FIT
+from gradhesion.core.variables.reduced import parameters_from
+
+USUAL_RANGE: Final = 3e-10
+"""The range of the attraction in m where a study has none: about the distance of atoms."""
+_ABSURD: Final = 30.0
+"""A reduced chi square of data that are of another kind."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Fit:
+    """A loop of a study with what was found, or why nothing was."""
+
+    loop: LoopFile
+    found: FittedLoop | None
+    problem: str = ""
+
+
+def kinds_of_fit(study: FitStudy) -> tuple[str, ...]:
+    """Give the kinds of work of a fit (core/kinds.py)."""
+    return (kind_of_map(["dissipated_energy"], "exact", study.profile, study.loading), "loops")
+
+
+def fitted(study: FitStudy, loop: LoopFile) -> FittedLoop:
+    """
+    Fit a loop of a study.
+
+    Raises
+    ------
+    StudyError
+        What is searched cannot be told apart, has no effect, or has no path within its ranges.
+    """
+    law: dict[str, Any] = {"rate": study.rate} if study.rate else {}
+    try:
+        return fit_loop(
+            loop.depth,
+            loop.load,
+            loop.unloading,
+            study.fixed,
+            study.free,
+            noise=study.noise_of(loop),
+            noise_is_given=study.noise_is_given,
+            counts=loop.counts,
+            offsets=study.offsets,
+            profile=study.profile,
+            loading=study.loading,
+            toughness=study.toughness,
+            intervals=study.intervals,
+            starts=study.starts,
+            **law,
+        )
+    except ValueError as error:
+        raise StudyError(f"{study.name if study.is_of_one else loop.file}: {error}") from None
+
+
+def fits_of(study: FitStudy, advance: Callable[[int], None] = lambda _: None) -> list[Fit]:
+    """
+    Fit every loop of a study, one after the other; `advance` is called with 1 after each.
+
+    Raises
+    ------
+    StudyError
+        No loop can be fitted; the message is that of the first. Of several, those that cannot have a `problem`.
+    """
+    fits = []
+    for loop in study.loops:
+        try:
+            problem = loop.problem
+            found = None if problem else fitted(study, loop)
+        except StudyError as error:
+            if study.is_of_one:
+                raise
+            found, problem = None, str(error).removeprefix(f"{loop.file}: ")
+        fits.append(Fit(loop=loop, found=found, problem=problem))
+        advance(1)
+    if all(fit.found is None for fit in fits):
+        more = f" (none of the {len(fits):,} loops has a fit)" if len(fits) > 1 else ""
+        raise StudyError(f"{fits[0].loop.file}: {fits[0].problem}{more}")
+    return fits
+
+
+def tabor_of(study: FitStudy, found: FittedLoop) -> float:
+    """Give the Tabor parameter at the fitted values."""
+    model = Model(study.fixed, found.names, study.profile, study.loading, study.toughness)
+    given = model.given({name: value for name, value in found.values.items() if name != EXPONENT})
+    made = parameters_from(given)
+    scene = {name: float(made[name]) for name in PARAMETERS} | {RANGE: range_of(study) / given["R"]}
+    return float(validity(scene, ["tabor_parameter"], study.profile)["tabor_parameter"])
+
+
+def range_of(study: FitStudy) -> float:
+    """Give the range of the attraction in m, a usual one where the study has none."""
+    return study.adhesion_range or USUAL_RANGE
+
+
+def range_words(study: FitStudy) -> str:
+    """Say which range of the attraction that is."""
+    source = "assumed, as adhesion_range is not given" if study.adhesion_range is None else "given"
+    return f"with a range of the attraction of {1e9 * range_of(study):.3g} nm, {source}"
+
+
+def doubts_of(found: FittedLoop) -> Iterator[str]:
+    """Say why a fit is not to be trusted; nothing if it is."""
+    if not found.converged:
+        yield "the fit did not converge; give more starts, or narrower ranges"
+    if found.status & POOR_FIT:
+        yield (
+            f"a poor fit: reduced chi square {found.reduced_chi_square:.3g}, where "
+            f"{poor_from(found.degrees_of_freedom):.3g} is the most that noise explains; try another model, wider "
+            "ranges, or the noise as it is (fit.noise)"
+            + (", and check the signs of depth and load" if found.reduced_chi_square > _ABSURD else "")
+        )
+    for other in found.others:
+        yield (
+            f"another minimum is within the noise: chi square {other.chi_square:.6g} at {_listed(other.values)}, "
+            f"beside {found.chi_square:.6g} at {_listed(found.values)}; narrow the ranges to the one that is meant"
+        )
+    for name in found.on_bound:
+        low, high = found.ranges[name]
+        place = f"{name} is at an end of its range ({found.values[name]:.4g} of {low:.4g} to {high:.4g})"
+        if name in OFFSETS:
+            yield f"{place}; widen it with offsets under [fit], or look at the base line of the data"
+        elif name == CLOSING and 2.0 * found.values[name] > 1.0 + low:
+            yield f"{place}; the loop shows one work of adhesion for closing and opening: leave {CLOSING} out"
+        elif name == "work_of_adhesion" and 2.0 * found.values[name] < low + high:
+            yield f"{place}; widen the range, or the data show no adhesion"
+        else:
+            yield f"{place}; widen the range, or give it as a number"
+
+
+def _listed(values: dict[str, float]) -> str:
+    """Write values by name."""
+    return ", ".join(f"{name} = {value:.4g}" for name, value in values.items())

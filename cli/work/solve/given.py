@@ -1,0 +1,149 @@
+"""Scenes from what a study gives, solved for its outputs, in SI units as well."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli.keys import INPUTS
+from gradhesion.cli.names.outputs import OF_PHYSICAL, PARAMETER, PHYSICAL_PARAMETER, SI
+from gradhesion.cli.names.units import UNITS
+from gradhesion.cli.study.study import Study
+from gradhesion.cli.study.tiling import Block
+from gradhesion.cli.work.solve.scenes import solve
+from gradhesion.core import PARAMETERS, RANGE, SENSITIVITIES
+from gradhesion.core.problem.profile import Profile
+
+
+def scenes_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
+    """Give the parameters of a block of the axes as the core knows them; NaN is one that does not exist."""
+    return scenes_from(study.parameters_of(block))
+
+
+def scenes_from(given: dict[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
+    """Give the parameters of scenes as the core knows them, from what a study gives."""
+    if given.keys() >= {*PARAMETERS}:
+        return given
+    from gradhesion.core.variables.reduced import parameters_from  # noqa: PLC0415 (300 ms for SciPy)
+
+    return parameters_from(given)
+
+
+def solve_given(
+    study: Study,
+    given: dict[str, NDArray[np.float64]],
+    several: Block,
+    block: Block,
+    threads: int | None,
+    *,
+    watch: bool = False,
+) -> dict[str, NDArray[Any]]:
+    """
+    Solve scenes that are given as those of a study are, for its outputs.
+
+    Parameters
+    ----------
+    given
+        What the study gives; the arrays broadcast to the scenes.
+    several, block
+        Which of its solvers, and the block whose punches these are.
+    watch
+        Whether the slopes that contacts reach are looked at (scenes.py).
+
+    Returns
+    -------
+    The outputs, those in SI units and by quantities with units, and `status`: along the solvers, if there are several,
+    the scenes, and random punches.
+    """
+    found = _solved(study, scenes_from(given), several, block, threads=threads, watch=watch)
+    scales = scales_from(study, given)
+    if study.spectrum is not None:
+        scales = {unit: scale[..., None] for unit, scale in scales.items()}
+    found |= {name + SI: found[name] * scales[UNITS[name]] for name in study.in_si}
+    if PHYSICAL_PARAMETER in study.labels:
+        found |= physical_of(study, given, found)
+    return found
+
+
+def physical_of(
+    study: Study, given: Mapping[str, NDArray[np.float64]], found: Mapping[str, NDArray[Any]]
+) -> dict[str, NDArray[np.float64]]:
+    """Give the sensitivities to quantities with units, from those that are found."""
+    from gradhesion.core.sensitivities.physical import physical_sensitivities  # noqa: PLC0415 (300 ms for SciPy)
+
+    plain = {name: values for name, values in given.items() if name != RANGE and INPUTS[name].gives != RANGE}
+    if study.spectrum is not None:  # the last dimension of the scenes
+        plain = {name: np.asarray(values)[..., None] for name, values in plain.items()}
+    labels = study.labels
+    return {
+        name + OF_PHYSICAL: physical_sensitivities(
+            plain, labels[PHYSICAL_PARAMETER], labels[PARAMETER], name, found[name]
+        )
+        for name in study.outputs
+        if name in SENSITIVITIES
+    }
+
+
+def scales_of(study: Study, block: Block) -> dict[str, NDArray[np.float64]]:
+    """Give what results of a block are multiplied by for SI units, by the unit; nothing if the study has none."""
+    return scales_from(study, study.parameters_of(block))
+
+
+def scales_from(study: Study, given: Mapping[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
+    """Give the same of scenes that are given as those of a study are."""
+    if not study.in_si:
+        return {}
+    from gradhesion.core.variables.reduced import scales_in_si  # noqa: PLC0415 (300 ms for SciPy)
+
+    scales = scales_in_si(given["R"], given["work_of_adhesion"])
+    if any(UNITS[name] == "Pa" for name in study.in_si):
+        from gradhesion.core.equations.pressure import pressure_unit  # noqa: PLC0415 (300 ms for SciPy)
+
+        scales["Pa"] = pressure_unit(given["R"], given["work_of_adhesion"])
+    return scales
+
+
+def driven_by(study: Study) -> dict[str, Any]:
+    """Give the arguments of the core that say how the punch is driven, and what its edge meets."""
+    more = {"toughness": study.toughness, "rate": study.rate}
+    return {"loading": study.loading} | {name: one for name, one in more.items() if one is not None}
+
+
+def _solved(
+    study: Study, scenes: Mapping[str, NDArray[np.float64]], several: Block, block: Block, **how: Any
+) -> dict[str, NDArray[Any]]:
+    """Solve scenes for the outputs of a study, and `status`."""
+    solvers = study.method.solver
+    settings: dict[str, Any] = {"check_contact": study.method.check_contact, **driven_by(study), **how}
+    _, _, profiles = study.apart(block)
+    requested = (solvers,) if isinstance(solvers, str) else solvers[several[0]]
+    return solved_by(scenes, study, requested, profiles, **settings)
+
+
+def solved_by(
+    scenes: Mapping[str, NDArray[np.float64]],
+    study: Study,
+    solvers: Sequence[str],
+    profiles: Sequence[Profile],
+    **settings: Any,
+) -> dict[str, NDArray[Any]]:
+    """Solve scenes by each solver, the first dimension if the study has several, and of each punch, the last one."""
+    found = [
+        _of_each(solve(scenes, study.outputs, solver=solver, profile=one, **settings) for one in profiles)
+        if study.spectrum is not None
+        else solve(scenes, study.outputs, solver=solver, profile=profiles[0], **settings)
+        for solver in solvers
+    ]
+    return found[0] if isinstance(study.method.solver, str) else _over(0, found)
+
+
+def _of_each(found: Iterable[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
+    """Put results of several punches beside each other along a new axis, the last one of the scenes."""
+    each = [*found]
+    return _over(each[0]["status"].ndim, each)
+
+
+def _over(axis: int, found: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
+    """Put results beside each other along a new axis."""
+    return {name: np.stack([values[name] for values in found], axis) for name in found[0]}

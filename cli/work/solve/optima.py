@@ -1,0 +1,190 @@
+"""The optima of the cells of a block: what is sought as a merit of what is searched, and what is reported."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli.names.outputs import BEST, ON_BOUND, PARAMETER, SI
+from gradhesion.cli.names.scenes import STEEP
+from gradhesion.cli.study.rules.search import Search
+from gradhesion.cli.study.study import Method, Study
+from gradhesion.cli.study.tiling import Block, shape_of
+from gradhesion.cli.work.solve.given import solve_given
+from gradhesion.core.answers.flags import NOTHING_FEASIBLE, RESOLUTION_TOO_COARSE
+from gradhesion.core.answers.optimum import Optima, axis_of, optima_of, sweep
+from gradhesion.core.answers.optimum_front import front
+from gradhesion.core.answers.slopes_to_keys import slopes_to_keys
+from gradhesion.core.problem.status import LOADING_NOT_ONE_DISC, NO_VALUE
+from gradhesion.core.sensitivities.physical import POWERS
+
+Arrays = dict[str, NDArray[Any]]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Cells:
+    """The cells of a block, and one of the goals as a merit of what is searched."""
+
+    study: Study
+    block: Block
+    threads: int | None
+    goal: int = 0
+
+    @cached_property
+    def plain(self) -> Study:
+        """The study of the scenes: what is searched is given."""
+        study = self.study
+        inputs = {one.name: one.low for one in study.search.inputs}
+        method = study.method if study.search.one_disc else Method(solver=study.method.solver, check_contact=False)
+        return replace(study, search=Search(), parameters={**study.parameters, **inputs}, method=method)
+
+    @cached_property
+    def given(self) -> Arrays:
+        """What the study gives of each cell, or of all."""
+        shape = shape_of(self.block)
+        given = self.study.parameters_of(self.block)
+        return {
+            name: values.reshape(()) if values.size == 1 else np.broadcast_to(values, shape).ravel()
+            for name, values in given.items()
+        }
+
+    def at(self, places: NDArray[np.float64], cells: NDArray[np.int64]) -> Arrays:
+        """Give scenes as a study does: cells, and where they are searched."""
+        found = {name: values if values.ndim == 0 else values[cells] for name, values in self.given.items()}
+        for one, place in zip(self.study.search.inputs, places, strict=True):
+            inner = one.low * (one.high / one.low) ** place if one.log else one.low + (one.high - one.low) * place
+            found[one.name] = np.where(place == 1.0, one.high, inner)
+        return found
+
+    def solve(
+        self, given: Arrays, outputs: tuple[str, ...], *, study: Study | None = None, watch: bool = False
+    ) -> Arrays:
+        """Solve scenes."""
+        plain = replace(study or self.plain, outputs=outputs)
+        return solve_given(plain, given, (), self.block, self.threads, watch=watch)
+
+    def values(
+        self, places: NDArray[np.float64], cells: NDArray[np.int64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return merits and margins, as `gradhesion.core.answers.optimum_merit.Merit` says."""
+        search = self.study.search
+        found = self.solve(self.at(places, cells), search.solved)
+        shape = np.broadcast_shapes(places.shape[1:], np.shape(cells))
+        merits = np.broadcast_to(search.signs[self.goal] * found[search.goals[self.goal]], shape)
+        margins = np.full(shape, np.inf)
+        for name, low, high in search.limits:
+            margins = np.minimum(margins, np.where(np.isnan(found[name]), -np.inf, found[name] - low))
+            margins = np.minimum(margins, np.where(np.isnan(found[name]), -np.inf, high - found[name]))
+        if search.one_disc:
+            margins = np.where((found["status"] & LOADING_NOT_ONE_DISC) != 0, -1.0, margins)
+        return merits, np.minimum(margins, 1.0 if search.one_disc else np.finfo(float).max)
+
+    def slopes(self, places: NDArray[np.float64], cells: NDArray[np.int64]) -> NDArray[np.float64] | None:
+        """Return the slopes of merits to the places, where they are known."""
+        study, goal = self.study, self.study.search.goals[self.goal]
+        name = f"{goal.removesuffix(SI)}_sensitivity"
+        if not study.knows_slopes or name not in POWERS:
+            return None
+        given = self.at(places, cells)
+        found = self.solve(given, (goal.removesuffix(SI), name))
+        labels = replace(self.plain, outputs=(name,)).labels[PARAMETER]
+        powers = POWERS[name] if goal.endswith(SI) else None
+        keys = [one.name for one in study.search.inputs]
+        slopes = slopes_to_keys(given, keys, labels, found[goal], found[name], powers)
+        along = []
+        for one in study.search.inputs:
+            reach = given[one.name] * np.log(one.high / one.low) if one.log else one.high - one.low
+            along.append(np.nan_to_num(study.search.signs[self.goal] * slopes[one.name] * reach))
+        return np.array(np.broadcast_arrays(*along))
+
+
+def best_of_block(study: Study, block: Block, threads: int | None) -> Arrays:
+    """Find the optimum of each cell of a block: the values of its variables and `status`."""
+    cells = _Cells(study=study, block=block, threads=threads)
+    shape = shape_of(block)
+    count = int(np.prod(shape))
+    merits, margins = sweep(cells, len(study.search.inputs), count, study.search.resolution)
+    found = optima_of(cells, merits, margins)
+    places = found.places
+    values = _reported(cells, places, np.arange(count))
+    status = _status_of(values, found, merits)
+    known = (*study.variables, *((STEEP,) if study.watches_slope else ()))
+    shaped = {name: own.reshape((*shape, *own.shape[1:])) for name, own in values.items() if name in known}
+    return shaped | {ON_BOUND: _bounds_met(places).reshape(shape), "status": status.reshape(shape)}
+
+
+def fronts_of_block(study: Study, block: Block, threads: int | None) -> Arrays:
+    """Find the best compromises of each cell of a block, along a last dimension, padded to the longest."""
+    cells = [_Cells(study=study, block=block, threads=threads, goal=goal) for goal in (0, 1)]
+    shape, search = shape_of(block), study.search
+    count, inputs = int(np.prod(shape)), len(search.inputs)
+    axis = axis_of(search.resolution)
+    swept = [sweep(one, inputs, count, search.resolution) for one in cells]
+    ends = [optima_of(one, *both) for one, both in zip(cells, swept, strict=True)]
+    heights = [np.where(margins >= 0.0, merits, np.nan).reshape(-1, count) for merits, margins in swept]
+    grid = axis[np.array(np.unravel_index(np.arange(axis.size**inputs), (axis.size,) * inputs))]
+    fronts = []
+    for cell in range(count):
+        places = np.concatenate([grid, *(end.places[:, cell : cell + 1] for end in ends)], axis=1)
+        last = [one.values(places[:, -2:], np.array(cell)) for one in cells]
+        values = [
+            np.concatenate([height[:, cell], np.where(margins >= 0.0, merits, np.nan)])
+            for height, (merits, margins) in zip(heights, last, strict=True)
+        ]
+        fronts.append(places[:, front(values)])
+    longest = max(1, *(places.shape[1] for places in fronts))
+    padded = np.full((inputs, count, longest), np.nan)
+    for cell, places in enumerate(fronts):
+        padded[:, cell, : places.shape[1]] = places
+    found = _reported(cells[0], padded, np.arange(count)[:, None])
+    first = _status_of({"status": np.bitwise_or.reduce(_known(found), axis=-1)}, ends[0], swept[0][0])
+    second = _status_of({"status": np.zeros(count, np.int16)}, ends[1], swept[1][0])
+    shaped = {name: own.reshape((*shape, longest)) for name, own in found.items() if name in study.variables}
+    if study.watches_slope:
+        shaped[STEEP] = found[STEEP].max(axis=-1).reshape(shape)
+    return shaped | {"status": (first | second).reshape(shape)}
+
+
+def _known(found: Arrays) -> NDArray[np.int16]:
+    """Give the status of the points of fronts, 0 where there is none."""
+    status = found["status"].astype(np.int16)
+    return np.where(status & NO_VALUE, 0, status).astype(np.int16)
+
+
+def _bounds_met(places: NDArray[np.float64]) -> NDArray[np.int8]:
+    """Give the flags of the bounds that an optimum is at: two for each input."""
+    flags = np.zeros(places.shape[1:], np.int8)
+    for number, place in enumerate(places):
+        flags |= np.where(place == 0.0, 1 << 2 * number, 0).astype(np.int8)
+        flags |= np.where(place == 1.0, 2 << 2 * number, 0).astype(np.int8)
+    return flags
+
+
+def _reported(cells: _Cells, places: NDArray[np.float64], numbers: NDArray[np.int64]) -> Arrays:
+    """Solve the optima for all that is reported of them."""
+    study = cells.study
+    given = cells.at(places, numbers)
+    slopes = (study.search.slope,) if study.has_slopes else ()
+    whole = replace(cells.plain, method=study.method)
+    # the outputs of the search as well, so that status says of loading what it said there
+    requested = tuple(dict.fromkeys((*study.search.solved, *slopes)))
+    found = cells.solve(given, requested, study=whole, watch=study.watches_slope)
+    status = found["status"]
+    steep = {STEEP: np.broadcast_to(found.pop(STEEP), status.shape)} if study.watches_slope else {}
+    values = {
+        BEST + name: np.broadcast_to(own, (*status.shape, *own.shape[status.ndim :])) for name, own in found.items()
+    }
+    inputs = {BEST + one.name: np.broadcast_to(given[one.name], status.shape) for one in study.search.inputs}
+    inputs = {name: np.where(np.isnan(places[0]), np.nan, own) for name, own in inputs.items()}
+    return values | inputs | steep | {"status": status}
+
+
+def _status_of(values: Arrays, found: Optima, merits: NDArray[np.float64]) -> NDArray[np.int16]:
+    """Say of each cell what there is to report of its optimum, or why it has none."""
+    status = values["status"].astype(np.int16)
+    status = status | np.where(found.too_coarse, RESOLUTION_TOO_COARSE, 0).astype(np.int16)
+    some = ~np.isnan(merits.reshape(-1, merits.shape[-1])).all(axis=0)
+    none = np.isnan(found.merits)
+    return np.where(none, np.where(some, NOTHING_FEASIBLE, NO_VALUE), status).astype(np.int16)

@@ -1,0 +1,180 @@
+"""The spread of a block's values: by sensitivities, by a few samples that check them, and by many."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, replace
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.cli.keys import CLOSING_WORK
+from gradhesion.cli.names.outputs import PARAMETER, SI, SPREADABLE
+from gradhesion.cli.names.scenes import STEEP
+from gradhesion.cli.study.rules.uncertainty import Uncertainty
+from gradhesion.cli.study.study import Study
+from gradhesion.cli.study.tiling import Block, Tiling, shape_of
+from gradhesion.cli.work.solve.given import solve_given
+from gradhesion.core.answers.flags import LINEAR_DEVIATION_OFF
+from gradhesion.core.answers.slopes_to_keys import slopes_to_keys
+from gradhesion.core.answers.uncertainty import (
+    AT_FEW,
+    FEW,
+    Spread,
+    differ,
+    drawn_shares,
+    linear_deviation,
+    statistics_of,
+)
+from gradhesion.core.problem.status import NO_VALUE
+from gradhesion.core.sensitivities.physical import POWERS
+
+SCENES: Final = 2**20
+"""Samples that are solved at a time: some ten arrays of 8 MB are held."""
+
+Arrays = dict[str, NDArray[Any]]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Centre:
+    """The scenes of a block, about which inputs are spread."""
+
+    study: Study
+    """Without its uncertain inputs."""
+    given: Arrays
+    several: Block
+    block: Block
+    threads: int | None
+    spreads: Mapping[str, Spread]
+
+    def solve(self, given: Arrays, outputs: tuple[str, ...], *, watch: bool = False) -> Arrays:
+        """Solve scenes that are given as these are, for other outputs."""
+        study = replace(self.study, outputs=outputs)
+        return solve_given(study, given, self.several, self.block, self.threads, watch=watch)
+
+    def aligned(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Give an input the dimensions of results: random punches are their last."""
+        return values[..., None] if self.study.spectrum is not None else values
+
+
+def solve_uncertain(study: Study, block: Block, threads: int | None) -> Arrays:
+    """Solve a block of a study with uncertain inputs: the values of its variables and `status`."""
+    several, axes, _ = study.apart(block)
+    centre = _Centre(
+        study=replace(study, uncertainty=Uncertainty()),
+        given=study.parameters_of(axes),
+        several=several,
+        block=block,
+        threads=threads,
+        spreads={name: Spread(**asdict(one)) for name, one in study.uncertainty.deviations},
+    )
+    more = tuple(f"{name}_sensitivity" for name in study.linear)
+    watch = study.watches_slope
+    found = centre.solve(centre.given, tuple(dict.fromkeys((*study.outputs, *more))), watch=watch)
+    linear = {name: values for one in study.linear for name, values in _linear(centre, one, found).items()}
+    made = {_named(name, "std"): _deviation(centre, linear[name]) for name in linear}
+    if study.uncertainty.samples:
+        sampled = _sampled(centre, study.uncertainty, found["status"].shape)
+        off = [differ(made[_named(name, "std")], sampled[_named(name, "std")]) for name in linear]
+        made = sampled | made
+    else:
+        off = _off_the_line(centre, study.uncertainty.seed, found, linear)
+    failed = (found["status"] & NO_VALUE) != 0
+    flagged = np.any(off, axis=0) & ~failed if off else np.zeros_like(failed)
+    status = found["status"].astype(np.int16) | np.where(flagged, LINEAR_DEVIATION_OFF, 0).astype(np.int16)
+    plain = {name: found[name] for name in (*centre.study.variables, *((STEEP,) if watch else ()))}
+    return plain | {name: np.where(failed, np.nan, made[name]) for name in study.spreads} | {"status": status}
+
+
+def _named(name: str, way: str) -> str:
+    """
+    Name the variable of a spread.
+
+    >>> _named("pull_off_force_si", "std")
+    'pull_off_force_std_si'
+    """
+    return f"{name.removesuffix(SI)}_{way}" + (SI if name.endswith(SI) else "")
+
+
+def _linear(centre: _Centre, name: str, found: Arrays) -> dict[str, Arrays]:
+    """Give the slopes of a value to its uncertain inputs, of the value in SI units as well if it has them."""
+    given = {key: centre.aligned(values) for key, values in centre.given.items()}
+    sensitivity = f"{name}_sensitivity"
+    labels = replace(centre.study, outputs=(sensitivity,)).labels[PARAMETER]
+    ways: dict[str, dict[str, float]] = {name: {}} | ({name + SI: POWERS[sensitivity]} if name + SI in found else {})
+    keys = [*centre.spreads]
+    return {
+        own: slopes_to_keys(given, keys, labels, found[own], found[sensitivity], powers) for own, powers in ways.items()
+    }
+
+
+def _deviation(centre: _Centre, slopes: Arrays) -> NDArray[np.float64]:
+    """Give the standard deviation of a value by its slopes."""
+    deviations = [
+        spread.standard_deviation(centre.aligned(centre.given[key])) for key, spread in centre.spreads.items()
+    ]
+    return linear_deviation([*slopes.values()], deviations)
+
+
+def _off_the_line(centre: _Centre, seed: int, found: Arrays, linear: Mapping[str, Arrays]) -> list[NDArray[np.bool_]]:
+    """Report of each value where it is no straight line within the spread of its inputs, by a few samples."""
+    off = {name: np.zeros(found[name].shape, bool) for name in linear}
+    outputs = tuple(name for name in linear if not name.endswith(SI))
+    for place, given, samples in _samples_of(centre, FEW, seed, outputs):
+        moves = {key: centre.aligned(given[key] - _cut(centre.given[key], place)) for key in centre.spreads}
+        for name, slopes in linear.items():
+            line = np.sum([slopes[key][place] * move for key, move in moves.items()], axis=0)
+            off[name][place] = differ(np.std(samples[name], axis=0), np.std(line, axis=0), AT_FEW)
+    return [*off.values()]
+
+
+def _sampled(centre: _Centre, requested: Uncertainty, shape: tuple[int, ...]) -> Arrays:
+    """Give the statistics of all values by samples of the inputs."""
+    outputs = tuple(name for name in centre.study.outputs if name in SPREADABLE)
+    axis, made = len(centre.several), dict[str, NDArray[Any]]()
+    for part, _, samples in _samples_of(centre, requested.samples, requested.seed, outputs):
+        place = (*(slice(None) for _ in range(axis)), *part)
+        for name, values in samples.items():
+            whole = np.moveaxis(_whole(values, requested.samples, axis), axis, -1)
+            for way, one in statistics_of(whole, -1).items():
+                made.setdefault(_named(name, way), np.empty(shape))[place] = one
+    return made
+
+
+def _samples_of(
+    centre: _Centre, count: int, seed: int, outputs: tuple[str, ...]
+) -> Iterator[tuple[Block, Arrays, Arrays]]:
+    """
+    Solve the samples of all scenes, the same set for each, some scenes at a time.
+
+    Yields
+    ------
+    Which scenes, counted from the first of the block; what gives their samples, and the values of these: the samples
+    along an axis before those of the scenes.
+    """
+    shares = drawn_shares(len(centre.spreads), count, seed)
+    for part in _pieces(centre, count):
+        given = {key: _cut(values, part)[None] for key, values in centre.given.items()}
+        for (key, spread), own in zip(centre.spreads.items(), shares, strict=True):
+            if key == CLOSING_WORK:  # an edge opens at no less than it closes at
+                spread = replace(spread, high=np.minimum(spread.high, given["work_of_adhesion"]))
+            given[key] = spread.quantiles(given[key], own.reshape(-1, *(1 for _ in part)))
+        found = centre.solve(given, outputs)
+        yield part, given, {name: values for name, values in found.items() if name != "status"}
+
+
+def _whole(values: NDArray[Any], samples: int, axis: int) -> NDArray[Any]:
+    """Repeat values that do not depend on the samples along their axis."""
+    shape = list(values.shape)
+    shape[axis] = samples
+    return np.broadcast_to(values, shape)
+
+
+def _pieces(centre: _Centre, samples: int) -> Iterator[Block]:
+    """Cut the axes of a block into pieces whose samples are solved at once, beginning at 0."""
+    _, axes, profiles = centre.study.apart(centre.block)
+    yield from Tiling(shape_of(axes), max(1, SCENES // (samples * len(profiles))), 1)
+
+
+def _cut(values: NDArray[Any], part: Block) -> NDArray[Any]:
+    """Cut a piece out of an array that broadcasts to the block."""
+    return values[tuple(slice(None) if size == 1 else one for size, one in zip(values.shape, part, strict=True))]

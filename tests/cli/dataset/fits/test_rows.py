@@ -1,0 +1,121 @@
+"""What a dataset has of a fit beyond its values, and what `info` says of it; nothing is fitted here."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import gradhesion as gr
+from gradhesion.cli.dataset.fits.fit import dataset_of, write_fit
+from gradhesion.cli.dataset.read.reader import opened
+from gradhesion.cli.names.fits import FIT_MORE
+from gradhesion.cli.picture.fits.fit import drawn_fit
+from gradhesion.cli.study.fit.study import FitStudy
+from gradhesion.cli.words.fit_words import fit_described
+from gradhesion.cli.words.loops_words import loops_described
+from gradhesion.cli.work.solve.fitting import Fit
+from gradhesion.core.loops.features import ContactPoint
+from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum
+from gradhesion.core.problem.status import ANOTHER_MINIMUM, NO_VALUE, POOR_FIT
+
+CONFIGS = Path(__file__).parents[4] / "configs"
+
+
+@pytest.fixture(scope="module")
+def study() -> FitStudy:
+    """The example, with a tilt, and its zero of depth at the contact point."""
+    found = gr.load(CONFIGS / "fit.toml", set={"fit.offsets": {"indentation": "contact", "slope": True}})
+    assert isinstance(found, FitStudy)
+    return found
+
+
+def fit(study: FitStudy, **changes: Any) -> Fit:
+    """A fit of the loop of a study, with made-up numbers."""
+    names = study.parameters
+    values = dict.fromkeys(names, 1.0) | {"E_star": 1e7, "work_of_adhesion": 0.03, "A": 0.01, "wavelength": 5e-7}
+    count = study.loop.depth.size
+    found = FittedLoop(
+        names=names,
+        values=values,
+        standard_deviations={name: 0.01 * value for name, value in values.items()},
+        low={name: 0.98 * value for name, value in values.items()},
+        high={name: 1.02 * value for name, value in values.items()},
+        ranges={name: (0.1 * value, 10.0 * value) for name, value in values.items()},
+        correlation=np.eye(len(names)),
+        on_bound=(),
+        chi_square=2.25 * (count - len(names)),
+        degrees_of_freedom=count - len(names),
+        residual=np.zeros(count),
+        loading=np.zeros((3, 2)),
+        unloading=np.zeros((2, 2)),
+        converged=True,
+        status=POOR_FIT | ANOTHER_MINIMUM,
+        others=tuple(OtherMinimum(values=values | {"A": 0.02 + 0.01 * i}, chi_square=1400.0 + i) for i in range(2)),
+        alike=("waves too fine to be seen would have the same effect",),
+        contact=ContactPoint(depth=2e-9, deviation=1e-10, method="the end of the base line"),
+        turning_radius=0.1,
+        widening=1.5,
+    )
+    return Fit(loop=study.loop, found=replace(found, **changes))
+
+
+def test_a_dataset_has_minima_ranges_and_the_contact_point(study: FitStudy, tmp_path: Path) -> None:
+    path = tmp_path / "one.nc"
+    write_fit(study, [fit(study)], path, history="made by a test", overwrite=False)
+    with opened(path) as dataset:
+        assert dataset["parameter"].values.tolist()[-1] == "load_slope"
+        assert dataset["parameter_units"].values.tolist()[-1] == "N/m"
+        assert dataset["minimum_value"].dims == ("minimum", "parameter")
+        assert dataset["minimum_value"].values[:, 3].tolist() == [0.02, 0.03]
+        assert dataset["minimum_chi_square"].values.tolist() == [1400.0, 1401.0]
+        assert float(dataset["high_searched"][0]) == 1e8
+        assert float(dataset["contact_depth"]) == 2e-9
+        assert dataset["contact_depth_deviation"].attrs["units"] == "m"
+        assert dataset.attrs["contact_point"] == "the end of the base line"
+        assert float(dataset["interval_widening"]) == 1.5
+        masks = dict(
+            zip(dataset["status"].attrs["flag_meanings"].split(), dataset["status"].attrs["flag_masks"], strict=True)
+        )
+        assert (masks["poor_fit"], masks["another_minimum"]) == (2048, 4096)
+        told = "\n".join(fit_described(dataset, path))
+    for words in (
+        "contact point: 2 +- 0.1 nm, found before the fit (the end of the base line)",
+        "widened by 1.5 for residuals above the noise",
+        "a poor fit: the noise explains",
+        "another minimum within the noise: chi square 1400 at E_star = 1e+07",
+        "indistinguishable: waves too fine to be seen would have the same effect",
+        "Tabor parameter ",
+    ):
+        assert words in told, words
+
+
+def test_a_file_of_version_0_2_is_read(study: FitStudy, tmp_path: Path) -> None:
+    path = tmp_path / "old.nc"
+    sound = dataset_of(study, [fit(study, others=(), contact=None)], "made by a test")
+    noise = {name: float(sound[name]) for name in ("noise_of_indentation", "noise_of_load")}
+    old = sound.drop_vars([name for name in FIT_MORE if name in sound]).assign_attrs(noise)
+    old.to_netcdf(path)
+    with opened(path) as dataset:
+        told = "\n".join(fit_described(dataset, path))
+        drawn_fit(dataset)
+    assert "noise: 0.25 nm and 7 nN, given" in told
+    assert "reduced 2.25" in told
+
+
+def test_side_by_side_minima_are_padded(study: FitStudy, tmp_path: Path) -> None:
+    several = replace(study, loops=(study.loop, study.loop, study.loop), file="*.csv")
+    sound = fit(study, others=(), alike=(), status=0, chi_square=500.0)
+    fits = [sound, fit(study), Fit(loop=study.loop, found=None, problem="it has no path")]
+    dataset = dataset_of(several, fits, "made by a test")
+    assert dataset["minimum_chi_square"].dims == ("loop", "minimum")
+    np.testing.assert_array_equal(np.isnan(dataset["minimum_chi_square"]), [[True] * 2, [False] * 2, [True] * 2])
+    assert dataset["status"].values.tolist() == [0, POOR_FIT | ANOTHER_MINIMUM, NO_VALUE]
+    path = tmp_path / "all.nc"
+    write_fit(several, fits, path, history="made by a test", overwrite=False)
+    with opened(path) as again:
+        told = list(loops_described(again, path))
+    assert sum("another minimum within the noise" in line for line in told) == 2
+    assert any(line.endswith("poor_fit another_minimum") for line in told)
+    assert "force_curve.csv: it has no path" in told

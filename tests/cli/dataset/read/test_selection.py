@@ -1,0 +1,198 @@
+"""`--at` and `--over` take of a dataset what NumPy takes of its arrays, and say what cannot be taken."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+
+from gradhesion.cli.dataset.read.selection import Selection, axes_of, is_log, selection_of
+from gradhesion.cli.errors import DatasetError
+from gradhesion.cli.names.scenes import SOLVER
+from gradhesion.core import FLAGS
+
+K = np.array([0.0, 0.2, 0.5, 0.9])
+WAVES = np.geomspace(0.4, 0.01, 5)  # falling
+RIMS = np.array([0.3, 1.0, np.inf])
+FAILED, INFORMED = FLAGS["no_value"], FLAGS["pull_off_at_rim"]
+
+
+@pytest.fixture
+def dataset() -> xarray.Dataset:
+    """A grid whose force is linear in k and in log lambda/R, with a fixed nu and a modulus that follows from k."""
+    force = (1.0 + K[:, None, None]) * (3.0 + np.log(WAVES)[:, None]) + np.array([0.0, 7.0, 9.0])
+    dims = ("k", "lambda_over_R", "a_max_over_R")
+    outputs = {
+        "pull_off_force": (dims, force),
+        "loading_jumps": (dims, np.round(force).astype(np.int32)),
+        "status": (dims, np.zeros(force.shape, np.int8)),
+    }
+    coordinates: dict[str, Any] = {"k": K, "lambda_over_R": WAVES, "a_max_over_R": RIMS, "nu": 0.3}
+    return xarray.Dataset(outputs, coordinates | {"modulus": (("k", "a_max_over_R"), np.ones((4, 3)))})
+
+
+@pytest.fixture
+def points() -> xarray.Dataset:
+    """Five scenes one by one."""
+    force = ("scene", np.arange(5.0))
+    coordinates = {"k": ("scene", np.array([0.1, 0.1, 0.3, 0.3, 0.3])), "A": ("scene", np.array([1.0, 2, 1, 2, 3]))}
+    return xarray.Dataset({"pull_off_force": force, "status": ("scene", np.zeros(5, np.int8))}, coordinates)
+
+
+def take(dataset: xarray.Dataset, selection: Selection, name: str = "pull_off_force") -> Any:
+    narrow = selection.narrowed(dataset)
+    return selection.taken(narrow[name], narrow["status"])
+
+
+def test_the_nearest_value_is_taken_in_the_scale_of_the_axis(dataset: xarray.Dataset) -> None:
+    narrow = selection_of(dataset, ["k=0.34", "lambda_over_R = 0.028", "a_max_over_R=inf"]).narrowed(dataset)
+    assert narrow["k"].item() == 0.2
+    assert narrow["lambda_over_R"].item() == WAVES[3], "0.028 is nearer to 0.0253 than to 0.0632, by ratio"
+    assert narrow["a_max_over_R"].item() == np.inf
+    assert narrow["pull_off_force"].item() == dataset["pull_off_force"].values[1, 3, 2]
+    # the middle of 0.01 and 0.0253 is 0.0176 by difference and 0.0159 by ratio
+    assert selection_of(dataset, ["lambda_over_R=0.0165"]).fixed == {"lambda_over_R": 3}
+
+
+def test_interpolation_is_exact_for_what_is_linear_in_the_axis_or_its_logarithm(dataset: xarray.Dataset) -> None:
+    selection = selection_of(dataset, ["k=0.31", "lambda_over_R=0.017", "a_max_over_R=0.3"], interpolate=True)
+    taken = take(dataset, selection)
+    np.testing.assert_allclose(taken.values, 1.31 * (3.0 + np.log(0.017)), rtol=1e-14)
+    assert taken.values["k"].item() == 0.31
+    for wish, exact in (("k=0.5", 2), ("k=0.49999999999999994", 2)):
+        selection = selection_of(dataset, [wish], interpolate=True)
+        assert (selection.fixed, selection.between) == ({"k": exact}, ()), "a neighbour without a value does no harm"
+
+
+def test_interpolation_keeps_flags_of_both_neighbours_and_takes_jumps_from_the_nearer(dataset: xarray.Dataset) -> None:
+    dataset["status"][1] = INFORMED
+    dataset["status"][2, 0, 0] = FAILED
+    selection = selection_of(dataset, ["k=0.3"], interpolate=True)
+    status = take(dataset, selection).status
+    assert status[0, 0] == INFORMED | FAILED
+    assert (status.values.ravel()[1:] == INFORMED).all()
+    jumps = take(dataset, selection, "loading_jumps").values
+    np.testing.assert_array_equal(jumps, dataset["loading_jumps"].values[1])
+
+
+@pytest.mark.parametrize("how", ["max", "min", "mean"])
+def test_reductions_are_those_of_numpy(dataset: xarray.Dataset, how: str) -> None:
+    taken = take(dataset, selection_of(dataset, over=[f"lambda_over_R={how}"]))
+    expected = getattr(np, how)(dataset["pull_off_force"].values, axis=1)
+    np.testing.assert_allclose(taken.values, expected, rtol=4e-16)
+    assert taken.values.dims == ("k", "a_max_over_R")
+    assert taken.left_out == 0
+
+
+def test_the_place_of_an_extreme_may_be_reduced_further(dataset: xarray.Dataset) -> None:
+    dataset["pull_off_force"][2, 1, :] = 50.0
+    dataset["pull_off_force"][0, 3, :] = 60.0
+    taken = take(dataset, selection_of(dataset, over=["lambda_over_R=argmax"]))
+    best = WAVES[[3, 0, 1, 0]]
+    np.testing.assert_array_equal(taken.values, np.broadcast_to(best[:, None], (4, 3)))
+    # the wavelength of the greatest force over all k
+    taken = take(dataset, selection_of(dataset, ["a_max_over_R=1"], ["k=max", "lambda_over_R=argmax"]))
+    assert taken.values.item() == WAVES[3]
+    taken = take(dataset, selection_of(dataset, ["a_max_over_R=1"], ["lambda_over_R=argmax", "k=min"]))
+    assert taken.values.item() == best.min()
+
+
+def test_failed_scenes_are_left_out_and_counted(dataset: xarray.Dataset) -> None:
+    dataset["pull_off_force"][1, 2, 0] = np.nan
+    dataset["pull_off_force"][:, :, 1] = np.inf
+    dataset["pull_off_force"][3, 0, 2] = 1e9
+    dataset["status"][3, 0, 2] = FLAGS["tolerance_not_met"]
+    taken = take(dataset, selection_of(dataset, over=["k=max", "lambda_over_R=mean"]))
+    assert taken.left_out == 1 + 20 + 1
+    left = np.ma.masked_invalid(dataset["pull_off_force"].values)
+    left[3, 0, 2] = np.ma.masked
+    expected = left.max(axis=0).mean(axis=0).filled(np.nan)
+    assert np.isnan(expected[1]), "no value is left"
+    np.testing.assert_allclose(taken.values, expected, rtol=4e-16)
+
+
+def test_an_extreme_has_the_status_of_its_scene_and_a_mean_that_of_all(dataset: xarray.Dataset) -> None:
+    dataset["status"][3] = 1
+    dataset["status"][0] = INFORMED
+    greatest = dataset["pull_off_force"].values.argmax(axis=0)
+    status = take(dataset, selection_of(dataset, over=["k=argmax"])).status
+    assert {0, 3} <= {*greatest.ravel()}
+    np.testing.assert_array_equal(status, np.array([INFORMED, 0, 0, 1])[greatest])
+    assert (take(dataset, selection_of(dataset, over=["k=mean"])).status == (1 | INFORMED)).all()
+
+
+def test_points_with_the_nearest_value_stay(points: xarray.Dataset) -> None:
+    assert axes_of(points) == ["k", "A"]
+    narrow = selection_of(points, ["k=0.25"]).narrowed(points)
+    assert narrow["pull_off_force"].values.tolist() == [2.0, 3.0, 4.0]
+    narrow = selection_of(points, ["A=1.9", "k=0.1"]).narrowed(points)
+    assert narrow["pull_off_force"].values.tolist() == [1.0]
+
+
+def test_a_solver_is_chosen_by_its_name(dataset: xarray.Dataset) -> None:
+    both = xarray.concat([dataset, 2.0 * dataset], xarray.DataArray(["exact", "envelope"], dims=SOLVER, name=SOLVER))
+    narrow = selection_of(both, ["solver=envelope"]).narrowed(both)
+    np.testing.assert_array_equal(narrow["pull_off_force"], 2.0 * dataset["pull_off_force"])
+    with pytest.raises(DatasetError, match='not a solver of this dataset; did you mean "exact"'):
+        selection_of(both, ["solver=exat"])
+    with pytest.raises(DatasetError, match="solvers cannot be reduced"):
+        selection_of(both, over=["solver=max"])
+
+
+def test_quantities_have_their_unit_or_are_in_si() -> None:
+    radii = np.array([5e-7, 1e-6, 5e-6])
+    dataset = xarray.Dataset({"status": ("R", np.zeros(3, np.int8))}, {"R": ("R", radii)})
+    for wish in ("R=1 um", "R=1e-6", "R=900nm"):
+        assert selection_of(dataset, [wish]).fixed == {"R": 1}
+    for wish, message in (
+        ("R=1 s", "not a unit of this quantity"),
+        ("R=1 mm", "values of 5e-07 to 5e-06 m; choose one"),
+    ):
+        with pytest.raises(DatasetError, match=message):
+            selection_of(dataset, [wish])
+
+
+@pytest.mark.parametrize(
+    ("at", "over", "message"),
+    [
+        (["K2=0.1"], [], '--at K2=0.1: not an axis of this dataset; did you mean "k"?'),
+        (["nu=0.3"], [], "--at nu=0.3: not an axis; nu is 0.3 in the whole dataset"),
+        ([], ["modulus=max"], "not an axis; modulus follows from k and a_max_over_R"),
+        (["k"], [], "--at k: write --at AXIS=VALUE"),
+        (["k="], [], "--at k=: write --at AXIS=VALUE"),
+        ([], ["k"], "--over k: write --over AXIS=max"),
+        (["k=0.91"], [], "--at k=0.91: outside the axis, which has values of 0 to 0.9; choose one within"),
+        (["a_max_over_R=2"], [], "outside the axis, which has values of 0.3 to 1 and inf"),
+        (["k=inf"], [], "outside the axis"),
+        (["k=many"], [], "many is not a number; write for example --at k=0.1"),
+        (["k=nan"], [], "nan is not a number"),
+        (["k=0.1", "k=0.2"], [], "k is fixed or reduced already"),
+        (["k=0.1"], ["k=max"], "k is fixed or reduced already"),
+        ([], ["k=max", "k=min"], "k is fixed or reduced already"),
+        ([], ["k=maxi"], 'not a reduction; did you mean "max"?'),
+        ([], ["k=argmax", "lambda_over_R=argmin"], "the place of an extreme is already requested"),
+    ],
+)
+def test_mistakes_are_told_in_a_sentence(dataset: xarray.Dataset, at: list[str], over: list[str], message: str) -> None:
+    with pytest.raises(DatasetError) as caught:
+        selection_of(dataset, at, over)
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_points_say_what_they_have_not(points: xarray.Dataset) -> None:
+    for wishes, message in [
+        ({"over": ["k=max"]}, "points have no axes to reduce"),
+        ({"at": ["k=0.2"], "interpolate": True}, "points cannot be interpolated"),
+        ({"at": ["k=0.1", "A=3"]}, "no scene has all these values"),
+        ({"interpolate": True}, "there is nothing to interpolate"),
+    ]:
+        with pytest.raises(DatasetError, match=message):
+            selection_of(points, **wishes)
+
+
+def test_an_axis_is_logarithmic_where_its_ratios_are_more_even() -> None:
+    assert is_log(np.array([np.inf, 0.01, 1.0, 0.1]))
+    assert not is_log(np.array([0.0, 0.01, 0.1]))
+    assert not is_log(np.linspace(0.1, 0.9, 9))
+    assert not is_log(np.array([0.5]))

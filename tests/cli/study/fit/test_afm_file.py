@@ -1,0 +1,179 @@
+"""Files of instruments: heights, forces and segments become depth, load and branches by the conventions of the field."""
+
+import builtins
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import gradhesion as gr
+from gradhesion.cli.work.solve.fitting import fitted
+from tests.cli.study.fit.test_fit_data import STUDY, points
+
+afmformats = pytest.importorskip("afmformats")
+
+SPRING = 2.5
+PLAIN = STUDY.replace('indentation = { column = "depth", unit = "nm" }\n', "").replace(
+    'load = { column = "force", unit = "nN" }\n', ""
+)
+
+
+def saved(folder: Path, name: str, *leave_out: str, curves: int = 1, spring: float | None = SPRING) -> dict[str, Any]:
+    """Save points as the base of a cantilever would have moved, with a pause; give their depth, load and branch."""
+    import h5py
+    from afmformats.mod_force_distance import AFMForceDistance
+
+    rows = points(600)
+    depth, load = 1e-9 * rows["depth"], 1e-9 * rows["force"]
+    segment = np.where(rows["back"], 1, 0).astype(np.uint8)
+    segment[290:310] = 2
+    columns = {
+        "height (measured)": 3e-6 - (depth + load / SPRING),
+        "force": load,
+        "tip position": 3e-6 - depth,
+        "segment": segment,
+        "time": np.arange(600) * 1e-3,
+    }
+    data = {key: values for key, values in columns.items() if key not in leave_out}
+    known = {} if spring is None else {"spring constant": spring}
+    meta = {"path": name, "imaging mode": "force-distance", "point count": 600, **known}
+    made = [AFMForceDistance(data, meta | {"enum": i}) for i in range(curves)]
+    if name.endswith(".tab"):
+        made[0].export_data(folder / name, fmt="tab")
+    else:
+        with h5py.File(folder / name, "w") as file:
+            for curve in made:
+                curve.export_data(file, fmt="hdf5")
+    kept = segment < 2
+    return {"depth": depth[kept], "load": load[kept], "back": rows["back"][kept]}
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with a study that names no columns."""
+    (tmp_path / "fit.toml").write_text(PLAIN)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def load(file: str, **keys: Any) -> Any:
+    """The study of a file."""
+    return gr.load("fit.toml", set={"data.file": file} | {name.replace("__", "."): one for name, one in keys.items()})
+
+
+@pytest.mark.parametrize("name", ["curve.h5", "curve.tab"])
+@pytest.mark.parametrize("leave_out", [(), ("tip position",)])
+def test_depth_is_the_displacement_less_the_deflection(folder: Path, name: str, leave_out: tuple[str, ...]) -> None:
+    rows = saved(folder, name, *leave_out)
+    study = load(name)
+    loop = study.loop
+    np.testing.assert_allclose(loop.depth, rows["depth"] - 3e-6, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(loop.load, rows["load"], rtol=1e-6, atol=1e-14)
+    np.testing.assert_array_equal(loop.unloading, rows["back"])
+    assert loop.paused == 20
+    assert not loop.through_machine
+    assert f"{name}: 20 rows of pauses were left out" in study.notes
+
+
+def test_through_the_machine_the_height_is_its_displacement(folder: Path) -> None:
+    rows = saved(folder, "curve.h5")
+    study = load("curve.h5", loading__control="machine", physical__spring_constant="2.5 N/m")
+    assert study.loop.through_machine
+    np.testing.assert_allclose(study.loop.depth, rows["depth"] + rows["load"] / SPRING - 3e-6, rtol=0, atol=1e-12)
+    with pytest.raises(gr.StudyError, match="the displacement of a machine is depth"):
+        load("curve.h5", loading__control="machine")
+
+
+def test_columns_may_be_named_with_their_sign(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a file that only an instrument writes: a file of afmformats under its name."""
+    rows = saved(folder, "saved.h5")
+    (folder / "curve.jpk-force").write_text("JPK")
+    with pytest.raises(gr.StudyError, match="afmformats cannot read a force curve from the file"):
+        load("curve.jpk-force")
+    real = afmformats.load_data
+    monkeypatch.setattr(afmformats, "load_data", lambda _, **more: real(folder / "saved.h5", **more))
+    height = {"column": "height (measured)", "sign": -1}
+    study = load("curve.jpk-force", data__displacement=height, data__load="force", physical__spring_constant="2.5 N/m")
+    np.testing.assert_allclose(study.loop.depth, rows["depth"] + rows["load"] / SPRING - 3e-6, rtol=0, atol=1e-12)
+    with pytest.raises(gr.StudyError, match='no column "hight"; choose from "force", "height'):
+        load("curve.jpk-force", data__indentation="hight", data__load="force")
+    with pytest.raises(gr.StudyError, match="in SI units; remove the unit"):
+        load("curve.jpk-force", data__load={"column": "force", "unit": "nN"}, data__indentation="tip position")
+
+
+def test_each_curve_of_a_file_is_a_loop(folder: Path) -> None:
+    saved(folder, "map.h5", curves=3)
+    study = load("map.h5")
+    assert [loop.file for loop in study.loops] == ["map.h5#0", "map.h5#1", "map.h5#2"]
+    assert not study.is_of_one
+    (folder / "stored.toml").write_text(study.text)
+    assert gr.load("stored.toml").text == study.text
+
+
+def test_what_a_file_lacks_is_said(folder: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    saved(folder, "a.h5", "tip position", spring=None)
+    saved(folder, "b.h5", "force")
+    saved(folder, "c.h5", "tip position", "height (measured)")
+    (folder / "d.ibw").write_text("no wave")
+    for name, words in {
+        "a.h5": "the file has no spring constant, without which there is no deflection",
+        "b.h5": 'the curve has no column "force", only',
+        "c.h5": 'the curve has no column "height (measured)", only "force"',
+        "d.ibw": "afmformats cannot read a force curve from the file",
+        "e.ibw": "the file cannot be read (No such file or directory)",
+    }.items():
+        with pytest.raises(gr.StudyError) as caught:
+            load(name)
+        assert words in str(caught.value)
+        assert len(str(caught.value).splitlines()) == 1
+    assert capfd.readouterr().err == "", "no traceback of another package"
+
+
+def test_tables_by_such_names_are_tables_where_columns_are_named(folder: Path) -> None:
+    (folder / "loop.tab").write_text("depth\tforce\n" + "".join(f"{i % 9}\t{i % 7}\n" for i in range(20)))
+    columns = {"indentation": {"column": "depth", "unit": "nm"}, "load": {"column": "force", "unit": "nN"}}
+    assert load("loop.tab", **{f"data__{name}": one for name, one in columns.items()}).loop.depth.size == 20
+    with pytest.raises(gr.StudyError, match="the column of the depths is required"):
+        load("loop.csv")
+
+
+def test_without_the_package_its_name_is_said(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    saved(folder, "curve.h5")
+    real = builtins.__import__
+
+    def missing(name: str, *rest: Any, **more: Any) -> Any:
+        if name.startswith("afmformats"):
+            raise ModuleNotFoundError(name)
+        return real(name, *rest, **more)
+
+    monkeypatch.setattr(builtins, "__import__", missing)
+    with pytest.raises(gr.StudyError, match=r"install it with `pip install gradhesion\[afm\]`"):
+        load("curve.h5")
+
+
+def test_a_long_curve_far_from_zero_gives_what_it_was_made_with(folder: Path) -> None:
+    """10,000 points of a smooth ball by the closed forms of Johnson, Kendall & Roberts (1971), the contact 7 um off."""
+    from afmformats.mod_force_distance import AFMForceDistance
+
+    R, E_star, work, spring = 5e-6, 1e6, 0.02, 0.5
+    a = np.linspace(1e-8, 3e-6, 300_001)
+    along = a**2 / R - np.sqrt(2.0 * np.pi * a * work / E_star)
+    force = 4.0 * E_star * a**3 / (3.0 * R) - np.sqrt(8.0 * np.pi * work * E_star * a**3)
+    along, force = (row[int(np.argmin(along)) :] for row in (along, force))
+    up, rng = np.linspace(-1.5e-6, 4e-7, 5000), np.random.default_rng(0)
+    depth, back = np.concatenate([up, up[::-1]]), np.arange(10_000) >= 5000
+    touching = (depth > 0.0) | (back & (depth > along[0]))
+    pull = np.where(touching, np.interp(depth, along, force), 0.0) + 1e-9 * rng.standard_normal(10_000)
+    depth = depth + 2e-10 * rng.standard_normal(10_000)
+    data = {"height (measured)": 7e-6 - depth - pull / spring, "force": pull, "segment": back.astype(np.uint8)}
+    meta = {"path": "long.h5", "enum": 0, "imaging mode": "force-distance", "spring constant": spring}
+    AFMForceDistance(data, meta | {"point count": 10_000}).export_data(folder / "long.h5", fmt="hdf5")
+    wide = {"start": "0.1 MPa", "stop": "10 MPa"}
+    study = load("long.h5", physical__E_star=wide, parameters__nu=0.5, fit__intervals="linear")
+    found = fitted(study, study.loop)
+    for name, true in {"E_star": E_star, "work_of_adhesion": work, "indentation_offset": -7e-6}.items():
+        assert abs(found.values[name] - true) < 4.0 * found.standard_deviations[name], name
+    assert found.standard_deviations["E_star"] < 1e-3 * E_star
+    assert abs(found.reduced_chi_square - 1.0) < 5.0 * np.sqrt(2.0 / found.degrees_of_freedom)
+    assert found.status == 0

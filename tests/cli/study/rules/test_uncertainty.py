@@ -1,0 +1,226 @@
+"""Uncertain inputs of a study: in Python, in a file of many blocks, in units, in words, and what is refused."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+from click.testing import Result
+
+import gradhesion as gr
+from gradhesion.cli.dataset import compute
+from gradhesion.cli.errors import StudyError
+from gradhesion.cli.names.outputs import SPREAD
+from gradhesion.cli.study import study_from
+
+Call = Callable[..., Result]
+INPUTS: dict[str, Any] = {"modulus": "5 %", "A": 0.001, "nu": {"low": 0.25, "high": 0.29}, "lambda_over_R": "1 %"}
+
+
+@pytest.fixture
+def data(data: dict[str, Any]) -> dict[str, Any]:
+    """The small study with uncertain inputs."""
+    parameters = data["parameters"] | {"A": [0.011, 0.023]}
+    return data | {"parameters": parameters, "uncertainty": INPUTS}
+
+
+def test_linear_deviations_are_sums_of_squares(data: dict[str, Any]) -> None:
+    outputs = ["pull_off_force", "pull_off_force_sensitivity"]
+    dataset = compute(study_from(data | {"outputs": outputs}))
+    assert {"pull_off_force_std"} == {*dataset.data_vars} - {*outputs, "status"}
+    slopes = dataset["pull_off_force_sensitivity"]
+    shares = {"modulus": 0.05, "A": 0.001 / dataset["A"], "lambda_over_R": 0.01, "nu": 0.04 / np.sqrt(12.0)}
+    squares = sum((slopes.sel(parameter=name) * share) ** 2 for name, share in shares.items())
+    expected = dataset["pull_off_force"] * np.sqrt(squares)
+    # eps of some ten terms, and the truncation of the amplitude at 0, 11 deviations away
+    np.testing.assert_allclose(
+        dataset["pull_off_force_std"], expected.transpose(*dataset["pull_off_force_std"].dims), rtol=1e-13
+    )
+    assert dataset["status"].dtype == np.int16
+    known = [name for name in gr.FLAGS if name != "too_many_waves"]  # of patterns and speeds alone
+    assert dataset["status"].attrs["flag_meanings"].split() == known
+
+
+def test_samples_are_the_same_in_every_scene_and_block(
+    data: dict[str, Any], gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path
+) -> None:
+    study = study_from(data | {"uncertainty": INPUTS | {"samples": 64, "seed": 3}})
+    whole = compute(study)
+    path = tmp_path / "blocks.nc"
+    call = gradhesion("run", write_study(study.text), "-o", path, "--chunk", "130")
+    assert call.exit_code == 0, call.output
+    with xarray.open_dataset(path) as dataset:
+        for name in whole.data_vars:
+            np.testing.assert_array_equal(dataset[name], whole[name])
+    for name in ("pull_off_force", "dissipated_energy"):
+        assert bool((whole[f"{name}_p05"] < whole[f"{name}_p50"]).all())
+        assert bool((whole[f"{name}_p50"] < whole[f"{name}_p95"]).all())
+    assert {f"{name}_{way}" for name in ("pull_off_force", "dissipated_energy") for way in SPREAD} <= {*whole.data_vars}
+    assert not any(str(name).startswith("loading_jumps_") for name in whole.data_vars)
+
+
+def test_samples_against_scenes_that_are_drawn_here(data: dict[str, Any]) -> None:
+    """Normal inputs truncated at their bounds, by another generator: 4096 scenes, good to 4 standard errors."""
+    parameters = data["parameters"] | {"k": 0.31, "A": 0.02, "lambda_over_R": 0.3, "a_max_over_R": 1.7}
+    inputs = {"A": 0.015, "modulus": "20 %"}
+    outputs = ["pull_off_force", "pull_off_radius"]
+    found = compute(
+        study_from(data | {"outputs": outputs, "parameters": parameters, "uncertainty": inputs | {"samples": 4096}})
+    )
+    rng, count = np.random.default_rng(2), 20_000
+    amplitude = rng.normal(0.02, 0.015, count)
+    amplitude = amplitude[amplitude > 0.0]
+    scenes = gr.core.solve(parameters | {"A": amplitude, "modulus": rng.normal(430.0, 86.0, amplitude.size)}, outputs)
+    for name in outputs:
+        error = np.std(scenes[name]) / np.sqrt(amplitude.size)
+        assert found[f"{name}_mean"].item() == pytest.approx(np.mean(scenes[name]), abs=4 * error)
+        density = np.mean(np.abs(scenes[name] - found[f"{name}_p95"].item()) < 2 * error) / (4 * error)
+        wide = 4 * np.sqrt(0.05 * 0.95 / amplitude.size) / density
+        assert found[f"{name}_p95"].item() == pytest.approx(np.quantile(scenes[name], 0.95), abs=wide)
+    # the radius has no sensitivities: its deviation is that of the samples
+    assert found["pull_off_radius_std"].item() == pytest.approx(np.std(scenes["pull_off_radius"]), rel=0.05)
+    assert "samples" in found["pull_off_radius_std"].attrs["comment"]
+    assert "linear" in found["pull_off_force_std"].attrs["comment"]
+
+
+def test_quantities_with_units() -> None:
+    """At k = 0 a smooth ball holds 1.5 pi R dgamma, whatever the modulus."""
+    ball = {
+        "outputs": ["pull_off_force"],
+        "parameters": {"k": 0.0, "nu": 0.3, "A": 0.0},
+        "physical": {"R": "1 um", "E": "1 GPa", "work_of_adhesion": "50 mJ/m^2"},
+        "uncertainty": {"R": "3 %", "work_of_adhesion": "2 mJ/m^2", "E": "10 %", "samples": 512},
+    }
+    found = gr.run(ball)
+    force = 1.5 * np.pi * 1e-6 * 0.05
+    assert found["pull_off_force_std"].item() == pytest.approx(0.0, abs=1e-12)
+    assert found["pull_off_force_std_si"].item() == pytest.approx(force * np.hypot(0.03, 0.04), rel=1e-9)
+    assert found["pull_off_force_mean_si"].item() == pytest.approx(force, rel=1e-3)
+    assert found["pull_off_force_std_si"].attrs["units"] == "N"
+
+
+RANDOM = 24
+SPREADS = dict.fromkeys(("modulus", "c0_over_R", "lambda_over_R", "A", "a_max_over_R"), "1 %") | {"nu": 0.01}
+
+
+def _random_scenes() -> dict[str, Any]:
+    rng = np.random.default_rng(5)
+    parameters = {
+        "k": rng.choice([0.0, 0.3, 0.5, 0.8], RANDOM),
+        "nu": rng.uniform(-0.2, 0.45, RANDOM),
+        "modulus": 10 ** rng.uniform(1.5, 3.5, RANDOM),
+        "c0_over_R": 10 ** rng.uniform(-3.0, 0.0, RANDOM),
+        "lambda_over_R": 10 ** rng.uniform(-1.5, 0.0, RANDOM),
+        "A": rng.uniform(0.002, 0.05, RANDOM),
+        "a_max_over_R": rng.uniform(0.3, 1.5, RANDOM),
+    }
+    return {"layout": "points", "outputs": ["pull_off_force", "dissipated_energy"], "parameters": parameters}
+
+
+@pytest.mark.slow
+def test_linear_deviations_against_samples() -> None:
+    """With inputs known to 1 %: within 2 %, and flagged where a kink is within reach."""
+    count = 2**15
+    scenes = _random_scenes()
+    linear = gr.run(scenes | {"uncertainty": SPREADS})
+    off = linear.gr.flagged("linear_deviation_off").values
+    rng = np.random.default_rng(8)
+    parameters, deviations = scenes["parameters"], {"nu": np.full(RANDOM, 0.01)}
+    deviations |= {name: 0.01 * parameters[name] for name in SPREADS if name != "nu"}
+    drawn = {name: np.broadcast_to(values, (count, RANDOM)) for name, values in parameters.items()}
+    drawn |= {name: parameters[name] + rng.normal(size=(count, RANDOM)) * own for name, own in deviations.items()}
+    found = gr.core.solve(drawn, scenes["outputs"])
+    wrong = np.zeros(RANDOM, bool)
+    for name in scenes["outputs"]:
+        ratio = linear[f"{name}_std"].values / np.std(found[name], axis=0)
+        noise = 4.0 / np.sqrt(2.0 * count)
+        wrong |= np.abs(ratio - 1.0) > 0.02 + noise
+    assert not np.any(wrong & ~off), np.flatnonzero(wrong & ~off)
+    assert 1 <= np.count_nonzero(wrong) <= np.count_nonzero(off) < RANDOM // 2
+
+
+def test_run_names_the_share_of_scenes_that_differ(
+    gradhesion: Call, write_study: Callable[[str], Path], tmp_path: Path, data: dict[str, Any]
+) -> None:
+    parameters = data["parameters"] | {"k": 0.31, "A": 0.023, "a_max_over_R": 1.7}
+    parameters["lambda_over_R"] = {"start": 0.1, "stop": 0.5, "num": 9}
+    asked = {"outputs": ["pull_off_force"], "parameters": parameters, "uncertainty": {"lambda_over_R": "5 %"}}
+    for samples, words in ((0, "draw samples there"), (1024, "differ by more than a tenth")):
+        study = study_from(data | asked | {"uncertainty": {"lambda_over_R": "5 %", "samples": samples}})
+        file, path = write_study(study.text), tmp_path / f"{samples}.nc"
+        call = gradhesion("run", file, "-o", path)
+        assert call.exit_code == 0
+        with xarray.open_dataset(path) as dataset:
+            count = int(dataset.gr.flagged("linear_deviation_off").sum())
+        assert 0 < count < 9
+        assert f"in {count} of 9 scenes ({count / 9:.1%})" in call.stderr
+        assert words in call.stderr
+    told = gradhesion("info", path).stdout
+    assert "uncertain inputs, 1,024 samples" in told
+    assert "lambda_over_R     standard deviation 5 % of the value" in told
+    assert "each solved about 1,025 times" in gradhesion("plan", file, "-o", tmp_path / "new.nc").stdout
+    picture = tmp_path / "picture.svg"
+    assert gradhesion("plot", path, "-o", picture, "--variable", "pull_off_force_p95").exit_code == 0
+    page = tmp_path / "page.html"
+    assert gradhesion("explore", path, "-o", page).exit_code == 0
+    assert "pull_off_force_std" in page.read_text()
+    assert gradhesion("verify", path, "--sample", "1").exit_code == 0
+
+
+def test_a_deviation_is_doubtful_where_the_line_is_off(data: dict[str, Any]) -> None:
+    dataset = compute(study_from(data | {"uncertainty": {"lambda_over_R": "30 %"}}))
+    off = dataset.gr.flagged("linear_deviation_off")
+    assert bool(off.any())
+    assert not bool(dataset.gr.valid("pull_off_force_std").where(off, other=False).any())
+    assert dataset.gr.valid("pull_off_force").values.sum() > dataset.gr.valid("pull_off_force_std").values.sum()
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"uncertainty": {"chi": "5 %"}}, "uncertainty.chi .* the study gives no chi that could be uncertain"),
+        ({"uncertainty": {"c0": "1 nm"}}, 'the study gives no c0 that could be uncertain; use "c0_over_R", or remove'),
+        ({"uncertainty": {"colour": 1.0}}, "uncertainty.colour .* not an input of a study; choose from"),
+        ({"uncertainty": {"modulos": "1 %"}}, 'not an input of a study; did you mean "modulus"'),
+        ({"uncertainty": {}}, "uncertainty: no input is uncertain"),
+        ({"uncertainty": {"modulus": "0 %"}}, "a percentage is above 0 and at most 100"),
+        ({"uncertainty": {"modulus": "5"}}, "not a deviation; write for example modulus = "),
+        ({"uncertainty": {"modulus": -3.0}}, "a standard deviation is above 0, and finite"),
+        ({"uncertainty": {"nu": {"low": 0.2}}}, "has both low and high"),
+        ({"uncertainty": {"nu": {"low": 0.3, "hihg": 0.4}}}, 'has no key "hihg"; did you mean "high"'),
+        ({"uncertainty": {"nu": {"low": 0.3, "high": 0.2}}}, "low is not below high"),
+        ({"uncertainty": {"nu": {"low": 0.3, "high": 0.7}}}, "out of range; choose low and high with -1 < nu <= 0.5"),
+        ({"uncertainty": {"nu": {"low": 0.4, "high": 0.45}}}, "the study has nu = 0.27, which is outside"),
+        ({"uncertainty": {"a_max_over_R": "1 %"}}, "a_max_over_R is inf in some scene"),
+        ({"uncertainty": {"modulus": "1 %", "samples": 1000}}, "samples = 1000.*is a power of two"),
+        ({"uncertainty": {"modulus": "1 %", "seed": -1}}, "the seed is an integer of 0 or more"),
+        ({"outputs": ["loading_jumps"]}, r"none of these has a spread; add for example \"pull_off_force\""),
+        ({"outputs": ["delta_max"]}, "samples = 0: the outputs have no sensitivities.*samples = 1024"),
+        ({"method": {"solver": "envelope"}}, "are not those of the exact solver"),
+        ({"kind": "curve", "outputs": ["path"]}, "only maps have uncertain inputs"),
+    ],
+)
+def test_what_is_refused(change: dict[str, Any], words: str, data: dict[str, Any]) -> None:
+    with pytest.raises(StudyError, match=words) as caught:
+        study_from(data | change)
+    assert len(caught.value.mistakes) == 1
+
+
+def test_a_percentage_of_zero(data: dict[str, Any]) -> None:
+    parameters = data["parameters"] | {"A": [0.0, 0.02]}
+    with pytest.raises(StudyError, match=r"A is 0 in some scene, and a percentage of 0 is 0; give a number instead"):
+        study_from(data | {"parameters": parameters, "uncertainty": {"A": "5 %"}})
+    number = compute(study_from(data | {"parameters": parameters, "uncertainty": {"A": 0.001}}))
+    assert bool(number["pull_off_force_std"].sel(A=0.0).isnull().all())  # no derivative there
+    assert bool(number["pull_off_force_std"].sel(A=0.02).notnull().all())
+
+
+def test_parts_of_other_uncertain_inputs_are_not_reused(data: dict[str, Any]) -> None:
+    from gradhesion.cli.work.parts.parts import key_of, settings_of
+
+    plain, one = (study_from({**data, "uncertainty": own}) for own in (INPUTS, INPUTS | {"seed": 1}))
+    assert key_of(plain, plain.tiling[0]) != key_of(one, one.tiling[0])
+    without = {key: value for key, value in data.items() if key != "uncertainty"}
+    assert "uncertainty" not in settings_of(study_from(without))
