@@ -10,9 +10,9 @@ import numpy as np
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cells import MOST
 from gradhesion.core.curve.cosine_folds import CLOSE
-from gradhesion.core.curve.general import Basis
+from gradhesion.core.curve.general import Basis, Patterned
 from gradhesion.core.curve.general_folds import Search, cell_width
-from gradhesion.core.curve.patterned import MOST_CELLS, Patterned
+from gradhesion.core.curve.patterned import MOST_CELLS
 from gradhesion.core.pull_off.general import (
     INWARDS,
     WORTH,

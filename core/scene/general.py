@@ -312,8 +312,7 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
         for i in numbers:
             row = rims[i if rims.shape[0] > 1 else 0]
             own = Results(results.slots, results.out[:, i], results.status[i])
-            valid, rows, curve, length, unit = curve_at(basis, curves, i)
-            waves = Basis(basis.table, basis.cosine_bins, rows)
+            valid, waves, curve, length, unit = curve_at(basis, curves, i)
             for rim in range(row.size):
                 if not (valid and row[rim] > 0.0):
                     refuse(own, rim)

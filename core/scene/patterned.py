@@ -13,9 +13,9 @@ from gradhesion.core.contact.disc import disc_limits, is_one_disc
 from gradhesion.core.curve.branches import ARRIVAL
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
-from gradhesion.core.curve.general import Basis, coordinate
+from gradhesion.core.curve.general import Basis, Patterned, coordinate
 from gradhesion.core.curve.general_folds import Search, room
-from gradhesion.core.curve.patterned import Patterned, are_too_many, patterned_curve, window
+from gradhesion.core.curve.patterned import are_too_many, patterned_curve, window
 from gradhesion.core.path.cycle import Cycle
 from gradhesion.core.path.general import walk
 from gradhesion.core.path.loading import highest_depth, loading_to

@@ -13,9 +13,9 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.cells import MOST
-from gradhesion.core.curve.general import Basis, Series, slope, state
+from gradhesion.core.curve.general import Basis, Patterned, Series, slope, state
 from gradhesion.core.curve.general_folds import cell_width, folds_of_cell, room
-from gradhesion.core.curve.patterned import Patterned, are_too_many, patterned_curve, window
+from gradhesion.core.curve.patterned import are_too_many, patterned_curve, window
 from gradhesion.core.path.general import walk
 from gradhesion.core.problem.curves import GeneralCurves, Patterns
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM

@@ -49,19 +49,10 @@ _FEW: Final = 3
 
 
 @kernel()
-def _value(table: Table, curve: Cosine, x: float, by_load: bool) -> float:
-    """Return the depth or the load."""
-    return load(table, curve, x) if by_load else depth(table, curve, x)
-
-
-@kernel()
-def _size(table: Table, curve: Cosine, x: float, by_load: bool) -> float:
-    """Return CLOSE times the size of the terms of the depth or the load."""
-    size = tolerance(table, curve, x)
-    if not by_load:
-        return size
+def _size(table: Table, curve: Cosine, x: float) -> float:
+    """Return CLOSE times the size of the terms of the load."""
     power = amplitude_power(table, TWO_PI * x)
-    return size / (power * power)
+    return tolerance(table, curve, x) / (power * power)
 
 
 @kernel()
@@ -71,7 +62,7 @@ def _find(table: Table, curve: Cosine, low: float, high: float, target: float, b
     level = 0.5 * (3.0 + k) if by_load else 0.5 * (1.0 - k)
     x = 0.5 * (low + high)
     if not by_load:
-        branch = (low, _value(table, curve, low, NO) if low > 0.0 else -1.0, high, _value(table, curve, high, NO))
+        branch = (low, depth(table, curve, low) if low > 0.0 else -1.0, high, depth(table, curve, high))
         x = find_depth(table, curve, target, branch)
     for _ in range(_STEPS):
         d, d1, _, rest = slope(table, curve, level, x)
@@ -116,7 +107,7 @@ def _load_between(table: Table, curve: Cosine, low: float, high: float, target: 
             if low < x < high:
                 if not rising:  # the load is largest here
                     above = load(table, curve, x) - target
-                    close = close or abs(above) <= _size(table, curve, x, YES)
+                    close = close or abs(above) <= _size(table, curve, x)
                     if above >= 0.0:
                         return _find(table, curve, before, x, target, YES), close
                 before = x
@@ -124,7 +115,7 @@ def _load_between(table: Table, curve: Cosine, low: float, high: float, target: 
         edge = survey[3]
         i += 1
     above = load(table, curve, high) - target
-    close = close or abs(above) <= _size(table, curve, high, YES)
+    close = close or abs(above) <= _size(table, curve, high)
     return _find(table, curve, before, high, target, YES) if above >= 0.0 else math.inf, close
 
 
@@ -154,7 +145,7 @@ def turn_at_depth(
             close = close or abs(bottom - target) <= tolerance(table, curve, end)
         if bottom > target:
             high = min(end, reach)
-            if high <= trace[START, branch] or _value(table, curve, high, NO) < target:
+            if high <= trace[START, branch] or depth(table, curve, high) < target:
                 return math.inf, close  # beyond the rim
             return _find(table, curve, trace[START, branch], high, target, NO), close
     return math.inf, close
@@ -206,7 +197,7 @@ def turn_at_load(
         if not arrival <= reach:
             continue
         if peak < target:
-            close = close or target - peak <= _size(table, curve, trace[END, branch], YES)
+            close = close or target - peak <= _size(table, curve, trace[END, branch])
             continue
         x, near = _turn_on(table, curve, arrival, ends(trace, branch), reach, target)
         close = close or near
