@@ -177,10 +177,10 @@ def curve_of(
 
 
 @kernel()
-def curve_at(basis: Basis, curves: GeneralCurves, i: int) -> tuple[bool, Basis, Series, float, float]:
-    """Return whether curve number i is in range, its basis, the curve, l, and the unit of depth in R.
+def curve_at(basis: Basis, curves: GeneralCurves, i: int) -> tuple[bool, Harmonics, Series, float, float]:
+    """Return whether curve number i is in range, its harmonics, the curve, l, and the unit of depth in R.
 
-    The basis has no harmonics where the amplitude is 0.
+    The harmonics take the place of those of the basis: there are none where the amplitude is 0.
     """
     _, exponent, depth_factor, stretch, wavelength, amplitude, compliance, _ = curves
     rows = basis.series[: basis.series.shape[0] if amplitude[i] > 0.0 else 0]
@@ -188,5 +188,4 @@ def curve_at(basis: Basis, curves: GeneralCurves, i: int) -> tuple[bool, Basis, 
         basis.table.k, exponent, depth_factor, stretch[i], wavelength[i], amplitude[i], compliance[i]
     )
     valid = is_in_range(stretch[i], wavelength[i], amplitude[i]) and compliance[i] >= 0.0
-    valid = valid and 0.0 < curve.bend < math.inf and 0.0 <= curve.gain < math.inf
-    return valid, Basis(basis.table, basis.cosine_bins, rows), curve, length, unit
+    return valid and 0.0 < curve.bend < math.inf and 0.0 <= curve.gain < math.inf, rows, curve, length, unit

@@ -20,7 +20,7 @@ from gradhesion.core.rate.step import Room, room_for_steps
 from gradhesion.core.rate.stopping import stop_edge
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.series import highest_harmonic
-from gradhesion.core.types import Floats, Integers
+from gradhesion.core.types import Floats, Harmonics, Integers
 
 PROMISED: Final = 1e-9
 """Estimated error of force and energy above which a scene is reported."""
@@ -68,7 +68,7 @@ class Scene(NamedTuple):
     """The curve of a scene, and its units."""
 
     valid: bool
-    waves: Basis
+    rows: Harmonics  # of the curve
     curve: Series
     length: float  # l/R
     unit: float  # of depth, in R
@@ -78,17 +78,17 @@ class Scene(NamedTuple):
 @kernel()
 def _scene_of(basis: Basis, edges: Edges, i: int) -> Scene:
     """Return the curve of scene number i."""
-    valid, waves, curve, length, unit = curve_at(basis, edges.curves, i)
+    valid, rows, curve, length, unit = curve_at(basis, edges.curves, i)
     valid = valid and edges.curves.compliance[i] < math.inf
     valid = valid and edges.curves.rims[i, 0] > 0.0 and 0.0 < edges.speeds[i] < math.inf
-    highest = highest_harmonic(waves.series)
-    return Scene(valid, waves, curve, length, unit, 1.0 / highest if highest > 0.0 else math.inf)
+    highest = highest_harmonic(rows)
+    return Scene(valid, rows, curve, length, unit, 1.0 / highest if highest > 0.0 else math.inf)
 
 
 @kernel()
-def _open(scene: Scene, edges: Edges, i: int, room: Room, out: Floats) -> int:
+def _open(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Floats) -> int:
     """Solve scene number i; return its status."""
-    _, waves, curve, length, unit, _ = scene
+    curve, length, unit = scene.curve, scene.length, scene.unit
     x = edges.curves.rims[i, 0] / edges.curves.wavelength[i]
     if not scene.valid or not x < math.inf:
         return NO_VALUE
@@ -110,19 +110,19 @@ def _open(scene: Scene, edges: Edges, i: int, room: Room, out: Floats) -> int:
 
 
 @kernel()
-def _put_state(scene: Scene, x: float, rho: float, out: Floats, row: int, i: int) -> None:
+def _put_state(waves: Basis, scene: Scene, x: float, rho: float, out: Floats, row: int, i: int) -> None:
     """Store depth and coordinate in R, and the load in 1.5 pi R dgamma, of a state."""
-    _, waves, curve, length, unit, _ = scene
+    curve, unit = scene.curve, scene.unit
     place = place_at(waves, curve, x)
     out[row, i] = unit * (place.depth - place.adhesion * rho)
     out[row + 1, i] = unit / curve.alpha * coordinate_of(curve, place, rho)
-    out[row + 2, i] = force_unit(waves[0].k, length, unit) * load_of(place, rho)
+    out[row + 2, i] = force_unit(waves[0].k, scene.length, unit) * load_of(place, rho)
 
 
 @kernel()
-def _close(scene: Scene, edges: Edges, i: int, room: Room, out: Floats) -> int:
+def _close(waves: Basis, scene: Scene, edges: Edges, i: int, room: Room, out: Floats) -> int:
     """Solve scene number i; return its status."""
-    _, waves, curve, length, unit, shortest = scene
+    curve, length, unit, shortest = scene.curve, scene.length, scene.unit, scene.shortest
     wavelength, a_max, ratio = edges.curves.wavelength[i], edges.curves.rims[i, 0], edges.ratios[i]
     rim, target = a_max / wavelength, edges.turns[i] * curve.alpha / unit
     if not scene.valid or not 0.0 < ratio <= 1.0 or not (rim < math.inf or target < math.inf):
@@ -143,8 +143,8 @@ def _close(scene: Scene, edges: Edges, i: int, room: Room, out: Floats) -> int:
     out[0, i] = a_max if end.x == rim else wavelength * end.x
     out[1, i] = area * end.energy
     out[2, i] = a_max if turn.x == rim else wavelength * turn.x
-    _put_state(scene, turn.x, law.root - turn.lag, out, 3, i)
-    _put_state(scene, end.x, law.root - end.lag, out, 6, i)
+    _put_state(waves, scene, turn.x, law.root - turn.lag, out, 3, i)
+    _put_state(waves, scene, end.x, law.root - end.lag, out, 6, i)
     out[9, i], out[10, i] = law.root - end.lag, area * end.of_energy
     too_slow = edges.speeds[i] ** edges.power < _SLOWEST
     return TOLERANCE_NOT_MET if too_slow or end.of_energy > PROMISED * (TWO_PI * end.x) ** 2 else 0
@@ -159,10 +159,11 @@ def loop_of(*, opens: bool) -> Callable[..., None]:
         room = room_for_steps()
         for i in edges.curves.numbers:
             scene = _scene_of(basis, edges, i)
+            waves = Basis(basis.table, basis.cosine_bins, scene.rows)
             if opens:
-                status[i] = _open(scene, edges, i, room, out)
+                status[i] = _open(waves, scene, edges, i, room, out)
             else:
-                status[i] = _close(scene, edges, i, room, out)
+                status[i] = _close(waves, scene, edges, i, room, out)
 
     return move_edges
 
@@ -179,12 +180,13 @@ def track_edge(basis: Basis, edges: Edges, inwards: bool, points: int) -> tuple[
     """
     room, out, i = room_for_steps(points), np.empty((len(CLOSED), 1)), 0
     scene = _scene_of(basis, edges, i)
-    status = _open(scene, edges, i, room, out) if inwards else _close(scene, edges, i, room, out)
+    waves = Basis(basis.table, basis.cosine_bins, scene.rows)
+    status = _open(waves, scene, edges, i, room, out) if inwards else _close(waves, scene, edges, i, room, out)
     number = int(room.track[0, 0])
     found, force = np.empty((3, number)), force_unit(basis.table.k, scene.length, scene.unit)
     for j in range(number):
         x, rho = room.track[0, j + 1], room.track[1, j + 1]
-        place = place_at(scene.waves, scene.curve, x)
+        place = place_at(waves, scene.curve, x)
         found[0, j] = x * edges.curves.wavelength[i]
         found[1, j] = scene.unit * (place.depth - place.adhesion * rho)
         found[2, j] = force * load_of(place, rho)

@@ -14,7 +14,6 @@ from gradhesion.core.closed.power import power
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import Trace
 from gradhesion.core.curve.cosine import Cosine, curve_of, force_unit
-from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.path.cosine import (
     LARGEST,
     SMALLEST,
@@ -44,7 +43,6 @@ from gradhesion.core.problem.results import (
     wants_losses,
 )
 from gradhesion.core.problem.status import (
-    CLOSE_TO_A_JUMP,
     JUMP_IN_TO_RIM,
     NO_VALUE,
     PULL_OFF_AT_RIM,
@@ -52,7 +50,7 @@ from gradhesion.core.problem.status import (
 from gradhesion.core.pull_off.cosine import lowest_load
 from gradhesion.core.scene.cosine_long import solve_long
 from gradhesion.core.scene.cosine_rim import read_rim, slopes_of, walked_to
-from gradhesion.core.scene.scene import Scene
+from gradhesion.core.scene.scene import Scene, put_pull_off
 from gradhesion.core.sensitivities.cosine_slopes import (
     put_rest,
     put_smooth,
@@ -113,12 +111,7 @@ def _solve_force(table: Table, curve: Cosine, scale: float, wavelength: float, r
         if not (free_load < 0.0 and free_x <= x):
             x_low = fma(-x, wavelength, rims[i]) / wavelength if x < math.inf else 0.0
             lowest, place, second = lowest_load(table, curve, x, x_low)
-        if second < lowest * (1.0 - CLOSE):
-            results.status[i] |= CLOSE_TO_A_JUMP
-        put(results, FORCE, i, -scale * lowest)
-        put(results, RADIUS, i, place * wavelength if place != x else rims[i])
-        if place == x:
-            results.status[i] |= PULL_OFF_AT_RIM
+        put_pull_off(results, scale, wavelength, rims[i], (lowest, place, second), i)
 
 
 @kernel()

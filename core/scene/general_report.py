@@ -277,7 +277,8 @@ def report_scenes(basis: Basis, curves: GeneralCurves, solved: Solved, wanted: T
     for i in curves.numbers:
         if status[i] & NO_VALUE:
             continue
-        _, waves, curve, length, unit = curve_at(basis, curves, i)
+        _, rows, curve, length, unit = curve_at(basis, curves, i)
+        waves = Basis(basis.table, basis.cosine_bins, rows)
         if wanted[0]:
             scale, x = 8.0 / (3.0 * (1.0 + table.k)) * length * length / unit, radius[i] / wavelength[i]
             terms = force_terms(waves, curve, x)

@@ -96,8 +96,7 @@ def report_scenes(
 ) -> None:
     """Report on scenes of one gradient exponent, each a curve with one rim, as `report_scenes` of general_report.py."""
     radius, energy, turned, status = solved
-    for j in range(curves.numbers.size):
-        i = curves.numbers[j]
+    for i in curves.numbers:
         if status[i] & NO_VALUE:
             continue
         _, pattern, finest, curve, units = patterned_curve(table, cosine_bins, series, curves, patterns, i)

@@ -222,7 +222,8 @@ def turn_scenes(basis: Basis, curves: GeneralCurves, turns: Turns, passed: Truth
     rims, targets, by_load, check, radii, flags = turns
     for i in curves.numbers:
         row = i if rims.shape[0] > 1 else 0
-        valid, waves, curve, length, unit = curve_at(basis, curves, i)
+        valid, rows, curve, length, unit = curve_at(basis, curves, i)
+        waves = Basis(basis.table, basis.cosine_bins, rows)
         if not valid:
             radii[i, :], flags[i, :] = math.nan, NO_VALUE
             continue

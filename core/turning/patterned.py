@@ -69,8 +69,7 @@ def turn_scenes(
     Arguments are those of `solve_scenes` (scene/patterned.py).
     """
     rims, targets, by_load, check, radii, flags = turns
-    for j in range(curves.numbers.size):
-        i = curves.numbers[j]
+    for i in curves.numbers:
         row = i if rims.shape[0] > 1 else 0
         valid, pattern, finest, curve, units = patterned_curve(table, cosine_bins, series, curves, patterns, i)
         basis, (unit, length, depth) = Basis(table, pattern, finest), units

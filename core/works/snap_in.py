@@ -30,7 +30,8 @@ def fill_pulls(basis: Basis, curves: GeneralCurves, out: Floats) -> None:
     They are in 1.5 pi R dgamma. The rims are radii of contact.
     """
     for i in curves.numbers:
-        _, waves, curve, length, unit = curve_at(basis, curves, i)
+        _, rows, curve, length, unit = curve_at(basis, curves, i)
+        waves = Basis(basis.table, basis.cosine_bins, rows)
         row = curves.rims[i if curves.rims.shape[0] > 1 else 0]
         for rim in range(row.size):
             _, _, front, depth, load = state(waves, curve, row[rim] / curves.wavelength[i])

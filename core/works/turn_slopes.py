@@ -64,7 +64,8 @@ def fill_slopes(basis: Basis, curves: GeneralCurves, sense: Sense, by_load: bool
     """
     numbers, _, _, stretch, wavelength, amplitude, compliance, rims = curves
     for i in numbers:
-        _, waves, curve, length, unit = curve_at(basis, curves, i)
+        _, rows, curve, length, unit = curve_at(basis, curves, i)
+        waves = Basis(basis.table, basis.cosine_bins, rows)
         own = sensed_by(sense, i, stretch[i], wavelength[i], amplitude[i], compliance[i])
         held = Series(curve.bend, curve.exponent, curve.gain, 0.0 if by_load else 1.0, 1.0 if by_load else 0.0)
         scale = force_unit(basis.table.k, length, unit) if by_load else unit
