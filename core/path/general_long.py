@@ -16,7 +16,7 @@ from gradhesion.core.curve.arches import folds_between
 from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.curve.general_branches import fill_branches
 from gradhesion.core.curve.general_folds import MOST_FOLDS, Search, Zeros, find_folds, room
-from gradhesion.core.path.general_ties import first_close_pair, is_at_a_fold
+from gradhesion.core.path.general import first_close_pair, is_at_a_fold
 from gradhesion.core.path.pieces import (
     NOTED_DOWN,
     NOTED_UP,
