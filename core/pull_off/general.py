@@ -342,5 +342,5 @@ def lowest_load(
         found, lowest = _lowest_far(basis, controlled, terms, start, x_rim, x_rim_low, best, work)
         if found:
             return lowest
-    found, best = lowest_of_cells(basis, controlled, terms, 0.0, (start, x_rim), best, MOST_CELLS, work)
-    return best if found > 0 else (math.nan, math.nan, 0.0)
+    told, best = lowest_of_cells(basis, controlled, terms, 0.0, (start, x_rim), best, MOST_CELLS, work)
+    return best if told > 0 else (math.nan, math.nan, 0.0)

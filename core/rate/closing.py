@@ -50,14 +50,7 @@ class _Target(NamedTuple):
 
 @kernel()
 def _step_to(
-    basis: Basis,
-    curve: Series,
-    law: Law,
-    start: Start,
-    state: tuple[float, float],
-    h: float,
-    ends: _Target,
-    room: Room,
+    basis: Basis, curve: Series, law: Law, start: Start, state: tuple[float, float], h: float, ends: _Target, room: Room
 ) -> tuple[float, float, float]:
     """Return length, lag and energy of the step from the state (y, lag) that meets its target, shorter than h."""
     bracket, length = Bracket(0.0, h, ends.before - ends.target, ends.after - ends.target, 0), h

@@ -89,14 +89,7 @@ def _step(
 
 @kernel()
 def stop_edge(
-    basis: Basis,
-    curve: Series,
-    law: Law,
-    rim: float,
-    shortest: float,
-    turn: Reached,
-    furthest: float,
-    track: Floats,
+    basis: Basis, curve: Series, law: Law, rim: float, shortest: float, turn: Reached, furthest: float, track: Floats
 ) -> Reached:
     """Follow the edge from where it is when the machine turns to where it stops, at a lag of 0 or at the rim.
 

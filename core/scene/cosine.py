@@ -42,20 +42,12 @@ from gradhesion.core.problem.results import (
     wants_force,
     wants_losses,
 )
-from gradhesion.core.problem.status import (
-    JUMP_IN_TO_RIM,
-    NO_VALUE,
-    PULL_OFF_AT_RIM,
-)
+from gradhesion.core.problem.status import JUMP_IN_TO_RIM, NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.pull_off.cosine import lowest_load
 from gradhesion.core.scene.cosine_long import solve_long
 from gradhesion.core.scene.cosine_rim import read_rim, slopes_of, walked_to
 from gradhesion.core.scene.scene import Scene, put_pull_off
-from gradhesion.core.sensitivities.cosine_slopes import (
-    put_rest,
-    put_smooth,
-    sensed_by,
-)
+from gradhesion.core.sensitivities.cosine_slopes import put_rest, put_smooth, sensed_by
 from gradhesion.core.sensitivities.wanted import AnySense
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma

@@ -43,14 +43,7 @@ from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOAD
 from gradhesion.core.pull_off.general import deepest_wave
 from gradhesion.core.pull_off.rims import lowest_loads
 from gradhesion.core.scene.scene import Scene, put_cycle, put_pull_off, refuse
-from gradhesion.core.sensitivities.general_slopes import (
-    NOTES,
-    put_energy,
-    put_noted,
-    put_rest,
-    sensed_by,
-    slopes_of,
-)
+from gradhesion.core.sensitivities.general_slopes import NOTES, put_energy, put_noted, put_rest, sensed_by, slopes_of
 from gradhesion.core.sensitivities.wanted import AnySense
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
