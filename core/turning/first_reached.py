@@ -134,9 +134,7 @@ def _turn_on(
 
 
 @kernel()
-def turn_at_depth(
-    table: Table, curve: Cosine, first: int, last: int, trace: Trace, reach: float, target: float
-) -> Turn:
+def _depth_among(table: Table, curve: Cosine, first: int, last: int, trace: Trace, reach: float, target: float) -> Turn:
     """Return where loading first reaches a depth on the branches `first` to `last` - 1 of a trace."""
     close = False
     for branch in range(first, last):
@@ -187,7 +185,7 @@ def peaks_of(table: Table, curve: Cosine, count: int, trace: Trace, inner: float
 
 
 @kernel()
-def turn_at_load(
+def _load_among(
     table: Table, curve: Cosine, first: int, last: int, trace: Trace, peaks: Peaks, reach: float, target: float
 ) -> Turn:
     """Return where loading first reaches a load on the branches `first` to `last` - 1 of a trace."""
@@ -245,27 +243,27 @@ def turn_on_waves(table: Table, curve: Cosine, trace: Trace, reach: float, targe
 
 
 @kernel()
-def turn_long_at_load(
+def turn_at_load(
     table: Table, curve: Cosine, count: int, trace: Trace, peaks: Peaks, reach: float, target: float
 ) -> Turn:
-    """Return where loading first reaches a load on a long curve (stride or open_gap of path/cosine_long.py)."""
-    gap = int(trace[RUN, GAP])
-    x, close = turn_at_load(table, curve, NONE, gap, trace, peaks, reach, target)
-    if x == math.inf:
+    """Return where loading first reaches a load on the branches of a trace, or on the waves in a gap of it."""
+    gap = int(min(trace[RUN, GAP], count))
+    x, close = _load_among(table, curve, NONE, gap, trace, peaks, reach, target)
+    if x == math.inf and trace[RUN, GAP] < math.inf:
         x, near = turn_on_waves(table, curve, trace, reach, target)
         close = close or near
-    if x == math.inf:
-        x, near = turn_at_load(table, curve, gap, count, trace, peaks, reach, target)
-        close = close or near
+        if x == math.inf:
+            x, near = _load_among(table, curve, gap, count, trace, peaks, reach, target)
+            close = close or near
     return x, close
 
 
 @kernel()
-def turn_long_at_depth(table: Table, curve: Cosine, count: int, trace: Trace, reach: float, target: float) -> Turn:
-    """Return where loading first reaches a depth on a long curve (stride or open_gap of path/cosine_long.py)."""
-    gap = int(trace[RUN, GAP])
-    x, close = turn_at_depth(table, curve, NONE, gap, trace, reach, target)
-    if x < math.inf:
+def turn_at_depth(table: Table, curve: Cosine, count: int, trace: Trace, reach: float, target: float) -> Turn:
+    """Return where loading first reaches a depth on the branches of a trace, or on the waves in a gap of it."""
+    gap = int(min(trace[RUN, GAP], count))
+    x, close = _depth_among(table, curve, NONE, gap, trace, reach, target)
+    if x < math.inf or trace[RUN, GAP] == math.inf:
         return x, close
     if gap == count or trace[END_DEPTH, gap] > target:
         before, after = trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER]
@@ -278,5 +276,5 @@ def turn_long_at_depth(table: Table, curve: Cosine, count: int, trace: Trace, re
                 close = close or abs(below - target) <= tolerance(table, curve, place)
             close = close or abs(bottom - target) <= tolerance(table, curve, end)
             return _find(table, curve, start, end, target, NO), close
-    x, near = turn_at_depth(table, curve, gap, count, trace, reach, target)
+    x, near = _depth_among(table, curve, gap, count, trace, reach, target)
     return x, close or near
