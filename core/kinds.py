@@ -111,12 +111,7 @@ def kind_of_map(
     loading: Loading | None = None,
     toughness: Toughness | None = None,
 ) -> str:
-    """Return the kind of work that `solve` does.
-
-    Parameters
-    ----------
-    outputs, solver, profile, loading, toughness
-        As those of `solve`.
+    """Return the kind of work that `solve` does, by its arguments.
 
     Examples
     --------
@@ -139,12 +134,7 @@ def kind_of_map(
 def kind_of_turning(
     profile: Profile | None = None, loading: Loading | None = None, toughness: Toughness | None = None
 ) -> str:
-    """Return the kind of work that `solve` does besides where cycles turn before the rim.
-
-    Parameters
-    ----------
-    profile, loading, toughness
-        As those of `solve`.
+    """Return the kind of work that `solve` does besides where cycles turn before the rim, by its arguments.
 
     Examples
     --------
@@ -160,12 +150,7 @@ def kind_of_turning(
 def kind_of_sensitivities(
     profile: Profile | None = None, loading: Loading | None = None, toughness: Toughness | None = None
 ) -> str:
-    """Return the kind of work that `solve` does besides where sensitivities are asked for.
-
-    Parameters
-    ----------
-    profile, loading, toughness
-        As those of `solve`.
+    """Return the kind of work that `solve` does besides where sensitivities are asked for, by its arguments.
 
     Examples
     --------
@@ -178,12 +163,7 @@ def kind_of_sensitivities(
 def kind_of_curves(
     profile: Profile | None = None, loading: Loading | None = None, toughness: Toughness | None = None
 ) -> str:
-    """Return the kind of work that `draw_curves` does.
-
-    Parameters
-    ----------
-    profile, loading, toughness
-        As those of `draw_curves`.
+    """Return the kind of work that `draw_curves` does, by its arguments.
 
     Examples
     --------
