@@ -189,22 +189,9 @@ def solve_curve(
     scratch: Trace,
     sense: AnySense,
 ) -> None:
-    """Solve one curve for all its rims.
+    """Solve one curve, of s in R^((1+k)/2), lambda/R and A, for all its rims a_max/R, of shape (rims,).
 
-    Parameters
-    ----------
-    table
-        The table of its exponent.
-    stretch, wavelength, amplitude
-        s in R^((1+k)/2), lambda/R and A.
-    rims
-        a_max/R, shape (rims,).
-    results
-        Where values and flags go.
-    scratch
-        Room for a trace, shape (ROWS, branches).
-    sense
-        What sensitivities need.
+    `scratch` is room for a trace, of shape (ROWS, branches).
     """
     k, slots = table.k, results.slots
     if is_endless_wave(wavelength, amplitude):  # A = 0 among them

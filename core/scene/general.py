@@ -251,16 +251,7 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
     def solve_scenes(basis: Basis, curves: GeneralCurves, results: Results, sense: AnySense) -> None:
         """Solve the curves of one gradient exponent, each for all its rims.
 
-        Parameters
-        ----------
-        basis
-            What all of them are computed from.
-        curves
-            The curves.
-        results
-            Where results go: values of shape (results, curves, rims), flags of shape (curves, rims).
-        sense
-            What sensitivities need.
+        Values go to `results` in the shape (results, curves, rims), flags in (curves, rims).
         """
         numbers, _, _, stretch, wavelength, amplitude, compliance, rims = curves
         table, _, series = basis

@@ -151,16 +151,8 @@ def solve_scenes(
 ) -> None:
     """Solve the curves of one gradient exponent on patterned interfaces, each for all its rims.
 
-    Parameters
-    ----------
-    table, cosine_bins, series
-        What their profiles are computed from (`Basis` of curve/general.py).
-    curves, patterns
-        The curves, and the patterns.
-    results
-        Where results go: values of shape (results, curves, rims), flags, int16 of shape (curves, rims).
-    sense
-        What sensitivities need.
+    The table, the cosine bins and the series are what their profiles are computed from (`Basis` of curve/general.py).
+    Values go to `results` in the shape (results, curves, rims), flags, int16, in (curves, rims).
     """
     work, deepest = room(), deepest_wave(table, series) if wants_force(results.slots) else 0.0
     for i in curves.numbers:
