@@ -344,22 +344,10 @@ class Strode(NamedTuple):
 def stride(
     basis: Basis, curve: Series, first: float, middle: Middle, rim: tuple[float, float], tasks: Tasks, notes: Notes
 ) -> Strode:
-    """Follow the cycle on a long curve up to one rim.
+    """Follow the cycle on a long curve up to one rim, x and its rounding error; there is no fold before `first`.
 
+    `middle` is what `middle_of` has returned, REGULAR; `notes` is room for notes of what loses energy (path/pieces.py).
     The contact is tested on the way into the regular waves and out of them, and on some of these.
-
-    Parameters
-    ----------
-    basis, curve, first
-        The curve, and the place before which there is no fold.
-    middle
-        What `middle_of` has returned, REGULAR.
-    rim
-        x of the rim, and its rounding error.
-    tasks
-        What is wanted.
-    notes
-        Room for notes of what loses energy (path/pieces.py).
     """
     losses, last_loss, test, turned = tasks
     _, until, cut, _, begin, end, _ = middle

@@ -264,22 +264,9 @@ def lowest_of_cells(
 ) -> tuple[int, Lowest]:
     """Search the load cell by cell, outwards and inwards, as long as one can hold anything lower than the best trough.
 
-    Parameters
-    ----------
-    basis, curve
-        The curve of controlled load.
-    terms, more
-        Its bounds, as those of `floor_of_cell`.
-    way
-        x where the search begins, and the rim.
-    best, cells
-        What is known already, and how many cells are looked at.
-    work
-        Room for a search of folds.
-
-    Returns
-    -------
-    1 if the lowest load is found, 0 if zero contact was reached without that, -1 if cells ran out; and the lowest load.
+    The curve is that of controlled load, with the bounds of `floor_of_cell`; `way` are the x where the search begins
+    and that of the rim. Return 1 if the lowest load is found, 0 if zero contact was reached without that, -1 if the
+    cells ran out; and the lowest load.
     """
     k, (start, x_rim) = basis.table.k, way
     zeros, low, left = np.empty(MOST), start, cells

@@ -93,14 +93,8 @@ def stop_edge(
 ) -> Reached:
     """Follow the edge from where it is when the machine turns to where it stops, at a lag of 0 or at the rim.
 
-    Parameters
-    ----------
-    rim, shortest, furthest
-        The rim, the shortest wave and the largest place, in wavelengths, inf where there is none.
-    turn
-        Where the edge is then.
-    track
-        Where it goes is noted there (rate/step.py).
+    The rim, the shortest wave and the largest place are in wavelengths, inf where there is none; where the edge goes is
+    noted in its track (rate/step.py).
     """
     nodes = np.empty((5, STAGES))
     x, end = turn.x, math.log(rim / turn.x)

@@ -83,22 +83,10 @@ def _first_of_waves(
 def turn_far(
     basis: Basis, curve: Series, way: Way, first: float, middle: Middle, furthest: float
 ) -> tuple[bool, Found, float]:
-    """Return where loading reaches a target on a long curve up to x = `furthest`.
+    """Return where loading reaches a target on a long curve up to x = `furthest`; there is no fold before `first`.
 
-    Parameters
-    ----------
-    basis, curve, first
-        The curve, and the place before which there is no fold.
-    way
-        What is measured, and the target.
-    middle
-        What `middle_of` of path/general_long.py has returned, REGULAR.
-    furthest
-        Up to where loading is followed.
-
-    Returns
-    -------
-    Whether it could be done; what it has found; and the whole waves beyond which the place is told.
+    `middle` is what `middle_of` of path/general_long.py has returned, REGULAR. Returned are whether it could be done,
+    what it has found, and the whole waves beyond which the place is told.
     """
     _, _, series = basis
     by_load, target, last = way
