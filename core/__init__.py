@@ -98,42 +98,23 @@ __all__ = [
 ]
 
 _HOMES: Final = {
-    "compiler.jit": ("watch_compilation",),
-    "compiler.cache": ("CACHE_FOLDER", "place"),
-    "compiler.marks": ("compiled_before",),
-    "curves": ("draw_curves",),
-    "kinds": (
-        "APART",
-        "CPU_SECONDS",
-        "KERNELS",
-        "KINDS",
-        "MANY_SMOOTH",
-        "NEEDS",
-        "kind_of_curves",
-        "kind_of_map",
-        "kind_of_sensitivities",
-        "kind_of_turning",
-    ),
-    "problem.control": ("CONTROLS", "Loading"),
-    "problem.names": (
-        "CURVES",
-        "OUTPUTS",
-        "PARAMETERS",
-        "RANGE",
-        "REPORTS",
-        "SENSITIVITIES",
-        "SOLVERS",
-        "TURNS",
-        "VALIDITY",
-    ),
-    "problem.profile": ("Harmonic", "Profile"),
-    "compiler.sources": ("SOURCES",),
-    "problem.status": ("DOUBTFUL", "FAILED", "FLAGS", "doubts_about"),
-    "sweep": ("solve",),
-    "closed.applicability": ("validity",),
-    "warmup": ("compile_kind",),
+    "compiler.jit": "watch_compilation",
+    "compiler.cache": "CACHE_FOLDER place",
+    "compiler.marks": "compiled_before",
+    "curves": "draw_curves",
+    "kinds": "APART CPU_SECONDS KERNELS KINDS MANY_SMOOTH NEEDS "
+    "kind_of_curves kind_of_map kind_of_sensitivities kind_of_turning",
+    "problem.control": "CONTROLS Loading",
+    "problem.names": "CURVES OUTPUTS PARAMETERS RANGE REPORTS SENSITIVITIES SOLVERS TURNS VALIDITY",
+    "problem.profile": "Harmonic Profile",
+    "compiler.sources": "SOURCES",
+    "problem.status": "DOUBTFUL FAILED FLAGS doubts_about",
+    "sweep": "solve",
+    "closed.applicability": "validity",
+    "warmup": "compile_kind",
 }
-_HOME_OF: Final = {name: home for home, names in _HOMES.items() for name in names}
+"""What stands in each module."""
+_HOME_OF: Final = {name: home for home, names in _HOMES.items() for name in names.split()}
 
 
 def __getattr__(name: str) -> Any:

@@ -42,33 +42,35 @@ from gradhesion.core.problem.shape import equivalent_wave
 if TYPE_CHECKING:
     from gradhesion.core.problem.toughness import Toughness
 
-NEEDS: Final[dict[str, tuple[str, ...]]] = {
-    "tables": (),
-    "force": ("tables",),
-    "energy": ("tables",),
-    "smooth": ("tables",),
-    "reports": ("energy",),
-    "turning": ("energy",),
-    "envelope": ("tables",),
-    "curves": ("energy",),
-    "sensitivities": ("energy",),
-    "general_force": ("tables",),
-    "general_energy": ("tables",),
-    "general_reports": ("general_energy",),
-    "general_turning": ("general_energy",),
-    "general_sensitivities": ("general_energy",),
-    "general_envelope": ("tables",),
-    "general_curves": ("general_energy",),
-    "edge": ("tables",),
-    "asymptotic": ("tables",),
-    "patterned": ("tables",),
-    "patterned_reports": ("patterned",),
-    "patterned_turning": ("patterned",),
-    "patterned_sensitivities": ("patterned",),
-    "patterned_curves": ("patterned",),
-    "rate": ("general_force",),
-    "loops": ("tables",),
+_WORK: Final[dict[str, tuple[tuple[str, ...], int, float]]] = {
+    "tables": ((), 56, 2.5),
+    "force": (("tables",), 55, 2.0),
+    "energy": (("tables",), 229, 11.0),
+    "smooth": (("tables",), 33, 1.5),
+    "reports": (("energy",), 17, 2.5),
+    "turning": (("energy",), 30, 3.5),
+    "envelope": (("tables",), 13, 0.5),
+    "curves": (("energy",), 51, 3.5),
+    "sensitivities": (("energy",), 46, 7.0),
+    "general_force": (("tables",), 92, 5.0),
+    "general_energy": (("tables",), 261, 16.0),
+    "general_reports": (("general_energy",), 11, 4.5),
+    "general_turning": (("general_energy",), 17, 6.0),
+    "general_sensitivities": (("general_energy",), 52, 10.0),
+    "general_envelope": (("tables",), 0, 0.0),
+    "general_curves": (("general_energy",), 49, 7.5),
+    "edge": (("tables",), 24, 1.0),
+    "asymptotic": (("tables",), 66, 2.5),
+    "patterned": (("tables",), 143, 9.0),
+    "patterned_reports": (("patterned",), 12, 2.0),
+    "patterned_turning": (("patterned",), 7, 3.5),
+    "patterned_sensitivities": (("patterned",), 15, 4.0),
+    "patterned_curves": (("patterned",), 19, 3.0),
+    "rate": (("general_force",), 41, 3.0),
+    "loops": (("tables",), 8, 1.0),
 }
+"""Of each kind, after those that it needs: these, and about how many kernels it compiles and how long that takes."""
+NEEDS: Final = {kind: needed for kind, (needed, _, _) in _WORK.items()}
 """The kinds that are compiled before a kind, directly: those of whose entries it needs the same, or others of the same
 name. Processes that compile kinds side by side, each after those that it needs and none beside one of `APART`, compile
 no entry twice, and no two write to one index of the cache."""
@@ -85,62 +87,9 @@ APART: Final = (
 """Kinds that do not need each other, and yet compile entries of the same name: not to be compiled side by side."""
 KINDS: Final = tuple(NEEDS)
 """All kinds, each after those that it needs."""
-KERNELS: Final[dict[str, int]] = {
-    "tables": 56,
-    "force": 55,
-    "energy": 229,
-    "smooth": 33,
-    "reports": 17,
-    "turning": 30,
-    "envelope": 13,
-    "curves": 51,
-    "sensitivities": 46,
-    "general_force": 92,
-    "general_energy": 261,
-    "general_reports": 11,
-    "general_turning": 17,
-    "general_sensitivities": 52,
-    "general_envelope": 0,
-    "general_curves": 49,
-    "edge": 24,
-    "asymptotic": 66,
-    "patterned": 143,
-    "patterned_reports": 12,
-    "patterned_turning": 7,
-    "patterned_sensitivities": 15,
-    "patterned_curves": 19,
-    "rate": 41,
-    "loops": 8,
-}
+KERNELS: Final = {kind: kernels for kind, (_, kernels, _) in _WORK.items()}
 """About how many kernels a kind compiles after those that it needs, in one process."""
-
-CPU_SECONDS: Final[dict[str, float]] = {
-    "tables": 2.5,
-    "force": 2.0,
-    "energy": 11.0,
-    "smooth": 1.5,
-    "reports": 2.5,
-    "turning": 3.5,
-    "envelope": 0.5,
-    "curves": 3.5,
-    "sensitivities": 7.0,
-    "general_force": 5.0,
-    "general_energy": 16.0,
-    "general_reports": 4.5,
-    "general_turning": 6.0,
-    "general_sensitivities": 10.0,
-    "general_envelope": 0.0,
-    "general_curves": 7.5,
-    "edge": 1.0,
-    "asymptotic": 2.5,
-    "patterned": 9.0,
-    "patterned_reports": 2.0,
-    "patterned_turning": 3.5,
-    "patterned_sensitivities": 4.0,
-    "patterned_curves": 3.0,
-    "rate": 3.0,
-    "loops": 1.0,
-}
+CPU_SECONDS: Final = {kind: seconds for kind, (_, _, seconds) in _WORK.items()}
 """About how long that takes one core, on a machine where both outputs of a first map take 14 s."""
 
 
@@ -162,12 +111,7 @@ def kind_of_map(
     loading: Loading | None = None,
     toughness: Toughness | None = None,
 ) -> str:
-    """Return the kind of work that `solve` does.
-
-    Parameters
-    ----------
-    outputs, solver, profile, loading, toughness
-        As those of `solve`.
+    """Return the kind of work that `solve` does, by its arguments.
 
     Examples
     --------
@@ -190,12 +134,7 @@ def kind_of_map(
 def kind_of_turning(
     profile: Profile | None = None, loading: Loading | None = None, toughness: Toughness | None = None
 ) -> str:
-    """Return the kind of work that `solve` does besides where cycles turn before the rim.
-
-    Parameters
-    ----------
-    profile, loading, toughness
-        As those of `solve`.
+    """Return the kind of work that `solve` does besides where cycles turn before the rim, by its arguments.
 
     Examples
     --------
@@ -211,12 +150,7 @@ def kind_of_turning(
 def kind_of_sensitivities(
     profile: Profile | None = None, loading: Loading | None = None, toughness: Toughness | None = None
 ) -> str:
-    """Return the kind of work that `solve` does besides where sensitivities are requested.
-
-    Parameters
-    ----------
-    profile, loading, toughness
-        As those of `solve`.
+    """Return the kind of work that `solve` does besides where sensitivities are requested, by its arguments.
 
     Examples
     --------
@@ -229,12 +163,7 @@ def kind_of_sensitivities(
 def kind_of_curves(
     profile: Profile | None = None, loading: Loading | None = None, toughness: Toughness | None = None
 ) -> str:
-    """Return the kind of work that `draw_curves` does.
-
-    Parameters
-    ----------
-    profile, loading, toughness
-        As those of `draw_curves`.
+    """Return the kind of work that `draw_curves` does, by its arguments.
 
     Examples
     --------

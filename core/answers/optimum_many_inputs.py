@@ -19,12 +19,7 @@ _STEEP: Final = 1e-9
 
 
 def refine_many(
-    merit: Merit,
-    heights: Array,
-    basins: tuple[NDArray[np.int64], ...],
-    promised: Array,
-    *,
-    constrained: bool,
+    merit: Merit, heights: Array, basins: tuple[NDArray[np.int64], ...], promised: Array, *, constrained: bool
 ) -> tuple[Array, Array]:
     """Refine the basins of several searched inputs, one after the other; of a cell the highest first.
 

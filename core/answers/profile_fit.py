@@ -108,12 +108,7 @@ class FittedProfile:
 
 
 def fit_profile(
-    r: ArrayLike,
-    height: ArrayLike,
-    *,
-    up_to: float | None = None,
-    terms: int = 16,
-    exponent: float | None = 2.0,
+    r: ArrayLike, height: ArrayLike, *, up_to: float | None = None, terms: int = 16, exponent: float | None = 2.0
 ) -> FittedProfile:
     """Fit a power and a Fourier series to measured heights of a punch.
 

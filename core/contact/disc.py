@@ -119,12 +119,8 @@ def disc_limits(table: AnyTable, curve: AnyCurve, count: int, trace: Trace, furt
     They are those of the first jump that does not, as far as `furthest`; for a rim between the two `is_one_disc` tests
     again. Infinite where loading keeps one disc throughout.
 
-    Parameters
-    ----------
-    count, trace
-        What `walk` (path/cosine.py, path/general.py) or `stride` (path/cosine_long.py) has returned.
-    furthest
-        The rim in x = a/lambda, the largest one if there are several.
+    The trace is what `walk` (path/cosine.py, path/general.py) or `stride` (path/cosine_long.py) has returned;
+    `furthest` is the rim in x = a/lambda, the largest one if there are several.
     """
     if is_always_one_disc(table, curve):
         return math.inf, math.inf

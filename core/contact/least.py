@@ -125,9 +125,7 @@ def _least_in_window(
             before = place_of(low, high, i - 1) if i > 0 else low
             after = place_of(low, high, min(i + 1, count))
             least = min(
-                least,
-                opening(table, curve, edge, place_of(low, high, i)),
-                _search(table, curve, edge, before, after),
+                least, opening(table, curve, edge, place_of(low, high, i)), _search(table, curve, edge, before, after)
             )
             if least < 0.0:
                 return least

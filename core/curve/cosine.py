@@ -52,13 +52,7 @@ class Wave(NamedTuple):
 
 @kernel()
 def curve_of(k: float, stretch: float, wavelength: float, mean_height: float) -> tuple[Cosine, float, float]:
-    """Return the curve of a scene, l, and the unit of depth s l^c; lengths are in R.
-
-    Parameters
-    ----------
-    k, stretch, wavelength, mean_height
-        Gradient exponent, s, lambda and lambda A.
-    """
+    """Return the curve of a scene of k, s, lambda and lambda A, l, and the unit of depth s l^c; lengths are in R."""
     length = wavelength / TWO_PI
     unit = stretch * length ** (0.5 * (1.0 - k))
     return Cosine(2.0 * length * length / ((1.0 + k) * unit), mean_height / unit, 0.0), length, unit

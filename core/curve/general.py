@@ -33,6 +33,12 @@ class Series(NamedTuple):
     beta: float
 
 
+class Patterned(Series):
+    """The same on an interface whose toughness varies with the radius (curve/patterned.py)."""
+
+    __slots__ = ()
+
+
 class Basis(NamedTuple):
     """What a series is computed from."""
 
@@ -143,20 +149,10 @@ def curve_of(
     amplitude: float,
     compliance: float,
 ) -> tuple[Series, float, float]:
-    """Return the curve, l, and the unit of depth; lengths are in R.
+    """Return the curve, l, and the unit of depth, from k, m, s, lambda and A (0 for a smooth punch); lengths are in R.
 
-    Parameters
-    ----------
-    k, exponent
-        The gradient's, and the punch's.
-    depth_factor
-        G(m/2) G(n)/(2 G(n + m/2)).
-    stretch
-        s.
-    wavelength, amplitude
-        lambda and A; A = 0 for a smooth punch.
-    compliance
-        K/S in units of 1/R^(1+k): 0 under displacement control, inf under load control.
+    The depth factor is G(m/2) G(n)/(2 G(n + m/2)), the compliance K/S in units of 1/R^(1+k): 0 under displacement
+    control, inf under load control.
     """
     length = wavelength / TWO_PI
     c = 0.5 * (1.0 - k)

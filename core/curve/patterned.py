@@ -15,7 +15,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.general import Basis, Series, curve_of
+from gradhesion.core.curve.general import Basis, Patterned, curve_of
 from gradhesion.core.curve.general_folds import WAVES, Zeros, cell_width, find_folds, room
 from gradhesion.core.curve.window import wave_bounds
 from gradhesion.core.problem.curves import GeneralCurves, Patterns, is_in_range
@@ -37,12 +37,6 @@ _CLOSE: Final = 1.02
 _STEPS: Final = 200
 _ELLIPSE: Final = 6.0
 """Sum of the half axes of the ellipse around a cell of half width 1 in which a root of t is smooth: 6^-17 is left."""
-
-
-class Patterned(Series):
-    """Any profile on a patterned interface, under any control."""
-
-    __slots__ = ()
 
 
 class Pattern(NamedTuple):

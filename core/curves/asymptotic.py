@@ -19,15 +19,9 @@ from gradhesion.core.problem.shape import depth_factor_of, rows_of
 def draw_asymptotic(subject: Subject, profile: Profile) -> dict[str, NDArray[np.float64]] | None:
     """Return the asymptotic curve from zero contact to the end of the drawn range, None if it folds too often.
 
-    Parameters
-    ----------
-    subject, profile
-        Any scene under displacement control, and its punch. With A = 0 the curve is that of the smooth punch.
-
-    Returns
-    -------
-    The variables `asymptotic_...` (draw.CURVES). Depth includes the mean height that the printed form drops, lambda A
-    of one cosine. The form is not valid where the contact is no larger than a wave.
+    The scene is any under displacement control; with A = 0 the curve is that of the smooth punch. The variables are
+    `asymptotic_...` (draw.CURVES). Depth includes the mean height that the printed form drops, lambda A of one cosine.
+    The form is not valid where the contact is no larger than a wave.
     """
     if subject.mean_height == 0.0:
         smooth = general.draw_smooth if isinstance(subject.exact.numbers, General) else draw_smooth

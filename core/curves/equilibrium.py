@@ -48,17 +48,10 @@ def _mark_stable(trace: Trace, places: Floats, stable: Bits) -> None:
 
 
 def draw_equilibrium(subject: Subject) -> dict[str, NDArray[Any]]:
-    """Return the equilibrium curve from zero contact to the end of the drawn range.
+    """Return the equilibrium curve, from zero contact to the end of the drawn range, of a scene with known branches.
 
-    Parameters
-    ----------
-    subject
-        A scene whose branches are known.
-
-    Returns
-    -------
-    The variables `contact_radius`, `indentation`, `load` and `stable` (draw.CURVES). Folds count as not stable, so that
-    the line between two points is stable where one of them is: there is a point between any two folds.
+    Its variables are `contact_radius`, `indentation`, `load` and `stable` (draw.CURVES). Folds count as not stable, so
+    that the line between two points is stable where one of them is: there is a point between any two folds.
     """
     form, trace = subject.exact, subject.trace
     assert trace is not None  # noqa: S101 (draw.py asks first)

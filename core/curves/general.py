@@ -83,18 +83,9 @@ def end_of(form: Form, trace: NDArray[np.float64] | None, turns: NDArray[np.floa
 
 
 def subject_of(scene: Mapping[str, float], profile: Profile, loading: Loading) -> Subject | None:
-    """Return a scene ready for drawing, None where a parameter is outside its range.
+    """Return a scene (the parameters of `solve`) ready for drawing, None where one is outside its range.
 
-    Parameters
-    ----------
-    scene
-        The parameters (sweep.PARAMETERS), and `machine_stiffness` under machine control.
-    profile, loading
-        Any.
-
-    Returns
-    -------
-    The subject; its range is that of curves/subject.py, which extends beyond the folds of the coordinate too.
+    Its drawn range is that of curves/subject.py, which extends beyond the folds of the coordinate too.
     """
     k, nu, modulus, c0, wavelength, amplitude, rim = (float(scene[name]) for name in PARAMETERS)
     machine = [np.array(float(scene["machine_stiffness"]))] if loading.control == "machine" else []

@@ -38,19 +38,12 @@ def _lost_by(form: Form, start: float, end: float, level: float, work: Any) -> f
 def list_jumps(subject: Subject) -> dict[str, NDArray[Any]]:
     """Return every jump of a cycle, in the order of the path: from the jump-in to the jump-out.
 
-    Parameters
-    ----------
-    subject
-        A scene whose branches are known.
-
-    Returns
-    -------
-    The variables `jump_...` (draw.CURVES), one item a jump: the depth delta/R before it, the contact radii a/R between
-    which it happens (0: no contact), the energy that it dissipates over R^2 dgamma, the loads P/(1.5 pi R dgamma)
-    before and after, whether it is on unloading, and whether it starts or ends at the rim. An energy may be negative: a
-    jump on loading over a groove that adhesion does not close gains some, but the contact is no single disc then
-    (status.LOADING_NOT_ONE_DISC). An unbounded punch has all jumps of its curve. The jump-out under load control
-    has no bounded energy and is left out, as in `dissipated_energy`.
+    The branches of the scene are known; the variables are `jump_...` (draw.CURVES), one item a jump: the depth delta/R
+    before it, the contact radii a/R between which it happens (0: no contact), the energy that it dissipates over R^2
+    dgamma, the loads P/(1.5 pi R dgamma) before and after, whether it is on unloading, and whether it starts or ends at
+    the rim. An energy may be negative: a jump on loading over a groove that adhesion does not close gains some, but the
+    contact is no single disc then (status.LOADING_NOT_ONE_DISC). An unbounded punch has all jumps of its curve.
+    The jump-out under load control has no bounded energy and is left out, as in `dissipated_energy`.
 
     Notes
     -----

@@ -121,18 +121,11 @@ def find_corners(subject: Subject) -> NDArray[np.float64]:
 def draw_path(subject: Subject) -> dict[str, NDArray[Any]]:
     """Return the path of a cycle: loading from depth zero without contact to full contact, unloading to its end.
 
-    Parameters
-    ----------
-    subject
-        A scene whose branches are known.
-
-    Returns
-    -------
-    The variables `path_...` (draw.CURVES). Flags and branch mark how a point is reached: the line from the point before
-    is a jump, or unloading, if the point is marked so. A jump is one straight line at its coordinate. Loading ends
-    where contact is full, at the largest coordinate on the way; unloading begins pinned at the rim if the equilibrium
-    at the rim is not as deep. The path of an unbounded punch turns round on the last, endless branch, at the end of the
-    range.
+    The branches of the scene are known; the variables are `path_...` (draw.CURVES). Flags and branch mark how a point
+    is reached: the line from the point before is a jump, or unloading, if the point is marked so. A jump is one
+    straight line at its coordinate. Loading ends where contact is full, at the largest coordinate on the way; unloading
+    begins pinned at the rim if the equilibrium at the rim is not as deep. The path of an unbounded punch turns round on
+    the last, endless branch, at the end of the range.
 
     Notes
     -----

@@ -21,15 +21,7 @@ from gradhesion.core.problem.toughness import Toughness
 
 
 def subject_of(scene: Mapping[str, float], profile: Profile, loading: Loading, toughness: Toughness) -> Subject | None:
-    """Return a scene ready for drawing, None where a parameter is outside its range.
-
-    Parameters
-    ----------
-    scene
-        The parameters of `solve`, with those of the pattern.
-    profile, loading, toughness
-        Any.
-    """
+    """Return a scene (the parameters of `solve`) ready for drawing, None where one is outside its range."""
     scenes = prepared({PATTERN[1]: 1.0, **scene}, loading, more=PATTERN)
     k, rim = float(scenes.k[0]), float(scenes.rim[0, 0])
     series, curves_at, patterns = curves_of_scenes(scenes, profile, toughness)

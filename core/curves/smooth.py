@@ -35,17 +35,7 @@ def turns_of(k: float) -> Turns:
 
 
 def draw_smooth(subject: Subject) -> dict[str, NDArray[np.float64]]:
-    """Return the curve of the same punch without waviness, over the range of the scene's other curves.
-
-    Parameters
-    ----------
-    subject
-        Any scene.
-
-    Returns
-    -------
-    The variables `smooth_...` (draw.CURVES).
-    """
+    """Return the variables `smooth_...` (draw.CURVES): the punch without waviness, as far as other curves."""
     form = subject.plain(1.0)
     places = turns_of(subject.k).places((1.0,), subject.end / form.radius_scale)
     return draw_named(subject, form, places, "smooth")

@@ -7,11 +7,11 @@ from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact import touch
 from gradhesion.core.contact.gap import GROWTH, Edge
-from gradhesion.core.curve.general import Basis, Series, coordinate, level_with_rate
+from gradhesion.core.curve.general import Basis, Patterned, Series, coordinate, level_with_rate
 from gradhesion.core.curve.general_energy import energy_from_zero, jump_energy
 from gradhesion.core.curve.general_folds import Zeros
-from gradhesion.core.curve.patterned import Patterned, are_too_many, folds_up_to, toughness_at, window
-from gradhesion.core.faces import series, series_contact
+from gradhesion.core.curve.patterned import are_too_many, folds_up_to, toughness_at, window
+from gradhesion.core.faces import series_contact
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.struve.series import highest_harmonic, sums
@@ -20,17 +20,7 @@ from gradhesion.core.types import Work
 
 _OUTERMOST: Final = 1e100
 
-face.find_place.answers(Patterned)(series.find_place)
-face.depth_at.answers(Patterned)(series.depth_at)
-face.most_size_at.answers(Patterned)(series.most_size_at)
-face.fold_at.answers(Patterned)(series.fold_at)
-face.gap_in.answers(Patterned)(series.gap_in)
 face.window.answers(Patterned)(window)
-face.coordinate_at.answers(Patterned)(coordinate)
-face.table_of.answers(Patterned)(series_contact.table_of)
-face.waves_are_one_disc.answers(Patterned)(series_contact.waves_are_one_disc)
-face.edge_at.answers(Patterned)(series_contact.edge_at)
-face.fill_heights.answers(Patterned)(series_contact.fill_heights)
 
 
 @face.waves_at.answers(Patterned)

@@ -6,7 +6,7 @@ from gradhesion.core import face
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.arches import folds_between, is_one_cosine
 from gradhesion.core.curve.branches import Trace, ends
-from gradhesion.core.curve.general import Basis, Series, size, slope, state
+from gradhesion.core.curve.general import Basis, Patterned, Series, size, slope, state
 from gradhesion.core.curve.general_branches import find_level
 from gradhesion.core.curve.general_folds import Zeros, room
 from gradhesion.core.curve.one_cosine_energy import jump_of_one_cosine, jump_of_one_cosine_from_zero
@@ -19,7 +19,7 @@ from gradhesion.core.types import Work
 from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
 
 
-@face.find_place.answers(Series, ShortWave)
+@face.find_place.answers(Series, ShortWave, Patterned)
 @kernel()
 def find_place(basis: Basis, curve: Series, level: float, trace: Trace, branch: int) -> float:
     return find_level(basis, curve, level, ends(trace, branch), 0.0)
@@ -59,7 +59,7 @@ def loss_to_zero(basis: Basis, curve: Series, x: float, level: float) -> float:
     return 0.0 if curve.alpha == 0.0 else -_from_zero(basis, curve, x, level)
 
 
-@face.depth_at.answers(Series, ShortWave)
+@face.depth_at.answers(Series, ShortWave, Patterned)
 @kernel()
 def depth_at(basis: Basis, curve: Series, x: float, _level: float) -> float:
     """Return the depth of the contact, whatever is prescribed."""
@@ -122,21 +122,21 @@ def size_at(basis: Basis, curve: Series, x: float) -> float:
     return size(basis, curve, x, 0.0)
 
 
-@face.most_size_at.answers(Series)
+@face.most_size_at.answers(Series, Patterned)
 @kernel()
 def most_size_at(_basis: Basis, _curve: Series, _x: float) -> float:
     """Return inf: no bound is known without a power."""
     return math.inf
 
 
-@face.fold_at.answers(Series)
+@face.fold_at.answers(Series, Patterned)
 @kernel()
 def fold_at(basis: Basis, curve: Series, x: float) -> tuple[float, float]:
     value, rate, _ = slope(basis, curve, x, 0.0)
     return value, rate
 
 
-@face.gap_in.answers(Series)
+@face.gap_in.answers(Series, Patterned)
 @kernel()
 def gap_in(_curve: Series, _trace: Trace) -> float:
     """Return inf: a long curve has notes instead (path/general_long.py)."""

@@ -8,7 +8,7 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact import touch
 from gradhesion.core.contact.gap import GROWTH, Edge
 from gradhesion.core.curve.branches import Trace
-from gradhesion.core.curve.general import Basis, Series, coordinate
+from gradhesion.core.curve.general import Basis, Patterned, Series, coordinate
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.fractional import NODES
 from gradhesion.core.struve.power import amplitude_power
@@ -17,10 +17,10 @@ from gradhesion.core.types import Floats
 
 face.profile_at.answers(Series)(touch.profile_at)
 face.touches_at_centre.answers(Series)(touch.touches_at_centre)
-face.coordinate_at.answers(Series)(coordinate)
+face.coordinate_at.answers(Series, Patterned)(coordinate)
 
 
-@face.table_of.answers(Series)
+@face.table_of.answers(Series, Patterned)
 @kernel()
 def table_of(basis: Basis, _curve: Series) -> Any:
     return basis[0]
@@ -42,7 +42,7 @@ def is_always_one_disc(_basis: Basis, _curve: Series) -> bool:
     return False
 
 
-@face.waves_are_one_disc.answers(Series)
+@face.waves_are_one_disc.answers(Series, Patterned)
 @kernel()
 def waves_are_one_disc(_basis: Basis, _curve: Series, _trace: Trace) -> bool:
     """Return True: no waves are left out of a trace."""
@@ -56,7 +56,7 @@ def panels_of(basis: Basis, curve: Series) -> tuple[float, float]:
     return 1.0 / highest if highest > 0.0 else math.inf, math.exp(GROWTH / curve.exponent)
 
 
-@face.edge_at.answers(Series)
+@face.edge_at.answers(Series, Patterned)
 @kernel(contract=True)
 def edge_at(basis: Basis, curve: Series, x: float) -> Edge:
     table, _, _ = basis
@@ -76,7 +76,7 @@ def excess_at(basis: Basis, curve: Series, edge: Edge, x: float) -> tuple[float,
     return bend + (curve.gain * z * w0 - edge.wave) + edge.stretch, z * amplitude_power(table, z)
 
 
-@face.fill_heights.answers(Series)
+@face.fill_heights.answers(Series, Patterned)
 @kernel(contract=True)
 def fill_heights(basis: Basis, curve: Series, edge: Edge, low: float, width: float, heights: Floats) -> None:
     for i in range(NODES.size):

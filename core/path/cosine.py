@@ -8,13 +8,7 @@ import math
 from typing import Final
 
 from gradhesion.core.compiler.jit import NONE, kernel
-from gradhesion.core.curve.branches import (
-    GAP,
-    RUN,
-    Trace,
-    append_branches,
-    room_for,
-)
+from gradhesion.core.curve.branches import GAP, RUN, Trace, append_branches, room_for
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_folds import first_arch, last_arch
 from gradhesion.core.path.loading import load_up

@@ -13,16 +13,37 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.branches import ROWS, UNKNOWN, UNLOADING_JUMPS, Trace
-from gradhesion.core.curve.general import Basis, Series, state
+from gradhesion.core.curve.cosine_folds import CLOSE
+from gradhesion.core.curve.general import Basis, Series, slope, state
 from gradhesion.core.curve.general_branches import fill_branches
-from gradhesion.core.curve.general_folds import MOST_FOLDS
+from gradhesion.core.curve.general_folds import MOST_FOLDS, Zeros
 from gradhesion.core.face import find_all_folds
-from gradhesion.core.path.general_ties import first_close_pair
 from gradhesion.core.path.loading import load_up
-from gradhesion.core.path.ties import note_loading
+from gradhesion.core.path.ties import PAIR, note_loading
+from gradhesion.core.struve.circle import TWO_PI
 
 _ROOM: Final = 16
 """Floats that a jump has room for (core/face.py)."""
+
+
+@kernel()
+def first_close_pair(zeros: Zeros, count: int, whole: float) -> float:
+    """Return the first of the folds that has another so near that the pair may vanish, inf if none has.
+
+    They stand at `zeros` beyond some whole waves (path/ties.py says when a decision is close).
+    """
+    for i in range(1, count):
+        width = TWO_PI * (zeros[i] - zeros[i - 1])
+        if width * width <= PAIR * min(1.0, TWO_PI * (whole + zeros[i])) ** 2:
+            return zeros[i]
+    return math.inf
+
+
+@kernel()
+def is_at_a_fold(basis: Basis, curve: Series, x: float, whole: float) -> bool:
+    """Return whether whole + x is a fold, as far as anybody can tell: by a step of Newton's method."""
+    value, rate, _ = slope(basis, curve, x, whole)
+    return abs(value) <= 2.0 * CLOSE * TWO_PI * (whole + x) * abs(rate)
 
 
 @kernel()

@@ -13,11 +13,10 @@ import numpy as np
 from gradhesion.core.compiler.jit import NO, constant, kernel
 from gradhesion.core.contact.disc import climb_is_one_disc
 from gradhesion.core.curve.arches import folds_between
-from gradhesion.core.curve.branches import END, START
 from gradhesion.core.curve.general import Basis, Series
-from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, fill_branches
+from gradhesion.core.curve.general_branches import fill_branches
 from gradhesion.core.curve.general_folds import MOST_FOLDS, Search, Zeros, find_folds, room
-from gradhesion.core.path.general_ties import first_close_pair, is_at_a_fold
+from gradhesion.core.path.general import first_close_pair, is_at_a_fold
 from gradhesion.core.path.pieces import (
     NOTED_DOWN,
     NOTED_UP,
@@ -42,9 +41,8 @@ from gradhesion.core.waves.general import (
     branches_of_wave,
     cut_of,
     falls_at_cut,
-    highest_end,
+    furthest_end,
     let_reach,
-    lowest_start,
     rises_by,
     room_for_waves,
 )
@@ -153,12 +151,8 @@ def regular_waves(
 def _end_of(basis: Basis, curve: Series, cut: float, wave: float, kind: int, work: Room) -> tuple[float, float]:
     """Return level and place of the highest end of a branch of a wave (UP), or of the lowest start, or none."""
     rows = work[2][0]
-    count = branches_of_wave(basis, curve, wave, cut, work, rows)
-    if kind == UP:
-        best = highest_end(rows, count)
-        return (rows[END_LEVEL, best], rows[END, best]) if best >= 0 else (-math.inf, cut)
-    best = lowest_start(rows, count)
-    return (rows[START_LEVEL, best], rows[START, best]) if best >= 0 else (math.inf, cut)
+    best, level, x = furthest_end(kind, rows, branches_of_wave(basis, curve, wave, cut, work, rows))
+    return level, x if best >= 0 else cut
 
 
 @kernel()
@@ -237,12 +231,10 @@ def _waves_are_one_disc(basis: Basis, curve: Series, cut: float, first: float, l
     _, _, rows = work
     for i in range(_TESTED):
         before = np.floor(first * (last / first) ** (i / (_TESTED - 1.0)) + 0.5) - 1.0
-        highest = highest_end(rows[0], branches_of_wave(basis, curve, before, cut, work, rows[0]))
+        highest, level, x = furthest_end(UP, rows[0], branches_of_wave(basis, curve, before, cut, work, rows[0]))
         count = branches_of_wave(basis, curve, before, cut + 1.0, work, rows[1])
-        if highest >= 0:
-            left, level = before + rows[0, END, highest], rows[0, END_LEVEL, highest]
-            if not climb_is_one_disc(basis, curve, count, rows[1], -math.inf, left, level, before):
-                return False
+        if highest >= 0 and not climb_is_one_disc(basis, curve, count, rows[1], -math.inf, before + x, level, before):
+            return False
     return True
 
 
@@ -292,13 +284,7 @@ def go_through(
             loss, jumps = sum_of_waves(basis, curve, waves, first, final, losses)
             if losses:
                 note(notes, NOTED_UP if kind == UP else NOTED_DOWN, 0.0, first, final, NO)
-            count = branches_of_wave(basis, curve, far, cut, work, rows)
-            if kind == UP:
-                best = highest_end(rows, count)
-                level, x = rows[END_LEVEL, best], rows[END, best]
-            else:
-                best = lowest_start(rows, count)
-                level, x = rows[START_LEVEL, best], rows[START, best]
+            _, level, x = furthest_end(kind, rows, branches_of_wave(basis, curve, far, cut, work, rows))
             state = State(state.loss + loss, state.jumps + jumps, level, far, x, state.close)
         now = far + sign
     return state, one_disc
@@ -358,22 +344,10 @@ class Strode(NamedTuple):
 def stride(
     basis: Basis, curve: Series, first: float, middle: Middle, rim: tuple[float, float], tasks: Tasks, notes: Notes
 ) -> Strode:
-    """Follow the cycle on a long curve up to one rim.
+    """Follow the cycle on a long curve up to one rim, x and its rounding error; there is no fold before `first`.
 
+    `middle` is what `middle_of` has returned, REGULAR; `notes` is room for notes of what loses energy (path/pieces.py).
     The contact is tested on the way into the regular waves and out of them, and on some of these.
-
-    Parameters
-    ----------
-    basis, curve, first
-        The curve, and the place before which there is no fold.
-    middle
-        What `middle_of` has returned, REGULAR.
-    rim
-        x of the rim, and its rounding error.
-    tasks
-        What is wanted.
-    notes
-        Room for notes of what loses energy (path/pieces.py).
     """
     losses, last_loss, test, turned = tasks
     _, until, cut, _, begin, end, _ = middle

@@ -15,9 +15,9 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import NO, YES, constant, kernel
 from gradhesion.core.curve.branches import END, START, ends
-from gradhesion.core.curve.general import Basis, Series, coordinate
+from gradhesion.core.curve.cosine_folds import CLOSE
+from gradhesion.core.curve.general import Basis, Series, coordinate, size
 from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, Rows, find_level
-from gradhesion.core.path.general_ties import is_near
 from gradhesion.core.types import Floats
 from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
 
@@ -90,6 +90,12 @@ def _leap(basis: Basis, curve: Series, state: State, x: float, whole: float) -> 
 
 
 @kernel()
+def _is_near(basis: Basis, curve: Series, first: float, other: float, x: float, whole: float) -> bool:
+    """Return whether two coordinates differ by less than CLOSE of their terms at whole + x."""
+    return abs(first - other) <= CLOSE * size(basis, curve, x, whole)
+
+
+@kernel()
 def climb(basis: Basis, curve: Series, piece: Piece, state: State, sure: float, losses: bool, notes: Notes) -> State:
     """Follow loading from a state over the branches of a piece; return the state at the end of the last it visits.
 
@@ -101,7 +107,7 @@ def climb(basis: Basis, curve: Series, piece: Piece, state: State, sure: float, 
         loss, jumps, level, _, _, close = state
         top = rows[END_LEVEL, branch]
         end = rows[END, branch]
-        if top < math.inf and end != sure and is_near(basis, curve, top, level, end, whole):
+        if top < math.inf and end != sure and _is_near(basis, curve, top, level, end, whole):
             close = True
         if top > level:
             if losses or end == math.inf:
@@ -144,7 +150,7 @@ def descend(basis: Basis, curve: Series, piece: Piece, state: State, losses: boo
     for branch in range(count - 1, -1, -1):
         loss, jumps, level, waves, left, close = state
         bottom = rows[START_LEVEL, branch]
-        if is_near(basis, curve, bottom, level, left, waves):
+        if _is_near(basis, curve, bottom, level, left, waves):
             close = True
         if bottom < level:
             if losses:

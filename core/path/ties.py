@@ -168,16 +168,9 @@ def is_close_to_a_jump(
 ) -> bool:
     """Return whether an error of 1e-12 in an input could change the number of jumps of a cycle up to the rim.
 
-    Parameters
-    ----------
-    count, trace
-        The branches, with what `note_loading` has noted.
-    tangency
-        The first place at which a pair of folds is about to be born or to vanish.
-    rim, rim_level
-        The rim and the coordinate there.
-    turned
-        Whether the rim is a place that loading surely reaches, and no edge of a punch.
+    The branches are `count`, with what `note_loading` has noted; `tangency` is the first place at which a pair of folds
+    is about to be born or to vanish, `rim_level` the coordinate at the rim; `turned` tells that this is a place that
+    loading surely reaches, and no edge of a punch.
     """
     if tangency <= rim and tangency < math.inf:
         return True

@@ -66,20 +66,8 @@ PATTERN_CURVES: Final = ("equilibrium", "closing_equilibrium", "path", "jumps")
 """The curves of an interface whose toughness varies with the radius."""
 CURVES: Final[dict[str, tuple[str, ...]]] = {
     "equilibrium": ("contact_radius", "indentation", "load", "stable"),
-    "closing_equilibrium": (
-        "closing_contact_radius",
-        "closing_indentation",
-        "closing_load",
-        "closing_stable",
-    ),
-    "path": (
-        "path_contact_radius",
-        "path_indentation",
-        "path_load",
-        "path_branch",
-        "path_jump",
-        "path_unloading",
-    ),
+    "closing_equilibrium": ("closing_contact_radius", "closing_indentation", "closing_load", "closing_stable"),
+    "path": ("path_contact_radius", "path_indentation", "path_load", "path_branch", "path_jump", "path_unloading"),
     "asymptotic": ("asymptotic_contact_radius", "asymptotic_indentation", "asymptotic_load"),
     "envelope": (
         "envelope_contact_radius",

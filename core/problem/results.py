@@ -44,6 +44,17 @@ class Results(NamedTuple):
     status: Bits
 
 
+class Cycle(NamedTuple):
+    """A cycle up to one rim in reduced units: energies in 2 pi l^2 dgamma, depths in s l^c."""
+
+    loaded: float  # what the jumps of loading lose, and their number
+    loading_jumps: float
+    unloaded: float  # the same of unloading
+    unloading_jumps: float
+    last: float  # the depth at which contact ends
+    highest: float  # the largest value of what is prescribed, on the way to the rim
+
+
 def slots_of(rows: Sequence[str], *, check_contact: bool, turned: bool) -> Integers:
     """Return the slots for results that stand in these rows of `out`."""
     places = [rows.index(name) if name in rows else -1 for name in (*RESULTS, REACH)]

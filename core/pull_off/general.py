@@ -46,6 +46,8 @@ _ROUNDING: Final = 1e-14
 _BLOCK: Final = 0.9
 INWARDS: Final = 0.3
 """Longest cell over the distance of its outer end from zero contact."""
+_CENTRE: Final = 1e-100
+"""x that is zero contact."""
 _FAR: Final = 64.0
 """Waves from which on there may be many in question."""
 _ABOUT: Final = 8.0
@@ -229,6 +231,70 @@ def _lowest_about(basis: Basis, curve: Series, start: float, x_rim: float, x_rim
 
 
 @kernel()
+def innermost(terms: Terms, k: float, more: float, z: float) -> float:
+    """Return a bound below the load everywhere up to z: all its parts grow with z; `more` as of `floor_of_cell`."""
+    first, second, _, _, near = terms
+    c, e = 0.5 * (1.0 - k), 0.5 * (3.0 + k)
+    waves = near * z ** (e + 1.0 - c)
+    if z > 1.0:
+        waves = min(waves, max(near, first * z**e + second))
+    return -(z**e) - waves - more * z**e
+
+
+@kernel()
+def floor_of_cell(terms: Terms, curve: Series, k: float, more: float, low: float, high: float) -> float:
+    """Return a bound below the load between two z; `more` is by how much the toughness may be above 1."""
+    m, c = curve.exponent, 0.5 * (1.0 - k)
+    chi = chi_at(terms, low)
+    if high < math.inf:
+        chi = min(chi, terms[4] * high ** (1.0 - c))
+    return floor_between(curve.bend * m / (1.0 + k + m), m - c, k, more + chi, low, high)
+
+
+@kernel()
+def lowest_of_cells(
+    basis: Basis,
+    curve: Series,
+    terms: Terms,
+    more: float,
+    way: tuple[float, float],
+    best: Lowest,
+    cells: int,
+    work: Search,
+) -> tuple[int, Lowest]:
+    """Search the load cell by cell, outwards and inwards, as long as one can hold anything lower than the best trough.
+
+    The curve is that of controlled load, with the bounds of `floor_of_cell`; `way` are the x where the search begins
+    and that of the rim. Return 1 if the lowest load is found, 0 if zero contact was reached without that, -1 if the
+    cells ran out; and the lowest load.
+    """
+    k, (start, x_rim) = basis.table.k, way
+    zeros, low, left = np.empty(MOST), start, cells
+    while low < x_rim and left > 0:
+        if floor_of_cell(terms, curve, k, more, TWO_PI * low, math.inf) >= best[0] * WORTH and low > start:
+            break
+        high = min(x_rim, low + cell_width(basis.series, low))
+        best = better(basis, curve, low, high, work, zeros, best, 0.0)
+        low = high
+        left -= 1
+    high = start
+    while left > 0 and high > _CENTRE:
+        z_high = TWO_PI * high
+        if best[0] < 0.0 and innermost(terms, k, more, z_high) >= best[0] * WORTH:
+            return 1, best
+        low = _BLOCK * high
+        if best[0] < 0.0 and floor_of_cell(terms, curve, k, more, TWO_PI * low, z_high) >= best[0] * WORTH:
+            high = low
+            continue
+        low = high - min(cell_width(basis.series, high), INWARDS * high)
+        left -= 1
+        if not (best[0] < 0.0 and floor_of_cell(terms, curve, k, more, TWO_PI * low, z_high) >= best[0] * WORTH):
+            best = better(basis, curve, low, high, work, zeros, best, 0.0)
+        high = low
+    return 0 if left > 0 else -1, best
+
+
+@kernel()
 def lowest_load(
     basis: Basis, curve: Series, x_rim: float, x_rim_low: float, work: Search, deepest: float
 ) -> tuple[float, float, float]:
@@ -250,7 +316,7 @@ def lowest_load(
     # where the floor of the far field is lowest
     z = ((1.0 + terms[2]) * e / (bend * (power + e))) ** (1.0 / power)
     start = min(z / TWO_PI, x_rim)
-    if not (1e-100 < start < math.inf):
+    if not (_CENTRE < start < math.inf):
         return math.nan, math.nan, 0.0
     if start > pull_off.FURTHEST and series.shape[0] > 0:
         return _lowest_about(basis, controlled, start, x_rim, x_rim_low, work)
@@ -263,55 +329,5 @@ def lowest_load(
         found, lowest = _lowest_far(basis, controlled, terms, start, x_rim, x_rim_low, best, work)
         if found:
             return lowest
-    cell_zeros = np.empty(MOST)
-    low, left = start, MOST_CELLS
-    while low < x_rim and left > 0:
-        z_low = TWO_PI * low
-        if floor_between(bend, power, k, chi_at(terms, z_low), z_low, math.inf) >= best[0] * WORTH and low > start:
-            break
-        high = min(x_rim, low + cell_width(series, low))
-        best = better(basis, controlled, low, high, work, cell_zeros, best, 0.0)
-        low = high
-        left -= 1
-    high = start
-    while left > 0:
-        z_high = TWO_PI * high
-        if best[0] < 0.0 and innermost(terms, k, z_high) >= best[0] * WORTH:
-            break
-        low = _BLOCK * high
-        near = terms[4] * z_high ** (1.0 - c)
-        chi = min(near, chi_at(terms, TWO_PI * low))
-        if best[0] < 0.0 and floor_between(bend, power, k, chi, TWO_PI * low, z_high) >= best[0] * WORTH:
-            high = low
-            continue
-        low = high - min(cell_width(series, high), INWARDS * high)
-        left -= 1
-        chi = min(near, chi_at(terms, TWO_PI * low))
-        if not (best[0] < 0.0 and floor_between(bend, power, k, chi, TWO_PI * low, z_high) >= best[0] * WORTH):
-            best = better(basis, controlled, low, high, work, cell_zeros, best, 0.0)
-        if high < 1e-100:
-            return math.nan, math.nan, 0.0
-        high = low
-    if left == 0:
-        return math.nan, math.nan, 0.0
-    return best
-
-
-@kernel()
-def innermost(terms: Terms, k: float, z: float) -> float:
-    """Return a bound below the load everywhere up to z: both parts grow with z."""
-    first, second, _, _, near = terms
-    c, e = 0.5 * (1.0 - k), 0.5 * (3.0 + k)
-    waves = near * z ** (e + 1.0 - c)
-    if z > 1.0:
-        waves = min(waves, max(near, first * z**e + second))
-    return -(z**e) - waves
-
-
-@kernel()
-def floor_of_cell(terms: Terms, curve: Series, k: float, low: float, high: float) -> float:
-    """Return a bound below the load between two z."""
-    B, m, _, _, _ = curve
-    c = 0.5 * (1.0 - k)
-    chi = min(terms[4] * high ** (1.0 - c), chi_at(terms, low))
-    return floor_between(B * m / (1.0 + k + m), m - c, k, chi, low, high)
+    told, best = lowest_of_cells(basis, controlled, terms, 0.0, (start, x_rim), best, MOST_CELLS, work)
+    return best if told > 0 else (math.nan, math.nan, 0.0)

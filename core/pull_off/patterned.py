@@ -5,38 +5,15 @@ load >= X [ B m/(1+k+m) z^(m-c) - kappa_most - chi(z) ],   X = z^((3+k)/2)
 
 import math
 
-import numpy as np
-
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.curve.cells import MOST
 from gradhesion.core.curve.cosine_folds import CLOSE
-from gradhesion.core.curve.general import Basis
-from gradhesion.core.curve.general_folds import Search, cell_width
-from gradhesion.core.curve.patterned import MOST_CELLS, Patterned
-from gradhesion.core.pull_off.general import (
-    INWARDS,
-    WORTH,
-    Terms,
-    better,
-    chi_at,
-    chi_terms,
-    floor_between,
-    innermost,
-    load_at_rim,
-)
+from gradhesion.core.curve.general import Basis, Patterned
+from gradhesion.core.curve.general_folds import Search
+from gradhesion.core.curve.patterned import MOST_CELLS
+from gradhesion.core.pull_off.general import chi_terms, load_at_rim, lowest_of_cells
 from gradhesion.core.pull_off.lowest_two import Lowest
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats
-
-
-@kernel()
-def _floor(terms: Terms, curve: Patterned, k: float, more: float, low: float, high: float) -> float:
-    """Return a bound below the load between two z; `more` is kappa_most - 1."""
-    m, c = curve.exponent, 0.5 * (1.0 - k)
-    chi = chi_at(terms, low)
-    if high < math.inf:
-        chi = min(chi, terms[4] * high ** (1.0 - c))
-    return floor_between(curve.bend * m / (1.0 + k + m), m - c, k, more + chi, low, high)
 
 
 @kernel()
@@ -46,10 +23,9 @@ def lowest_load(
     """Return the lowest reduced load up to a rim, the x where it is met, and the second lowest trough (or 0).
 
     NaN if there are too many waves to search, 0 without a place where no load is below zero: the centre may have no
-    adhesion. `rim` is x and its rounding error, `deepest` what `deepest_wave`
-    (pull_off/general.py) returns.
+    adhesion. `rim` is x and its rounding error, `deepest` what `deepest_wave` (pull_off/general.py) returns.
     """
-    table, pattern, series = basis
+    table, pattern, _ = basis
     k, (x_rim, x_rim_low) = table.k, rim
     B, m, g, _, _ = curve
     by_load = Patterned(B, m, g, 0.0, 1.0)
@@ -64,29 +40,8 @@ def lowest_load(
         at_rim = load_at_rim(basis, by_load, x_rim, x_rim_low)
         if at_rim < 0.0:
             best = (at_rim, x_rim, 0.0)
-    zeros, low, left = np.empty(MOST), start, MOST_CELLS
-    while low < x_rim and left > 0:
-        if _floor(terms, by_load, k, more, TWO_PI * low, math.inf) >= best[0] * WORTH and low > start:
-            break
-        high = min(x_rim, low + cell_width(series, low))
-        best = better(basis, by_load, low, high, work, zeros, best, 0.0)
-        low = high
-        left -= 1
-    high = start
-    while left > 0 and high > 1e-100:
-        z_high = TWO_PI * high
-        if best[0] < 0.0 and innermost(terms, k, z_high) - more * z_high**e >= best[0] * WORTH:
-            return best
-        low = 0.9 * high
-        if best[0] < 0.0 and _floor(terms, by_load, k, more, TWO_PI * low, z_high) >= best[0] * WORTH:
-            high = low
-            continue
-        low = high - min(cell_width(series, high), INWARDS * high)
-        left -= 1
-        if not (best[0] < 0.0 and _floor(terms, by_load, k, more, TWO_PI * low, z_high) >= best[0] * WORTH):
-            best = better(basis, by_load, low, high, work, zeros, best, 0.0)
-        high = low
-    return (0.0, math.nan, 0.0) if left > 0 else (math.nan, math.nan, 0.0)
+    found, best = lowest_of_cells(basis, by_load, terms, more, (start, x_rim), best, MOST_CELLS, work)
+    return best if found > 0 else (0.0 if found == 0 else math.nan, math.nan, 0.0)
 
 
 @kernel()

@@ -66,13 +66,14 @@ def _inwards(
 ) -> tuple[bool, Lowest]:
     """Return the lowest load within a rim; whether the cells reach that far in."""
     ends, counts, troughs, zeros = cells
+    k = basis[0].k
     for c in range(ends.size - 1):
         high, low = min(ends[c], rim), ends[c + 1]
         if low >= rim:
             continue
-        if best[0] < 0.0 and innermost(terms, basis[0].k, TWO_PI * high) >= best[0] * WORTH:
+        if best[0] < 0.0 and innermost(terms, k, 0.0, TWO_PI * high) >= best[0] * WORTH:
             return True, best
-        if best[0] < 0.0 and floor_of_cell(terms, curve, basis[0].k, TWO_PI * low, TWO_PI * high) >= best[0] * WORTH:
+        if best[0] < 0.0 and floor_of_cell(terms, curve, k, 0.0, TWO_PI * low, TWO_PI * high) >= best[0] * WORTH:
             continue
         if counts[c] == _UNKNOWN:
             counts[c] = _fill_cell(basis, curve, low, ends[c], work, zeros, troughs[c])

@@ -42,13 +42,7 @@ def _floor(basis: Basis, curve: ShortWave, chi: float, x: float) -> float:
 
 @kernel()
 def _lowest_between(
-    basis: Basis,
-    by_load: ShortWave,
-    sizes: Sizes,
-    low: float,
-    high: float,
-    zeros: Zeros,
-    best: tuple[float, float],
+    basis: Basis, by_load: ShortWave, sizes: Sizes, low: float, high: float, zeros: Zeros, best: tuple[float, float]
 ) -> tuple[float, float]:
     """Return the lowest load so far and its place, the troughs between two places taken in."""
     count, rises = folds_between(basis, by_load, sizes, low, high, zeros)

@@ -50,14 +50,7 @@ class _Target(NamedTuple):
 
 @kernel()
 def _step_to(
-    basis: Basis,
-    curve: Series,
-    law: Law,
-    start: Start,
-    state: tuple[float, float],
-    h: float,
-    ends: _Target,
-    room: Room,
+    basis: Basis, curve: Series, law: Law, start: Start, state: tuple[float, float], h: float, ends: _Target, room: Room
 ) -> tuple[float, float, float]:
     """Return length, lag and energy of the step from the state (y, lag) that meets its target, shorter than h."""
     bracket, length = Bracket(0.0, h, ends.before - ends.target, ends.after - ends.target, 0), h
@@ -78,14 +71,8 @@ def close_edge(
 ) -> Reached:
     """Follow an edge outwards while Y rises, to the rim or to where the machine turns.
 
-    Parameters
-    ----------
-    rim
-        Its place in wavelengths, inf where there is none.
-    shortest
-        The shortest wave in wavelengths, inf where there is none.
-    ends
-        The length of a smooth contact and the largest place, both in wavelengths, and the Y at which the machine turns.
+    The rim and the shortest wave are in wavelengths, inf where there is none; `ends` are the length of a smooth contact
+    and the largest place, both in wavelengths, and the Y at which the machine turns.
     """
     size, furthest, target = ends
     x = _INNERMOST * min(rim, shortest, size)

@@ -89,25 +89,12 @@ def _step(
 
 @kernel()
 def stop_edge(
-    basis: Basis,
-    curve: Series,
-    law: Law,
-    rim: float,
-    shortest: float,
-    turn: Reached,
-    furthest: float,
-    track: Floats,
+    basis: Basis, curve: Series, law: Law, rim: float, shortest: float, turn: Reached, furthest: float, track: Floats
 ) -> Reached:
     """Follow the edge from where it is when the machine turns to where it stops, at a lag of 0 or at the rim.
 
-    Parameters
-    ----------
-    rim, shortest, furthest
-        The rim, the shortest wave and the largest place, in wavelengths, inf where there is none.
-    turn
-        Where the edge is then.
-    track
-        Its places are stored there (rate/step.py).
+    The rim, the shortest wave and the largest place are in wavelengths, inf where there is none; where the edge goes is
+    stored in its track (rate/step.py).
     """
     nodes = np.empty((5, STAGES))
     x, end = turn.x, math.log(rim / turn.x)

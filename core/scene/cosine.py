@@ -14,7 +14,6 @@ from gradhesion.core.closed.power import power
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import Trace
 from gradhesion.core.curve.cosine import Cosine, curve_of, force_unit
-from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.path.cosine import (
     LARGEST,
     SMALLEST,
@@ -43,21 +42,12 @@ from gradhesion.core.problem.results import (
     wants_force,
     wants_losses,
 )
-from gradhesion.core.problem.status import (
-    CLOSE_TO_A_JUMP,
-    JUMP_IN_TO_RIM,
-    NO_VALUE,
-    PULL_OFF_AT_RIM,
-)
+from gradhesion.core.problem.status import JUMP_IN_TO_RIM, NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.pull_off.cosine import lowest_load
 from gradhesion.core.scene.cosine_long import solve_long
 from gradhesion.core.scene.cosine_rim import read_rim, slopes_of, walked_to
-from gradhesion.core.scene.scene import Scene
-from gradhesion.core.sensitivities.cosine_slopes import (
-    put_rest,
-    put_smooth,
-    sensed_by,
-)
+from gradhesion.core.scene.scene import Scene, put_pull_off
+from gradhesion.core.sensitivities.cosine_slopes import put_rest, put_smooth, sensed_by
 from gradhesion.core.sensitivities.wanted import AnySense
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
@@ -113,12 +103,7 @@ def _solve_force(table: Table, curve: Cosine, scale: float, wavelength: float, r
         if not (free_load < 0.0 and free_x <= x):
             x_low = fma(-x, wavelength, rims[i]) / wavelength if x < math.inf else 0.0
             lowest, place, second = lowest_load(table, curve, x, x_low)
-        if second < lowest * (1.0 - CLOSE):
-            results.status[i] |= CLOSE_TO_A_JUMP
-        put(results, FORCE, i, -scale * lowest)
-        put(results, RADIUS, i, place * wavelength if place != x else rims[i])
-        if place == x:
-            results.status[i] |= PULL_OFF_AT_RIM
+        put_pull_off(results, scale, wavelength, rims[i], (lowest, place, second), i)
 
 
 @kernel()
@@ -204,22 +189,9 @@ def solve_curve(
     scratch: Trace,
     sense: AnySense,
 ) -> None:
-    """Solve one curve for all its rims.
+    """Solve one curve, of s in R^((1+k)/2), lambda/R and A, for all its rims a_max/R, of shape (rims,).
 
-    Parameters
-    ----------
-    table
-        The table of its exponent.
-    stretch, wavelength, amplitude
-        s in R^((1+k)/2), lambda/R and A.
-    rims
-        a_max/R, shape (rims,).
-    results
-        Where values and flags go.
-    scratch
-        Room for a trace, shape (ROWS, branches).
-    sense
-        What sensitivities need.
+    `scratch` is room for a trace, of shape (ROWS, branches).
     """
     k, slots = table.k, results.slots
     if is_endless_wave(wavelength, amplitude):  # A = 0 among them

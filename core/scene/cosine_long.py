@@ -16,8 +16,8 @@ from gradhesion.core.path.cosine_rims import FURTHEST, cycle_among, is_close_amo
 from gradhesion.core.path.ties import first_close_pair
 from gradhesion.core.problem.results import CONTACT, DEEPEST, TURNED, put, wants_cycle, wants_losses
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC
-from gradhesion.core.scene.cosine_rim import Walked, put_cycle, read_rim, slopes_of, walked_to
-from gradhesion.core.scene.scene import Scene
+from gradhesion.core.scene.cosine_rim import Walked, read_rim, slopes_of, walked_to
+from gradhesion.core.scene.scene import Scene, put_cycle
 from gradhesion.core.sensitivities.wanted import AnySense
 from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, next_lane
 from gradhesion.core.types import Floats, Table

@@ -7,28 +7,22 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact.disc import disc_limits, is_one_disc
 from gradhesion.core.curve.branches import ARRIVAL, Trace
 from gradhesion.core.curve.cosine import Cosine, depth
-from gradhesion.core.path.cycle import Cycle
 from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
 from gradhesion.core.path.ties import first_close_pair, is_close_to_a_jump
 from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.results import (
     CONTACT,
     DEEPEST,
-    ENERGY,
-    LAST,
-    LOADED,
-    LOADING,
     OUTERMOST,
     TURNED,
-    UNLOADED,
-    UNLOADING,
+    Cycle,
     energy_of,
     put,
     wants_cycle,
     wants_losses,
 )
-from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE
-from gradhesion.core.scene.scene import Scene
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC
+from gradhesion.core.scene.scene import Scene, put_cycle
 from gradhesion.core.sensitivities.cosine_slopes import Sensed, put_energy
 from gradhesion.core.sensitivities.path_slopes import Traced, fill_loading, with_slopes
 from gradhesion.core.sensitivities.wanted import AnySense, if_wanted
@@ -44,22 +38,6 @@ class Walked(NamedTuple):
     inner: float  # x up to which loading keeps the contact one disc (contact/disc.py), inf for everywhere
     outer: float  # x from which on it does not, inf for nowhere
     tangency: float  # the first x at which a pair of folds is about to be born or to vanish, inf for none
-
-
-@kernel()
-def put_cycle(scene: Scene, cycle: Cycle, i: int) -> None:
-    """Store the cycle of rim number i, with no value and a flag if its energy overflows."""
-    results = scene.results
-    energy = scene.energy * (cycle.loaded + cycle.unloaded)
-    if not abs(energy) < math.inf:  # an overflow
-        energy = math.nan
-        results.status[i] |= NO_VALUE
-    put(results, ENERGY, i, energy)
-    put(results, LOADED, i, scene.energy * cycle.loaded)
-    put(results, UNLOADED, i, scene.energy * cycle.unloaded)
-    put(results, LOADING, i, cycle.loading_jumps)
-    put(results, UNLOADING, i, cycle.unloading_jumps)
-    put(results, LAST, i, scene.depth * cycle.last)
 
 
 @kernel()

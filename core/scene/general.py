@@ -15,12 +15,10 @@ from gradhesion.core.contact.disc import disc_limits, is_one_disc
 from gradhesion.core.curve.arches import is_one_cosine
 from gradhesion.core.curve.branches import ARRIVAL
 from gradhesion.core.curve.cosine import force_unit
-from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Series, coordinate, curve_at, state
 from gradhesion.core.curve.general_energy import energies_in
 from gradhesion.core.curve.general_folds import MOST_CELLS, Search, room
 from gradhesion.core.face import depth_at, window
-from gradhesion.core.path.cycle import Cycle
 from gradhesion.core.path.general import depth_at_full_contact, walk
 from gradhesion.core.path.general_long import FEW, LONGEST_WALK, REGULAR, Middle, Tasks, middle_of, stride
 from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
@@ -31,16 +29,9 @@ from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.results import (
     CONTACT,
     DEEPEST,
-    ENERGY,
-    FORCE,
-    LAST,
-    LOADED,
-    LOADING,
     OUTERMOST,
-    RADIUS,
     TURNED,
-    UNLOADED,
-    UNLOADING,
+    Cycle,
     Results,
     part_of,
     put,
@@ -48,24 +39,11 @@ from gradhesion.core.problem.results import (
     wants_force,
     wants_losses,
 )
-from gradhesion.core.problem.status import (
-    CLOSE_TO_A_JUMP,
-    JUMP_IN_TO_RIM,
-    LOADING_NOT_ONE_DISC,
-    NO_VALUE,
-    PULL_OFF_AT_RIM,
-)
+from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE
 from gradhesion.core.pull_off.general import deepest_wave
 from gradhesion.core.pull_off.rims import lowest_loads
-from gradhesion.core.scene.scene import Scene
-from gradhesion.core.sensitivities.general_slopes import (
-    NOTES,
-    put_energy,
-    put_noted,
-    put_rest,
-    sensed_by,
-    slopes_of,
-)
+from gradhesion.core.scene.scene import Scene, put_cycle, put_pull_off, refuse
+from gradhesion.core.sensitivities.general_slopes import NOTES, put_energy, put_noted, put_rest, sensed_by, slopes_of
 from gradhesion.core.sensitivities.wanted import AnySense
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
@@ -78,15 +56,7 @@ _STATIONS: Final = 64
 
 
 @kernel()
-def refuse(results: Results, i: int) -> None:
-    """Give rim number i, out of range, no value."""
-    for row in range(CONTACT):
-        put(results, row, i, math.nan)
-    results.status[i] = NO_VALUE
-
-
-@kernel()
-def put_cycle(
+def put_rim(
     basis: Basis,
     curve: Series,
     scene: Scene,
@@ -108,16 +78,7 @@ def put_cycle(
         results.status[i] |= JUMP_IN_TO_RIM
     if not one_disc:
         results.status[i] |= LOADING_NOT_ONE_DISC
-    if not abs(scene.energy * (cycle.loaded + cycle.unloaded)) < math.inf:  # an overflow
-        refuse(results, i)
-        return
-    put(results, ENERGY, i, scene.energy * (cycle.loaded + cycle.unloaded))
-    put(results, LOADED, i, scene.energy * cycle.loaded)
-    put(results, UNLOADED, i, scene.energy * cycle.unloaded)
-    put(results, LOADING, i, cycle.loading_jumps)
-    put(results, UNLOADING, i, cycle.unloading_jumps)
-    put(results, LAST, i, scene.depth * cycle.last)
-    if results.slots[DEEPEST] >= 0:
+    if put_cycle(scene, cycle, i) and results.slots[DEEPEST] >= 0:
         deepest = depth_at_full_contact(basis, curve, x, cycle.highest, whole) if x < math.inf else x
         put(results, DEEPEST, i, scene.depth * deepest)
 
@@ -167,7 +128,7 @@ def _walked(
         close = is_close_to_a_jump(basis, curve, count, trace, tangency, x, level, turned)
         flags = (close, is_one_disc(basis, curve, limits, x))
         cycle = Cycle(loaded, jumps, unloaded, jumps_back, last, highest)
-        put_cycle(basis, curve, scene, (x, 0.0), cycle, flags, i)
+        put_rim(basis, curve, scene, (x, 0.0), cycle, flags, i)
         if x == math.inf:  # the last branch has no end, and loading arrives on it
             put(results, OUTERMOST, i, TWO_PI * scene.length * trace[ARRIVAL, count - 1])
         put_energy(basis, curve, own, slopes, x, part_of(own.energy, loaded, unloaded), i)
@@ -199,7 +160,7 @@ def _strode(
     if down.waves + down.left > 0.0:
         _, _, _, depth, _ = state(basis, curve, down.left, down.waves)
     cycle = Cycle(up.loss, up.jumps, down.loss, down.jumps, depth, up.level)
-    put_cycle(basis, curve, scene, (x, waves), cycle, (close, one_disc), i)
+    put_rim(basis, curve, scene, (x, waves), cycle, (close, one_disc), i)
     if x == math.inf:
         put(scene.results, OUTERMOST, i, TWO_PI * scene.length * (up.waves + up.left))
     put_noted(basis, curve, own, middle.cut, notes, (x, waves), part_of(own.energy, up.loss, down.loss), i)
@@ -276,16 +237,11 @@ def _pull_offs(
     for i in range(rims.size):
         if not rims[i] > 0.0:
             continue
-        x, lowest, place, second = places[i], found[i, 0], found[i, 1], found[i, 2]
+        lowest, place, second = found[i, 0], found[i, 1], found[i, 2]
         if not lowest < 0.0:
             results.status[i] |= NO_VALUE
             lowest = place = math.nan
-        elif second < lowest * (1.0 - CLOSE):
-            results.status[i] |= CLOSE_TO_A_JUMP
-        put(results, FORCE, i, -force * lowest)
-        put(results, RADIUS, i, place * wavelength if place != x else rims[i])
-        if place == x:
-            results.status[i] |= PULL_OFF_AT_RIM
+        put_pull_off(results, force, wavelength, rims[i], (lowest, place, second), i)
 
 
 def loop_of(*, cycles: bool) -> Callable[..., None]:
@@ -295,16 +251,7 @@ def loop_of(*, cycles: bool) -> Callable[..., None]:
     def solve_scenes(basis: Basis, curves: GeneralCurves, results: Results, sense: AnySense) -> None:
         """Solve the curves of one gradient exponent, each for all its rims.
 
-        Parameters
-        ----------
-        basis
-            What all of them are computed from.
-        curves
-            The curves.
-        results
-            Where results go: values of shape (results, curves, rims), flags of shape (curves, rims).
-        sense
-            What sensitivities need.
+        Values go to `results` in the shape (results, curves, rims), flags in (curves, rims).
         """
         numbers, _, _, stretch, wavelength, amplitude, compliance, rims = curves
         table, _, series = basis

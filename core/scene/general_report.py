@@ -18,12 +18,15 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from gradhesion.core.compiler.dispatch import face
 from gradhesion.core.compiler.jit import NO, NONE, YES, kernel
 from gradhesion.core.curve.branches import ARRIVAL, END, LANDING, NEXT, START, Trace
+from gradhesion.core.curve.cells import MOST
+from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.cosine_energy import NODES, WEIGHTS
 from gradhesion.core.curve.general import Basis, Series, coordinate, curve_at, slope, state
 from gradhesion.core.curve.general_folds import MOST_CELLS, cell_width, folds_of_cell, room
-from gradhesion.core.face import window
+from gradhesion.core.face import measured_by, window
 from gradhesion.core.path.general import walk
 from gradhesion.core.path.general_long import (
     FEW,
@@ -40,6 +43,7 @@ from gradhesion.core.path.pieces import notes_for
 from gradhesion.core.path.unloading import descend, leave_rim, unloading_from
 from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET
+from gradhesion.core.pull_off.general import INWARDS
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.struve.power import amplitude_power
@@ -52,11 +56,10 @@ ROWS: Final = ("pull_off_force_error", "dissipated_energy_error", "energy_residu
 FORCE_ROUNDING: Final = 6.0 * 2.0**-52
 ENERGY_ROUNDING: Final = 20.0 * 2.0**-52
 """The true errors on scenes of the twin are at most 4.2 and 15 eps (docs/accuracy.md)."""
-OF_LOAD: Final = 0.2
+_OF_LOAD: Final = 0.2
 """Of the terms of the load over the load: the true errors of soft machines are at most 2.5 eps of that and H."""
 _PANEL: Final = 0.6
 """Waves a panel of 16 nodes of the loop."""
-_INWARDS: Final = 0.3
 _APART: Final = 5.0
 """Waves by which the other sum begins later and ends earlier."""
 LOOPED: Final = 2048.0
@@ -76,9 +79,15 @@ def crests(table: Table, series: Harmonics, gain: float) -> float:
     return gain * table.amplitude * total
 
 
-@kernel()
-def force_terms(basis: Basis, curve: Series, x: float) -> float:
+@face()
+def load_terms(basis: Basis, curve: Series, x: float) -> float:
     """Return the size of the terms of the load at x."""
+
+
+@load_terms.answers(Series)
+@kernel()
+def load_terms_of_profile(basis: Basis, curve: Series, x: float) -> float:
+    """Answer with every wave for itself."""
     table, cosine_bins, series = basis
     B, m, g, _, _ = curve
     z = TWO_PI * x
@@ -91,6 +100,19 @@ def force_terms(basis: Basis, curve: Series, x: float) -> float:
         waves += h * min(abs(s0) + abs(s1) + abs(t0) + abs(t1), 4.0)
         waves += h * min(1.0, table.amplitude * (n * z) ** (-0.5 * (1.0 + table.k)))
     return (B * z**m * (m / (1.0 + table.k + m)) + z * power + g * z * waves) / (power * power)
+
+
+@kernel()
+def force_terms(basis: Basis, curve: Series, x: float, turns: bool) -> float:
+    """Return the size of the terms of a pull-off at x, its change with ln x among them where a cycle `turns` there.
+
+    Then x is no number given.
+    """
+    terms = load_terms(basis, curve, x)
+    if turns:
+        _, _, rate = slope(basis, measured_by(curve, YES), x)
+        terms += abs(TWO_PI * x * rate)
+    return terms
 
 
 @kernel()
@@ -152,6 +174,22 @@ def loop(basis: Basis, curve: Series, count: int, trace: Trace, rim: float) -> t
 
 
 @kernel()
+def last_fold_between(basis: Basis, curve: Series, first: float, high: float, cells: int) -> float:
+    """Return x of the last fold between two places, 0 if there is none, NaN if none is met in so many cells inwards."""
+    zeros, work = np.empty(MOST), room()
+    for _ in range(cells):
+        if not high > first:
+            return 0.0
+        low = max(first, high - min(cell_width(basis.series, high), INWARDS * high))
+        value, _, _ = slope(basis, curve, low, 0.0)
+        found, _, _ = folds_of_cell(basis, curve, low, high, value, work, zeros, 0.0)
+        if found > 0:
+            return zeros[found - 1]
+        high = low
+    return math.nan
+
+
+@kernel()
 def outermost_fold(basis: Basis, curve: Series) -> float:
     """Return x of the last fold of a curve, 0 if it has none, inf if folds need not end; NaN if it is not found."""
     table, _, series = basis
@@ -162,17 +200,7 @@ def outermost_fold(basis: Basis, curve: Series) -> float:
         _, begin, end, ends = regular_waves(basis, curve, cut_of(table, series), first, high)
         if ends:
             high = min(high, max(begin, end + NEAR_END) + 2.0 * NEAR_END)
-    zeros, work = np.empty(32), room()
-    for _ in range(MOST_CELLS):
-        if not high > first:
-            return 0.0
-        low = max(first, high - min(cell_width(series, high), _INWARDS * high))
-        value, _, _ = slope(basis, curve, low, 0.0)
-        found, _, _ = folds_of_cell(basis, curve, low, high, value, work, zeros, 0.0)
-        if found > 0:
-            return zeros[found - 1]
-        high = low
-    return math.nan
+    return last_fold_between(basis, curve, first, high, MOST_CELLS)
 
 
 @kernel()
@@ -189,7 +217,7 @@ def last_left(basis: Basis, curve: Series, count: int, trace: Trace, rim: float)
 
 
 @kernel()
-def _spring(basis: Basis, curve: Series, place: float) -> float:
+def spring_factor(basis: Basis, curve: Series, place: float) -> float:
     """Return by what the energy is multiplied in its error, which is mostly that of a spring if that is soft.
 
     Its energy is the square of the load at the place that unloading leaves last: as well known as that, twice.
@@ -198,7 +226,7 @@ def _spring(basis: Basis, curve: Series, place: float) -> float:
     if not (alpha > 0.0 and beta > 0.0 and 0.0 < place < math.inf):
         return 1.0
     _, _, _, _, load = state(basis, curve, place, 0.0)
-    return max(1.0, OF_LOAD * force_terms(basis, curve, place) / abs(load)) if load != 0.0 else 1.0
+    return max(1.0, _OF_LOAD * load_terms(basis, curve, place) / abs(load)) if load != 0.0 else 1.0
 
 
 @kernel()
@@ -251,7 +279,7 @@ def _energy_reports(
             left = last_left(basis, curve, count, trace, rim)
     residual = 2.0 / (1.0 + table.k) * total / alpha if alpha > 0.0 else math.nan
     chi = crests(table, series, g)
-    terms = (TWO_PI * outermost) ** 2 * chi * (1.0 + chi) + _spring(basis, curve, left) * abs(energy)
+    terms = (TWO_PI * outermost) ** 2 * chi * (1.0 + chi) + spring_factor(basis, curve, left) * abs(energy)
     return terms, apart, residual
 
 
@@ -280,12 +308,8 @@ def report_scenes(basis: Basis, curves: GeneralCurves, solved: Solved, wanted: T
         _, rows, curve, length, unit = curve_at(basis, curves, i)
         waves = Basis(basis.table, basis.cosine_bins, rows)
         if wanted[0]:
-            scale, x = 8.0 / (3.0 * (1.0 + table.k)) * length * length / unit, radius[i] / wavelength[i]
-            terms = force_terms(waves, curve, x)
-            if turned and status[i] & PULL_OFF_AT_RIM:  # x is no number given: what the load changes with ln x
-                _, _, rate = slope(waves, Series(curve.bend, curve.exponent, curve.gain, 0.0, 1.0), x)
-                terms += abs(TWO_PI * x * rate)
-            out[0, i] = FORCE_ROUNDING * table.rounding * scale * terms
+            terms = force_terms(waves, curve, radius[i] / wavelength[i], turned and status[i] & PULL_OFF_AT_RIM != 0)
+            out[0, i] = FORCE_ROUNDING * table.rounding * force_unit(table.k, length, unit) * terms
         if wanted[1] or wanted[2]:
             rim, scale = curves.rims[i, 0], TWO_PI * length * length
             x = rim / wavelength[i]

@@ -12,11 +12,9 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact.disc import disc_limits, is_one_disc
 from gradhesion.core.curve.branches import ARRIVAL
 from gradhesion.core.curve.cosine import force_unit
-from gradhesion.core.curve.cosine_folds import CLOSE
-from gradhesion.core.curve.general import Basis, coordinate
+from gradhesion.core.curve.general import Basis, Patterned, coordinate
 from gradhesion.core.curve.general_folds import Search, room
-from gradhesion.core.curve.patterned import Patterned, are_too_many, patterned_curve, window
-from gradhesion.core.path.cycle import Cycle
+from gradhesion.core.curve.patterned import are_too_many, patterned_curve, window
 from gradhesion.core.path.general import walk
 from gradhesion.core.path.loading import highest_depth, loading_to
 from gradhesion.core.path.ties import is_close_to_a_jump
@@ -24,10 +22,9 @@ from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.curves import GeneralCurves, Patterns
 from gradhesion.core.problem.results import (
     CONTACT,
-    FORCE,
     OUTERMOST,
-    RADIUS,
     TURNED,
+    Cycle,
     Results,
     part_of,
     put,
@@ -35,11 +32,11 @@ from gradhesion.core.problem.results import (
     wants_force,
     wants_losses,
 )
-from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, NO_VALUE, PULL_OFF_AT_RIM, TOO_MANY_WAVES
+from gradhesion.core.problem.status import NO_VALUE, TOO_MANY_WAVES
 from gradhesion.core.pull_off.general import deepest_wave
 from gradhesion.core.pull_off.patterned import lowest_loads
-from gradhesion.core.scene.general import put_cycle, refuse
-from gradhesion.core.scene.scene import Scene
+from gradhesion.core.scene.general import put_rim
+from gradhesion.core.scene.scene import Scene, put_pull_off, refuse
 from gradhesion.core.sensitivities.patterned_slopes import put_energy, put_forces
 from gradhesion.core.sensitivities.wanted import AnySense
 from gradhesion.core.struve.circle import TWO_PI
@@ -82,7 +79,7 @@ def _walked(
         unloaded, jumps_back, last = unloading_from(basis, curve, count, trace, x, level, losses)
         close = is_close_to_a_jump(basis, curve, count, trace, tangency, x, level, slots[TURNED] > 0)
         cycle = Cycle(loaded, jumps, unloaded, jumps_back, last, highest_depth(count, trace, x, level))
-        put_cycle(basis, curve, scene, (x, 0.0), cycle, (close, is_one_disc(basis, curve, limits, x)), i)
+        put_rim(basis, curve, scene, (x, 0.0), cycle, (close, is_one_disc(basis, curve, limits, x)), i)
         if x == math.inf:
             put(scene.results, OUTERMOST, i, TWO_PI * scene.length * trace[ARRIVAL, count - 1])
         if sense.energy > 0:
@@ -139,12 +136,7 @@ def _pull_offs(
             _refuse_waves(results, i)
         elif not lowest < 0.0:  # no adhesion within the rim
             lowest, place = 0.0, math.nan
-        elif second < lowest * (1.0 - CLOSE):
-            results.status[i] |= CLOSE_TO_A_JUMP
-        put(results, FORCE, i, -force * lowest)
-        put(results, RADIUS, i, place * scene.wavelength if place != places[i] else rims[i])
-        if place == places[i]:
-            results.status[i] |= PULL_OFF_AT_RIM
+        put_pull_off(results, force, scene.wavelength, rims[i], (lowest, place, second), i)
 
 
 @kernel()
@@ -159,20 +151,11 @@ def solve_scenes(
 ) -> None:
     """Solve the curves of one gradient exponent on patterned interfaces, each for all its rims.
 
-    Parameters
-    ----------
-    table, cosine_bins, series
-        What their profiles are computed from (`Basis` of curve/general.py).
-    curves, patterns
-        The curves, and the patterns.
-    results
-        Where results go: values of shape (results, curves, rims), flags, int16 of shape (curves, rims).
-    sense
-        What sensitivities need.
+    The table, the cosine bins and the series are what their profiles are computed from (`Basis` of curve/general.py).
+    Values go to `results` in the shape (results, curves, rims), flags, int16, in (curves, rims).
     """
     work, deepest = room(), deepest_wave(table, series) if wants_force(results.slots) else 0.0
-    for j in range(curves.numbers.size):
-        i = curves.numbers[j]
+    for i in curves.numbers:
         rims = curves.rims[i if curves.rims.shape[0] > 1 else 0]
         own = Results(results.slots, results.out[:, i], results.status[i])
         valid, pattern, finest, curve, units = patterned_curve(table, cosine_bins, series, curves, patterns, i)

@@ -9,47 +9,45 @@ error of the energy  20 eps [2 pi a^2 chi (1 + chi) dgamma + H], chi that of all
 import math
 from typing import Any
 
-import numpy as np
-
 from gradhesion.core.compiler.jit import NO, kernel
-from gradhesion.core.curve.cells import MOST
-from gradhesion.core.curve.general import Basis, Series, slope, state
-from gradhesion.core.curve.general_folds import cell_width, folds_of_cell, room
-from gradhesion.core.curve.patterned import Patterned, are_too_many, patterned_curve, window
+from gradhesion.core.curve.cosine import force_unit
+from gradhesion.core.curve.general import Basis, Patterned, Series
+from gradhesion.core.curve.patterned import MOST_CELLS, are_too_many, patterned_curve, window
 from gradhesion.core.path.general import walk
 from gradhesion.core.problem.curves import GeneralCurves, Patterns
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
-from gradhesion.core.pull_off.general import INWARDS
 from gradhesion.core.scene.general_report import (
     ENERGY_ROUNDING,
     FORCE_ROUNDING,
     LOOPED,
-    OF_LOAD,
     Solved,
     crests,
     force_terms,
+    last_fold_between,
     last_left,
+    load_terms,
     loop,
+    spring_factor,
 )
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats, Harmonics, Table, Truths
 
 
+@load_terms.answers(Patterned)
 @kernel()
-def _terms_of_load(basis: Basis, curve: Patterned, x: float) -> float:
-    """Return the size of the terms of the load at x."""
+def load_terms_of_pattern(basis: Basis, curve: Patterned, x: float) -> float:
+    """Answer with those of the profile, and what kappa adds to them."""
     table, pattern, _ = basis
     bare = Series(curve.bend, curve.exponent, pattern.gain, 0.0, 1.0)
     z = TWO_PI * x
     pull = z ** (0.5 * (3.0 + table.k)) * (pattern.most - 1.0 + pattern.steepest * z)
-    return force_terms(Basis(table, pattern.cosine_bins, pattern.waves), bare, x) + pull
+    return load_terms(Basis(table, pattern.cosine_bins, pattern.waves), bare, x) + pull
 
 
 @kernel()
 def _energy_reports(basis: Basis, curve: Patterned, rim: float, energy: float) -> tuple[float, float]:
     """Return the size of the terms of the energy, and its loop integral, over 2 pi l^2 dgamma; NaN if not known."""
     table, pattern, _ = basis
-    _, _, _, alpha, beta = curve
     bounds = window(basis, curve)
     outermost, total, spring = min(rim, bounds[1]), math.nan, 1.0
     if are_too_many(basis, bounds[0], outermost):
@@ -58,29 +56,22 @@ def _energy_reports(basis: Basis, curve: Patterned, rim: float, energy: float) -
         count, trace, _ = walk(basis, curve, bounds, rim, NO)
         if count >= 0:
             total, outermost = loop(basis, curve, count, trace, rim)
-            left = last_left(basis, curve, count, trace, rim)
-            if alpha > 0.0 and beta > 0.0 and 0.0 < left < math.inf:
-                _, _, _, _, load = state(basis, curve, left, 0.0)
-                spring = max(1.0, OF_LOAD * _terms_of_load(basis, curve, left) / abs(load)) if load != 0.0 else 1.0
+            spring = spring_factor(basis, curve, last_left(basis, curve, count, trace, rim))
     chi = crests(table, pattern.waves, pattern.gain) + max(pattern.most - 1.0, 1.0 - pattern.least)
     phase = pattern.steepest * TWO_PI * outermost
-    residual = 2.0 / (1.0 + table.k) * total / alpha if alpha > 0.0 else math.nan
+    residual = 2.0 / (1.0 + table.k) * total / curve.alpha if curve.alpha > 0.0 else math.nan
     return (TWO_PI * outermost) ** 2 * (chi * (1.0 + chi) + 0.1 * phase) + spring * abs(energy), residual
 
 
 @kernel()
 def _outermost_fold(basis: Basis, curve: Patterned) -> float:
     """Return x of the last fold of a curve, 0 if it has none, inf if folds need not end; NaN if it is not found."""
-    first, high = window(basis, curve)
-    zeros, work = np.empty(MOST), room()
-    while first < high < math.inf and not are_too_many(basis, first, high):
-        low = max(first, high - min(cell_width(basis.series, high), INWARDS * high))
-        value, _, _ = slope(basis, curve, low, 0.0)
-        found, _, _ = folds_of_cell(basis, curve, low, high, value, work, zeros, 0.0)
-        if found > 0:
-            return zeros[found - 1]
-        high = low
-    return 0.0 if high <= first else high if high == math.inf else math.nan
+    first, last = window(basis, curve)
+    if last == math.inf:
+        return last
+    return (
+        math.nan if are_too_many(basis, first, last) else last_fold_between(basis, curve, first, last, 2 * MOST_CELLS)
+    )
 
 
 @kernel()
@@ -96,19 +87,14 @@ def report_scenes(
 ) -> None:
     """Report on scenes of one gradient exponent, each a curve with one rim, as `report_scenes` of general_report.py."""
     radius, energy, turned, status = solved
-    for j in range(curves.numbers.size):
-        i = curves.numbers[j]
+    for i in curves.numbers:
         if status[i] & NO_VALUE:
             continue
         _, pattern, finest, curve, units = patterned_curve(table, cosine_bins, series, curves, patterns, i)
         basis, (wavelength, length, unit) = Basis(table, pattern, finest), units
         if wanted[0]:
-            scale, x = 8.0 / (3.0 * (1.0 + table.k)) * length * length / unit, radius[i] / wavelength
-            terms = _terms_of_load(basis, curve, x)
-            if turned and status[i] & PULL_OFF_AT_RIM:  # x is no number given: what the load changes with ln x
-                _, _, rate = slope(basis, Patterned(curve.bend, curve.exponent, 1.0, 0.0, 1.0), x)
-                terms += abs(TWO_PI * x * rate)
-            out[0, i] = FORCE_ROUNDING * table.rounding * scale * terms
+            terms = force_terms(basis, curve, radius[i] / wavelength, turned and status[i] & PULL_OFF_AT_RIM != 0)
+            out[0, i] = FORCE_ROUNDING * table.rounding * force_unit(table.k, length, unit) * terms
         if wanted[1] or wanted[2]:
             scale = TWO_PI * length * length
             terms, total = _energy_reports(basis, curve, curves.rims[i, 0] / wavelength, energy[i] / scale)

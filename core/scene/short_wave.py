@@ -99,17 +99,11 @@ def _solve_curve(basis: Basis, curve: ShortWave, scene: Scene, unit: float, deep
 
 @kernel()
 def solve_curves(curves: Curves, harmonics: Harmonics, exponent: float, factors: Floats, results: Results) -> None:
-    """Solve some curves, each for all its rims.
+    """Solve some curves, each for all its rims; lambda and A are those of the longest wave.
 
-    Parameters
-    ----------
-    curves
-        The curves; lambda and A are those of the longest wave.
-    harmonics, exponent, factors
-        The series, rows (n, cos, sin), the power m, and the factor of depth of each exponent (problem/shape.py), of
-        shape (exponents,).
-    results
-        Where results go: values of shape (results, curves, rims), flags of shape (curves, rims).
+    The harmonics are rows (n, cos, sin) of the series, the exponent is the power m, and the factors, of shape
+    (exponents,), those of depth (problem/shape.py). Values go to `results` in the shape (results, curves, rims), flags
+    in (curves, rims).
     """
     tables, which, index, stiffness, wavelengths, amplitudes, rims = curves
     smooth = np.zeros((0, 3))

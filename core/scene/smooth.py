@@ -241,16 +241,9 @@ def _refuse(index: Integers, block: Block, results: Results) -> None:
 
 @kernel()
 def solve_smooth(k: Floats, curves: Curves, results: Results, scratch: Floats) -> None:
-    """Solve curves whose waves have no effect; their tables are not read.
+    """Solve curves whose waves have no effect, as `solve_curves` (scene/solvers.py); their tables are not read.
 
-    Parameters
-    ----------
-    k
-        The exponents of all curves, of shape (curves,).
-    curves, results
-        As those of `solve_curves` (scene/solvers.py).
-    scratch
-        Two blocks, shape (2, ROWS, scenes of a block).
+    k are the exponents of all curves, of shape (curves,), `scratch` two blocks, of shape (2, ROWS, scenes of a block).
     """
     index, rims = curves.numbers, curves.rims
     slots, out, status = results

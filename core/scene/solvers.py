@@ -28,18 +28,10 @@ def loop_of(solver: int) -> Callable[..., None]:
 
     @kernel()
     def solve_curves(curves: Curves, results: Results, scratch: Floats, sense: AnySense) -> None:
-        """Solve curves, each for all its rims.
+        """Solve curves, each for all its rims; `scratch` is room for a trace, of shape (ROWS, branches).
 
-        Parameters
-        ----------
-        curves
-            The curves.
-        results
-            Where results go: values of shape (results, curves, rims), flags of shape (curves, rims).
-        scratch
-            Room for a trace, of shape (ROWS, branches).
-        sense
-            What the sensitivities of the exact solver need.
+        Values go to `results` in the shape (results, curves, rims), flags in (curves, rims); only the exact solver
+        knows sensitivities.
         """
         tables, which, index, stiffness, wavelengths, amplitudes, rims = curves
         table = tables[0]

@@ -25,16 +25,7 @@ from gradhesion.core.sensitivities.general_jump_slopes import (
 )
 from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SHARE, SLOPES
 from gradhesion.core.types import Slopes
-from gradhesion.core.waves.general import (
-    PASSING,
-    UP,
-    Waves,
-    branches_of_wave,
-    highest_end,
-    lowest_start,
-    room_for_waves,
-    step_of_wave,
-)
+from gradhesion.core.waves.general import PASSING, UP, Waves, room_for_waves, step_between, step_of_wave
 from gradhesion.core.waves.general_jump import _INNER, LONG, near_zero
 from gradhesion.core.waves.general_sum import add_waves, common_size, fill_wave
 
@@ -53,36 +44,23 @@ def slopes_of_step(
 ) -> tuple[float, int]:
     """Put the slopes of the losses of `step_of_wave` (waves/general.py), in 2 pi l^2 dgamma; counts no jumps."""
     change, jump = term
-    kind, cut, _, work = waves
     found[:] = 0.0
-    if kind == PASSING:
+    if waves.kind == PASSING:
         drop_slopes(basis, curve, change, jump, (0.0, 1.0), wave, 1.0, found)
         return 0.0, 0
     _, _, pattern = step_of_wave(basis, curve, waves, wave, NO)
     if pattern < 0:
         return 0.0, pattern
-    _, _, rows = work
-    before = wave - 1.0
-    inner = branches_of_wave(basis, curve, before, cut, work, rows[0])
-    outer = branches_of_wave(basis, curve, before, cut + 1.0, work, rows[1])
-    if kind == UP:
-        first = highest_end(rows[0], inner)
-        level, place = rows[0, END_LEVEL, first], rows[0, END, first]
-        for i in range(outer):
-            if rows[1, END_LEVEL, i] > level:
-                start = place_left(basis, curve, place, before, 0.0)
-                x = find_landing(basis, curve, start, rows[1, START, i], rows[1, END, i], before)
-                add_drop(basis, curve, change, place, before, x, 1.0, found)
-                level, place = rows[1, END_LEVEL, i], rows[1, END, i]
-        return 0.0, pattern
-    first = lowest_start(rows[1], outer)
-    level, place = rows[1, START_LEVEL, first], rows[1, START, first]
-    for i in range(inner - 1, -1, -1):
-        if rows[0, START_LEVEL, i] < level:
+    up, before = waves.kind == UP, wave - 1.0
+    (_, level, place), rows, count = step_between(basis, curve, waves, wave)
+    sign, end, end_level = (1.0, END, END_LEVEL) if up else (-1.0, START, START_LEVEL)
+    for j in range(count):
+        i = j if up else count - 1 - j
+        if sign * rows[end_level, i] > sign * level:
             start = place_left(basis, curve, place, before, 0.0)
-            x = find_landing(basis, curve, start, rows[0, START, i], rows[0, END, i], before)
-            add_drop(basis, curve, change, place, before, x, -1.0, found)
-            level, place = rows[0, START_LEVEL, i], rows[0, START, i]
+            x = find_landing(basis, curve, start, rows[START, i], rows[END, i], before)
+            add_drop(basis, curve, change, place, before, x, sign, found)
+            level, place = rows[end_level, i], rows[end, i]
     return 0.0, pattern
 
 

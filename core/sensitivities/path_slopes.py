@@ -227,20 +227,11 @@ def energy_slopes(
     parts: int,
     total: Slopes,
 ) -> float:
-    """Put the slopes of the reduced energy of a rim into `total`; return that by ln x of the rim.
+    """Put the slopes of the reduced energy of a rim x into `total`; return that by ln x of the rim.
 
-    Parameters
-    ----------
-    table, curve, near
-        The curve, and what its sensitivities need (core/face.py).
-    traced
-        Its trace, with the slopes that `fill_loading` has put there and those found for other rims.
-    rim, rim_depth
-        The rim x, and what is prescribed there, in s l^c.
-    parts
-        The parts of the cycle whose energy it is (`part_of` of problem/results.py).
-    total
-        The slopes by the numbers of sensitivities/jump_slopes.py, shape (SLOPES,), in 2 pi l^2 dgamma.
+    They are slopes by the numbers of sensitivities/jump_slopes.py, of shape (SLOPES,), in 2 pi l^2 dgamma, of the parts
+    of the cycle that `part_of` (problem/results.py) names. `traced` has the slopes that `fill_loading` has put there
+    and those found for other rims; `rim_depth` is what is prescribed at the rim, in s l^c.
     """
     total[:] = 0.0
     by_rim = 0.0

@@ -17,7 +17,7 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import NO, constant, kernel
 from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, Trace
-from gradhesion.core.curve.general import Basis, coordinate, slope
+from gradhesion.core.curve.general import Basis, Patterned, coordinate, slope
 from gradhesion.core.curve.general_energy import balance, place_left, rise_from
 from gradhesion.core.curve.panels import (
     INNER_PLACES,
@@ -28,7 +28,7 @@ from gradhesion.core.curve.panels import (
     panel_outwards,
     panels_to_zero,
 )
-from gradhesion.core.curve.patterned import Patterned, toughness_at
+from gradhesion.core.curve.patterned import toughness_at
 from gradhesion.core.face import shortest_wave
 from gradhesion.core.path.unloading import descend, leave_rim
 from gradhesion.core.problem.results import LOADING_PART, RADIUS, UNLOADING_PART, Results

@@ -7,14 +7,14 @@ the inner one its power is 1/2 in the place of 3/2, for which Gauss's rule in v 
 import math
 from typing import Final
 
-from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import LONG, NODES, SHORT_NODES, SHORT_WEIGHTS, WEIGHTS, panel_above
 from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, EXPONENT, GAIN, SLOPES, panel_slopes_above
 from gradhesion.core.sensitivities.neighbours import Near
 from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Slopes, Table, Work
-from gradhesion.core.waves.cosine import _fold, _landing, _slope
+from gradhesion.core.waves.cosine import ends_of_jump, slope_at
 from gradhesion.core.waves.cosine_sum import (
     _DIRECT,
     _EDGE,
@@ -24,12 +24,11 @@ from gradhesion.core.waves.cosine_sum import (
     _LONG,
     _LONGEST,
     _PART,
-    _REMOTE,
     _WIDE,
     branch_points,
-    inner_limits,
     limit_terms,
-    outer_limits,
+    limits,
+    place_and_share,
 )
 
 _SAMPLES: Final = 64
@@ -45,11 +44,7 @@ def slopes_of_wave(
     """Put the slopes of the jump from a wave to the next one, as waves/cosine.py finds it, into `found`."""
     tables, curves, weights = near
     whole = wave - 2.0
-    centre = table.phase / TWO_PI + 2.0
-    start = _fold(table, curve, whole, centre, not outwards)
-    _, _, _, z, height, stretch = _slope(table, curve, whole, start)
-    left = (z, height, stretch)
-    landing = _landing(table, curve, whole, left, start, centre + (1.0 if outwards else -1.0), not outwards)
+    start, landing, left = ends_of_jump(table, curve, whole, outwards)
     low, high = min(start, landing), max(start, landing)
     panels = int((high - low) / LONG) + 1
     width = (high - low) / panels
@@ -62,7 +57,7 @@ def slopes_of_wave(
         found[DEPTH] += sign * level
     for j in range(weights.size):
         other = Cosine(curves[j, 0], curves[j, 1], 0.0)
-        _, _, _, z, height, stretch = _slope(tables[j], other, whole, start)
+        _, _, _, z, height, stretch = slope_at(tables[j], other, whole, start)
         left = (z, height, stretch)
         for i in range(panels):
             loss = panel_above(tables[j], other, whole, start, left, low + i * width, width, work)
@@ -70,48 +65,29 @@ def slopes_of_wave(
 
 
 @kernel()
-def _add_outer_part(
+def _add_part(
     table: Table,
     curve: Cosine,
     near: Near,
     waves: tuple[float, float],
-    outer: float,
+    at: tuple[float, bool],
     outwards: bool,
     work: Work,
     total: Slopes,
 ) -> None:
-    """Add the integral in y between two waves; `outer` is a branch point, the rest as of `add_slopes_of_waves`."""
-    begin, end = waves
-    found = work[_SAMPLES + 2 * _EDGE * SLOPES : _SAMPLES + (2 * _EDGE + 1) * SLOPES]
-    outer = min(max(outer, end), _REMOTE * end)
-    low, width = outer_limits(begin, end, outer)
-    for i in range(NODES.size):
-        y = low + width * NODES[i]
-        rest = 1.0 - y * y
-        slopes_of_wave(table, curve, near, outer * rest**4, outwards, work, found)
-        total += (WEIGHTS[i] * 8.0 * outer * y * rest**3 * width) * found
+    """Add the integral between two waves in y or in v, as `at` says, which begins with the branch point of that.
 
-
-@kernel()
-def _add_inner_part(
-    table: Table,
-    curve: Cosine,
-    near: Near,
-    waves: tuple[float, float],
-    inner: float,
-    outwards: bool,
-    work: Work,
-    total: Slopes,
-) -> None:
-    """Add the integral in v between two waves; `inner` is a branch point, the rest as of `add_slopes_of_waves`."""
-    begin, end = waves
+    The rest is as of `add_slopes_of_waves`.
+    """
     found = work[_SAMPLES + 2 * _EDGE * SLOPES : _SAMPLES + (2 * _EDGE + 1) * SLOPES]
-    inner = min(inner, begin)
-    low, width = inner_limits(begin, end, inner)
-    for i in range(SHORT_NODES.size):
-        v = low + width * SHORT_NODES[i]
-        slopes_of_wave(table, curve, near, inner + v * v, outwards, work, found)
-        total += (SHORT_WEIGHTS[i] * 2.0 * v * width) * found
+    _, in_y = at
+    nodes, weights = (NODES, WEIGHTS) if in_y else (SHORT_NODES, SHORT_WEIGHTS)
+    point, low, width = limits(waves[0], waves[1], at)
+    for i in range(nodes.size):
+        place = low + width * nodes[i]
+        wave, share = place_and_share(point, place, weights[i], in_y)
+        slopes_of_wave(table, curve, near, wave, outwards, work, found)
+        total += (share * width) * found
 
 
 @kernel()
@@ -130,12 +106,12 @@ def _add_integral(
     inner, outer = points
     if inner > _WIDE * begin or end > _LONG * begin:
         middle = max(begin, min(_PART * max(inner, begin), math.sqrt(begin * end)))
-        _add_inner_part(table, curve, near, (begin, middle), inner, outwards, work, total)
+        _add_part(table, curve, near, (begin, middle), (inner, NO), outwards, work, total)
         begin = middle
     if end > _LONGEST * begin:
-        _add_outer_part(table, curve, near, (begin, _FRACTION * end), outer, outwards, work, total)
+        _add_part(table, curve, near, (begin, _FRACTION * end), (outer, YES), outwards, work, total)
         begin = _FRACTION * end
-    _add_outer_part(table, curve, near, (begin, end), outer, outwards, work, total)
+    _add_part(table, curve, near, (begin, end), (outer, YES), outwards, work, total)
 
 
 @kernel()

@@ -22,6 +22,7 @@ from gradhesion.core.struve.blocks import (
     OF_MOMENTS,
     Blocks,
 )
+from gradhesion.core.struve.lanes import LANES, spread
 from gradhesion.core.struve.layout import EXPONENT_SPAN, TABLE
 
 _STEP: Final = 32
@@ -29,8 +30,6 @@ _STEP: Final = 32
 _COLD: Final = "preserve_mostcc"
 """The calling convention of functions that are rarely called and keep the registers of their callers."""
 _WORD: Final = 8
-_LANES: Final = 8
-"""Numbers of one vector operation; 4 are left at the end of a block."""
 _BYTE, _BIT, _INTEGER, _DOUBLE = ir.IntType(8), ir.IntType(1), ir.IntType(64), ir.DoubleType()
 
 
@@ -42,13 +41,6 @@ def _offset(field: str) -> int:
 def _at(builder: Any, base: Any, offset: Any, kind: Any) -> Any:
     """Return the pointer to what stands some bytes behind `base`."""
     return builder.bitcast(builder.gep(base, [offset]), kind.as_pointer())
-
-
-def _spread(builder: Any, number: Any, lanes: int) -> Any:
-    """Return a vector of one number."""
-    undefined = ir.Constant(ir.VectorType(_DOUBLE, lanes), ir.Undefined)
-    single = builder.insert_element(undefined, number, ir.Constant(ir.IntType(32), 0))
-    return builder.shuffle_vector(single, undefined, ir.Constant(ir.VectorType(ir.IntType(32), lanes), [0] * lanes))
 
 
 def _define_filling(module: Any, blocks: Blocks) -> Any:
@@ -78,19 +70,19 @@ def _define_filling(module: Any, blocks: Blocks) -> Any:
     out = builder.gep(record, [builder.add(begin, constant(_offset(blocks.field)))])
     before = builder.add(builder.mul(block, constant(blocks.terms * size)), constant(_WORD * blocks.first))
     first = builder.gep(builder.inttoptr(source, _BYTE.as_pointer()), [before])
-    for start in range(0, blocks.size, _LANES):
-        lanes = min(_LANES, blocks.size - start)
+    for start in range(0, blocks.size, LANES):
+        lanes = min(LANES, blocks.size - start)
         vector = ir.VectorType(_DOUBLE, lanes)
         fma = cgutils.get_or_insert_function(module, ir.FunctionType(vector, [vector] * 3), f"llvm.fmuladd.v{lanes}f64")
         rows = [
             builder.load(_at(builder, first, constant(term * size + _WORD * start), vector), align=8)
             for term in range(blocks.terms)
         ]
-        total, argument = rows[-1], _spread(builder, place, lanes)
+        total, argument = rows[-1], spread(builder, place, lanes)
         for row in rows[-2::-1]:
             total = builder.call(fma, [total, argument, row])
         if scale is not None:
-            total = builder.fmul(total, _spread(builder, scale, lanes))
+            total = builder.fmul(total, spread(builder, scale, lanes))
         builder.store(total, _at(builder, out, constant(_WORD * start), vector), align=8)
     if blocks.lacks:
         flag = builder.add(block, constant(_offset(blocks.lacks)))
@@ -132,7 +124,7 @@ def _fill_powers(builder: Any, record: Any, power: Any) -> None:
     """Fill the powers of 2^e from that of 2^32: roots of it, their products, and multiples of these."""
     one = _offset("power_exponent") + _WORD * EXPONENT_SPAN
     sqrt = cgutils.get_or_insert_function(builder.module, ir.FunctionType(_DOUBLE, [_DOUBLE]), "llvm.sqrt.f64")
-    vector = ir.VectorType(_DOUBLE, _LANES)
+    vector = ir.VectorType(_DOUBLE, LANES)
 
     def at(e: int, kind: Any) -> Any:
         return _at(builder, record, ir.Constant(_INTEGER, one + _WORD * e), kind)
@@ -145,15 +137,15 @@ def _fill_powers(builder: Any, record: Any, power: Any) -> None:
             step = 1 << e.bit_length() - 1
             powers[e] = builder.fmul(powers[step], powers[e - step])
         builder.store(powers[e], at(e, _DOUBLE), align=8)
-    starts = range(0, _STEP, _LANES)
+    starts = range(0, _STEP, LANES)
     first = [builder.load(at(start, vector), align=8) for start in starts]
     inverse = builder.fdiv(ir.Constant(_DOUBLE, 1.0), power)
     rise, fall = power, inverse
     for e in range(_STEP, EXPONENT_SPAN + 1, _STEP):
         for start, values in zip(starts, first, strict=True):
             if e < EXPONENT_SPAN:
-                builder.store(builder.fmul(values, _spread(builder, rise, _LANES)), at(e + start, vector), align=8)
-            builder.store(builder.fmul(values, _spread(builder, fall, _LANES)), at(start - e, vector), align=8)
+                builder.store(builder.fmul(values, spread(builder, rise, LANES)), at(e + start, vector), align=8)
+            builder.store(builder.fmul(values, spread(builder, fall, LANES)), at(start - e, vector), align=8)
         rise, fall = builder.fmul(rise, power), builder.fmul(fall, inverse)
 
 

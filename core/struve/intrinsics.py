@@ -174,10 +174,7 @@ def make_horner(lanes: int, terms: int) -> Any:
 
             if wide:
                 return cgutils.pack_array(builder, [summed(arguments[1], lane) for lane in range(lanes)])
-            undefined = ir.Constant(vector, ir.Undefined)
-            single = builder.insert_element(undefined, arguments[1], ir.Constant(ir.IntType(32), 0))
-            zeros = ir.Constant(ir.VectorType(ir.IntType(32), lanes), [0] * lanes)
-            value = summed(builder.shuffle_vector(single, undefined, zeros), 0)
+            value = summed(spread(builder, arguments[1], lanes), 0)
             items = [builder.extract_element(value, ir.Constant(ir.IntType(32), lane)) for lane in range(lanes)]
             return cgutils.pack_array(builder, items)
 

@@ -42,11 +42,11 @@ class _Model(models.PrimitiveModel):  # type: ignore[misc]
         super().__init__(manager, kind, VECTOR)
 
 
-def spread(builder: Any, number: Any) -> Any:
-    """Return eight times the same number."""
-    undefined = ir.Constant(VECTOR, ir.Undefined)
+def spread(builder: Any, number: Any, lanes: int = LANES) -> Any:
+    """Return eight times the same number, or as often as there are lanes."""
+    undefined = ir.Constant(ir.VectorType(_DOUBLE, lanes), ir.Undefined)
     single = builder.insert_element(undefined, number, ir.Constant(_SMALL, 0))
-    return builder.shuffle_vector(single, undefined, ir.Constant(ir.VectorType(_SMALL, LANES), [0] * LANES))
+    return builder.shuffle_vector(single, undefined, ir.Constant(ir.VectorType(_SMALL, lanes), [0] * lanes))
 
 
 @lower_cast(types.float64, LANES_TYPE)

@@ -84,20 +84,10 @@ def append_corners(
     corners: Corners,
     count: int,
 ) -> tuple[Corners, int]:
-    """Append the corners of what loading passes of one branch.
+    """Append the corners of what loading passes of one branch to the `count` that there are.
 
-    Parameters
-    ----------
-    basis, curve
-        The curve.
-    by_load
-        Whether the load is measured, else the depth.
-    way
-        The x of landing, that of the end, and whether this is a fold of the curve.
-    room
-        Where they are searched for.
-    corners, count
-        To which they are appended.
+    The load is measured, or the depth; `way` are the x of landing, that of the end, and whether this is a fold of the
+    curve.
     """
     search, zeros, whole, last = room
     begin, end, ends_in_fold = way

@@ -42,8 +42,6 @@ from gradhesion.core.turning.first_reached import (
     peaks_of,
     turn_at_depth,
     turn_at_load,
-    turn_long_at_depth,
-    turn_long_at_load,
 )
 from gradhesion.core.turning.turns import Turns
 from gradhesion.core.types import Floats, Table
@@ -77,7 +75,7 @@ def _is_vague(table: Table, arches: tuple[float, float], reach: float) -> bool:
 
 
 @kernel()
-def _is_one_disc(table: Table, curve: Cosine, count: int, trace: Trace, long: bool, x: float, rim: float) -> bool:
+def _is_one_disc(table: Table, curve: Cosine, count: int, trace: Trace, x: float, rim: float) -> bool:
     """Return whether the contact that turns at x is one disc, out to the rim of the punch."""
     if is_always_one_disc(table, curve):
         return True
@@ -85,8 +83,8 @@ def _is_one_disc(table: Table, curve: Cosine, count: int, trace: Trace, long: bo
     now = count - 1
     while now >= 0 and trace[START, now] > x:
         now -= 1
-    gap = int(trace[RUN, GAP]) if long else count + 1
-    if now >= 0 and (not long or now >= gap or x <= trace[END, now]):
+    gap = trace[RUN, GAP]
+    if now >= 0 and (gap == math.inf or now >= gap or x <= trace[END, now]):
         if trace[END, now] == math.inf:
             return True
         lowest = math.inf
@@ -146,31 +144,23 @@ def _has_value(rim: float, target: float, by_load: bool) -> bool:
 
 
 @kernel()
-def _turn_rim(
-    table: Table, curve: Cosine, count: int, trace: Floats, peaks: Peaks, long: bool, goal: Goal
-) -> tuple[float, int]:
+def _turn_rim(table: Table, curve: Cosine, count: int, trace: Floats, peaks: Peaks, goal: Goal) -> tuple[float, int]:
     """Return x where the cycle of one rim turns, inf for the rim, and its flags.
 
-    The trace has `count` branches; with `long` waves stand in a gap of it. Under loads `peaks` are those of `peaks_of`.
+    The trace has `count` branches, and waves may stand in a gap of it. Under loads `peaks` are those of `peaks_of`.
     """
     rim, target, reach, wavelength, by_load, check = goal
     if by_load:
-        if long:
-            x, close = turn_long_at_load(table, curve, count, trace, peaks, reach, target)
-        else:
-            x, close = turn_at_load(table, curve, NONE, count, trace, peaks, reach, target)
+        x, close = turn_at_load(table, curve, count, trace, peaks, reach, target)
     else:
-        if long:
-            x, close = turn_long_at_depth(table, curve, count, trace, reach, target)
-        else:
-            x, close = turn_at_depth(table, curve, NONE, count, trace, reach, target)
+        x, close = turn_at_depth(table, curve, count, trace, reach, target)
         close = close or _is_first_contact(table.k, curve.bend, target)
     flags = 0
     if not (x < rim and x * wavelength < rim * wavelength):
         x = math.inf
         level = depth(table, curve, rim) if rim < math.inf else math.inf
         close = close or rim_is_close(table, curve, count, trace, rim, level)
-    elif check and not _is_one_disc(table, curve, count, trace, long, x, rim):
+    elif check and not _is_one_disc(table, curve, count, trace, x, rim):
         flags |= LOADING_NOT_ONE_DISC
     return x, flags | CLOSE_TO_A_JUMP if close else flags
 
@@ -187,7 +177,7 @@ def _turn_long(table: Table, curve: Cosine, inner: float, goal: Goal, long: Long
         count = stride(table, curve, goal.reach, long, NO, 1.0)
     trace = long.trace
     peaks = peaks_of(table, curve, count, trace, inner, ONE) if goal.by_load else trace[WORK]
-    return _turn_rim(table, curve, count, trace, peaks, YES, goal)
+    return _turn_rim(table, curve, count, trace, peaks, goal)
 
 
 @kernel()
@@ -287,7 +277,7 @@ def _turn_curve(
         for i in range(rims.size):
             if reaches[i] > 0.0 and not is_long(table, arches, reaches[i]):
                 goal = Goal(rims[i] / wavelength, targets[i] / unit, reaches[i], wavelength, by_load, check)
-                x, flags[i] = _turn_rim(table, curve, count, trace, peaks, NO, goal)
+                x, flags[i] = _turn_rim(table, curve, count, trace, peaks, goal)
                 radii[i] = min(rims[i], x * wavelength)
     begun, number, indices, levels = False, NONE, eight(0.0), eight(0.0)
     for i in range(rims.size):

@@ -49,19 +49,10 @@ _FEW: Final = 3
 
 
 @kernel()
-def _value(table: Table, curve: Cosine, x: float, by_load: bool) -> float:
-    """Return the depth or the load."""
-    return load(table, curve, x) if by_load else depth(table, curve, x)
-
-
-@kernel()
-def _size(table: Table, curve: Cosine, x: float, by_load: bool) -> float:
-    """Return CLOSE times the size of the terms of the depth or the load."""
-    size = tolerance(table, curve, x)
-    if not by_load:
-        return size
+def _size(table: Table, curve: Cosine, x: float) -> float:
+    """Return CLOSE times the size of the terms of the load."""
     power = amplitude_power(table, TWO_PI * x)
-    return size / (power * power)
+    return tolerance(table, curve, x) / (power * power)
 
 
 @kernel()
@@ -71,7 +62,7 @@ def _find(table: Table, curve: Cosine, low: float, high: float, target: float, b
     level = 0.5 * (3.0 + k) if by_load else 0.5 * (1.0 - k)
     x = 0.5 * (low + high)
     if not by_load:
-        branch = (low, _value(table, curve, low, NO) if low > 0.0 else -1.0, high, _value(table, curve, high, NO))
+        branch = (low, depth(table, curve, low) if low > 0.0 else -1.0, high, depth(table, curve, high))
         x = find_depth(table, curve, target, branch)
     for _ in range(_STEPS):
         d, d1, _, rest = slope(table, curve, level, x)
@@ -116,7 +107,7 @@ def _load_between(table: Table, curve: Cosine, low: float, high: float, target: 
             if low < x < high:
                 if not rising:  # the load is largest here
                     above = load(table, curve, x) - target
-                    close = close or abs(above) <= _size(table, curve, x, YES)
+                    close = close or abs(above) <= _size(table, curve, x)
                     if above >= 0.0:
                         return _find(table, curve, before, x, target, YES), close
                 before = x
@@ -124,7 +115,7 @@ def _load_between(table: Table, curve: Cosine, low: float, high: float, target: 
         edge = survey[3]
         i += 1
     above = load(table, curve, high) - target
-    close = close or abs(above) <= _size(table, curve, high, YES)
+    close = close or abs(above) <= _size(table, curve, high)
     return _find(table, curve, before, high, target, YES) if above >= 0.0 else math.inf, close
 
 
@@ -143,9 +134,7 @@ def _turn_on(
 
 
 @kernel()
-def turn_at_depth(
-    table: Table, curve: Cosine, first: int, last: int, trace: Trace, reach: float, target: float
-) -> Turn:
+def _depth_among(table: Table, curve: Cosine, first: int, last: int, trace: Trace, reach: float, target: float) -> Turn:
     """Return where loading first reaches a depth on the branches `first` to `last` - 1 of a trace."""
     close = False
     for branch in range(first, last):
@@ -154,7 +143,7 @@ def turn_at_depth(
             close = close or abs(bottom - target) <= tolerance(table, curve, end)
         if bottom > target:
             high = min(end, reach)
-            if high <= trace[START, branch] or _value(table, curve, high, NO) < target:
+            if high <= trace[START, branch] or depth(table, curve, high) < target:
                 return math.inf, close  # beyond the rim
             return _find(table, curve, trace[START, branch], high, target, NO), close
     return math.inf, close
@@ -196,7 +185,7 @@ def peaks_of(table: Table, curve: Cosine, count: int, trace: Trace, inner: float
 
 
 @kernel()
-def turn_at_load(
+def _load_among(
     table: Table, curve: Cosine, first: int, last: int, trace: Trace, peaks: Peaks, reach: float, target: float
 ) -> Turn:
     """Return where loading first reaches a load on the branches `first` to `last` - 1 of a trace."""
@@ -206,7 +195,7 @@ def turn_at_load(
         if not arrival <= reach:
             continue
         if peak < target:
-            close = close or target - peak <= _size(table, curve, trace[END, branch], YES)
+            close = close or target - peak <= _size(table, curve, trace[END, branch])
             continue
         x, near = _turn_on(table, curve, arrival, ends(trace, branch), reach, target)
         close = close or near
@@ -254,27 +243,27 @@ def turn_on_waves(table: Table, curve: Cosine, trace: Trace, reach: float, targe
 
 
 @kernel()
-def turn_long_at_load(
+def turn_at_load(
     table: Table, curve: Cosine, count: int, trace: Trace, peaks: Peaks, reach: float, target: float
 ) -> Turn:
-    """Return where loading first reaches a load on a long curve (stride or open_gap of path/cosine_long.py)."""
-    gap = int(trace[RUN, GAP])
-    x, close = turn_at_load(table, curve, NONE, gap, trace, peaks, reach, target)
-    if x == math.inf:
+    """Return where loading first reaches a load on the branches of a trace, or on the waves in a gap of it."""
+    gap = int(min(trace[RUN, GAP], count))
+    x, close = _load_among(table, curve, NONE, gap, trace, peaks, reach, target)
+    if x == math.inf and trace[RUN, GAP] < math.inf:
         x, near = turn_on_waves(table, curve, trace, reach, target)
         close = close or near
-    if x == math.inf:
-        x, near = turn_at_load(table, curve, gap, count, trace, peaks, reach, target)
-        close = close or near
+        if x == math.inf:
+            x, near = _load_among(table, curve, gap, count, trace, peaks, reach, target)
+            close = close or near
     return x, close
 
 
 @kernel()
-def turn_long_at_depth(table: Table, curve: Cosine, count: int, trace: Trace, reach: float, target: float) -> Turn:
-    """Return where loading first reaches a depth on a long curve (stride or open_gap of path/cosine_long.py)."""
-    gap = int(trace[RUN, GAP])
-    x, close = turn_at_depth(table, curve, NONE, gap, trace, reach, target)
-    if x < math.inf:
+def turn_at_depth(table: Table, curve: Cosine, count: int, trace: Trace, reach: float, target: float) -> Turn:
+    """Return where loading first reaches a depth on the branches of a trace, or on the waves in a gap of it."""
+    gap = int(min(trace[RUN, GAP], count))
+    x, close = _depth_among(table, curve, NONE, gap, trace, reach, target)
+    if x < math.inf or trace[RUN, GAP] == math.inf:
         return x, close
     if gap == count or trace[END_DEPTH, gap] > target:
         before, after = trace[RUN, RUN_BEFORE], trace[RUN, RUN_AFTER]
@@ -287,5 +276,5 @@ def turn_long_at_depth(table: Table, curve: Cosine, count: int, trace: Trace, re
                 close = close or abs(below - target) <= tolerance(table, curve, place)
             close = close or abs(bottom - target) <= tolerance(table, curve, end)
             return _find(table, curve, start, end, target, NO), close
-    x, near = turn_at_depth(table, curve, gap, count, trace, reach, target)
+    x, near = _depth_among(table, curve, gap, count, trace, reach, target)
     return x, close or near

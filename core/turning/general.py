@@ -15,9 +15,8 @@ from gradhesion.core.curve.general import Basis, Series, coordinate, curve_at
 from gradhesion.core.curve.general_branches import find_level
 from gradhesion.core.curve.general_folds import MOST_CELLS, MOST_FOLDS, room
 from gradhesion.core.face import is_always_one_disc, measured_by, reach, window
-from gradhesion.core.path.general import walk
+from gradhesion.core.path.general import is_at_a_fold, walk
 from gradhesion.core.path.general_long import FEW, LONGEST_WALK, REGULAR, middle_of
-from gradhesion.core.path.general_ties import is_at_a_fold
 from gradhesion.core.path.ties import rim_is_close
 from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE

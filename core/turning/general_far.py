@@ -14,7 +14,7 @@ from gradhesion.core.path.general_long import Middle, first_that_reaches, folds_
 from gradhesion.core.path.loading import load_up
 from gradhesion.core.turning.corners import ROWS as CORNER_ROWS
 from gradhesion.core.turning.corners import Found, Place, append_corners, corners_of, first_reached
-from gradhesion.core.waves.general import UP, Room, branches_of_wave, highest_end, let_reach, room_for_waves
+from gradhesion.core.waves.general import UP, Room, branches_of_wave, furthest_end, let_reach, room_for_waves
 
 Way: TypeAlias = tuple[bool, float, float]
 """Whether the load is measured, else the depth; the target; and what `last_corner` returns."""
@@ -49,8 +49,7 @@ def _turn_on_piece(
 def _turn_on_wave(basis: Basis, curve: Series, way: Way, cut: float, wave: float, work: Room, zeros: Zeros) -> Found:
     """Return where loading, come from the wave before, reaches the target on a wave."""
     _, _, rows = work
-    before = highest_end(rows[0], branches_of_wave(basis, curve, wave - 1.0, cut, work, rows[0]))
-    level = rows[0, END_DEPTH, before]
+    _, level, _ = furthest_end(UP, rows[0], branches_of_wave(basis, curve, wave - 1.0, cut, work, rows[0]))
     count = branches_of_wave(basis, curve, wave, cut, work, rows[1])
     let_reach(UP, rows[1], count, level)
     found, _ = _turn_on_piece(
@@ -84,22 +83,10 @@ def _first_of_waves(
 def turn_far(
     basis: Basis, curve: Series, way: Way, first: float, middle: Middle, furthest: float
 ) -> tuple[bool, Found, float]:
-    """Return where loading reaches a target on a long curve up to x = `furthest`.
+    """Return where loading reaches a target on a long curve up to x = `furthest`; there is no fold before `first`.
 
-    Parameters
-    ----------
-    basis, curve, first
-        The curve, and the place before which there is no fold.
-    way
-        What is measured, and the target.
-    middle
-        What `middle_of` of path/general_long.py has returned, REGULAR.
-    furthest
-        Up to where loading is followed.
-
-    Returns
-    -------
-    Whether it could be done; what it has found; and the whole waves beyond which the place is given.
+    `middle` is what `middle_of` of path/general_long.py has returned, REGULAR. Returned are whether it could be done,
+    what it has found, and the whole waves beyond which the place is given.
     """
     _, _, series = basis
     by_load, target, last = way
@@ -137,8 +124,7 @@ def turn_far(
             close = close or here[2]
             if here[0]:
                 return True, (YES, here[1], close, here[3]), there
-            best = highest_end(rows, branches_of_wave(basis, curve, far, cut, work, rows))
-            level = rows[END_DEPTH, best]
+            _, level, _ = furthest_end(UP, rows, branches_of_wave(basis, curve, far, cut, work, rows))
         wave = far + 1.0
     whole = end + 1.0
     x = furthest - whole

@@ -7,8 +7,8 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import force_unit
-from gradhesion.core.curve.general import Basis
-from gradhesion.core.curve.patterned import Patterned, are_too_many, patterned_curve
+from gradhesion.core.curve.general import Basis, Patterned
+from gradhesion.core.curve.patterned import are_too_many, patterned_curve
 from gradhesion.core.face import measured_by, reach, window
 from gradhesion.core.problem.curves import GeneralCurves, Patterns
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, NO_VALUE, TOO_MANY_WAVES
@@ -69,8 +69,7 @@ def turn_scenes(
     Arguments are those of `solve_scenes` (scene/patterned.py).
     """
     rims, targets, by_load, check, radii, flags = turns
-    for j in range(curves.numbers.size):
-        i = curves.numbers[j]
+    for i in curves.numbers:
         row = i if rims.shape[0] > 1 else 0
         valid, pattern, finest, curve, units = patterned_curve(table, cosine_bins, series, curves, patterns, i)
         basis, (unit, length, depth) = Basis(table, pattern, finest), units

@@ -42,7 +42,7 @@ _RATIO_TERMS: Final = 9
 def slope_of(
     table: Table, curve: Cosine, x: float, z: float, power: float
 ) -> tuple[float, float, float, float, float, float]:
-    """Return what `_slope` does from z and z^(-n), numbers or eight of them (struve/lanes.py)."""
+    """Return what `slope_at` does from z and z^(-n), numbers or eight of them (struve/lanes.py)."""
     b, g, _ = curve
     k = table.k
     n = 0.5 * (1.0 + k)
@@ -56,7 +56,7 @@ def slope_of(
 
 
 @kernel(contract=True)
-def _slope(table: Table, curve: Cosine, whole: float, x: float) -> tuple[float, float, float, float, float, float]:
+def slope_at(table: Table, curve: Cosine, whole: float, x: float) -> tuple[float, float, float, float, float, float]:
     """Return D at the level of the depth, its first two derivatives with respect to z, z, z S0 and z^c."""
     z = TWO_PI * (whole + x)
     return slope_of(table, curve, x, z, amplitude_power(table, z))
@@ -94,7 +94,7 @@ def _fold_near(
     low, high = (centre - 0.5, centre) if rising else (centre, centre + 0.5)
     x = guess if low < guess < high else 0.5 * (low + high)
     for _ in range(_STEPS):
-        d, d1, d2, z, wave, stretch = _slope(table, curve, whole, x)
+        d, d1, d2, z, wave, stretch = slope_at(table, curve, whole, x)
         if d == 0.0:
             break
         if (d < 0.0) == rising:
@@ -110,7 +110,7 @@ def _fold_near(
             if new <= low or new >= high:
                 break
         x = new
-    _, _, _, z, wave, stretch = _slope(table, curve, whole, x)
+    _, _, _, z, wave, stretch = slope_at(table, curve, whole, x)
     return x, x, z, wave, stretch, 0.0
 
 
@@ -153,7 +153,7 @@ def _landing(table: Table, curve: Cosine, whole: float, left: Left, start: float
     x = low + (high - low) * math.acos(1.0 - 2.0 * share) / math.pi
     x = x if low < x < high else 0.5 * (low + high)
     for _ in range(_STEPS):
-        d, d1, _, z, wave, _ = _slope(table, curve, whole, x)
+        d, d1, _, z, wave, _ = slope_at(table, curve, whole, x)
         rest = _rise(table, curve, left, x - start, z, wave)
         if rest == 0.0:
             return x
@@ -174,11 +174,11 @@ def _landing(table: Table, curve: Cosine, whole: float, left: Left, start: float
 
 
 @kernel()
-def _ends_of_jump(table: Table, curve: Cosine, whole: float, outwards: bool) -> tuple[float, float, Left]:
+def ends_of_jump(table: Table, curve: Cosine, whole: float, outwards: bool) -> tuple[float, float, Left]:
     """Return where the jump from the wave `whole` + 2 to the next one starts and lands, and the place at its start."""
     centre = table.phase / TWO_PI + 2.0
     start = _fold(table, curve, whole, centre, not outwards)
-    _, _, _, z, height, stretch = _slope(table, curve, whole, start)
+    _, _, _, z, height, stretch = slope_at(table, curve, whole, start)
     left = (z, height, stretch)
     landing = _landing(table, curve, whole, left, start, centre + (1.0 if outwards else -1.0), not outwards)
     return start, landing, left
@@ -187,7 +187,7 @@ def _ends_of_jump(table: Table, curve: Cosine, whole: float, outwards: bool) -> 
 @kernel()
 def landing_of_wave(table: Table, curve: Cosine, wave: float, outwards: bool) -> float:
     """Return where the jump from a wave to the next one lands, in waves from the wave."""
-    _, landing, _ = _ends_of_jump(table, curve, wave - 2.0, outwards)
+    _, landing, _ = ends_of_jump(table, curve, wave - 2.0, outwards)
     return landing - 2.0
 
 
@@ -198,7 +198,7 @@ def jump_of_wave(table: Table, curve: Cosine, wave: float, outwards: bool, work:
     Outwards it leaves the end of the wave's branch, inwards its start. `wave` is any real number from NEAREST on.
     """
     whole = wave - 2.0
-    start, landing, left = _ends_of_jump(table, curve, whole, outwards)
+    start, landing, left = ends_of_jump(table, curve, whole, outwards)
     low, high = min(start, landing), max(start, landing)
     panels = int((high - low) / LONG) + 1
     width = (high - low) / panels
@@ -214,7 +214,7 @@ def fold_of_wave(table: Table, curve: Cosine, wave: float, rising: bool) -> tupl
     b, g, _ = curve
     whole = wave - 2.0
     x = _fold(table, curve, whole, table.phase / TWO_PI + 2.0, rising)
-    _, _, _, z, height, stretch = _slope(table, curve, whole, x)
+    _, _, _, z, height, stretch = slope_at(table, curve, whole, x)
     return whole + x, 0.5 * b * z * z + g * height - stretch
 
 

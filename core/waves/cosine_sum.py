@@ -21,7 +21,7 @@ Against the sum wave by wave, of 10^2 to 10^5 of them: 1e-12 of the loss, mostly
 import math
 from typing import Final
 
-from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import NODES, WEIGHTS
 from gradhesion.core.struve.circle import TWO_PI
@@ -81,55 +81,46 @@ def branch_points(table: Table, curve: Cosine, final: float, outwards: bool) -> 
 
 
 @kernel()
-def outer_limits(begin: float, end: float, outer: float) -> tuple[float, float]:
-    """Return y at the end, where it is least, and how much larger it is at the begin.
+def limits(begin: float, end: float, at: tuple[float, bool]) -> tuple[float, float, float]:
+    """Return a branch point, and the limits of the integral between two waves in y, or in v, as `at` says.
 
-    It is not a difference of the two, which would lose the length of a short run far out over its place.
+    They are the lower one, y at the end or v at the begin, and how much larger the other one is: not as a difference of
+    the two, which would lose the length of a short run far out over its place.
     """
-    near, far = (begin / outer) ** 0.25, (end / outer) ** 0.25
+    point, in_y = at
+    if not in_y:
+        point = min(point, begin)
+        low = math.sqrt(begin - point)
+        return point, low, (end - begin) / (low + math.sqrt(end - point))
+    point = min(max(point, end), _REMOTE * end)  # so that 1 - y^2 keeps its digits
+    near, far = (begin / point) ** 0.25, (end / point) ** 0.25
     low, high = math.sqrt(1.0 - far), math.sqrt(1.0 - near)
-    return low, (end - begin) / (outer * (near + far) * (near * near + far * far) * (low + high))
+    return point, low, (end - begin) / (point * (near + far) * (near * near + far * far) * (low + high))
 
 
 @kernel()
-def inner_limits(begin: float, end: float, inner: float) -> tuple[float, float]:
-    """Return v at the begin, and how much larger it is at the end."""
-    low = math.sqrt(begin - inner)
-    return low, (end - begin) / (low + math.sqrt(end - inner))
+def place_and_share(point: float, place: float, weight: float, in_y: bool) -> tuple[float, float]:
+    """Return the wave at y, or v, and the weight there of an integral over waves, by that in y or v."""
+    if not in_y:
+        return point + place * place, weight * 2.0 * place
+    rest = 1.0 - place * place
+    return point * rest**4, weight * 8.0 * point * place * rest**3
 
 
 @kernel()
-def _outer_part(
-    table: Table, curve: Cosine, begin: float, end: float, outer: float, outwards: bool, room: Batch
+def _part(
+    table: Table, curve: Cosine, begin: float, end: float, at: tuple[float, bool], outwards: bool, room: Batch
 ) -> float:
-    """Return the integral in y."""
-    outer = min(max(outer, end), _REMOTE * end)  # so that 1 - y^2 keeps its digits
-    low, width = outer_limits(begin, end, outer)
+    """Return the integral between two waves in y or in v."""
+    _, in_y = at
+    point, low, width = limits(begin, end, at)
     for i in range(BATCH):
-        y = low + width * NODES[i]
-        room[WAVES + i] = outer * (1.0 - y * y) ** 4
+        room[WAVES + i], _ = place_and_share(point, low + width * NODES[i], 1.0, in_y)
     jumps_of_batch(table, curve, outwards, room)
     total = 0.0
     for i in range(BATCH):
-        y = low + width * NODES[i]
-        total += WEIGHTS[i] * room[LOSSES + i] * 8.0 * outer * y * (1.0 - y * y) ** 3
-    return total * width
-
-
-@kernel()
-def _inner_part(
-    table: Table, curve: Cosine, begin: float, end: float, inner: float, outwards: bool, room: Batch
-) -> float:
-    """Return the integral in v."""
-    inner = min(inner, begin)
-    low, width = inner_limits(begin, end, inner)
-    for i in range(BATCH):
-        v = low + width * NODES[i]
-        room[WAVES + i] = inner + v * v
-    jumps_of_batch(table, curve, outwards, room)
-    total = 0.0
-    for i in range(BATCH):
-        total += WEIGHTS[i] * room[LOSSES + i] * 2.0 * (low + width * NODES[i])
+        _, part = place_and_share(point, low + width * NODES[i], WEIGHTS[i] * room[LOSSES + i], in_y)
+        total += part
     return total * width
 
 
@@ -142,12 +133,12 @@ def _integral(
     total = 0.0
     if inner > _WIDE * begin or end > _LONG * begin:
         middle = max(begin, min(_PART * max(inner, begin), math.sqrt(begin * end)))
-        total += _inner_part(table, curve, begin, middle, inner, outwards, room)
+        total += _part(table, curve, begin, middle, (inner, NO), outwards, room)
         begin = middle
     if end > _LONGEST * begin:
-        total += _outer_part(table, curve, begin, _FRACTION * end, outer, outwards, room)
+        total += _part(table, curve, begin, _FRACTION * end, (outer, YES), outwards, room)
         begin = _FRACTION * end
-    return total + _outer_part(table, curve, begin, end, outer, outwards, room)
+    return total + _part(table, curve, begin, end, (outer, YES), outwards, room)
 
 
 @kernel()

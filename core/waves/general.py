@@ -180,36 +180,24 @@ def branches_of_wave(basis: Basis, curve: Series, wave: float, low: float, work:
 
 
 @kernel()
-def highest_end(rows: Rows, count: int) -> int:
-    """Return the branch that ends highest, -1 without any."""
-    best, level = -1, -math.inf
+def furthest_end(kind: int, rows: Rows, count: int) -> tuple[int, float, float]:
+    """Return the branch that ends highest (UP) or starts lowest, the coordinate and the place there; -1 without any."""
+    sign, best, level, x = (1.0 if kind == UP else -1.0), -1, -math.inf, math.nan
     for i in range(count):
-        if rows[END_LEVEL, i] > level:
-            best, level = i, rows[END_LEVEL, i]
-    return best
-
-
-@kernel()
-def lowest_start(rows: Rows, count: int) -> int:
-    """Return the branch that starts lowest, -1 without any."""
-    best, level = -1, math.inf
-    for i in range(count):
-        if rows[START_LEVEL, i] < level:
-            best, level = i, rows[START_LEVEL, i]
-    return best
+        here = rows[END_LEVEL if kind == UP else START_LEVEL, i]
+        if sign * here > level:
+            best, level, x = i, sign * here, rows[END if kind == UP else START, i]
+    return best, sign * level, x
 
 
 @kernel()
 def let_reach(kind: int, rows: Rows, count: int, level: float) -> None:
     """Let a wave that reaches a coordinate do so in its branches too, if only just: its highest end or lowest start."""
-    if kind == UP:
-        best = highest_end(rows, count)
-        if best >= 0:
-            rows[END_LEVEL, best] = max(rows[END_LEVEL, best], np.nextafter(level, math.inf))
-    else:
-        best = lowest_start(rows, count)
-        if best >= 0:
-            rows[START_LEVEL, best] = min(rows[START_LEVEL, best], np.nextafter(level, -math.inf))
+    best, here, _ = furthest_end(kind, rows, count)
+    if best >= 0 and kind == UP:
+        rows[END_LEVEL, best] = max(here, np.nextafter(level, math.inf))
+    elif best >= 0:
+        rows[START_LEVEL, best] = min(here, np.nextafter(level, -math.inf))
 
 
 @kernel()
@@ -240,59 +228,43 @@ def rises_by(basis: Basis, curve: Series, x: float, wave: float, difference: flo
 
 
 @kernel()
-def _is_level(basis: Basis, curve: Series, below: float, above: float, x: float, wave: float) -> bool:
-    """Return whether the coordinate of a wave at x misses that of its neighbour by no more than rounding."""
-    return below - above <= _ROUNDING * size(basis, curve, x, wave)
+def step_between(basis: Basis, curve: Series, waves: Waves, wave: float) -> tuple[tuple[int, float, float], Rows, int]:
+    """Return the end that the step of a wave leaves (`furthest_end`), the branches that it goes to, and their number.
+
+    The end is of the wave before, and the branches of this one, or the other way round (DOWN); all places are beyond
+    `wave` - 1 whole waves.
+    """
+    kind, cut, _, (_, _, rows) = waves
+    ahead = 1.0 if kind == UP else 0.0
+    left, other = (rows[0], rows[1]) if kind == UP else (rows[1], rows[0])
+    inside = branches_of_wave(basis, curve, wave - 1.0, cut + (1.0 - ahead), waves.work, left)
+    beyond = branches_of_wave(basis, curve, wave - 1.0, cut + ahead, waves.work, other)
+    return furthest_end(kind, left, inside), other, beyond
 
 
 @kernel()
-def _step_up(basis: Basis, curve: Series, cut: float, wave: float, work: Room, losses: bool) -> Step:
-    """Load from the highest end of the wave before to that of a wave."""
-    _, _, rows = work
-    before = wave - 1.0
-    first = highest_end(rows[0], branches_of_wave(basis, curve, before, cut, work, rows[0]))
-    count = branches_of_wave(basis, curve, before, cut + 1.0, work, rows[1])
+def _step(basis: Basis, curve: Series, waves: Waves, wave: float, losses: bool) -> Step:
+    """Load from the highest end of the wave before to that of a wave, or unload from the lowest start back."""
+    kind, before = waves.kind, wave - 1.0
+    (first, level, left), rows, count = step_between(basis, curve, waves, wave)
     if first < 0 or count < 0:
         return 0.0, 0.0, -1
-    level, left = rows[0, END_LEVEL, first], rows[0, END, first]
     loss, jumps, pattern = 0.0, 0.0, count * 4099 + first
-    highest = highest_end(rows[1], count)
-    for i in range(count):
-        top = rows[1, END_LEVEL, i]
-        if top <= level and not (i == highest and _is_level(basis, curve, level, top, rows[1, END, i], before)):
+    sign, end, end_level = (1.0, END, END_LEVEL) if kind == UP else (-1.0, START, START_LEVEL)
+    furthest, _, _ = furthest_end(kind, rows, count)
+    for j in range(count):
+        i = j if kind == UP else count - 1 - j
+        there, x = rows[end_level, i], rows[end, i]
+        missing = sign * (level - there)
+        if missing >= 0.0 and not (i == furthest and missing <= _ROUNDING * size(basis, curve, x, before)):
             continue
         if losses:
             place = place_left(basis, curve, left, before)
-            x = find_landing(basis, curve, place, rows[1, START, i], rows[1, END, i], before)
-            loss += drop(basis, curve, place, left, x, before)
+            landing = find_landing(basis, curve, place, rows[START, i], rows[END, i], before)
+            low, high = (left, landing) if kind == UP else (landing, left)
+            loss += sign * drop(basis, curve, place, low, high, before)
         jumps += 1.0
-        level, left = rows[1, END_LEVEL, i], rows[1, END, i]
-        pattern = (pattern * 4099 + i + 1) % _MODULUS
-    return TWO_PI * TWO_PI * loss, jumps, pattern if jumps > 0.0 else -1
-
-
-@kernel()
-def _step_down(basis: Basis, curve: Series, cut: float, wave: float, work: Room, losses: bool) -> Step:
-    """Unload from the lowest start of a wave to that of the wave before."""
-    _, _, rows = work
-    before = wave - 1.0
-    first = lowest_start(rows[1], branches_of_wave(basis, curve, before, cut + 1.0, work, rows[1]))
-    count = branches_of_wave(basis, curve, before, cut, work, rows[0])
-    if first < 0 or count < 0:
-        return 0.0, 0.0, -1
-    level, left = rows[1, START_LEVEL, first], rows[1, START, first]
-    loss, jumps, pattern = 0.0, 0.0, count * 4099 + first
-    lowest = lowest_start(rows[0], count)
-    for i in range(count - 1, -1, -1):
-        bottom = rows[0, START_LEVEL, i]
-        if bottom >= level and not (i == lowest and _is_level(basis, curve, bottom, level, rows[0, START, i], before)):
-            continue
-        if losses:
-            place = place_left(basis, curve, left, before)
-            x = find_landing(basis, curve, place, rows[0, START, i], rows[0, END, i], before)
-            loss -= drop(basis, curve, place, x, left, before)
-        jumps += 1.0
-        level, left = rows[0, START_LEVEL, i], rows[0, START, i]
+        level, left = there, x
         pattern = (pattern * 4099 + i + 1) % _MODULUS
     return TWO_PI * TWO_PI * loss, jumps, pattern if jumps > 0.0 else -1
 
@@ -300,8 +272,6 @@ def _step_down(basis: Basis, curve: Series, cut: float, wave: float, work: Room,
 @kernel()
 def step_of_wave(basis: Basis, curve: Series, waves: Waves, wave: float, losses: bool) -> Step:
     """Return what a wave adds: to loading or unloading, or to a jump outwards that passes it."""
-    if waves.kind == UP:
-        return _step_up(basis, curve, waves.cut, wave, waves.work, losses)
-    if waves.kind == DOWN:
-        return _step_down(basis, curve, waves.cut, wave, waves.work, losses)
+    if waves.kind != PASSING:
+        return _step(basis, curve, waves, wave, losses)
     return TWO_PI * TWO_PI * drop(basis, curve, waves.left, 0.0, 1.0, wave), 0.0, 0

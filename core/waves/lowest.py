@@ -15,7 +15,7 @@ from gradhesion.core.curve.branches import START
 from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.curve.general_branches import START_LEVEL
 from gradhesion.core.pull_off.lowest_two import Lowest, lower
-from gradhesion.core.waves.general import Room, branches_of_wave, lowest_start
+from gradhesion.core.waves.general import DOWN, Room, branches_of_wave, furthest_end
 
 _SAMPLES: Final = 25
 _NEIGHBOURS: Final = 2.0
@@ -25,8 +25,8 @@ _NEIGHBOURS: Final = 2.0
 def _trough(basis: Basis, curve: Series, cut: float, wave: float, work: Room) -> float:
     """Return the lowest trough of a wave, inf without any."""
     rows = work[2][0]
-    best = lowest_start(rows, branches_of_wave(basis, curve, wave, cut, work, rows))
-    return rows[START_LEVEL, best] if best >= 0 else math.inf
+    _, level, _ = furthest_end(DOWN, rows, branches_of_wave(basis, curve, wave, cut, work, rows))
+    return level
 
 
 @kernel()

@@ -18,8 +18,8 @@ from gradhesion.core.curve import cosine, general, short_wave
 from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, ROWS, RUN, RUN_LEAST, START, START_DEPTH
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_folds import last_arch
-from gradhesion.core.curve.general import Basis, Series
-from gradhesion.core.curve.patterned import Patterned, pattern_of
+from gradhesion.core.curve.general import Basis, Patterned, Series
+from gradhesion.core.curve.patterned import pattern_of
 from gradhesion.core.curve.short_wave import ShortWave
 from gradhesion.core.path import cosine as cosine_path
 from gradhesion.core.path import general as general_path

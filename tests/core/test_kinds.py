@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gradhesion.core import CPU_SECONDS, KERNELS, KINDS, NEEDS, OUTPUTS, REPORTS, Harmonic, Loading, Profile
+from gradhesion.core import KINDS, NEEDS, OUTPUTS, REPORTS, Harmonic, Loading, Profile
 from gradhesion.core.kinds import kind_of_curves, kind_of_map
 
 
@@ -43,7 +43,6 @@ def test_another_profile_may_be_one_wave() -> None:
 def test_every_kind_comes_after_those_that_it_needs() -> None:
     for place, kind in enumerate(KINDS):
         assert set(NEEDS[kind]) <= set(KINDS[:place])
-    assert KERNELS.keys() == CPU_SECONDS.keys() == NEEDS.keys()
     kinds = {kind_of_map(outputs) for outputs in (["pull_off_force"], OUTPUTS, REPORTS)}
     assert kinds | {"general_" + kind for kind in kinds} <= set(KINDS)
 

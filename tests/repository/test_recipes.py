@@ -24,23 +24,13 @@ OUTPUT = {
         ("LOADED, UNLOADED = map(", "LOADED, UNLOADED, AREA = map("),
         ("or slots[RADIUS] >= 0", "or slots[RADIUS] >= 0 or slots[AREA] >= 0"),
     ],
-    "core/scene/cosine.py": [
-        ("import (\n    DEEPEST,", "import (\n    AREA,\n    DEEPEST,"),
-        (
-            "put(results, RADIUS, i, place * wavelength if place != x else rims[i])",
-            (
-                "put(results, RADIUS, i, place * wavelength if place != x else rims[i])\n"
-                "        put(results, AREA, i, math.pi * (place * wavelength) ** 2)"
-            ),
-        ),
-    ],
-    "core/scene/general.py": [
+    "core/scene/scene.py": [
         ("import (\n    CONTACT,", "import (\n    AREA,\n    CONTACT,"),
         (
-            "put(results, RADIUS, i, place * wavelength if place != x else rims[i])",
+            "    put(results, RADIUS, i, rim if at_rim else place * wavelength)\n",
             (
-                "put(results, RADIUS, i, place * wavelength if place != x else rims[i])\n"
-                "        put(results, AREA, i, math.pi * (place * wavelength) ** 2)"
+                "    put(results, RADIUS, i, rim if at_rim else place * wavelength)\n"
+                "    put(results, AREA, i, math.pi * (place * wavelength) ** 2)\n"
             ),
         ),
     ],
