@@ -47,6 +47,8 @@ from gradhesion.core.curve.branches import (
 )
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
+from gradhesion.core.curve.cosine_folds import CLOSE
+from gradhesion.core.face import size_at
 from gradhesion.core.path.cosine import MOST_ARCHES
 from gradhesion.core.path.loading import arrive, climb, load_up
 from gradhesion.core.path.ties import first_close_pair, note_loading, note_loading_from, scan_inwards, tolerance
@@ -69,6 +71,8 @@ _MOST_NEAR_RIM: Final = 2.0e13
 """Arches up to which a phase is resolved near a rim: to a hundredth, of waves that are 10^-13 of all."""
 _ORDERED: Final = 20.0
 """Times the square of what rounding leaves of a phase, below which neighbours need not be in order (is_reported)."""
+_ROUNDING: Final = 4.0 * 2.0**-52
+"""Of the terms of a depth, what rounding adds to the difference of two."""
 _HALVINGS: Final = 200
 _NEWTON_STEPS: Final = 8
 _NEAR_WAVE: Final = 0.3
@@ -170,7 +174,8 @@ def _lowest_wave(table: Table, curve: Cosine, low: float, high: float) -> tuple[
 
     The starts fall up to it and rise from it on.
 
-    It is where the lower envelope b z^2/2 - (1 + C g) z^c is lowest, or next to it.
+    It is where the lower envelope b z^2/2 - (1 + C g) z^c is lowest, or next to it. Where neighbours differ by no more
+    than rounding, from some 10^8 waves on, their order says nothing, and the place of the envelope is as good as any.
     """
     b, g, _ = curve
     k = table.k
@@ -183,7 +188,10 @@ def _lowest_wave(table: Table, curve: Cosine, low: float, high: float) -> tuple[
         middle = max(low, min(high - 1.0, middle))
         place, here = fold_of_wave(table, curve, middle, YES)
         _, beyond = fold_of_wave(table, curve, middle + 1.0, YES)
-        close = close or abs(beyond - here) <= tolerance(table, curve, place)
+        difference, size = abs(beyond - here), size_at(table, curve, place)
+        close = close or difference <= CLOSE * size
+        if difference <= _ROUNDING * size:
+            return middle, close
         if beyond < here:
             low, middle = middle + 1.0, middle + step
         else:

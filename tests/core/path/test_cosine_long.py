@@ -151,3 +151,21 @@ def test_waves_that_begin_within_the_branch_point() -> None:
     # beyond, sums of one cosine lose digits that other profiles keep; docs/accuracy.md has both
     far = np.isfinite(expected["dissipated_energy"]) & ~known
     np.testing.assert_allclose(expected["dissipated_energy"][far], math.pi * rims[far] ** 2, rtol=1e-12)
+
+
+def test_contact_ends_at_the_lowest_of_all_waves_where_neighbours_differ_by_less_than_rounding() -> None:
+    """Scenes of 9 10^9 waves and similar ones, all lengths 5/4 times as large, whose roundings differ."""
+    factor = 1.25
+    ulps = 1.0 + np.arange(300.0) * 2.0**-52
+    scene = {
+        "k": 0.5,
+        "nu": -0.07205794646137065,
+        "modulus": 385973969.6717387 * ulps,
+        "c0_over_R": 0.014373395433882028,
+    }
+    scene |= {"lambda_over_R": 2.0**-42, "A": 65700.09319711609, "a_max_over_R": 0.0020078730580606365}
+    similar = scene | {name: factor * scene[name] for name in ("lambda_over_R", "a_max_over_R", "A")}
+    similar["modulus"] = scene["modulus"] * factor**-3.5
+    one, other = (solve(each, ["delta_jump_out"])["delta_jump_out"] for each in (scene, similar))
+    # the depth is a difference of terms of its size, and changes as 0.7 of a stiffness that has some eps of its own
+    np.testing.assert_allclose(other / factor**2, one, rtol=32 * np.finfo(float).eps)
