@@ -30,6 +30,8 @@ LADDERS: Final = {
     ],
 }
 """Efforts of which the script is given the quickest that keeps an error."""
+_WARM: Final = 0.2
+"""Seconds of calls before those that are measured."""
 
 
 class Scenes(NamedTuple):
@@ -92,9 +94,15 @@ def expert_table(sizes: tuple[int, ...] = SIZES, repeat: int = 7) -> str:
 
 
 def _seconds(call: Callable[[], Any], repeat: int, at_least: float = 0.01) -> float:
-    """Return the least processor time of a call, the calls of one sample filling `at_least` seconds."""
+    """Return the least processor time of a call, the calls of one sample filling `at_least` seconds.
+
+    Calls of the first fifth of a second are not counted: the first ones of a process take half as long again.
+    """
     samples, calls = [], 1
     call()  # what is compiled or made once
+    begin = time.process_time()
+    while time.process_time() - begin < _WARM:
+        call()
     while len(samples) < repeat:
         start = time.process_time()
         for _ in range(calls):
