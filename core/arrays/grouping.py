@@ -61,22 +61,6 @@ class Task:
     interpolated: bool = False
 
 
-def _of_several(k: NDArray[np.float64], some: NDArray[np.int64] | None) -> Task | None:
-    """Return the task of curves with some exponents k, of shape (n,), None where these are too many.
-
-    `some` are the numbers of the curves, shape (n,); 0 to n - 1 if not given.
-    """
-    order = np.argsort(k, kind="stable")
-    ordered = k[order]
-    which = np.zeros(k.size, dtype=np.int64)
-    np.cumsum(ordered[1:] != ordered[:-1], out=which[1:])
-    count = int(which[-1]) + 1
-    if count > _SEVERAL:
-        return None
-    exponents = ordered[np.searchsorted(which, np.arange(count))]
-    return Task(exponents, which, order if some is None else some[order])
-
-
 @dataclass(frozen=True)
 class Grouped:
     """The scenes of broadcast parameters: curves that have rims.
@@ -142,12 +126,12 @@ class Grouped:
                 Task(k[i : i + size], np.arange(min(size, k.size - i)), order[i : i + size], interpolated=True)
                 for i in range(0, k.size, size)
             ]
-        if k.size * self.rims[0].shape[1] <= _SHORT and (task := _of_several(k, some)):
-            return [task]
         order, first = groups_of(k)
         ordered = k[order]
         order = order if some is None else some[order]
         counts = np.diff(first, append=k.size)
+        if first.size <= _SEVERAL and k.size * self.rims[0].shape[1] <= _SHORT:
+            return [Task(ordered[first], np.repeat(np.arange(first.size), counts), order)]
         few = are_few(counts)
         tasks = []
         for begin, count in zip(first[~few].tolist(), counts[~few].tolist(), strict=True):

@@ -13,6 +13,8 @@ from gradhesion.core.arrays.processors import processors
 
 _T = TypeVar("_T")
 _Made_co = TypeVar("_Made_co", covariant=True)
+_FEW: Final = 2048
+"""Exponents that a plain sort orders as soon as any other."""
 _LIKE: Final = 32
 """Number of first exponents by which all are judged to differ."""
 _PARTS: Final = 2.0**16 - 1.0
@@ -71,6 +73,8 @@ def _sorted(k: NDArray[np.float64]) -> NDArray[np.int64]:
 
     Where all differ any sort is stable. Where no two of them are in one of `_PARTS`, that of the parts is the order.
     """
+    if k.size <= _FEW:
+        return np.argsort(k, kind="stable")
     if np.unique(k[:_LIKE]).size == _LIKE:
         order = np.argsort(k)
         if np.all(k[order[1:]] > k[order[:-1]]):
@@ -91,7 +95,8 @@ def groups_of(k: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int
     """
     order = np.arange(k.size) if _rises(k) else _sorted(k)
     ordered = k[order]
-    changes = np.concatenate([[True], ordered[1:] != ordered[:-1]]) if k.size else np.array([], dtype=bool)
+    changes = np.ones(k.size, dtype=bool)
+    np.not_equal(ordered[1:], ordered[:-1], out=changes[1:])
     return order, np.flatnonzero(changes)
 
 

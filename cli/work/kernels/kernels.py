@@ -100,18 +100,19 @@ def refuse_without_compiler() -> None:
         raise CompilerError("NUMBA_DISABLE_JIT is set, but the solver needs the compiler; unset it")
 
 
-def compile_kinds(kinds: Sequence[str], done: Callable[[str], None] = lambda _: None) -> None:
+def compile_kinds(kinds: Sequence[str], done: Callable[[str], None] = lambda _: None, *, alone: bool = False) -> None:
     """
     Compile the kernels of some kinds of work, so that they are in memory and in the cache.
 
-    A process that compiles any of them is waited for. `done` is called with the name of each kernel that is compiled.
+    A process that compiles any of them is waited for. `done` is called with the name of each kernel that is compiled
+    here; `alone` is that no other process helps.
     """
     from gradhesion.core import compile_kind, watch_compilation  # noqa: PLC0415 (all kernels, also those of curves)
 
     folder = place().folder
     with _one_of_us, nullcontext() if folder is None else _alone(folder / "lock", kinds), watch_compilation(done):
         missing = missing_of(kinds)
-        if folder is not None:
+        if folder is not None and not alone:
             _compile_side_by_side(missing)
         for kind in missing:
             interrupts.check()

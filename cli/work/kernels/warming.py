@@ -35,7 +35,7 @@ def warm(
     left = missing_of(kinds)
     if workers == 1 or len(left) < 2 or not LAZY:  # numba keeps every kernel by itself, and kinds share most of them
         names: list[str] = []
-        compile_kinds(kinds, names.append)
+        compile_kinds(kinds, names.append, alone=workers == 1)
         done(", ".join(left), names)
         return
     processes, named = [_Worker() for _ in range(workers)], defaultdict[str, Counter[str]](Counter)

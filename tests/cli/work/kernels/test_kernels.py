@@ -116,13 +116,13 @@ def test_where_nothing_can_be_kept_it_says_so(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("count", [1, 2])
-def test_where_a_processor_is_free_another_process_compiles_the_tables(count: int, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("count", "alone"), [(1, False), (2, False), (2, True)])
+def test_where_a_processor_is_free_another_process_compiles_the_tables(count: int, alone: bool, tmp_path: Path) -> None:
     code = (
         "from gradhesion.cli.work.kernels import kernels\n"
         "from gradhesion.core.arrays import processors\n"
         f"processors.processors = lambda: {count}\n"
-        "kernels.compile_kinds(['force'], print)\n"
+        f"kernels.compile_kinds(['force'], print, alone={alone})\n"
         "print(kernels.missing_of(['force', 'tables']))\n"
     )
     done = subprocess.run(
@@ -136,7 +136,7 @@ def test_where_a_processor_is_free_another_process_compiles_the_tables(count: in
     assert missing == "[]"
     assert any("solvers" in name for name in names)
     if LAZY:
-        assert any("_prepare" in name for name in names) == (count == 1)
+        assert any("_prepare" in name for name in names) == (count == 1 or alone)
 
 
 @pytest.mark.slow
