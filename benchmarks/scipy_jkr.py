@@ -21,7 +21,7 @@ from benchmarks.jkr_script import BRANCHES, NAMES, Branch, Misfit, draw, refined
 from benchmarks.loop_fits import flags_of
 from gradhesion.core.loops.fit import fit_loop
 from gradhesion.core.loops.fitted import FittedLoop
-from gradhesion.core.loops.offsets import Offsets
+from gradhesion.core.loops.paths.offsets import Offsets
 
 
 def fit(branch: Branch) -> FittedLoop:

@@ -34,7 +34,7 @@ SPRING: Final[dict[str, float]] = {"machine_stiffness": 3.0}
 LOOPS: Final = ("force", "energy", "general_force", "general_energy")
 """The kinds whose loop over curves can be compiled before the tables that it reads."""
 MANY: Final = Profile(exponent=2.5, harmonics=tuple(Harmonic(n=n, cos=1.0 / n) for n in range(1, 25)))
-"""More harmonics than are summed one by one (struve/series_table.py)."""
+"""More harmonics than are summed one by one (harmonics/series_table.py)."""
 
 
 def compile_loop(kind: str) -> None:
@@ -108,8 +108,8 @@ def _compile_edge() -> None:
 
 def _compile_loops() -> None:
     """Find the distance of a point to a line, the way up a slope, and a place on it."""
-    from gradhesion.core.loops.distance import feet  # noqa: PLC0415 (kernels of their own)
-    from gradhesion.core.loops.walk import climb, crossing  # noqa: PLC0415
+    from gradhesion.core.loops.paths.distance import feet  # noqa: PLC0415 (kernels of their own)
+    from gradhesion.core.loops.paths.walk import climb, crossing  # noqa: PLC0415
 
     feet(np.zeros((1, 2)), np.eye(2))
     climb(np.arange(4.0), np.arange(4.0), 0.0)

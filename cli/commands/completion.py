@@ -3,7 +3,7 @@
 import click
 from click.shell_completion import ShellComplete, get_completion_class
 
-from gradhesion.cli.commands.examples import example
+from gradhesion.cli.terminal.examples import example
 from gradhesion.cli.terminal.output import show_block
 
 SHELLS = ("bash", "zsh", "fish")

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import click
 
-from gradhesion.cli.commands.examples import example
-from gradhesion.cli.commands.written import say_written
+from gradhesion.cli.terminal.examples import example
+from gradhesion.cli.terminal.written import say_written
 
 
 @click.command(epilog=example("explore outputs/study.nc", "explore outputs/study.nc -o part.html --at A=0.02"))

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from gradhesion.cli.commands.examples import example
+from gradhesion.cli.terminal.examples import example
 from gradhesion.cli.terminal.output import show, show_block
 
 if TYPE_CHECKING:

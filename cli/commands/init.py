@@ -7,9 +7,9 @@ from pathlib import Path
 import click
 from click.shell_completion import CompletionItem
 
-from gradhesion.cli.commands.examples import example
 from gradhesion.cli.disk import replacement, writing
 from gradhesion.cli.terminal import messages
+from gradhesion.cli.terminal.examples import example
 from gradhesion.cli.terminal.output import show
 
 

@@ -6,15 +6,15 @@ from pathlib import Path
 
 import click
 
-from gradhesion.cli.commands.examples import example
 from gradhesion.cli.commands.plan import chunk_option
 from gradhesion.cli.commands.run import finish, history_now
-from gradhesion.cli.commands.written import dataset_to_write
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.files import is_file
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import counted
+from gradhesion.cli.terminal.examples import example
 from gradhesion.cli.terminal.progress import progress
+from gradhesion.cli.terminal.written import dataset_to_write
 
 
 @click.command(epilog=example("merge big.nc", "merge first.nc second.nc -o all.nc"))

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
-from gradhesion.cli.commands.examples import example
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
+from gradhesion.cli.terminal.examples import example
 from gradhesion.cli.terminal.output import show, show_block
 
 if TYPE_CHECKING:

@@ -5,8 +5,8 @@ from typing import Any, Final
 
 import click
 
-from gradhesion.cli.commands.examples import example
-from gradhesion.cli.commands.written import say_written
+from gradhesion.cli.terminal.examples import example
+from gradhesion.cli.terminal.written import say_written
 
 FORMS: Final = ("png", "svg", "pdf")
 

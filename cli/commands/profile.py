@@ -4,9 +4,9 @@ from pathlib import Path
 
 import click
 
-from gradhesion.cli.commands.examples import example
 from gradhesion.cli.commands.plot import FORMS
-from gradhesion.cli.commands.written import say_written
+from gradhesion.cli.terminal.examples import example
+from gradhesion.cli.terminal.written import say_written
 
 
 @click.command(epilog=example("profile tip.csv", 'profile tip.csv --up-to "2 um" --exponent fit > punch.toml'))

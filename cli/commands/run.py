@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from gradhesion.cli.commands.examples import example
 from gradhesion.cli.commands.plan import chunk_option, show_fit_plan, show_plan
-from gradhesion.cli.commands.written import dataset_to_write
 from gradhesion.cli.errors import ScenesFailedError
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
+from gradhesion.cli.terminal.examples import example
 from gradhesion.cli.terminal.printable import printable_line
 from gradhesion.cli.terminal.progress import progress, rate
+from gradhesion.cli.terminal.written import dataset_to_write
 
 if TYPE_CHECKING:
     from gradhesion.cli.dataset.writer import Written

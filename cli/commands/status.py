@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from gradhesion.cli.commands.examples import example
 from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.files import is_file
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
+from gradhesion.cli.terminal.examples import example
 from gradhesion.cli.terminal.output import show, show_block
 from gradhesion.cli.terminal.progress import rate
 

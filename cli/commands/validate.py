@@ -5,9 +5,9 @@ from pathlib import Path
 
 import click
 
-from gradhesion.cli.commands.examples import example
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import counted
+from gradhesion.cli.terminal.examples import example
 from gradhesion.cli.terminal.output import show, show_block
 
 

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import click
 
-from gradhesion.cli.commands.examples import example
 from gradhesion.cli.errors import DeviationError
 from gradhesion.cli.terminal.amounts import counted
+from gradhesion.cli.terminal.examples import example
 from gradhesion.cli.terminal.output import show
 from gradhesion.cli.terminal.progress import progress
 

@@ -4,9 +4,9 @@ import time
 
 import click
 
-from gradhesion.cli.commands.examples import example
 from gradhesion.cli.terminal import messages
 from gradhesion.cli.terminal.amounts import counted
+from gradhesion.cli.terminal.examples import example
 
 
 @click.command(epilog=example("warmup --all"))

@@ -7,12 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.arrays.grouping import Task
+from gradhesion.core.harmonics.cosine_bins import build_cosine_bins
+from gradhesion.core.harmonics.series import with_table
+from gradhesion.core.harmonics.series_by_k import change_of
+from gradhesion.core.harmonics.series_table import COSINES, has_table
 from gradhesion.core.sensitivities.neighbours import exponents_beside
-from gradhesion.core.struve.cosine_bins import build_cosine_bins
 from gradhesion.core.struve.interpolated import interpolated_tables, table_of_each
-from gradhesion.core.struve.series import with_table
-from gradhesion.core.struve.series_by_k import change_of
-from gradhesion.core.struve.series_table import COSINES, has_table
 from gradhesion.core.struve.table import build_table
 
 
@@ -74,7 +74,7 @@ def _tables(k: float) -> tuple[Any, NDArray[np.float64]]:
 
 @lru_cache(maxsize=16)
 def _waves(k: float, rows: bytes) -> NDArray[np.float64]:
-    """Return the flat array of struve/series_table.py of an exponent and a series, its rows as bytes."""
+    """Return the flat array of harmonics/series_table.py of an exponent and a series, its rows as bytes."""
     table, bins = _tables(k)
     return with_table(table, bins, np.frombuffer(rows).reshape(-1, 3).copy())
 
@@ -103,5 +103,5 @@ def _changes(k: float, rows: bytes) -> tuple[NDArray[Any], NDArray[np.float64]]:
 
 
 def changes_of(k: float, rows: NDArray[np.float64]) -> tuple[NDArray[Any], NDArray[np.float64]]:
-    """Return the derivatives of the tables of an exponent by the exponent (struve/series_by_k.py)."""
+    """Return the derivatives of the tables of an exponent by the exponent (harmonics/series_by_k.py)."""
     return _changes(k, rows.tobytes())

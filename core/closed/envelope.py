@@ -26,8 +26,8 @@ import math
 
 from gradhesion.core.closed.smooth import FORCE_SCALE, smooth_length
 from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.problem.results import OUTERMOST, Results, put, put_all
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats, Table
 
 

@@ -12,7 +12,7 @@ import math
 from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.struve.intrinsics import bits_of, float_of, fma
+from gradhesion.core.numbers.intrinsics import bits_of, float_of, fma
 from gradhesion.core.types import Floats
 
 _ROOT_HALF: Final = 0x3FE6A09E667F3BCD

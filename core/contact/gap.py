@@ -16,9 +16,9 @@ from typing import Final, NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.face import AnyCurve, AnyTable, excess_at, fill_heights, panels_of, profile_at, table_of
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
+from gradhesion.core.numbers.lanes import LANES, eight, load, store
 from gradhesion.core.struve.fractional import NODES, WEIGHTS
-from gradhesion.core.struve.lanes import LANES, eight, load, store
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Floats
 

@@ -12,7 +12,7 @@ from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.types import Harmonics
 
 _EPS: Final = 2.0**-52

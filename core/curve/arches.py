@@ -19,8 +19,8 @@ from gradhesion.core.curve.cosine_folds import CLOSE, fold_of_arch, survey_arch
 from gradhesion.core.curve.general import Basis, Series, level_at
 from gradhesion.core.curve.general import slope as general_slope
 from gradhesion.core.curve.general_folds import Search, Zeros, find_folds, refine
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.struve.arches import inner_edge, summit
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Harmonics, Table
 

@@ -24,8 +24,8 @@ from gradhesion.core.curve.cosine_folds import (
     half_wave,
     survey_between,
 )
-from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, with_lane
+from gradhesion.core.numbers.circle import TWO_PI
+from gradhesion.core.numbers.lanes import LANES, Lanes, eight, lane_of, with_lane
 from gradhesion.core.struve.layout import SWITCH
 from gradhesion.core.types import Floats, Table
 

@@ -22,8 +22,8 @@ punch. With it the wave number becomes continuous (waves/cosine.py).
 from typing import NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.lanes import Lanes
+from gradhesion.core.numbers.circle import TWO_PI
+from gradhesion.core.numbers.lanes import Lanes
 from gradhesion.core.struve.layout import SWITCH
 from gradhesion.core.struve.pair import pair_above, pair_below
 from gradhesion.core.struve.power import amplitude_power, amplitude_powers
@@ -109,7 +109,7 @@ def slope(table: Table, curve: Cosine, level: float, x: float) -> tuple[float, f
 def _slopes_of(
     k: float, curve: Cosine, level: float, z: float, power: float, pair: tuple[float, float, float, float]
 ) -> tuple[float, float, float, float, float]:
-    """Return what `slopes` does, from z^(-n) and the pair; z is a number or eight (struve/lanes.py)."""
+    """Return what `slopes` does, from z^(-n) and the pair; z is a number or eight (numbers/lanes.py)."""
     b, g, _ = curve
     n = 0.5 * (1.0 + k)
     s0, s1, d0, d1 = pair

@@ -25,8 +25,8 @@ import numpy as np
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Cosine, wave
 from gradhesion.core.curve.cosine_jump import ENOUGH, REACH, beyond_at_once, energy_between, gauss_rule
-from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
-from gradhesion.core.struve.lanes import LANES, Lanes, chosen, load, size_of, sum_of
+from gradhesion.core.numbers.circle import TWO_PI, sine_cosine_of_turns
+from gradhesion.core.numbers.lanes import LANES, Lanes, chosen, load, size_of, sum_of
 from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.pair import first_functions

@@ -13,9 +13,9 @@ import numpy as np
 from gradhesion.core.closed.power import power
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Cosine, slope, slopes
+from gradhesion.core.numbers.circle import TWO_PI
+from gradhesion.core.numbers.lanes import chosen, root_of
 from gradhesion.core.struve.arches import inner_edge, summit
-from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.lanes import chosen, root_of
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Table
 

@@ -23,9 +23,9 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import Cosine, wave
-from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
-from gradhesion.core.struve.intrinsics import make_horner
-from gradhesion.core.struve.lanes import Lanes, load, rounded, size_of, stand_apart, sum_of
+from gradhesion.core.numbers.circle import TWO_PI, sine_cosine_of_turns
+from gradhesion.core.numbers.intrinsics import make_horner
+from gradhesion.core.numbers.lanes import Lanes, load, rounded, size_of, stand_apart, sum_of
 from gradhesion.core.struve.layout import STRETCH_TERMS, SWITCH, TAIL_TERMS
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.pair import horner8
@@ -40,7 +40,7 @@ def gauss_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 End: TypeAlias = tuple[float, float, float]
-"""x, z and z^(-n) at one end of a jump, numbers or eight of them (struve/lanes.py)."""
+"""x, z and z^(-n) at one end of a jump, numbers or eight of them (numbers/lanes.py)."""
 _horner_of_slow = make_horner(2, TAIL_TERMS)
 NODES, WEIGHTS = gauss_rule(8)
 ENOUGH: Final = 0.03
@@ -69,7 +69,7 @@ def _oscillating(table: Table, curve: Cosine, x: float, z: float, power: float) 
 
 @kernel(contract=True, inline=True)
 def inverse_stretch(table: Table, e: float) -> float:
-    """Return (1 + e)^(-c) - 1 for |e| <= 0.1; e is a number or eight (struve/lanes.py)."""
+    """Return (1 + e)^(-c) - 1 for |e| <= 0.1; e is a number or eight (numbers/lanes.py)."""
     series = table.inverse_stretch
     less = 0.0 * e
     for j in range(STRETCH_TERMS - 1, 0, -1):
@@ -93,7 +93,7 @@ def _slow(
     z1^c and z S0 at z1 are given. The way is dz, and half of that over the middle; the front is what `inverse_stretch`
     returns of the way back to z1, and 1 over 1 more than it. Powers are (1 + eta)^(-c), for a half panel eta = -ratio
     at z1. It is rho_s - 1 that is computed: in 1 - rho_s it would lose 1/chi. Ends and node are numbers, or one of both
-    is eight (struve/lanes.py).
+    is eight (numbers/lanes.py).
     """
     b, g, _ = curve
     dz, ratio = way

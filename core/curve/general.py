@@ -1,6 +1,6 @@
 """The equilibrium curve of any profile under any control, in the reduced form of core/curve/cosine.py.
 
-    depth(z) = B z^m + g z w0 - z^c                              c = (1-k)/2, n = (1+k)/2, w0 and w1 of struve/series.py
+    depth(z) = B z^m + g z w0 - z^c                       c = (1-k)/2, n = (1+k)/2, w0 and w1 of harmonics/series.py
     load(z)  = z^(1+k) [B z^m m/(1+k+m) + g z w1 - z^c]
     B = G(m/2) G(n)/(2 G(n + m/2)) l^(m-c)/(R^(m-1) s),   g = A lambda/(s l^c),   l = lambda/2 pi
 
@@ -17,8 +17,8 @@ from typing import Any, NamedTuple
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.face import waves_at
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.problem.curves import GeneralCurves, is_in_range
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Harmonics, Table
 
@@ -43,7 +43,7 @@ class Basis(NamedTuple):
     """What a series is computed from."""
 
     table: Table  # the table of the exponent
-    cosine_bins: Any  # the flat array of struve/series_table.py; of a short wave its mean height over g
+    cosine_bins: Any  # the flat array of harmonics/series_table.py; of a short wave its mean height over g
     series: Harmonics  # the harmonics
 
 

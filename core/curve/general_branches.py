@@ -8,7 +8,7 @@ from gradhesion.core.curve.branches import END, END_DEPTH, START, START_DEPTH
 from gradhesion.core.curve.general import Basis, Series, coordinate, rise
 from gradhesion.core.curve.general_folds import Zeros
 from gradhesion.core.face import depth_of_point
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.types import Floats
 
 START_LEVEL: Final = START_DEPTH

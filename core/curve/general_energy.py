@@ -26,7 +26,7 @@ from gradhesion.core.curve.panels import (
     rule_between,
 )
 from gradhesion.core.face import relative_toughness, shortest_wave, waves_at
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Floats
 

@@ -9,9 +9,9 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cells import DEGREE, MOST, NODES, NOISE, PLACES, STACK, isolate
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Series, level_at, slope
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.harmonics.series import highest_harmonic
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.types import Floats, Harmonics
 
 MOST_CELLS: Final = 333_000

@@ -12,7 +12,7 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import NONE, ONE, kernel
 from gradhesion.core.curve.cosine_energy import LONG, NODES, WEIGHTS, unit_rule
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 
 _RULES: Final = {12: 0.8, 16: LONG, 20: 1.85, 24: 2.6, 32: 4.2}
 """The most of the shortest waves for a rule of so many nodes: its error is 1e-15 of the square of a wave."""

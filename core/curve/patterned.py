@@ -18,10 +18,10 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Patterned, curve_of
 from gradhesion.core.curve.general_folds import WAVES, Zeros, cell_width, find_folds, room
 from gradhesion.core.curve.window import wave_bounds
+from gradhesion.core.harmonics.series import highest_harmonic
+from gradhesion.core.numbers.circle import TWO_PI, sine_cosine_of_turns
+from gradhesion.core.numbers.intrinsics import fma
 from gradhesion.core.problem.curves import GeneralCurves, Patterns, is_in_range
-from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
-from gradhesion.core.struve.intrinsics import fma
-from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.types import Harmonics, Table
 
 MOST_CELLS: Final = 4_000_000
@@ -45,7 +45,7 @@ class Pattern(NamedTuple):
     That n is the number of the shortest wave that matters in a unit length: nothing is finer than a wave of it.
     """
 
-    cosine_bins: Any  # what belongs to the harmonics of the profile, struve/series.py
+    cosine_bins: Any  # what belongs to the harmonics of the profile, harmonics/series.py
     waves: Harmonics  # the harmonics of the profile
     gain: float  # g
     rows: Harmonics  # t - 1 as rows (waves a unit length, cos, sin)

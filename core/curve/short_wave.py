@@ -25,9 +25,9 @@ import numpy as np
 from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.general import Basis, Series, level_at, slope
 from gradhesion.core.curve.general_folds import Zeros
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.harmonics.series import highest_harmonic
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.types import Harmonics, Table
 
 MOST_WAVES: Final = 2.0**17

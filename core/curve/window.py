@@ -13,7 +13,7 @@ import math
 
 from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.general import Basis, Series
-from gradhesion.core.struve.cosine_bins import integral_at_zero
+from gradhesion.core.harmonics.cosine_bins import integral_at_zero
 from gradhesion.core.types import Harmonics, Table
 
 _EXCESS = 0.35

@@ -20,7 +20,7 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import wave
 from gradhesion.core.curve.general import Basis, Series, state
 from gradhesion.core.face import AnyTable, depth_of_point
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Floats, Harmonics, Table
 

@@ -20,13 +20,13 @@ from gradhesion.core.curves.equilibrium import draw_named
 from gradhesion.core.curves.forms import general_numbers
 from gradhesion.core.curves.subject import BEYOND, BEYOND_SMOOTH, Form, Subject
 from gradhesion.core.face import find_all_folds, window
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.general import walk
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import PARAMETERS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.shape import depth_factor_of, rows_of
-from gradhesion.core.struve.circle import TWO_PI
 
 MOST_FOLDS: Final = 20_000
 """Folds of a curve that is drawn."""

@@ -14,7 +14,7 @@ from gradhesion.core.curve.branches import ROWS, WORK
 from gradhesion.core.curves.path import DEPTH, JUMP, LOAD, PLACE, UNLOADING, find_corners
 from gradhesion.core.curves.subject import Form, Subject
 from gradhesion.core.face import loss_between, loss_from_zero, loss_to_zero
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 
 
 @kernel()

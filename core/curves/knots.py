@@ -9,8 +9,8 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import END, START, Trace
 from gradhesion.core.curve.cosine import Cosine, slope
 from gradhesion.core.curve.cosine_folds import first_arch, fold_of_arch, last_arch, survey_arch
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.cosine import COUNTABLE, MOST_ARCHES
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats, Table
 
 MOST_FOLDS: Final = 100_000

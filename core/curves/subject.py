@@ -14,10 +14,10 @@ from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, ROWS, START,
 from gradhesion.core.curve.cosine import Cosine, curve_of, force_unit
 from gradhesion.core.curves import knots
 from gradhesion.core.curves.forms import EXACT, PLAIN, General, PowerLaw, Reduced, fill_points
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.cosine import extent, is_endless_wave, is_smooth, walk
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import PARAMETERS
-from gradhesion.core.struve.circle import TWO_PI
 
 BEYOND: Final = 1.05
 """How far an unbounded punch is drawn beyond its last fold or jump."""

@@ -9,9 +9,9 @@ from gradhesion.core.contact.gap import Edge
 from gradhesion.core.contact.waves import least_of_gap
 from gradhesion.core.curve.branches import Trace
 from gradhesion.core.curve.cosine import Cosine, depth, wave
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
+from gradhesion.core.numbers.lanes import LANES, load, root_of, store
 from gradhesion.core.struve.fractional import NODES
-from gradhesion.core.struve.lanes import LANES, load, root_of, store
 from gradhesion.core.struve.pair import first_functions
 from gradhesion.core.struve.power import amplitude_power, amplitude_powers
 from gradhesion.core.types import Floats, Table
@@ -83,7 +83,7 @@ def edge_at(table: Table, curve: Cosine, x: float) -> Edge:
 
 @kernel(contract=True)
 def _rise(curve: Cosine, edge: Edge, x: float, z: float, s0: float) -> float:
-    """Return depth_H at x over that at the edge, at one place or at eight (struve/lanes.py)."""
+    """Return depth_H at x over that at the edge, at one place or at eight (numbers/lanes.py)."""
     # differences first, as in curve/cosine_energy.py
     bend = 0.5 * curve.bend * (z + TWO_PI * edge.x) * (TWO_PI * (x - edge.x))
     return bend + (curve.gain * (z * s0) - edge.wave)

@@ -12,9 +12,9 @@ from gradhesion.core.curve.general_energy import energy_from_zero, jump_energy
 from gradhesion.core.curve.general_folds import Zeros
 from gradhesion.core.curve.patterned import are_too_many, folds_up_to, toughness_at, window
 from gradhesion.core.faces import series_contact
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.harmonics.series import highest_harmonic, sums
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.struve.series import highest_harmonic, sums
 from gradhesion.core.turning.general_reach import WAVES, envelope_at
 from gradhesion.core.types import Work
 

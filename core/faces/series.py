@@ -12,8 +12,8 @@ from gradhesion.core.curve.general_folds import Zeros, room
 from gradhesion.core.curve.one_cosine_energy import jump_of_one_cosine, jump_of_one_cosine_from_zero
 from gradhesion.core.curve.short_wave import ShortWave
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
-from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.series import highest_harmonic, sums
+from gradhesion.core.harmonics.series import highest_harmonic, sums
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.turning.general_reach import reach
 from gradhesion.core.types import Work
 from gradhesion.core.waves.general_jump import jump_between, jump_from_zero

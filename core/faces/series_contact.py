@@ -9,10 +9,10 @@ from gradhesion.core.contact import touch
 from gradhesion.core.contact.gap import GROWTH, Edge
 from gradhesion.core.curve.branches import Trace
 from gradhesion.core.curve.general import Basis, Patterned, Series, coordinate
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.harmonics.series import highest_harmonic
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.struve.fractional import NODES
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.types import Floats
 
 face.profile_at.answers(Series)(touch.profile_at)

@@ -8,9 +8,9 @@ from gradhesion.core.curve.general import Basis, level_at
 from gradhesion.core.curve.general_energy import energy_from_zero
 from gradhesion.core.curve.panels import PLACES, SHARES, panel_outwards
 from gradhesion.core.curve.short_wave import MOST_WAVES, ShortWave
-from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
+from gradhesion.core.harmonics.series import highest_harmonic
+from gradhesion.core.numbers.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.types import Harmonics, Work
 
 

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
-from gradhesion.core.loops.model import WAVELENGTHS, Model
-from gradhesion.core.loops.path import LoopPath
+from gradhesion.core.loops.paths.model import WAVELENGTHS, Model
+from gradhesion.core.loops.paths.path import LoopPath
 
 _SEEN: Final = 5.0
 """Size of a jump, in standard deviations of the noise, from which on it shows that there are waves."""

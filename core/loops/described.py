@@ -11,11 +11,11 @@ from scipy.special import stdtrit
 from gradhesion.core.loops.alike import alike
 from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop, OtherMinimum, poor_from
 from gradhesion.core.loops.intervals import profile_interval
-from gradhesion.core.loops.minima import others
-from gradhesion.core.loops.misfit import Misfit
-from gradhesion.core.loops.model import LINEAR
-from gradhesion.core.loops.ranges import is_on_bound
+from gradhesion.core.loops.paths.misfit import Misfit
+from gradhesion.core.loops.paths.model import LINEAR
 from gradhesion.core.loops.report import status_of
+from gradhesion.core.loops.search.minima import others
+from gradhesion.core.loops.search.ranges import is_on_bound
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 
 _Array = NDArray[np.float64]

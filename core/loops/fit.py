@@ -21,17 +21,17 @@ from numpy.typing import ArrayLike, NDArray
 from threadpoolctl import threadpool_limits
 
 from gradhesion.core.loops.described import described
-from gradhesion.core.loops.features import base_line, contact_point
 from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop
-from gradhesion.core.loops.minima import polished, refined
-from gradhesion.core.loops.misfit import Data, Misfit
-from gradhesion.core.loops.model import LINEAR
-from gradhesion.core.loops.offsets import Offsets
-from gradhesion.core.loops.path import LoopModel
-from gradhesion.core.loops.ranges import searched, zeros_of
-from gradhesion.core.loops.smooth_search import held_start, smooth_starts
-from gradhesion.core.loops.speed import SpeedModel, at_rest, fast_starts
-from gradhesion.core.loops.wave_search import wavy_starts, without_waves
+from gradhesion.core.loops.measured.features import base_line, contact_point
+from gradhesion.core.loops.paths.misfit import Data, Misfit
+from gradhesion.core.loops.paths.model import LINEAR
+from gradhesion.core.loops.paths.offsets import Offsets
+from gradhesion.core.loops.paths.path import LoopModel
+from gradhesion.core.loops.search.minima import polished, refined
+from gradhesion.core.loops.search.ranges import searched, zeros_of
+from gradhesion.core.loops.search.smooth_search import held_start, smooth_starts
+from gradhesion.core.loops.search.speed import SpeedModel, at_rest, fast_starts
+from gradhesion.core.loops.search.wave_search import wavy_starts, without_waves
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate

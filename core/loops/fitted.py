@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.loops.features import BaseLine, ContactPoint
+from gradhesion.core.loops.measured.features import BaseLine, ContactPoint
 
 _Array = NDArray[np.float64]
 

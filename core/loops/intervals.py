@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.loops.misfit import Misfit
+from gradhesion.core.loops.paths.misfit import Misfit
 
 _Array = NDArray[np.float64]
 

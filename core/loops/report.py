@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gradhesion.core.loops.model import Model
+from gradhesion.core.loops.paths.model import Model
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN
 from gradhesion.core.problem.status import JUMP_IN_TO_RIM
 from gradhesion.core.sweep import solve

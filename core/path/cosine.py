@@ -11,9 +11,9 @@ from gradhesion.core.compiler.jit import NONE, kernel
 from gradhesion.core.curve.branches import GAP, RUN, Trace, append_branches, room_for
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_folds import first_arch, last_arch
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.loading import load_up
 from gradhesion.core.path.ties import note_loading
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Table
 
 LONGEST_WALK: Final = 160.0

@@ -49,11 +49,11 @@ from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import energy_from_zero, jump_energy
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.face import size_at
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.cosine import MOST_ARCHES
 from gradhesion.core.path.loading import arrive, climb, load_up
 from gradhesion.core.path.ties import first_close_pair, note_loading, note_loading_from, scan_inwards, tolerance
 from gradhesion.core.path.unloading import descend, leave
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Floats, Table
 from gradhesion.core.waves.cosine import branch_of_wave, fold_of_wave, landing_of_wave

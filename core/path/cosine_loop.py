@@ -19,8 +19,8 @@ import numpy as np
 from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.branches import ARRIVAL, END, END_DEPTH, LANDING, NEXT, START, START_DEPTH, Trace
 from gradhesion.core.curve.cosine import Cosine, depth, load, slope
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.unloading import descend, leave_rim
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats, Table
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(14)

@@ -16,11 +16,11 @@ from gradhesion.core.curve.branches import END_DEPTH, LOADING_IS_CLOSE, WORK
 from gradhesion.core.curve.cosine import Cosine, slopes_at_once
 from gradhesion.core.curve.cosine_energy import energies_at_once, jump_energy
 from gradhesion.core.curve.cosine_folds import CLOSE
+from gradhesion.core.numbers.circle import TWO_PI
+from gradhesion.core.numbers.lanes import Lanes, any_above, chosen, eight, floor_of, lane_of
 from gradhesion.core.path.cosine_long import Long, entry, leave_lowest, sum_of_gap
 from gradhesion.core.path.ties import highest_before, is_within, unloading_is_close
 from gradhesion.core.problem.results import Cycle
-from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.lanes import Lanes, any_above, chosen, eight, floor_of, lane_of
 from gradhesion.core.types import Table
 from gradhesion.core.waves.cosine_at_once import folds_at_once
 

@@ -18,9 +18,9 @@ from gradhesion.core.curve.general import Basis, Series, slope, state
 from gradhesion.core.curve.general_branches import fill_branches
 from gradhesion.core.curve.general_folds import MOST_FOLDS, Zeros
 from gradhesion.core.face import find_all_folds
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.loading import load_up
 from gradhesion.core.path.ties import PAIR, note_loading
-from gradhesion.core.struve.circle import TWO_PI
 
 _ROOM: Final = 16
 """Floats that a jump has room for (core/face.py)."""

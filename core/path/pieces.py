@@ -1,7 +1,7 @@
 """Loading and unloading over pieces of a long curve (path/general_long.py), from a state to a state.
 
 Loading follows the running maximum of the coordinate outwards, unloading its running minimum inwards. A piece is an
-array of branches in the rows of curve/general_branches.py, with places x beyond some whole waves (struve/series.py);
+array of branches in the rows of curve/general_branches.py, with places x beyond some whole waves (harmonics/series.py);
 its last branch may end at the rim.
 
 Each jump may be noted, for results other than the energy: a row of kind, whole waves, start, end, and

@@ -32,7 +32,7 @@ from gradhesion.core.curve.branches import (
 )
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.face import AnyCurve, AnyTable, fold_at, most_size_at, size_at
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 
 PAIR: Final = 8.0 * CLOSE
 """Two folds at a distance w in z have an extremum of w^2/8 of its terms between them."""

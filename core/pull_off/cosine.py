@@ -18,9 +18,9 @@ import numpy as np
 from gradhesion.core.compiler.jit import YES, kernel
 from gradhesion.core.curve.cosine import Cosine, load, wave
 from gradhesion.core.curve.cosine_folds import fold_of_arch, survey_arch
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.pull_off.lowest_two import Lowest, lower
 from gradhesion.core.struve.arches import inner_edge
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.pair import pair_above
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Table

@@ -12,7 +12,7 @@ with a chi that falls as z grows. The search starts where this is lowest and goe
 skipping cells that cannot contain anything lower than the best trough found. The bound is too low by some parts in a
 hundred, which may be many waves: of those the lowest is found by bisection (waves/lowest.py). Beyond ~10^7 waves the
 lowest trough is next to where the bound of the leading term is lowest, or next to the rim, to all digits of its load,
-and places are whole waves and a part (struve/series.py).
+and places are whole waves and a part (harmonics/series.py).
 """
 
 import math
@@ -25,11 +25,11 @@ from gradhesion.core.curve.arches import is_one_cosine, one_cosine
 from gradhesion.core.curve.cells import MOST
 from gradhesion.core.curve.general import Basis, Series, coordinate, slope, state
 from gradhesion.core.curve.general_folds import MOST_CELLS, Search, cell_width, folds_of_cell
+from gradhesion.core.harmonics.cosine_bins import integral_at_zero
+from gradhesion.core.harmonics.series import highest_harmonic
+from gradhesion.core.numbers.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.pull_off import cosine as pull_off
 from gradhesion.core.pull_off.lowest_two import Lowest, lower
-from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
-from gradhesion.core.struve.cosine_bins import integral_at_zero
-from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.types import Floats, Harmonics, Table
 from gradhesion.core.waves.general import NEAREST, cut_of, falls_at_cut, room_for_waves
 from gradhesion.core.waves.lowest import lowest_of_waves

@@ -10,9 +10,9 @@ from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Patterned
 from gradhesion.core.curve.general_folds import Search
 from gradhesion.core.curve.patterned import MOST_CELLS
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.pull_off.general import chi_terms, load_at_rim, lowest_of_cells
 from gradhesion.core.pull_off.lowest_two import Lowest
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats
 
 

@@ -15,6 +15,7 @@ from gradhesion.core.curve.cells import MOST
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.curve.general import Basis, Series, coordinate, slope
 from gradhesion.core.curve.general_folds import Search, Zeros, cell_width, folds_of_cell
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.pull_off.general import (
     INWARDS,
     WORTH,
@@ -26,7 +27,6 @@ from gradhesion.core.pull_off.general import (
     lowest_load,
 )
 from gradhesion.core.pull_off.lowest_two import Lowest, lower
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats, Integers
 
 _MOST_CELLS: Final = 8192

@@ -17,8 +17,8 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, coordinate
 from gradhesion.core.curve.general_folds import Zeros
 from gradhesion.core.curve.short_wave import SMALLEST, ShortWave, Sizes, folds_between, sizes_of
-from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.series import highest_harmonic
+from gradhesion.core.harmonics.series import highest_harmonic
+from gradhesion.core.numbers.circle import TWO_PI
 
 _PHASELESS: Final = 1e12
 """z beyond which a double no longer resolves the phase well."""

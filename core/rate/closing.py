@@ -8,13 +8,13 @@ from typing import Final, NamedTuple
 
 from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.general import Basis, Series
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.rate.bracket import TRIALS, Bracket, is_found, narrowed, place_to_try
 from gradhesion.core.rate.law import Law
 from gradhesion.core.rate.place import coordinate_of, place_at
 from gradhesion.core.rate.radau import STAGES
 from gradhesion.core.rate.step import Room, Start, advance, note_nodes, place_in
 from gradhesion.core.rate.stride import energy_of, longest, stride
-from gradhesion.core.struve.circle import TWO_PI
 
 _INNERMOST: Final = 1e-12
 """Where the edge starts, over the shortest of wave, rim and the length of a smooth contact."""

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series, level_at
 from gradhesion.core.face import waves_at
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 
 

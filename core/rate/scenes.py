@@ -9,6 +9,8 @@ import numpy as np
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.general import Basis, Series, curve_at
+from gradhesion.core.harmonics.series import highest_harmonic
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.rate import MOST_WAVES
 from gradhesion.core.problem.status import NO_CONTACT, NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET, TOO_MANY_WAVES
@@ -18,8 +20,6 @@ from gradhesion.core.rate.opening import open_edge
 from gradhesion.core.rate.place import coordinate_of, load_of, place_at
 from gradhesion.core.rate.step import Room, room_for_steps
 from gradhesion.core.rate.stopping import stop_edge
-from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.types import Floats, Harmonics, Integers
 
 PROMISED: Final = 1e-9

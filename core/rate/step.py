@@ -15,10 +15,10 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.rate.law import Law, lag_of, slowness
 from gradhesion.core.rate.place import Place, place_at
 from gradhesion.core.rate.radau import INTEGRALS, NODES, STAGES
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats
 
 _MOST: Final = 16

@@ -14,6 +14,8 @@ from gradhesion.core.closed.power import power
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import Trace
 from gradhesion.core.curve.cosine import Cosine, curve_of, force_unit
+from gradhesion.core.numbers.circle import TWO_PI
+from gradhesion.core.numbers.intrinsics import fma
 from gradhesion.core.path.cosine import (
     LARGEST,
     SMALLEST,
@@ -49,8 +51,6 @@ from gradhesion.core.scene.cosine_rim import read_rim, slopes_of, walked_to
 from gradhesion.core.scene.scene import Scene, put_pull_off
 from gradhesion.core.sensitivities.cosine_slopes import put_rest, put_smooth, sensed_by
 from gradhesion.core.sensitivities.wanted import AnySense
-from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.types import Floats, Table
 
 

@@ -10,6 +10,7 @@ from gradhesion.core.contact.waves import note_run
 from gradhesion.core.curve.branches import GAP, NOWHERE, RUN, RUN_FIRST, RUN_LAST, RUN_LEAST, Trace
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.face import is_always_one_disc
+from gradhesion.core.numbers.lanes import LANES, Lanes, eight, lane_of, next_lane
 from gradhesion.core.path.cosine import is_long, is_unresolved
 from gradhesion.core.path.cosine_long import NEAR_RIM, Long, begin_long, ends_folds, is_reported, stride
 from gradhesion.core.path.cosine_rims import FURTHEST, cycle_among, is_close_among, stand_at_once
@@ -19,7 +20,6 @@ from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC
 from gradhesion.core.scene.cosine_rim import Walked, read_rim, slopes_of, walked_to
 from gradhesion.core.scene.scene import Scene, put_cycle
 from gradhesion.core.sensitivities.wanted import AnySense
-from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, next_lane
 from gradhesion.core.types import Floats, Table
 
 

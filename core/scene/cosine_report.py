@@ -23,6 +23,7 @@ from gradhesion.core.compiler.jit import NO, YES, constant, kernel
 from gradhesion.core.curve.branches import ARRIVAL, END, START, Trace
 from gradhesion.core.curve.cosine import Cosine, curve_of, depth, force_unit, slope, wave
 from gradhesion.core.curve.cosine_folds import fold_of_arch, survey_arch
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.cosine import MOST_ARCHES, extent, is_endless_wave, is_long, is_smooth, walk
 from gradhesion.core.path.cosine_long import begin_long, is_reported, stride
 from gradhesion.core.path.cosine_loop import loop_energy
@@ -32,7 +33,6 @@ from gradhesion.core.problem.curves import Curves
 from gradhesion.core.problem.results import ENERGY, FORCE, RADIUS, TURNED, Results, Slots, put
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET
 from gradhesion.core.scene.scene import Scene
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.current import ready
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Floats, Table

@@ -7,6 +7,7 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.contact.disc import disc_limits, is_one_disc
 from gradhesion.core.curve.branches import ARRIVAL, Trace
 from gradhesion.core.curve.cosine import Cosine, depth
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
 from gradhesion.core.path.ties import first_close_pair, is_close_to_a_jump
 from gradhesion.core.path.unloading import unloading_from
@@ -26,7 +27,6 @@ from gradhesion.core.scene.scene import Scene, put_cycle
 from gradhesion.core.sensitivities.cosine_slopes import Sensed, put_energy
 from gradhesion.core.sensitivities.path_slopes import Traced, fill_loading, with_slopes
 from gradhesion.core.sensitivities.wanted import AnySense, if_wanted
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats, Table
 
 

@@ -19,6 +19,9 @@ from gradhesion.core.curve.general import Basis, Series, coordinate, curve_at, s
 from gradhesion.core.curve.general_energy import energies_in
 from gradhesion.core.curve.general_folds import MOST_CELLS, Search, room
 from gradhesion.core.face import depth_at, window
+from gradhesion.core.harmonics.series import highest_harmonic
+from gradhesion.core.numbers.circle import TWO_PI
+from gradhesion.core.numbers.intrinsics import fma
 from gradhesion.core.path.general import depth_at_full_contact, walk
 from gradhesion.core.path.general_long import FEW, LONGEST_WALK, REGULAR, Middle, Tasks, middle_of, stride
 from gradhesion.core.path.loading import highest_depth, jumps_in_to, loading_to
@@ -45,9 +48,6 @@ from gradhesion.core.pull_off.rims import lowest_loads
 from gradhesion.core.scene.scene import Scene, put_cycle, put_pull_off, refuse
 from gradhesion.core.sensitivities.general_slopes import NOTES, put_energy, put_noted, put_rest, sensed_by, slopes_of
 from gradhesion.core.sensitivities.wanted import AnySense
-from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.intrinsics import fma
-from gradhesion.core.struve.series import highest_harmonic
 from gradhesion.core.types import Floats, Truths
 from gradhesion.core.waves.general_jump import LONG
 

@@ -27,6 +27,9 @@ from gradhesion.core.curve.cosine_energy import NODES, WEIGHTS
 from gradhesion.core.curve.general import Basis, Series, coordinate, curve_at, slope, state
 from gradhesion.core.curve.general_folds import MOST_CELLS, cell_width, folds_of_cell, room
 from gradhesion.core.face import measured_by, window
+from gradhesion.core.harmonics.series import integrals
+from gradhesion.core.numbers.circle import TWO_PI
+from gradhesion.core.numbers.intrinsics import fma
 from gradhesion.core.path.general import walk
 from gradhesion.core.path.general_long import (
     FEW,
@@ -44,10 +47,7 @@ from gradhesion.core.path.unloading import descend, leave_rim, unloading_from
 from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM, TOLERANCE_NOT_MET
 from gradhesion.core.pull_off.general import INWARDS
-from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.struve.series import integrals
 from gradhesion.core.types import Bits, Floats, Harmonics, Table, Truths
 from gradhesion.core.waves.general import cut_of
 

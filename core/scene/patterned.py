@@ -15,6 +15,8 @@ from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.general import Basis, Patterned, coordinate
 from gradhesion.core.curve.general_folds import Search, room
 from gradhesion.core.curve.patterned import are_too_many, patterned_curve, window
+from gradhesion.core.numbers.circle import TWO_PI
+from gradhesion.core.numbers.intrinsics import fma
 from gradhesion.core.path.general import walk
 from gradhesion.core.path.loading import highest_depth, loading_to
 from gradhesion.core.path.ties import is_close_to_a_jump
@@ -39,8 +41,6 @@ from gradhesion.core.scene.general import put_rim
 from gradhesion.core.scene.scene import Scene, put_pull_off, refuse
 from gradhesion.core.sensitivities.patterned_slopes import put_energy, put_forces
 from gradhesion.core.sensitivities.wanted import AnySense
-from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.intrinsics import fma
 from gradhesion.core.types import Floats, Harmonics, Table, Truths
 
 

@@ -13,6 +13,7 @@ from gradhesion.core.compiler.jit import NO, kernel
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.general import Basis, Patterned, Series
 from gradhesion.core.curve.patterned import MOST_CELLS, are_too_many, patterned_curve, window
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.general import walk
 from gradhesion.core.problem.curves import GeneralCurves, Patterns
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
@@ -29,7 +30,6 @@ from gradhesion.core.scene.general_report import (
     loop,
     spring_factor,
 )
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats, Harmonics, Table, Truths
 
 

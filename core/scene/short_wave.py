@@ -14,6 +14,7 @@ from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.general import Basis, coordinate, curve_of
 from gradhesion.core.curve.general_branches import fill_branches
 from gradhesion.core.curve.short_wave import SMALLEST, ShortWave, folds_within, waves_of
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.loading import highest_depth, load_up, loading_to
 from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.curves import Curves, is_in_range
@@ -23,7 +24,6 @@ from gradhesion.core.pull_off.general import deepest_wave
 from gradhesion.core.pull_off.short_wave import lowest_load
 from gradhesion.core.scene.cosine import refuse
 from gradhesion.core.scene.scene import Scene
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.current import ready
 from gradhesion.core.types import Floats, Harmonics
 

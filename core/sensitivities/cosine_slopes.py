@@ -34,13 +34,13 @@ from gradhesion.core.curve.branches import (
     Trace,
 )
 from gradhesion.core.curve.cosine import Cosine, curve_of, depth, load, slope, wave
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.problem.results import RADIUS, Results, energy_of
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SLOPES
 from gradhesion.core.sensitivities.neighbours import Near
 from gradhesion.core.sensitivities.path_slopes import Traced, energy_slopes, fill_loading, with_slopes
 from gradhesion.core.sensitivities.wanted import if_wanted
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Floats, Table
 

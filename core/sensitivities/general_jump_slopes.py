@@ -27,18 +27,18 @@ from gradhesion.core.curve.panels import (
     panel_outwards,
     panels_to_zero,
 )
+from gradhesion.core.harmonics.series import highest_harmonic
+from gradhesion.core.harmonics.series_by_k import sums_by_k
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, EXPONENT, GAIN, SHARE
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.struve.series import highest_harmonic
-from gradhesion.core.struve.series_by_k import sums_by_k
 from gradhesion.core.types import Slopes
 from gradhesion.core.waves.general import NOWHERE
 
 Parts: TypeAlias = tuple[float, float, float, float]
 """B, g and the machine's share times the slopes of the coordinate by them, at fixed alpha, and that by k."""
 Change: TypeAlias = tuple[Any, Any]
-"""The derivatives of the tables by k (struve/series_by_k.py): one record, and the flat array."""
+"""The derivatives of the tables by k (harmonics/series_by_k.py): one record, and the flat array."""
 _AREA: Final = TWO_PI * TWO_PI
 NOTHING: Final = (0.0, 0.0, 0.0, 0.0)
 

@@ -19,6 +19,7 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series, coordinate, slope, state
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.pieces import NOTED_DOWN, NOTED_IN, NOTED_JUMP, NOTED_OUT, NOTED_UP, Notes
 from gradhesion.core.problem.results import LOADING_PART, RADIUS, UNLOADING_PART, Results
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
@@ -40,7 +41,6 @@ from gradhesion.core.sensitivities.jump_slopes import BEND, EXPONENT, GAIN, SHAR
 from gradhesion.core.sensitivities.jump_slopes import DEPTH as BY_LEVEL
 from gradhesion.core.sensitivities.path_slopes import Traced, energy_slopes, fill_loading, with_slopes
 from gradhesion.core.sensitivities.wanted import if_wanted
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats, Slopes
 from gradhesion.core.waves.general import DOWN, NOWHERE, UP, Waves, room_for_waves
 from gradhesion.core.waves.general_sum import add_waves
@@ -53,7 +53,7 @@ NOTES: Final = 4096
 class Sense(NamedTuple):
     """What the sensitivities of all curves of one exponent need."""
 
-    change: Change  # the change of the tables by k (struve/series_by_k.py): one record, of shape (1,), and the flat
+    change: Change  # the change of the tables by k (harmonics/series_by_k.py): one record, of shape (1,), and the flat
     # array
     front_by_k: float  # the slope by k of ln of the factor of the punch (`depth_factor` of `curve_of`)
     k: float  # the exponent of the gradient

@@ -29,8 +29,8 @@ from gradhesion.core.curve.cosine_energy import (
     energy_from_zero,
     jump_energy,
 )
+from gradhesion.core.numbers.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.sensitivities.neighbours import Near
-from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.layout import SWITCH, TAIL_TERMS
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.power import amplitude_power

@@ -44,11 +44,11 @@ from gradhesion.core.face import (
     start_of_wave,
     steepness_at,
 )
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.unloading import descend, leave_rim, next_lower
 from gradhesion.core.problem.results import LOADING_PART, UNLOADING_PART
 from gradhesion.core.sensitivities.jump_slopes import DEPTH, SLOPES
 from gradhesion.core.sensitivities.wave_slopes import ROOM
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Floats, Slopes, Work
 
 LOADED, UNLOADED, KNOWN = 0, SLOPES, 2 * SLOPES

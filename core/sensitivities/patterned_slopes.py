@@ -30,6 +30,9 @@ from gradhesion.core.curve.panels import (
 )
 from gradhesion.core.curve.patterned import toughness_at
 from gradhesion.core.face import shortest_wave
+from gradhesion.core.harmonics.series import sums
+from gradhesion.core.harmonics.series_by_k import sums_by_k
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.unloading import descend, leave_rim
 from gradhesion.core.problem.results import LOADING_PART, RADIUS, UNLOADING_PART, Results
 from gradhesion.core.problem.status import NO_VALUE, PULL_OFF_AT_RIM
@@ -46,10 +49,7 @@ from gradhesion.core.sensitivities.cosine_slopes import (
 )
 from gradhesion.core.sensitivities.cosine_slopes import COUNT as OF_PROFILES
 from gradhesion.core.sensitivities.wanted import if_wanted
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.struve.series import sums
-from gradhesion.core.struve.series_by_k import sums_by_k
 from gradhesion.core.types import Floats
 
 BY_PATTERN_LENGTH, BY_PATTERN = constant(OF_PROFILES), constant(OF_PROFILES + 1)
@@ -68,7 +68,7 @@ Walked: TypeAlias = tuple[int, Trace]
 class Sense(NamedTuple):
     """What the sensitivities of all curves of one exponent need."""
 
-    change: Any  # the change of the tables by k (struve/series_by_k.py)
+    change: Any  # the change of the tables by k (harmonics/series_by_k.py)
     front_by_k: float  # the slope by k of ln of the factor of the punch
     found: Floats  # where the sensitivities go, of shape (3, COUNT, curves, rims)
     force: bool  # whether those of the pull-off force are wanted

@@ -10,9 +10,9 @@ from typing import Final
 from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import LONG, NODES, SHORT_NODES, SHORT_WEIGHTS, WEIGHTS, panel_above
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, EXPONENT, GAIN, SLOPES, panel_slopes_above
 from gradhesion.core.sensitivities.neighbours import Near
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Slopes, Table, Work
 from gradhesion.core.waves.cosine import ends_of_jump, slope_at
 from gradhesion.core.waves.cosine_sum import (

@@ -18,7 +18,7 @@ z = phi + i pi, its inner edge near phi + (i - 1/2) pi. Even arches are concave,
 import math
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.struve.filling import ask_for_arches
 from gradhesion.core.struve.layout import ARCHES, ARCHES_AT_ONCE
 from gradhesion.core.struve.pair import pair

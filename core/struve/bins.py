@@ -16,7 +16,7 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.struve import double_double as dd
+from gradhesion.core.numbers import double_double as dd
 from gradhesion.core.struve.layout import BIN_TERMS, BIN_WIDTH
 from gradhesion.core.types import Floats
 

@@ -8,8 +8,8 @@ import math
 from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.numbers.intrinsics import bits_of, numbers_at
 from gradhesion.core.struve.filling import fill_theta, refill
-from gradhesion.core.struve.intrinsics import bits_of, numbers_at
 from gradhesion.core.struve.table import fill_constants
 from gradhesion.core.types import Table, Tables
 

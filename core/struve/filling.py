@@ -12,7 +12,9 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from gradhesion.core.struve.blocks import (
+from gradhesion.core.numbers.lanes import LANES, spread
+from gradhesion.core.struve.layout import (
+    EXPONENT_SPAN,
     OF_ARCHES,
     OF_BINS,
     OF_CYCLES,
@@ -20,10 +22,9 @@ from gradhesion.core.struve.blocks import (
     OF_FORCES,
     OF_MANTISSAS,
     OF_MOMENTS,
+    TABLE,
     Blocks,
 )
-from gradhesion.core.struve.lanes import LANES, spread
-from gradhesion.core.struve.layout import EXPONENT_SPAN, TABLE
 
 _STEP: Final = 32
 """Powers of 2^e are products of one for e/32 and one for the rest."""

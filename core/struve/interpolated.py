@@ -16,12 +16,11 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.struve.blocks import ALL
-from gradhesion.core.struve.chebyshev import chebyshev_fit
+from gradhesion.core.numbers.chebyshev import chebyshev_fit
+from gradhesion.core.numbers.intrinsics import bits_of
 from gradhesion.core.struve.current import RECIPE, prepare
 from gradhesion.core.struve.filling import ask_for_arches, ask_for_bin, ask_for_moments
-from gradhesion.core.struve.intrinsics import bits_of
-from gradhesion.core.struve.layout import TABLE
+from gradhesion.core.struve.layout import ALL, TABLE
 from gradhesion.core.struve.table import build_table
 from gradhesion.core.types import Floats, Tables
 

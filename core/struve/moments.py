@@ -27,10 +27,10 @@ from typing import Final
 import numpy as np
 
 from gradhesion.core.compiler.jit import kernel
+from gradhesion.core.numbers.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
+from gradhesion.core.numbers.intrinsics import fma, make_horner
 from gradhesion.core.struve.bins import economisation
-from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
 from gradhesion.core.struve.filling import ask_for_moments
-from gradhesion.core.struve.intrinsics import fma, make_horner
 from gradhesion.core.struve.layout import (
     BIN_TERMS,
     BIN_WIDTH,

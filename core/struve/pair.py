@@ -6,10 +6,10 @@ S0' is kept as a function of its own: by the first identity it would lose eps z^
 """
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.struve.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
+from gradhesion.core.numbers.circle import TWO_PI, TWO_PI_LOW, sine_cosine_of_turns
+from gradhesion.core.numbers.intrinsics import fma, make_horner
+from gradhesion.core.numbers.lanes import LANES, Lanes, lane_of, with_lane
 from gradhesion.core.struve.filling import ask_for_bin
-from gradhesion.core.struve.intrinsics import fma, make_horner
-from gradhesion.core.struve.lanes import LANES, Lanes, lane_of, with_lane
 from gradhesion.core.struve.layout import BIN_TERMS, SWITCH, TAIL_TERMS
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Table

@@ -8,8 +8,8 @@ import math
 from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.struve.intrinsics import ROUND, bits_of, float_of, fma, parts_of, scaled
-from gradhesion.core.struve.lanes import Lanes
+from gradhesion.core.numbers.intrinsics import ROUND, bits_of, float_of, fma, parts_of, scaled
+from gradhesion.core.numbers.lanes import Lanes
 from gradhesion.core.struve.layout import EXPONENT_SPAN, MANTISSA_BITS, POWER_TERMS
 from gradhesion.core.types import Floats, Table
 

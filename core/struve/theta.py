@@ -12,7 +12,7 @@ import math
 from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.struve.chebyshev import chebyshev_fit
+from gradhesion.core.numbers.chebyshev import chebyshev_fit
 from gradhesion.core.struve.layout import THETA_TERMS
 from gradhesion.core.types import Floats, Table
 

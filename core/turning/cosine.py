@@ -17,6 +17,8 @@ from gradhesion.core.curve.branches import END, END_DEPTH, GAP, RUN, START, STAR
 from gradhesion.core.curve.cosine import Cosine, curve_of, depth, force_unit
 from gradhesion.core.curve.cosine_folds import CLOSE
 from gradhesion.core.face import is_always_one_disc
+from gradhesion.core.numbers.circle import TWO_PI
+from gradhesion.core.numbers.lanes import LANES, Lanes, eight, lane_of, next_lane
 from gradhesion.core.path.cosine import (
     LARGEST,
     MOST_ARCHES,
@@ -31,9 +33,7 @@ from gradhesion.core.path.cosine_long import Long, begin_long, ends_folds, open_
 from gradhesion.core.path.ties import is_within, rim_is_close
 from gradhesion.core.problem.curves import Curves, is_in_range
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC, NO_VALUE
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.current import ready
-from gradhesion.core.struve.lanes import LANES, Lanes, eight, lane_of, next_lane
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.turning.cosine_at_once import turns_at_once
 from gradhesion.core.turning.cosine_reach import reach, reach_outwards

@@ -10,8 +10,8 @@ from typing import Final
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.at_once import find_depths
 from gradhesion.core.curve.cosine import Cosine, slopes_at_once
-from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.lanes import Lanes, any_above, chosen, eight, floor_of, root_of, size_of
+from gradhesion.core.numbers.circle import TWO_PI
+from gradhesion.core.numbers.lanes import Lanes, any_above, chosen, eight, floor_of, root_of, size_of
 from gradhesion.core.struve.power import amplitude_powers
 from gradhesion.core.types import Table
 from gradhesion.core.waves.cosine_at_once import folds_at_once

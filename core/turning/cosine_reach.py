@@ -11,8 +11,8 @@ from typing import Final
 
 from gradhesion.core.compiler.jit import YES, kernel
 from gradhesion.core.curve.cosine import Cosine
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.cosine import LARGEST
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.types import Table
 
 _WIDE: Final = 1.06

@@ -5,7 +5,7 @@ from typing import Final
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.general import Basis, Series
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 
 WAVES: Final = 1.06
 """The most by which the waves of depth and load exceed their leading terms, far out."""

@@ -16,7 +16,7 @@ import numpy as np
 from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import LONG, panel_above
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.struve.pair import pair_above
 from gradhesion.core.struve.power import amplitude_power
 from gradhesion.core.types import Table, Work
@@ -42,7 +42,7 @@ _RATIO_TERMS: Final = 9
 def slope_of(
     table: Table, curve: Cosine, x: float, z: float, power: float
 ) -> tuple[float, float, float, float, float, float]:
-    """Return what `slope_at` does from z and z^(-n), numbers or eight of them (struve/lanes.py)."""
+    """Return what `slope_at` does from z and z^(-n), numbers or eight of them (numbers/lanes.py)."""
     b, g, _ = curve
     k = table.k
     n = 0.5 * (1.0 + k)

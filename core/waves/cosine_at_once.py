@@ -1,6 +1,6 @@
 """Jumps of eight waves far from zero contact, computed at once: each is that of waves/cosine.py.
 
-No search waits for another to end, and one instruction does all eight (struve/lanes.py). Guesses are so good out here
+No search waits for another to end, and one instruction does all eight (numbers/lanes.py). Guesses are so good out here
 that a fold takes one step or two of Halley's method, and a landing two or three; a wave that needs more, or whose jump
 has no place to land, has NaN here. Powers are (1 + e)^(-c) from one place near the middle of each jump.
 
@@ -19,8 +19,8 @@ from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import unit_rule
 from gradhesion.core.curve.cosine_folds import half_wave
 from gradhesion.core.curve.cosine_jump import beyond_from, inverse_stretch
-from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
-from gradhesion.core.struve.lanes import LANES, Lanes, any_above, chosen, eight, load, rounded, size_of, store
+from gradhesion.core.numbers.circle import TWO_PI, sine_cosine_of_turns
+from gradhesion.core.numbers.lanes import LANES, Lanes, any_above, chosen, eight, load, rounded, size_of, store
 from gradhesion.core.struve.layout import SWITCH
 from gradhesion.core.struve.pair import horner8
 from gradhesion.core.struve.power import amplitude_powers

@@ -21,8 +21,8 @@ import numpy as np
 
 from gradhesion.core.compiler.jit import NONE, constant, kernel
 from gradhesion.core.curve.cosine import Cosine
-from gradhesion.core.struve.chebyshev import chebyshev_fit
-from gradhesion.core.struve.lanes import chosen, lane_of, load, root_of
+from gradhesion.core.numbers.chebyshev import chebyshev_fit
+from gradhesion.core.numbers.lanes import chosen, lane_of, load, root_of
 from gradhesion.core.types import Floats, Table
 from gradhesion.core.waves.cosine_at_once import BATCH, LOSSES, WAVES, Batch, jumps_in_a_row, jumps_of_batch
 from gradhesion.core.waves.cosine_sum import branch_points, sum_of_waves
@@ -127,7 +127,7 @@ def begin_sums(table: Table, curve: Cosine, sums: Sums, first: float, outwards: 
 
 @kernel(contract=True)
 def _variable(sums: Sums, panel: Panel, wave: float) -> float:
-    """Return y or v, of a wave or of eight (struve/lanes.py); `panel` is one row of the panels of `sums`."""
+    """Return y or v, of a wave or of eight (numbers/lanes.py); `panel` is one row of the panels of `sums`."""
     if panel[IN_Y] > 0.0:
         rest = 1.0 - root_of(root_of(wave / sums.outer))
         return root_of(chosen(rest, 0.0, 0.0, rest))

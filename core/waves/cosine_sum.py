@@ -24,7 +24,7 @@ from typing import Final
 from gradhesion.core.compiler.jit import NO, YES, kernel
 from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.curve.cosine_energy import NODES, WEIGHTS
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.types import Floats, Table
 from gradhesion.core.waves.cosine_at_once import BATCH, LOSSES, WAVES, Batch, jumps_in_a_row, jumps_of_batch
 

@@ -1,7 +1,7 @@
 """The contribution of one wave far from zero contact to a cycle: a smooth function of its number.
 
-A place is whole waves and a part, and phases come from the part alone (struve/series.py): the number of a wave may be
-any real one. Waves are cut where the leading term of V,
+A place is whole waves and a part, and phases come from the part alone (harmonics/series.py): the number of a wave may
+be any real one. Waves are cut where the leading term of V,
 
     z^c F(u),    F = C sum n^(1+c) [cos_n cos(2 pi n u - phi) - sin_n sin(2 pi n u - phi)],
 
@@ -24,9 +24,9 @@ from gradhesion.core.curve.general import Basis, Series, coordinate, size, slope
 from gradhesion.core.curve.general_branches import END_LEVEL, START_LEVEL, Rows
 from gradhesion.core.curve.general_energy import Left, drop, find_landing, place_left
 from gradhesion.core.curve.general_folds import folds_of_cell, refine, room
-from gradhesion.core.struve.circle import TWO_PI, sine_cosine_of_turns
+from gradhesion.core.harmonics.series import highest_harmonic, sums
+from gradhesion.core.numbers.circle import TWO_PI, sine_cosine_of_turns
 from gradhesion.core.struve.power import amplitude_power
-from gradhesion.core.struve.series import highest_harmonic, sums
 from gradhesion.core.types import Floats, Harmonics, Table
 
 

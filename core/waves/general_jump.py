@@ -7,7 +7,7 @@ import numpy as np
 from gradhesion.core.compiler.jit import YES, kernel
 from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.curve.general_energy import Left, drop, energy_from_zero, jump_energy, place_left
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.struve.layout import SWITCH
 from gradhesion.core.waves.general import PASSING, Waves, room_for_waves
 from gradhesion.core.waves.general_sum import sum_of_waves
@@ -38,7 +38,7 @@ def _pass(basis: Basis, curve: Series, left: Left, low: float, high: float, whol
 def near_zero(start: float, end: float, whole: float) -> tuple[float, float, float]:
     """Return two places beyond whole waves, as places alone if one is so near zero contact that it has no whole waves.
 
-    A place at z < 40 is given by x alone (struve/series.py).
+    A place at z < 40 is given by x alone (harmonics/series.py).
     """
     if whole > 0.0 and TWO_PI * (whole + min(start, end)) < SWITCH and abs(end - start) <= LONG:
         return whole + start, whole + end, 0.0

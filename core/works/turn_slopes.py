@@ -15,6 +15,7 @@ from gradhesion.core.arrays.tables import changes_of, tables_of
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.general import Basis, Series, coordinate, curve_at, slope
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.problem.curves import GeneralCurves
 from gradhesion.core.sensitivities.cosine_slopes import (
     BY_AMPLITUDE,
@@ -28,7 +29,6 @@ from gradhesion.core.sensitivities.cosine_slopes import (
 from gradhesion.core.sensitivities.general_jump_slopes import parts_of
 from gradhesion.core.sensitivities.general_slopes import Sense, Sensed, sensed_by
 from gradhesion.core.sensitivities.neighbours import depth_factor_by_k
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.sweep import How
 from gradhesion.core.types import Floats
 

@@ -9,8 +9,8 @@ import pytest
 from gradhesion.cli.dataset.fits.cautions import tilt_warnings
 from gradhesion.cli.dataset.read.model_range import tabor_warnings
 from gradhesion.cli.work.solve.fitting import doubts_of
-from gradhesion.core.loops.features import BaseLine
 from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum
+from gradhesion.core.loops.measured.features import BaseLine
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 
 NAMES = ("E_star", "work_of_adhesion", "load_offset")

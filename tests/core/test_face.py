@@ -21,12 +21,12 @@ from gradhesion.core.curve.cosine_folds import last_arch
 from gradhesion.core.curve.general import Basis, Patterned, Series
 from gradhesion.core.curve.patterned import pattern_of
 from gradhesion.core.curve.short_wave import ShortWave
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path import cosine as cosine_path
 from gradhesion.core.path import general as general_path
 from gradhesion.core.scene.short_wave import walk as walk_short
 from gradhesion.core.sensitivities.jump_slopes import BEND, DEPTH, GAIN, SLOPES
 from gradhesion.core.sensitivities.wave_slopes import ROOM
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.struve.fractional import NODES
 from gradhesion.core.waves.cosine import branch_of_wave
 

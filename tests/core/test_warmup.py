@@ -24,8 +24,8 @@ from gradhesion.core import (
 )
 from gradhesion.core.arrays.rate import close_at_speed, open_at_speed
 from gradhesion.core.curves import GENERAL_CURVES
-from gradhesion.core.loops.misfit import Data, Misfit
-from gradhesion.core.loops.path import LoopModel
+from gradhesion.core.loops.paths.misfit import Data, Misfit
+from gradhesion.core.loops.paths.path import LoopModel
 from gradhesion.core.problem.names import PATTERN_CURVES
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic

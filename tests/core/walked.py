@@ -20,6 +20,7 @@ from gradhesion.core.curve.general import Basis, curve_of
 from gradhesion.core.curve.general_branches import fill_branches
 from gradhesion.core.curve.general_folds import MOST_FOLDS, find_folds, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.cosine import extent, is_long, is_unresolved, walk
 from gradhesion.core.path.general_long import LONGEST_WALK, REGULAR, folds_before, middle_of
 from gradhesion.core.path.loading import loading_to
@@ -29,7 +30,6 @@ from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.shape import depth_factor_of, in_own_wavelength
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.waves.general import branches_of_wave, room_for_waves
 
 Walked = tuple[float, float, float]

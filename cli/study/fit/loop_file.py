@@ -12,9 +12,9 @@ from gradhesion.cli.study.fit.loop_columns import PAUSE, LoopFileError, Raw, rea
 from gradhesion.cli.study.fit.rules import control_of
 from gradhesion.cli.study.fit.sense_words import refuse_order, refuse_sense
 from gradhesion.cli.terminal.amounts import counted
-from gradhesion.core.loops import points as loop_points
-from gradhesion.core.loops.averaging import MOST, averaged
-from gradhesion.core.loops.noise import noise_of
+from gradhesion.core.loops.measured import points as loop_points
+from gradhesion.core.loops.measured.averaging import MOST, averaged
+from gradhesion.core.loops.measured.noise import noise_of
 
 if TYPE_CHECKING:
     from gradhesion.cli.study.fit.data_form import DataTable

@@ -5,7 +5,7 @@ from typing import Any, Final
 
 from gradhesion.cli.study.text.quantities import si_value
 from gradhesion.cli.terminal.wording import did_you_mean, example, shown
-from gradhesion.core.loops.offsets import NO_OFFSETS, Offsets
+from gradhesion.core.loops.paths.offsets import NO_OFFSETS, Offsets
 
 _KEYS: Final = ("indentation", "load", "slope")
 _ZEROS: Final[Mapping[str, tuple[str, tuple[str, ...], str]]] = {

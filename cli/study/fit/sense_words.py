@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.study.fit.loop_columns import LoopFileError
-from gradhesion.core.loops.points import ways
-from gradhesion.core.loops.sense import has_order, sense_of
+from gradhesion.core.loops.measured.points import ways
+from gradhesion.core.loops.measured.sense import has_order, sense_of
 
 if TYPE_CHECKING:
     from gradhesion.cli.study.fit.data_form import DataTable

@@ -14,13 +14,13 @@ from gradhesion.core.curve.cosine import force_unit
 from gradhesion.core.curve.general import Basis, curve_of, state
 from gradhesion.core.curve.general_folds import MOST_FOLDS, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.general import walk
 from gradhesion.core.path.general_long import REGULAR, middle_of
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.names import RESULTS
 from gradhesion.core.problem.shape import depth_factor_of, rows_of
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, JUMP_IN_TO_RIM, LOADING_NOT_ONE_DISC, NO_VALUE
-from gradhesion.core.struve.circle import TWO_PI
 from gradhesion.core.turning.corners import Place, corners_of, first_reached, last_corner
 from gradhesion.core.turning.general_far import turn_far
 

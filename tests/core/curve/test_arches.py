@@ -11,7 +11,7 @@ from gradhesion.core.curve.arches import folds_by_arches, is_one_cosine
 from gradhesion.core.curve.general import Basis, Series, slope
 from gradhesion.core.curve.general_folds import find_folds, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 
 pytestmark = pytest.mark.slow
 

@@ -12,7 +12,7 @@ from gradhesion.core.curve.at_once import find_depths, find_zeros, guess_zeros
 from gradhesion.core.curve.branches import find_depth
 from gradhesion.core.curve.cosine import Cosine, slope
 from gradhesion.core.curve.cosine_folds import fold_of_arch, last_arch, survey_arch
-from gradhesion.core.struve.lanes import LANES, load, store
+from gradhesion.core.numbers.lanes import LANES, load, store
 
 EXPONENTS = [0.0, 0.29, 0.64, 0.97]
 FAR = 14

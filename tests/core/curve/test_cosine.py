@@ -8,7 +8,7 @@ import mpmath
 import pytest
 
 from gradhesion.core.curve.cosine import Cosine, depth, load, slope, slopes, wave
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 
 EPS = 2.0**-52
 Pair = Callable[..., tuple[mpmath.mpf, mpmath.mpf]]

@@ -10,7 +10,7 @@ import pytest
 from gradhesion.core.curve.cosine import Cosine, depth
 from gradhesion.core.curve.cosine_energy import energy_by_panels, energy_from_zero
 from gradhesion.core.curve.cosine_jump import energy_between
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 
 EPS = 2.0**-52
 EXPONENTS = [0.0, 0.41, 1.0]

@@ -10,8 +10,8 @@ import pytest
 from gradhesion.core import Harmonic, Profile
 from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.general import Basis, coordinate, curve_of, slope, state
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.problem.shape import depth_factor_of, rows_of
-from gradhesion.core.struve.circle import TWO_PI
 
 pytestmark = pytest.mark.slow
 

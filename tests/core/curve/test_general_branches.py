@@ -11,8 +11,8 @@ from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.general import Basis, coordinate, curve_of
 from gradhesion.core.curve.general_branches import find_level
 from gradhesion.core.curve.window import last_fold_bound
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.problem.shape import depth_factor_of, rows_of
-from gradhesion.core.struve.circle import TWO_PI
 
 EPS = 2.0**-52
 

@@ -12,7 +12,7 @@ from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.curve.general_energy import energies_in, energy_from_zero
 from gradhesion.core.curve.patterned import toughness_at
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 from tests.core.curve.test_patterned import CASES, K
 from tests.core.curve.test_patterned import curve_of as patterned_curve
 

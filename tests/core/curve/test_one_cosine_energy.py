@@ -9,7 +9,7 @@ from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.general import Basis, Series, coordinate
 from gradhesion.core.curve.general_energy import energy_from_zero, jump_energy
 from gradhesion.core.curve.one_cosine_energy import jump_of_one_cosine, jump_of_one_cosine_from_zero
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 
 EPS = 2.0**-52
 EXPONENTS = [0.0, 0.41, 1.0]

@@ -19,7 +19,7 @@ from gradhesion.core.curve.patterned import (
     toughness_at,
     window,
 )
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.types import Harmonics
 
 K = 0.37

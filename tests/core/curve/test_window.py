@@ -11,10 +11,10 @@ from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve import window
 from gradhesion.core.curve.general import Basis, curve_of, slope
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
+from gradhesion.core.harmonics.cosine_bins import integral_at_zero
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.problem.shape import depth_factor_of, rows_of
 from gradhesion.core.pull_off import general as pull_off
-from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.cosine_bins import integral_at_zero
 
 pytestmark = pytest.mark.slow
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core import draw_curves
-from gradhesion.core.loops.model import LINEAR
-from gradhesion.core.loops.path import LoopModel
+from gradhesion.core.loops.paths.model import LINEAR
+from gradhesion.core.loops.paths.path import LoopModel
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Harmonic, Profile
 from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic

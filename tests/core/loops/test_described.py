@@ -8,7 +8,7 @@ import pytest
 
 from gradhesion.core.loops.described import covariance_of, described
 from gradhesion.core.loops.fitted import CannotTellApartError
-from gradhesion.core.loops.misfit import Data, Misfit
+from gradhesion.core.loops.paths.misfit import Data, Misfit
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 from tests.core.loops.models import CASES, UNIT, Array, R, vector
 

@@ -8,7 +8,7 @@ import pytest
 
 from gradhesion.core.loops.fit import fit_loop
 from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop, poor_from
-from gradhesion.core.loops.offsets import NO_OFFSETS, Offsets
+from gradhesion.core.loops.paths.offsets import NO_OFFSETS, Offsets
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
 from tests.core.loops.models import CASES, Array, R
 

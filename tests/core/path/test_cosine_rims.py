@@ -11,12 +11,12 @@ from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import ROWS
 from gradhesion.core.curve.cosine import Cosine, depth, slope
 from gradhesion.core.curve.cosine_folds import CLOSE
+from gradhesion.core.numbers.lanes import LANES, lane_of, load
 from gradhesion.core.path import cosine as cycle
 from gradhesion.core.path.cosine_long import begin_long, ends_folds, stride
 from gradhesion.core.path.cosine_rims import cycle_among, is_close_among, stand_at_once
 from gradhesion.core.path.loading import highest_depth, loading_to
 from gradhesion.core.path.unloading import unloading_from
-from gradhesion.core.struve.lanes import LANES, lane_of, load
 
 EPS = 2.0**-52
 SIZE = ROWS, 192

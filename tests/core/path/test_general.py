@@ -16,9 +16,9 @@ from gradhesion.core.curve.general import Basis, coordinate, curve_of, slope
 from gradhesion.core.curve.general_folds import find_folds, room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
 from gradhesion.core.equations import general
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.problem.material import stiffness
 from gradhesion.core.problem.shape import depth_factor_of, rows_of
-from gradhesion.core.struve.circle import TWO_PI
 
 pytestmark = pytest.mark.slow
 

@@ -7,9 +7,8 @@ import pytest
 from numpy.typing import NDArray
 
 from gradhesion.core.struve.arches import inner_edge, summit
-from gradhesion.core.struve.blocks import OF_ARCHES, OF_BINS, OF_MOMENTS
 from gradhesion.core.struve.interpolated import interpolated_tables
-from gradhesion.core.struve.layout import ARCHES, ARCHES_AT_ONCE
+from gradhesion.core.struve.layout import ARCHES, ARCHES_AT_ONCE, OF_ARCHES, OF_BINS, OF_MOMENTS
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.table import build_table

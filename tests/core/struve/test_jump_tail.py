@@ -7,7 +7,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 
 EPS = 2.0**-52
 EXPONENTS = [0.0, 0.41, 1 - 1e-9, 1.0]

@@ -8,7 +8,7 @@ import numba
 import numpy as np
 import pytest
 
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.struve.layout import SWITCH
 from gradhesion.core.struve.pair import pair_above, pair_below
 from gradhesion.core.struve.power import amplitude_power

@@ -9,7 +9,7 @@ import numba
 import numpy as np
 import pytest
 
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.struve.moments import moments
 from gradhesion.core.struve.pair import pair
 from gradhesion.core.struve.power import amplitude_power

@@ -10,8 +10,8 @@ import pytest
 from numpy.typing import NDArray
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.lanes import LANES, load, store
+from gradhesion.core.numbers.circle import TWO_PI
+from gradhesion.core.numbers.lanes import LANES, load, store
 from gradhesion.core.struve.pair import first_functions
 from gradhesion.core.struve.power import amplitude_powers
 from gradhesion.core.struve.table import struve_pair

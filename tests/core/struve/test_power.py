@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from gradhesion.core.compiler.jit import kernel
-from gradhesion.core.struve.lanes import LANES, load, store
+from gradhesion.core.numbers.lanes import LANES, load, store
 from gradhesion.core.struve.power import amplitude_power, amplitude_powers
 
 EPS = 2.0**-52

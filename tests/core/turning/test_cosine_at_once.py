@@ -10,8 +10,8 @@ import pytest
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.curve.branches import END, END_DEPTH, ROWS, START, START_DEPTH
 from gradhesion.core.curve.cosine import Cosine, depth
+from gradhesion.core.numbers.lanes import LANES, load, store
 from gradhesion.core.path import cosine as cycle
-from gradhesion.core.struve.lanes import LANES, load, store
 from gradhesion.core.turning.cosine_at_once import turns_at_once
 
 EPS = 2.0**-52

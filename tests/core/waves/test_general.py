@@ -16,6 +16,8 @@ from gradhesion.core.curve.general import Basis, coordinate, curve_of, state
 from gradhesion.core.curve.general_energy import drop, energy_from_zero, jump_energy, place_left
 from gradhesion.core.curve.general_folds import room
 from gradhesion.core.curve.window import first_fold_bound, last_fold_bound
+from gradhesion.core.harmonics.series import sums
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.general import walk
 from gradhesion.core.path.general_long import REGULAR, Tasks, middle_of, stride
 from gradhesion.core.path.loading import highest_depth, loading_to
@@ -25,8 +27,6 @@ from gradhesion.core.problem.names import RESULTS
 from gradhesion.core.problem.shape import depth_factor_of, rows_of
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, NO_VALUE
 from gradhesion.core.pull_off.general import deepest_wave, lowest_load
-from gradhesion.core.struve.circle import TWO_PI
-from gradhesion.core.struve.series import sums
 from gradhesion.core.waves.general import Waves, branches_of_wave, cut_of, room_for_waves, step_of_wave
 from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
 

@@ -9,7 +9,7 @@ from gradhesion.core.arrays.tables import tables_of
 from gradhesion.core.curve.general import Basis, Series
 from gradhesion.core.curve.general_energy import jump_energy
 from gradhesion.core.curve.one_cosine_energy import jump_of_one_cosine_from_zero
-from gradhesion.core.struve.circle import TWO_PI
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.waves.general_jump import jump_between, jump_from_zero
 
 pytestmark = pytest.mark.slow

@@ -16,8 +16,8 @@ from gradhesion.cli.study.fit.study import FitStudy
 from gradhesion.cli.words.fit_words import fit_described
 from gradhesion.cli.words.loops_words import loops_described
 from gradhesion.cli.work.solve.fitting import Fit
-from gradhesion.core.loops.features import ContactPoint
 from gradhesion.core.loops.fitted import FittedLoop, OtherMinimum
+from gradhesion.core.loops.measured.features import ContactPoint
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, NO_VALUE, POOR_FIT
 
 CONFIGS = Path(__file__).parents[4] / "configs"

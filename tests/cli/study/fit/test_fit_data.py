@@ -9,7 +9,7 @@ import pytest
 from click.testing import Result
 
 import gradhesion as gr
-from gradhesion.core.loops.averaging import MOST
+from gradhesion.core.loops.measured.averaging import MOST
 from tests.cli.ball import BALL, COLUMNS, WORK
 
 Call = Callable[..., Result]

@@ -1,0 +1,178 @@
+"""Means of many raw points along a loop: short blocks of neighbours, none of which bends or jumps."""
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.core.loops.measured.neighbours import along, of_differences
+
+_Array = NDArray[np.float64]
+_Ints = NDArray[np.intp]
+
+MOST: Final = 2000
+"""Points that are fitted as they are; more are averaged to about as many means."""
+_SIGMAS: Final = 5.0
+"""Factor by which the sum of squares about a straight line, or one step, may exceed that of noise."""
+_NEIGHBOURS: Final = 15
+"""Blocks whose bends are tested together: together they show less than any one of them does."""
+_CLIPPED: Final = 9.0
+"""The most that the bend of one block adds to those of its neighbours, so that a jump does not affect them."""
+_TOGETHER: Final = 1.0 + 4.0 * float(np.sqrt(2.0 / _NEIGHBOURS))
+"""Mean square of their bends over that of noise, above which they are halved."""
+_CORRELATED: Final = 1.3
+"""Variance about a parabola over that of neighbours, above which noise is not white."""
+_ORDER: Final = 6
+"""Order of the differences of means that detect noise which is not white: bends of the curve are of lower order."""
+_SLOWER: Final = 1.2
+"""How much larger noise is then than that of neighbouring points, at least."""
+_LEAST: Final = 5
+"""Points of a block in the test of whether noise is white."""
+_ROUNDING: Final = 1e-10
+"""Sum of squares, over that of the length of a block, below which it is rounding, even in a row free of noise."""
+_OF_SQUARE: Final = 0.4549364231195727
+"""The median of the square of a normal variable of unit variance."""
+
+
+@dataclass(frozen=True, eq=False)
+class Averaged:
+    """Means of neighbouring points, in the order of cycles and branches; arrays of shape (m,)."""
+
+    depth: _Array
+    load: _Array
+    unloading: NDArray[np.bool_]
+    cycle: NDArray[np.int32]
+    counts: _Array
+    """How many points each is the mean of."""
+    noise: tuple[float, float]
+    """Standard deviations of a point, from which those of these means follow: higher where noise is not white."""
+
+
+def averaged(
+    depth: _Array,
+    load: _Array,
+    unloading: NDArray[np.bool_],
+    cycle: NDArray[np.int32],
+    noise: tuple[float, float],
+    most: int = MOST,
+) -> Averaged:
+    """Average neighbouring points of one cycle and branch.
+
+    Blocks of one length give about `most` means. A block whose points are not on a straight line along the branch, as
+    far as noise shows, is halved until they are, so that no mean lies across a jump or beside a bend of the curve by
+    more than about its own noise. Points that are in no order are sorted by depth.
+
+    Parameters
+    ----------
+    depth, load
+        In the order in which the points were measured, in any unit; shape (n,).
+    unloading, cycle
+        The way and the cycle of each point; shape (n,).
+    noise
+        Standard deviations of depth and load of a point (`noise_of` of noise.py), both > 0. If that about short
+        parabolas is larger, noise is not white, and that larger value is used.
+    most
+        About how many means there are if the curve has no jumps.
+
+    Returns
+    -------
+    The means; the points themselves if there are no more than `most`.
+
+    Examples
+    --------
+    >>> depth = np.linspace(0.0, 1.0, 100_000)
+    >>> load = np.where(depth < 0.5003, 0.0, 1.0)
+    >>> found = averaged(depth, load, np.zeros(100_000, bool), np.ones(100_000, np.int32), (1e-6, 1e-3))
+    >>> found.depth.size < 2050, set(found.load.tolist()), found.counts.sum()
+    (True, {0.0, 1.0}, np.float64(100000.0))
+    """
+    if depth.size <= most:
+        return Averaged(depth, load, unloading, cycle, np.ones(depth.size), noise)
+    order, begin = along(depth, load, unloading, cycle)
+    rows = np.stack([depth[order] / noise[0], load[order] / noise[1]])
+    length = max(2, round(depth.size / most))
+    ends = [*begin[1:], depth.size]
+    waiting = np.concatenate([np.arange(a, b, length) for a, b in zip(begin, ends, strict=True)])
+    size = np.diff(waiting, append=depth.size)
+    middle = np.add.reduceat(rows, waiting, axis=1) / size  # about which squares lose no digits
+    rows -= np.repeat(middle, size, axis=1)
+    moments = _moments(rows, waiting, size)
+    scale = _not_white(*moments, size)
+    steps = np.median(np.abs(np.diff(rows, axis=1)), axis=1)
+    done: list[_Ints] = []
+    while waiting.size:
+        bad = _bent(*moments, size, scale) | _apart(rows, waiting, size, scale[0], steps)
+        done.append(waiting[~bad])
+        half = (size[bad] + 1) // 2
+        waiting, size = (
+            np.concatenate([waiting[bad], waiting[bad] + half]),
+            np.concatenate([half, size[bad] - half]),
+        )
+        sort = np.argsort(waiting)
+        waiting, size = waiting[sort], size[sort]
+        moments = _moments(rows, waiting, size)
+    first = np.sort(np.concatenate(done))
+    counts = np.diff(np.append(first, depth.size))
+    means = [np.add.reduceat(row[order], first) / counts for row in (depth, load)]
+    whole, branch = counts == length, np.searchsorted(first, begin)
+    slow = [of_differences(row, branch, _ORDER, whole) * math.sqrt(length) for row in means]
+    drifts = [_SLOWER * own < size for own, size in zip(noise, slow, strict=True)]
+    return Averaged(
+        means[0],
+        means[1],
+        unloading[order][first],
+        cycle[order][first],
+        counts.astype(float),
+        (slow[0] if drifts[0] else noise[0], slow[1] if drifts[1] else noise[1]),
+    )
+
+
+def _moments(rows: _Array, first: _Ints, size: _Ints) -> tuple[_Array, _Array]:
+    """Give, of blocks, the sums of squares about straight lines and the sums along parabolas, over their norms."""
+    begin = np.cumsum(size) - size
+    at = np.arange(int(size.sum())) - np.repeat(begin, size)
+    own = rows if at.size == rows.shape[1] else rows[:, np.repeat(first, size) + at]
+    count = size.astype(float)
+    u = at - np.repeat(0.5 * (count - 1.0), size)
+    first_moment, second = (np.add.reduceat(own * power, begin, axis=1) for power in (u, u * u))
+    total, square = (np.add.reduceat(each, begin, axis=1) for each in (own, own * own))
+    of_line = count * (count**2 - 1.0) / 12.0
+    of_bend = of_line * (count**2 - 4.0) / 15.0
+    bend = second - total * (count**2 - 1.0) / 12.0
+    rest = square - total**2 / count - first_moment**2 / np.where(of_line > 0.0, of_line, 1.0)
+    bend /= np.sqrt(np.where(of_bend > 0.0, of_bend, np.inf))
+    least = _ROUNDING * square
+    return np.maximum(rest - least, 0.0), np.where(bend**2 > least, bend, 0.0)
+
+
+def _not_white(rest: _Array, bend: _Array, size: _Ints) -> tuple[_Array, _Array]:
+    """Give the variances of points about lines, and of bends, that noise has in this row: 1 where it is white."""
+    own = size >= _LEAST
+    if not own.any():
+        return np.ones((2, 1)), np.ones((2, 1))
+    about = np.median((rest - bend**2)[:, own] / (size[own] - 3), axis=1, keepdims=True)
+    also = np.median(bend[:, own] ** 2, axis=1, keepdims=True) / _OF_SQUARE
+    drifts = about > _CORRELATED
+    return np.where(drifts, about, 1.0), np.where(drifts, np.maximum(also, 1.0), 1.0)
+
+
+def _bent(rest: _Array, bend: _Array, size: _Ints, scale: tuple[_Array, _Array]) -> NDArray[np.bool_]:
+    """Return which blocks are not straight."""
+    free = np.maximum(size - 2.0, 0.0)
+    scattered = rest / scale[0] > free + _SIGMAS * np.sqrt(2.0 * free) + _SIGMAS
+    square = bend**2 / scale[1]
+    window = np.ones(min(_NEIGHBOURS, size.size))
+    together = np.stack([np.convolve(np.minimum(row, _CLIPPED), window, "same") for row in square]) / window.size
+    bent = (scattered | (square > _SIGMAS**2) | (together > _TOGETHER)).any(axis=0)
+    return np.asarray(bent & (size > 1))
+
+
+def _apart(rows: _Array, first: _Ints, size: _Ints, scale: _Array, steps: _Array) -> NDArray[np.bool_]:
+    """Return which pairs of points lie on both sides of a jump: their difference is no scatter."""
+    pair = size == 2
+    apart = np.zeros(size.size, bool)
+    step = np.abs(rows[:, first[pair] + 1] - rows[:, first[pair]])
+    apart[pair] = (step > _SIGMAS * np.sqrt(2.0 * scale) + 3.0 * steps[:, None]).any(axis=0)
+    return apart

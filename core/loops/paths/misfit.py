@@ -1,0 +1,164 @@
+"""The misfit of a loop: signed distances of its points to the path, over the noise, with their exact derivatives."""
+
+from collections.abc import Sequence
+from copy import copy
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from gradhesion.core.loops.paths.distance import Feet, feet
+from gradhesion.core.loops.paths.motion import moving
+from gradhesion.core.loops.paths.path import LoopModel, LoopPath
+
+_Array = NDArray[np.float64]
+_All: Final = slice(None)
+
+_STEP: Final = 1e-5
+"""Step of differences of paths, in parts of a range."""
+_FINER: Final = 3
+"""How much finer the last grid is: minima are then accurate to 0.05 standard deviations, 0.5 before."""
+LOST: Final = 1e3
+"""Distance, in standard deviations, of every point where a scene has no path."""
+
+
+class Data(NamedTuple):
+    """The points of a loop.
+
+    Rows of depth in m (of the machine's displacement, if that is measured) and load in N, of shape (n, 2); whether each
+    belongs to unloading; the standard deviations of depth and load of one raw point; and of how many of these each is
+    the mean.
+    """
+
+    points: _Array
+    back: NDArray[np.bool_]
+    noise: tuple[float, float]
+    counts: _Array
+
+
+class Misfit:
+    """The points of a loop in units of their noise.
+
+    Parameters
+    ----------
+    data
+        The points.
+    model
+        The model that draws the path.
+    low, high
+        Ends of the range of each number, as it is searched.
+    """
+
+    def __init__(self, data: Data, model: LoopModel, low: _Array, high: _Array) -> None:
+        self.data, self.scale = data, np.array(data.noise)
+        self.points, self.back, self.weights = data.points / self.scale, data.back, np.sqrt(data.counts)
+        self.model, self.names, self.low, self.high = model, model.names, low, high
+        self._kept: tuple[bytes, Any, list[tuple[NDArray[np.bool_], slice, Feet]], LoopPath | None] | None = None
+
+    def finer(self) -> "Misfit":
+        """Return the same misfit on a grid that is `_FINER` times as fine."""
+        model = copy(self.model)
+        model.fineness *= _FINER
+        return Misfit(self.data, model, self.low, self.high)
+
+    def named(self, vector: _Array) -> dict[str, float]:
+        """Give the numbers their names and units."""
+        return {name: float(value) for name, value in self.model.values(vector).items()}
+
+    def path(self, vector: _Array) -> LoopPath | None:
+        """Draw the path."""
+        return self.model.path(vector)
+
+    def residual(self, vector: _Array, use: slice = _All) -> _Array:
+        """Return the signed distances of points to the path, in standard deviations."""
+        _, _, parts, drawn = self._at(vector, use)
+        found = np.full(self.back[use].size, LOST)
+        if drawn is not None:
+            for own, _, nearest in parts:
+                found[own] = nearest.distance
+        return found * self.weights[use]
+
+    def jacobian(self, vector: _Array, use: slice = _All) -> _Array:
+        """Return the derivatives of the distances."""
+        if self.model.by_differences:
+            return self._differences(vector, use)
+        _, _, parts, drawn = self._at(vector, use)
+        found = np.zeros((self.back[use].size, len(self.names)))
+        if drawn is not None:
+            moved = moving(self.model, vector, drawn) / self.scale[:, None]
+            for own, piece, nearest in parts:
+                found[own] = nearest.slopes(moved[piece])
+        return found * self.weights[use, None]
+
+    def _differences(self, vector: _Array, use: slice) -> _Array:
+        """Return the derivatives of the distances by central differences."""
+        steps = _STEP * (self.high - self.low)
+        return np.column_stack([
+            (self.residual(vector + step, use) - self.residual(vector - step, use)) / (2.0 * step[i])
+            for i, step in enumerate(np.diag(steps))
+        ])  # fmt: skip
+
+    def feet(self, vector: _Array) -> list[tuple[NDArray[np.bool_], slice, Feet]]:
+        """Return, for each branch, its points, its vertices, and where these points are nearest to it."""
+        parts: list[tuple[NDArray[np.bool_], slice, Feet]] = self._at(vector, _All)[2]
+        return parts
+
+    def _at(self, vector: _Array, use: slice) -> Any:
+        """Find where points are nearest to the path; the last result is kept, for the derivatives."""
+        key = vector.tobytes()
+        if self._kept is None or self._kept[:2] != (key, use):
+            drawn = self.path(vector)
+            parts = []
+            if drawn is not None:
+                points, back = self.points[use], self.back[use]
+                chain = drawn.places / self.scale
+                for own, piece in ((~back, slice(0, drawn.turn + 1)), (back, slice(drawn.turn, None))):
+                    if own.any():
+                        parts.append((own, piece, feet(points[own], chain[piece], drawn.curved[piece])))
+            self._kept = key, use, parts, drawn
+        return self._kept
+
+    def refined(
+        self,
+        start: _Array,
+        use: slice = _All,
+        *,
+        loss: str = "linear",
+        most: int = 60,
+        held: Sequence[int] = (),
+        tolerance: float = 1e-8,
+    ) -> Any:
+        """Refine a start within the ranges, the numbers `held` fixed.
+
+        Returns
+        -------
+        The result of `scipy.optimize.least_squares`, `x` with all numbers.
+        """
+        searched = np.setdiff1d(np.arange(start.size), held)
+        low, high = self.low[searched], self.high[searched]
+        width = high - low
+
+        def whole(part: _Array) -> _Array:
+            vector = start.copy()
+            vector[searched] = part
+            return vector
+
+        done = least_squares(
+            lambda part: self.residual(whole(part), use),
+            np.clip(start[searched], low + 1e-6 * width, high - 1e-6 * width),
+            jac=lambda part: self.jacobian(whole(part), use)[:, searched],
+            bounds=(low, high),
+            x_scale="jac",
+            loss=loss,
+            xtol=tolerance,
+            ftol=tolerance,
+            gtol=1e-10,
+            max_nfev=most,
+        )
+        done.x = whole(done.x)
+        return done
+
+    def size(self, vector: _Array, use: slice = _All) -> float:
+        """Return a measure of the misfit that outliers hardly move."""
+        return float(np.sum(np.log1p(self.residual(vector, use) ** 2)))

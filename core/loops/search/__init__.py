@@ -1,0 +1,1 @@
+"""Where fits start and end: ranges, starts, and the minima of the misfit."""

@@ -1,0 +1,61 @@
+"""What all searches for starts share: a part of the points, and which vectors are worth refining."""
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gradhesion.core.loops.paths.misfit import Misfit
+
+_Array = NDArray[np.float64]
+
+COARSE: Final = 140
+"""Points that starts are compared with."""
+_WORSE: Final = 0.5
+"""Robust size of a misfit for each point: a vector worse than the best by more is refined no further."""
+_NOISE: Final = 0.533, 0.518
+"""Mean and standard deviation of the robust size of a point whose distance is its noise: of ln(1 + z^2), z normal."""
+_CLEAR: Final = 4.0
+"""Standard deviations of the robust size of a loop within which a misfit is noise."""
+
+
+def coarse(misfit: Misfit, count: int) -> slice:
+    """Choose about this many of the points, evenly."""
+    return slice(None, None, max(1, misfit.back.size // count))
+
+
+def carried(misfit: Misfit, other: Misfit, vector: _Array) -> _Array:
+    """Return a vector with the numbers that another loop has of the same names, others in the middle of their range."""
+    own = dict(zip(other.names, vector, strict=True))
+    middle = 0.5 * (misfit.low + misfit.high)
+    return np.array([own.get(name, each) for name, each in zip(misfit.names, middle, strict=True)])
+
+
+def distinct(vectors: list[_Array], misfit: Misfit, near: float = 1e-3) -> list[_Array]:
+    """Return those of some vectors that are not near an earlier one: a part of the ranges in every number."""
+    kept: list[_Array] = []
+    width = misfit.high - misfit.low
+    for vector in vectors:
+        if all(np.max(np.abs(vector - other) / width) > near for other in kept):
+            kept.append(vector)
+    return kept
+
+
+def near_best(vectors: list[_Array], misfit: Misfit) -> list[_Array]:
+    """Return those of some vectors, the best first, that are not far worse than the best: refining may change that."""
+    few = coarse(misfit, COARSE)
+    sizes = [misfit.size(vector, few) for vector in vectors]
+    most = sizes[0] + _WORSE * misfit.back[few].size
+    return [vector for vector, size in zip(vectors, sizes, strict=True) if size <= most]
+
+
+def best_of(misfit: Misfit, vectors: list[_Array], few: slice, count: int) -> list[_Array]:
+    """Return the best of some vectors, in order."""
+    sizes = [misfit.size(vector, few) for vector in vectors]
+    return [vectors[i] for i in np.argsort(sizes, kind="stable")[:count]]
+
+
+def is_noise(misfit: Misfit, vector: _Array, few: slice) -> bool:
+    """Say whether a vector leaves no more than noise at some of the points."""
+    count = misfit.back[few].size
+    return misfit.size(vector, few) <= _NOISE[0] * count + _CLEAR * _NOISE[1] * count**0.5

@@ -1,0 +1,1 @@
+"""Numbers that kernels compute with: lanes of eight, double-double sums, exact circles, Chebyshev coefficients."""

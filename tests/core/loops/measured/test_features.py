@@ -1,0 +1,61 @@
+"""Base lines with drift, tilt and noise, none, and the point where loading leaves them."""
+
+import numpy as np
+import pytest
+
+from gradhesion.core.loops.measured.features import base_line, contact_point
+from tests.core.loops.models import Array
+
+NOISE = 1e-2
+
+
+def points(seed: int, *, first: float = -1.0, tilt: float = 0.0, drift: float = 0.0) -> tuple[Array, Array]:
+    """A branch of loading and one of unloading that sticks down to -0.2; its zero of load is 0.3."""
+    rng = np.random.default_rng(seed)
+    depth = np.concatenate([np.linspace(first, 1.0, 400), np.linspace(1.0, first, 400)])
+    back = np.arange(800) >= 400
+    contact = depth > np.where(back, -0.2, 0.0)
+    load = np.where(contact, np.maximum(depth + 0.2, 0.0) ** 1.5 - 0.5, 0.0)  # it jumps into contact, and out of it
+    load += 0.3 + tilt * depth + drift * np.arange(800) / 800 + NOISE * rng.standard_normal(800)
+    return np.column_stack([depth, load]), back
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_zero_and_the_tilt_are_those_of_the_line(seed: int) -> None:
+    line = base_line(*points(seed), NOISE)
+    assert line is not None
+    assert line.level == pytest.approx(0.3, abs=5.0 * NOISE / np.sqrt(300))
+    assert abs(line.slope) < min(0.02, 4.5 * line.slope_deviation)
+    assert line.ends[0] == pytest.approx(0.0, abs=0.12)
+    assert line.ends[1] == pytest.approx(-0.2, abs=0.12)
+    tilted = base_line(*points(seed, tilt=0.03), NOISE)
+    assert tilted is not None
+    assert abs(tilted.slope - 0.03) < min(0.01, 4.5 * tilted.slope_deviation)
+
+
+def test_drift_of_the_zero_is_a_spread() -> None:
+    line = base_line(*points(1, drift=0.04), NOISE)
+    assert line is not None
+    assert line.level == pytest.approx(0.32, abs=0.015)
+    assert NOISE < line.spread < 0.04
+
+
+def test_without_a_base_line_there_is_none() -> None:
+    rows, back = points(1, first=0.2)
+    rows[:, 1] = np.abs(rows[:, 0]) ** 1.5
+    assert base_line(rows, back, 1e-5) is None
+    assert contact_point(rows, back, (1e-3, 1e-5)) is None
+    assert base_line(rows[:3], back[:3], NOISE) is None
+
+
+def test_contact_is_where_loading_leaves_the_line() -> None:
+    """To a step of the points, where it jumps into contact."""
+    rows, back = points(2)
+    found = contact_point(rows, back, (1e-3, NOISE))
+    assert found is not None
+    assert found.depth == pytest.approx(0.0, abs=0.006)
+    assert found.deviation > 0.0
+    moved = contact_point(rows + np.array([7.0, -3.0]), back, (1e-3, NOISE))
+    assert moved is not None
+    assert moved.depth == pytest.approx(found.depth + 7.0, abs=1e-9)
+    assert contact_point(rows[back], back[back], (1e-3, NOISE)) is None, "loading has none"

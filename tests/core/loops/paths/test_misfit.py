@@ -1,0 +1,68 @@
+"""Distances in units of the noise, what a scene without a path leaves, and starts that are refined within ranges."""
+
+import numpy as np
+
+from gradhesion.core.loops.paths.misfit import LOST, Data, Misfit
+from tests.core.loops.models import CASES, UNIT, Array, R, vector
+
+NOISE = (1e-4 * R, 0.01 * UNIT)
+MOVED = np.array([0.5, -0.7])
+
+
+def of(name: str, names: tuple[str, ...], counts: float = 1.0) -> tuple[Misfit, Array]:
+    """A loop without noise: the vertices of its path."""
+    model = CASES[name].model(names)
+    here = vector(model)
+    drawn = model.path(here)
+    assert drawn is not None
+    back = np.arange(len(drawn.places)) > drawn.turn
+    data = Data(drawn.places, back, NOISE, np.full(back.size, counts))
+    return Misfit(data, model, here - 2.0, here + 2.0), here
+
+
+def test_points_of_the_path_have_no_distance() -> None:
+    own, here = of("wavy", ("E_star", "A"))
+    assert np.abs(own.residual(here)).max() < 1e-6
+
+
+def test_means_weigh_by_the_root_of_their_count() -> None:
+    one, here = of("wavy", ("E_star", "A"))
+    four, _ = of("wavy", ("E_star", "A"), counts=4.0)
+    np.testing.assert_allclose(four.residual(here + 0.01), 2.0 * one.residual(here + 0.01), rtol=1e-14)
+    np.testing.assert_allclose(four.jacobian(here + 0.01), 2.0 * one.jacobian(here + 0.01), rtol=1e-14)
+
+
+def test_a_scene_without_a_path_is_far_from_all_points_and_flat() -> None:
+    own, here = of("wavy", ("E_star", "wavelength"))
+    nowhere = here - [0.0, 20.0]  # waves of 1e-15 m: too many radii
+    assert own.path(nowhere) is None
+    assert set(own.residual(nowhere)) == {LOST}
+    assert not own.jacobian(nowhere).any()
+
+
+def test_a_start_is_refined_within_the_ranges_and_what_is_held_stays() -> None:
+    own, here = of("smooth", ("E_star", "work_of_adhesion"))
+    found = own.refined(here + MOVED)
+    np.testing.assert_allclose(found.x, here, atol=1e-6)
+    held = own.refined(here + MOVED, held=[0])
+    assert held.x[0] == here[0] + 0.5
+    assert held.cost > 1.0
+
+
+def test_the_finer_path_is_another_and_leaves_this_one_as_it_is() -> None:
+    own, here = of("wavy", ("E_star", "A"))
+    before = own.residual(here + 0.01)
+    fine = own.finer()
+    drawn, many = own.path(here), fine.path(here)
+    assert drawn is not None
+    assert many is not None
+    assert len(many.places) > 2 * len(drawn.places)
+    assert np.abs(fine.residual(here)).max() < 0.02, "the same curve, in the noise"
+    np.testing.assert_array_equal(own.residual(here + 0.01), before)
+
+
+def test_outliers_hardly_change_the_size() -> None:
+    own, here = of("smooth", ("E_star",))
+    before = own.size(here)
+    own.points[5] += 1e3
+    assert own.size(here) - before < np.log1p(2e6) + 1e-3

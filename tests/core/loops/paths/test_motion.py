@@ -1,0 +1,96 @@
+"""How paths move: derivatives of distances are central differences of distances to paths that are drawn again."""
+
+import numpy as np
+import pytest
+
+from gradhesion.core.loops.paths.misfit import Data, Misfit
+from gradhesion.core.loops.paths.offsets import NAMES
+from tests.core.loops.models import CASES, UNIT, Array, R, vector
+
+NOISE = (1e-4 * R, 0.01 * UNIT)
+STEP = 1e-5
+"""Of the numbers as they are searched; of offsets, in units of the noise."""
+ALL = ("E_star", "work_of_adhesion", "wavelength", "A", *NAMES)
+SMOOTH = ("E_star", "work_of_adhesion", *NAMES)
+SEARCHED: dict[str, tuple[str, ...]] = {
+    "wavy": ALL,
+    "smooth": SMOOTH,
+    "series": ALL,
+    "rim": ALL,
+    "preload": ("preload", *ALL[:4], "load_offset"),
+    "machine": (*ALL[:4], "spring_constant", "indentation_max", *NAMES),
+    "machine at the rim": ("indentation_max", "spring_constant", *ALL),
+    "load control": ALL,
+    "closing ratio 0.3": ("closing_ratio", *ALL),
+    "closing ratio 0": ALL,
+    "rings": ("toughness_wavelength", "toughness_amplitude", *SMOOTH),
+    "graded": ("k", "c0", *ALL),
+}
+
+
+def misfit(name: str, seed: int, points: int = 400) -> tuple[Misfit, Array]:
+    """A loop of a kind whose points lie about its path, also within jumps and beyond the turn."""
+    case = CASES.get(name, CASES["wavy"])
+    names = tuple(one for one in SEARCHED[name] if one != "c0")
+    model = case.model(names, {"c0": 0.1 * R} if name == "graded" else None)
+    more = {"k": 0.3} if name == "graded" else {}
+    here = vector(model, **(case.own | more))
+    drawn = model.path(here)
+    assert drawn is not None
+    rng = np.random.default_rng(seed)
+    piece = rng.integers(0, len(drawn.places) - 1, points)
+    share = rng.random(points)
+    corners = np.flatnonzero(drawn.jump | np.roll(drawn.jump, -1))
+    at = rng.choice([*corners, drawn.turn], points // 4)
+    piece[: at.size], share[: at.size] = np.minimum(at, len(drawn.places) - 2), 0.0
+    spots = (1.0 - share)[:, None] * drawn.places[piece] + share[:, None] * drawn.places[piece + 1]
+    spots += 2.0 * rng.standard_normal((points, 2)) * NOISE
+    data = Data(spots, piece >= drawn.turn, NOISE, np.full(points, 4.0))
+    wide = np.full(here.size, 1e3)
+    return Misfit(data, model, here - wide, here + wide), here
+
+
+def feet_of(own: Misfit, here: Array) -> Array:
+    """Where the points have their feet, in m and N over the noise; of the path of some numbers."""
+    found, drawn = np.empty((own.back.size, 2)), own.path(here)
+    assert drawn is not None
+    for way, _, nearest in own.feet(here):
+        found[way] = own.points[way] - nearest.distance[:, None] * nearest.normal
+    return found
+
+
+@pytest.mark.parametrize("name", SEARCHED)
+def test_distances_change_as_those_to_a_path_that_is_drawn_again(name: str) -> None:
+    """But of the few points whose nearest place is another one as the path moves.
+
+    Vertices move along the path too, as it is drawn again, so that differences have the error of pieces between them.
+    """
+    own, here = misfit(name, seed=1)
+    exact = own.jacobian(here)
+    for i, one in enumerate(own.names):
+        step = STEP * {NAMES[0]: NOISE[0], NAMES[1]: NOISE[1], "indentation_max": NOISE[0]}.get(one, 1.0)
+        ends = [here + sign * step * np.eye(here.size)[i] for sign in (1.0, -1.0)]
+        places = [feet_of(own, end) for end in ends]
+        same = np.hypot(*(places[0] - places[1]).T) < 0.3
+        above, below = (own.residual(end) for end in ends)
+        apart = np.abs((above - below) / (2.0 * step) - exact[:, i])
+        size = np.sqrt(np.mean(exact[:, i] ** 2))
+        assert np.mean(same) > 0.98, one
+        assert np.median(apart[same]) < 0.006 * size, one
+        assert np.mean(apart[same] > 0.2 * size) < 0.035, one
+        if name in ("rim", "wavy", "smooth"):
+            assert apart[same].max() < 0.15 * size, one
+
+
+def test_the_turn_follows_what_it_is_prescribed_by() -> None:
+    """A point beyond the end of a path is as far as the end is: that moves along its branch with the zero of depth."""
+    for name in ("wavy", "rim"):
+        own, here = misfit(name, seed=2)
+        i, step = own.names.index(NAMES[0]), 1e-3 * NOISE[0]
+        drawn = own.path(here)
+        assert drawn is not None
+        beyond = drawn.places[drawn.turn] + [0.0, 5.0 * NOISE[1]]
+        data = Data(beyond[None], np.zeros(1, bool), NOISE, np.ones(1))
+        one = Misfit(data, own.model, own.low, own.high)
+        ends = [one.residual(here + sign * step * np.eye(here.size)[i])[0] for sign in (1.0, -1.0)]
+        assert one.jacobian(here)[0, i] == pytest.approx((ends[0] - ends[1]) / (2.0 * step), rel=1e-3)

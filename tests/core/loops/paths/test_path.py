@@ -1,0 +1,107 @@
+"""Paths of loops are those that curves are drawn by, which find folds and landings to rounding."""
+
+import math
+
+import numpy as np
+import pytest
+
+from gradhesion.core.loops.paths.distance import feet
+from tests.core.loops.models import CASES, TRUE, TURN, UNIT, Case, R, vector
+
+WAVE = np.array([2e-3 * R, 0.3 * UNIT])
+"""Depth and load of a wave of the scene, as a loop shows it: a hundredth of it is below any noise."""
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_path_lies_where_drawn_curves_do(name: str) -> None:
+    """Within 0.003 of a wave, jumps and turn included; ends of jumps along them to 1e-4 of the radius."""
+    case = CASES[name]
+    own, drawn = case.model(), case.drawn()
+    own.fineness = 3  # as a fit ends with
+    found = own.path(vector(own))
+    assert found is not None
+    back, jump = drawn["path_unloading"] > 0, drawn["path_jump"] > 0
+    assert np.count_nonzero(found.jump & (found.radius > 0.0)) >= np.count_nonzero(jump) - 2
+    end = found.turn - found.is_pressed  # what is drawn turns at the rim
+    most = max(0.0, drawn["y"].max())
+    assert max(0.0, found.places[: end + 1, 1].max()) == pytest.approx(most, abs=1e-5 * UNIT), "by a cubic"
+    assert -found.places[:, 1].min() == pytest.approx(-drawn["y"].min(), rel=5e-4), "pull-off"
+    assert found.places[end, 0] == pytest.approx(drawn["x"].max(), rel=1e-6)
+    points = np.column_stack([drawn["x"], drawn["y"]])
+    for way, piece in ((~back, slice(0, found.turn + 1)), (back, slice(found.turn, None))):
+        own_points = points[way]
+        if own_points.size:
+            nearest = feet(own_points / WAVE, found.places[piece] / WAVE, found.curved[piece])
+            assert np.abs(nearest.distance).max() < 3e-3
+
+
+def test_it_turns_where_the_data_do_and_goes_on_to_the_largest_load_within_the_noise() -> None:
+    own = CASES["wavy"].model()
+    found = own.path(vector(own))
+    assert found is not None
+    assert found.places[found.turn, 0] == pytest.approx(TURN * R, rel=1e-10)
+    highest = float(found.places[found.turn, 1]) + 1e-9
+    own.furthest, own.blur = (TURN * R, highest), 0.01 * R
+    further = own.path(vector(own))
+    assert further is not None
+    assert further.by_load
+    assert further.places[further.turn, 1] == pytest.approx(highest, rel=1e-6)
+    own.blur = 1e-12
+    short = own.path(vector(own))
+    assert short is not None
+    assert short.places[short.turn, 0] == pytest.approx(TURN * R + 1e-12, rel=1e-9)
+
+
+def test_zeros_and_a_tilt_are_added() -> None:
+    plain, shifted = (CASES["wavy"].model(names) for names in (
+        ("E_star",), ("E_star", "indentation_offset", "load_offset", "load_slope")))  # fmt: skip
+    plain.furthest = (TURN * R - 2e-9, -math.inf)
+    before, after = plain.path(vector(plain)), shifted.path(vector(shifted))
+    assert before is not None
+    assert after is not None
+    x = before.places[1:-1, 0] + 2e-9
+    np.testing.assert_allclose(after.places[1:-1, 0], x, rtol=1e-9)
+    np.testing.assert_allclose(after.places[1:-1, 1], before.places[1:-1, 1] + 1e-8 + 0.02 * x, atol=1e-9 * UNIT)
+
+
+def test_through_a_machine_jumps_keep_its_displacement() -> None:
+    own = CASES["machine"].model()
+    found = own.path(vector(own))
+    assert found is not None
+    after = np.flatnonzero(found.jump)
+    np.testing.assert_allclose(found.places[after, 0], found.places[after - 1, 0], atol=1e-4 * R)
+    assert np.abs(found.places[after, 1] - found.places[after - 1, 1]).max() > 0.1 * UNIT
+
+
+def test_an_edge_pressed_on_at_the_rim_is_a_flat_punch() -> None:
+    own = CASES["rim"].model()
+    found = own.path(vector(own))
+    assert found is not None
+    assert found.is_pressed
+    rim, end = found.places[found.turn - 1], found.places[found.turn]
+    assert (end[1] - rim[1]) / (end[0] - rim[0]) == pytest.approx(2.0 * TRUE["E_star"] * 0.2 * R, rel=1e-9)
+    assert not found.curved[found.turn]
+
+
+def test_no_branch_turns_back_at_its_end() -> None:
+    for case in CASES.values():
+        own = case.model()
+        found = own.path(vector(own))
+        assert found is not None
+        inside = found.radius > 0.0
+        for piece, sign in ((slice(0, found.turn + 1), 1.0), (slice(found.turn, None), -1.0)):
+            radius = found.radius[piece][inside[piece]]
+            assert (sign * np.diff(radius) >= 0.0).all()
+
+
+def test_no_contact_is_a_line_of_no_load() -> None:
+    own = Case(more={"furthest": (-0.01 * R, -math.inf)}).model()
+    found = own.path(vector(own))
+    assert found is not None
+    assert not found.places[:, 1].any()
+    assert not found.radius.any()
+
+
+def test_a_scene_without_a_path_has_none() -> None:
+    assert CASES["wavy"].model(("k",)).path(np.array([1.5])) is None, "an exponent beyond 1"
+    assert CASES["wavy"].model(("wavelength",)).path(np.array([-60.0])) is None, "more waves than are walked"
