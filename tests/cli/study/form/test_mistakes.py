@@ -50,6 +50,11 @@ MISTAKES = {
         r":16: loading.k = 0.3: this key belongs under \[parameters\]",
     ),
     "key in the wrong table": ("[method]", "", r':16: parameters.solver = "exact": .*belongs under \[method\]'),
+    "misspelt key of a table at the top": (
+        'title = "Good"',
+        'title = "Good"\nlambda_over_r = 1',
+        r':2: lambda_over_r = 1: unknown key; did you mean "lambda_over_R", under \[parameters\]\?',
+    ),
     "unknown method key": ("solver =", "sovler =", r':16: method.sovler = "exact": .*did you mean "solver"'),
     "missing outputs": ('outputs = ["pull_off_force"]', "", r": outputs: this key is required"),
     "missing parameter": ("nu = 0.3\n", "", r":6: parameters.nu: this parameter is required; write for example nu"),
