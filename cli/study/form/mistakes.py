@@ -154,7 +154,8 @@ def _unknown_key(path: Path) -> tuple[Path, str]:
     if not table and key in OF_A_FIT:
         return path, 'this table belongs to a fit; write kind = "fit" at the top, or remove it'
     near = nearest(key, known)
-    if not table and near is None and (elsewhere := nearest(key, [name for names in tables.values() for name in names])):
+    elsewhere = None if table or near else nearest(key, [name for names in tables.values() for name in names])
+    if elsewhere:
         home = next(other for other, names in tables.items() if elsewhere in names)
         return (*home, elsewhere), f'unknown key; did you mean "{elsewhere}", under [{dotted(home)}]?'
     meant = nearest(key, tuple(INPUTS)) if table in (("parameters",), ("physical",)) else None
