@@ -156,8 +156,8 @@ def _unknown_key(path: Path) -> tuple[Path, str]:
     near = nearest(key, known)
     elsewhere = None if table or near else nearest(key, [name for names in tables.values() for name in names])
     if elsewhere:
-        home = next(other for other, names in tables.items() if elsewhere in names)
-        return (*home, elsewhere), f'unknown key; did you mean "{elsewhere}", under [{dotted(home)}]?'
+        place = next(other for other, names in tables.items() if elsewhere in names)
+        return (*place, elsewhere), f'unknown key; did you mean "{elsewhere}", under [{dotted(place)}]?'
     meant = nearest(key, tuple(INPUTS)) if table in (("parameters",), ("physical",)) else None
     if meant and key.lower() in MEANT.get(meant, ()) and INPUTS[meant].table != table[0] and near != meant:
         home = INPUTS[meant].table

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from tests.core.loops.measured.test_noise import loop
 
 from gradhesion.core.loops.measured.sense import has_order, sense_of
+from tests.core.loops.measured.test_noise import loop
 
 SIGNS = {(1, 1): "", (1, -1): "load", (-1, 1): "depth", (-1, -1): "both"}
 
