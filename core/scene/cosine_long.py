@@ -12,8 +12,9 @@ from gradhesion.core.curve.cosine import Cosine
 from gradhesion.core.face import is_always_one_disc
 from gradhesion.core.numbers.lanes import LANES, Lanes, eight, lane_of, next_lane
 from gradhesion.core.path.cosine import is_long, is_unresolved
-from gradhesion.core.path.cosine_long import NEAR_RIM, Long, begin_long, ends_folds, is_reported, stride
+from gradhesion.core.path.cosine_long import NEAR_RIM, Long, begin_long, ends_folds, stride
 from gradhesion.core.path.cosine_rims import FURTHEST, cycle_among, is_close_among, stand_at_once
+from gradhesion.core.path.cosine_waves import is_reported
 from gradhesion.core.path.ties import first_close_pair
 from gradhesion.core.problem.results import CONTACT, DEEPEST, TURNED, put, wants_cycle, wants_losses
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC

@@ -25,8 +25,9 @@ from gradhesion.core.curve.cosine import Cosine, curve_of, depth, force_unit, sl
 from gradhesion.core.curve.cosine_folds import fold_of_arch, survey_arch
 from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.path.cosine import MOST_ARCHES, extent, is_endless_wave, is_long, is_smooth, walk
-from gradhesion.core.path.cosine_long import begin_long, is_reported, stride
+from gradhesion.core.path.cosine_long import begin_long, stride
 from gradhesion.core.path.cosine_loop import loop_energy
+from gradhesion.core.path.cosine_waves import is_reported
 from gradhesion.core.path.loading import loading_to
 from gradhesion.core.path.unloading import unloading_from
 from gradhesion.core.problem.curves import Curves

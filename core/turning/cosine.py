@@ -10,7 +10,6 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from gradhesion.core.closed import smooth
 from gradhesion.core.compiler.jit import NO, NONE, ONE, YES, kernel
 from gradhesion.core.contact.least import least_opening
 from gradhesion.core.curve.branches import END, END_DEPTH, GAP, RUN, START, START_DEPTH, WORK, Trace, ends, find_depth
@@ -43,10 +42,10 @@ from gradhesion.core.turning.first_reached import (
     turn_at_depth,
     turn_at_load,
 )
+from gradhesion.core.turning.smooth import has_value, turn_smooth
 from gradhesion.core.turning.turns import Turns
 from gradhesion.core.types import Floats, Table
 
-_STEPS: Final = 200
 _AROUND: Final = 1.25
 """Waves beyond a regular one within which the next branch meets every depth of it."""
 
@@ -102,45 +101,6 @@ def _is_one_disc(table: Table, curve: Cosine, count: int, trace: Trace, x: float
     else:
         end = min(rim, x + _AROUND)
     return not x < end or least_opening(table, curve, x, end) >= 0.0
-
-
-@kernel()
-def _turn_smooth(k: float, stretch: float, turns: Turns) -> None:
-    """Turn a smooth punch of stretch s, all its rims, in closed form (closed/smooth.py); lengths are in R."""
-    rims, targets, by_load, _, radii, flags = turns
-    length = smooth.smooth_length(k, stretch)
-    depth_scale = 2.0 * length * length / (1.0 + k)
-    z_in = 2.0 ** (2.0 / (3.0 + k))
-    for i in range(rims.size):
-        if not _has_value(rims[i], targets[i], by_load):
-            radii[i], flags[i] = math.nan, NO_VALUE
-            continue
-        if by_load:
-            half = 0.5 * (3.0 + k)
-            abscissa = half * (1.0 + math.sqrt(1.0 + 2.0 * targets[i] / (smooth.FORCE_SCALE * half)))
-            z = abscissa ** (1.0 / half)
-        else:
-            target = targets[i] / depth_scale
-            if abs(target) <= CLOSE:
-                flags[i] |= CLOSE_TO_A_JUMP
-            if target < 0.0:
-                radii[i] = 0.0
-                continue
-            z = z_in + math.sqrt(2.0 * target)
-            for _ in range(_STEPS):
-                power = z ** (0.5 * (1.0 - k))
-                step = (0.5 * z * z - power - target) / (z - 0.5 * (1.0 - k) * power / z)
-                z -= step
-                if not step > 1e-16 * z:
-                    break
-            z = max(z, z_in)
-        radii[i] = min(rims[i], z * length)
-
-
-@kernel()
-def _has_value(rim: float, target: float, by_load: bool) -> bool:
-    """Return whether rim and target are in their ranges."""
-    return rim > 0.0 and abs(target) < math.inf and (target > 0.0 or not by_load)
 
 
 @kernel()
@@ -250,7 +210,7 @@ def _turn_curve(
     for i in range(rims.size):
         target = targets[i] / unit
         radii[i], flags[i] = rims[i], 0
-        if not _has_value(rims[i], target, by_load):
+        if not has_value(rims[i], target, by_load):
             radii[i], flags[i] = math.nan, NO_VALUE
         elif target < 0.0:  # the first contact is at the depth 0
             radii[i], flags[i] = 0.0, CLOSE_TO_A_JUMP if _is_first_contact(table.k, curve.bend, target) else 0
@@ -326,6 +286,6 @@ def turn_curves(curves: Curves, turns: Turns, scratch: Trace) -> None:
             unit = force_unit(k, length, unit)
         own = Turns(rims[row], targets[row], by_load, check, radii[i], flags[i])
         if plain:
-            _turn_smooth(k, stretch, own)
+            turn_smooth(k, stretch, own)
         else:
             _turn_curve(table, curve, arches, wavelength[i], unit, own, scratch)

@@ -31,7 +31,7 @@ from gradhesion.core.curve.branches import (
 from gradhesion.core.curve.cosine import Cosine, depth, load, slope
 from gradhesion.core.curve.cosine_folds import fold_of_arch, survey_arch
 from gradhesion.core.numbers.circle import TWO_PI
-from gradhesion.core.path.cosine_long import first_wave_above
+from gradhesion.core.path.cosine_waves import first_wave_above
 from gradhesion.core.path.ties import tolerance
 from gradhesion.core.struve.arches import inner_edge
 from gradhesion.core.struve.power import amplitude_power
