@@ -35,6 +35,7 @@ if TYPE_CHECKING:
         KERNELS,
         KINDS,
         MANY_SMOOTH,
+        MANY_WAVES,
         NEEDS,
         kind_of_curves,
         kind_of_map,
@@ -70,6 +71,7 @@ __all__ = [
     "KERNELS",
     "KINDS",
     "MANY_SMOOTH",
+    "MANY_WAVES",
     "NEEDS",
     "OUTPUTS",
     "PARAMETERS",
@@ -102,7 +104,7 @@ _HOMES: Final = {
     "compiler.cache": "CACHE_FOLDER place",
     "compiler.marks": "compiled_before",
     "curves": "draw_curves",
-    "kinds": "APART CPU_SECONDS KERNELS KINDS MANY_SMOOTH NEEDS "
+    "kinds": "APART CPU_SECONDS KERNELS KINDS MANY_SMOOTH MANY_WAVES NEEDS "
     "kind_of_curves kind_of_map kind_of_sensitivities kind_of_turning",
     "problem.control": "CONTROLS Loading",
     "problem.names": "CURVES OUTPUTS PARAMETERS RANGE REPORTS SENSITIVITIES SOLVERS TURNS VALIDITY",

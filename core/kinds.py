@@ -2,12 +2,14 @@
 
     force              the pull-off of one cosine wave under displacement control, by the exact solver
     energy             anything else of `OUTPUTS` of it
+    long               the same where contact passes more than `MANY_WAVES`
     smooth             both of many punches whose waves have no effect
     reports            `REPORTS` of it
     turning            where its cycles turn before the rim
     envelope           the envelopes of it
     curves             the curves of it
     sensitivities      how strongly its force and energy depend on its parameters
+    long_sensitivities
     general_force      the same of any other profile or control
     general_energy
     general_reports
@@ -46,12 +48,14 @@ _WORK: Final[dict[str, tuple[tuple[str, ...], int, float]]] = {
     "tables": ((), 56, 2.5),
     "force": (("tables",), 55, 2.0),
     "energy": (("tables",), 229, 11.0),
+    "long": (("energy",), 100, 6.0),
     "smooth": (("tables",), 33, 1.5),
     "reports": (("energy",), 17, 2.5),
     "turning": (("energy",), 30, 3.5),
     "envelope": (("tables",), 13, 0.5),
     "curves": (("energy",), 51, 3.5),
     "sensitivities": (("energy",), 46, 7.0),
+    "long_sensitivities": (("sensitivities",), 46, 7.0),
     "general_force": (("tables",), 92, 5.0),
     "general_energy": (("tables",), 261, 16.0),
     "general_reports": (("general_energy",), 11, 4.5),
@@ -76,7 +80,9 @@ name. Processes that compile kinds side by side, each after those that it needs 
 no entry twice, and no two write to one index of the cache."""
 MANY_SMOOTH: Final = 4096
 """Scenes of smooth punches in a call from which on kernels of their own solve them."""
-_OF_COSINE: Final = ("force", "energy", "envelope", "sensitivities")
+MANY_WAVES: Final = 80.0
+"""Waves within a rim up to which a punch with one cosine needs no kernels of long curves: it is walked there."""
+_OF_COSINE: Final = ("force", "energy", "long", "envelope", "sensitivities", "long_sensitivities")
 """Kinds whose loops over curves are entries of the same name (scene/solvers.py)."""
 APART: Final = (
     *({one, other} for one, other in combinations(_OF_COSINE, 2)),

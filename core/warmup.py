@@ -30,6 +30,8 @@ SCENE: Final[dict[str, float]] = {
     "A": 0.03,
     "a_max_over_R": 0.5,
 }
+FAR: Final = {"lambda_over_R": 1e-3, "a_max_over_R": 0.5}
+"""Hundreds of waves that fold."""
 SPRING: Final[dict[str, float]] = {"machine_stiffness": 3.0}
 LOOPS: Final = ("force", "energy", "general_force", "general_energy")
 """The kinds whose loop over curves can be compiled before the tables that it reads."""
@@ -51,8 +53,8 @@ def compile_loop(kind: str) -> None:
         from gradhesion.core.scene.solvers import LOOPS as SOLVERS  # noqa: PLC0415 (kernels of their own)
         from gradhesion.core.scene.solvers import PULL_OFF_LOOP  # noqa: PLC0415
 
-        loop = PULL_OFF_LOOP if kind == "force" else SOLVERS["exact"]
-        loop(Curves(tables, numbers, numbers, none, none, none, rims), results, np.empty((1, 1)), NoSense())
+        of_cosine = PULL_OFF_LOOP if kind == "force" else SOLVERS["exact"]
+        of_cosine(Curves(tables, numbers, numbers, none, none, none, rims), results, np.empty((1, 1)), NoSense())
         return
     from gradhesion.core.curve.general import Basis  # noqa: PLC0415 (kernels of their own)
     from gradhesion.core.scene.general import solve_pull_offs, solve_scenes  # noqa: PLC0415
@@ -152,6 +154,10 @@ def compile_kind(kind: str) -> None:
             run_tasks(grouped(SCENE), 1, lambda *_: None)
         case "force":
             solve(scene, ["pull_off_force"], threads=1, **driven)
+        case "long":
+            solve(SCENE | FAR, OUTPUTS, threads=1)
+        case "long_sensitivities":
+            solve(SCENE | FAR, SENSITIVITIES, threads=1)
         case "energy":
             solve(scene, OUTPUTS, threads=1, **driven)
         case "smooth":

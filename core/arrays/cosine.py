@@ -29,7 +29,7 @@ from gradhesion.core.scene.cosine_report import NEEDED, report_curves
 from gradhesion.core.scene.smooth import ROWS as SMOOTH_ROWS
 from gradhesion.core.scene.smooth import SCENES as SMOOTH_SCENES
 from gradhesion.core.scene.smooth import solve_smooth
-from gradhesion.core.scene.solvers import LOOPS, PULL_OFF_LOOP
+from gradhesion.core.scene.solvers import LONG_LOOP, LOOPS, PULL_OFF_LOOP
 from gradhesion.core.sensitivities.cosine_slopes import COUNT, Sense
 from gradhesion.core.sensitivities.wanted import NoSense
 from gradhesion.core.turning.cosine import turn_curves
@@ -126,7 +126,9 @@ def solve_cosine(
         scratch = np.empty((ROWS, BRANCHES))
         own = curves_of(curves, task, tables, stiffness)
         sense = NoSense() if sensed is None else Sense(*neighbours_for(task), sensed, of_force, of_energy, turned)
-        solve_curves(own, results, scratch, sense)
+        if solve_curves(own, results, scratch, sense):
+            LONG_LOOP(own, results, scratch, sense)
+            note_compiled("long" if slopes is None else "long_sensitivities")
         if reports:
             report_curves(own, slots, of_reports, scratch)
 

@@ -4,7 +4,8 @@ A scene is reduced to its curve (curve/cosine.py) and its rim. Lengths are in R,
 dgamma/R^(1+k).
 
 Nothing is computed that only a result needs that is not wanted. Sensitivities are read off the trace that the
-energy is read off; without them `sense` is `NoSense`, for which nothing of them is compiled.
+energy is read off; without them `sense` is `NoSense`, for which nothing of them is compiled. Cycles of more waves than
+are walked are left for scene/cosine_long.py, whose kernels take as long to compile as all others of a cycle.
 """
 
 import math
@@ -46,7 +47,6 @@ from gradhesion.core.problem.results import (
 )
 from gradhesion.core.problem.status import JUMP_IN_TO_RIM, NO_VALUE, PULL_OFF_AT_RIM
 from gradhesion.core.pull_off.cosine import lowest_load
-from gradhesion.core.scene.cosine_long import solve_long
 from gradhesion.core.scene.cosine_rim import read_rim, slopes_of, walked_to
 from gradhesion.core.scene.scene import Scene, put_pull_off
 from gradhesion.core.sensitivities.cosine_slopes import put_rest, put_smooth, sensed_by
@@ -115,10 +115,11 @@ def _solve_cycle(
     rims: Floats,
     scratch: Trace,
     sensed: AnySense,
-) -> None:
-    """Follow the cycle of a wavy punch for all its rims a_max/R, of shape (rims,): those within a walk share one trace.
+) -> bool:
+    """Follow the cycle of a wavy punch for its rims a_max/R, of shape (rims,), that a walk reaches, on one trace.
 
-    `arches` are the first and the last one on which the curve can fold, `scratch` is room for a trace.
+    Return whether there are others. `arches` are the first and the last one on which the curve can fold, `scratch` is
+    room for a trace.
     """
     furthest, long = 0.0, False
     for i in range(rims.size):
@@ -137,12 +138,11 @@ def _solve_cycle(
             x = rims[i] / scene.wavelength
             if not is_unresolved(arches, x) and not is_long(table, arches, x):
                 read_rim(table, curve, walked, scene, x, i, sensed, slopes)
-    if long:
-        solve_long(table, curve, arches, scene, rims, scratch, sensed)
+    return long
 
 
 @kernel()
-def _mark_unresolved(wavelength: float, rims: Floats, results: Results) -> None:
+def mark_unresolved(wavelength: float, rims: Floats, results: Results) -> None:
     """Give no value to rims a_max/R, shape (rims,), that have none, or whose size over the wavelength has none."""
     status = results.status
     for i in range(rims.size):
@@ -175,7 +175,7 @@ def solve_pull_off(
         refuse(results)
         return
     _solve_force(table, curve, force_unit(k, length, depth_scale), wavelength, rims, results)
-    _mark_unresolved(wavelength, rims, results)
+    mark_unresolved(wavelength, rims, results)
 
 
 @kernel()
@@ -188,31 +188,36 @@ def solve_curve(
     results: Results,
     scratch: Trace,
     sense: AnySense,
-) -> None:
-    """Solve one curve, of s in R^((1+k)/2), lambda/R and A, for all its rims a_max/R, of shape (rims,).
+) -> bool:
+    """Solve one curve, of s in R^((1+k)/2), lambda/R and A, for its rims a_max/R, of shape (rims,).
 
     `scratch` is room for a trace, of shape (ROWS, branches).
+
+    Returns
+    -------
+    Whether the cycles of some rims are left for `solve_left` (scene/cosine_long.py).
     """
     k, slots = table.k, results.slots
     if is_endless_wave(wavelength, amplitude):  # A = 0 among them
         _solve_smooth(k, stretch, rims, results)
         put_smooth(table, stretch, rims, results, sense, scratch)
-        return
+        return False
     curve, length, depth_scale = curve_of(k, stretch, wavelength, amplitude * wavelength)
     if not (0.0 < curve.bend < LARGEST and curve.gain < LARGEST):  # powers of them would overflow
         refuse(results)
-        return
-    folds = wants_folds(slots)
+        return False
+    left, folds = False, wants_folds(slots)
     arches = extent(table, curve) if folds else (0.0, 0.0)
     if folds and is_smooth(arches):
         _solve_smooth(k, stretch, rims, results)
         put_smooth(table, stretch, rims, results, sense, scratch)
-        return
+        return False
     sensed = sensed_by(table, sense, stretch, wavelength, amplitude)
     if wants_force(slots):
         _solve_force(table, curve, force_unit(k, length, depth_scale), wavelength, rims, results)
     if folds:
         scene = Scene(wavelength, length, TWO_PI * length * length, depth_scale, results)
-        _solve_cycle(table, curve, arches, scene, rims, scratch, sensed)
+        left = _solve_cycle(table, curve, arches, scene, rims, scratch, sensed)
     put_rest(table, curve, sensed, depth_scale, wavelength, rims, results)
-    _mark_unresolved(wavelength, rims, results)
+    mark_unresolved(wavelength, rims, results)
+    return left

@@ -1,4 +1,7 @@
-"""The rims of a punch with one cosine wave beyond the traced waves (path/cosine_long.py)."""
+"""The rims of a punch with one cosine wave beyond the traced waves (path/cosine_long.py), which scene/cosine.py leaves.
+
+They have a loop over curves of their own: a map without such rims compiles none of it.
+"""
 
 import math
 
@@ -8,18 +11,30 @@ from gradhesion.core.compiler.jit import NO, NONE, ONE, kernel
 from gradhesion.core.contact.disc import is_one_disc, limits_from
 from gradhesion.core.contact.waves import note_run
 from gradhesion.core.curve.branches import GAP, NOWHERE, RUN, RUN_FIRST, RUN_LAST, RUN_LEAST, Trace
-from gradhesion.core.curve.cosine import Cosine
+from gradhesion.core.curve.cosine import Cosine, curve_of
 from gradhesion.core.face import is_always_one_disc
+from gradhesion.core.numbers.circle import TWO_PI
 from gradhesion.core.numbers.lanes import LANES, Lanes, eight, lane_of, next_lane
-from gradhesion.core.path.cosine import is_long, is_unresolved
+from gradhesion.core.path.cosine import LARGEST, extent, is_endless_wave, is_long, is_smooth, is_unresolved
 from gradhesion.core.path.cosine_long import NEAR_RIM, Long, begin_long, ends_folds, stride
 from gradhesion.core.path.cosine_rims import FURTHEST, cycle_among, is_close_among, stand_at_once
 from gradhesion.core.path.cosine_waves import is_reported
 from gradhesion.core.path.ties import first_close_pair
-from gradhesion.core.problem.results import CONTACT, DEEPEST, TURNED, put, wants_cycle, wants_losses
+from gradhesion.core.problem.results import (
+    CONTACT,
+    DEEPEST,
+    TURNED,
+    Results,
+    put,
+    wants_cycle,
+    wants_folds,
+    wants_losses,
+)
 from gradhesion.core.problem.status import CLOSE_TO_A_JUMP, LOADING_NOT_ONE_DISC
+from gradhesion.core.scene.cosine import mark_unresolved
 from gradhesion.core.scene.cosine_rim import Walked, read_rim, slopes_of, walked_to
 from gradhesion.core.scene.scene import Scene, put_cycle
+from gradhesion.core.sensitivities.cosine_slopes import sensed_by
 from gradhesion.core.sensitivities.wanted import AnySense
 from gradhesion.core.types import Floats, Table
 
@@ -112,7 +127,7 @@ def _follow_eight(
 
 
 @kernel()
-def solve_long(
+def _solve_long(
     table: Table,
     curve: Cosine,
     arches: tuple[float, float],
@@ -156,3 +171,35 @@ def solve_long(
         x = rims[i] / scene.wavelength
         if not is_unresolved(arches, x) and is_long(table, arches, x) and ends_folds(table, arches, x):
             read_rim(table, curve, walked, scene, x, i, sensed, slopes)
+
+
+@kernel()
+def solve_left(
+    table: Table,
+    stretch: float,
+    wavelength: float,
+    amplitude: float,
+    rims: Floats,
+    results: Results,
+    scratch: Trace,
+    sense: AnySense,
+) -> None:
+    """Follow the cycles of one curve for the rims that `solve_curve` (scene/cosine.py) leaves, with its arguments."""
+    if not wants_folds(results.slots) or is_endless_wave(wavelength, amplitude):
+        return
+    curve, length, depth_scale = curve_of(table.k, stretch, wavelength, amplitude * wavelength)
+    if not (0.0 < curve.bend < LARGEST and curve.gain < LARGEST):
+        return
+    arches = extent(table, curve)
+    if is_smooth(arches):
+        return
+    left = False
+    for i in range(rims.size):
+        x = rims[i] / wavelength
+        left = left or (is_long(table, arches, x) and not is_unresolved(arches, x))
+    if not left:
+        return
+    scene = Scene(wavelength, length, TWO_PI * length * length, depth_scale, results)
+    sensed = sensed_by(table, sense, stretch, wavelength, amplitude)
+    _solve_long(table, curve, arches, scene, rims, scratch, sensed)
+    mark_unresolved(wavelength, rims, results)

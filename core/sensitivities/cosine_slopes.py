@@ -87,10 +87,13 @@ class By(NamedTuple):
 
 
 @kernel()
-def _put(found: Floats, k: float, curve: Cosine, powers: tuple[float, float], by: By, value: float, i: int) -> None:
+def _put(
+    found: Floats, k: float, curve: Cosine, powers: tuple[float, float], size: float, by: By, value: float, i: int
+) -> None:
     """Store the sensitivities of a value of rim number i, into `found` of shape (COUNT, rims), from its slopes.
 
-    `powers` are those of lambda and of M in its unit.
+    `powers` are those of lambda and of M in its unit. The slope by k, at fixed M L^k, becomes that at fixed M by `size`
+    (`Sensed`).
     """
     unit, half = powers
     b, g, _ = curve
@@ -104,7 +107,7 @@ def _put(found: Floats, k: float, curve: Cosine, powers: tuple[float, float], by
     found[BY_WAVELENGTH, i] = unit + (2.0 - c) * bend + (1.0 - c) * gain - rim
     found[BY_AMPLITUDE, i] = gain
     found[BY_RIM, i] = rim
-    found[BY_EXPONENT, i] = by.exponent / value
+    found[BY_EXPONENT, i] = by.exponent / value + size * found[BY_STIFFNESS, i]
 
 
 @kernel()
@@ -160,7 +163,7 @@ def _put_depth(table: Table, curve: Cosine, sensed: Sensed, unit: float, x: floa
     total = 0.0
     for j in range(weights.size):
         total += weights[j] * units[j] * depth(tables[j], Cosine(curves[j, 0], curves[j, 1], 0.0), x)
-    found[BY_EXPONENT, i] = total
+    found[BY_EXPONENT, i] = total + sensed.size * found[BY_STIFFNESS, i]
 
 
 @kernel()
@@ -214,7 +217,7 @@ def put_rest(
     """Store the sensitivities of the pull-off forces of a curve, whose places and flags are there, for all rims.
 
     Where cycles turn at a depth, those of the depth at the rim as well; `unit` is that of depth in R, `rims` are
-    a_max/R, of shape (rims,). Last, all sensitivities to k, which are at fixed M L^k, are turned into those at fixed M.
+    a_max/R, of shape (rims,).
     """
     powers, found = (2.0 - 0.5 * (1.0 - table.k), 0.5), sensed.found
     for i in range(rims.size):
@@ -223,10 +226,9 @@ def put_rest(
         at_rim = results.status[i] & PULL_OFF_AT_RIM != 0
         x = (rims[i] if at_rim else results.out[results.slots[RADIUS], i]) / wavelength
         force, by = _force_slopes(table, curve, sensed, x, at_rim)
-        _put(found[FORCE], table.k, curve, powers, by, force, i)
+        _put(found[FORCE], table.k, curve, powers, sensed.size, by, force, i)
         if sensed.turned and at_rim:
             _put_depth(table, curve, sensed, unit, x, i)
-    found[:, BY_EXPONENT, :] += sensed.size * found[:, BY_STIFFNESS, :]
 
 
 @if_wanted("sensed")
@@ -240,7 +242,7 @@ def put_energy(table: Table, curve: Cosine, sensed: Sensed, slopes: Traced, x: f
     rim_depth = depth(table, curve, x) if x < math.inf else math.inf
     by_rim = energy_slopes(table, curve, sensed.near, slopes, x, rim_depth, sensed.energy, total)
     by = By(total[BEND], total[GAIN], by_rim, total[EXPONENT], 0.0)
-    _put(sensed.found[ENERGY], table.k, curve, (2.0, 0.0), by, energy, i)
+    _put(sensed.found[ENERGY], table.k, curve, (2.0, 0.0), sensed.size, by, energy, i)
 
 
 @if_wanted("sense")

@@ -15,6 +15,8 @@ WORDS = {
     "tables": "tables",
     "force": "the pull-off force",
     "energy": "cycles and energies",
+    "long": "cycles of many waves",
+    "long_sensitivities": "sensitivities of cycles of many waves",
     "smooth": "smooth punches",
     "reports": "errors and gains",
     "turning": "turning points",

@@ -4,6 +4,7 @@ Two processes that do so at once can leave an index that points at the other's c
 kind of work and of processor, processes read the cache side by side.
 """
 
+import math
 import subprocess
 import sys
 import threading
@@ -24,6 +25,7 @@ from gradhesion.cli.study.study import Study
 from gradhesion.cli.terminal import interrupts
 from gradhesion.core import (
     MANY_SMOOTH,
+    MANY_WAVES,
     NEEDS,
     SENSITIVITIES,
     VALIDITY,
@@ -35,6 +37,7 @@ from gradhesion.core import (
     place,
 )
 from gradhesion.core.problem.names import CONTACT_SLOPE
+from gradhesion.core.problem.profile import WAVY
 
 PAUSE: Final = 0.2
 """Seconds between two looks at what another process compiles."""
@@ -43,6 +46,8 @@ _AMPLITUDES: Final = ("A", "chi", "amplitude")
 """The parameters that give the height of waves (core/variables/reduced.py)."""
 _WITH_SMOOTH: Final = frozenset({"force", "energy", "reports"})
 """The kinds of work whose smooth scenes, if they are many, have kernels of their own."""
+_LONG: Final = {"energy": "long", "reports": "long", "sensitivities": "long_sensitivities"}
+"""The kinds of work whose cycles of many waves have kernels of their own."""
 _one_of_us: Final = threading.Lock()
 
 
@@ -63,7 +68,22 @@ def kinds_of(study: Study) -> tuple[str, ...]:
     snaps = "snap_in_force" in outputs
     edge = ("edge",) if snaps or (slopes and study.gives(CLOSING) and study.turn) else ()
     jump = (kind_of_turning(*driven),) if snaps else ()
-    return tuple(dict.fromkeys((*kinds, *smooth, *turning, *jump, *slopes, *edge, *moving)))
+    walked = _most_waves(study) <= MANY_WAVES
+    long = () if walked else (_LONG[kind] for kind in (*kinds, *slopes) if kind in _LONG)
+    return tuple(dict.fromkeys((*kinds, *smooth, *turning, *jump, *slopes, *long, *edge, *moving)))
+
+
+def _most_waves(study: Study) -> float:
+    """Give the most waves that a rim of a study contains, as far as its keys show that: else inf."""
+    given = study.parameters
+    if "lambda_over_R" in study.left_out:
+        return 0.0
+    if study.search or study.uncertainty or study.profile != WAVY:
+        return math.inf
+    for rim, wavelength in (("a_max_over_R", "lambda_over_R"), ("a_max", "wavelength")):
+        if rim in given and wavelength in given:
+            return float(np.max(given[rim]) / np.min(given[wavelength]))
+    return math.inf
 
 
 def _smooth_scenes(study: Study) -> float:
