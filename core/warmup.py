@@ -18,7 +18,7 @@ from gradhesion.core.problem.results import Results, slots_of
 from gradhesion.core.sensitivities.wanted import NoSense
 from gradhesion.core.struve.interpolated import interpolated_tables
 from gradhesion.core.struve.layout import TABLE
-from gradhesion.core.struve.table import build_table
+from gradhesion.core.struve.table import build_table, struve_pair
 from gradhesion.core.sweep import solve
 
 SCENE: Final[dict[str, float]] = {
@@ -109,10 +109,11 @@ def _compile_edge() -> None:
 
 
 def _compile_loops() -> None:
-    """Find the distance of a point to a line, the way up a slope, and a place on it."""
+    """Find the pair at a radius, the distance of a point to a line, the way up a slope, and a place on it."""
     from gradhesion.core.loops.paths.distance import feet  # noqa: PLC0415 (kernels of their own)
     from gradhesion.core.loops.paths.walk import climb, crossing  # noqa: PLC0415
 
+    struve_pair(0.3, 0.0)
     feet(np.zeros((1, 2)), np.eye(2))
     climb(np.arange(4.0), np.arange(4.0), 0.0)
     crossing(np.arange(4.0), np.arange(4.0), 1, 0.5)

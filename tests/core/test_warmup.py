@@ -30,7 +30,7 @@ from gradhesion.core.problem.names import PATTERN_CURVES
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 from gradhesion.core.sweep import How
-from gradhesion.core.warmup import LOOPS, SCENE, SPRING, compile_loop
+from gradhesion.core.warmup import FAR, LOOPS, SCENE, SPRING, compile_loop
 from gradhesion.core.works.snap_in import pulls_at
 from gradhesion.core.works.turn_slopes import turn_slopes
 
@@ -81,12 +81,20 @@ def fit_of_a_loop() -> None:
             ],
         ),
         ("energy", [solve, lambda s: solve(s | {"a_max_over_R": [0.3, 0.5, math.inf]}, OUTPUTS)]),
+        (
+            "long",
+            [
+                lambda s: solve(s | FAR, OUTPUTS),
+                lambda s: solve(s | FAR | {"lambda_over_R": [1e-3, 0.1], "a_max_over_R": 0.4}, ["delta_max"]),
+            ],
+        ),
         ("smooth", [lambda s: solve(s | FLAT, OUTPUTS), lambda s: solve(s | FLAT, ["delta_max"])]),
         ("reports", [lambda s: solve(s, REPORTS), lambda s: solve(s, ["roughness_parameter"])]),
         ("turning", [lambda s: solve(s | {"load_max": [0.1, 3.0]}, OUTPUTS), lambda s: solve(s | DEEP, OUTPUTS)]),
         ("envelope", [lambda s: solve(s, solver="envelope")]),
         ("curves", [lambda s: draw_curves(s, list(CURVES))]),
         ("sensitivities", [lambda s: solve(s, SENSITIVITIES), lambda s: solve(s | DEEP, SENSITIVITIES[:1])]),
+        ("long_sensitivities", [lambda s: solve(s | FAR, SENSITIVITIES[1:])]),
         ("general_force", [lambda s: solve(s, ["pull_off_force"], **OTHERS)]),
         ("general_energy", [lambda s: solve(s, OUTPUTS, **OTHERS), lambda s: solve(s, OUTPUTS, **BY_LOAD)]),
         ("general_reports", [lambda s: solve(s, REPORTS, **OTHERS), lambda s: solve(s, NOT_OF_A_LOAD, **BY_LOAD)]),

@@ -66,9 +66,16 @@ def test_each_kind_comes_once_and_after_those_that_it_needs(compiled: list[str])
     ("changes", "kinds"),
     [
         ({"outputs": ["pull_off_force"]}, ("force",)),
-        ({}, ("energy",)),
+        ({}, ("energy", "long")),
+        ({"parameters": SCENE | {"a_max_over_R": [0.3, 0.5]}}, ("energy",)),
+        ({"parameters": SCENE | {"a_max_over_R": [0.3, 50.0]}}, ("energy", "long")),
+        ({"parameters": SCENE | {"a_max_over_R": 50.0}, "outputs": ["pull_off_force"]}, ("force",)),
+        (
+            {"parameters": SCENE | {"a_max_over_R": 50.0}, "outputs": ["dissipated_energy_sensitivity"]},
+            ("energy", "sensitivities", "long", "long_sensitivities"),
+        ),
         ({"outputs": ["pull_off_force"], "method": {"solver": ["exact", "envelope"]}}, ("force", "envelope")),
-        ({"outputs": ["energy_residual"]}, ("reports",)),
+        ({"outputs": ["energy_residual"]}, ("reports", "long")),
         (SMOOTH, ("energy", "smooth")),
         (SMOOTH | {"outputs": ["energy_residual"]}, ("reports", "smooth")),
         (SMOOTH | {"method": {"solver": "envelope"}}, ("envelope",)),
