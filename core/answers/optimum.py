@@ -11,12 +11,12 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.answers.optimum_basins import basins_of, is_new
 from gradhesion.core.answers.optimum_many_inputs import refine_many
-from gradhesion.core.answers.optimum_merit import CLOSE, Array, Merit
+from gradhesion.core.answers.optimum_merit import CLOSE, Merit
 from gradhesion.core.answers.optimum_one_input import peaks_between, refine_one
+from gradhesion.core.types import Floats, Truths
 
 SCENES: Final = 2**18
 """Number of scenes evaluated at a time in a sweep."""
@@ -26,15 +26,15 @@ SCENES: Final = 2**18
 class Optima:
     """The optimum of each cell."""
 
-    places: Array
+    places: Floats
     """From 0 to 1; shape (inputs, cells). NaN where nothing is feasible."""
-    merits: Array
-    too_coarse: NDArray[np.bool_]
+    merits: Floats
+    too_coarse: Truths
     """Whether the sweep at the stated resolution, half of that computed, misses the basin, as it does where a peak was
     found between the points of the finer one."""
 
 
-def axis_of(resolution: int) -> Array:
+def axis_of(resolution: int) -> Floats:
     """Return the places of a sweep at twice a resolution: those of the resolution are every second.
 
     Examples
@@ -45,7 +45,7 @@ def axis_of(resolution: int) -> Array:
     return np.linspace(0.0, 1.0, 2 * resolution - 1)
 
 
-def sweep(merit: Merit, inputs: int, cells: int, resolution: int) -> tuple[Array, Array]:
+def sweep(merit: Merit, inputs: int, cells: int, resolution: int) -> tuple[Floats, Floats]:
     """Return merits and margins at all places of `axis_of` for all cells, of shape (*places, cells)."""
     axis = axis_of(resolution)
     shape = (axis.size,) * inputs
@@ -80,7 +80,7 @@ def optima(merit: Merit, inputs: int, cells: int, resolution: int) -> Optima:
     return optima_of(merit, merits, margins)
 
 
-def optima_of(merit: Merit, merits: Array, margins: Array) -> Optima:
+def optima_of(merit: Merit, merits: Floats, margins: Floats) -> Optima:
     """Return the optima from a computed sweep."""
     inputs, cells = merits.ndim - 1, merits.shape[-1]
     heights = np.where((margins >= 0.0) & ~np.isnan(merits), merits, -np.inf)

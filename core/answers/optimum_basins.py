@@ -6,16 +6,16 @@ Each searched input runs from 0 to 1 over its range.
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter
 
-from gradhesion.core.answers.optimum_merit import WIDTH, Array
+from gradhesion.core.answers.optimum_merit import WIDTH
+from gradhesion.core.types import Floats, Integers, Truths
 
 _MOST_BASINS: Final = 12
 """Number of basins refined in a cell: those with the highest bounds."""
 
 
-def basins_of(heights: Array) -> tuple[tuple[NDArray[np.int64], ...], Array]:
+def basins_of(heights: Floats) -> tuple[tuple[Integers, ...], Floats]:
     """Find the highest points of basins that may hold the optimum of their cell: indices, the cells last.
 
     And a bound for each of them: its height plus its height above its neighbours, of shape (basins,). The axes of
@@ -48,7 +48,7 @@ def basins_of(heights: Array) -> tuple[tuple[NDArray[np.int64], ...], Array]:
     return tuple(np.nonzero(peaks)), promised[peaks]
 
 
-def is_new(heights: Array, places: Array) -> NDArray[np.bool_]:
+def is_new(heights: Floats, places: Floats) -> Truths:
     """Report for each cell whether a sweep at half the resolution has no basin where its optimum is."""
     inputs = heights.ndim - 1
     coarse = heights[(*(slice(None, None, 2) for _ in range(inputs)), slice(None))]
@@ -56,7 +56,7 @@ def is_new(heights: Array, places: Array) -> NDArray[np.bool_]:
         coarse
     )
     indices = np.nonzero(peaks)
-    shown: NDArray[np.bool_] = np.any(np.isnan(places), axis=0)  # where nothing is feasible no optimum is missed
+    shown: Truths = np.any(np.isnan(places), axis=0)  # where nothing is feasible no optimum is missed
     spacing = 1.0 / (coarse.shape[0] - 1)
     near = np.ones(indices[-1].size, bool)
     for own, index in zip(places, indices[:-1], strict=True):

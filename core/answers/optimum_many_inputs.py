@@ -8,19 +8,19 @@ from collections.abc import Callable
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import minimize, root
 from scipy.optimize.elementwise import find_root
 
-from gradhesion.core.answers.optimum_merit import WIDTH, Array, Merit
+from gradhesion.core.answers.optimum_merit import WIDTH, Merit
+from gradhesion.core.types import Floats, Integers
 
 _STEEP: Final = 1e-9
 """A slope over the size of the merit, below which a place is stationary."""
 
 
 def refine_many(
-    merit: Merit, heights: Array, basins: tuple[NDArray[np.int64], ...], promised: Array, *, constrained: bool
-) -> tuple[Array, Array]:
+    merit: Merit, heights: Floats, basins: tuple[Integers, ...], promised: Floats, *, constrained: bool
+) -> tuple[Floats, Floats]:
     """Refine the basins of several searched inputs, one after the other; of a cell the highest first.
 
     Those whose bound is below an optimum already found are not refined.
@@ -40,19 +40,17 @@ def refine_many(
     return places, found
 
 
-def _refined(
-    merit: Merit, start: Array, cell: NDArray[np.int64], spacing: float, *, constrained: bool
-) -> tuple[Array, float]:
+def _refined(merit: Merit, start: Floats, cell: Integers, spacing: float, *, constrained: bool) -> tuple[Floats, float]:
     """Refine a basin of several inputs within two spacings of its highest point; return place (inputs,) and merit."""
     bounds = list(zip(np.maximum(start - 2.0 * spacing, 0.0), np.minimum(start + 2.0 * spacing, 1.0), strict=True))
     low, high = np.array(bounds).T
 
-    def height(place: Array) -> float:
+    def height(place: Floats) -> float:
         """Return the value to be minimised: infinite where a requirement is not met."""
         merits, margins = merit.values(np.clip(place, low, high), cell)
         return -float(merits) if float(margins) >= 0.0 and not np.isnan(merits) else np.inf
 
-    def downwards(place: Array) -> Array:
+    def downwards(place: Floats) -> Floats:
         slopes = merit.slopes(np.clip(place, low, high), cell)
         assert slopes is not None  # noqa: S101 (they are known)
         return -np.asarray(slopes, dtype=float)
@@ -61,7 +59,7 @@ def _refined(
     options: dict[str, Any]
     best, value = start, height(start)
 
-    def better(place: Array, than: float) -> bool:
+    def better(place: Floats, than: float) -> bool:
         return height(place) < than
 
     if not constrained:
@@ -93,19 +91,19 @@ def _refined(
 
 def _along_the_edge(
     merit: Merit,
-    cell: NDArray[np.int64],
-    height: Callable[[Array], float],
-    downwards: Callable[[Array], Array] | None,
-    best: Array,
+    cell: Integers,
+    height: Callable[[Floats], float],
+    downwards: Callable[[Floats], Floats] | None,
+    best: Floats,
     bounds: list[tuple[float, float]],
-) -> Array:
+) -> Floats:
     """Move a feasible place (inputs,) to a better feasible one, by steps that assume smoothness."""
 
-    def plain(place: Array) -> float:
+    def plain(place: Floats) -> float:
         merits, _ = merit.values(place, cell)
         return -float(np.nan_to_num(merits, nan=-np.inf))
 
-    def margin(place: Array) -> float:
+    def margin(place: Floats) -> float:
         _, margins = merit.values(place, cell)
         return float(np.maximum(margins, -1e30))
 
@@ -137,7 +135,7 @@ def _along_the_edge(
     return there if height(there) < height(best) else best
 
 
-def _is_stationary(slopes: Array, place: Array, low: Array, high: Array, size: float) -> bool:
+def _is_stationary(slopes: Floats, place: Floats, low: Floats, high: Floats, size: float) -> bool:
     """Report whether all slopes are zero, but for those towards an end of the range."""
     at_end = ((place <= low) & (slopes > 0.0)) | ((place >= high) & (slopes < 0.0))
     inner_edge = at_end & (place > 0.0) & (place < 1.0)
@@ -145,14 +143,14 @@ def _is_stationary(slopes: Array, place: Array, low: Array, high: Array, size: f
 
 
 def _to_zero_slopes(
-    downwards: Callable[[Array], Array], height: Callable[[Array], float], best: Array, value: float
-) -> tuple[Array, float]:
+    downwards: Callable[[Floats], Floats], height: Callable[[Floats], float], best: Floats, value: float
+) -> tuple[Floats, float]:
     """Move a smooth peak to the zero of its slopes; an input at the end of its range stays there."""
     free = (best > 0.0) & (best < 1.0)
     if not free.any():
         return best, -value
 
-    def slopes(inner: Array) -> Array:
+    def slopes(inner: Floats) -> Floats:
         place = best.copy()
         place[free] = inner
         return downwards(place)[free]

@@ -1,11 +1,8 @@
 """The merit to be maximised, for many cells at once, and when one merit is better than another."""
 
-from typing import Final, Protocol, TypeAlias
+from typing import Final, Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
-Array: TypeAlias = NDArray[np.float64]
+from gradhesion.core.types import Floats, Integers
 
 CLOSE: Final = 1e-9
 """Relative difference by which a merit is better than another."""
@@ -16,7 +13,7 @@ WIDTH: Final = 1e-12
 class Merit(Protocol):
     """The merit to be maximised, of cells that differ in the inputs that are not searched."""
 
-    def values(self, places: Array, cells: NDArray[np.int64]) -> tuple[Array, Array]:
+    def values(self, places: Floats, cells: Integers) -> tuple[Floats, Floats]:
         """Return merits, and margins that are not negative where all requirements are met.
 
         Parameters
@@ -31,5 +28,5 @@ class Merit(Protocol):
         Two arrays of shape `shape`; merits are NaN where there is no value.
         """
 
-    def slopes(self, places: Array, cells: NDArray[np.int64]) -> Array | None:
+    def slopes(self, places: Floats, cells: Integers) -> Floats | None:
         """Return the slopes of merits to the searched inputs, as `places`; None if they are not known."""

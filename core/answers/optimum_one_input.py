@@ -8,10 +8,10 @@ place to all digits.
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize.elementwise import find_minimum, find_root
 
-from gradhesion.core.answers.optimum_merit import CLOSE, WIDTH, Array, Merit
+from gradhesion.core.answers.optimum_merit import CLOSE, WIDTH, Merit
+from gradhesion.core.types import Floats, Integers, Truths
 
 _ROUGH: Final = 2.0**-24
 """The width of a bracket where a zero of the slope is to follow."""
@@ -21,7 +21,7 @@ _BETWEEN: Final = 7
 """Points tried between two of a sweep, where there may be a peak that is higher than the best."""
 
 
-def refine_one(merit: Merit, heights: Array, basins: tuple[NDArray[np.int64], ...]) -> tuple[Array, Array]:
+def refine_one(merit: Merit, heights: Floats, basins: tuple[Integers, ...]) -> tuple[Floats, Floats]:
     """Refine the basins of one searched input, all at once."""
     index, cells = basins
     if not index.size:
@@ -89,7 +89,7 @@ def refine_one(merit: Merit, heights: Array, basins: tuple[NDArray[np.int64], ..
     return places[None], np.where((margins >= 0.0) & ~np.isnan(merits), merits, -np.inf)
 
 
-def peaks_between(merit: Merit, heights: Array, best: Array, where: Array) -> tuple[NDArray[np.int64], Array, Array]:
+def peaks_between(merit: Merit, heights: Floats, best: Floats, where: Floats) -> tuple[Integers, Floats, Floats]:
     """Search for peaks between two points of a sweep that the sweep does not show, where they can be above the best.
 
     `best` and `where` are the optima of the cells so far. Between two points the merit is assumed to rise above both by
@@ -133,7 +133,7 @@ def peaks_between(merit: Merit, heights: Array, best: Array, where: Array) -> tu
     return cells, refined, -depth(refined, cells.astype(float))
 
 
-def _promised(heights: Array) -> Array:
+def _promised(heights: Floats) -> Floats:
     """Return for each interval of the first axis how high a peak within may be; -inf next to infeasible points."""
     with np.errstate(invalid="ignore"):
         steps = np.abs(np.diff(heights, axis=0))
@@ -145,7 +145,7 @@ def _promised(heights: Array) -> Array:
     return np.where(np.isfinite(lowest), np.maximum(heights[:-1], heights[1:]) + steepest, -np.inf)
 
 
-def _edges(merit: Merit, inside: Array, outside: Array, cells: NDArray[np.int64]) -> Array:
+def _edges(merit: Merit, inside: Floats, outside: Floats, cells: Integers) -> Floats:
     """Return the edges of the feasible region between places (n,) on its two sides, on the feasible side."""
 
     def side(places: Any, cell: Any) -> Any:
@@ -158,7 +158,7 @@ def _edges(merit: Merit, inside: Array, outside: Array, cells: NDArray[np.int64]
     return np.where(side_of_one > 0.0, one, other)
 
 
-def to_stationary(merit: Merit, places: Array, cells: NDArray[np.int64]) -> tuple[Array, NDArray[np.bool_]]:
+def to_stationary(merit: Merit, places: Floats, cells: Integers) -> tuple[Floats, Truths]:
     """Move places of one input to the zero of the slope beside them, where it is known and the merit no lower.
 
     Returns
@@ -188,12 +188,12 @@ def to_stationary(merit: Merit, places: Array, cells: NDArray[np.int64]) -> tupl
     return np.where(settled, moved, places), settled
 
 
-def _folded(places: Array) -> Array:
+def _folded(places: Floats) -> Floats:
     """Mirror places beyond 0 and 1 into the range, so that a peak at an end has lower points on both sides."""
     return np.abs(1.0 - np.abs(1.0 - places))
 
 
-def _into(places: Array, lowest: Array, highest: Array) -> Array:
+def _into(places: Floats, lowest: Floats, highest: Floats) -> Floats:
     """Mirror places into the feasible region, and into the range."""
     inner = np.where(places < lowest, 2.0 * lowest - places, np.where(places > highest, 2.0 * highest - places, places))
     return _folded(inner)

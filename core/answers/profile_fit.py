@@ -15,13 +15,12 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.optimize import least_squares, minimize_scalar
 from threadpoolctl import threadpool_limits
 
 from gradhesion.core.problem.profile import MOST_HARMONICS, Harmonic, Profile
-
-_Array = NDArray[np.float64]
+from gradhesion.core.types import Floats
 
 TAPER: Final = 0.1
 """The part of the radius over which the weight falls at the edge."""
@@ -65,14 +64,14 @@ class FittedProfile:
     exponent: float
     radius: float
     wavelength: float
-    cosines: _Array
-    sines: _Array
+    cosines: Floats
+    sines: Floats
     centre: float
     height: float
     up_to: float
     errors: dict[str, Any]
-    distance: _Array
-    residual: _Array
+    distance: Floats
+    residual: Floats
 
     @property
     def amplitude(self) -> float:
@@ -99,7 +98,7 @@ class FittedProfile:
         )
         return Profile(exponent=self.exponent, harmonics=tuple(waves))
 
-    def heights(self, distance: ArrayLike) -> _Array:
+    def heights(self, distance: ArrayLike) -> Floats:
         """Return the fitted height above that of the centre at distances from it."""
         rho = np.asarray(distance, dtype=float)
         turns = 2.0 * math.pi * np.multiply.outer(rho / self.wavelength, np.arange(1, self.cosines.size + 1))
@@ -169,7 +168,7 @@ def fit_profile(
         return fit.found()
 
 
-def _in_order(places: _Array, heights: _Array) -> tuple[_Array, _Array]:
+def _in_order(places: Floats, heights: Floats) -> tuple[Floats, Floats]:
     """Return points, of shape (n,), from left to right, each place once."""
     if places.shape != heights.shape or places.ndim != 1 or not places.size:
         raise ValueError("places and heights are two lists of one length")
@@ -185,14 +184,14 @@ def _in_order(places: _Array, heights: _Array) -> tuple[_Array, _Array]:
     return places[keep], heights[keep]
 
 
-def _is_lowest_inside(heights: _Array) -> bool:
+def _is_lowest_inside(heights: Floats) -> bool:
     """Return whether a line, of shape (n,), has two flanks: at both its ends it is well above its lowest point."""
     few = max(1, heights.size // 50)
     ends = min(float(np.median(heights[:few])), float(np.median(heights[-few:])))
     return ends - float(heights.min()) > 0.25 * float(np.ptp(heights))
 
 
-def _vertex(places: _Array, heights: _Array) -> float:
+def _vertex(places: Floats, heights: Floats) -> float:
     """Return the vertex of the parabola that fits points (n,) best; an end of the line if it has none within."""
     middle, half = 0.5 * (places[0] + places[-1]), 0.5 * (places[-1] - places[0]) or 1.0
     bend, slope, _ = np.polyfit((places - middle) / half, heights, 2)
@@ -204,7 +203,7 @@ class _Fit:
     """Points within a radius, in its unit, and the search for the numbers that are not linear."""
 
     def __init__(
-        self, places: _Array, heights: _Array, reach: float, terms: int, exponent: float | None, centre: float | None
+        self, places: Floats, heights: Floats, reach: float, terms: int, exponent: float | None, centre: float | None
     ) -> None:
         self.reach, self.exponent, self.both = reach, exponent, centre is not None
         self.x = places / reach
@@ -217,7 +216,7 @@ class _Fit:
         self.terms = terms
         self.floor = (_ROUNDING**2) * self.x.size
 
-    def design(self, m: float, waves: float, centre: float, x: _Array) -> tuple[_Array, _Array]:
+    def design(self, m: float, waves: float, centre: float, x: Floats) -> tuple[Floats, Floats]:
         """Return the columns of the linear part at some points, and the roots of their weights."""
         rho = np.abs(x - centre)
         count = max(1, min(self.terms, int(0.5 / (self.spacing * waves))))
@@ -226,16 +225,16 @@ class _Fit:
         edge = np.clip((1.0 - rho) / TAPER, 0.0, 1.0)
         return columns, np.sin(0.5 * math.pi * edge)
 
-    def projected(self, vector: _Array, x: _Array, y: _Array) -> _Array:
+    def projected(self, vector: Floats, x: Floats, y: Floats) -> Floats:
         """Return the residual of the best linear part, weighted."""
         m, waves, centre = self.split(vector)
         columns, roots = self.design(m, waves, centre, x)
         q, _ = np.linalg.qr(columns * roots[:, None])
         weighted = y * roots
-        left: _Array = weighted - q @ (q.T @ weighted)
+        left: Floats = weighted - q @ (q.T @ weighted)
         return left
 
-    def split(self, vector: _Array) -> tuple[float, float, float]:
+    def split(self, vector: Floats) -> tuple[float, float, float]:
         """Name the numbers that are searched."""
         rest = list(vector[1:])
         m = float(rest.pop(0)) if self.exponent is None else self.exponent
@@ -257,11 +256,11 @@ class _Fit:
             _, vector = self._refined(vector, self.x, self.y)
         return self._described(vector)
 
-    def _vector(self, waves: float, m: float) -> _Array:
+    def _vector(self, waves: float, m: float) -> Floats:
         rest = [m] if self.exponent is None else []
         return np.array([waves, *rest, *([self.start_centre] if self.both else [])])
 
-    def _exponent_of_power(self, x: _Array, y: _Array) -> float:
+    def _exponent_of_power(self, x: Floats, y: Floats) -> float:
         """Return the exponent of the power alone that fits best."""
         rho = np.abs(x - self.start_centre)
 
@@ -273,7 +272,7 @@ class _Fit:
         i = int(np.argmin([size(m) for m in grid]))
         return float(minimize_scalar(size, bounds=(grid[max(0, i - 1)], grid[min(29, i + 1)]), method="bounded").x)
 
-    def _periods(self, m: float, x: _Array, y: _Array) -> _Array:
+    def _periods(self, m: float, x: Floats, y: Floats) -> Floats:
         """Return waves over the radius at which the harmonics of the residual of a power are largest."""
         rho = np.abs(x - self.start_centre)
         order = np.argsort(rho)
@@ -294,7 +293,7 @@ class _Fit:
         best = peaks[np.argsort(-total[peaks])][:_CANDIDATES]
         return np.unique(np.concatenate([[1.0], waves[best]]))
 
-    def _refined(self, start: _Array, x: _Array, y: _Array) -> tuple[float, _Array]:
+    def _refined(self, start: Floats, x: Floats, y: Floats) -> tuple[float, Floats]:
         """Return the least sum of squares near a start, and the searched numbers there."""
         low, high = start.copy(), start.copy()
         low[0], high[0] = max(1.0, start[0] - 0.5), max(1.0, start[0] - 0.5) + 1.0
@@ -315,7 +314,7 @@ class _Fit:
         )
         return 2.0 * float(done.cost), done.x
 
-    def _described(self, vector: _Array) -> FittedProfile:
+    def _described(self, vector: Floats) -> FittedProfile:
         """Describe the fit in the units of the measurement, with the errors that its residual implies."""
         m, waves, centre = self.split(vector)
         columns, roots = self.design(m, waves, centre, self.x)
@@ -365,7 +364,7 @@ class _Fit:
             residual=left[inside],
         )
 
-    def _error_of_radius(self, m: float, factor: float, own: float, rows: _Array, variance: float) -> float:
+    def _error_of_radius(self, m: float, factor: float, own: float, rows: Floats, variance: float) -> float:
         """Return the standard deviation of R = (m g)^(-1/(m-1)); the relative error of g is that of `own`."""
         gradient = [-1.0 / ((m - 1.0) * own)]
         if rows.shape[0] > 1:
@@ -375,14 +374,14 @@ class _Fit:
         covariance = variance * rows @ rows.T
         return float(radius * math.sqrt(np.array(gradient) @ covariance @ np.array(gradient)))
 
-    def _slope(self, linear: _Array, vector: _Array, i: int) -> _Array:
+    def _slope(self, linear: Floats, vector: Floats, i: int) -> Floats:
         """Return the derivative of the heights by one of the searched numbers, by a central difference."""
 
-        def model(where: _Array) -> _Array:
-            heights: _Array = self.design(*self.split(where), self.x)[0] @ linear
+        def model(where: Floats) -> Floats:
+            heights: Floats = self.design(*self.split(where), self.x)[0] @ linear
             return heights
 
         step = np.zeros_like(vector)
         step[i] = 1e-6 * max(1.0, abs(vector[i]))
-        slope: _Array = (model(vector + step) - model(vector - step)) / (2.0 * step[i])
+        slope: Floats = (model(vector + step) - model(vector - step)) / (2.0 * step[i])
         return slope

@@ -13,9 +13,11 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import ndtr, ndtri
 from scipy.stats import qmc
+
+from gradhesion.core.types import Floats, Integers, Truths
 
 QUANTILES: Final = {"p05": 0.05, "p50": 0.5, "p95": 0.95}
 """The quantiles of the samples, by their names."""
@@ -28,8 +30,6 @@ AT_FEW: Final = 0.02
 """Relative difference allowed between deviations of these samples."""
 _LEAST_SHARE: Final = 2.0**-54
 """Samples are strictly between the bounds: a modulus of 0 has no value."""
-
-_Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,13 +61,13 @@ class Spread:
     high: Any = np.inf
     uniform: bool = False
 
-    def _normal(self, values: ArrayLike) -> tuple[_Array, _Array, _Array, _Array]:
+    def _normal(self, values: ArrayLike) -> tuple[Floats, Floats, Floats, Floats]:
         """Return centre and deviation of the normal distribution, and its bounds in deviations from the centre."""
         centre = np.asarray(values, dtype=float)
         deviation = self.deviation * (np.abs(centre) if self.relative else np.ones_like(centre))
         return centre, deviation, (self.low - centre) / deviation, (self.high - centre) / deviation
 
-    def standard_deviation(self, values: ArrayLike) -> _Array:
+    def standard_deviation(self, values: ArrayLike) -> Floats:
         """Return the standard deviation of the distribution, truncated as it is, about each value."""
         if self.uniform:
             return np.full(np.shape(values), (self.high - self.low) / np.sqrt(12.0))
@@ -78,7 +78,7 @@ class Spread:
         mean = (at_low - at_high) / share
         return deviation * np.sqrt(1.0 + (low * at_low - high * at_high) / share - mean * mean)
 
-    def quantiles(self, values: ArrayLike, shares: ArrayLike) -> _Array:
+    def quantiles(self, values: ArrayLike, shares: ArrayLike) -> Floats:
         """Return the inputs below which these shares lie, strictly between the bounds; both arguments broadcast."""
         inner = np.clip(np.asarray(shares, dtype=float), _LEAST_SHARE, 1.0 - _LEAST_SHARE)
         if self.uniform:
@@ -90,7 +90,7 @@ class Spread:
         return np.clip(found, np.nextafter(self.low, np.inf), np.nextafter(self.high, -np.inf))
 
 
-def drawn_shares(inputs: int, count: int, seed: int) -> _Array:
+def drawn_shares(inputs: int, count: int, seed: int) -> Floats:
     """Return quasi-random shares 0 .. 1, a scrambled sequence of Sobol's, of shape (inputs, count).
 
     Parameters
@@ -114,7 +114,7 @@ def drawn_shares(inputs: int, count: int, seed: int) -> _Array:
     return np.ascontiguousarray(sequence.random(count).T)
 
 
-def linear_deviation(slopes: Sequence[ArrayLike], deviations: Sequence[ArrayLike]) -> _Array:
+def linear_deviation(slopes: Sequence[ArrayLike], deviations: Sequence[ArrayLike]) -> Floats:
     """Return the standard deviation of values of any shape by their slopes to independent inputs.
 
     Examples
@@ -126,7 +126,7 @@ def linear_deviation(slopes: Sequence[ArrayLike], deviations: Sequence[ArrayLike
     return np.sqrt(np.sum([part * part for part in parts], axis=0))
 
 
-def differ(one: ArrayLike, other: ArrayLike, share: float = TENTH) -> NDArray[np.bool_]:
+def differ(one: ArrayLike, other: ArrayLike, share: float = TENTH) -> Truths:
     """Return where deviations, of any shape, differ by more than a share of the larger, or one of them is missing.
 
     Examples
@@ -135,11 +135,11 @@ def differ(one: ArrayLike, other: ArrayLike, share: float = TENTH) -> NDArray[np
     [False, True, False, True]
     """
     first, second = np.asarray(one, dtype=float), np.asarray(other, dtype=float)
-    close: NDArray[np.bool_] = np.abs(first - second) <= share * np.maximum(first, second)
+    close: Truths = np.abs(first - second) <= share * np.maximum(first, second)
     return ~close
 
 
-def statistics_of(samples: _Array, axis: int) -> Mapping[str, _Array]:
+def statistics_of(samples: Floats, axis: int) -> Mapping[str, Floats]:
     """Return mean, quantiles and standard deviation ("std") of samples along an axis, of which NaN are left out.
 
     Examples
@@ -160,7 +160,7 @@ def statistics_of(samples: _Array, axis: int) -> Mapping[str, _Array]:
     return found
 
 
-def _quantile(ordered: _Array, counts: NDArray[np.int64], share: float, axis: int) -> _Array:
+def _quantile(ordered: Floats, counts: Integers, share: float, axis: int) -> Floats:
     """Return a quantile along an axis of sorted samples, of which the first `counts` have values, interpolated."""
     place = share * np.maximum(counts - 1, 0)
     low = np.floor(place).astype(np.int64)

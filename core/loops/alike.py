@@ -8,11 +8,11 @@ import math
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
 from gradhesion.core.loops.paths.model import WAVELENGTHS, Model
 from gradhesion.core.loops.paths.path import LoopPath
+from gradhesion.core.types import Floats
 
 _SEEN: Final = 5.0
 """Size of a jump, in standard deviations of the noise, from which on it shows that there are waves."""
@@ -22,7 +22,7 @@ _PHASE: Final = 0.1
 """Error of the number of waves within the contact, below which waves are resolved without jumps."""
 
 
-def alike(model: Model, path: LoopPath, noise: NDArray[np.float64], spread: NDArray[np.float64]) -> tuple[str, ...]:
+def alike(model: Model, path: LoopPath, noise: Floats, spread: Floats) -> tuple[str, ...]:
     """Return a sentence on what else would explain a loop; none where the jumps decide.
 
     Parameters

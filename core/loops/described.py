@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import stdtrit
 
 from gradhesion.core.loops.alike import alike
@@ -17,8 +16,7 @@ from gradhesion.core.loops.report import status_of
 from gradhesion.core.loops.search.minima import others
 from gradhesion.core.loops.search.ranges import is_on_bound
 from gradhesion.core.problem.status import ANOTHER_MINIMUM, POOR_FIT
-
-_Array = NDArray[np.float64]
+from gradhesion.core.types import Floats
 
 _SINGULAR: Final = 1e-6
 """Singular value over the largest, below which a combination of parameters has no effect but rounding."""
@@ -79,7 +77,7 @@ def described(
     )
 
 
-def covariance_of(misfit: Misfit, vector: _Array) -> _Array:
+def covariance_of(misfit: Misfit, vector: Floats) -> Floats:
     """Return the covariance of the numbers at a minimum, for residuals of variance 1; refuse equal effects."""
     names, jacobian = misfit.names, misfit.jacobian(vector)
     sizes = np.array([high - low for low, high in zip(misfit.low, misfit.high, strict=True)])

@@ -17,7 +17,7 @@ from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from threadpoolctl import threadpool_limits
 
 from gradhesion.core.loops.described import described
@@ -36,8 +36,7 @@ from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.toughness import Toughness
-
-_Array = NDArray[np.float64]
+from gradhesion.core.types import Floats, Truths
 
 ONE_NUMBER: Final = ("E_star", "E", "modulus", "c0", "c0_over_R", "nu")
 """Parameters that act on a loop through M = theta(k, nu) E*/c0^k alone."""
@@ -181,7 +180,7 @@ def fit_loop(
     return replace(found_loop, contact=contact, **ways)
 
 
-def _starts(misfit: Misfit, own: Mapping[str, Any], zeros: tuple[float, float], count: int, seed: int) -> list[_Array]:
+def _starts(misfit: Misfit, own: Mapping[str, Any], zeros: tuple[float, float], count: int, seed: int) -> list[Floats]:
     """Return starts: near the smooth curve, then of waves, then of speeds, each from the results of the one before."""
 
     def part(bare: Mapping[str, float], names: tuple[str, ...]) -> Misfit:
@@ -201,8 +200,8 @@ def _starts(misfit: Misfit, own: Mapping[str, Any], zeros: tuple[float, float], 
 
 
 def _check(
-    points: _Array,
-    back: NDArray[np.bool_],
+    points: Floats,
+    back: Truths,
     free: Mapping[str, tuple[float, float]],
     noise: tuple[float, float],
     *,

@@ -3,17 +3,15 @@
 import math
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from gradhesion.core.loops.paths.model import Model
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN
 from gradhesion.core.problem.status import JUMP_IN_TO_RIM
 from gradhesion.core.sweep import solve
+from gradhesion.core.types import Floats
 from gradhesion.core.variables.reduced import parameters_from
 
 
-def status_of(model: Model, vector: NDArray[np.float64], radius: float) -> int:
+def status_of(model: Model, vector: Floats, radius: float) -> int:
     """Return the status of the cycle of a vector that turns at a radius, over R."""
     if radius == 0.0:
         return 0

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-_Array = NDArray[np.float64]
+from gradhesion.core.types import Floats, Truths
 
 _SIGMAS: Final = 3.0
 """Standard deviations of the noise by which points of a base line scatter at most, drift included."""
@@ -72,7 +71,7 @@ class ContactPoint:
     method: str = "end of the base line of loading"
 
 
-def _flat_part(depth: _Array, load: _Array, noise: float, steep: float) -> int:
+def _flat_part(depth: Floats, load: Floats, noise: float, steep: float) -> int:
     """Return how many points at the least depths lie on a flat line; all of shape (n,), in order of depth."""
     count = depth.size
     if count < _LEAST:
@@ -103,7 +102,7 @@ def _flat_part(depth: _Array, load: _Array, noise: float, steep: float) -> int:
     return int(begun[0]) if begun.size and begun[0] >= _LEAST else last + 1
 
 
-def base_line(points: _Array, back: NDArray[np.bool_], noise: float) -> BaseLine | None:
+def base_line(points: Floats, back: Truths, noise: float) -> BaseLine | None:
     """Find the line of no load of a loop.
 
     Parameters
@@ -150,7 +149,7 @@ def base_line(points: _Array, back: NDArray[np.bool_], noise: float) -> BaseLine
     return BaseLine(float(mean[1]), float(away[:, 1].std()), slope, error, (ends[0], ends[1]))
 
 
-def contact_point(points: _Array, back: NDArray[np.bool_], noise: tuple[float, float]) -> ContactPoint | None:
+def contact_point(points: Floats, back: Truths, noise: tuple[float, float]) -> ContactPoint | None:
     """Find the depth at which contact begins on loading; None without a base line there.
 
     Parameters
@@ -178,7 +177,7 @@ def contact_point(points: _Array, back: NDArray[np.bool_], noise: tuple[float, f
     return ContactPoint(0.5 * (low + high), float(np.hypot(noise[0], (high - low) / np.sqrt(12.0))))
 
 
-def _two_parts(depth: _Array, load: _Array, at: int, level: float) -> float:
+def _two_parts(depth: Floats, load: Floats, at: int, level: float) -> float:
     """Return the squares of a load about a level up to a place and a cubic from there on; arrays (n,)."""
     before = load[:at] - level
     scaled = (depth[at:] - depth[at]) / max(float(depth[-1] - depth[at]), np.finfo(float).tiny)

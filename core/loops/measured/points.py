@@ -6,9 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.loops.measured.neighbours import of_differences
+from gradhesion.core.types import Floats, Truths
 
-_Array = NDArray[np.float64]
-_Bools = NDArray[np.bool_]
 _Ints = NDArray[np.int32]
 
 TURN: Final = 0.2
@@ -21,7 +20,7 @@ _SPIKE: Final = 5
 """Points of the running median, which removes a spike."""
 
 
-def ways(depth: _Array, cycle: _Ints | None = None) -> tuple[_Bools, _Ints]:
+def ways(depth: Floats, cycle: _Ints | None = None) -> tuple[Truths, _Ints]:
     """Find which points unload, from their order.
 
     Parameters
@@ -74,13 +73,13 @@ def ways(depth: _Array, cycle: _Ints | None = None) -> tuple[_Bools, _Ints]:
     return unloading, number
 
 
-def _without_spikes(row: _Array) -> _Array:
+def _without_spikes(row: Floats) -> Floats:
     """Give the running median."""
     windows = np.lib.stride_tricks.sliding_window_view(np.pad(row, _SPIKE // 2, mode="edge"), _SPIKE)
     return np.asarray(np.partition(windows, _SPIKE // 2, axis=1)[:, _SPIKE // 2])
 
 
-def _extremes(row: _Array) -> NDArray[np.intp]:
+def _extremes(row: Floats) -> NDArray[np.intp]:
     """Give the places of the extremes of short blocks; those of the row are among them."""
     if row.size <= 2 * _BLOCKS:
         return np.arange(row.size)

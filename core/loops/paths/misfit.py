@@ -5,14 +5,13 @@ from copy import copy
 from typing import Any, Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from gradhesion.core.loops.paths.distance import Feet, feet
 from gradhesion.core.loops.paths.motion import moving
 from gradhesion.core.loops.paths.path import LoopModel, LoopPath
+from gradhesion.core.types import Floats, Truths
 
-_Array = NDArray[np.float64]
 _All: Final = slice(None)
 
 _STEP: Final = 1e-5
@@ -31,10 +30,10 @@ class Data(NamedTuple):
     the mean.
     """
 
-    points: _Array
-    back: NDArray[np.bool_]
+    points: Floats
+    back: Truths
     noise: tuple[float, float]
-    counts: _Array
+    counts: Floats
 
 
 class Misfit:
@@ -50,11 +49,11 @@ class Misfit:
         Ends of the range of each number, as it is searched.
     """
 
-    def __init__(self, data: Data, model: LoopModel, low: _Array, high: _Array) -> None:
+    def __init__(self, data: Data, model: LoopModel, low: Floats, high: Floats) -> None:
         self.data, self.scale = data, np.array(data.noise)
         self.points, self.back, self.weights = data.points / self.scale, data.back, np.sqrt(data.counts)
         self.model, self.names, self.low, self.high = model, model.names, low, high
-        self._kept: tuple[bytes, Any, list[tuple[NDArray[np.bool_], slice, Feet]], LoopPath | None] | None = None
+        self._kept: tuple[bytes, Any, list[tuple[Truths, slice, Feet]], LoopPath | None] | None = None
 
     def finer(self) -> "Misfit":
         """Return the same misfit on a grid that is `_FINER` times as fine."""
@@ -62,15 +61,15 @@ class Misfit:
         model.fineness *= _FINER
         return Misfit(self.data, model, self.low, self.high)
 
-    def named(self, vector: _Array) -> dict[str, float]:
+    def named(self, vector: Floats) -> dict[str, float]:
         """Give the numbers their names and units."""
         return {name: float(value) for name, value in self.model.values(vector).items()}
 
-    def path(self, vector: _Array) -> LoopPath | None:
+    def path(self, vector: Floats) -> LoopPath | None:
         """Draw the path."""
         return self.model.path(vector)
 
-    def residual(self, vector: _Array, use: slice = _All) -> _Array:
+    def residual(self, vector: Floats, use: slice = _All) -> Floats:
         """Return the signed distances of points to the path, in standard deviations."""
         _, _, parts, drawn = self._at(vector, use)
         found = np.full(self.back[use].size, LOST)
@@ -79,7 +78,7 @@ class Misfit:
                 found[own] = nearest.distance
         return found * self.weights[use]
 
-    def jacobian(self, vector: _Array, use: slice = _All) -> _Array:
+    def jacobian(self, vector: Floats, use: slice = _All) -> Floats:
         """Return the derivatives of the distances."""
         if self.model.by_differences:
             return self._differences(vector, use)
@@ -91,7 +90,7 @@ class Misfit:
                 found[own] = nearest.slopes(moved[piece])
         return found * self.weights[use, None]
 
-    def _differences(self, vector: _Array, use: slice) -> _Array:
+    def _differences(self, vector: Floats, use: slice) -> Floats:
         """Return the derivatives of the distances by central differences."""
         steps = _STEP * (self.high - self.low)
         return np.column_stack([
@@ -99,12 +98,12 @@ class Misfit:
             for i, step in enumerate(np.diag(steps))
         ])  # fmt: skip
 
-    def feet(self, vector: _Array) -> list[tuple[NDArray[np.bool_], slice, Feet]]:
+    def feet(self, vector: Floats) -> list[tuple[Truths, slice, Feet]]:
         """Return, for each branch, its points, its vertices, and where these points are nearest to it."""
-        parts: list[tuple[NDArray[np.bool_], slice, Feet]] = self._at(vector, _All)[2]
+        parts: list[tuple[Truths, slice, Feet]] = self._at(vector, _All)[2]
         return parts
 
-    def _at(self, vector: _Array, use: slice) -> Any:
+    def _at(self, vector: Floats, use: slice) -> Any:
         """Find where points are nearest to the path; the last result is kept, for the derivatives."""
         key = vector.tobytes()
         if self._kept is None or self._kept[:2] != (key, use):
@@ -121,7 +120,7 @@ class Misfit:
 
     def refined(
         self,
-        start: _Array,
+        start: Floats,
         use: slice = _All,
         *,
         loss: str = "linear",
@@ -139,7 +138,7 @@ class Misfit:
         low, high = self.low[searched], self.high[searched]
         width = high - low
 
-        def whole(part: _Array) -> _Array:
+        def whole(part: Floats) -> Floats:
             vector = start.copy()
             vector[searched] = part
             return vector
@@ -159,6 +158,6 @@ class Misfit:
         done.x = whole(done.x)
         return done
 
-    def size(self, vector: _Array, use: slice = _All) -> float:
+    def size(self, vector: Floats, use: slice = _All) -> float:
         """Return a measure of the misfit that outliers hardly move."""
         return float(np.sum(np.log1p(self.residual(vector, use) ** 2)))

@@ -14,7 +14,6 @@ from functools import lru_cache
 from typing import Any, Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.equations import hertz, jkr
 from gradhesion.core.equations.pair import cosine_integrals
@@ -25,9 +24,8 @@ from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, TURNS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Toughness, rows_of_pattern, series_at
 from gradhesion.core.struve.table import struve_pair
+from gradhesion.core.types import Floats
 from gradhesion.core.variables.reduced import WAYS, parameters_from
-
-_Array = NDArray[np.float64]
 
 LINEAR: Final = ("k", "nu", "indentation_max", "closing_ratio", "toughness_amplitude", "exponent", *OFFSETS)
 """Names searched on a linear scale; all others are searched by their logarithm."""
@@ -77,12 +75,12 @@ class Scenes(NamedTuple):
 class States(NamedTuple):
     """Equilibrium at some radii, in m, N and N/m; of their shape, or of (scenes, radii)."""
 
-    depth: _Array
-    load: _Array
-    pull: _Array
-    slope: _Array
+    depth: Floats
+    load: Floats
+    pull: Floats
+    slope: Floats
 
-    def at(self, toughness: Any) -> tuple[_Array, _Array]:
+    def at(self, toughness: Any) -> tuple[Floats, Floats]:
         """Return depth and load where the edge has a toughness, over that of opening."""
         pull = toughness * self.pull
         return self.depth - pull, self.load - self.slope * pull
@@ -137,7 +135,7 @@ class Model:
         """Return the place, among what is searched, of the one that has one of some names; None if none has."""
         return next((place for place, name in enumerate(self.names) if name in ways), None)
 
-    def values(self, vectors: _Array) -> dict[str, Any]:
+    def values(self, vectors: Floats) -> dict[str, Any]:
         """Give what is searched its names and units: numbers of one vector, arrays of the rows of several."""
         return {
             name: column if name in LINEAR else np.exp(column)
@@ -153,7 +151,7 @@ class Model:
                 given.pop(role, None)
         return given
 
-    def scenes(self, vectors: _Array) -> Scenes:
+    def scenes(self, vectors: Floats) -> Scenes:
         """Return the numbers of vectors, of shape (vectors, unknown)."""
         own = {name: column[:, None] for name, column in self.values(vectors).items()}
         given = self.given(own)
@@ -171,7 +169,7 @@ class Model:
         )  # fmt: skip
         return Scenes(*columns)
 
-    def states(self, scenes: Scenes, radius: _Array) -> States:
+    def states(self, scenes: Scenes, radius: Floats) -> States:
         """Return equilibrium of scenes at radii in m, all of them at the same."""
         k, R, m = scenes.k, scenes.R, self.profile.exponent
         a = radius / R
@@ -184,7 +182,7 @@ class Model:
             pull = pull * self._toughness(scenes, a)
         return States(smooth + R * a * first, load, pull, slope)
 
-    def _waves(self, scenes: Scenes, a: _Array) -> tuple[Any, Any]:
+    def _waves(self, scenes: Scenes, a: Floats) -> tuple[Any, Any]:
         """Return what the waves add to delta_H/a and to I/a^(2+k); one pass for all scenes of one k and wavelength."""
         if not self.has_waves:
             return 0.0, 0.0
@@ -200,7 +198,7 @@ class Model:
         sums = scenes.A * sums
         return sums[0], sums[1]
 
-    def _sums(self, k: float, x: _Array) -> _Array:
+    def _sums(self, k: float, x: Floats) -> Floats:
         """Return the sums over the waves of a unit amplitude, for depth and moment, at wavelengths x: (2, n)."""
         sums = np.zeros((2, x.size))
         for wave in self.profile.harmonics:
@@ -211,7 +209,7 @@ class Model:
                 sums += size * wave.sin * cosine_integrals(k, wave.n * x)
         return sums
 
-    def _toughness(self, scenes: Scenes, a: _Array) -> _Array:
+    def _toughness(self, scenes: Scenes, a: Floats) -> Floats:
         """Return the toughness of the interface at radii over R, over its mean."""
         assert self.toughness is not None  # noqa: S101 (asked before)
         series = 1.0 + scenes.swing * series_at(rows_of_pattern(self.toughness), a / scenes.pattern)

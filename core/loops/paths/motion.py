@@ -10,19 +10,17 @@ differentiated by central differences, good to 1e-9.
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.loops.paths.model import Scenes
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.loops.paths.path import LoopModel, LoopPath
-
-_Array = NDArray[np.float64]
+from gradhesion.core.types import Floats
 
 _STEP: Final = 1e-5
 """Relative step of the differences: their error is of its square, or of 1e-16 over it."""
 
 
-def moving(model: LoopModel, vector: _Array, drawn: LoopPath) -> _Array:
+def moving(model: LoopModel, vector: Floats, drawn: LoopPath) -> Floats:
     """Return how the vertices of a path move with each number that is searched.
 
     Returns
@@ -61,7 +59,7 @@ def moving(model: LoopModel, vector: _Array, drawn: LoopPath) -> _Array:
     return moved
 
 
-def _turned(model: LoopModel, vector: _Array, drawn: LoopPath) -> tuple[float, float]:
+def _turned(model: LoopModel, vector: Floats, drawn: LoopPath) -> tuple[float, float]:
     """Return the depth (of the machine, unless that of the specimen is given) and the load of the turn, unshifted."""
     depth, load, tilt = model.shift(vector)
     x, y = (float(each) for each in drawn.places[drawn.turn])
@@ -69,7 +67,7 @@ def _turned(model: LoopModel, vector: _Array, drawn: LoopPath) -> tuple[float, f
     return x - depth - (drawn.scene.compliance * y if model.turns_at_depth else 0.0), y
 
 
-def _press(model: LoopModel, places: _Array, slope: _Array, scenes: Scenes, turn: tuple[float, float]) -> None:
+def _press(model: LoopModel, places: Floats, slope: Floats, scenes: Scenes, turn: tuple[float, float]) -> None:
     """Press the contact of scenes, pinned at the rim, on to the coordinate of the turn; places of shape (2, n)."""
     compliance = np.broadcast_to(scenes.compliance, (slope.size, 1))[:, 0]
     x, y = turn
@@ -84,7 +82,7 @@ def _press(model: LoopModel, places: _Array, slope: _Array, scenes: Scenes, turn
         places[0] = x
 
 
-def _slide(model: LoopModel, drawn: LoopPath, moved: _Array, load_max: float) -> None:
+def _slide(model: LoopModel, drawn: LoopPath, moved: Floats, load_max: float) -> None:
     """Move the turn, at a load, and the places where jumps land, along their branches to stay at their coordinates."""
     scene, turn, axis = drawn.scene, drawn.turn, int(model.loading.control == "load")
     landings = np.flatnonzero(drawn.jump & (drawn.radius > 0.0))

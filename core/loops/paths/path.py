@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import Any, Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.loops.paths.model import Model, Scenes, States
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
@@ -17,9 +16,7 @@ from gradhesion.core.loops.paths.walk import climb, crossing
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Toughness
-
-_Array = NDArray[np.float64]
-_Bits = NDArray[np.bool_]
+from gradhesion.core.types import Floats, Truths
 
 _A_WAVE: Final = 48
 """Radii of the grid within the shortest wave."""
@@ -40,9 +37,9 @@ _REACH: Final = (1.25, 2.5, 10.0)
 class Walk(NamedTuple):
     """The results of `climb`."""
 
-    radius: _Array
-    jump: _Bits
-    level: _Array
+    radius: Floats
+    jump: Truths
+    level: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,18 +69,18 @@ class LoopPath:
         Whether it turns at a load.
     """
 
-    places: _Array
-    radius: _Array
-    jump: _Bits
-    curved: _Bits
-    toughness: _Array
+    places: Floats
+    radius: Floats
+    jump: Truths
+    curved: Truths
+    toughness: Floats
     turn: int
     scene: Scenes
     is_pressed: bool = False
     by_load: bool = False
 
 
-def _met(radius: _Array, jump: _Bits, level: _Array, target: float) -> float | None:
+def _met(radius: Floats, jump: Truths, level: Floats, target: float) -> float | None:
     """Return the radius at which loading first has a level, None where it has not; as `climb` returns these."""
     i = int(np.argmax(level >= target)) if level.size else 0
     if not level.size or not level[i] >= target:
@@ -140,11 +137,11 @@ class LoopModel(Model):
         """Whether loading turns at a given depth of the specimen, while the far end of a machine is driven."""
         return self.turns == "indentation_max_over_R" and self.loading.control == "machine"
 
-    def shift(self, vector: _Array) -> tuple[float, ...]:
+    def shift(self, vector: Floats) -> tuple[float, ...]:
         """Return the zeros of depth and load, and the tilt, of a vector."""
         return tuple(float(vector[self.names.index(name)]) if name in self.names else 0.0 for name in OFFSETS)
 
-    def _targets(self, scene: Scenes, vector: _Array) -> tuple[float, float]:
+    def _targets(self, scene: Scenes, vector: Floats) -> tuple[float, float]:
         """Return the coordinate at which loading turns and the load that it reaches there; inf is never reached."""
         if self.turns:
             turn = float(scene.turn)
@@ -153,7 +150,7 @@ class LoopModel(Model):
         highest = self.furthest[1] - load - tilt * self.furthest[0]
         return (math.inf, highest) if self.loading.control == "load" else (self.furthest[0] - depth, highest)
 
-    def path(self, vector: _Array) -> LoopPath | None:
+    def path(self, vector: Floats) -> LoopPath | None:
         """Draw the path; None where the scene has none."""
         scene = self.scenes(vector[None]).one
         if not (0.0 < scene.stiffness < math.inf and 0.0 < scene.R * scene.disc < math.inf):
@@ -167,7 +164,7 @@ class LoopModel(Model):
         drawn.places[:, 1] += load + tilt * drawn.places[:, 0]
         return drawn
 
-    def _grid(self, scene: Scenes, end: float) -> _Array | None:
+    def _grid(self, scene: Scenes, end: float) -> Floats | None:
         """Return the radii between which branches are searched, up to an end, of shape (n,); None for too many."""
         step, count = self.shortest(scene) / (_A_WAVE * self.fineness), _SMOOTH * self.fineness
         if end / step > _MOST:
@@ -260,7 +257,7 @@ class LoopModel(Model):
     def _joined(
         self,
         scene: Scenes,
-        grid: _Array,
+        grid: Floats,
         states: States,
         up: Walk,
         turned: tuple[float, bool],

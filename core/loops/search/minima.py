@@ -4,14 +4,12 @@ import math
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import chdtri
 
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import WAVELENGTHS
 from gradhesion.core.loops.search.starts import coarse, distinct, is_noise
-
-_Array = NDArray[np.float64]
+from gradhesion.core.types import Floats
 
 _FEW: Final = 300
 """Largest number of points by which starts are refined."""
@@ -30,7 +28,7 @@ _APART: Final = 9.0, 4.0
 of chi square; two places in one valley are not."""
 
 
-def refined(misfit: Misfit, begun: list[_Array]) -> list[Any]:
+def refined(misfit: Misfit, begun: list[Floats]) -> list[Any]:
     """Refine starts, by some of the points and then the best of them by all; the best minimum first.
 
     Where a wavelength is searched, minima with some waves more or less in the contact than the best has are tried too,
@@ -53,19 +51,19 @@ def refined(misfit: Misfit, begun: list[_Array]) -> list[Any]:
     return whole
 
 
-def _by_all(misfit: Misfit, vectors: list[_Array]) -> list[Any]:
+def _by_all(misfit: Misfit, vectors: list[Floats]) -> list[Any]:
     """Refine vectors by all points, the best first."""
     return sorted((misfit.refined(vector, most=100) for vector in vectors), key=lambda done: done.cost)
 
 
-def _robust(misfit: Misfit, start: _Array, few: slice) -> Any:
+def _robust(misfit: Misfit, start: Floats, few: slice) -> Any:
     """Refine a start by some of the points, first with a loss that outliers hardly move, unless only noise is left."""
     if not is_noise(misfit, start, few):
         start = misfit.refined(start, few, loss="soft_l1", most=40, tolerance=1e-6).x
     return misfit.refined(start, few, most=30, tolerance=1e-6)
 
 
-def _beside(misfit: Misfit, vector: _Array) -> list[_Array]:
+def _beside(misfit: Misfit, vector: Floats) -> list[Floats]:
     """Return a vector with some waves more or less in the contact; none where the wavelength is not searched."""
     i = misfit.model.place_of(WAVELENGTHS)
     path = misfit.path(vector)
@@ -94,7 +92,7 @@ def _rise(done: Any) -> float:
     return float(chdtri(done.x.size, 1.0 - _ALLOWED))
 
 
-def others(found: list[Any], covariance: _Array, unit: float) -> list[Any]:
+def others(found: list[Any], covariance: Floats, unit: float) -> list[Any]:
     """Return the minima other than the first that the noise allows.
 
     Parameters

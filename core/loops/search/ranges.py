@@ -5,12 +5,10 @@ from collections.abc import Mapping
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.loops.measured.features import BaseLine, ContactPoint
 from gradhesion.core.loops.paths.offsets import NAMES, Offsets
-
-_Array = NDArray[np.float64]
+from gradhesion.core.types import Floats, Truths
 
 _NEAR: Final = 0.01
 """Part of a range: a value closer than this to an end is on the bound."""
@@ -18,9 +16,7 @@ _WIDE: Final = 10.0
 """Ratio of stop to start above which a range is measured by its logarithm."""
 
 
-def zeros_of(
-    points: _Array, back: NDArray[np.bool_], line: BaseLine | None, contact: ContactPoint | None
-) -> tuple[float, float]:
+def zeros_of(points: Floats, back: Truths, line: BaseLine | None, contact: ContactPoint | None) -> tuple[float, float]:
     """Return estimates of the load out of contact and of the depth at which contact begins."""
     first = points[~back] if not back.all() else points
     at = int(np.argmin(first[:, 0]))
@@ -32,7 +28,7 @@ def zeros_of(
 
 
 def searched(
-    points: _Array, free: Mapping[str, tuple[float, float]], zeros: Offsets, line: BaseLine | None
+    points: Floats, free: Mapping[str, tuple[float, float]], zeros: Offsets, line: BaseLine | None
 ) -> dict[str, tuple[float, float]]:
     """Return what is searched, offsets last: depths within the data, loads by the pull-off force of the base line."""
     ranges = {name: (float(low), float(high)) for name, (low, high) in free.items()}

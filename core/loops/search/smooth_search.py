@@ -7,13 +7,11 @@ import math
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.loops.search.starts import COARSE, coarse, distinct, is_noise, near_best
-
-_Array = NDArray[np.float64]
+from gradhesion.core.types import Floats
 
 _MODULI: Final = ("E_star", "E", "modulus")
 _CONTACTS: Final = 12
@@ -26,7 +24,7 @@ _ROBUST: Final = 4
 """How many of these are also refined with a loss that outliers hardly affect."""
 
 
-def smooth_starts(misfit: Misfit, load_zero: float, contact: float, seed: int) -> list[_Array]:
+def smooth_starts(misfit: Misfit, load_zero: float, contact: float, seed: int) -> list[Floats]:
     """Return refined starts of a loop whose punch has no waves that are searched, the best first.
 
     Parameters
@@ -66,7 +64,7 @@ def smooth_starts(misfit: Misfit, load_zero: float, contact: float, seed: int) -
     sizes = [misfit.size(vector, few) for vector in begun]
     likely = [i for i in range(len(begun)) if i % depths.size == depths.size - 1] if math.isfinite(contact) else []
     order = [*likely, *(i for i in np.argsort(sizes, kind="stable")[:_KEPT].tolist() if i not in likely)]
-    found: list[_Array] = []
+    found: list[Floats] = []
     for number, i in enumerate(order):
         found.append(misfit.refined(begun[i], few, most=40, tolerance=1e-6).x)
         if is_noise(misfit, found[-1], few):
@@ -77,7 +75,7 @@ def smooth_starts(misfit: Misfit, load_zero: float, contact: float, seed: int) -
     return near_best(distinct([found[i] for i in np.argsort(squares, kind="stable")], misfit), misfit)
 
 
-def held_start(misfit: Misfit, begun: _Array, load_zero: float, contact: float) -> _Array:
+def held_start(misfit: Misfit, begun: Floats, load_zero: float, contact: float) -> Floats:
     """Return a start with both zeros from the base line, refined in everything else."""
     vector, held = begun.copy(), []
     for name, value in ((OFFSETS[0], contact), (OFFSETS[1], load_zero)):
@@ -85,13 +83,13 @@ def held_start(misfit: Misfit, begun: _Array, load_zero: float, contact: float) 
             held.append(misfit.names.index(name))
             vector[held[-1]] = value
     vector = np.clip(vector, misfit.low, misfit.high)
-    found: _Array = misfit.refined(
+    found: Floats = misfit.refined(
         matched(misfit, vector, load_zero), coarse(misfit, COARSE), loss="soft_l1", most=40, held=held, tolerance=1e-6
     ).x
     return found
 
 
-def matched(misfit: Misfit, vector: _Array, load_zero: float) -> _Array:
+def matched(misfit: Misfit, vector: Floats, load_zero: float) -> Floats:
     """Return a vector with the modulus at which contact without adhesion has the largest load of the data."""
     name = next((name for name in _MODULI if name in misfit.names), None)
     if name is None:

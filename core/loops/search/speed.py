@@ -10,7 +10,6 @@ from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.curves import draw_curves
 from gradhesion.core.loops.paths.misfit import Misfit
@@ -19,9 +18,8 @@ from gradhesion.core.loops.paths.path import LoopModel, LoopPath
 from gradhesion.core.loops.search.starts import best_of, carried, coarse
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, SPEED
 from gradhesion.core.problem.rate import EXPONENTS, Rate
+from gradhesion.core.types import Floats
 from gradhesion.core.variables.reduced import parameters_from
-
-_Array = NDArray[np.float64]
 
 EXPONENT: Final = "exponent"
 """The name of the power of the speed, where it is searched."""
@@ -49,7 +47,7 @@ class SpeedModel(LoopModel):
         super().__init__(fixed, names, **others)
         self.rate = rate
 
-    def path(self, vector: _Array) -> LoopPath | None:
+    def path(self, vector: Floats) -> LoopPath | None:
         """Draw the path; None where the scene has none. It turns where that of an edge at rest does."""
         rest = super().path(vector)
         own = self.values(vector)
@@ -97,7 +95,7 @@ def at_rest(model: LoopModel) -> tuple[dict[str, float], tuple[str, ...]]:
     return fixed, tuple(name for name in model.names if name not in _SPEEDS)
 
 
-def fast_starts(misfit: Misfit, rest: Misfit, begun: _Array) -> list[_Array]:
+def fast_starts(misfit: Misfit, rest: Misfit, begun: Floats) -> list[Floats]:
     """Return starts of some speeds from the minimum of an edge at rest, refined by a few points, the best first."""
     names, few = misfit.names, coarse(misfit, 100)
     middle = carried(misfit, rest, begun)

@@ -3,11 +3,9 @@
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.loops.paths.misfit import Misfit
-
-_Array = NDArray[np.float64]
+from gradhesion.core.types import Floats
 
 COARSE: Final = 140
 """Points that starts are compared with."""
@@ -24,16 +22,16 @@ def coarse(misfit: Misfit, count: int) -> slice:
     return slice(None, None, max(1, misfit.back.size // count))
 
 
-def carried(misfit: Misfit, other: Misfit, vector: _Array) -> _Array:
+def carried(misfit: Misfit, other: Misfit, vector: Floats) -> Floats:
     """Return a vector with the numbers that another loop has of the same names, others in the middle of their range."""
     own = dict(zip(other.names, vector, strict=True))
     middle = 0.5 * (misfit.low + misfit.high)
     return np.array([own.get(name, each) for name, each in zip(misfit.names, middle, strict=True)])
 
 
-def distinct(vectors: list[_Array], misfit: Misfit, near: float = 1e-3) -> list[_Array]:
+def distinct(vectors: list[Floats], misfit: Misfit, near: float = 1e-3) -> list[Floats]:
     """Return those of some vectors that are not near an earlier one: a part of the ranges in every number."""
-    kept: list[_Array] = []
+    kept: list[Floats] = []
     width = misfit.high - misfit.low
     for vector in vectors:
         if all(np.max(np.abs(vector - other) / width) > near for other in kept):
@@ -41,7 +39,7 @@ def distinct(vectors: list[_Array], misfit: Misfit, near: float = 1e-3) -> list[
     return kept
 
 
-def near_best(vectors: list[_Array], misfit: Misfit) -> list[_Array]:
+def near_best(vectors: list[Floats], misfit: Misfit) -> list[Floats]:
     """Return those of some vectors, the best first, that are not far worse than the best: refining may change that."""
     few = coarse(misfit, COARSE)
     sizes = [misfit.size(vector, few) for vector in vectors]
@@ -49,13 +47,13 @@ def near_best(vectors: list[_Array], misfit: Misfit) -> list[_Array]:
     return [vector for vector, size in zip(vectors, sizes, strict=True) if size <= most]
 
 
-def best_of(misfit: Misfit, vectors: list[_Array], few: slice, count: int) -> list[_Array]:
+def best_of(misfit: Misfit, vectors: list[Floats], few: slice, count: int) -> list[Floats]:
     """Return the best of some vectors, in order."""
     sizes = [misfit.size(vector, few) for vector in vectors]
     return [vectors[i] for i in np.argsort(sizes, kind="stable")[:count]]
 
 
-def is_noise(misfit: Misfit, vector: _Array, few: slice) -> bool:
+def is_noise(misfit: Misfit, vector: Floats, few: slice) -> bool:
     """Say whether a vector leaves no more than noise at some of the points."""
     count = misfit.back[few].size
     return misfit.size(vector, few) <= _NOISE[0] * count + _CLEAR * _NOISE[1] * count**0.5

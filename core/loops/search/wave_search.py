@@ -9,14 +9,12 @@ import math
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import AMPLITUDES, WAVELENGTHS, Model
 from gradhesion.core.loops.search.starts import COARSE, best_of, carried, coarse, distinct, is_noise, near_best
-
-_Array = NDArray[np.float64]
+from gradhesion.core.types import Floats
 
 _HEIGHTS: Final = 3
 """Amplitudes that are tried with each wavelength."""
@@ -32,7 +30,7 @@ _LEAST, _MOST = 8, 14
 """How many they are at least and at most."""
 
 
-def spectrum(smooth: Misfit, vector: _Array, lengths: tuple[float, float]) -> _Array:
+def spectrum(smooth: Misfit, vector: Floats, lengths: tuple[float, float]) -> Floats:
     """Return the wavelengths in m at which the residual of a smooth punch repeats most, the strongest first."""
     from scipy.signal import find_peaks, lombscargle  # noqa: PLC0415 (a loop without waves does without its half second)
 
@@ -59,7 +57,7 @@ def spectrum(smooth: Misfit, vector: _Array, lengths: tuple[float, float]) -> _A
     return np.asarray(1.0 / waves[peaks[np.argsort(-power[peaks], kind="stable")]])
 
 
-def wavy_starts(misfit: Misfit, smooth: Misfit, bases: list[_Array], count: int) -> list[_Array]:
+def wavy_starts(misfit: Misfit, smooth: Misfit, bases: list[Floats], count: int) -> list[Floats]:
     """Return starts for waves that are searched, refined in everything else, the best first.
 
     Parameters
@@ -76,7 +74,7 @@ def wavy_starts(misfit: Misfit, smooth: Misfit, bases: list[_Array], count: int)
     held = [i for i in (length, height) if i is not None]
     shares = (np.arange(_HEIGHTS) + 0.5) / _HEIGHTS
     heights = [None] if height is None else misfit.low[height] + shares * (misfit.high[height] - misfit.low[height])
-    found: list[_Array] = []
+    found: list[Floats] = []
     for base in distinct(bases, smooth, _ALIKE):
         middle = carried(misfit, smooth, base)
         for waves in [[None]] if length is None else _lengths(misfit, smooth, base, middle, length):
@@ -98,7 +96,7 @@ def wavy_starts(misfit: Misfit, smooth: Misfit, bases: list[_Array], count: int)
     return near_best(distinct(found, misfit), misfit)[:count]
 
 
-def _lengths(misfit: Misfit, smooth: Misfit, begun: _Array, middle: _Array, i: int) -> list[Any]:
+def _lengths(misfit: Misfit, smooth: Misfit, begun: Floats, middle: Floats, i: int) -> list[Any]:
     """Return the logarithms of the wavelengths that are tried: those of the spectrum, and others over the range."""
     drawn, scene = smooth.path(begun), misfit.model.scenes(middle[None]).one
     unit = scene.wavelength * scene.R / math.exp(middle[i])  # the wavelength in m of a number of 1
@@ -114,7 +112,7 @@ def _lengths(misfit: Misfit, smooth: Misfit, begun: _Array, middle: _Array, i: i
     return [np.log(tried[(tried >= low) & (tried <= high)] / unit) for tried in groups]
 
 
-def _softened(misfit: Misfit, vector: _Array) -> _Array:
+def _softened(misfit: Misfit, vector: Floats) -> Floats:
     """Subtract what waves add from the work of adhesion of the smooth punch: the roots of both add up."""
     if "work_of_adhesion" not in misfit.names:
         return vector
