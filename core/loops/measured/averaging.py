@@ -106,27 +106,17 @@ def averaged(
         bad = _bent(*moments, size, scale) | _apart(rows, waiting, size, scale[0], steps)
         done.append(waiting[~bad])
         half = (size[bad] + 1) // 2
-        waiting, size = (
-            np.concatenate([waiting[bad], waiting[bad] + half]),
-            np.concatenate([half, size[bad] - half]),
-        )
-        sort = np.argsort(waiting)
-        waiting, size = waiting[sort], size[sort]
+        waiting = np.column_stack([waiting[bad], waiting[bad] + half]).ravel()
+        size = np.column_stack([half, size[bad] - half]).ravel()
         moments = _moments(rows, waiting, size)
     first = np.sort(np.concatenate(done))
     counts = np.diff(np.append(first, depth.size))
     means = [np.add.reduceat(row[order], first) / counts for row in (depth, load)]
     whole, branch = counts == length, np.searchsorted(first, begin)
     slow = [of_differences(row, branch, _ORDER, whole) * math.sqrt(length) for row in means]
-    drifts = [_SLOWER * own < size for own, size in zip(noise, slow, strict=True)]
-    return Averaged(
-        means[0],
-        means[1],
-        unloading[order][first],
-        cycle[order][first],
-        counts.astype(float),
-        (slow[0] if drifts[0] else noise[0], slow[1] if drifts[1] else noise[1]),
-    )
+    found = [slower if _SLOWER * own < slower else own for own, slower in zip(noise, slow, strict=True)]
+    sides, cycles = unloading[order][first], cycle[order][first]
+    return Averaged(means[0], means[1], sides, cycles, counts.astype(float), (found[0], found[1]))
 
 
 def _moments(rows: Floats, first: _Ints, size: _Ints) -> tuple[Floats, Floats]:

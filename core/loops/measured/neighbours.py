@@ -93,9 +93,7 @@ def of_differences(row: Floats, begin: _Places, order: int = 2, sound: Truths | 
     """
     if row.size <= order:
         return 0.0
-    piece = np.zeros(row.size, np.intp)
-    piece[begin[1:]] = 1
-    np.cumsum(piece, out=piece)
+    piece = np.searchsorted(begin, np.arange(row.size), "right")
     use = piece[order:] == piece[:-order]
     if sound is not None:
         bad = np.concatenate([[0], np.cumsum(~sound)])

@@ -22,24 +22,16 @@ _STEPS: Final = 2
 
 @dataclass(frozen=True, eq=False)
 class Feet:
-    """Where points are nearest to a curve.
-
-    Attributes
-    ----------
-    distance
-        Signed: positive on the left of the piece.
-    piece
-        The number of the piece, that of its first vertex.
-    share
-        How far along it, 0 to 1.
-    normal
-        Rows of the direction in which the distance grows, of length 1.
-    """
+    """Where points are nearest to a curve."""
 
     distance: Floats
+    """Signed: positive on the left of the piece."""
     piece: Integers
+    """The number of the piece, that of its first vertex."""
     share: Floats
+    """How far along it, 0 to 1."""
     normal: Floats
+    """Rows of the direction in which the distance grows, of length 1."""
 
     def slopes(self, moving: Floats) -> Floats:
         """Return the derivatives of the distances as the vertices move.

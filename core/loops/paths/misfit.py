@@ -36,6 +36,15 @@ class Data(NamedTuple):
     counts: Floats
 
 
+class _Nearest(NamedTuple):
+    """Where points are nearest to a path: for each branch its points, its vertices and the feet; kept by its vector."""
+
+    vector: bytes
+    use: slice
+    branches: list[tuple[Truths, slice, Feet]]
+    drawn: LoopPath | None
+
+
 class Misfit:
     """The points of a loop in units of their noise.
 
@@ -53,7 +62,7 @@ class Misfit:
         self.data, self.scale = data, np.array(data.noise)
         self.points, self.back, self.weights = data.points / self.scale, data.back, np.sqrt(data.counts)
         self.model, self.names, self.low, self.high = model, model.names, low, high
-        self._kept: tuple[bytes, Any, list[tuple[Truths, slice, Feet]], LoopPath | None] | None = None
+        self._kept: _Nearest | None = None
 
     def finer(self) -> "Misfit":
         """Return the same misfit on a grid that is `_FINER` times as fine."""
@@ -71,22 +80,19 @@ class Misfit:
 
     def residual(self, vector: Floats, use: slice = _All) -> Floats:
         """Return the signed distances of points to the path, in standard deviations."""
-        _, _, parts, drawn = self._at(vector, use)
         found = np.full(self.back[use].size, LOST)
-        if drawn is not None:
-            for own, _, nearest in parts:
-                found[own] = nearest.distance
+        for own, _, nearest in self._nearest(vector, use).branches:
+            found[own] = nearest.distance
         return found * self.weights[use]
 
     def jacobian(self, vector: Floats, use: slice = _All) -> Floats:
         """Return the derivatives of the distances."""
         if self.model.by_differences:
             return self._differences(vector, use)
-        _, _, parts, drawn = self._at(vector, use)
-        found = np.zeros((self.back[use].size, len(self.names)))
-        if drawn is not None:
-            moved = moving(self.model, vector, drawn) / self.scale[:, None]
-            for own, piece, nearest in parts:
+        found, kept = np.zeros((self.back[use].size, len(self.names))), self._nearest(vector, use)
+        if kept.drawn is not None:
+            moved = moving(self.model, vector, kept.drawn) / self.scale[:, None]
+            for own, piece, nearest in kept.branches:
                 found[own] = nearest.slopes(moved[piece])
         return found * self.weights[use, None]
 
@@ -100,22 +106,19 @@ class Misfit:
 
     def feet(self, vector: Floats) -> list[tuple[Truths, slice, Feet]]:
         """Return, for each branch, its points, its vertices, and where these points are nearest to it."""
-        parts: list[tuple[Truths, slice, Feet]] = self._at(vector, _All)[2]
-        return parts
+        return self._nearest(vector, _All).branches
 
-    def _at(self, vector: Floats, use: slice) -> Any:
+    def _nearest(self, vector: Floats, use: slice) -> _Nearest:
         """Find where points are nearest to the path; the last result is kept, for the derivatives."""
         key = vector.tobytes()
         if self._kept is None or self._kept[:2] != (key, use):
-            drawn = self.path(vector)
-            parts = []
-            if drawn is not None:
-                points, back = self.points[use], self.back[use]
-                chain = drawn.places / self.scale
+            self._kept = _Nearest(key, use, [], self.path(vector))
+            if (drawn := self._kept.drawn) is not None:
+                points, back, chain = self.points[use], self.back[use], drawn.places / self.scale
                 for own, piece in ((~back, slice(0, drawn.turn + 1)), (back, slice(drawn.turn, None))):
                     if own.any():
-                        parts.append((own, piece, feet(points[own], chain[piece], drawn.curved[piece])))
-            self._kept = key, use, parts, drawn
+                        near = feet(points[own], chain[piece], drawn.curved[piece])
+                        self._kept.branches.append((own, piece, near))
         return self._kept
 
     def refined(

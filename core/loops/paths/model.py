@@ -29,12 +29,11 @@ from gradhesion.core.variables.reduced import WAYS, parameters_from
 
 LINEAR: Final = ("k", "nu", "indentation_max", "closing_ratio", "toughness_amplitude", "exponent", *OFFSETS)
 """Names searched on a linear scale; all others are searched by their logarithm."""
-_INSTEAD: Final[dict[str, frozenset[str]]] = {
-    parameter: frozenset(WAYS[parameter]) for parameter in ("c0_over_R", "lambda_over_R", "a_max_over_R")
-}
-"""Keys whose default values have no effect."""
+_WITHOUT_EFFECT: Final = {"a_max_over_R": math.inf, "c0_over_R": 1.0, "lambda_over_R": 1.0}
+"""Values of what may be left out where it has no effect."""
 AMPLITUDES: Final = ("A", *WAYS["A"])
 WAVELENGTHS: Final = ("lambda_over_R", *WAYS["lambda_over_R"])
+WAVES: Final = (*AMPLITUDES, *WAVELENGTHS)
 
 
 class Scenes(NamedTuple):
@@ -144,12 +143,8 @@ class Model:
 
     def given(self, own: Mapping[str, Any]) -> dict[str, Any]:
         """Join the searched and the fixed numbers, with defaults without effect for what is left out."""
-        given = {"a_max_over_R": math.inf, "c0_over_R": 1.0, "lambda_over_R": 1.0} | self.fixed
-        given |= {name: value for name, value in own.items() if name not in OFFSETS}
-        for role, others in _INSTEAD.items():
-            if others & given.keys():
-                given.pop(role, None)
-        return given
+        given = self.fixed | {name: value for name, value in own.items() if name not in OFFSETS}
+        return {name: one for name, one in _WITHOUT_EFFECT.items() if not WAYS[name].keys() & given.keys()} | given
 
     def scenes(self, vectors: Floats) -> Scenes:
         """Return the numbers of vectors, of shape (vectors, unknown)."""
@@ -163,7 +158,7 @@ class Model:
         compliance = 1.0 / (made["machine_stiffness"] * modulus * work) if self.loading.control == "machine" else 0.0
         turn = made[self.turns] * (unit if self.turns == "load_max" else R) if self.turns else math.nan
         columns = (
-            k, R, M, made["lambda_over_R"], made["A"], np.sqrt(made.get(CLOSING, 1.0)), compliance,
+            k, R, M, made["lambda_over_R"], made["A"], np.sqrt(np.maximum(made.get(CLOSING, 1.0), 0.0)), compliance,
             R * made["a_max_over_R"], made.get(PATTERN[0], 1.0), made.get(PATTERN[1], 1.0), turn,
             R * rise, unit / R * disc * M, R * adhesion / np.sqrt(M),
         )  # fmt: skip
@@ -183,13 +178,13 @@ class Model:
         return States(smooth + R * a * first, load, pull, slope)
 
     def _waves(self, scenes: Scenes, a: Floats) -> tuple[Any, Any]:
-        """Return what the waves add to delta_H/a and to I/a^(2+k); one pass for all scenes of one k and wavelength."""
+        """Return what the waves add to delta_H/a and to I/a^(2+k); one pass for scenes of equal k and lengths."""
         if not self.has_waves:
             return 0.0, 0.0
         if a.ndim == 1:
             sums = scenes.A * self._sums(scenes.k, a / scenes.wavelength)
             return sums[0], sums[1]
-        alike = np.broadcast_arrays(scenes.k, scenes.wavelength, scenes.R)
+        alike = np.broadcast_arrays(scenes.k, scenes.wavelength, scenes.R, scenes.rim)
         sums, known = np.empty((2, alike[0].size, a.shape[1])), {}
         for row, key in enumerate(zip(*(column.flat for column in alike), strict=True)):
             if key not in known:
@@ -211,7 +206,7 @@ class Model:
 
     def _toughness(self, scenes: Scenes, a: Floats) -> Floats:
         """Return the toughness of the interface at radii over R, over its mean."""
-        assert self.toughness is not None  # noqa: S101 (asked before)
+        assert self.toughness is not None  # noqa: S101 (only called with one)
         series = 1.0 + scenes.swing * series_at(rows_of_pattern(self.toughness), a / scenes.pattern)
         return np.sqrt(np.maximum(series, 0.0)) if self.toughness.of == "work" else series
 

@@ -1,17 +1,17 @@
 """How the path of a loop moves with what is fitted.
 
 A distance to a curve changes only as the curve moves normal to itself, not as its vertices move along it. So vertices
-are moved at fixed contact radius, where depth and load are closed forms (model.py), and no derivative of a fold is
-needed: it is a stationary point. Corners are moved along their branches as well: a landing stays at the coordinate of
-its jump, and the turn, with the radius at which the edge is pinned, at that of the data. Closed forms are
-differentiated by central differences, good to 1e-9.
+are moved at fixed contact radius, those at the rim with it, where depth and load are closed forms (model.py), and no
+derivative of a fold is needed: it is a stationary point. Corners are moved along their branches as well: a landing
+stays at the coordinate of its jump, and the turn, with the radius at which the edge is pinned, at that of the data.
+Closed forms are differentiated by central differences, good to 1e-9.
 """
 
 from typing import Final
 
 import numpy as np
 
-from gradhesion.core.loops.paths.model import Scenes
+from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO, TILT
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.loops.paths.path import LoopModel, LoopPath
 from gradhesion.core.types import Floats
@@ -39,23 +39,28 @@ def moving(model: LoopModel, vector: Floats, drawn: LoopPath) -> Floats:
         both[range(len(inner)), inner], both[range(len(inner), 2 * len(inner)), inner] = steps, -steps
         scenes = model.scenes(vector + both)
         edge = np.where(within <= drawn.turn, scenes.root, 1.0)
-        found = model.states(scenes, drawn.radius[within][None])
-        depth, load = found.at(edge)
-        places = np.array([depth + scenes.compliance * load, load])
+        radius = drawn.radius[within][None]
+        found = model.states(scenes, np.where(radius == drawn.scene.rim, scenes.rim, radius))
+        one = np.ones((2 * len(inner), 1))  # what is searched may change the compliance or the turn alone
+        depth, load = (one * row for row in found.at(edge))
         if drawn.is_pressed:
-            at = int(np.searchsorted(within, drawn.turn))
-            _press(model, places[:, :, at], found.slope[:, at], scenes, _turned(model, vector, drawn))
+            at = np.flatnonzero(within == drawn.turn)
+            aim, flat = _turned(model, vector, drawn)[int(model.loading.control == "load")], found.slope[:, at]
+            deeper = model.deeper(scenes, aim, depth[:, at], load[:, at], flat)
+            depth[:, at] += deeper
+            load[:, at] += flat * deeper
+        places = np.array([depth + scenes.compliance * load, load])
         moves = (places[:, : len(inner)] - places[:, len(inner) :]) / (2.0 * steps[:, None])
         moved[within[0] : within[-1] + 1, :, inner] = moves.transpose(2, 0, 1)
     tilt = model.shift(vector)[2]
     if within.size:
         _slide(model, drawn, moved, _turned(model, vector, drawn)[1])
-    for axis, name in enumerate(OFFSETS[:2]):
+    for axis, name in enumerate((DEPTH_ZERO, LOAD_ZERO)):
         if name in model.names:
             moved[:, axis, model.names.index(name)] += 1.0
     moved[:, 1] += tilt * moved[:, 0]
-    if OFFSETS[2] in model.names:
-        moved[:, 1, model.names.index(OFFSETS[2])] += drawn.places[:, 0]
+    if TILT in model.names:
+        moved[:, 1, model.names.index(TILT)] += drawn.places[:, 0]
     return moved
 
 
@@ -65,21 +70,6 @@ def _turned(model: LoopModel, vector: Floats, drawn: LoopPath) -> tuple[float, f
     x, y = (float(each) for each in drawn.places[drawn.turn])
     y -= load + tilt * x
     return x - depth - (drawn.scene.compliance * y if model.turns_at_depth else 0.0), y
-
-
-def _press(model: LoopModel, places: Floats, slope: Floats, scenes: Scenes, turn: tuple[float, float]) -> None:
-    """Press the contact of scenes, pinned at the rim, on to the coordinate of the turn; places of shape (2, n)."""
-    compliance = np.broadcast_to(scenes.compliance, (slope.size, 1))[:, 0]
-    x, y = turn
-    if model.loading.control == "load":
-        places[0] += (y - places[1]) / slope
-        places[1] = y
-    elif model.turns_at_depth:
-        places[1] += slope * (x - places[0] + compliance * places[1])
-        places[0] = x + compliance * places[1]
-    else:
-        places[1] += slope * (x - places[0]) / (1.0 + compliance * slope)
-        places[0] = x
 
 
 def _slide(model: LoopModel, drawn: LoopPath, moved: Floats, load_max: float) -> None:
@@ -97,15 +87,10 @@ def _slide(model: LoopModel, drawn: LoopPath, moved: Floats, load_max: float) ->
         along[0] = [1.0 + scene.compliance * flat, flat]
     if (drawn.radius[turn] < scene.rim or drawn.is_pressed) and not drawn.jump[turn]:
         by = axis if drawn.is_pressed else int(drawn.by_load)
-        target = np.zeros(len(model.names))
-        if model.turns:
-            for name, of in (("indentation_max", 1.0), ("preload", scene.turn)):
-                if name in model.names:
-                    target[model.names.index(name)] = of
-        else:
-            for name, of in ((OFFSETS[by], -1.0), (OFFSETS[2], -by * model.furthest[0])):
-                if name in model.names:
-                    target[model.names.index(name)] = of
+        rates = {"indentation_max": 1.0, "preload": scene.turn}
+        if not model.turns:
+            rates = {OFFSETS[by]: -1.0, TILT: -by * model.furthest[0]}
+        target = np.array([rates.get(name, 0.0) for name in model.names])
         gone, ahead = moved[turn, by].copy(), along[0, by]
         if by == 0 and model.turns_at_depth:  # depth of the specimen: the machine's less the stretch of its spring
             gone -= scene.compliance * moved[turn, 1]

@@ -1,10 +1,12 @@
-"""What all searches for starts share: a part of the points, and which vectors are worth refining."""
+"""What all searches for starts share: parts of a loop, rough refinement, and which vectors are worth refining."""
 
+from collections.abc import Mapping, Sequence
 from typing import Final
 
 import numpy as np
 
 from gradhesion.core.loops.paths.misfit import Misfit
+from gradhesion.core.loops.paths.model import Model
 from gradhesion.core.types import Floats
 
 COARSE: Final = 140
@@ -27,6 +29,31 @@ def carried(misfit: Misfit, other: Misfit, vector: Floats) -> Floats:
     own = dict(zip(other.names, vector, strict=True))
     middle = 0.5 * (misfit.low + misfit.high)
     return np.array([own.get(name, each) for name, each in zip(misfit.names, middle, strict=True)])
+
+
+def without(model: Model, names: Sequence[str]) -> tuple[dict[str, float], tuple[str, ...]]:
+    """Return what is fixed and what is searched of a loop, less some names."""
+    fixed = {name: value for name, value in model.fixed.items() if name not in names}
+    return fixed, tuple(name for name in model.names if name not in names)
+
+
+def put(misfit: Misfit, vector: Floats, values: Mapping[str, float]) -> list[int]:
+    """Set the numbers of a vector that are searched under some names, and return their places."""
+    places = {misfit.names.index(name): value for name, value in values.items() if name in misfit.names}
+    for place, value in places.items():
+        vector[place] = value
+    return [*places]
+
+
+def shares_of(misfit: Misfit, number: int, count: int) -> Floats:
+    """Return values of a number evenly within its range, none at its ends; shape (count,)."""
+    shares: Floats = (np.arange(count) + 0.5) / count
+    return misfit.low[number] + shares * (misfit.high[number] - misfit.low[number])
+
+
+def roughly(misfit: Misfit, vectors: Sequence[Floats], few: slice, most: int, held: Sequence[int] = ()) -> list[Floats]:
+    """Refine vectors by some of the points in at most so many steps, whatever outliers there are."""
+    return [misfit.refined(vector, few, loss="soft_l1", most=most, held=held, tolerance=1e-4).x for vector in vectors]
 
 
 def distinct(vectors: list[Floats], misfit: Misfit, near: float = 1e-3) -> list[Floats]:

@@ -12,8 +12,18 @@ import numpy as np
 
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
 from gradhesion.core.loops.paths.misfit import Misfit
-from gradhesion.core.loops.paths.model import AMPLITUDES, WAVELENGTHS, Model
-from gradhesion.core.loops.search.starts import COARSE, best_of, carried, coarse, distinct, is_noise, near_best
+from gradhesion.core.loops.paths.model import AMPLITUDES, WAVELENGTHS
+from gradhesion.core.loops.search.starts import (
+    COARSE,
+    best_of,
+    carried,
+    coarse,
+    distinct,
+    is_noise,
+    near_best,
+    roughly,
+    shares_of,
+)
 from gradhesion.core.types import Floats
 
 _HEIGHTS: Final = 3
@@ -72,8 +82,7 @@ def wavy_starts(misfit: Misfit, smooth: Misfit, bases: list[Floats], count: int)
     few = coarse(misfit, COARSE)
     length, height = misfit.model.place_of(WAVELENGTHS), misfit.model.place_of(AMPLITUDES)
     held = [i for i in (length, height) if i is not None]
-    shares = (np.arange(_HEIGHTS) + 0.5) / _HEIGHTS
-    heights = [None] if height is None else misfit.low[height] + shares * (misfit.high[height] - misfit.low[height])
+    heights = [None] if height is None else shares_of(misfit, height, _HEIGHTS)
     found: list[Floats] = []
     for base in distinct(bases, smooth, _ALIKE):
         middle = carried(misfit, smooth, base)
@@ -85,11 +94,8 @@ def wavy_starts(misfit: Misfit, smooth: Misfit, bases: list[Floats], count: int)
                     if i is not None and value is not None:
                         vector[i] = value
                 begun.append(_softened(misfit, vector))
-            near = [
-                misfit.refined(vector, few, loss="soft_l1", most=4, held=held, tolerance=1e-4).x for vector in begun
-            ]
-            near = distinct(best_of(misfit, near, few, count), misfit)
-            found += [misfit.refined(vector, few, loss="soft_l1", most=10, tolerance=1e-4).x for vector in near]
+            near = best_of(misfit, roughly(misfit, begun, few, most=4, held=held), few, count)
+            found += roughly(misfit, distinct(near, misfit), few, most=10)
             found = best_of(misfit, found, few, len(found))
             if found and is_noise(misfit, found[0], few):
                 return near_best(distinct(found, misfit), misfit)[:count]
@@ -123,10 +129,3 @@ def _softened(misfit: Misfit, vector: Floats) -> Floats:
     root = max(1.0 - ratio, 0.15)
     vector[i] = np.clip(vector[i] + 2.0 * math.log(root), misfit.low[i], misfit.high[i])
     return vector
-
-
-def without_waves(model: Model) -> tuple[dict[str, float], tuple[str, ...]]:
-    """Return what is fixed and what is searched of the same loop of a punch without waves."""
-    waves = {*AMPLITUDES, *WAVELENGTHS}
-    fixed = {name: value for name, value in model.fixed.items() if name not in waves}
-    return fixed | {"A": 0.0}, tuple(name for name in model.names if name not in waves)

@@ -47,7 +47,7 @@ def has_order(depth: Floats, cycle: NDArray[np.int32] | None = None) -> bool:
     return depth.size < FEWEST or found <= 2 * known + 1 or step < _STEP * float(np.ptp(depth))
 
 
-def sense_of(depth: Floats, load: Floats, noise: Floats, unloading: Truths) -> str:
+def fault_of(depth: Floats, load: Floats, noise: Floats, unloading: Truths) -> str:
     """Test by the ends of their depths whether points can be those of a contact.
 
     Parameters
@@ -70,9 +70,9 @@ def sense_of(depth: Floats, load: Floats, noise: Floats, unloading: Truths) -> s
     >>> depth = np.linspace(-1.0, 1.0, 200)
     >>> load, noise = np.maximum(depth, 0.0) ** 1.5, np.full(200, 1e-3)
     >>> up = np.zeros(200, bool)
-    >>> [sense_of(x * depth, y * load, noise, up) for x, y in ((1, 1), (1, -1), (-1, 1), (-1, -1))]
+    >>> [fault_of(x * depth, y * load, noise, up) for x, y in ((1, 1), (1, -1), (-1, 1), (-1, -1))]
     ['', 'load', 'depth', 'both']
-    >>> sense_of(depth, 0.1 * depth, noise, up)
+    >>> fault_of(depth, 0.1 * depth, noise, up)
     'straight'
     """
     if depth.size < FEWEST or not (np.ptp(depth) > 0.0 and np.ptp(load) > 0.0):
