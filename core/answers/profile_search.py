@@ -27,7 +27,7 @@ _PADDING: Final = 8
 _CANDIDATES: Final = 40
 """Peaks of the sum over harmonics that are tried, and the periods that are refined."""
 _REFINED: Final = 10
-_ALIKE: Final = 4.0
+_AS_GOOD: Final = 4.0
 """Standard deviations of a sum of squares within which two periods fit as well."""
 _ROUNDING: Final = 64.0 * 2.0**-52
 """Residual, in parts of the range of heights, below which it is rounding."""
@@ -87,8 +87,8 @@ class Search:
         sizes = [float(np.sum(self._projected(start, *few) ** 2)) for start in starts]
         found = [self._refined(starts[i], *few) for i in np.argsort(sizes)[:_REFINED]]
         floor = _ROUNDING**2 * self.x.size
-        alike = min(size for size, _ in found) * (1.0 + _ALIKE * math.sqrt(2.0 / few[0].size)) + floor
-        shortest = max(one[0] for size, one in found if size <= alike)
+        as_good = min(size for size, _ in found) * (1.0 + _AS_GOOD * math.sqrt(2.0 / few[0].size)) + floor
+        shortest = max(one[0] for size, one in found if size <= as_good)
         _, vector = min((pair for pair in found if abs(pair[1][0] - shortest) < 0.5), key=lambda pair: pair[0])
         return self._refined(vector, self.x, self.y)[1] if step > 1 else vector
 

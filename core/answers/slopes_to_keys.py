@@ -71,13 +71,9 @@ def slopes_to_keys(
             part = sensitivity[..., parameters.index(name)] * influence
             total = total + np.where(influence == 0.0, 0.0, part)
         with np.errstate(all="ignore"):
-            found[key] = values * (total if key in PLAIN else total / _nonzero(arrays[key]))
+            unit = 1.0 if key in PLAIN else np.where(arrays[key] == 0.0, np.nan, arrays[key])
+            found[key] = values * (total / unit)
     return found
-
-
-def _nonzero(values: Floats) -> Floats:
-    """Return values of any shape with NaN for 0."""
-    return np.where(values == 0.0, np.nan, values)
 
 
 def _influences(given: Mapping[str, Floats], key: str, parameters: Sequence[str]) -> dict[str, Floats]:

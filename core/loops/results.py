@@ -79,7 +79,7 @@ def covariance_of(misfit: Misfit, vector: Floats) -> Floats:
     """Return the covariance of the numbers at a minimum, for residuals of variance 1; refuse equal effects."""
     names, jacobian, widths = misfit.names, misfit.jacobian(vector), misfit.high - misfit.low
     lengths = np.linalg.norm(jacobian * widths, axis=0)
-    without = [name for name, length in zip(names, lengths, strict=True) if length < _WITHOUT * lengths.max()]
+    without = [name for name, length in zip(names, lengths, strict=True) if length <= _WITHOUT * lengths.max()]
     if without:
         raise ValueError(
             f"{' and '.join(without)}: without effect on this loop; fix {'it' if len(without) == 1 else 'them'}"

@@ -184,9 +184,9 @@ class Model:
         if a.ndim == 1:
             sums = scenes.A * self._sums(scenes.k, a / scenes.wavelength)
             return sums[0], sums[1]
-        alike = np.broadcast_arrays(scenes.k, scenes.wavelength, scenes.R, scenes.rim)
-        sums, known = np.empty((2, alike[0].size, a.shape[1])), {}
-        for row, key in enumerate(zip(*(column.flat for column in alike), strict=True)):
+        columns = np.broadcast_arrays(scenes.k, scenes.wavelength, scenes.R, scenes.rim)
+        sums, known = np.empty((2, columns[0].size, a.shape[1])), {}
+        for row, key in enumerate(zip(*(column.flat for column in columns), strict=True)):
             if key not in known:
                 known[key] = self._sums(key[0], a[row % a.shape[0]] / key[1])
             sums[:, row] = known[key]

@@ -74,3 +74,14 @@ def test_what_acts_alike_has_no_covariance() -> None:
     data = Data(drawn.places, np.arange(len(drawn.places)) > drawn.turn, NOISE, np.ones(len(drawn.places)))
     with pytest.raises(CannotTellApartError, match="E_star and c0"):
         covariance_of(Misfit(data, model, here - 1.0, here + 1.0), here)
+
+
+def test_one_number_without_effect_is_refused() -> None:
+    """A rim that is not met, searched alone: all derivatives are 0."""
+    model = CASES["smooth"].model(("a_max",))
+    here = vector(model, a_max=10.0 * R)
+    drawn = model.path(here)
+    assert drawn is not None
+    data = Data(drawn.places, np.arange(len(drawn.places)) > drawn.turn, NOISE, np.ones(len(drawn.places)))
+    with pytest.raises(ValueError, match="a_max: without effect on this loop; fix it"):
+        covariance_of(Misfit(data, model, here - 1.0, here + 1.0), here)
