@@ -139,31 +139,32 @@ def differ(one: ArrayLike, other: ArrayLike, share: float = TENTH) -> Truths:
     return ~close
 
 
-def statistics_of(samples: Floats, axis: int) -> Mapping[str, Floats]:
-    """Return mean, quantiles and standard deviation ("std") of samples along an axis, of which NaN are left out.
+def statistics_of(samples: Floats) -> Mapping[str, Floats]:
+    """Return mean, quantiles and standard deviation ("std") of samples along the last axis; NaN are left out.
 
     Examples
     --------
-    >>> found = statistics_of(np.array([[1.0, 2.0, 3.0], [np.nan, 5.0, 5.0], [np.nan, np.nan, np.nan]]), axis=1)
+    >>> found = statistics_of(np.array([[1.0, 2.0, 3.0], [np.nan, 5.0, 5.0], [np.nan, np.nan, np.nan]]))
     >>> found["mean"].tolist(), found["p50"].tolist()
     ([2.0, 5.0, nan], [2.0, 5.0, nan])
     """
     there = ~np.isnan(samples)
-    counts = there.sum(axis)
+    counts = there.sum(-1)
     with np.errstate(all="ignore"):  # without samples there is no mean, and infinite ones have no deviation
-        mean = np.sum(samples, axis, where=there) / counts
-        apart = samples - np.expand_dims(mean, axis)
-        found = {"mean": mean, "std": np.sqrt(np.sum(apart * apart, axis, where=there) / counts)}
-        ordered = np.sort(samples, axis)  # NaN last
+        mean = np.sum(samples, -1, where=there) / counts
+        apart = samples - mean[..., None]
+        found = {"mean": mean, "std": np.sqrt(np.sum(apart * apart, -1, where=there) / counts)}
+        ordered = np.sort(samples, -1)  # NaN last
         for name, share in QUANTILES.items():
-            found[name] = _quantile(ordered, counts, share, axis)
+            found[name] = _quantile(ordered, counts, share)
     return found
 
 
-def _quantile(ordered: Floats, counts: Integers, share: float, axis: int) -> Floats:
-    """Return a quantile along an axis of sorted samples, of which the first `counts` have values, interpolated."""
-    place = share * np.maximum(counts - 1, 0)
+def _quantile(ordered: Floats, counts: Integers, share: float) -> Floats:
+    """Return a quantile along the last axis of sorted samples, of which the first `counts` have values."""
+    last = np.maximum(counts - 1, 0)
+    place = share * last
     low = np.floor(place).astype(np.int64)
-    high = np.minimum(low + 1, np.maximum(counts - 1, 0))
-    below, above = (np.take_along_axis(ordered, np.expand_dims(item, axis), axis).squeeze(axis) for item in (low, high))
+    ends = np.stack([low, np.minimum(low + 1, last)], -1)
+    below, above = np.moveaxis(np.take_along_axis(ordered, ends, -1), -1, 0)
     return np.where(above > below, below + (place - low) * (above - below), below)

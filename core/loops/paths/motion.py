@@ -79,7 +79,7 @@ def _slide(model: LoopModel, drawn: LoopPath, moved: Floats, load_max: float) ->
     at = np.concatenate([[turn, turn + 1], landings])
     steps = 1.0 + _STEP * np.repeat([1.0, -1.0], at.size)
     states = model.states(scene, np.tile(drawn.radius[at], 2) * steps)
-    depth, load = states.at(np.tile(drawn.toughness[at], 2))
+    depth, load = states.at(np.tile(np.where(at <= turn, scene.root, 1.0), 2))
     both = np.column_stack([depth + scene.compliance * load, load])
     along = (both[: at.size] - both[at.size :]) / (2.0 * _STEP * drawn.radius[at, None])
     if drawn.is_pressed:

@@ -40,8 +40,6 @@ class LoopPath:
     """Whether each is reached by a jump."""
     curved: Truths
     """Whether the way to each is part of a smooth branch, of which the vertices are points."""
-    toughness: Floats
-    """Root of the work at the edge over that of opening: that of closing, then 1."""
     turn: int
     """The number of the vertex at which loading ends and unloading begins; the edge is pinned up to the next."""
     scene: Scenes
@@ -184,8 +182,8 @@ class LoopModel(Model):
     def _apart(self, scene: Scenes, target: float, first: float) -> LoopPath:
         """Return the line of no load of a cycle without contact, up to a depth."""
         line = np.array([[first, 0.0], [0.0, 0.0], [target, 0.0], [0.0, 0.0], [first, 0.0]])
-        no, zero = np.zeros(5, bool), np.zeros(5)
-        return LoopPath(line, zero, no, no, zero, 2, scene)
+        no = np.zeros(5, bool)
+        return LoopPath(line, np.zeros(5), no, no, 2, scene)
 
     def _joined(
         self,
@@ -240,7 +238,6 @@ class LoopModel(Model):
             np.concatenate([no, way, out]),
             np.concatenate([no, jump, np.arange(out.size) == 0]),
             np.concatenate([no, curved, out > 0.0]),
-            np.concatenate([no, edge, out]),
             split + 2,
             scene,
             pressed is not None,

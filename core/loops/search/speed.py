@@ -80,7 +80,6 @@ class SpeedModel(LoopModel):
             np.concatenate([inside, radius[back], [0.0]]),
             np.zeros(curved.size, bool),
             curved,
-            np.ones(curved.size),
             len(up) - 1,
             scene,
         )
