@@ -139,8 +139,11 @@ def fit_loop(
     points = np.column_stack([np.asarray(indentation, dtype=float).ravel(), np.asarray(load, dtype=float).ravel()])
     back, zeros = np.asarray(unloading, dtype=bool).ravel(), offsets or Offsets()
     _check(points, back, free, noise, unknown=len(free) + len(zeros.names))
-    line = base_line(points, back, noise[1])
-    contact = contact_point(points, back, noise) if zeros.indentation == "contact" else None
+    each = np.ones(back.size) if counts is None else np.asarray(counts, dtype=float).ravel()
+    root = float(np.sqrt(np.median(each)))
+    of_means = noise[0] / root, noise[1] / root
+    line = base_line(points, back, of_means[1])
+    contact = contact_point(points, back, of_means) if zeros.indentation == "contact" else None
     if contact is None and zeros.indentation == "contact":
         raise ValueError(
             'offsets.indentation = "contact": loading has no base line from which contact could be told; measure '
@@ -157,8 +160,7 @@ def fit_loop(
         "first": float(shifted[:, 0].min() - np.ptp(points[:, 0])),
         "profile": profile or Profile(), "loading": loading or Loading(), "toughness": toughness,
     }  # fmt: skip
-    data = Data(shifted, back, noise, np.ones(back.size) if counts is None else np.asarray(counts, dtype=float).ravel())
-    names = tuple(ranges)
+    data, names = Data(shifted, back, noise, each), tuple(ranges)
     model = LoopModel(fixed, names, **own) if rate is None else SpeedModel(fixed, names, rate=rate, **own)
     misfit = Misfit(data, model, low, high)
     with threadpool_limits(1):  # matrices of a few columns: threads only wait for each other
