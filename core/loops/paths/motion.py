@@ -45,7 +45,7 @@ def moving(model: LoopModel, vector: Floats, drawn: LoopPath) -> Floats:
         depth, load = (one * row for row in found.at(edge))
         if drawn.is_pressed:
             at = np.flatnonzero(within == drawn.turn)
-            aim, flat = _turned(model, vector, drawn)[int(model.loading.control == "load")], found.slope[:, at]
+            aim, flat = _turned(model, vector, drawn)[int(drawn.by_load)], found.slope[:, at]
             deeper = model.deeper(scenes, aim, depth[:, at], load[:, at], flat)
             depth[:, at] += deeper
             load[:, at] += flat * deeper
@@ -86,7 +86,7 @@ def _slide(model: LoopModel, drawn: LoopPath, moved: Floats, load_max: float) ->
         flat = 0.5 * float(states.slope[0] + states.slope[at.size])
         along[0] = [1.0 + scene.compliance * flat, flat]
     if (drawn.radius[turn] < scene.rim or drawn.is_pressed) and not drawn.jump[turn]:
-        by = axis if drawn.is_pressed else int(drawn.by_load)
+        by = int(drawn.by_load)
         rates = {"indentation_max": 1.0, "preload": scene.turn}
         if not model.turns:
             rates = {OFFSETS[by]: -1.0, TILT: -by * model.furthest[0]}

@@ -47,7 +47,7 @@ class LoopPath:
     is_pressed: bool = False
     """Whether the contact is pressed on at the rim, up to the turn."""
     by_load: bool = False
-    """Whether it turns at a load."""
+    """Whether it turns at a load, or is pressed on to one."""
 
 
 class LoopModel(Model):
@@ -87,8 +87,13 @@ class LoopModel(Model):
 
     @property
     def turns_at_depth(self) -> bool:
-        """Whether loading turns at a given depth of the specimen, while the far end of a machine is driven."""
-        return self.turns == "indentation_max_over_R" and self.loading.control == "machine"
+        """Whether loading turns at a given depth of the specimen, which is not what is driven."""
+        return self.turns == "indentation_max_over_R" and self.loading.control != "displacement"
+
+    @property
+    def turns_at_load(self) -> bool:
+        """Whether loading turns at a load: a given one, or that of the data where the load is driven."""
+        return self.turns == "load_max" or (not self.turns and self.loading.control == "load")
 
     def shift(self, vector: Floats) -> tuple[float, ...]:
         """Return the zeros of depth and load, and the tilt, of a vector."""
@@ -147,7 +152,7 @@ class LoopModel(Model):
                 turned = self._further(scene, up, place, targets) if blurred else (place, by_load)
                 return self._joined(scene, grid, states, up, turned, None, first)
             if end == rim:
-                return self._joined(scene, grid, states, up, (rim, False), aim if aim < math.inf else None, first)
+                return self._joined(scene, grid, states, up, (rim, by_load), aim if aim < math.inf else None, first)
         return None
 
     def deeper(self, scenes: Scenes, aim: Any, depth: Any, load: Any, slope: Any) -> Any:
@@ -156,7 +161,7 @@ class LoopModel(Model):
         `aim` is the depth or the load at which loading turns; depth, load and stiffness (slope) are those at the rim,
         before, of shape (scenes, 1) or numbers.
         """
-        if self.loading.control == "load":
+        if self.turns_at_load:
             return (aim - load) / slope
         if self.turns_at_depth:
             return aim - depth

@@ -21,6 +21,8 @@ SEARCHED: dict[str, tuple[str, ...]] = {
     "machine": (*ALL[:4], "spring_constant", "indentation_max", *NAMES),
     "machine at the rim": ("indentation_max", "spring_constant", *ALL),
     "load control": ALL,
+    "load control to a depth": ("indentation_max", *ALL[:4], "load_offset"),
+    "preload at the rim": ("preload", *ALL[:4], "load_offset"),
     "closing ratio 0.3": ("closing_ratio", *ALL),
     "closing ratio 0": ALL,
     "rings": ("toughness_wavelength", "toughness_amplitude", *SMOOTH),
