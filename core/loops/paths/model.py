@@ -184,7 +184,8 @@ class Model:
         if a.ndim == 1:
             sums = scenes.A * self._sums(scenes.k, a / scenes.wavelength)
             return sums[0], sums[1]
-        columns = np.broadcast_arrays(scenes.k, scenes.wavelength, scenes.R, scenes.rim)
+        rim = (scenes.rim,) if a.shape[0] > 1 else ()  # by which radii differ
+        columns = np.broadcast_arrays(scenes.k, scenes.wavelength, scenes.R, *rim)
         sums, known = np.empty((2, columns[0].size, a.shape[1])), {}
         for row, key in enumerate(zip(*(column.flat for column in columns), strict=True)):
             if key not in known:

@@ -39,10 +39,13 @@ def moving(model: LoopModel, vector: Floats, drawn: LoopPath) -> Floats:
         both[range(len(inner)), inner], both[range(len(inner), 2 * len(inner)), inner] = steps, -steps
         scenes = model.scenes(vector + both)
         edge = np.where(within <= drawn.turn, scenes.root, 1.0)
-        radius = drawn.radius[within][None]
-        found = model.states(scenes, np.where(radius == drawn.scene.rim, scenes.rim, radius))
-        one = np.ones((2 * len(inner), 1))  # what is searched may change the compliance or the turn alone
-        depth, load = (one * row for row in found.at(edge))
+        radius, shape = drawn.radius[within][None], (2 * len(inner), within.size)
+        if drawn.is_pressed:
+            radius = np.where(radius == drawn.scene.rim, scenes.rim, radius)
+        found = model.states(scenes, radius)
+        depth, load = found.at(edge)
+        if not depth.shape == load.shape == shape:  # only the compliance, the turn or the rim is searched
+            depth, load = (np.array(np.broadcast_to(row, shape)) for row in (depth, load))
         if drawn.is_pressed:
             at = np.flatnonzero(within == drawn.turn)
             aim, flat = _turned(model, vector, drawn)[int(drawn.by_load)], found.slope[:, at]
