@@ -1,1 +1,1 @@
-"""Analyses beyond a map of values, arrays in and arrays out, without kernels: fits of measured data, and spectra."""
+"""Analyses beyond a map of values, without kernels: optima, uncertain inputs, random profiles, measured profiles."""

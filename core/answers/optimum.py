@@ -11,12 +11,12 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.answers.optimum_basins import basins_of, is_new
 from gradhesion.core.answers.optimum_many_inputs import refine_many
-from gradhesion.core.answers.optimum_merit import CLOSE, Array, Merit
+from gradhesion.core.answers.optimum_merit import CLOSE, Merit, heights_of
 from gradhesion.core.answers.optimum_one_input import peaks_between, refine_one
+from gradhesion.core.types import Floats, Truths
 
 SCENES: Final = 2**18
 """Number of scenes evaluated at a time in a sweep."""
@@ -26,15 +26,15 @@ SCENES: Final = 2**18
 class Optima:
     """The optimum of each cell."""
 
-    places: Array
+    places: Floats
     """From 0 to 1; shape (inputs, cells). NaN where nothing is feasible."""
-    merits: Array
-    too_coarse: NDArray[np.bool_]
+    merits: Floats
+    too_coarse: Truths
     """Whether the sweep at the stated resolution, half of that computed, misses the basin, as it does where a peak was
     found between the points of the finer one."""
 
 
-def axis_of(resolution: int) -> Array:
+def axis_of(resolution: int) -> Floats:
     """Return the places of a sweep at twice a resolution: those of the resolution are every second.
 
     Examples
@@ -45,7 +45,7 @@ def axis_of(resolution: int) -> Array:
     return np.linspace(0.0, 1.0, 2 * resolution - 1)
 
 
-def sweep(merit: Merit, inputs: int, cells: int, resolution: int) -> tuple[Array, Array]:
+def sweep(merit: Merit, inputs: int, cells: int, resolution: int) -> tuple[Floats, Floats]:
     """Return merits and margins at all places of `axis_of` for all cells, of shape (*places, cells)."""
     axis = axis_of(resolution)
     shape = (axis.size,) * inputs
@@ -59,31 +59,24 @@ def sweep(merit: Merit, inputs: int, cells: int, resolution: int) -> tuple[Array
     return merits.reshape(*shape, cells), margins.reshape(*shape, cells)
 
 
-def optima(merit: Merit, inputs: int, cells: int, resolution: int) -> Optima:
-    """Return the optimum of each cell.
+def optima_of(merit: Merit, merits: Floats, margins: Floats) -> Optima:
+    """Return the optimum of each cell from a computed sweep.
 
     Parameters
     ----------
     merit
         The merit to be maximised.
-    inputs, cells
-        How many inputs are searched, in how many cells.
-    resolution
-        Points of the sweep along each input, 3 or more. A second sweep at twice that shows basins between them.
+    merits, margins
+        Those of `sweep` at a resolution of 3 or more. It has twice as many points, which show basins between those of
+        the resolution.
 
     Returns
     -------
     Places to 1e-12 of their ranges where the peak is a kink, or where exact slopes are known; else to some 1e-8, where
     the merit is within rounding of its peak. Peaks narrower than half a spacing may be missed.
     """
-    merits, margins = sweep(merit, inputs, cells, resolution)
-    return optima_of(merit, merits, margins)
-
-
-def optima_of(merit: Merit, merits: Array, margins: Array) -> Optima:
-    """Return the optima from a computed sweep."""
     inputs, cells = merits.ndim - 1, merits.shape[-1]
-    heights = np.where((margins >= 0.0) & ~np.isnan(merits), merits, -np.inf)
+    heights = heights_of(merits, margins)
     basins, promised = basins_of(heights)
     if inputs == 1:
         places, found = refine_one(merit, heights, basins)
@@ -91,10 +84,10 @@ def optima_of(merit: Merit, merits: Array, margins: Array) -> Optima:
         places, found = refine_many(merit, heights, basins, promised, constrained=bool((margins < 0.0).any()))
     best = np.full(cells, -np.inf)
     where = np.full((inputs, cells), np.nan)
-    for number in np.argsort(found, kind="stable"):  # the best of a cell last
-        cell = basins[-1][number]
-        if np.isfinite(found[number]):
-            best[cell], where[:, cell] = found[number], places[:, number]
+    order = np.argsort(found, kind="stable")  # the best of a cell last
+    order = order[np.isfinite(found[order])]
+    own = basins[-1][order]
+    best[own], where[:, own] = found[order], places[:, order]
     too_coarse = is_new(heights, where)
     if inputs == 1:
         for cell, place, height in zip(*peaks_between(merit, heights, best, where[0]), strict=True):

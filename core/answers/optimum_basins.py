@@ -6,34 +6,34 @@ Each searched input runs from 0 to 1 over its range.
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter
 
-from gradhesion.core.answers.optimum_merit import WIDTH, Array
+from gradhesion.core.answers.optimum_merit import WIDTH
+from gradhesion.core.types import Floats, Integers, Truths
 
 _MOST_BASINS: Final = 12
 """Number of basins refined in a cell: those with the highest bounds."""
 
 
-def basins_of(heights: Array) -> tuple[tuple[NDArray[np.int64], ...], Array]:
-    """Find the highest points of basins that may hold the optimum of their cell: indices, the cells last.
+def _peaks(heights: Floats) -> Truths:
+    """Return where finite heights of a sweep (*places, cells) are not below their neighbours, diagonal ones too."""
+    neighbours = maximum_filter(heights, size=(*(3 for _ in heights.shape[1:]), 1), mode="nearest")
+    return (heights == neighbours) & np.isfinite(heights)
 
-    And a bound for each of them: its height plus its height above its neighbours, of shape (basins,). The axes of
-    `heights` are those of a sweep, cells last.
+
+def basins_of(heights: Floats) -> tuple[tuple[Integers, ...], Floats]:
+    """Find the highest points of basins that may hold the optimum of their cell, in a sweep (*places, cells).
+
+    Return their indices, an array (basins,) for each axis, and a bound for each of them, of shape (basins,): its height
+    plus its height above its neighbours.
     """
-    inputs = heights.ndim - 1
-    neighbours = maximum_filter(heights, size=(*(3 for _ in range(inputs)), 1), mode="nearest")
-    peaks = (heights == neighbours) & np.isfinite(heights)
-    rise = np.zeros_like(heights)
-    for axis in range(inputs):
-        steps = np.abs(np.diff(np.where(np.isfinite(heights), heights, np.nan), axis=axis))
+    peaks, rise = _peaks(heights), np.zeros_like(heights)
+    finite = np.where(np.isfinite(heights), heights, np.nan)
+    for axis in range(heights.ndim - 1):
+        steps = np.abs(np.diff(finite, axis=axis))
         steps = np.where(np.isnan(steps), np.inf, steps)  # next to infeasible points there is no bound
-        ends = [(0, 0)] * heights.ndim
-        ends[axis] = (1, 1)
-        padded = np.pad(steps, ends)
-        first, last = [slice(None)] * heights.ndim, [slice(None)] * heights.ndim
-        first[axis], last[axis] = slice(None, -1), slice(1, None)
-        rise += np.maximum(padded[tuple(first)], padded[tuple(last)])
+        none = np.zeros_like(heights.take([0], axis))
+        rise += np.maximum(np.concatenate([none, steps], axis), np.concatenate([steps, none], axis))
     promised = np.full(heights.shape, -np.inf)
     promised[peaks] = heights[peaks] + rise[peaks]
     best = heights.reshape(-1, heights.shape[-1]).max(axis=0)
@@ -48,15 +48,11 @@ def basins_of(heights: Array) -> tuple[tuple[NDArray[np.int64], ...], Array]:
     return tuple(np.nonzero(peaks)), promised[peaks]
 
 
-def is_new(heights: Array, places: Array) -> NDArray[np.bool_]:
+def is_new(heights: Floats, places: Floats) -> Truths:
     """Report for each cell whether a sweep at half the resolution has no basin where its optimum is."""
-    inputs = heights.ndim - 1
-    coarse = heights[(*(slice(None, None, 2) for _ in range(inputs)), slice(None))]
-    peaks = (coarse == maximum_filter(coarse, size=(*(3 for _ in range(inputs)), 1), mode="nearest")) & np.isfinite(
-        coarse
-    )
-    indices = np.nonzero(peaks)
-    shown: NDArray[np.bool_] = np.any(np.isnan(places), axis=0)  # where nothing is feasible no optimum is missed
+    coarse = heights[(*(slice(None, None, 2) for _ in heights.shape[1:]), slice(None))]
+    indices = np.nonzero(_peaks(coarse))
+    shown: Truths = np.any(np.isnan(places), axis=0)  # where nothing is feasible no optimum is missed
     spacing = 1.0 / (coarse.shape[0] - 1)
     near = np.ones(indices[-1].size, bool)
     for own, index in zip(places, indices[:-1], strict=True):

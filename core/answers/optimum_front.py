@@ -3,12 +3,11 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gradhesion.core.answers.optimum_merit import Array
+from gradhesion.core.types import Floats, Integers
 
 
-def front(values: Sequence[Array]) -> NDArray[np.int64]:
+def front(values: Sequence[Floats]) -> Integers:
     """Return the numbers, shape (n,), of the points that no other one excels in both values, by falling first value.
 
     Parameters

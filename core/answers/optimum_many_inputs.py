@@ -8,19 +8,18 @@ from collections.abc import Callable
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.optimize import minimize, root
-from scipy.optimize.elementwise import find_root
+from scipy.optimize import Bounds, minimize, root
 
-from gradhesion.core.answers.optimum_merit import WIDTH, Array, Merit
+from gradhesion.core.answers.optimum_merit import WIDTH, Merit, edge_of, heights_at
+from gradhesion.core.types import Floats, Integers
 
 _STEEP: Final = 1e-9
 """A slope over the size of the merit, below which a place is stationary."""
 
 
 def refine_many(
-    merit: Merit, heights: Array, basins: tuple[NDArray[np.int64], ...], promised: Array, *, constrained: bool
-) -> tuple[Array, Array]:
+    merit: Merit, heights: Floats, basins: tuple[Integers, ...], promised: Floats, *, constrained: bool
+) -> tuple[Floats, Floats]:
     """Refine the basins of several searched inputs, one after the other; of a cell the highest first.
 
     Those whose bound is below an optimum already found are not refined.
@@ -40,52 +39,43 @@ def refine_many(
     return places, found
 
 
-def _refined(
-    merit: Merit, start: Array, cell: NDArray[np.int64], spacing: float, *, constrained: bool
-) -> tuple[Array, float]:
+def _refined(merit: Merit, start: Floats, cell: Integers, spacing: float, *, constrained: bool) -> tuple[Floats, float]:
     """Refine a basin of several inputs within two spacings of its highest point; return place (inputs,) and merit."""
-    bounds = list(zip(np.maximum(start - 2.0 * spacing, 0.0), np.minimum(start + 2.0 * spacing, 1.0), strict=True))
-    low, high = np.array(bounds).T
+    low, high = np.maximum(start - 2.0 * spacing, 0.0), np.minimum(start + 2.0 * spacing, 1.0)
+    bounds = Bounds(low, high)
 
-    def height(place: Array) -> float:
+    def height(place: Floats) -> float:
         """Return the value to be minimised: infinite where a requirement is not met."""
-        merits, margins = merit.values(np.clip(place, low, high), cell)
-        return -float(merits) if float(margins) >= 0.0 and not np.isnan(merits) else np.inf
+        return -float(heights_at(merit, np.clip(place, low, high), cell))
 
-    def downwards(place: Array) -> Array:
+    def downwards(place: Floats) -> Floats:
         slopes = merit.slopes(np.clip(place, low, high), cell)
         assert slopes is not None  # noqa: S101 (they are known)
         return -np.asarray(slopes, dtype=float)
 
-    has_slopes = merit.slopes(start, cell) is not None
+    slopes = downwards if merit.slopes(start, cell) is not None else None
     options: dict[str, Any]
-    best, value = start, height(start)
-
-    def better(place: Array, than: float) -> bool:
-        return height(place) < than
-
-    if not constrained:
-        options = {"ftol": 0.0, "gtol": 1e-13 * abs(value), "maxiter": 200, "maxls": 40}
-        one = minimize(
-            height, best, method="L-BFGS-B", jac=downwards if has_slopes else None, bounds=bounds, options=options
-        )
-        if better(one.x, value):
-            best, value = one.x, height(one.x)
-        if has_slopes and _is_stationary(downwards(best), best, low, high, abs(value)):
-            return _to_zero_slopes(downwards, height, best, value)
     if constrained:
-        best = _along_the_edge(merit, cell, height, downwards if has_slopes else None, best, bounds)
+        best = _along_the_edge(merit, cell, height, slopes, start, bounds)
         value = height(best)
+    else:
+        best, value = start, height(start)
+        options = {"ftol": 0.0, "gtol": 1e-13 * abs(value), "maxiter": 200, "maxls": 40}
+        one = minimize(height, best, method="L-BFGS-B", jac=slopes, bounds=bounds, options=options)
+        if (lower := height(one.x)) < value:
+            best, value = one.x, lower
+        if slopes is not None and _is_stationary(slopes(best), best, low, high, abs(value)):
+            return _to_zero_slopes(slopes, height, best, value)
     for size in (0.25, 0.02):  # a simplex may collapse on a ridge: another one starts there
-        simplex = np.clip(np.vstack([best, best + size * spacing * np.eye(best.size)]), low, high)
-        simplex[1:] = np.where(simplex[1:] == best, np.clip(best - size * spacing, low, high), simplex[1:]) * np.eye(
-            best.size
-        ) + best * (1.0 - np.eye(best.size))
+        corner = np.clip(best + size * spacing, low, high)
+        corner = np.where(corner == best, np.clip(best - size * spacing, low, high), corner)
+        simplex = np.vstack([best, np.where(np.eye(best.size, dtype=bool), corner, best)])
         options = {"xatol": WIDTH, "fatol": 1e-15 * abs(value), "maxiter": 400, "initial_simplex": simplex}
         one = minimize(height, best, method="Nelder-Mead", bounds=bounds, options=options)
-        if not better(one.x, value):
+        gain = value - (lower := height(one.x))
+        if not gain > 0.0:
             break
-        gain, best, value = value - height(one.x), one.x, height(one.x)
+        best, value = one.x, lower
         if gain <= 1e-13 * abs(value):
             break
     return best, -value
@@ -93,51 +83,40 @@ def _refined(
 
 def _along_the_edge(
     merit: Merit,
-    cell: NDArray[np.int64],
-    height: Callable[[Array], float],
-    downwards: Callable[[Array], Array] | None,
-    best: Array,
-    bounds: list[tuple[float, float]],
-) -> Array:
+    cell: Integers,
+    height: Callable[[Floats], float],
+    slopes: Callable[[Floats], Floats] | None,
+    best: Floats,
+    bounds: Bounds,
+) -> Floats:
     """Move a feasible place (inputs,) to a better feasible one, by steps that assume smoothness."""
 
-    def plain(place: Array) -> float:
+    def plain(place: Floats) -> float:
         merits, _ = merit.values(place, cell)
         return -float(np.nan_to_num(merits, nan=-np.inf))
 
-    def margin(place: Array) -> float:
+    def margin(place: Floats) -> float:
         _, margins = merit.values(place, cell)
         return float(np.maximum(margins, -1e30))
 
+    limit = [{"type": "ineq", "fun": margin}]
     options: dict[str, Any] = {"ftol": 1e-15, "maxiter": 100}
     with np.errstate(all="ignore"):
-        one = minimize(
-            plain,
-            best,
-            method="SLSQP",
-            jac=downwards,
-            bounds=bounds,
-            constraints=[{"type": "ineq", "fun": margin}],
-            options=options,
-        )
-    there = np.clip(one.x, *np.array(bounds).T)
+        one = minimize(plain, best, method="SLSQP", jac=slopes, bounds=bounds, constraints=limit, options=options)
+    there = np.clip(one.x, bounds.lb, bounds.ub)
     if not np.isfinite(there).all():
         return best
     if not np.isfinite(height(there)):  # by a rounding beyond the edge, or on the wrong side
 
-        def side(share: Any) -> Any:
+        def along(share: Any) -> Any:
             inner = best[:, None] + np.atleast_1d(share) * (there - best)[:, None]
-            merits, margins = merit.values(inner, np.broadcast_to(cell, inner.shape[1:]))
-            return np.where((margins >= 0.0) & ~np.isnan(merits), 1.0, -1.0).reshape(np.shape(share))
+            return heights_at(merit, inner, np.broadcast_to(cell, inner.shape[1:])).reshape(np.shape(share))
 
-        tolerances = {"xatol": 2.0**-52, "xrtol": 0.0, "fatol": 0.0}
-        found = find_root(side, (0.0, 1.0), tolerances=tolerances)
-        shares = [float(end) for end, own in zip(found.bracket, found.f_bracket, strict=True) if own > 0.0]
-        there = best + max(shares, default=0.0) * (there - best)
+        there = best + edge_of(along, 0.0, 1.0, (), 2.0**-52) * (there - best)
     return there if height(there) < height(best) else best
 
 
-def _is_stationary(slopes: Array, place: Array, low: Array, high: Array, size: float) -> bool:
+def _is_stationary(slopes: Floats, place: Floats, low: Floats, high: Floats, size: float) -> bool:
     """Report whether all slopes are zero, but for those towards an end of the range."""
     at_end = ((place <= low) & (slopes > 0.0)) | ((place >= high) & (slopes < 0.0))
     inner_edge = at_end & (place > 0.0) & (place < 1.0)
@@ -145,14 +124,14 @@ def _is_stationary(slopes: Array, place: Array, low: Array, high: Array, size: f
 
 
 def _to_zero_slopes(
-    downwards: Callable[[Array], Array], height: Callable[[Array], float], best: Array, value: float
-) -> tuple[Array, float]:
+    downwards: Callable[[Floats], Floats], height: Callable[[Floats], float], best: Floats, value: float
+) -> tuple[Floats, float]:
     """Move a smooth peak to the zero of its slopes; an input at the end of its range stays there."""
     free = (best > 0.0) & (best < 1.0)
     if not free.any():
         return best, -value
 
-    def slopes(inner: Array) -> Array:
+    def slopes(inner: Floats) -> Floats:
         place = best.copy()
         place[free] = inner
         return downwards(place)[free]
@@ -160,7 +139,7 @@ def _to_zero_slopes(
     found = root(slopes, best[free], method="hybr", options={"xtol": 1e-14})
     moved = best.copy()
     moved[free] = np.clip(found.x, 0.0, 1.0)
-    near = np.all(np.abs(moved - best) < 1e-4)
-    if near and height(moved) <= value + 2.0**-48 * abs(value):
-        return moved, -min(value, height(moved))
+    lower, near = height(moved), np.all(np.abs(moved - best) < 1e-4)
+    if near and lower <= value + 2.0**-48 * abs(value):
+        return moved, -min(value, lower)
     return best, -value

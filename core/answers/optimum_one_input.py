@@ -5,13 +5,14 @@ peak that is a kink is found as well as a smooth one; then the zero of the exact
 place to all digits.
 """
 
+from collections.abc import Callable
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize.elementwise import find_minimum, find_root
 
-from gradhesion.core.answers.optimum_merit import CLOSE, WIDTH, Array, Merit
+from gradhesion.core.answers.optimum_merit import CLOSE, WIDTH, Merit, edge_of, heights_at
+from gradhesion.core.types import Floats, Integers, Truths
 
 _ROUGH: Final = 2.0**-24
 """The width of a bracket where a zero of the slope is to follow."""
@@ -21,24 +22,17 @@ _BETWEEN: Final = 7
 """Points tried between two of a sweep, where there may be a peak that is higher than the best."""
 
 
-def refine_one(merit: Merit, heights: Array, basins: tuple[NDArray[np.int64], ...]) -> tuple[Array, Array]:
-    """Refine the basins of one searched input, all at once."""
+def refine_one(merit: Merit, heights: Floats, basins: tuple[Integers, ...]) -> tuple[Floats, Floats]:
+    """Refine the basins of a sweep (places, cells) of one input, all at once.
+
+    Each basin is the number of a place and of a cell, arrays (basins,). Return places of shape (1, basins) and merits
+    of shape (basins,), -inf where none is feasible.
+    """
     index, cells = basins
     if not index.size:
         return np.empty((1, 0)), np.empty(0)
-    last = heights.shape[0] - 1
-    axis = np.linspace(0.0, 1.0, last + 1)
-    centre, lowest, highest = axis[index], np.full(index.size, -1.0), np.full(index.size, 2.0)
-    sides = []
-    for side in (-1, 1):
-        neighbour = np.clip(index + side, 0, last)
-        beside = centre + side / last
-        blocked = (neighbour != index) & ~np.isfinite(heights[neighbour, cells])
-        if blocked.any():
-            edge = _edges(merit, centre[blocked], beside[blocked], cells[blocked])
-            (lowest if side < 0 else highest)[blocked] = edge
-            beside[blocked] = edge
-        sides.append(beside)
+    centre, sides, edges = _brackets(merit, heights, index, cells)
+    lowest, highest = edges
 
     def inside(places: Any, cell: Any, low: Any, high: Any) -> Any:
         """Return the value to be minimised, mirrored at the ends of the range and of the feasible region."""
@@ -47,7 +41,7 @@ def refine_one(merit: Merit, heights: Array, basins: tuple[NDArray[np.int64], ..
 
     numbers = cells.astype(float)
     left, right = sides
-    for edge, beside in ((lowest, sides[0]), (highest, sides[1])):
+    for edge, beside in zip(edges, sides, strict=True):
         height = inside(centre, numbers, lowest, highest)
         higher = (edge == beside) & (inside(beside, numbers, lowest, highest) < height)
         # the peak is between the edge and the centre, whose mirror image is beyond the edge
@@ -58,38 +52,59 @@ def refine_one(merit: Merit, heights: Array, basins: tuple[NDArray[np.int64], ..
         )
         centre = np.where(higher, beside, centre)
     has_slopes = merit.slopes(centre[None, :1], cells[:1]) is not None
-
-    def peaks(bracket: tuple[Any, Any, Any], some: Any, width: float) -> tuple[Any, Any]:
-        """Return the peaks within brackets, and brackets of them that are as narrow."""
-        with np.errstate(all="ignore"):  # next to infeasible points merits are infinite
-            found = find_minimum(
-                inside,
-                bracket,
-                args=(numbers[some], lowest[some], highest[some]),
-                tolerances={"xatol": width, "xrtol": 0.0, "fatol": 0.0, "frtol": 0.0},
-            )
-        middle = bracket[1]
-        height = inside(middle, numbers[some], lowest[some], highest[some])
-        best = np.where(np.isfinite(found.f_x) & (found.f_x <= height), found.x, middle)
-        return best, found.bracket
-
-    every = np.arange(index.size)
-    best, around = peaks((left, centre, right), every, _ROUGH if has_slopes else WIDTH)
+    width = _ROUGH if has_slopes else WIDTH
+    best, around = _lowest(inside, (left, centre, right), (numbers, lowest, highest), width)
     places, settled = to_stationary(merit, _into(best, lowest, highest), cells)
     rest = np.flatnonzero(~settled)
     if has_slopes and rest.size:  # kinks whose slopes are of one sign, steps, and edges
-        best[rest], _ = peaks(tuple(one[rest] for one in around), rest, WIDTH)
+        bracket = tuple(one[rest] for one in around)
+        best[rest], _ = _lowest(inside, bracket, (numbers[rest], lowest[rest], highest[rest]), WIDTH)
         places[rest] = _into(best[rest], lowest[rest], highest[rest])
     ends = np.round(places)
     to_ends, _ = merit.values(ends[None], cells)
     merits, _ = merit.values(places[None], cells)
     at_end = (np.abs(places - ends) < _NEAR) & (to_ends >= merits - 2.0**-48 * np.abs(merits))
     places = np.where(at_end, ends, places)
-    merits, margins = merit.values(places[None], cells)
-    return places[None], np.where((margins >= 0.0) & ~np.isnan(merits), merits, -np.inf)
+    return places[None], heights_at(merit, places[None], cells)
 
 
-def peaks_between(merit: Merit, heights: Array, best: Array, where: Array) -> tuple[NDArray[np.int64], Array, Array]:
+def _brackets(merit: Merit, heights: Floats, index: Integers, cells: Integers) -> tuple[Floats, list[Floats], Floats]:
+    """Return places (n,) of points of a sweep, the place on either side of each, and edges of what is feasible.
+
+    On a side there is an edge or the next place of the sweep; edges, of shape (2, n), are beyond the range where there
+    is none.
+    """
+    last = heights.shape[0] - 1
+    centre = np.linspace(0.0, 1.0, last + 1)[index]
+    sides, edges = [], np.array([np.full(index.size, -1.0), np.full(index.size, 2.0)])
+
+    def height(places: Any, cell: Any) -> Any:
+        return heights_at(merit, places[None], cell)
+
+    for side, edge in zip((-1, 1), edges, strict=True):
+        neighbour, beside = np.clip(index + side, 0, last), centre + side / last
+        blocked = (neighbour != index) & ~np.isfinite(heights[neighbour, cells])
+        if blocked.any():
+            own = cells[blocked].astype(float)
+            edge[blocked] = edge_of(height, centre[blocked], beside[blocked], (own,), WIDTH**1.2)
+            beside[blocked] = edge[blocked]
+        sides.append(beside)
+    return centre, sides, edges
+
+
+def _lowest(depth: Callable[..., Floats], bracket: Any, args: Any, width: float) -> tuple[Any, Any]:
+    """Return the places of minima in brackets of three arrays (n,), no deeper than the middle, and such brackets.
+
+    `args` are further arguments of `depth`, arrays (n,); the brackets returned are as narrow as `width`.
+    """
+    tolerances = {"xatol": width, "xrtol": 0.0, "fatol": 0.0, "frtol": 0.0}
+    with np.errstate(all="ignore"):  # next to infeasible points merits are infinite
+        found = find_minimum(depth, bracket, args=args, tolerances=tolerances)
+    is_lower = np.isfinite(found.f_x) & (found.f_x <= depth(bracket[1], *args))
+    return np.where(is_lower, found.x, bracket[1]), found.bracket
+
+
+def peaks_between(merit: Merit, heights: Floats, best: Floats, where: Floats) -> tuple[Integers, Floats, Floats]:
     """Search for peaks between two points of a sweep that the sweep does not show, where they can be above the best.
 
     `best` and `where` are the optima of the cells so far. Between two points the merit is assumed to rise above both by
@@ -108,8 +123,7 @@ def peaks_between(merit: Merit, heights: Array, best: Array, where: Array) -> tu
     places = spacing * (index + inner[:, None])
     merits = np.empty(places.shape)
     merits[0], merits[-1] = heights[index, cells], heights[index + 1, cells]
-    found, margins = merit.values(places[None, 1:-1], cells)
-    merits[1:-1] = np.where((margins >= 0.0) & ~np.isnan(found), found, -np.inf)
+    merits[1:-1] = heights_at(merit, places[None, 1:-1], cells)
     promised = _promised(merits)
     peaks = (merits[1:-1] >= merits[:-2]) & (merits[1:-1] > merits[2:])
     peaks &= np.maximum(promised[:-1], promised[1:]) > reach[cells]
@@ -122,18 +136,13 @@ def peaks_between(merit: Merit, heights: Array, best: Array, where: Array) -> tu
 
     def depth(at: Any, cell: Any) -> Any:
         """Return the value to be minimised."""
-        values, allowed = merit.values(at[None], cell.astype(np.int64))
-        return np.where((allowed >= 0.0) & ~np.isnan(values), -values, np.inf)
+        return -heights_at(merit, at[None], cell)
 
-    with np.errstate(all="ignore"):
-        tolerances = {"xatol": WIDTH, "xrtol": 0.0, "fatol": 0.0, "frtol": 0.0}
-        minimum = find_minimum(depth, bracket, args=(cells.astype(float),), tolerances=tolerances)
-    refined = np.where(np.isfinite(minimum.f_x), minimum.x, bracket[1])
-    refined, _ = to_stationary(merit, refined, cells)
-    return cells, refined, -depth(refined, cells.astype(float))
+    refined, _ = to_stationary(merit, _lowest(depth, bracket, (cells.astype(float),), WIDTH)[0], cells)
+    return cells, refined, -depth(refined, cells)
 
 
-def _promised(heights: Array) -> Array:
+def _promised(heights: Floats) -> Floats:
     """Return for each interval of the first axis how high a peak within may be; -inf next to infeasible points."""
     with np.errstate(invalid="ignore"):
         steps = np.abs(np.diff(heights, axis=0))
@@ -145,20 +154,7 @@ def _promised(heights: Array) -> Array:
     return np.where(np.isfinite(lowest), np.maximum(heights[:-1], heights[1:]) + steepest, -np.inf)
 
 
-def _edges(merit: Merit, inside: Array, outside: Array, cells: NDArray[np.int64]) -> Array:
-    """Return the edges of the feasible region between places (n,) on its two sides, on the feasible side."""
-
-    def side(places: Any, cell: Any) -> Any:
-        merits, margins = merit.values(places[None], cell.astype(np.int64))
-        return np.where((margins >= 0.0) & ~np.isnan(merits), 1.0, -1.0)
-
-    tolerances = {"xatol": WIDTH**1.2, "xrtol": 0.0, "fatol": 0.0}
-    found = find_root(side, (inside, outside), args=(cells.astype(float),), tolerances=tolerances)
-    (one, other), (side_of_one, _) = found.bracket, found.f_bracket
-    return np.where(side_of_one > 0.0, one, other)
-
-
-def to_stationary(merit: Merit, places: Array, cells: NDArray[np.int64]) -> tuple[Array, NDArray[np.bool_]]:
+def to_stationary(merit: Merit, places: Floats, cells: Integers) -> tuple[Floats, Truths]:
     """Move places of one input to the zero of the slope beside them, where it is known and the merit no lower.
 
     Returns
@@ -188,12 +184,7 @@ def to_stationary(merit: Merit, places: Array, cells: NDArray[np.int64]) -> tupl
     return np.where(settled, moved, places), settled
 
 
-def _folded(places: Array) -> Array:
-    """Mirror places beyond 0 and 1 into the range, so that a peak at an end has lower points on both sides."""
-    return np.abs(1.0 - np.abs(1.0 - places))
-
-
-def _into(places: Array, lowest: Array, highest: Array) -> Array:
-    """Mirror places into the feasible region, and into the range."""
+def _into(places: Floats, lowest: Floats, highest: Floats) -> Floats:
+    """Mirror places (n,) into the feasible region, and into 0 to 1: a peak at an end has lower points on both sides."""
     inner = np.where(places < lowest, 2.0 * lowest - places, np.where(places > highest, 2.0 * highest - places, places))
-    return _folded(inner)
+    return np.abs(1.0 - np.abs(1.0 - inner))

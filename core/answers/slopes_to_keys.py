@@ -8,8 +8,9 @@ from collections.abc import Mapping, Sequence
 from typing import Final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gradhesion.core.types import Floats
 from gradhesion.core.variables.reduced import WAYS, parameters_from
 
 PLAIN: Final = ("k", "nu")
@@ -21,17 +22,15 @@ _PLAIN_STEP: Final = 2.0**-9
 _CENTRED: Final = {-2: 1.0 / 12.0, -1: -2.0 / 3.0, 1: 2.0 / 3.0, 2: -1.0 / 12.0}
 _FORWARD: Final = {0: -25.0 / 12.0, 1: 4.0, 2: -3.0, 3: 4.0 / 3.0, 4: -0.25}
 
-_Array = NDArray[np.float64]
-
 
 def slopes_to_keys(
     given: Mapping[str, ArrayLike],
     keys: Sequence[str],
     parameters: Sequence[str],
     value: ArrayLike,
-    sensitivity: _Array,
+    sensitivity: Floats,
     powers: Mapping[str, float] | None = None,
-) -> dict[str, _Array]:
+) -> dict[str, Floats]:
     """Return d(value)/d(key) for keys out of `given`.
 
     Parameters
@@ -72,16 +71,12 @@ def slopes_to_keys(
             part = sensitivity[..., parameters.index(name)] * influence
             total = total + np.where(influence == 0.0, 0.0, part)
         with np.errstate(all="ignore"):
-            found[key] = values * (total if key in PLAIN else total / _nonzero(arrays[key]))
+            unit = 1.0 if key in PLAIN else np.where(arrays[key] == 0.0, np.nan, arrays[key])
+            found[key] = values * (total / unit)
     return found
 
 
-def _nonzero(values: _Array) -> _Array:
-    """Return values of any shape with NaN for 0."""
-    return np.where(values == 0.0, np.nan, values)
-
-
-def _influences(given: Mapping[str, _Array], key: str, parameters: Sequence[str]) -> dict[str, _Array]:
+def _influences(given: Mapping[str, Floats], key: str, parameters: Sequence[str]) -> dict[str, Floats]:
     """Return d ln(parameter)/d ln(key), without the logarithm of k and nu, of what depends on a key; any shape."""
     others = {way for ways in WAYS.values() for way in ways}
     if key in parameters and not others & given.keys():
@@ -94,7 +89,7 @@ def _influences(given: Mapping[str, _Array], key: str, parameters: Sequence[str]
     else:
         points = [(weight, given[key] * np.exp(i * _STEP)) for i, weight in _CENTRED.items()]
         step = np.asarray(_STEP)
-    found: dict[str, _Array] = {}
+    found: dict[str, Floats] = {}
     for weight, moved in points:
         made = parameters_from({**given, key: moved})
         for name in parameters:

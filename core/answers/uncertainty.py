@@ -13,9 +13,11 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import ndtr, ndtri
 from scipy.stats import qmc
+
+from gradhesion.core.types import Floats, Integers, Truths
 
 QUANTILES: Final = {"p05": 0.05, "p50": 0.5, "p95": 0.95}
 """The quantiles of the samples, by their names."""
@@ -28,8 +30,6 @@ AT_FEW: Final = 0.02
 """Relative difference allowed between deviations of these samples."""
 _LEAST_SHARE: Final = 2.0**-54
 """Samples are strictly between the bounds: a modulus of 0 has no value."""
-
-_Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,13 +61,13 @@ class Spread:
     high: Any = np.inf
     uniform: bool = False
 
-    def _normal(self, values: ArrayLike) -> tuple[_Array, _Array, _Array, _Array]:
+    def _normal(self, values: ArrayLike) -> tuple[Floats, Floats, Floats, Floats]:
         """Return centre and deviation of the normal distribution, and its bounds in deviations from the centre."""
         centre = np.asarray(values, dtype=float)
         deviation = self.deviation * (np.abs(centre) if self.relative else np.ones_like(centre))
         return centre, deviation, (self.low - centre) / deviation, (self.high - centre) / deviation
 
-    def standard_deviation(self, values: ArrayLike) -> _Array:
+    def standard_deviation(self, values: ArrayLike) -> Floats:
         """Return the standard deviation of the distribution, truncated as it is, about each value."""
         if self.uniform:
             return np.full(np.shape(values), (self.high - self.low) / np.sqrt(12.0))
@@ -78,7 +78,7 @@ class Spread:
         mean = (at_low - at_high) / share
         return deviation * np.sqrt(1.0 + (low * at_low - high * at_high) / share - mean * mean)
 
-    def quantiles(self, values: ArrayLike, shares: ArrayLike) -> _Array:
+    def quantiles(self, values: ArrayLike, shares: ArrayLike) -> Floats:
         """Return the inputs below which these shares lie, strictly between the bounds; both arguments broadcast."""
         inner = np.clip(np.asarray(shares, dtype=float), _LEAST_SHARE, 1.0 - _LEAST_SHARE)
         if self.uniform:
@@ -90,7 +90,7 @@ class Spread:
         return np.clip(found, np.nextafter(self.low, np.inf), np.nextafter(self.high, -np.inf))
 
 
-def drawn_shares(inputs: int, count: int, seed: int) -> _Array:
+def drawn_shares(inputs: int, count: int, seed: int) -> Floats:
     """Return quasi-random shares 0 .. 1, a scrambled sequence of Sobol's, of shape (inputs, count).
 
     Parameters
@@ -114,7 +114,7 @@ def drawn_shares(inputs: int, count: int, seed: int) -> _Array:
     return np.ascontiguousarray(sequence.random(count).T)
 
 
-def linear_deviation(slopes: Sequence[ArrayLike], deviations: Sequence[ArrayLike]) -> _Array:
+def linear_deviation(slopes: Sequence[ArrayLike], deviations: Sequence[ArrayLike]) -> Floats:
     """Return the standard deviation of values of any shape by their slopes to independent inputs.
 
     Examples
@@ -126,7 +126,7 @@ def linear_deviation(slopes: Sequence[ArrayLike], deviations: Sequence[ArrayLike
     return np.sqrt(np.sum([part * part for part in parts], axis=0))
 
 
-def differ(one: ArrayLike, other: ArrayLike, share: float = TENTH) -> NDArray[np.bool_]:
+def differ(one: ArrayLike, other: ArrayLike, share: float = TENTH) -> Truths:
     """Return where deviations, of any shape, differ by more than a share of the larger, or one of them is missing.
 
     Examples
@@ -135,35 +135,36 @@ def differ(one: ArrayLike, other: ArrayLike, share: float = TENTH) -> NDArray[np
     [False, True, False, True]
     """
     first, second = np.asarray(one, dtype=float), np.asarray(other, dtype=float)
-    close: NDArray[np.bool_] = np.abs(first - second) <= share * np.maximum(first, second)
+    close: Truths = np.abs(first - second) <= share * np.maximum(first, second)
     return ~close
 
 
-def statistics_of(samples: _Array, axis: int) -> Mapping[str, _Array]:
-    """Return mean, quantiles and standard deviation ("std") of samples along an axis, of which NaN are left out.
+def statistics_of(samples: Floats) -> Mapping[str, Floats]:
+    """Return mean, quantiles and standard deviation ("std") of samples along the last axis; NaN are left out.
 
     Examples
     --------
-    >>> found = statistics_of(np.array([[1.0, 2.0, 3.0], [np.nan, 5.0, 5.0], [np.nan, np.nan, np.nan]]), axis=1)
+    >>> found = statistics_of(np.array([[1.0, 2.0, 3.0], [np.nan, 5.0, 5.0], [np.nan, np.nan, np.nan]]))
     >>> found["mean"].tolist(), found["p50"].tolist()
     ([2.0, 5.0, nan], [2.0, 5.0, nan])
     """
     there = ~np.isnan(samples)
-    counts = there.sum(axis)
+    counts = there.sum(-1)
     with np.errstate(all="ignore"):  # without samples there is no mean, and infinite ones have no deviation
-        mean = np.sum(samples, axis, where=there) / counts
-        apart = samples - np.expand_dims(mean, axis)
-        found = {"mean": mean, "std": np.sqrt(np.sum(apart * apart, axis, where=there) / counts)}
-        ordered = np.sort(samples, axis)  # NaN last
+        mean = np.sum(samples, -1, where=there) / counts
+        apart = samples - mean[..., None]
+        found = {"mean": mean, "std": np.sqrt(np.sum(apart * apart, -1, where=there) / counts)}
+        ordered = np.sort(samples, -1)  # NaN last
         for name, share in QUANTILES.items():
-            found[name] = _quantile(ordered, counts, share, axis)
+            found[name] = _quantile(ordered, counts, share)
     return found
 
 
-def _quantile(ordered: _Array, counts: NDArray[np.int64], share: float, axis: int) -> _Array:
-    """Return a quantile along an axis of sorted samples, of which the first `counts` have values, interpolated."""
-    place = share * np.maximum(counts - 1, 0)
+def _quantile(ordered: Floats, counts: Integers, share: float) -> Floats:
+    """Return a quantile along the last axis of sorted samples, of which the first `counts` have values."""
+    last = np.maximum(counts - 1, 0)
+    place = share * last
     low = np.floor(place).astype(np.int64)
-    high = np.minimum(low + 1, np.maximum(counts - 1, 0))
-    below, above = (np.take_along_axis(ordered, np.expand_dims(item, axis), axis).squeeze(axis) for item in (low, high))
+    ends = np.stack([low, np.minimum(low + 1, last)], -1)
+    below, above = np.moveaxis(np.take_along_axis(ordered, ends, -1), -1, 0)
     return np.where(above > below, below + (place - low) * (above - below), below)

@@ -12,32 +12,32 @@ deviations are those of the linear problem at the minimum. Parameters with the s
 act through one number M, docs/theory.md) make its Jacobian singular and are refused.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from threadpoolctl import threadpool_limits
 
-from gradhesion.core.loops.described import described
 from gradhesion.core.loops.fitted import CannotTellApartError, FittedLoop
 from gradhesion.core.loops.measured.features import base_line, contact_point
 from gradhesion.core.loops.paths.misfit import Data, Misfit
-from gradhesion.core.loops.paths.model import LINEAR
+from gradhesion.core.loops.paths.model import LINEAR, WAVES
 from gradhesion.core.loops.paths.offsets import Offsets
 from gradhesion.core.loops.paths.path import LoopModel
+from gradhesion.core.loops.results import results_at
 from gradhesion.core.loops.search.minima import polished, refined
 from gradhesion.core.loops.search.ranges import searched, zeros_of
 from gradhesion.core.loops.search.smooth_search import held_start, smooth_starts
-from gradhesion.core.loops.search.speed import SpeedModel, at_rest, fast_starts
-from gradhesion.core.loops.search.wave_search import wavy_starts, without_waves
+from gradhesion.core.loops.search.speed import NAMES_OF_SPEED, SpeedModel, fast_starts
+from gradhesion.core.loops.search.starts import without
+from gradhesion.core.loops.search.wave_search import wavy_starts
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate
 from gradhesion.core.problem.toughness import Toughness
-
-_Array = NDArray[np.float64]
+from gradhesion.core.types import Floats, Truths
 
 ONE_NUMBER: Final = ("E_star", "E", "modulus", "c0", "c0_over_R", "nu")
 """Parameters that act on a loop through M = theta(k, nu) E*/c0^k alone."""
@@ -139,60 +139,54 @@ def fit_loop(
     points = np.column_stack([np.asarray(indentation, dtype=float).ravel(), np.asarray(load, dtype=float).ravel()])
     back, zeros = np.asarray(unloading, dtype=bool).ravel(), offsets or Offsets()
     _check(points, back, free, noise, unknown=len(free) + len(zeros.names))
-    line = base_line(points, back, noise[1])
-    contact = None
-    shifted = points
-    if zeros.indentation == "contact":
-        contact = contact_point(points, back, noise)
-        if contact is None:
-            raise ValueError(
-                'offsets.indentation = "contact": loading has no base line from which contact could be told; measure '
-                'further out, or write "free"'
-            )
-        shifted = points - [contact.depth, 0.0]
+    each = np.ones(back.size) if counts is None else np.asarray(counts, dtype=float).ravel()
+    root = float(np.sqrt(np.median(each)))
+    of_means = noise[0] / root, noise[1] / root
+    line = base_line(points, back, of_means[1])
+    contact = contact_point(points, back, of_means) if zeros.indentation == "contact" else None
+    if contact is None and zeros.indentation == "contact":
+        raise ValueError(
+            'offsets.indentation = "contact": loading has no base line from which contact could be told; measure '
+            'further out, or write "free"'
+        )
+    zero = np.array([0.0 if contact is None else contact.depth, 0.0])
+    shifted = points - zero
     ranges = searched(shifted, free, zeros, line)
     low, high = np.array(
         [ends if name in LINEAR else tuple(np.log(ends)) for name, ends in ranges.items()], dtype=float
     ).T
-    span = np.ptp(points, axis=0)
-    driven = loading or Loading()
     own: dict[str, Any] = {
         "furthest": tuple(shifted.max(axis=0).tolist()), "blur": _BLUR * noise[0],
-        "first": float(shifted[:, 0].min() - span[0]),
-        "profile": profile or Profile(), "loading": driven, "toughness": toughness,
+        "first": float(shifted[:, 0].min() - np.ptp(points[:, 0])),
+        "profile": profile or Profile(), "loading": loading or Loading(), "toughness": toughness,
     }  # fmt: skip
-    data = Data(shifted, back, noise, np.ones(back.size) if counts is None else np.asarray(counts, dtype=float).ravel())
-    misfit = Misfit(data, LoopModel(fixed, tuple(ranges), **own) if rate is None else
-                    SpeedModel(fixed, tuple(ranges), rate=rate, **own), low, high)  # fmt: skip
+    data, names = Data(shifted, back, noise, each), tuple(ranges)
+    model = LoopModel(fixed, names, **own) if rate is None else SpeedModel(fixed, names, rate=rate, **own)
+    misfit = Misfit(data, model, low, high)
     with threadpool_limits(1):  # matrices of a few columns: threads only wait for each other
         begun = _starts(misfit, own, zeros_of(points, back, line, contact), starts, seed)
         found = refined(misfit, begun)
         if misfit.path(found[0].x) is None:
             raise ValueError("no combination within the ranges has a path; widen them")
-        if not misfit.model.by_differences:  # where each one takes a second
+        if not model.by_differences:  # where each one takes a second
             misfit = misfit.finer()
             found = polished(misfit, found)
-        found_loop = described(misfit, found, intervals, ranges, widened=not noise_is_given)
-    found_loop = replace(found_loop, base_line=line)
-    if contact is None:
-        return found_loop
-    moved = np.array([contact.depth, 0.0])
-    ways = {"loading": found_loop.loading + moved, "unloading": found_loop.unloading + moved}
-    return replace(found_loop, contact=contact, **ways)
+        fitted = results_at(misfit, found, intervals, ranges, widened=not noise_is_given)
+    loading_path, unloading_path = fitted.loading + zero, fitted.unloading + zero
+    return replace(fitted, base_line=line, contact=contact, loading=loading_path, unloading=unloading_path)
 
 
-def _starts(misfit: Misfit, own: Mapping[str, Any], zeros: tuple[float, float], count: int, seed: int) -> list[_Array]:
+def _starts(misfit: Misfit, own: Mapping[str, Any], zeros: tuple[float, float], count: int, seed: int) -> list[Floats]:
     """Return starts: near the smooth curve, then of waves, then of speeds, each from the results of the one before."""
 
-    def part(bare: Mapping[str, float], names: tuple[str, ...]) -> Misfit:
+    def part(left_out: Sequence[str], **more: float) -> Misfit:
+        bare, names = without(misfit.model, left_out)
         use = [misfit.names.index(name) for name in names]
-        return Misfit(misfit.data, LoopModel(bare, names, **own), misfit.low[use], misfit.high[use])
+        return Misfit(misfit.data, LoopModel(bare | more, names, **own), misfit.low[use], misfit.high[use])
 
-    rest = misfit
-    if isinstance(misfit.model, SpeedModel):
-        rest = part(*at_rest(misfit.model))
+    rest = part(NAMES_OF_SPEED) if isinstance(misfit.model, SpeedModel) else misfit
     if rest.model.has_waves:
-        smooth = part(*without_waves(rest.model))
+        smooth = part((*NAMES_OF_SPEED, *WAVES), A=0.0)
         first = smooth_starts(smooth, *zeros, seed)[0]
         begun = wavy_starts(rest, smooth, [first, held_start(smooth, first, *zeros)], count)
     else:
@@ -201,12 +195,7 @@ def _starts(misfit: Misfit, own: Mapping[str, Any], zeros: tuple[float, float], 
 
 
 def _check(
-    points: _Array,
-    back: NDArray[np.bool_],
-    free: Mapping[str, tuple[float, float]],
-    noise: tuple[float, float],
-    *,
-    unknown: int,
+    points: Floats, back: Truths, free: Mapping[str, tuple[float, float]], noise: tuple[float, float], *, unknown: int
 ) -> None:
     """Refuse what cannot be fitted: points (n, 2) of depth and load, and whether each unloads, (n,)."""
     if points.shape[0] != back.size or not np.isfinite(points).all():

@@ -4,12 +4,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from gradhesion.core.loops.measured.features import BaseLine, ContactPoint
-
-_Array = NDArray[np.float64]
+from gradhesion.core.types import Floats
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -68,13 +64,13 @@ class FittedLoop:
     low: dict[str, float]
     high: dict[str, float]
     ranges: dict[str, tuple[float, float]]
-    correlation: _Array
+    correlation: Floats
     on_bound: tuple[str, ...]
     chi_square: float
     degrees_of_freedom: int
-    residual: _Array
-    loading: _Array
-    unloading: _Array
+    residual: Floats
+    loading: Floats
+    unloading: Floats
     converged: bool
     status: int
     others: tuple[OtherMinimum, ...] = ()

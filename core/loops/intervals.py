@@ -8,11 +8,9 @@ displacement, so that a secant finds the end in a few steps.
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.loops.paths.misfit import Misfit
-
-_Array = NDArray[np.float64]
+from gradhesion.core.types import Floats
 
 _NEAR: Final = 0.01
 """Accuracy of the end of an interval, in parts of the quantile."""
@@ -25,7 +23,7 @@ _FURTHEST: Final = 4.0
 
 
 def profile_interval(
-    misfit: Misfit, best: _Array, number: int, along: _Array, factor: float, unit: float
+    misfit: Misfit, best: Floats, number: int, along: Floats, factor: float, unit: float
 ) -> tuple[float, float]:
     """Return how low and how high one number may be.
 

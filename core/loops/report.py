@@ -1,19 +1,20 @@
 """The status that the solver gives the fitted cycle."""
 
 import math
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import Any, Final
 
 from gradhesion.core.loops.paths.model import Model
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN
 from gradhesion.core.problem.status import JUMP_IN_TO_RIM
 from gradhesion.core.sweep import solve
+from gradhesion.core.types import Floats
 from gradhesion.core.variables.reduced import parameters_from
 
+_ROUNDING: Final = 1e-12
+"""Relative difference of radii that is rounding."""
 
-def status_of(model: Model, vector: NDArray[np.float64], radius: float) -> int:
+
+def status_of(model: Model, vector: Floats, radius: float) -> int:
     """Return the status of the cycle of a vector that turns at a radius, over R."""
     if radius == 0.0:
         return 0
@@ -27,4 +28,5 @@ def status_of(model: Model, vector: NDArray[np.float64], radius: float) -> int:
     wanted = ["pull_off_force", "loading_jumps"] if model.loading.control == "load" else [
         "dissipated_energy", "loading_jumps", "unloading_jumps"]  # fmt: skip
     found = int(solve(scene, wanted, threads=1, **own)["status"])
-    return found & ~(JUMP_IN_TO_RIM if radius < made.get("a_max_over_R", math.inf) else 0)
+    turns_before = radius < (1.0 - _ROUNDING) * made.get("a_max_over_R", math.inf)
+    return found & ~(JUMP_IN_TO_RIM if turns_before else 0)

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.study.fit.afm_file import is_force_file, read_force_file
+from gradhesion.cli.study.fit.fault_words import refuse_faults, refuse_order
 from gradhesion.cli.study.fit.loop_columns import PAUSE, LoopFileError, Raw, read_table
 from gradhesion.cli.study.fit.rules import control_of
-from gradhesion.cli.study.fit.sense_words import refuse_order, refuse_sense
 from gradhesion.cli.terminal.amounts import counted
 from gradhesion.core.loops.measured import points as loop_points
 from gradhesion.core.loops.measured.averaging import MOST, averaged
@@ -123,7 +123,7 @@ def _loop(raw: Raw, file: str, table: "DataTable", *, average: bool, through_mac
         depth, load, unloading, rank, cycle = (row[own] for row in (depth, load, unloading, rank, cycle))
     found = noise_of(depth, load, unloading, rank)
     kept = averaged(depth, load, unloading, rank, found, most=MOST if average else depth.size)
-    refuse_sense(kept.depth, kept.load, kept.noise[1] / np.sqrt(kept.counts), kept.unloading, table)
+    refuse_faults(kept.depth, kept.load, kept.noise[1] / np.sqrt(kept.counts), kept.unloading, table)
     first = dict(zip(rank.tolist(), cycle.tolist(), strict=True)) if kept.depth.size < depth.size else {}
     return LoopFile(
         depth=kept.depth,

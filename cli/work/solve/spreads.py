@@ -135,7 +135,7 @@ def _sampled(centre: _Centre, requested: Uncertainty, shape: tuple[int, ...]) ->
         place = (*(slice(None) for _ in range(axis)), *part)
         for name, values in samples.items():
             whole = np.moveaxis(_whole(values, requested.samples, axis), axis, -1)
-            for way, one in statistics_of(whole, -1).items():
+            for way, one in statistics_of(whole).items():
                 made.setdefault(_named(name, way), np.empty(shape))[place] = one
     return made
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.loops.measured.neighbours import along, of_differences
+from gradhesion.core.types import Floats, Truths
 
-_Array = NDArray[np.float64]
 _Ints = NDArray[np.intp]
 
 MOST: Final = 2000
@@ -40,20 +40,20 @@ _OF_SQUARE: Final = 0.4549364231195727
 class Averaged:
     """Means of neighbouring points, in the order of cycles and branches; arrays of shape (m,)."""
 
-    depth: _Array
-    load: _Array
-    unloading: NDArray[np.bool_]
+    depth: Floats
+    load: Floats
+    unloading: Truths
     cycle: NDArray[np.int32]
-    counts: _Array
+    counts: Floats
     """How many points each is the mean of."""
     noise: tuple[float, float]
     """Standard deviations of a point, from which those of these means follow: higher where noise is not white."""
 
 
 def averaged(
-    depth: _Array,
-    load: _Array,
-    unloading: NDArray[np.bool_],
+    depth: Floats,
+    load: Floats,
+    unloading: Truths,
     cycle: NDArray[np.int32],
     noise: tuple[float, float],
     most: int = MOST,
@@ -106,30 +106,20 @@ def averaged(
         bad = _bent(*moments, size, scale) | _apart(rows, waiting, size, scale[0], steps)
         done.append(waiting[~bad])
         half = (size[bad] + 1) // 2
-        waiting, size = (
-            np.concatenate([waiting[bad], waiting[bad] + half]),
-            np.concatenate([half, size[bad] - half]),
-        )
-        sort = np.argsort(waiting)
-        waiting, size = waiting[sort], size[sort]
+        waiting = np.column_stack([waiting[bad], waiting[bad] + half]).ravel()
+        size = np.column_stack([half, size[bad] - half]).ravel()
         moments = _moments(rows, waiting, size)
     first = np.sort(np.concatenate(done))
     counts = np.diff(np.append(first, depth.size))
     means = [np.add.reduceat(row[order], first) / counts for row in (depth, load)]
     whole, branch = counts == length, np.searchsorted(first, begin)
     slow = [of_differences(row, branch, _ORDER, whole) * math.sqrt(length) for row in means]
-    drifts = [_SLOWER * own < size for own, size in zip(noise, slow, strict=True)]
-    return Averaged(
-        means[0],
-        means[1],
-        unloading[order][first],
-        cycle[order][first],
-        counts.astype(float),
-        (slow[0] if drifts[0] else noise[0], slow[1] if drifts[1] else noise[1]),
-    )
+    found = [slower if _SLOWER * own < slower else own for own, slower in zip(noise, slow, strict=True)]
+    sides, cycles = unloading[order][first], cycle[order][first]
+    return Averaged(means[0], means[1], sides, cycles, counts.astype(float), (found[0], found[1]))
 
 
-def _moments(rows: _Array, first: _Ints, size: _Ints) -> tuple[_Array, _Array]:
+def _moments(rows: Floats, first: _Ints, size: _Ints) -> tuple[Floats, Floats]:
     """Give, of blocks, the sums of squares about straight lines and the sums along parabolas, over their norms."""
     begin = np.cumsum(size) - size
     at = np.arange(int(size.sum())) - np.repeat(begin, size)
@@ -147,7 +137,7 @@ def _moments(rows: _Array, first: _Ints, size: _Ints) -> tuple[_Array, _Array]:
     return np.maximum(rest - least, 0.0), np.where(bend**2 > least, bend, 0.0)
 
 
-def _not_white(rest: _Array, bend: _Array, size: _Ints) -> tuple[_Array, _Array]:
+def _not_white(rest: Floats, bend: Floats, size: _Ints) -> tuple[Floats, Floats]:
     """Give the variances of points about lines, and of bends, that noise has in this row: 1 where it is white."""
     own = size >= _LEAST
     if not own.any():
@@ -158,7 +148,7 @@ def _not_white(rest: _Array, bend: _Array, size: _Ints) -> tuple[_Array, _Array]
     return np.where(drifts, about, 1.0), np.where(drifts, np.maximum(also, 1.0), 1.0)
 
 
-def _bent(rest: _Array, bend: _Array, size: _Ints, scale: tuple[_Array, _Array]) -> NDArray[np.bool_]:
+def _bent(rest: Floats, bend: Floats, size: _Ints, scale: tuple[Floats, Floats]) -> Truths:
     """Return which blocks are not straight."""
     free = np.maximum(size - 2.0, 0.0)
     scattered = rest / scale[0] > free + _SIGMAS * np.sqrt(2.0 * free) + _SIGMAS
@@ -169,7 +159,7 @@ def _bent(rest: _Array, bend: _Array, size: _Ints, scale: tuple[_Array, _Array])
     return np.asarray(bent & (size > 1))
 
 
-def _apart(rows: _Array, first: _Ints, size: _Ints, scale: _Array, steps: _Array) -> NDArray[np.bool_]:
+def _apart(rows: Floats, first: _Ints, size: _Ints, scale: Floats, steps: Floats) -> Truths:
     """Return which pairs of points lie on both sides of a jump: their difference is no scatter."""
     pair = size == 2
     apart = np.zeros(size.size, bool)

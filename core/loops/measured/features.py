@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-_Array = NDArray[np.float64]
+from gradhesion.core.types import Floats, Truths
 
 _SIGMAS: Final = 3.0
 """Standard deviations of the noise by which points of a base line scatter at most, drift included."""
@@ -34,45 +33,31 @@ _CLEAR: Final = 5.0
 
 @dataclass(frozen=True)
 class BaseLine:
-    """The line of no load.
-
-    Attributes
-    ----------
-    level
-        Its load, in N.
-    spread
-        Standard deviation of its points about that, in N.
-    slope, slope_deviation
-        Its tilt and the standard deviation of that, in N/m.
-    ends
-        The depth in m at which it ends on loading and on unloading; NaN where a branch has none.
-    """
+    """The line of no load."""
 
     level: float
+    """Its load, in N."""
     spread: float
+    """Standard deviation of its points about that, in N."""
     slope: float
     slope_deviation: float
+    """Its tilt and the standard deviation of that, in N/m."""
     ends: tuple[float, float]
+    """The depth in m at which it ends on loading and on unloading; NaN where a branch has none."""
 
 
 @dataclass(frozen=True)
 class ContactPoint:
-    """The depth at which contact begins on loading, found from the end of the base line.
-
-    Attributes
-    ----------
-    depth, deviation
-        In m: it, and its standard deviation.
-    method
-        How it was found, in words.
-    """
+    """The depth at which contact begins on loading, found from the end of the base line."""
 
     depth: float
     deviation: float
+    """In m: it, and its standard deviation."""
     method: str = "end of the base line of loading"
+    """How it was found, in words."""
 
 
-def _flat_part(depth: _Array, load: _Array, noise: float, steep: float) -> int:
+def _flat_part(depth: Floats, load: Floats, noise: float, steep: float) -> int:
     """Return how many points at the least depths lie on a flat line; all of shape (n,), in order of depth."""
     count = depth.size
     if count < _LEAST:
@@ -103,7 +88,12 @@ def _flat_part(depth: _Array, load: _Array, noise: float, steep: float) -> int:
     return int(begun[0]) if begun.size and begun[0] >= _LEAST else last + 1
 
 
-def base_line(points: _Array, back: NDArray[np.bool_], noise: float) -> BaseLine | None:
+def _by_depth(points: Floats, own: Truths) -> Floats:
+    """Return those of the points (n, 2) that are on one branch, (n,), in order of depth."""
+    return points[own][np.argsort(points[own, 0], kind="stable")]
+
+
+def base_line(points: Floats, back: Truths, noise: float) -> BaseLine | None:
     """Find the line of no load of a loop.
 
     Parameters
@@ -131,8 +121,7 @@ def base_line(points: _Array, back: NDArray[np.bool_], noise: float) -> BaseLine
     steep = _FLAT * float(span[1] / span[0]) if span[0] > 0.0 else 0.0
     parts, ends = [], []
     for way in (False, True):
-        own = points[back == way]
-        own = own[np.argsort(own[:, 0], kind="stable")]
+        own = _by_depth(points, back == way)
         count = _flat_part(own[:, 0], own[:, 1], noise, steep)
         parts.append(own[:count])
         ends.append(float(own[count - 1, 0]) if count else float("nan"))
@@ -150,8 +139,8 @@ def base_line(points: _Array, back: NDArray[np.bool_], noise: float) -> BaseLine
     return BaseLine(float(mean[1]), float(away[:, 1].std()), slope, error, (ends[0], ends[1]))
 
 
-def contact_point(points: _Array, back: NDArray[np.bool_], noise: tuple[float, float]) -> ContactPoint | None:
-    """Find the depth at which contact begins on loading; None without a base line there.
+def contact_point(points: Floats, back: Truths, noise: tuple[float, float]) -> ContactPoint | None:
+    """Find the depth at which contact begins on loading; None without a base line there and a point beyond it.
 
     Parameters
     ----------
@@ -163,9 +152,9 @@ def contact_point(points: _Array, back: NDArray[np.bool_], noise: tuple[float, f
     line = base_line(points, back, noise[1])
     if line is None or not np.isfinite(line.ends[0]):
         return None
-    own = points[~back]
-    own = own[np.argsort(own[:, 0], kind="stable")]
-    depth, load = own.T
+    depth, load = _by_depth(points, ~back).T
+    if depth.size <= _LEAST:
+        return None
     end = int(np.searchsorted(depth, line.ends[0], "right"))
     around = max(_AROUND, end // 2)
     last = min(depth.size, end + 2 * around)
@@ -178,7 +167,7 @@ def contact_point(points: _Array, back: NDArray[np.bool_], noise: tuple[float, f
     return ContactPoint(0.5 * (low + high), float(np.hypot(noise[0], (high - low) / np.sqrt(12.0))))
 
 
-def _two_parts(depth: _Array, load: _Array, at: int, level: float) -> float:
+def _two_parts(depth: Floats, load: Floats, at: int, level: float) -> float:
     """Return the squares of a load about a level up to a place and a cubic from there on; arrays (n,)."""
     before = load[:at] - level
     scaled = (depth[at:] - depth[at]) / max(float(depth[-1] - depth[at]), np.finfo(float).tiny)

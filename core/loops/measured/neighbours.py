@@ -6,8 +6,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-_Array = NDArray[np.float64]
-_Bools = NDArray[np.bool_]
+from gradhesion.core.types import Floats, Truths
+
 _Ints = NDArray[np.int32]
 _Places = NDArray[np.intp]
 
@@ -19,7 +19,7 @@ _STEP: Final = 0.05
 """Steps of the depth, in parts of its span, below which points are in order."""
 
 
-def pieces(unloading: _Bools, cycle: _Ints) -> tuple[_Places, _Places]:
+def pieces(unloading: Truths, cycle: _Ints) -> tuple[_Places, _Places]:
     """Sort points by cycle and branch, in their own order within these.
 
     Returns
@@ -40,7 +40,7 @@ def pieces(unloading: _Bools, cycle: _Ints) -> tuple[_Places, _Places]:
     return order, np.concatenate([[0], np.flatnonzero(np.diff(branch[order])) + 1])
 
 
-def along(depth: _Array, load: _Array, unloading: _Bools, cycle: _Ints) -> tuple[_Places, _Places]:
+def along(depth: Floats, load: Floats, unloading: Truths, cycle: _Ints) -> tuple[_Places, _Places]:
     """Sort points along their branches: as they come, or by depth if they come in no order.
 
     Parameters
@@ -67,7 +67,7 @@ def along(depth: _Array, load: _Array, unloading: _Bools, cycle: _Ints) -> tuple
     return (sort if shuffled else order), begin
 
 
-def of_differences(row: _Array, begin: _Places, order: int = 2, sound: _Bools | None = None) -> float:
+def of_differences(row: Floats, begin: _Places, order: int = 2, sound: Truths | None = None) -> float:
     """Estimate white noise by differences of neighbours that lie in one piece and are sound.
 
     Parameters
@@ -93,9 +93,7 @@ def of_differences(row: _Array, begin: _Places, order: int = 2, sound: _Bools | 
     """
     if row.size <= order:
         return 0.0
-    piece = np.zeros(row.size, np.intp)
-    piece[begin[1:]] = 1
-    np.cumsum(piece, out=piece)
+    piece = np.searchsorted(begin, np.arange(row.size), "right")
     use = piece[order:] == piece[:-order]
     if sound is not None:
         bad = np.concatenate([[0], np.cumsum(~sound)])

@@ -6,9 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.loops.measured.neighbours import along, of_differences, pieces
+from gradhesion.core.types import Floats, Truths
 
-_Array = NDArray[np.float64]
-_Bools = NDArray[np.bool_]
 _Ints = NDArray[np.int32]
 
 FLOOR: Final = 1e-6
@@ -21,7 +20,7 @@ _WINDOW: Final = 16
 """Neighbouring points that give a slope, of points in no order; of many points, a share of a branch."""
 
 
-def noise_of(depth: _Array, load: _Array, unloading: _Bools, cycle: _Ints) -> tuple[float, float]:
+def noise_of(depth: Floats, load: Floats, unloading: Truths, cycle: _Ints) -> tuple[float, float]:
     """Estimate the standard deviations of depth and load from the points alone.
 
     Parameters
@@ -59,7 +58,7 @@ def noise_of(depth: _Array, load: _Array, unloading: _Bools, cycle: _Ints) -> tu
     return max(found[0], least[0], steps[0], tiny), max(found[1], least[1], steps[1], tiny)
 
 
-def _digit(row: _Array, begin: NDArray[np.intp]) -> float:
+def _digit(row: Floats, begin: NDArray[np.intp]) -> float:
     """Give the standard deviation of rounding, where a row has many equal values and all are multiples of a step."""
     longest = max(np.split(row, begin[1:]), key=lambda piece: piece.size)
     values = np.unique(longest)
@@ -72,7 +71,7 @@ def _digit(row: _Array, begin: NDArray[np.intp]) -> float:
     return step / float(np.sqrt(12.0)) if np.mean(on_grid) > 0.9 else 0.0
 
 
-def _of_no_order(depth: _Array, load: _Array, begin: NDArray[np.intp]) -> tuple[float, float]:
+def _of_no_order(depth: Floats, load: Floats, begin: NDArray[np.intp]) -> tuple[float, float]:
     """Estimate the noise of points sorted by depth: about straight lines, where these are flat and where steep."""
     many = max(_WINDOW, depth.size // (_WINDOW**2 * begin.size))
     starts = [np.arange(a, b - many + 1, many) for a, b in zip(begin, [*begin[1:], depth.size], strict=True)]

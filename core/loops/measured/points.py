@@ -4,11 +4,11 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import median_filter
 
-from gradhesion.core.loops.measured.neighbours import of_differences
+from gradhesion.core.loops.measured.neighbours import of_differences, pieces
+from gradhesion.core.types import Floats, Truths
 
-_Array = NDArray[np.float64]
-_Bools = NDArray[np.bool_]
 _Ints = NDArray[np.int32]
 
 TURN: Final = 0.2
@@ -21,7 +21,7 @@ _SPIKE: Final = 5
 """Points of the running median, which removes a spike."""
 
 
-def ways(depth: _Array, cycle: _Ints | None = None) -> tuple[_Bools, _Ints]:
+def ways(depth: Floats, cycle: _Ints | None = None) -> tuple[Truths, _Ints]:
     """Find which points unload, from their order.
 
     Parameters
@@ -47,18 +47,17 @@ def ways(depth: _Array, cycle: _Ints | None = None) -> tuple[_Bools, _Ints]:
     """
     if cycle is not None:
         unloading = np.zeros(depth.size, bool)
-        sort = np.argsort(cycle, kind="stable")
-        for own in np.split(sort, np.flatnonzero(np.diff(cycle[sort])) + 1):
+        order, begin = pieces(unloading, cycle)
+        for own in np.split(order, begin[1:]):
             unloading[own[int(np.argmax(depth[own])) + 1 :]] = True
         return unloading, cycle
-    smooth = _without_spikes(depth) if depth.size > 10 * _SPIKE else depth
+    smooth = median_filter(depth, _SPIKE, mode="nearest") if depth.size > 10 * _SPIKE else depth
     far = TURN * float(np.ptp(smooth))
     still = min(_STILL * of_differences(depth, np.zeros(1, np.intp)), 0.25 * far)
     unloading, number = np.zeros(depth.size, bool), np.ones(depth.size, np.int32)
     falling, at, now = False, 0, 1  # the last extreme so far, and the number of the cycle
     for i in _extremes(smooth).tolist():
-        ahead = smooth[i] <= smooth[at] if falling else smooth[i] >= smooth[at]
-        if ahead:
+        if smooth[i] <= smooth[at] if falling else smooth[i] >= smooth[at]:
             at = i
         elif abs(smooth[i] - smooth[at]) >= far > 0.0:
             if smooth is not depth:  # the running median flattens a turn
@@ -74,13 +73,7 @@ def ways(depth: _Array, cycle: _Ints | None = None) -> tuple[_Bools, _Ints]:
     return unloading, number
 
 
-def _without_spikes(row: _Array) -> _Array:
-    """Give the running median."""
-    windows = np.lib.stride_tricks.sliding_window_view(np.pad(row, _SPIKE // 2, mode="edge"), _SPIKE)
-    return np.asarray(np.partition(windows, _SPIKE // 2, axis=1)[:, _SPIKE // 2])
-
-
-def _extremes(row: _Array) -> NDArray[np.intp]:
+def _extremes(row: Floats) -> NDArray[np.intp]:
     """Give the places of the extremes of short blocks; those of the row are among them."""
     if row.size <= 2 * _BLOCKS:
         return np.arange(row.size)

@@ -9,12 +9,9 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.compiler.jit import kernel
 from gradhesion.core.types import Floats, Integers, Truths
-
-_Array = NDArray[np.float64]
 
 _BLOCK: Final = 16
 """Pieces in a box: where a box is further from a point than the nearest piece so far, all of them are skipped."""
@@ -25,26 +22,18 @@ _STEPS: Final = 2
 
 @dataclass(frozen=True, eq=False)
 class Feet:
-    """Where points are nearest to a curve.
+    """Where points are nearest to a curve."""
 
-    Attributes
-    ----------
-    distance
-        Signed: positive on the left of the piece.
-    piece
-        The number of the piece, that of its first vertex.
-    share
-        How far along it, 0 to 1.
-    normal
-        Rows of the direction in which the distance grows, of length 1.
-    """
+    distance: Floats
+    """Signed: positive on the left of the piece."""
+    piece: Integers
+    """The number of the piece, that of its first vertex."""
+    share: Floats
+    """How far along it, 0 to 1."""
+    normal: Floats
+    """Rows of the direction in which the distance grows, of length 1."""
 
-    distance: _Array
-    piece: NDArray[np.int64]
-    share: _Array
-    normal: _Array
-
-    def slopes(self, moving: _Array) -> _Array:
+    def slopes(self, moving: Floats) -> Floats:
         """Return the derivatives of the distances as the vertices move.
 
         Parameters
@@ -177,7 +166,7 @@ def _feet(
             share[j] = t
 
 
-def feet(points: _Array, chain: _Array, curved: NDArray[np.bool_] | None = None) -> Feet:
+def feet(points: Floats, chain: Floats, curved: Truths | None = None) -> Feet:
     """Find where points are nearest to a connected curve.
 
     Parameters

@@ -5,14 +5,13 @@ from copy import copy
 from typing import Any, Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from gradhesion.core.loops.paths.distance import Feet, feet
 from gradhesion.core.loops.paths.motion import moving
 from gradhesion.core.loops.paths.path import LoopModel, LoopPath
+from gradhesion.core.types import Floats, Truths
 
-_Array = NDArray[np.float64]
 _All: Final = slice(None)
 
 _STEP: Final = 1e-5
@@ -31,10 +30,19 @@ class Data(NamedTuple):
     the mean.
     """
 
-    points: _Array
-    back: NDArray[np.bool_]
+    points: Floats
+    back: Truths
     noise: tuple[float, float]
-    counts: _Array
+    counts: Floats
+
+
+class _Nearest(NamedTuple):
+    """Where points are nearest to a path: for each branch its points, its vertices and the feet; kept by its vector."""
+
+    vector: bytes
+    use: slice
+    branches: list[tuple[Truths, slice, Feet]]
+    drawn: LoopPath | None
 
 
 class Misfit:
@@ -50,11 +58,11 @@ class Misfit:
         Ends of the range of each number, as it is searched.
     """
 
-    def __init__(self, data: Data, model: LoopModel, low: _Array, high: _Array) -> None:
+    def __init__(self, data: Data, model: LoopModel, low: Floats, high: Floats) -> None:
         self.data, self.scale = data, np.array(data.noise)
         self.points, self.back, self.weights = data.points / self.scale, data.back, np.sqrt(data.counts)
         self.model, self.names, self.low, self.high = model, model.names, low, high
-        self._kept: tuple[bytes, Any, list[tuple[NDArray[np.bool_], slice, Feet]], LoopPath | None] | None = None
+        self._kept: _Nearest | None = None
 
     def finer(self) -> "Misfit":
         """Return the same misfit on a grid that is `_FINER` times as fine."""
@@ -62,36 +70,33 @@ class Misfit:
         model.fineness *= _FINER
         return Misfit(self.data, model, self.low, self.high)
 
-    def named(self, vector: _Array) -> dict[str, float]:
+    def named(self, vector: Floats) -> dict[str, float]:
         """Give the numbers their names and units."""
         return {name: float(value) for name, value in self.model.values(vector).items()}
 
-    def path(self, vector: _Array) -> LoopPath | None:
+    def path(self, vector: Floats) -> LoopPath | None:
         """Draw the path."""
         return self.model.path(vector)
 
-    def residual(self, vector: _Array, use: slice = _All) -> _Array:
+    def residual(self, vector: Floats, use: slice = _All) -> Floats:
         """Return the signed distances of points to the path, in standard deviations."""
-        _, _, parts, drawn = self._at(vector, use)
         found = np.full(self.back[use].size, LOST)
-        if drawn is not None:
-            for own, _, nearest in parts:
-                found[own] = nearest.distance
+        for own, _, nearest in self._nearest(vector, use).branches:
+            found[own] = nearest.distance
         return found * self.weights[use]
 
-    def jacobian(self, vector: _Array, use: slice = _All) -> _Array:
+    def jacobian(self, vector: Floats, use: slice = _All) -> Floats:
         """Return the derivatives of the distances."""
         if self.model.by_differences:
             return self._differences(vector, use)
-        _, _, parts, drawn = self._at(vector, use)
-        found = np.zeros((self.back[use].size, len(self.names)))
-        if drawn is not None:
-            moved = moving(self.model, vector, drawn) / self.scale[:, None]
-            for own, piece, nearest in parts:
+        found, kept = np.zeros((self.back[use].size, len(self.names))), self._nearest(vector, use)
+        if kept.drawn is not None:
+            moved = moving(self.model, vector, kept.drawn) / self.scale[:, None]
+            for own, piece, nearest in kept.branches:
                 found[own] = nearest.slopes(moved[piece])
         return found * self.weights[use, None]
 
-    def _differences(self, vector: _Array, use: slice) -> _Array:
+    def _differences(self, vector: Floats, use: slice) -> Floats:
         """Return the derivatives of the distances by central differences."""
         steps = _STEP * (self.high - self.low)
         return np.column_stack([
@@ -99,29 +104,26 @@ class Misfit:
             for i, step in enumerate(np.diag(steps))
         ])  # fmt: skip
 
-    def feet(self, vector: _Array) -> list[tuple[NDArray[np.bool_], slice, Feet]]:
+    def feet(self, vector: Floats) -> list[tuple[Truths, slice, Feet]]:
         """Return, for each branch, its points, its vertices, and where these points are nearest to it."""
-        parts: list[tuple[NDArray[np.bool_], slice, Feet]] = self._at(vector, _All)[2]
-        return parts
+        return self._nearest(vector, _All).branches
 
-    def _at(self, vector: _Array, use: slice) -> Any:
+    def _nearest(self, vector: Floats, use: slice) -> _Nearest:
         """Find where points are nearest to the path; the last result is kept, for the derivatives."""
         key = vector.tobytes()
         if self._kept is None or self._kept[:2] != (key, use):
-            drawn = self.path(vector)
-            parts = []
-            if drawn is not None:
-                points, back = self.points[use], self.back[use]
-                chain = drawn.places / self.scale
+            self._kept = _Nearest(key, use, [], self.path(vector))
+            if (drawn := self._kept.drawn) is not None:
+                points, back, chain = self.points[use], self.back[use], drawn.places / self.scale
                 for own, piece in ((~back, slice(0, drawn.turn + 1)), (back, slice(drawn.turn, None))):
                     if own.any():
-                        parts.append((own, piece, feet(points[own], chain[piece], drawn.curved[piece])))
-            self._kept = key, use, parts, drawn
+                        near = feet(points[own], chain[piece], drawn.curved[piece])
+                        self._kept.branches.append((own, piece, near))
         return self._kept
 
     def refined(
         self,
-        start: _Array,
+        start: Floats,
         use: slice = _All,
         *,
         loss: str = "linear",
@@ -139,7 +141,7 @@ class Misfit:
         low, high = self.low[searched], self.high[searched]
         width = high - low
 
-        def whole(part: _Array) -> _Array:
+        def whole(part: Floats) -> Floats:
             vector = start.copy()
             vector[searched] = part
             return vector
@@ -159,6 +161,6 @@ class Misfit:
         done.x = whole(done.x)
         return done
 
-    def size(self, vector: _Array, use: slice = _All) -> float:
+    def size(self, vector: Floats, use: slice = _All) -> float:
         """Return a measure of the misfit that outliers hardly move."""
         return float(np.sum(np.log1p(self.residual(vector, use) ** 2)))

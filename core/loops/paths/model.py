@@ -14,7 +14,6 @@ from functools import lru_cache
 from typing import Any, Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.equations import hertz, jkr
 from gradhesion.core.equations.pair import cosine_integrals
@@ -25,18 +24,16 @@ from gradhesion.core.problem.names import CLOSING, PARAMETERS, PATTERN, TURNS
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Toughness, rows_of_pattern, series_at
 from gradhesion.core.struve.table import struve_pair
+from gradhesion.core.types import Floats
 from gradhesion.core.variables.reduced import WAYS, parameters_from
-
-_Array = NDArray[np.float64]
 
 LINEAR: Final = ("k", "nu", "indentation_max", "closing_ratio", "toughness_amplitude", "exponent", *OFFSETS)
 """Names searched on a linear scale; all others are searched by their logarithm."""
-_INSTEAD: Final[dict[str, frozenset[str]]] = {
-    parameter: frozenset(WAYS[parameter]) for parameter in ("c0_over_R", "lambda_over_R", "a_max_over_R")
-}
-"""Keys whose default values have no effect."""
+_WITHOUT_EFFECT: Final = {"a_max_over_R": math.inf, "c0_over_R": 1.0, "lambda_over_R": 1.0}
+"""Values of what may be left out where it has no effect."""
 AMPLITUDES: Final = ("A", *WAYS["A"])
 WAVELENGTHS: Final = ("lambda_over_R", *WAYS["lambda_over_R"])
+WAVES: Final = (*AMPLITUDES, *WAVELENGTHS)
 
 
 class Scenes(NamedTuple):
@@ -77,12 +74,12 @@ class Scenes(NamedTuple):
 class States(NamedTuple):
     """Equilibrium at some radii, in m, N and N/m; of their shape, or of (scenes, radii)."""
 
-    depth: _Array
-    load: _Array
-    pull: _Array
-    slope: _Array
+    depth: Floats
+    load: Floats
+    pull: Floats
+    slope: Floats
 
-    def at(self, toughness: Any) -> tuple[_Array, _Array]:
+    def at(self, toughness: Any) -> tuple[Floats, Floats]:
         """Return depth and load where the edge has a toughness, over that of opening."""
         pull = toughness * self.pull
         return self.depth - pull, self.load - self.slope * pull
@@ -137,7 +134,7 @@ class Model:
         """Return the place, among what is searched, of the one that has one of some names; None if none has."""
         return next((place for place, name in enumerate(self.names) if name in ways), None)
 
-    def values(self, vectors: _Array) -> dict[str, Any]:
+    def values(self, vectors: Floats) -> dict[str, Any]:
         """Give what is searched its names and units: numbers of one vector, arrays of the rows of several."""
         return {
             name: column if name in LINEAR else np.exp(column)
@@ -146,14 +143,10 @@ class Model:
 
     def given(self, own: Mapping[str, Any]) -> dict[str, Any]:
         """Join the searched and the fixed numbers, with defaults without effect for what is left out."""
-        given = {"a_max_over_R": math.inf, "c0_over_R": 1.0, "lambda_over_R": 1.0} | self.fixed
-        given |= {name: value for name, value in own.items() if name not in OFFSETS}
-        for role, others in _INSTEAD.items():
-            if others & given.keys():
-                given.pop(role, None)
-        return given
+        given = self.fixed | {name: value for name, value in own.items() if name not in OFFSETS}
+        return {name: one for name, one in _WITHOUT_EFFECT.items() if not WAYS[name].keys() & given.keys()} | given
 
-    def scenes(self, vectors: _Array) -> Scenes:
+    def scenes(self, vectors: Floats) -> Scenes:
         """Return the numbers of vectors, of shape (vectors, unknown)."""
         own = {name: column[:, None] for name, column in self.values(vectors).items()}
         given = self.given(own)
@@ -165,13 +158,13 @@ class Model:
         compliance = 1.0 / (made["machine_stiffness"] * modulus * work) if self.loading.control == "machine" else 0.0
         turn = made[self.turns] * (unit if self.turns == "load_max" else R) if self.turns else math.nan
         columns = (
-            k, R, M, made["lambda_over_R"], made["A"], np.sqrt(made.get(CLOSING, 1.0)), compliance,
+            k, R, M, made["lambda_over_R"], made["A"], np.sqrt(np.maximum(made.get(CLOSING, 1.0), 0.0)), compliance,
             R * made["a_max_over_R"], made.get(PATTERN[0], 1.0), made.get(PATTERN[1], 1.0), turn,
             R * rise, unit / R * disc * M, R * adhesion / np.sqrt(M),
         )  # fmt: skip
         return Scenes(*columns)
 
-    def states(self, scenes: Scenes, radius: _Array) -> States:
+    def states(self, scenes: Scenes, radius: Floats) -> States:
         """Return equilibrium of scenes at radii in m, all of them at the same."""
         k, R, m = scenes.k, scenes.R, self.profile.exponent
         a = radius / R
@@ -184,23 +177,24 @@ class Model:
             pull = pull * self._toughness(scenes, a)
         return States(smooth + R * a * first, load, pull, slope)
 
-    def _waves(self, scenes: Scenes, a: _Array) -> tuple[Any, Any]:
-        """Return what the waves add to delta_H/a and to I/a^(2+k); one pass for all scenes of one k and wavelength."""
+    def _waves(self, scenes: Scenes, a: Floats) -> tuple[Any, Any]:
+        """Return what the waves add to delta_H/a and to I/a^(2+k); one pass for scenes of equal k and lengths."""
         if not self.has_waves:
             return 0.0, 0.0
         if a.ndim == 1:
             sums = scenes.A * self._sums(scenes.k, a / scenes.wavelength)
             return sums[0], sums[1]
-        alike = np.broadcast_arrays(scenes.k, scenes.wavelength, scenes.R)
-        sums, known = np.empty((2, alike[0].size, a.shape[1])), {}
-        for row, key in enumerate(zip(*(column.flat for column in alike), strict=True)):
+        rim = (scenes.rim,) if a.shape[0] > 1 else ()  # by which radii differ
+        columns = np.broadcast_arrays(scenes.k, scenes.wavelength, scenes.R, *rim)
+        sums, known = np.empty((2, columns[0].size, a.shape[1])), {}
+        for row, key in enumerate(zip(*(column.flat for column in columns), strict=True)):
             if key not in known:
                 known[key] = self._sums(key[0], a[row % a.shape[0]] / key[1])
             sums[:, row] = known[key]
         sums = scenes.A * sums
         return sums[0], sums[1]
 
-    def _sums(self, k: float, x: _Array) -> _Array:
+    def _sums(self, k: float, x: Floats) -> Floats:
         """Return the sums over the waves of a unit amplitude, for depth and moment, at wavelengths x: (2, n)."""
         sums = np.zeros((2, x.size))
         for wave in self.profile.harmonics:
@@ -211,9 +205,9 @@ class Model:
                 sums += size * wave.sin * cosine_integrals(k, wave.n * x)
         return sums
 
-    def _toughness(self, scenes: Scenes, a: _Array) -> _Array:
+    def _toughness(self, scenes: Scenes, a: Floats) -> Floats:
         """Return the toughness of the interface at radii over R, over its mean."""
-        assert self.toughness is not None  # noqa: S101 (asked before)
+        assert self.toughness is not None  # noqa: S101 (only called with one)
         series = 1.0 + scenes.swing * series_at(rows_of_pattern(self.toughness), a / scenes.pattern)
         return np.sqrt(np.maximum(series, 0.0)) if self.toughness.of == "work" else series
 

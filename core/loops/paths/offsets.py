@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Final, Literal
 
 NAMES: Final = ("indentation_offset", "load_offset", "load_slope")
+DEPTH_ZERO, LOAD_ZERO, TILT = NAMES
 """What is added to a path: to its depth (m), to its load (N), and to its load for each metre of depth (N/m)."""
 CONTACT: Final = "contact"
 """The zero of depth at the contact point, which is found before the fit."""

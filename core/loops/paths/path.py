@@ -6,29 +6,19 @@ Vertices lie on the curve itself, at radii through which the path passes on a gr
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gradhesion.core.loops.paths.grid import grid_of, reach_of
 from gradhesion.core.loops.paths.model import Model, Scenes, States
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
-from gradhesion.core.loops.paths.walk import climb, crossing
+from gradhesion.core.loops.paths.walk import Walk, climb
 from gradhesion.core.problem.control import Loading
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.toughness import Toughness
+from gradhesion.core.types import Floats, Truths
 
-_Array = NDArray[np.float64]
-_Bits = NDArray[np.bool_]
-
-_A_WAVE: Final = 48
-"""Radii of the grid within the shortest wave."""
-_SMOOTH: Final = 320
-"""Radii of the grid without waves, each a fixed part further out than the last."""
-_SMALLEST: Final = 0.02
-"""Smallest radius of the grid, in radii at which adhesion outweighs the curvature of the punch."""
-_MOST: Final = 400_000
-"""Radii of the grid at most."""
 _FEWEST: Final = 5
 """Radii of a grid at least."""
 _PARTS: Final = np.linspace(0.0, 1.0, 9)
@@ -37,67 +27,27 @@ _REACH: Final = (1.25, 2.5, 10.0)
 """How far the grid reaches, in radii of contact without adhesion at the depth: the next if one is not enough."""
 
 
-class Walk(NamedTuple):
-    """The results of `climb`."""
-
-    radius: _Array
-    jump: _Bits
-    level: _Array
-
-
 @dataclass(frozen=True, eq=False)
 class LoopPath:
-    """A path in SI units, offsets included: vertices in the order in which they are passed.
+    """A path in SI units, offsets included: vertices in the order in which they are passed."""
 
-    Attributes
-    ----------
-    places
-        Rows of depth in m (of the machine, where its displacement is measured) and load in N: first along the line of
-        no load, then loading, unloading, and back along that line.
-    radius
-        The contact radius of each, in m; 0 out of contact.
-    jump
-        Whether each is reached by a jump.
-    curved
-        Whether the way to each is part of a smooth branch, of which the vertices are points.
-    toughness
-        Root of the work at the edge over that of opening: that of closing, then 1.
-    turn
-        The number of the vertex at which loading ends and unloading begins; the edge is pinned up to the next.
-    scene
-        The scene that was drawn.
-    is_pressed
-        Whether the contact is pressed on at the rim, up to the turn.
-    by_load
-        Whether it turns at a load.
-    """
-
-    places: _Array
-    radius: _Array
-    jump: _Bits
-    curved: _Bits
-    toughness: _Array
+    places: Floats
+    """Rows of depth in m (of the machine, where its displacement is measured) and load in N: first along the line
+    of no load, then loading, unloading, and back along that line."""
+    radius: Floats
+    """The contact radius of each, in m; 0 out of contact."""
+    jump: Truths
+    """Whether each is reached by a jump."""
+    curved: Truths
+    """Whether the way to each is part of a smooth branch, of which the vertices are points."""
     turn: int
+    """The number of the vertex at which loading ends and unloading begins; the edge is pinned up to the next."""
     scene: Scenes
+    """The scene that was drawn."""
     is_pressed: bool = False
+    """Whether the contact is pressed on at the rim, up to the turn."""
     by_load: bool = False
-
-
-def _met(radius: _Array, jump: _Bits, level: _Array, target: float) -> float | None:
-    """Return the radius at which loading first has a level, None where it has not; as `climb` returns these."""
-    i = int(np.argmax(level >= target)) if level.size else 0
-    if not level.size or not level[i] >= target:
-        return None
-    if i == 0 or jump[i]:
-        return float(radius[i])
-    jumps = np.flatnonzero(jump)
-    edge = int(np.searchsorted(jumps, i))
-    first = int(jumps[edge - 1]) if edge else 0
-    branch = slice(first, int(jumps[edge]) if edge < jumps.size else None)
-    if radius[branch].size < _FEWEST:
-        share = (target - level[i - 1]) / (level[i] - level[i - 1])
-        return float(radius[i - 1] + share * (radius[i] - radius[i - 1]))
-    return float(crossing(radius[branch], level[branch], i - first, target))
+    """Whether it turns at a load, or is pressed on to one."""
 
 
 class LoopModel(Model):
@@ -137,23 +87,27 @@ class LoopModel(Model):
 
     @property
     def turns_at_depth(self) -> bool:
-        """Whether loading turns at a given depth of the specimen, while the far end of a machine is driven."""
-        return self.turns == "indentation_max_over_R" and self.loading.control == "machine"
+        """Whether loading turns at a given depth of the specimen, which is not what is driven."""
+        return self.turns == "indentation_max_over_R" and self.loading.control != "displacement"
 
-    def shift(self, vector: _Array) -> tuple[float, ...]:
+    @property
+    def turns_at_load(self) -> bool:
+        """Whether loading turns at a load: a given one, or that of the data where the load is driven."""
+        return self.turns == "load_max" or (not self.turns and self.loading.control == "load")
+
+    def shift(self, vector: Floats) -> tuple[float, ...]:
         """Return the zeros of depth and load, and the tilt, of a vector."""
         return tuple(float(vector[self.names.index(name)]) if name in self.names else 0.0 for name in OFFSETS)
 
-    def _targets(self, scene: Scenes, vector: _Array) -> tuple[float, float]:
+    def _targets(self, scene: Scenes, vector: Floats) -> tuple[float, float]:
         """Return the coordinate at which loading turns and the load that it reaches there; inf is never reached."""
         if self.turns:
-            turn = float(scene.turn)
-            return (math.inf, turn) if self.turns == "load_max" else (turn, -math.inf)
+            return (math.inf, scene.turn) if self.turns == "load_max" else (scene.turn, -math.inf)
         depth, load, tilt = self.shift(vector)
         highest = self.furthest[1] - load - tilt * self.furthest[0]
         return (math.inf, highest) if self.loading.control == "load" else (self.furthest[0] - depth, highest)
 
-    def path(self, vector: _Array) -> LoopPath | None:
+    def path(self, vector: Floats) -> LoopPath | None:
         """Draw the path; None where the scene has none."""
         scene = self.scenes(vector[None]).one
         if not (0.0 < scene.stiffness < math.inf and 0.0 < scene.R * scene.disc < math.inf):
@@ -167,33 +121,9 @@ class LoopModel(Model):
         drawn.places[:, 1] += load + tilt * drawn.places[:, 0]
         return drawn
 
-    def _grid(self, scene: Scenes, end: float) -> _Array | None:
-        """Return the radii between which branches are searched, up to an end, of shape (n,); None for too many."""
-        step, count = self.shortest(scene) / (_A_WAVE * self.fineness), _SMOOTH * self.fineness
-        if end / step > _MOST:
-            return None
-        low = min(_SMALLEST * scene.neck, 0.02 * end)
-        growth = math.log(end / low) / count
-        begin = max(step / growth, low)  # where both kinds of steps are equal
-        if begin >= end:
-            return low * np.exp(growth * np.arange(count + 1.0))
-        inner, outer = math.ceil(math.log(begin / low) / growth), max(7, math.ceil((end - begin) / step))
-        near = math.log(begin / low) / max(1, inner) * np.arange(float(inner))
-        return np.concatenate([low * np.exp(near), begin + (end - begin) / outer * np.arange(outer + 1.0)])
-
     def _coordinate(self, scene: Scenes, depth: Any, load: Any) -> Any:
         """Return what is prescribed: the depth, the load, or the far end of the machine."""
         return load if self.loading.control == "load" else depth + scene.compliance * load
-
-    def _extent(self, scene: Scenes, target: float, *, by_load: bool) -> float:
-        """Return the radius of contact without adhesion at the depth, or the load, that loading turns at."""
-        m, power = self.profile.exponent, 1.0 + scene.k
-        swell = 2.0 * scene.A * scene.wavelength * scene.R if self.has_waves else 0.0
-        if by_load:
-            place = (max(target, 0.0) * (power + m) / (scene.rise * scene.disc * m)) ** (1.0 / (power + m))
-        else:
-            place = (max(target, 0.0) / scene.rise) ** (1.0 / m)
-        return float(scene.R * (place + (swell / scene.rise) ** (1.0 / m)))
 
     def _drawn(self, scene: Scenes, targets: tuple[float, float], first: float) -> LoopPath | None:
         """Draw a path without offsets, whose line of no load begins at a depth."""
@@ -207,32 +137,35 @@ class LoopModel(Model):
         for reach in _REACH:
             end = rim
             if aim < math.inf:
-                end = min(rim, reach * self._extent(scene, aim, by_load=by_load) + 2.5 * scene.neck)
-            grid = self._grid(scene, end)
+                end = min(rim, reach * reach_of(self, scene, aim, by_load=by_load) + 2.5 * scene.neck)
+            grid = grid_of(self, scene, end, self.fineness)
             if grid is None:
                 return None
             states = self.states(scene, grid)
             up = Walk(*climb(grid, self._coordinate(scene, *states.at(scene.root)), 0.0))
-            levels = up.level
+            aimed = up
             if by_load or self.turns_at_depth:
-                levels = self.states(scene, up.radius).at(scene.root)[int(by_load)]
-            place = _met(up.radius, up.jump, levels, aim)
+                aimed = up._replace(level=self.states(scene, up.radius).at(scene.root)[int(by_load)])
+            place = aimed.met(aim)
             if place is not None:
                 blurred = not by_load and not self.turns and self.blur > 0.0
                 turned = self._further(scene, up, place, targets) if blurred else (place, by_load)
                 return self._joined(scene, grid, states, up, turned, None, first)
             if end == rim:
-                pressed = self._pressed(scene, aim) if aim < math.inf else None
-                return self._joined(scene, grid, states, up, (rim, False), pressed, first)
+                return self._joined(scene, grid, states, up, (rim, by_load), aim if aim < math.inf else None, first)
         return None
 
-    def _pressed(self, scene: Scenes, aim: float) -> float:
-        """Return what is prescribed where a contact that is pinned at the rim is pressed on to the turn."""
-        if not self.turns_at_depth:
-            return aim
-        found = self.states(scene, np.array([scene.rim]))
-        (depth,), (load,) = found.at(scene.root)
-        return float(aim + scene.compliance * (load + float(found.slope[0]) * (aim - depth)))
+    def deeper(self, scenes: Scenes, aim: Any, depth: Any, load: Any, slope: Any) -> Any:
+        """Return how much deeper contacts pinned at the rim, flat punches of a stiffness, are pressed up to the turn.
+
+        `aim` is the depth or the load at which loading turns; depth, load and stiffness (slope) are those at the rim,
+        before, of shape (scenes, 1) or numbers.
+        """
+        if self.turns_at_load:
+            return (aim - load) / slope
+        if self.turns_at_depth:
+            return aim - depth
+        return (aim - depth - scenes.compliance * load) / (1.0 + scenes.compliance * slope)
 
     def _further(self, scene: Scenes, up: Walk, place: float, targets: tuple[float, float]) -> tuple[float, bool]:
         """Return the radius at which loading turns, and whether its load decides.
@@ -241,33 +174,38 @@ class LoopModel(Model):
         continues to the largest load, within the noise of the depth, but over no fold.
         """
         target, highest = targets
-        end = _met(up.radius, up.jump, up.level, target + self.blur)
+        end = up.met(target + self.blur)
         if end is None or bool(np.any(up.jump & (up.radius > place) & (up.radius <= end))):
             return place, False
         some = place + (end - place) * _PARTS
         loads = self.states(scene, some).at(scene.root)[1]
         if loads[0] >= highest:
             return place, False
-        found = _met(some, np.zeros(some.size, bool), loads, highest)
+        found = Walk(some, np.zeros(some.size, bool), loads).met(highest)
         return (end, False) if found is None else (found, True)
 
     def _apart(self, scene: Scenes, target: float, first: float) -> LoopPath:
         """Return the line of no load of a cycle without contact, up to a depth."""
         line = np.array([[first, 0.0], [0.0, 0.0], [target, 0.0], [0.0, 0.0], [first, 0.0]])
-        no, zero = np.zeros(5, bool), np.zeros(5)
-        return LoopPath(line, zero, no, no, zero, 2, scene)
+        no = np.zeros(5, bool)
+        return LoopPath(line, np.zeros(5), no, no, 2, scene)
 
     def _joined(
         self,
         scene: Scenes,
-        grid: _Array,
+        grid: Floats,
         states: States,
         up: Walk,
         turned: tuple[float, bool],
         pressed: float | None,
         first: float,
     ) -> LoopPath:
-        """Join loading up to the radius of the turn, unloading from there, and the line of no load."""
+        """Join loading up to the radius of the turn, unloading from there, and the line of no load.
+
+        `grid` are radii (n,) in m and `states` equilibrium there; `up` is how loading passes them; `turned` the radius
+        at which it turns, and whether its load decides; `pressed` the depth or load at the turn of a contact that is
+        pinned at the rim, else None; `first` the depth at which the line of no load begins.
+        """
         turn = turned[0]
         within, inner = up.radius < turn, grid < turn
         if np.count_nonzero(inner) < _FEWEST:
@@ -288,11 +226,11 @@ class LoopModel(Model):
         edge = np.concatenate([np.full(split + 1, scene.root), np.ones(down.radius.size)])
         found = self.states(scene, way)
         depth, load = found.at(edge)
-        if pressed is not None:  # pinned at the rim, the contact is a flat punch
-            at, flat = self._coordinate(scene, depth[split], load[split]), found.slope[split]
-            way_on = (pressed - at) / (flat if self.loading.control == "load" else 1.0 + scene.compliance * flat)
-            depth[split] += max(0.0, way_on)
-            load[split] += flat * max(0.0, way_on)
+        if pressed is not None:
+            flat = found.slope[split]
+            deeper = max(0.0, self.deeper(scene, pressed, depth[split], load[split], flat))
+            depth[split] += deeper
+            load[split] += flat * deeper
         x = depth + scene.compliance * load
         curved = ~jump
         curved[[0, split + 1, *([split] if pressed is not None else [])]] = False
@@ -305,7 +243,6 @@ class LoopModel(Model):
             np.concatenate([no, way, out]),
             np.concatenate([no, jump, np.arange(out.size) == 0]),
             np.concatenate([no, curved, out > 0.0]),
-            np.concatenate([no, edge, out]),
             split + 2,
             scene,
             pressed is not None,

@@ -7,7 +7,7 @@ A vertex of a path is put on the curve itself at such a radius: an error of the 
 """
 
 import math
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -16,6 +16,33 @@ from gradhesion.core.types import Floats, Truths
 
 _NEWTON: Final = 5
 """Steps to the root of a cubic from that of a chord: they double the digits."""
+_FEWEST: Final = 5
+"""Points of a branch below which a chord stands for the cubic."""
+
+
+class Walk(NamedTuple):
+    """The results of `climb`: radii that are passed, whether each is reached by a jump, and the level; all (n,)."""
+
+    radius: Floats
+    jump: Truths
+    level: Floats
+
+    def met(self, target: float) -> float | None:
+        """Return the radius at which a level is first reached, None where it is not."""
+        radius, jump, level = self
+        i = int(np.argmax(level >= target)) if level.size else 0
+        if not level.size or not level[i] >= target:
+            return None
+        if i == 0 or jump[i]:
+            return float(radius[i])
+        jumps = np.append(np.flatnonzero(jump), radius.size)
+        edge = int(np.searchsorted(jumps, i))
+        first = int(jumps[edge - 1]) if edge else 0
+        branch = slice(first, int(jumps[edge]))
+        if radius[branch].size < _FEWEST:
+            share = (target - level[i - 1]) / (level[i] - level[i - 1])
+            return float(radius[i - 1] + share * (radius[i] - radius[i - 1]))
+        return float(crossing(radius[branch], level[branch], i - first, target))
 
 
 @kernel()

@@ -1,18 +1,18 @@
 """The minima of the misfit of a loop: several starts refined, and which of them the noise allows."""
 
 import math
+from operator import attrgetter
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import chdtri
 
 from gradhesion.core.loops.paths.misfit import Misfit
 from gradhesion.core.loops.paths.model import WAVELENGTHS
 from gradhesion.core.loops.search.starts import coarse, distinct, is_noise
+from gradhesion.core.types import Floats
 
-_Array = NDArray[np.float64]
-
+_COST: Final = attrgetter("cost")
 _FEW: Final = 300
 """Largest number of points by which starts are refined."""
 _WHOLE: Final = 4
@@ -21,6 +21,8 @@ _ALLOWED: Final = 0.95
 """Quantile of the rise of chi square: the noise allows other minima below it."""
 _WAVES: Final = (-1.0, -0.5, 0.5, 1.0)
 """Differences of the number of waves within the contact that are tried."""
+_FEWEST: Final = 0.2
+"""Least number of waves that is tried."""
 _HOPS: Final = 5
 """Most rounds in which these are tried."""
 _BETTER: Final = 1e-6
@@ -30,56 +32,46 @@ _APART: Final = 9.0, 4.0
 of chi square; two places in one valley are not."""
 
 
-def refined(misfit: Misfit, begun: list[_Array]) -> list[Any]:
+def refined(misfit: Misfit, begun: list[Floats]) -> list[Any]:
     """Refine starts, by some of the points and then the best of them by all; the best minimum first.
 
     Where a wavelength is searched, minima with some waves more or less in the contact than the best has are tried too,
     until none is better.
     """
     few = coarse(misfit, _FEW)
-    found = [_robust(misfit, start, few) for start in begun]
-    found.sort(key=lambda done: done.cost)
-    best = distinct([done.x for done in found], misfit)[:_WHOLE]
-    whole = _by_all(misfit, best)
+    found = sorted((_robust(misfit, start, few) for start in begun), key=_COST)
+    whole = _by_all(misfit, distinct([done.x for done in found], misfit)[:_WHOLE])
     for _ in range(_HOPS):
-        beside = sorted(
-            (_robust(misfit, start, few) for start in _beside(misfit, whole[0].x)), key=lambda done: done.cost
-        )
-        more = _by_all(misfit, [done.x for done in beside[:2]])
-        is_better = bool(more) and more[0].cost < whole[0].cost * (1.0 - _BETTER)
-        whole = sorted([*whole, *more], key=lambda done: done.cost)
-        if not is_better:
+        least = whole[0].cost * (1.0 - _BETTER)
+        beside = sorted((_robust(misfit, start, few) for start in _beside(misfit, whole[0].x)), key=_COST)
+        whole = sorted([*whole, *_by_all(misfit, [done.x for done in beside[:2]])], key=_COST)
+        if not whole[0].cost < least:
             break
     return whole
 
 
-def _by_all(misfit: Misfit, vectors: list[_Array]) -> list[Any]:
+def _by_all(misfit: Misfit, vectors: list[Floats]) -> list[Any]:
     """Refine vectors by all points, the best first."""
-    return sorted((misfit.refined(vector, most=100) for vector in vectors), key=lambda done: done.cost)
+    return sorted((misfit.refined(vector, most=100) for vector in vectors), key=_COST)
 
 
-def _robust(misfit: Misfit, start: _Array, few: slice) -> Any:
+def _robust(misfit: Misfit, start: Floats, few: slice) -> Any:
     """Refine a start by some of the points, first with a loss that outliers hardly move, unless only noise is left."""
     if not is_noise(misfit, start, few):
         start = misfit.refined(start, few, loss="soft_l1", most=40, tolerance=1e-6).x
     return misfit.refined(start, few, most=30, tolerance=1e-6)
 
 
-def _beside(misfit: Misfit, vector: _Array) -> list[_Array]:
+def _beside(misfit: Misfit, vector: Floats) -> list[Floats]:
     """Return a vector with some waves more or less in the contact; none where the wavelength is not searched."""
     i = misfit.model.place_of(WAVELENGTHS)
     path = misfit.path(vector)
     if i is None or path is None or not misfit.model.has_waves:
         return []
     waves = float(path.radius.max()) / (path.scene.wavelength * path.scene.R)
-    moved = []
-    for more in _WAVES:
-        if waves + more > 0.2:
-            other = vector.copy()
-            other[i] -= math.log((waves + more) / waves)
-            if misfit.low[i] < other[i] < misfit.high[i]:
-                moved.append(other)
-    return moved
+    step = np.eye(vector.size)[i]
+    moved = [vector - step * math.log((waves + more) / waves) for more in _WAVES if waves + more > _FEWEST]
+    return [other for other in moved if misfit.low[i] < other[i] < misfit.high[i]]
 
 
 def polished(fine: Misfit, found: list[Any]) -> list[Any]:
@@ -94,7 +86,7 @@ def _rise(done: Any) -> float:
     return float(chdtri(done.x.size, 1.0 - _ALLOWED))
 
 
-def others(found: list[Any], covariance: _Array, unit: float) -> list[Any]:
+def others(found: list[Any], covariance: Floats, unit: float) -> list[Any]:
     """Return the minima other than the first that the noise allows.
 
     Parameters

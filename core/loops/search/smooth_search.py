@@ -3,17 +3,17 @@
 Each has the modulus that gives the largest load. Those with the least misfit are refined on a part of the points.
 """
 
+import itertools
 import math
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.loops.paths.misfit import Misfit
+from gradhesion.core.loops.paths.offsets import DEPTH_ZERO, LOAD_ZERO
 from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
-from gradhesion.core.loops.search.starts import COARSE, coarse, distinct, is_noise, near_best
-
-_Array = NDArray[np.float64]
+from gradhesion.core.loops.search.starts import COARSE, coarse, distinct, is_noise, near_best, put, shares_of
+from gradhesion.core.types import Floats
 
 _MODULI: Final = ("E_star", "E", "modulus")
 _CONTACTS: Final = 12
@@ -26,7 +26,7 @@ _ROBUST: Final = 4
 """How many of these are also refined with a loss that outliers hardly affect."""
 
 
-def smooth_starts(misfit: Misfit, load_zero: float, contact: float, seed: int) -> list[_Array]:
+def smooth_starts(misfit: Misfit, load_zero: float, contact: float, seed: int) -> list[Floats]:
     """Return refined starts of a loop whose punch has no waves that are searched, the best first.
 
     Parameters
@@ -38,35 +38,10 @@ def smooth_starts(misfit: Misfit, load_zero: float, contact: float, seed: int) -
     seed
         Of the Sobol set of the other searched numbers.
     """
-    names, few = misfit.names, coarse(misfit, COARSE)
-    lows, highs = misfit.low, misfit.high
-    depths = np.array([0.0])
-    if OFFSETS[0] in names:
-        i = names.index(OFFSETS[0])
-        shares = (np.arange(_CONTACTS) + 0.5) / _CONTACTS
-        depths = np.append(lows[i] + shares * (highs[i] - lows[i]), contact)
-        depths = np.clip(depths[np.isfinite(depths)], lows[i], highs[i])
-    others = [i for i, name in enumerate(names) if name not in (*OFFSETS, *_MODULI, "work_of_adhesion")]
-    drawn = np.empty((1, 0))
-    if others:
-        from scipy.stats import qmc  # noqa: PLC0415 (it takes longer than most fits)
-
-        drawn = qmc.Sobol(len(others), seed=seed).random(2**6)
-    begun = []
-    for number, depth in enumerate(np.tile(depths, _WORKS)):
-        vector = 0.5 * (lows + highs)
-        vector[others] = lows[others] + drawn[number % len(drawn)][: len(others)] * (highs - lows)[others]
-        for name, value in ((OFFSETS[0], depth), (OFFSETS[1], load_zero)):
-            if name in names:
-                vector[names.index(name)] = value
-        if "work_of_adhesion" in names:
-            i = names.index("work_of_adhesion")
-            vector[i] = lows[i] + (number // depths.size + 0.5) / _WORKS * (highs[i] - lows[i])
-        begun.append(matched(misfit, vector, load_zero))
+    few, (begun, likely) = coarse(misfit, COARSE), _begun(misfit, load_zero, contact, seed)
     sizes = [misfit.size(vector, few) for vector in begun]
-    likely = [i for i in range(len(begun)) if i % depths.size == depths.size - 1] if math.isfinite(contact) else []
     order = [*likely, *(i for i in np.argsort(sizes, kind="stable")[:_KEPT].tolist() if i not in likely)]
-    found: list[_Array] = []
+    found: list[Floats] = []
     for number, i in enumerate(order):
         found.append(misfit.refined(begun[i], few, most=40, tolerance=1e-6).x)
         if is_noise(misfit, found[-1], few):
@@ -77,30 +52,48 @@ def smooth_starts(misfit: Misfit, load_zero: float, contact: float, seed: int) -
     return near_best(distinct([found[i] for i in np.argsort(squares, kind="stable")], misfit), misfit)
 
 
-def held_start(misfit: Misfit, begun: _Array, load_zero: float, contact: float) -> _Array:
+def _begun(misfit: Misfit, load_zero: float, contact: float, seed: int) -> tuple[list[Floats], list[int]]:
+    """Return starts, and the numbers of those whose contact is at the end of the base line; as of `smooth_starts`."""
+    model, lows, highs = misfit.model, misfit.low, misfit.high
+    depths, works = np.array([0.0]), np.zeros(_WORKS)
+    if (i := model.place_of((DEPTH_ZERO,))) is not None:
+        depths = np.append(shares_of(misfit, i, _CONTACTS), contact)
+        depths = np.clip(depths[np.isfinite(depths)], lows[i], highs[i])
+    if (i := model.place_of(("work_of_adhesion",))) is not None:
+        works = shares_of(misfit, i, _WORKS)
+    others = [i for i, name in enumerate(misfit.names) if name not in (*OFFSETS, *_MODULI, "work_of_adhesion")]
+    drawn = np.empty((1, 0))
+    if others:
+        from scipy.stats import qmc  # noqa: PLC0415 (it takes longer than most fits)
+
+        drawn = qmc.Sobol(len(others), seed=seed).random(2**6)
+    begun = []
+    for number, (work, depth) in enumerate(itertools.product(works, depths)):
+        vector = 0.5 * (lows + highs)
+        vector[others] = lows[others] + drawn[number % len(drawn)] * (highs - lows)[others]
+        put(misfit, vector, {DEPTH_ZERO: depth, LOAD_ZERO: load_zero, "work_of_adhesion": work})
+        begun.append(matched(misfit, vector, load_zero))
+    return begun, [*range(depths.size - 1, len(begun), depths.size)] if math.isfinite(contact) else []
+
+
+def held_start(misfit: Misfit, begun: Floats, load_zero: float, contact: float) -> Floats:
     """Return a start with both zeros from the base line, refined in everything else."""
-    vector, held = begun.copy(), []
-    for name, value in ((OFFSETS[0], contact), (OFFSETS[1], load_zero)):
-        if name in misfit.names and math.isfinite(value):
-            held.append(misfit.names.index(name))
-            vector[held[-1]] = value
-    vector = np.clip(vector, misfit.low, misfit.high)
-    found: _Array = misfit.refined(
-        matched(misfit, vector, load_zero), coarse(misfit, COARSE), loss="soft_l1", most=40, held=held, tolerance=1e-6
-    ).x
+    vector, zeros = begun.copy(), {DEPTH_ZERO: contact, LOAD_ZERO: load_zero}
+    held = put(misfit, vector, {name: zero for name, zero in zeros.items() if math.isfinite(zero)})
+    vector = matched(misfit, np.clip(vector, misfit.low, misfit.high), load_zero)
+    found: Floats = misfit.refined(vector, coarse(misfit, COARSE), loss="soft_l1", most=40, held=held, tolerance=1e-6).x
     return found
 
 
-def matched(misfit: Misfit, vector: _Array, load_zero: float) -> _Array:
+def matched(misfit: Misfit, vector: Floats, load_zero: float) -> Floats:
     """Return a vector with the modulus at which contact without adhesion has the largest load of the data."""
-    name = next((name for name in _MODULI if name in misfit.names), None)
-    if name is None:
+    model = misfit.model
+    i, zero = model.place_of(_MODULI), model.place_of((DEPTH_ZERO,))
+    if i is None:
         return vector
-    i, model = misfit.names.index(name), misfit.model
     scene = model.scenes(vector[None]).one
-    depth = float(vector[misfit.names.index(OFFSETS[0])]) if OFFSETS[0] in misfit.names else 0.0
-    at = int(np.argmax(misfit.points[:, 0]))
-    deepest, load = misfit.points[at] * misfit.scale
+    depth = 0.0 if zero is None else float(vector[zero])
+    deepest, load = misfit.points[int(np.argmax(misfit.points[:, 0]))] * misfit.scale
     place = (max(float(deepest) - depth, 0.0) / scene.rise) ** (1.0 / model.profile.exponent)
     if place > 0.0:
         m, power = model.profile.exponent, 1.0 + scene.k

@@ -10,22 +10,19 @@ from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.curves import draw_curves
 from gradhesion.core.loops.paths.misfit import Misfit
-from gradhesion.core.loops.paths.offsets import NAMES as OFFSETS
 from gradhesion.core.loops.paths.path import LoopModel, LoopPath
-from gradhesion.core.loops.search.starts import best_of, carried, coarse
+from gradhesion.core.loops.search.starts import best_of, carried, coarse, roughly, shares_of
 from gradhesion.core.problem.names import CLOSING, PARAMETERS, SPEED
 from gradhesion.core.problem.rate import EXPONENTS, Rate
+from gradhesion.core.types import Floats
 from gradhesion.core.variables.reduced import parameters_from
-
-_Array = NDArray[np.float64]
 
 EXPONENT: Final = "exponent"
 """The name of the power of the speed, where it is searched."""
-_SPEEDS: Final = ("speed", "reference_speed", SPEED, EXPONENT)
+NAMES_OF_SPEED: Final = ("speed", "reference_speed", SPEED, EXPONENT)
 _TRIED: Final = 4
 """Speeds that are tried."""
 _KEPT: Final = 3
@@ -49,7 +46,7 @@ class SpeedModel(LoopModel):
         super().__init__(fixed, names, **others)
         self.rate = rate
 
-    def path(self, vector: _Array) -> LoopPath | None:
+    def path(self, vector: Floats) -> LoopPath | None:
         """Draw the path; None where the scene has none. It turns where that of an edge at rest does."""
         rest = super().path(vector)
         own = self.values(vector)
@@ -62,9 +59,9 @@ class SpeedModel(LoopModel):
         x, y = rest.places[rest.turn]
         pressed = float(x - depth - scene.compliance * (y - load - tilt * x))
         kept = (*PARAMETERS, SPEED, CLOSING, "machine_stiffness")
-        asked = {name: made[name] for name in kept if name in made} | {"indentation_max_over_R": pressed / scene.R}
+        wanted = {name: made[name] for name in kept if name in made} | {"indentation_max_over_R": pressed / scene.R}
         law = replace(self.rate, exponent=exponent)
-        drawn, _ = draw_curves(asked, ["path"], self.profile, self.loading, None, law)
+        drawn, _ = draw_curves(wanted, ["path"], self.profile, self.loading, None, law)
         radius = scene.R * drawn["path_contact_radius"]
         y = unit * drawn["path_load"]
         x = scene.R * drawn["path_indentation"] + scene.compliance * y
@@ -72,40 +69,27 @@ class SpeedModel(LoopModel):
         back = drawn["path_unloading"] == 1
         if not np.isfinite(places).all() or not back.any():
             return None
-        at_rest = law.closing == "quasi-static"
-        up = rest.places[: rest.turn + 1] if at_rest else np.concatenate([rest.places[:1], places[~back]])
-        inside = np.concatenate(
-            [rest.radius[: rest.turn + 1] if at_rest else np.append(0.0, radius[~back]), radius[back]]
-        )
-        bent = rest.curved[: rest.turn + 1] if at_rest else np.arange(len(up)) > 1
-        curved = np.concatenate([bent, np.arange(np.count_nonzero(back)) > 0])
-        count = len(curved)
+        up, inside, bent = (row[: rest.turn + 1] for row in (rest.places, rest.radius, rest.curved))
+        if law.closing != "quasi-static":
+            up, inside = np.concatenate([up[:1], places[~back]]), np.append(0.0, radius[~back])
+            bent = np.arange(len(up)) > 1
+        end = [min(rest.places[0, 0], places[-1, 0]), rest.places[-1, 1]]
+        curved = np.concatenate([bent, np.arange(np.count_nonzero(back)) > 0, [False]])
         return LoopPath(
-            np.concatenate([up, places[back], [[min(rest.places[0, 0], places[-1, 0]), rest.places[-1, 1]]]]),
-            np.append(inside, 0.0),
-            np.zeros(count + 1, bool),
-            np.append(curved, False),
-            np.ones(count + 1),
+            np.concatenate([up, places[back], [end]]),
+            np.concatenate([inside, radius[back], [0.0]]),
+            np.zeros(curved.size, bool),
+            curved,
             len(up) - 1,
             scene,
         )
 
 
-def at_rest(model: LoopModel) -> tuple[dict[str, float], tuple[str, ...]]:
-    """Return what is fixed and what is searched of the same loop of an edge at rest."""
-    fixed = {name: value for name, value in model.fixed.items() if name not in _SPEEDS}
-    return fixed, tuple(name for name in model.names if name not in _SPEEDS)
-
-
-def fast_starts(misfit: Misfit, rest: Misfit, begun: _Array) -> list[_Array]:
+def fast_starts(misfit: Misfit, rest: Misfit, begun: Floats) -> list[Floats]:
     """Return starts of some speeds from the minimum of an edge at rest, refined by a few points, the best first."""
-    names, few = misfit.names, coarse(misfit, 100)
-    middle = carried(misfit, rest, begun)
-    free = [i for i, name in enumerate(names) if name in _SPEEDS and name not in OFFSETS]
-    found = []
-    for share in (np.arange(_TRIED) + 0.5) / _TRIED if free else [0.5]:
-        vector = middle.copy()
-        for i in free:
-            vector[i] = misfit.low[i] + share * (misfit.high[i] - misfit.low[i])
-        found.append(misfit.refined(vector, few, loss="soft_l1", most=12, tolerance=1e-4).x)
-    return best_of(misfit, found, few, _KEPT)
+    few, start = coarse(misfit, 100), carried(misfit, rest, begun)
+    free = [i for i, name in enumerate(misfit.names) if name in NAMES_OF_SPEED]
+    vectors = np.tile(start, (_TRIED if free else 1, 1))
+    for i in free:
+        vectors[:, i] = shares_of(misfit, i, _TRIED)
+    return best_of(misfit, roughly(misfit, list(vectors), few, most=12), few, _KEPT)

@@ -9,14 +9,22 @@ import math
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gradhesion.core.equations.envelopes import adhesion_strength, waviness_strength
 from gradhesion.core.loops.paths.misfit import Misfit
-from gradhesion.core.loops.paths.model import AMPLITUDES, WAVELENGTHS, Model
-from gradhesion.core.loops.search.starts import COARSE, best_of, carried, coarse, distinct, is_noise, near_best
-
-_Array = NDArray[np.float64]
+from gradhesion.core.loops.paths.model import AMPLITUDES, WAVELENGTHS
+from gradhesion.core.loops.search.starts import (
+    COARSE,
+    best_of,
+    carried,
+    coarse,
+    distinct,
+    is_noise,
+    near_best,
+    roughly,
+    shares_of,
+)
+from gradhesion.core.types import Floats
 
 _HEIGHTS: Final = 3
 """Amplitudes that are tried with each wavelength."""
@@ -32,7 +40,7 @@ _LEAST, _MOST = 8, 14
 """How many they are at least and at most."""
 
 
-def spectrum(smooth: Misfit, vector: _Array, lengths: tuple[float, float]) -> _Array:
+def spectrum(smooth: Misfit, vector: Floats, lengths: tuple[float, float]) -> Floats:
     """Return the wavelengths in m at which the residual of a smooth punch repeats most, the strongest first."""
     from scipy.signal import find_peaks, lombscargle  # noqa: PLC0415 (a loop without waves does without its half second)
 
@@ -59,7 +67,7 @@ def spectrum(smooth: Misfit, vector: _Array, lengths: tuple[float, float]) -> _A
     return np.asarray(1.0 / waves[peaks[np.argsort(-power[peaks], kind="stable")]])
 
 
-def wavy_starts(misfit: Misfit, smooth: Misfit, bases: list[_Array], count: int) -> list[_Array]:
+def wavy_starts(misfit: Misfit, smooth: Misfit, bases: list[Floats], count: int) -> list[Floats]:
     """Return starts for waves that are searched, refined in everything else, the best first.
 
     Parameters
@@ -74,9 +82,8 @@ def wavy_starts(misfit: Misfit, smooth: Misfit, bases: list[_Array], count: int)
     few = coarse(misfit, COARSE)
     length, height = misfit.model.place_of(WAVELENGTHS), misfit.model.place_of(AMPLITUDES)
     held = [i for i in (length, height) if i is not None]
-    shares = (np.arange(_HEIGHTS) + 0.5) / _HEIGHTS
-    heights = [None] if height is None else misfit.low[height] + shares * (misfit.high[height] - misfit.low[height])
-    found: list[_Array] = []
+    heights = [None] if height is None else shares_of(misfit, height, _HEIGHTS)
+    found: list[Floats] = []
     for base in distinct(bases, smooth, _ALIKE):
         middle = carried(misfit, smooth, base)
         for waves in [[None]] if length is None else _lengths(misfit, smooth, base, middle, length):
@@ -87,18 +94,15 @@ def wavy_starts(misfit: Misfit, smooth: Misfit, bases: list[_Array], count: int)
                     if i is not None and value is not None:
                         vector[i] = value
                 begun.append(_softened(misfit, vector))
-            near = [
-                misfit.refined(vector, few, loss="soft_l1", most=4, held=held, tolerance=1e-4).x for vector in begun
-            ]
-            near = distinct(best_of(misfit, near, few, count), misfit)
-            found += [misfit.refined(vector, few, loss="soft_l1", most=10, tolerance=1e-4).x for vector in near]
+            near = best_of(misfit, roughly(misfit, begun, few, most=4, held=held), few, count)
+            found += roughly(misfit, distinct(near, misfit), few, most=10)
             found = best_of(misfit, found, few, len(found))
             if found and is_noise(misfit, found[0], few):
                 return near_best(distinct(found, misfit), misfit)[:count]
     return near_best(distinct(found, misfit), misfit)[:count]
 
 
-def _lengths(misfit: Misfit, smooth: Misfit, begun: _Array, middle: _Array, i: int) -> list[Any]:
+def _lengths(misfit: Misfit, smooth: Misfit, begun: Floats, middle: Floats, i: int) -> list[Any]:
     """Return the logarithms of the wavelengths that are tried: those of the spectrum, and others over the range."""
     drawn, scene = smooth.path(begun), misfit.model.scenes(middle[None]).one
     unit = scene.wavelength * scene.R / math.exp(middle[i])  # the wavelength in m of a number of 1
@@ -114,7 +118,7 @@ def _lengths(misfit: Misfit, smooth: Misfit, begun: _Array, middle: _Array, i: i
     return [np.log(tried[(tried >= low) & (tried <= high)] / unit) for tried in groups]
 
 
-def _softened(misfit: Misfit, vector: _Array) -> _Array:
+def _softened(misfit: Misfit, vector: Floats) -> Floats:
     """Subtract what waves add from the work of adhesion of the smooth punch: the roots of both add up."""
     if "work_of_adhesion" not in misfit.names:
         return vector
@@ -125,10 +129,3 @@ def _softened(misfit: Misfit, vector: _Array) -> _Array:
     root = max(1.0 - ratio, 0.15)
     vector[i] = np.clip(vector[i] + 2.0 * math.log(root), misfit.low[i], misfit.high[i])
     return vector
-
-
-def without_waves(model: Model) -> tuple[dict[str, float], tuple[str, ...]]:
-    """Return what is fixed and what is searched of the same loop of a punch without waves."""
-    waves = {*AMPLITUDES, *WAVELENGTHS}
-    fixed = {name: value for name, value in model.fixed.items() if name not in waves}
-    return fixed | {"A": 0.0}, tuple(name for name in model.names if name not in waves)

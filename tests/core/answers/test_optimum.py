@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gradhesion.core.answers.optimum import axis_of, optima, sweep
+from gradhesion.core.answers.optimum import Optima, axis_of, optima_of, sweep
 
 Array = NDArray[np.float64]
 PEAKS = np.array([0.0, 0.137, 0.5, 0.73141592, 1.0])
@@ -30,6 +30,11 @@ class Known:
 
     def slopes(self, places: Array, cells: NDArray[np.int64]) -> Array | None:
         return None if self.slope is None else np.array(np.broadcast_arrays(*self.slope(*places, cells)))
+
+
+def optima(merit: Known, inputs: int, cells: int, resolution: int) -> Optima:
+    """The optimum of each cell, from a sweep at a resolution."""
+    return optima_of(merit, *sweep(merit, inputs, cells, resolution))
 
 
 def _ripple(x: Array, cells: NDArray[np.int64]) -> Array:

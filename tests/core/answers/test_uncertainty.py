@@ -70,7 +70,7 @@ def test_statistics_leave_out_what_has_no_value() -> None:
     samples = np.random.default_rng(11).normal(size=(5, 3, 37))
     samples[0, 1, :9] = np.nan
     samples[2, 2] = np.nan
-    found = statistics_of(samples, -1)
+    found = statistics_of(samples)
     own = samples.copy()
     own[2, 2] = 0.0
     for name, share in QUANTILES.items():
@@ -84,7 +84,7 @@ def test_statistics_leave_out_what_has_no_value() -> None:
 
 
 def test_infinite_samples_have_quantiles() -> None:
-    found = statistics_of(np.array([1.0, 2.0, np.inf, np.inf]), -1)
+    found = statistics_of(np.array([1.0, 2.0, np.inf, np.inf]))
     assert [float(found[name]) for name in ("p05", "p50", "p95", "mean")] == [1.15, np.inf, np.inf, np.inf]
 
 

@@ -74,6 +74,10 @@ CASES: Final = {
         {"machine_stiffness": SPRING / (1e7 * R), "a_max_over_R": 0.2},
     ),
     "load control": Case(more={"loading": Loading(control="load")}, scene={"load_max": 5e-7 / UNIT}, highest=5e-7),
+    "load control to a depth": Case({"indentation_max": TURN * R}, {"loading": Loading(control="load")}),
+    "preload at the rim": Case(
+        {"preload": 6e-6, "a_max": 0.2 * R}, scene={"load_max": 6e-6 / UNIT, "a_max_over_R": 0.2}
+    ),
     "closing ratio 0.3": Case({"closing_ratio": 0.3}, scene={"closing_ratio": 0.3}),
     "closing ratio 0": Case({"closing_ratio": 0.0}, scene={"closing_ratio": 0.0}),
     "rings": Case(

@@ -94,6 +94,15 @@ def test_means_weigh_as_much_as_their_points() -> None:
         assert four.standard_deviations[name] == pytest.approx(one.standard_deviations[name], rel=1e-6)
 
 
+def test_the_contact_point_of_means_is_that_of_points_as_exact() -> None:
+    *points, noise = ball(6, zero=(4e-7, 0.0))
+    counts, more = np.full(points[0].size, 4.0), {"offsets": Offsets(indentation="contact")}
+    one = fit_loop(*points, SMOOTH, FREE, noise=noise, **more).contact
+    four = fit_loop(*points, SMOOTH, FREE, noise=(2 * noise[0], 2 * noise[1]), counts=counts, **more).contact
+    assert one is not None
+    assert one == four
+
+
 def test_a_model_that_does_not_hold_is_a_poor_fit() -> None:
     *points, noise = ball(8)
     bad = fit_loop(*points, SMOOTH, {"E_star": FREE["E_star"]}

@@ -26,6 +26,7 @@ def test_a_rim_that_is_met_is_reported_and_a_turn_before_it_is_not() -> None:
     model = CASES["rim"].model(("A",), {"a_max": 0.02 * R})
     here = vector(model)
     assert status_of(model, here, 0.02) & JUMP_IN_TO_RIM
+    assert status_of(model, here, np.nextafter(0.02, 0.0)) & JUMP_IN_TO_RIM, "a radius in m, over R, is rounded"
     free = CASES["wavy"].model(("A",))
     assert not status_of(free, here, 0.02) & JUMP_IN_TO_RIM
 

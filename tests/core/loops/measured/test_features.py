@@ -59,3 +59,15 @@ def test_contact_is_where_loading_leaves_the_line() -> None:
     assert moved is not None
     assert moved.depth == pytest.approx(found.depth + 7.0, abs=1e-9)
     assert contact_point(rows[back], back[back], (1e-3, NOISE)) is None, "loading has none"
+
+
+def test_loading_that_is_all_base_line_has_no_contact_point() -> None:
+    """Six points are the least that a line is found from."""
+    depth = np.concatenate([np.linspace(-1.0, -0.5, 6), np.linspace(1.0, -1.0, 200)])
+    back = np.arange(206) >= 6
+    load = np.where(back, np.maximum(depth + 0.2, 0.0) ** 1.5, 0.0)
+    rows = np.column_stack([depth, load + 1e-3 * np.random.default_rng(0).standard_normal(206)])
+    line = base_line(rows, back, 1e-3)
+    assert line is not None
+    assert line.ends[0] == -0.5
+    assert contact_point(rows, back, (1e-3, 1e-3)) is None

@@ -66,3 +66,15 @@ def test_outliers_hardly_change_the_size() -> None:
     before = own.size(here)
     own.points[5] += 1e3
     assert own.size(here) - before < np.log1p(2e6) + 1e-3
+
+
+def test_works_of_closing_down_to_0_have_derivatives() -> None:
+    """At an end of what there is, the difference has one side only."""
+    model = CASES["closing ratio 0"].model(("E_star", "closing_ratio"))
+    here = vector(model, closing_ratio=0.0)
+    drawn = model.path(here)
+    assert drawn is not None
+    data = Data(drawn.places, np.arange(len(drawn.places)) > drawn.turn, NOISE, np.ones(len(drawn.places)))
+    own = Misfit(data, model, here - 0.1, here + 1.0)
+    assert np.isfinite(own.jacobian(here)).all()
+    assert own.jacobian(here)[:, 1].any()

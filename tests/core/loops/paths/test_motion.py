@@ -21,6 +21,8 @@ SEARCHED: dict[str, tuple[str, ...]] = {
     "machine": (*ALL[:4], "spring_constant", "indentation_max", *NAMES),
     "machine at the rim": ("indentation_max", "spring_constant", *ALL),
     "load control": ALL,
+    "load control to a depth": ("indentation_max", *ALL[:4], "load_offset"),
+    "preload at the rim": ("preload", *ALL[:4], "load_offset"),
     "closing ratio 0.3": ("closing_ratio", *ALL),
     "closing ratio 0": ALL,
     "rings": ("toughness_wavelength", "toughness_amplitude", *SMOOTH),
@@ -94,3 +96,24 @@ def test_the_turn_follows_what_it_is_prescribed_by() -> None:
         one = Misfit(data, own.model, own.low, own.high)
         ends = [one.residual(here + sign * step * np.eye(here.size)[i])[0] for sign in (1.0, -1.0)]
         assert one.jacobian(here)[0, i] == pytest.approx((ends[0] - ends[1]) / (2.0 * step), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("name", "one"),
+    [("machine", "spring_constant"), ("rim", "a_max"), ("preload", "preload"), ("machine", "indentation_max")],
+)
+def test_one_number_that_leaves_equilibrium_as_it_is_may_be_searched_alone(name: str, one: str) -> None:
+    case = CASES[name]
+    model = case.model((one,))
+    here = vector(model, **case.own)
+    drawn = model.path(here)
+    assert drawn is not None
+    spots = drawn.places + 2.0 * np.random.default_rng(3).standard_normal(drawn.places.shape) * NOISE
+    own = Misfit(Data(spots, np.arange(len(spots)) > drawn.turn, NOISE, np.ones(len(spots))), model, here - 1, here + 1)
+    step = 1e-3 * NOISE[0] if one == "indentation_max" else STEP
+    exact, below, above = own.jacobian(here)[:, 0], own.residual(here - step), own.residual(here + step)
+    assert np.abs(exact).max() > 1.0
+    assert np.median(np.abs((above - below) / (2.0 * step) - exact)) < 0.01 * np.abs(exact).max()
+    if one == "a_max":  # the corners where the rim is met, and to which the contact is pressed on
+        rim = np.flatnonzero(drawn.radius == drawn.scene.rim)[:2]
+        np.testing.assert_allclose(exact[rim], ((above - below) / (2.0 * step))[rim], rtol=1e-4)

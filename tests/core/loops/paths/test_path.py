@@ -83,6 +83,17 @@ def test_an_edge_pressed_on_at_the_rim_is_a_flat_punch() -> None:
     assert not found.curved[found.turn]
 
 
+def test_a_preload_is_reached_at_the_rim() -> None:
+    own = CASES["preload at the rim"].model()
+    found = own.path(vector(own))
+    assert found is not None
+    assert found.is_pressed
+    rim, end = found.places[found.turn - 1], found.places[found.turn]
+    assert rim[1] < 0.6 * end[1]
+    assert end[1] == pytest.approx(6e-6, rel=1e-12)
+    assert (end[1] - rim[1]) / (end[0] - rim[0]) == pytest.approx(2.0 * TRUE["E_star"] * 0.2 * R, rel=1e-9)
+
+
 def test_no_branch_turns_back_at_its_end() -> None:
     for case in CASES.values():
         own = case.model()

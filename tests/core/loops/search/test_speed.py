@@ -8,7 +8,7 @@ import pytest
 from gradhesion.core import draw_curves
 from gradhesion.core.loops.fit import fit_loop
 from gradhesion.core.loops.paths.offsets import NO_OFFSETS
-from gradhesion.core.loops.search.speed import EXPONENT, SpeedModel, at_rest
+from gradhesion.core.loops.search.speed import EXPONENT, SpeedModel
 from gradhesion.core.problem.profile import Profile
 from gradhesion.core.problem.rate import Rate
 from tests.core.loops.models import CASES, SCENE, TRUE, TURN, UNIT, Array, R
@@ -49,12 +49,6 @@ def test_the_exponent_may_be_searched() -> None:
         pulls.append(drawn.places[:, 1].min())
     assert pulls[0] != pytest.approx(pulls[1], rel=1e-3)
     assert model((EXPONENT,), speed_over_reference=0.3).path(np.array([RATE.exponent])) is not None
-
-
-def test_at_rest_there_is_no_speed() -> None:
-    fixed, names = at_rest(model(("E_star", "speed", EXPONENT), reference_speed=1e-6))
-    assert names == ("E_star",)
-    assert "reference_speed" not in fixed
 
 
 @pytest.mark.slow

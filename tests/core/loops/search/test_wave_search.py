@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from gradhesion.core.loops.paths.misfit import Data, Misfit
+from gradhesion.core.loops.paths.model import WAVES
 from gradhesion.core.loops.search.smooth_search import smooth_starts
-from gradhesion.core.loops.search.wave_search import spectrum, wavy_starts, without_waves
+from gradhesion.core.loops.search.starts import without
+from gradhesion.core.loops.search.wave_search import spectrum, wavy_starts
 from tests.core.loops.models import CASES, TRUE, UNIT, Array, R, vector
 
 NOISE = (1e-4 * R, 0.01 * UNIT)
@@ -27,17 +29,10 @@ def loops() -> tuple[Misfit, Misfit, Array]:
     wide = math.log(10.0) * np.array([1.0, 1.0, 0.5, 0.5])
     low, high = here + OFF - wide, here + OFF + wide
     data = Data(places, back, NOISE, np.ones(back.size))
-    fixed, names = without_waves(model)
+    fixed, names = without(model, WAVES)
     bare = CASES["smooth"].model(names)
-    bare.fixed = fixed
+    bare.fixed = fixed | {"A": 0.0}
     return Misfit(data, model, low, high), Misfit(data, bare, low[:2], high[:2]), here
-
-
-def test_without_waves_only_the_material_is_searched() -> None:
-    fixed, names = without_waves(CASES["wavy"].model(NAMES))
-    assert names == ("E_star", "work_of_adhesion")
-    assert fixed["A"] == 0.0
-    assert "wavelength" not in fixed
 
 
 def test_the_wavelength_is_among_the_peaks(loops: tuple[Misfit, Misfit, Array]) -> None:

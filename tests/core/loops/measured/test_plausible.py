@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gradhesion.core.loops.measured.sense import has_order, sense_of
+from gradhesion.core.loops.measured.plausible import fault_of
 from tests.core.loops.measured.test_noise import loop
 
 SIGNS = {(1, 1): "", (1, -1): "load", (-1, 1): "depth", (-1, -1): "both"}
@@ -16,7 +16,7 @@ def told(points: int, seed: int, x: int = 1, y: int = 1, from_: float = -np.inf,
     own = (depth > from_) & (depth < to)
     depth, load, back = depth[own], load[own], back[own]
     noisy = depth + 0.3 * rng.standard_normal(depth.size), load + 10.0 * rng.standard_normal(depth.size)
-    return sense_of(x * noisy[0], y * noisy[1], np.full(depth.size, 10.0), back)
+    return fault_of(x * noisy[0], y * noisy[1], np.full(depth.size, 10.0), back)
 
 
 @pytest.mark.parametrize("signs", SIGNS)
@@ -39,15 +39,15 @@ def test_a_base_line_alone_is_straight_tilted_or_not() -> None:
     depth = np.linspace(-1.0, 0.0, 500)
     for tilt in (0.0, 30.0):
         load = tilt * depth + rng.standard_normal(500)
-        assert sense_of(depth, load, np.ones(500), depth > 2.0) == "straight"
+        assert fault_of(depth, load, np.ones(500), depth > 2.0) == "straight"
     load[400:] -= 5.0
-    assert sense_of(depth, load, np.ones(500), depth > 2.0) != "straight"
+    assert fault_of(depth, load, np.ones(500), depth > 2.0) != "straight"
 
 
 def test_few_points_and_rows_without_a_span_are_for_others_to_refuse() -> None:
     few, back = np.linspace(0.0, 1.0, 10), np.zeros(10, bool)
-    assert sense_of(few, few, np.ones(10), back) == ""
-    assert sense_of(np.zeros(100), np.ones(100), np.ones(100), np.zeros(100, bool)) == ""
+    assert fault_of(few, few, np.ones(10), back) == ""
+    assert fault_of(np.zeros(100), np.ones(100), np.ones(100), np.zeros(100, bool)) == ""
 
 
 def test_order_is_told_with_cycles_and_without() -> None:

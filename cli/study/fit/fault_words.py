@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.cli.study.fit.loop_columns import LoopFileError
+from gradhesion.core.loops.measured.plausible import fault_of, has_order
 from gradhesion.core.loops.measured.points import ways
-from gradhesion.core.loops.measured.sense import has_order, sense_of
 
 if TYPE_CHECKING:
     from gradhesion.cli.study.fit.data_form import DataTable
@@ -32,7 +32,7 @@ def refuse_order(depth: NDArray[np.float64], cycle: NDArray[np.int32] | None) ->
         )
 
 
-def refuse_sense(
+def refuse_faults(
     depth: NDArray[np.float64],
     load: NDArray[np.float64],
     noise: NDArray[np.float64],
@@ -47,23 +47,23 @@ def refuse_sense(
     LoopFileError
         They are those of no contact.
     """
-    sense = sense_of(depth, load, noise, unloading)
+    fault = fault_of(depth, load, noise, unloading)
     depth_key = "displacement" if table.displacement else "indentation"
-    if sense == "straight":
+    if fault == "straight":
         raise LoopFileError(
             "load",
             "the load is linear in the depth within its noise: the data show no contact; name a "
             "file or a column that does",
         )
-    if sense in ("load", "both"):
-        where = "deepest" if sense == "load" else "shallowest"
+    if fault in ("load", "both"):
+        where = "deepest" if fault == "load" else "shallowest"
         raise LoopFileError(
             "load",
             f"the load falls towards the {where} points and is farthest from the base line there, so that its sign is "
-            f"wrong{'' if sense == 'load' else ', as is that of the depth'}: positive loads press; write "
-            f"{_turned('load', table)}{'' if sense == 'load' else f' and {_turned(depth_key, table)}'}",
+            f"wrong{'' if fault == 'load' else ', as is that of the depth'}: positive loads press; write "
+            f"{_turned('load', table)}{'' if fault == 'load' else f' and {_turned(depth_key, table)}'}",
         )
-    if sense == "depth":
+    if fault == "depth":
         raise LoopFileError(
             depth_key,
             "the load rises towards the shallowest points, so that the sign of the depth is wrong: it grows into the "

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from gradhesion.core import solve
-from gradhesion.core.loops.alike import alike
+from gradhesion.core.loops.alternatives import alternatives
 from gradhesion.core.variables.reduced import parameters_from
 from tests.core.loops.models import SCENE, UNIT, Case, R, vector
 
@@ -16,7 +16,7 @@ def said(case: Case, names: tuple[str, ...], noise: float) -> tuple[str, ...]:
     model = case.model(names)
     drawn = model.path(vector(model, closing_ratio=0.25))
     assert drawn is not None
-    return alike(model, drawn, np.array([noise * R, noise * UNIT]), np.ones(len(names)))
+    return alternatives(model, drawn, np.array([noise * R, noise * UNIT]), np.ones(len(names)))
 
 
 def test_a_closing_ratio_may_be_fine_waves() -> None:
@@ -32,11 +32,13 @@ def test_fine_waves_may_be_a_closing_ratio() -> None:
     model.fixed.pop("A")
     drawn = model.path(vector(model, wavelength=2e-3 * R))
     assert drawn is not None
-    (sentence,) = alike(model, drawn, np.array([0.1 * R, 10.0 * UNIT]), np.array([1.0]))
+    (sentence,) = alternatives(model, drawn, np.array([0.1 * R, 10.0 * UNIT]), np.array([1.0]))
     assert "closing_ratio = 0.444 " in sentence
     assert "1.44 times the work of adhesion" in sentence
-    assert alike(model, drawn, np.array([1e-7 * R, 1e-7 * UNIT]), np.array([1.0])) == (), "the jumps are seen"
-    assert alike(model, drawn, np.array([0.1 * R, 10.0 * UNIT]), np.array([1e-6])) == (), "the wavelength is known"
+    assert alternatives(model, drawn, np.array([1e-7 * R, 1e-7 * UNIT]), np.array([1.0])) == (), "the jumps are seen"
+    assert alternatives(model, drawn, np.array([0.1 * R, 10.0 * UNIT]), np.array([1e-6])) == (), (
+        "the wavelength is known"
+    )
 
 
 def test_so_they_pull_off() -> None:

@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gradhesion.core.loops.measured.points import ways
-
-_Array = NDArray[np.float64]
+from gradhesion.core.types import Floats, Truths
 
 FEWEST: Final = 40
 """Number of points below which nothing is tested."""
@@ -21,7 +20,7 @@ _FLAT: Final = 0.03
 """Largest change of the load over a flat end of the depths, in parts of its span."""
 
 
-def has_order(depth: _Array, cycle: NDArray[np.int32] | None = None) -> bool:
+def has_order(depth: Floats, cycle: NDArray[np.int32] | None = None) -> bool:
     """Return whether points are in an order in which a loop can be measured.
 
     Parameters
@@ -48,7 +47,7 @@ def has_order(depth: _Array, cycle: NDArray[np.int32] | None = None) -> bool:
     return depth.size < FEWEST or found <= 2 * known + 1 or step < _STEP * float(np.ptp(depth))
 
 
-def sense_of(depth: _Array, load: _Array, noise: _Array, unloading: NDArray[np.bool_]) -> str:
+def fault_of(depth: Floats, load: Floats, noise: Floats, unloading: Truths) -> str:
     """Test by the ends of their depths whether points can be those of a contact.
 
     Parameters
@@ -71,9 +70,9 @@ def sense_of(depth: _Array, load: _Array, noise: _Array, unloading: NDArray[np.b
     >>> depth = np.linspace(-1.0, 1.0, 200)
     >>> load, noise = np.maximum(depth, 0.0) ** 1.5, np.full(200, 1e-3)
     >>> up = np.zeros(200, bool)
-    >>> [sense_of(x * depth, y * load, noise, up) for x, y in ((1, 1), (1, -1), (-1, 1), (-1, -1))]
+    >>> [fault_of(x * depth, y * load, noise, up) for x, y in ((1, 1), (1, -1), (-1, 1), (-1, -1))]
     ['', 'load', 'depth', 'both']
-    >>> sense_of(depth, 0.1 * depth, noise, up)
+    >>> fault_of(depth, 0.1 * depth, noise, up)
     'straight'
     """
     if depth.size < FEWEST or not (np.ptp(depth) > 0.0 and np.ptp(load) > 0.0):
@@ -87,7 +86,7 @@ def sense_of(depth: _Array, load: _Array, noise: _Array, unloading: NDArray[np.b
     return str(found.pop()) if len(found) == 1 else ""
 
 
-def _signs(x: _Array, load: _Array, noise: _Array) -> str | None:
+def _signs(x: Floats, load: Floats, noise: Floats) -> str | None:
     """Return which signs of a branch are wrong; None where its ends do not decide."""
     span = float(np.ptp(np.quantile(load, [0.002, 0.998])))
     shallow, deep = (_end(x, load, noise, float(side)) for side in (x.min(), x.max()))
@@ -103,7 +102,7 @@ def _signs(x: _Array, load: _Array, noise: _Array) -> str | None:
     return "both" if apart > 0.0 and deep[1] < flat and shallow[1] > 3.0 * flat else ""
 
 
-def _end(x: _Array, load: _Array, noise: _Array, side: float) -> tuple[float, float] | None:
+def _end(x: Floats, load: Floats, noise: Floats, side: float) -> tuple[float, float] | None:
     """Give the load at an end of the depths, and its change over it; None where it jumps there, and is no curve."""
     fifths = [np.abs(np.abs(x - side) / _END - share) < 0.1 for share in (0.1, 0.3, 0.5, 0.7, 0.9)]
     if min(np.count_nonzero(own) for own in fifths) < 2:
