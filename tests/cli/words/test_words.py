@@ -94,6 +94,21 @@ def test_a_decimal_comma_is_named() -> None:
     assert "a decimal comma; write a point, 300.5" in sentence
 
 
+@pytest.mark.parametrize(
+    ("written", "said"),
+    [
+        ("1,000 nm", "a comma of decimals or between thousands; write 1.000 or 1000;"),
+        ("1,234.5 nm", "a comma between thousands; write 1234.5;"),
+        ("1,234,567 nm", "a comma between thousands; write 1234567;"),
+        ("0,250 um", "a decimal comma; write a point, 0.250;"),
+        ("1,0000 um", "a decimal comma; write a point, 1.0000;"),
+    ],
+)
+def test_a_comma_between_thousands_is_not_taken_for_a_decimal_one(written: str, said: str) -> None:
+    (sentence,) = mistakes_of(**of_units(wavelength=written))
+    assert said in sentence
+
+
 def test_no_preload_is_a_depth_of_zero() -> None:
     (sentence,) = mistakes_of(**of_units(preload="0 N"))
     assert 'indentation_max = "0 nm"' in sentence
