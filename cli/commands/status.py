@@ -62,7 +62,9 @@ def status_of(file: Path) -> dict[str, Any]:
         kind = kind_of(file)
         if not kind.startswith("a dataset"):
             what = f"it is {kind}" if kind else "it does not begin as a dataset does"
-            raise DatasetError(f"{file}: is not the output of a run ({what}); name a dataset that `gradhesion run` wrote")
+            raise DatasetError(
+                f"{file}: is not the output of a run ({what}); name a dataset that `gradhesion run` wrote"
+            )
         found = file.stat()
         return {"output": str(file), "state": "complete", "bytes": found.st_size, "written": found.st_mtime}
     states = [(path, read_record(path, State)) for path in folder.states()]
