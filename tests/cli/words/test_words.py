@@ -1,5 +1,6 @@
 """Sentences that once led astray: each names what was meant."""
 
+import os
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -10,6 +11,7 @@ from click.testing import Result
 
 import gradhesion as gr
 from gradhesion.cli.study.reading import load_study, study_from
+from gradhesion.cli.terminal.room import refuse_without_threads
 from gradhesion.cli.terminal.wording import MEANT, nearest
 from gradhesion.cli.work.kernels import compiling
 
@@ -148,10 +150,19 @@ def test_a_dataset_has_the_ending_of_one(gradhesion: Call, tmp_path: Path, name:
     assert not any(tmp_path.iterdir())
 
 
-def test_no_thread_for_the_compiler_is_one_sentence(gradhesion: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("NUMBA_NUM_THREADS", "0")
+@pytest.mark.parametrize("number", ["0", "-3", "abc", "2.0"])
+def test_no_thread_for_the_compiler_is_one_sentence(
+    number: str, gradhesion: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("NUMBA_NUM_THREADS", number)
     result = gradhesion("run", "study.toml")
     assert result.exit_code == 2
     assert result.stderr.splitlines() == [
-        "NUMBA_NUM_THREADS = 0: the number of threads is 1 or more; raise it, or unset it"
+        f"NUMBA_NUM_THREADS = {number}: the number of threads is a whole number from 1 on; change it, or unset it"
     ]
+
+
+def test_an_empty_number_of_threads_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NUMBA_NUM_THREADS", "")
+    refuse_without_threads()
+    assert "NUMBA_NUM_THREADS" not in os.environ
