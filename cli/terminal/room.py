@@ -48,7 +48,9 @@ def refuse_without_threads() -> None:
     if not number:
         os.environ.pop("NUMBA_NUM_THREADS", None)
     elif not number.isdecimal() or int(number) < 1:
-        raise CompilerError(f"NUMBA_NUM_THREADS = {number}: the number of threads is a whole number from 1 on; change it, or unset it")
+        raise CompilerError(
+            f"NUMBA_NUM_THREADS = {number}: the number of threads is a whole number from 1 on; change it, or unset it"
+        )
 
 
 def _allowed() -> float:
