@@ -112,7 +112,7 @@ def run(
     return compute(study, threads=threads)
 
 
-def _checked(changes: Mapping[str, Any]) -> Mapping[str, Any]:
+def _checked(changes: Any) -> Mapping[str, Any]:
     """Refuse what is no mapping from keys to values, such as the text of an option --set."""
     if not isinstance(changes, Mapping) or not all(isinstance(key, str) for key in changes):
         kind = type(changes).__name__ if not isinstance(changes, Mapping) else "mapping with other names"
