@@ -92,6 +92,11 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
         The dataset and its study do not belong together, it is none that can be recomputed, or no scene of it can.
     """
     study = study_of(dataset, path)
+    if dataset["status"].dtype.kind not in "iu":
+        raise DatasetError(
+            f"{path}: its status does not consist of integers; give the dataset as it was before `where`"
+        )
+    dataset = dataset.transpose(*study.sizes, ...)  # scenes are found by their places along the axes of the study
     solvers = study.method.solver
     requested = (solvers,) if isinstance(solvers, str) else solvers
     known = tuple(solver for solver in requested if solver in stated.SOLVERS)
