@@ -51,7 +51,7 @@ def load(
     >>> gr.load(table, set={"parameters.A": [0.0, 0.01, 0.02]}).sizes
     {'k': 2, 'A': 3}
     """
-    changes = {} if set is None else set
+    changes = _checked({} if set is None else set)
     with in_python():
         if isinstance(study, Mapping):
             return any_from(_changed(study, changes))
@@ -99,7 +99,7 @@ def run(
         study = load(study, set=set)
     elif set:
         with in_python():
-            study = any_from(_changed(tomllib.loads(study.text), set), folder=study.folder)
+            study = any_from(_changed(tomllib.loads(study.text), _checked(set)), folder=study.folder)
     if isinstance(study, FitStudy):
         with checked():
             from gradhesion.cli.dataset.fits.fit import compute_fit  # noqa: PLC0415 (the compiler, for which `load` has no use)
@@ -110,6 +110,20 @@ def run(
         from gradhesion.cli.dataset.dataset import compute  # noqa: PLC0415 (the compiler, as above)
 
     return compute(study, threads=threads)
+
+
+def _checked(changes: Any) -> Mapping[str, Any]:
+    """Refuse what is no mapping from keys to values, such as the text of an option --set."""
+    if not isinstance(changes, Mapping) or not all(isinstance(key, str) for key in changes):
+        kind = type(changes).__name__ if not isinstance(changes, Mapping) else "mapping with other names"
+        raise StudyError(
+            f"set: a mapping from keys to values is expected, not a {kind}; write for example "
+            'set={"parameters.A": 0.02}'
+        )
+    for key, value in changes.items():
+        if value is None:
+            raise StudyError(f"set {key}=None: a key has no value None; leave it out to keep the value of the study")
+    return changes
 
 
 def _changed(study: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:

@@ -142,11 +142,12 @@ def _sizes(given: Given) -> list[tuple[str, int]]:
 def _settings(settings: Mapping[str, Any]) -> dict[str, Any]:
     """Put the arguments of a call into the tables of a study, leaving out those that are None."""
     found = {key: value for key, value in settings.items() if value is not None}
-    if isinstance(outputs := found["outputs"], str):
+    outputs = found.get("outputs")
+    if isinstance(outputs, str):
         found["outputs"] = [outputs]
     elif isinstance(outputs, Iterable):
         found["outputs"] = list(outputs)
-    if isinstance(found["outputs"], list):
+    if isinstance(found.get("outputs"), list):
         found.setdefault("title", ", ".join(map(str, found["outputs"])))
     if isinstance(profile := found.get("profile"), Profile):
         waves = [{"n": wave.n, "cos": wave.cos, "sin": wave.sin} for wave in profile.harmonics]

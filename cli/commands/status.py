@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gradhesion.cli.errors import DatasetError
-from gradhesion.cli.files import is_file
+from gradhesion.cli.files import is_file, kind_of
 from gradhesion.cli.terminal.amounts import bytes_in_words, counted
 from gradhesion.cli.terminal.examples import example
 from gradhesion.cli.terminal.output import show, show_block
@@ -48,7 +48,7 @@ def status_of(file: Path) -> dict[str, Any]:
     Raises
     ------
     DatasetError
-        Neither a dataset nor a run is there.
+        Neither a dataset nor a run is there, or another file stands in its place.
     """
     from gradhesion.cli.work.parts.folder import folder_of
     from gradhesion.cli.work.parts.records import State, read_record
@@ -59,6 +59,12 @@ def status_of(file: Path) -> dict[str, Any]:
     if not running and (study is None or folder.has_made(file)):
         if not is_file(file):
             raise DatasetError(f"{file}: there is neither a dataset nor parts of one; name the output of a run")
+        kind = kind_of(file)
+        if not kind.startswith("a dataset"):
+            what = f"it is {kind}" if kind else "it does not begin as a dataset does"
+            raise DatasetError(
+                f"{file}: is not the output of a run ({what}); name a dataset that `gradhesion run` wrote"
+            )
         found = file.stat()
         return {"output": str(file), "state": "complete", "bytes": found.st_size, "written": found.st_mtime}
     states = [(path, read_record(path, State)) for path in folder.states()]

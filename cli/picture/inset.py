@@ -75,7 +75,7 @@ def add_inset(axes: Axes, again: Callable[[Axes], object], span: Span, name: str
     found = _seen(points, first, last)
     if found is None:
         raise DatasetError(f"{span}: nothing is drawn there; choose another part of the axis")
-    bottom, top = found
+    bottom, top = max(0.0, found[0]), min(1.0, found[1])  # the frame stays in the panel
     corner = _free(axes, points, np.array([[first, bottom], [last, top]]))
     if corner is None:
         raise DatasetError(

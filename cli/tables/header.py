@@ -131,9 +131,9 @@ def header_of(text: Text, wanted: Wanted) -> Header:
     names = tuple(head[1] if head else cell for head, cell in zip(heads, cells, strict=True))
     units = {name: tidy(head[2] or "") for name, head in zip(names, heads, strict=True) if head}
     if all(is_number(name) for name in names if name):
-        raise ColumnsError(
-            f"line {number} has numbers where the names of the columns are expected; add a header line above it"
-        )
+        above = _names_in_a_comment(text, number, len(cells))
+        remedy = f"remove the # before those on line {above}" if above else "add a header line above it"
+        raise ColumnsError(f"line {number} has numbers where the names of the columns are expected; {remedy}")
     read = tuple(i for i, name in enumerate(names) if wanted.only is None or name in wanted.only)
     last = number
     first = next(lines, None)
@@ -153,6 +153,16 @@ def header_of(text: Text, wanted: Wanted) -> Header:
     )
     _check_names(found)
     return found
+
+
+def _names_in_a_comment(text: Text, before: int, columns: int) -> int:
+    """Find the comment just above a row that has as many words as the row has cells, as numpy.savetxt writes names."""
+    comment = next((line for number, line in enumerate(text.opened(), 1) if number == before - 1), "").strip()
+    bare = comment.removeprefix("#").strip()
+    if bare == comment:
+        return 0
+    words = cells_of(before - 1, bare, _separator(bare))
+    return before - 1 if len(words) == columns and not any(is_number(word) for word in words) else 0
 
 
 def _separator(line: str) -> str | None:

@@ -35,7 +35,9 @@ def refuse_without_room(command: str) -> None:
 
 def refuse_without_threads() -> None:
     """
-    Make sure that the compiler may have a thread: numba fails at its import otherwise.
+    Make sure that the compiler may have a thread: numba fails at its import otherwise, or prints a traceback.
+
+    An empty number is that of a shell variable which is not set; it is removed.
 
     Raises
     ------
@@ -43,8 +45,12 @@ def refuse_without_threads() -> None:
         The environment says that it may not.
     """
     number = os.environ.get("NUMBA_NUM_THREADS", "").strip()
-    if number.removeprefix("-").isdecimal() and int(number) < 1:
-        raise CompilerError(f"NUMBA_NUM_THREADS = {number}: the number of threads is 1 or more; raise it, or unset it")
+    if not number:
+        os.environ.pop("NUMBA_NUM_THREADS", None)
+    elif not number.isdecimal() or int(number) < 1:
+        raise CompilerError(
+            f"NUMBA_NUM_THREADS = {number}: the number of threads is a whole number from 1 on; change it, or unset it"
+        )
 
 
 def _allowed() -> float:

@@ -30,6 +30,8 @@ _TOGETHER: Final = 250_000
 """Cells of one call."""
 _INNERMOST: Final = 1e-30
 """z where a search for folds begins if the coordinate need not fall there."""
+_WITHOUT_ADHESION: Final = 1e-60
+"""And the least z where it may, if waves outweigh adhesion further out: a tip with a slope, and next to no adhesion."""
 _NOISE: Final = 1e-13
 """kappa at zero contact below which D there is no more than rounding, and what it must be where a search begins."""
 _OUTERMOST: Final = 1e100
@@ -173,9 +175,10 @@ def window(basis: Basis, curve: Patterned) -> tuple[float, float]:
     s, push = m - 1.0 + 0.5 * (1.0 + k), m * B
     innermost = max(_INNERMOST, (_NOISE / push) ** (1.0 / s)) if start < _NOISE else _INNERMOST
     low, level = 1.0, 0.5 * (1.0 - k) if alpha > 0.0 else 0.5 * (3.0 + k)
-    while low > innermost and not _surely_falls(basis, curve, level, start, low):
+    least = innermost if start < _NOISE else _WITHOUT_ADHESION
+    while low > least and not _surely_falls(basis, curve, level, start, low):
         low *= 0.25
-    first = max(low, innermost) / TWO_PI
+    first = (low if low > least else innermost) / TWO_PI
     level = (0.5 * (1.0 - k) if beta == 0.0 else 0.5 * (3.0 + k)) * pattern.most
     far, correction, _, _ = wave_bounds(table, pattern.waves, pattern.gain)
     far += pattern.steepest

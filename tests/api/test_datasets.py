@@ -96,6 +96,19 @@ def test_a_value_that_was_changed_is_found(tmp_path: Path) -> None:
     assert gr.verify(tmp_path / "x.nc", sample=4).exceeding == 1
 
 
+def test_a_dataset_is_verified_whatever_the_order_of_its_axes(tmp_path: Path) -> None:
+    pytest.importorskip("flint")
+    for amplitudes in ([0.0, 0.01], [0.0, 0.01, 0.02]):  # a square, whose places would be mistaken, and a rectangle
+        dataset = gr.solve(PUNCH, "pull_off_force", A=amplitudes, k=[0.1, 0.3])
+        for turned in (dataset, dataset.transpose("A", "k")):
+            found = gr.verify(turned, seed=1)
+            assert (found.exceeding, len(found.deviations)) == (0, 2 * len(amplitudes))
+        turned.to_netcdf(tmp_path / f"{len(amplitudes)}.nc")
+        assert gr.verify(tmp_path / f"{len(amplitudes)}.nc", seed=1).exceeding == 0
+    with pytest.raises(gr.DatasetError, match="the dataset: its status does not consist of integers; give the dataset"):
+        gr.verify(dataset.where(dataset["A"] > 0.0))
+
+
 def test_what_cannot_be_verified_says_why() -> None:
     pytest.importorskip("flint")
     named = gr.solve(PUNCH, "pull_off_force", A=xarray.DataArray([0.0, 0.01], dims="x"))

@@ -127,6 +127,8 @@ def test_what_is_missing_and_unknown_is_said_at_once() -> None:
     assert "gr.solve: modulus" not in refused, "it is misspelt and not missing"
     assert "threads = 0: the number of threads is 1 or more" in mistakes_of(PUNCH, threads=0)
     assert "outputs = []: the list is empty" in mistakes_of(PUNCH, [])
+    for call in (gr.solve, gr.curves):
+        assert "outputs: this key is required" in mistakes_of(PUNCH, None, call=call)
     assert "gr.solve: profile.exponent = 0.5: the power of the punch is a number of 1 or more" in mistakes_of(PUNCH, profile={"exponent": 0.5})  # fmt: skip
 
 

@@ -62,6 +62,22 @@ def test_mistakes_name_the_key_that_was_set(study_file: Path, data: dict[str, An
 
 
 @pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ("parameters.A=0.02", 'set: a mapping from keys to values is expected, not a str; write for example set={"par'),
+        (["parameters.A=0.02"], "set: a mapping from keys to values is expected, not a list"),
+        ({3: 0.02}, "set: a mapping from keys to values is expected, not a mapping with other names"),
+        ({"parameters.A": None}, "set parameters.A=None: a key has no value None; leave it out"),
+    ],
+)
+def test_what_is_set_is_a_mapping(changes: Any, sentence: str, study_file: Path, data: dict[str, Any]) -> None:
+    for study in (study_file, data, gr.load(data)):
+        with pytest.raises(gr.StudyError) as refused:
+            gr.run(study, set=changes)
+        assert sentence in str(refused.value)
+
+
+@pytest.mark.parametrize(
     ("name", "content", "what"),
     [
         ("a.nc", b"\x89HDF\r\n\x1a\n" + b"\xff" * 9, "is a dataset (NetCDF or HDF5), which `gradhesion info` and `gradhesion.open` read, not a study"),

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 
 from gradhesion.cli.dataset.read.reader import opened
 from gradhesion.cli.dataset.read.selection import selection_of
+from gradhesion.cli.errors import DatasetError
 from gradhesion.cli.names.symbols import SYMBOLS
 from gradhesion.cli.picture.curves.picture import drawn_curves
 from gradhesion.cli.picture.doubts import END
@@ -313,6 +314,15 @@ def test_the_place_of_an_extreme_is_drawn_marked_at_an_end_and_left_out_where_th
         assert ends.any()
         assert [len(line.get_xdata()) for line in marked] == [ends.sum()]
         assert END.words in [text.get_text() for text in figure.legends[0].get_texts()]
+
+
+def test_equal_values_have_no_place_of_an_extreme(dataset_file: Callable[..., Path]) -> None:
+    with opened(dataset_file("A=0.0", "lambda_over_R=[0.1, 0.2]", "a_max_over_R=1.0")) as dataset:
+        with pytest.raises(DatasetError) as refused:
+            drawn(dataset, ["pull_off_force"], selection_of(dataset, [], ["lambda_over_R=argmax"]))
+        assert "pull_off_force: its values along lambda_over_R are equal, so that no place is that of argmax" in str(
+            refused.value
+        )
 
 
 def test_scenes_left_out_of_a_reduction_are_said(dataset_file: Callable[..., Path]) -> None:

@@ -31,6 +31,16 @@ def test_nothing_is_told_as_a_mistake(gradhesion: Call, tmp_path: Path) -> None:
     assert "there is neither a dataset nor parts of one" in result.stderr
 
 
+@pytest.mark.parametrize(("content", "what"), [("title = 1", "it is a study"), ("", "it does not begin as")])
+def test_a_file_that_is_no_dataset_is_not_complete(gradhesion: Call, tmp_path: Path, content: str, what: str) -> None:
+    path = tmp_path / ("study.toml" if content else "out.nc")
+    path.write_text(content)
+    result = gradhesion("status", path)
+    assert result.exit_code == 2
+    assert "is not the output of a run" in result.stderr
+    assert what in result.stderr
+
+
 def test_under_way_stopped_and_complete(
     gradhesion: Call, study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -26,7 +26,6 @@ from gradhesion.twin.general import Shape
 CANDIDATES: Final = 20
 """Scenes that may be drawn for each one of the sample, where some are left out."""
 
-Index = tuple[Any, ...]
 Progress = Callable[[int], AbstractContextManager[Callable[[int], None]]]
 
 
@@ -34,7 +33,8 @@ Progress = Callable[[int], AbstractContextManager[Callable[[int], None]]]
 class Scene:
     """A cell of a dataset: where it is, its solver, its parameters, and those of them that distinguish it."""
 
-    index: Index
+    index: Mapping[str, int]
+    """Its place along each axis, in whatever order the dataset has them."""
     solver: str
     parameters: Mapping[str, float]
     place: Mapping[str, float | str]
@@ -92,6 +92,10 @@ def recompute(dataset: xarray.Dataset, path: Path, *, sample: int, seed: int | N
         The dataset and its study do not belong together, it is none that can be recomputed, or no scene of it can.
     """
     study = study_of(dataset, path)
+    if dataset["status"].dtype.kind not in "iu":
+        raise DatasetError(
+            f"{path}: its status does not consist of integers; give the dataset as it was before `where`"
+        )
     solvers = study.method.solver
     requested = (solvers,) if isinstance(solvers, str) else solvers
     known = tuple(solver for solver in requested if solver in stated.SOLVERS)
@@ -182,7 +186,7 @@ def _scene(
     """Find the cell of a number below that of all scenes of the known solvers."""
     of_punch, realisation = divmod(candidate, study.sizes.get(REALISATION, 1))
     which, rest = divmod(of_punch, math.prod(study.axes.values()))
-    index: Index = np.unravel_index(rest, tuple(study.axes.values()))
+    index: tuple[Any, ...] = np.unravel_index(rest, tuple(study.axes.values()))
     along = dict(zip(study.axes, index, strict=True))
     if study.layout == "points":
         parameters = {name: float(values[index]) for name, values in coordinates.items()}
@@ -201,7 +205,8 @@ def _scene(
         index = (study.method.solver.index(known[which]), *index)
     if REALISATION in study.sizes:
         place, index = {**place, REALISATION: realisation}, (*index, realisation)
-    return Scene(index=index, solver=known[which], parameters=parameters, place=place, realisation=realisation)
+    places = dict(zip(study.sizes, map(int, index), strict=True))
+    return Scene(index=places, solver=known[which], parameters=parameters, place=place, realisation=realisation)
 
 
 def _without_value(dataset: xarray.Dataset, scene: Scene, outputs: Collection[str]) -> Iterator[Deviation]:

@@ -23,6 +23,9 @@ Edges = tuple[Values, Values]
 FEW: Final = 20
 """Values along an axis up to which a band is drawn as bars: between them nothing is known."""
 
+ABOVE_GRID: Final = 1.8
+"""The order of bars: above the lines of the grid, which matplotlib puts at 1.5, and below the values, at 2."""
+
 LIGHT: Final = 0.2
 """How opaque a band is."""
 
@@ -93,9 +96,9 @@ def draw_band(axes: Axes, positions: Values, edges: Edges, colour: Any) -> None:
 
 def draw_bars(axes: Axes, positions: Values, edges: Edges, colour: Any) -> None:
     """Draw a bar at each value."""
-    axes.vlines(positions, *edges, colors=colour, lw=0.8, zorder=1)
+    axes.vlines(positions, *edges, colors=colour, lw=0.8, zorder=ABOVE_GRID)
     for edge in edges:
-        axes.plot(positions, edge, ls="", marker="_", ms=4, mew=0.8, color=colour, zorder=1)
+        axes.plot(positions, edge, ls="", marker="_", ms=4, mew=0.8, color=colour, zorder=ABOVE_GRID)
 
 
 def band_entry(band: Band, size: int) -> Patch | Line2D:

@@ -62,6 +62,11 @@ def draw_grid(
     cut = cut.where(np.isfinite(cut))
     status = status.where(np.isfinite(cut), 0)
     finite = cut.values[np.isfinite(cut.values)]
+    if not finite.size and taken.flat:
+        (axis, how), *_ = ((one, how) for one, how in selection.over.items() if how.startswith("arg"))
+        raise DatasetError(
+            f"{name}: its values along {axis} are equal, so that no place is that of {how}; draw them instead"
+        )
     if not finite.size:
         raise DatasetError(f"{name}: no value in any scene drawn; `gradhesion info` reports why")
     doubts = doubts_in(status.values, name, turned=is_turned(dataset))

@@ -25,6 +25,8 @@ LONGEST: Final = 60
 
 _QUANTITY: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,4})?|[+-]?inf|nan)\s*\*?\s*(.*)")
 _COMMA: Final = re.compile(r"([+-]?\d+),(\d+)")
+_THOUSANDS: Final = re.compile(r"([+-]?[1-9]\d{0,2}(?:,\d{3})+(?![\d,]))(\.\d*)?")
+"""A number that may have commas between its thousands, and its decimals after a point."""
 _POWER: Final = re.compile(r"([^\W\d_])([+-]?\d)")
 """A power as UDUNITS and astropy write it, `m-2`."""
 WORDS: Final = {
@@ -71,11 +73,11 @@ def si_value(value: object, name: str) -> float:
     text = str(value) if isinstance(value, str | float) else ""
     parts = _QUANTITY.fullmatch(text.strip()) if len(text) <= LONGEST else None
     number, written = parts.groups() if parts else ("", "")
-    comma = _COMMA.match(text.strip())
+    comma = _comma_in(text.strip())
     if isinstance(value, int | float) and not isinstance(value, bool) and "inf" not in number:
         problem = WORDS["1"]
     elif comma:
-        problem = f"a decimal comma; write a point, {comma[1]}.{comma[2]}"
+        problem = comma
     elif not parts:
         problem = "not a number with its unit, in quotes"
     else:
@@ -89,6 +91,23 @@ def si_value(value: object, name: str) -> float:
         unpressed = '; for a turn at zero depth write indentation_max = "0 nm"' if name == "preload" else ""
         raise ValueError(f"out of range; choose {allowed}{unpressed}")
     return result
+
+
+def _comma_in(text: str) -> str:
+    """
+    Describe the comma in a number, and how to write the number without it; "" without one.
+
+    >>> _comma_in("300,5 nm"), _comma_in("1,000 nm"), _comma_in("1,234.5 nm")  # doctest: +NORMALIZE_WHITESPACE
+    ('a decimal comma; write a point, 300.5', 'a comma of decimals or between thousands; write 1.000 or 1000',
+    'a comma between thousands; write 1234.5')
+    """
+    thousands, comma = _THOUSANDS.match(text), _COMMA.match(text)
+    if thousands:
+        plain = thousands[0].replace(",", "")
+        if thousands[2] or thousands[1].count(",") > 1:
+            return f"a comma between thousands; write {plain}"
+        return f"a comma of decimals or between thousands; write {thousands[1].replace(',', '.')} or {plain}"
+    return f"a decimal comma; write a point, {comma[1]}.{comma[2]}" if comma else ""
 
 
 def in_si(numbers: NDArray[Any], written: str, name: str) -> NDArray[np.float64]:

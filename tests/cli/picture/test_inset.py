@@ -66,6 +66,15 @@ def test_an_inset_and_its_numbers_hide_nothing(width: float, inset: str, bend: x
         assert not inside.any()
 
 
+def test_the_frame_of_an_inset_stays_in_the_panel(bend: xarray.Dataset) -> None:
+    step = bend.copy()
+    step["pull_off_force"] = bend["pull_off_force"].copy(
+        data=np.broadcast_to(2.0 - np.clip(bend["lambda_over_R"] / 0.3 - 0.4, 0.0, 1.0), (2, 60))
+    )
+    axes = drawn(step, ["pull_off_force"], looks=looks_of(inset="0.1:0.44", width=9.0)).axes[0]
+    assert _inset(axes).get_ylim() == pytest.approx(axes.get_ylim(), rel=1e-12), "the part has all of the height"
+
+
 def test_curves_have_insets_in_their_units() -> None:
     study = {
         "kind": "curve",

@@ -1,5 +1,6 @@
 """Sentences that once led astray: each names what was meant."""
 
+import os
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -10,6 +11,7 @@ from click.testing import Result
 
 import gradhesion as gr
 from gradhesion.cli.study.reading import load_study, study_from
+from gradhesion.cli.terminal.room import refuse_without_threads
 from gradhesion.cli.terminal.wording import MEANT, nearest
 from gradhesion.cli.work.kernels import compiling
 
@@ -94,6 +96,21 @@ def test_a_decimal_comma_is_named() -> None:
     assert "a decimal comma; write a point, 300.5" in sentence
 
 
+@pytest.mark.parametrize(
+    ("written", "said"),
+    [
+        ("1,000 nm", "a comma of decimals or between thousands; write 1.000 or 1000;"),
+        ("1,234.5 nm", "a comma between thousands; write 1234.5;"),
+        ("1,234,567 nm", "a comma between thousands; write 1234567;"),
+        ("0,250 um", "a decimal comma; write a point, 0.250;"),
+        ("1,0000 um", "a decimal comma; write a point, 1.0000;"),
+    ],
+)
+def test_a_comma_between_thousands_is_not_taken_for_a_decimal_one(written: str, said: str) -> None:
+    (sentence,) = mistakes_of(**of_units(wavelength=written))
+    assert said in sentence
+
+
 def test_no_preload_is_a_depth_of_zero() -> None:
     (sentence,) = mistakes_of(**of_units(preload="0 N"))
     assert 'indentation_max = "0 nm"' in sentence
@@ -133,10 +150,19 @@ def test_a_dataset_has_the_ending_of_one(gradhesion: Call, tmp_path: Path, name:
     assert not any(tmp_path.iterdir())
 
 
-def test_no_thread_for_the_compiler_is_one_sentence(gradhesion: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("NUMBA_NUM_THREADS", "0")
+@pytest.mark.parametrize("number", ["0", "-3", "abc", "2.0"])
+def test_no_thread_for_the_compiler_is_one_sentence(
+    number: str, gradhesion: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("NUMBA_NUM_THREADS", number)
     result = gradhesion("run", "study.toml")
     assert result.exit_code == 2
     assert result.stderr.splitlines() == [
-        "NUMBA_NUM_THREADS = 0: the number of threads is 1 or more; raise it, or unset it"
+        f"NUMBA_NUM_THREADS = {number}: the number of threads is a whole number from 1 on; change it, or unset it"
     ]
+
+
+def test_an_empty_number_of_threads_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NUMBA_NUM_THREADS", "")
+    refuse_without_threads()
+    assert "NUMBA_NUM_THREADS" not in os.environ

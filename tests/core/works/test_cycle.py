@@ -11,6 +11,7 @@ import pytest
 from gradhesion.core import Harmonic, Loading, Profile, solve
 from gradhesion.core.problem.names import EDGE, OUTPUTS, REPORTS
 from gradhesion.core.problem.status import FLAGS
+from gradhesion.core.problem.toughness import Toughness, ToughnessHarmonic
 from gradhesion.twin import stated
 from gradhesion.twin.general import PLAIN, Shape
 
@@ -189,6 +190,27 @@ def test_without_adhesion_on_approach_contact_grows_as_hertz_has_it() -> None:
     assert not found["loading_jumps"].any()
     assert not found["loading_energy"].any()
     assert np.isnan(found["snap_in_force"]).all()
+
+
+@pytest.mark.parametrize("control", ["displacement", "load", "machine"])
+@pytest.mark.parametrize("exponent", [1.0, 1.3, 2.0])
+def test_without_adhesion_on_approach_a_pattern_of_toughness_changes_nothing(exponent: float, control: str) -> None:
+    """Loading follows the contact without adhesion; at k = 0 its first jump is within 1e-30 of a tip with a slope."""
+    profile = Profile(
+        exponent=exponent, harmonics=(Harmonic(n=1, cos=-0.94, sin=0.33), Harmonic(n=4, cos=-0.56, sin=0.15))
+    )
+    scenes: dict[str, Any] = {"k": np.array([[0.0], [0.3]]), "nu": 0.5, "modulus": np.array([1e-3, 16.0, 1e6]), "c0_over_R": 0.015, "lambda_over_R": 0.0075, "A": 0.011, "a_max_over_R": 0.022}  # fmt: skip
+    scenes |= {"closing_ratio": 0.0}
+    scenes |= {"machine_stiffness": 1.0} if control == "machine" else {}
+    loading = Loading(control=control)
+    names = ("loading_jumps", "loading_energy", "delta_max")
+    plain = solve(scenes, names, profile=profile, loading=loading)
+    pattern = {"toughness_wavelength_over_R": 0.03, "toughness_amplitude": 0.3}
+    found = solve(scenes | pattern, names, profile=profile, loading=loading, toughness=Toughness((ToughnessHarmonic(n=1, cos=1.0, sin=0.5),)))  # fmt: skip
+    assert (plain["loading_jumps"] > 0).any()
+    np.testing.assert_array_equal(found["loading_jumps"], plain["loading_jumps"])
+    np.testing.assert_allclose(found["loading_energy"], plain["loading_energy"], rtol=1e-9)
+    np.testing.assert_allclose(found["delta_max"], plain["delta_max"], rtol=1e-12)
 
 
 def test_what_has_no_bound_is_infinite() -> None:

@@ -82,6 +82,17 @@ def test_few_values_have_bars(sampled: xarray.Dataset) -> None:
     np.testing.assert_array_equal(ends[:, 1], few["pull_off_force_p95"].values[1])
 
 
+def test_no_line_of_the_grid_crosses_a_bar(sampled: xarray.Dataset) -> None:
+    axes = drawn(sampled.isel(lambda_over_R=slice(0, 24, 4)), ["pull_off_force"]).axes[0]
+    caps = [line for line in axes.get_lines() if line.get_marker() == "_"]
+    bars = [one for one in axes.collections if isinstance(one, LineCollection)]
+    values = [line for line in axes.get_lines() if line.get_linestyle() != "None"]
+    grid = axes.xaxis.get_zorder()  # lines of the grid are drawn with the ticks
+    assert caps
+    assert grid < min(one.get_zorder() for one in [*caps, *bars])
+    assert max(one.get_zorder() for one in [*caps, *bars]) < min(one.get_zorder() for one in values)
+
+
 def test_points_have_bars() -> None:
     points = compute(
         study_from(
